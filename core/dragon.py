@@ -1,0 +1,170 @@
+"""Dragon: the benches and their handles, frozen and checked once."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from numbers import Integral, Real
+
+import numpy as np
+from numpy.typing import NDArray
+
+from core.errors import InvalidValue
+
+Floats = NDArray[np.float64]
+
+# Sizes outside these lose digits in c^2 / b^2 without describing any dance [m].
+SIZE_MIN = 1e-3
+SIZE_MAX = 1e4
+BENCHES_MAX = 10_000_000
+
+
+def checked_number(
+    name: str, value: object, unit: str, low: float, high: float, *, open_low: bool = False
+) -> float:
+    """The value as a float if it is a finite number in [low, high] ((low, high] with open_low).
+
+    raises: InvalidValue naming the field, the value, its unit and the limit
+    """
+    shown = f"{value!r} {unit}".rstrip() if not isinstance(value, Real) else f"{value} {unit}".rstrip()
+    if not isinstance(value, Real) or isinstance(value, bool):
+        raise InvalidValue(name, f"{name} must be a number, got {value!r}")
+    number = float(value)
+    limit_unit = f" {unit}" if unit else ""
+    if not np.isfinite(number):
+        raise InvalidValue(name, f"{name} must be a finite number, got {shown}")
+    if number < low or (open_low and number == low):
+        if low == 0.0:
+            raise InvalidValue(
+                name, f"{name} must be {'positive' if open_low else 'zero or more'}, got {shown}"
+            )
+        raise InvalidValue(name, f"{name} must be at least {low:g}{limit_unit}, got {shown}")
+    if number > high:
+        raise InvalidValue(name, f"{name} must be at most {high:g}{limit_unit}, got {shown}")
+    return number
+
+
+def checked_size(name: str, value: object) -> float:
+    """A positive length in [SIZE_MIN, SIZE_MAX] metres."""
+    if isinstance(value, Real) and not isinstance(value, bool) and float(value) <= 0.0:
+        raise InvalidValue(name, f"{name} must be positive, got {value} m")
+    return checked_number(name, value, "m", SIZE_MIN, SIZE_MAX)
+
+
+def _column(name: str, values: object, benches: int | None) -> Floats:
+    try:
+        column = np.array(values, dtype=np.float64)
+    except (TypeError, ValueError) as error:
+        raise InvalidValue(name, f"{name} must be numbers in metres, one for each bench") from error
+    if column.ndim != 1 or column.size == 0:
+        raise InvalidValue(name, f"{name} must be a list with one number for each bench")
+    if benches is not None and column.size != benches:
+        raise InvalidValue(name, f"{name} must have {benches} numbers, one for each bench, got {column.size}")
+    low = 0.0 if name == "dragon.overhangs" else SIZE_MIN
+    wrong = np.flatnonzero(~(np.isfinite(column) & (column >= low) & (column <= SIZE_MAX)))
+    if wrong.size:
+        k = int(wrong[0])
+        raise InvalidValue(
+            f"{name}.{k}", f"{name}[{k}] must be from {low:g} to {SIZE_MAX:g} m, got {column[k]} m"
+        )
+    return column
+
+
+@dataclass(frozen=True, init=False, eq=False)
+class Dragon:
+    """n benches in a row, joined by n + 1 handles; bench 0 is the head, handle 0 leads.
+
+    lengths, widths, overhangs, chords: (n,) [m], read-only; chord = length - 2 overhang > 0
+    uniform_from: the first bench from which all to the tail are alike (1 at most for a uniform body)
+
+    >>> dragon = Dragon()
+    >>> dragon.benches, dragon.chords[0].round(3), dragon.chords[1].round(3)
+    (223, np.float64(2.86), np.float64(1.65))
+    """
+
+    lengths: Floats
+    widths: Floats
+    overhangs: Floats
+    chords: Floats = field(repr=False)
+    uniform_from: int = field(repr=False)
+
+    def __init__(
+        self,
+        benches: int = 223,
+        head_length: float = 3.41,
+        body_length: float = 2.20,
+        width: float = 0.30,
+        overhang: float = 0.275,
+    ) -> None:
+        if not isinstance(benches, Integral) or isinstance(benches, bool):
+            raise InvalidValue("dragon.benches", f"dragon.benches must be a whole number, got {benches!r}")
+        if not 1 <= benches <= BENCHES_MAX:
+            raise InvalidValue(
+                "dragon.benches", f"dragon.benches must be from 1 to {BENCHES_MAX} benches, got {benches}"
+            )
+        head_length = checked_size("dragon.head_length", head_length)
+        body_length = checked_size("dragon.body_length", body_length)
+        width = checked_size("dragon.width", width)
+        overhang = checked_number("dragon.overhang", overhang, "m", 0.0, SIZE_MAX)
+        for name, length in (("head_length", head_length), ("body_length", body_length)):
+            if length - 2.0 * overhang < SIZE_MIN:
+                raise InvalidValue(
+                    "dragon.overhang",
+                    f"dragon.overhang must be less than half of dragon.{name} "
+                    f"({length:g} m / 2 = {length / 2:g} m), got {overhang:g} m",
+                )
+        lengths = np.full(int(benches), body_length)
+        lengths[0] = head_length
+        self._freeze(lengths, np.full(int(benches), width), np.full(int(benches), overhang))
+
+    @classmethod
+    def of(
+        cls, lengths: Sequence[float] | Floats, widths: Sequence[float] | Floats, overhangs: Sequence[float] | Floats
+    ) -> Dragon:
+        """A dragon given bench by bench.
+
+        lengths, widths, overhangs: (n,) [m], head first
+        raises: InvalidValue naming the bench when sizes are missing, out of range or leave no chord
+        """
+        length_column = _column("dragon.lengths", lengths, None)
+        width_column = _column("dragon.widths", widths, length_column.size)
+        overhang_column = _column("dragon.overhangs", overhangs, length_column.size)
+        wrong = np.flatnonzero(length_column - 2.0 * overhang_column < SIZE_MIN)
+        if wrong.size:
+            k = int(wrong[0])
+            raise InvalidValue(
+                f"dragon.overhangs.{k}",
+                f"dragon.overhangs[{k}] must be less than half of dragon.lengths[{k}] "
+                f"({length_column[k]:g} m / 2 = {length_column[k] / 2:g} m), got {overhang_column[k]:g} m",
+            )
+        dragon = cls.__new__(cls)
+        dragon._freeze(length_column, width_column, overhang_column)
+        return dragon
+
+    def _freeze(self, lengths: Floats, widths: Floats, overhangs: Floats) -> None:
+        chords = lengths - 2.0 * overhangs
+        same = (lengths == lengths[-1]) & (widths == widths[-1]) & (overhangs == overhangs[-1])
+        different = np.flatnonzero(~same)
+        for name, column in (
+            ("lengths", lengths),
+            ("widths", widths),
+            ("overhangs", overhangs),
+            ("chords", chords),
+        ):
+            column.flags.writeable = False
+            object.__setattr__(self, name, column)
+        object.__setattr__(self, "uniform_from", int(different[-1]) + 1 if different.size else 0)
+
+    @property
+    def benches(self) -> int:
+        """Number of benches; there is one handle more."""
+        return self.lengths.size
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Dragon) and all(
+            np.array_equal(getattr(self, name), getattr(other, name))
+            for name in ("lengths", "widths", "overhangs")
+        )
+
+    def __hash__(self) -> int:
+        return hash((self.lengths.tobytes(), self.widths.tobytes(), self.overhangs.tobytes()))

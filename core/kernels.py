@@ -1,0 +1,1 @@
+"""The compiled loops, in Cython's pure-Python mode."""

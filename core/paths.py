@@ -1,0 +1,70 @@
+"""Paths: arc length s -> point and tangent. s grows in the direction of travel, the tail has the smaller s."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from core import kernels
+from core.dragon import Floats, checked_number, checked_size
+
+START_TURNS_MAX = 1e5
+
+
+@dataclass(frozen=True)
+class Spiral:
+    """Archimedean spiral r = growth * theta, danced inwards (clockwise) from start_turns turns.
+
+    pitch: radial advance per full turn [m]; start_turns: turns from the centre to the start, s = 0
+    Negative s lies on the outward extension of the same spiral; the centre is at s = length.
+
+    Arc length from the centre: growth / 2 (theta sqrt(1 + theta^2) + asinh theta).
+
+    >>> round(Spiral().length, 6)
+    442.590256
+    """
+
+    pitch: float = 0.55
+    start_turns: float = 16.0
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "pitch", checked_size("path.pitch", self.pitch))
+        turns = checked_number("path.start_turns", self.start_turns, "turns", 0.0, START_TURNS_MAX, open_low=True)
+        object.__setattr__(self, "start_turns", turns)
+
+    @cached_property
+    def growth(self) -> float:
+        """Radial advance per radian [m/rad]."""
+        return self.pitch / (2.0 * math.pi)
+
+    @cached_property
+    def start_theta(self) -> float:
+        """Polar angle of the start [rad]."""
+        return 2.0 * math.pi * self.start_turns
+
+    @cached_property
+    def length(self) -> float:
+        """Arc length from the start to the centre [m]."""
+        return kernels.spiral_arc(self.start_theta) * self.growth
+
+    def theta(self, s: Floats | float) -> Floats:
+        """Polar angle at arc length s. s: (...) [m], at most length; returns (...) [rad], unwrapped."""
+        from_centre = (self.length - np.asarray(s, dtype=np.float64)) / self.growth
+        theta = np.empty(from_centre.size)
+        kernels.spiral_thetas(from_centre.reshape(-1), theta)
+        return theta.reshape(from_centre.shape)
+
+    def position(self, s: Floats | float) -> Floats:
+        """Points at arc length s. s: (...) [m]; returns (..., 2) x, y [m]."""
+        theta = self.theta(s)
+        return self.growth * theta[..., None] * np.stack([np.cos(theta), np.sin(theta)], axis=-1)
+
+    def tangent(self, s: Floats | float) -> Floats:
+        """Unit tangents in the direction of travel. s: (...) [m]; returns (..., 2)."""
+        theta = self.theta(s)
+        cos, sin = np.cos(theta), np.sin(theta)
+        along = np.stack([theta * sin - cos, -theta * cos - sin], axis=-1)
+        return along / np.sqrt(1.0 + theta**2)[..., None]
