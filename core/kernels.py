@@ -1,1 +1,302 @@
-"""The compiled loops, in Cython's pure-Python mode."""
+# cython: language_level=3, boundscheck=False, wraparound=False, cdivision=True, initializedcheck=False
+"""The compiled loops, in Cython's pure-Python mode: the same file runs uncompiled, slower.
+
+Only loops live here. Angles are in radians, lengths on a spiral in units of its growth unless a name
+says otherwise; no function allocates. -1.0 inside this file means "no such root" and never leaves core.
+"""
+
+import cython
+from cython.cimports.libc.math import asinh, cos, fabs, sin, sqrt
+
+COMPILED = cython.compiled
+
+PI = cython.declare(cython.double, 3.141592653589793)
+TWO_PI = cython.declare(cython.double, 6.283185307179586)
+# Halley's error after a step e is about e^3 / delta^2, so a relative step of 1e-5 leaves 1e-15 [1].
+HALLEY_STEP = cython.declare(cython.double, 1e-5)
+# Below this half angle the Taylor sums of half_angle() are exact to 1e-17 [rad].
+SERIES_LIMIT = cython.declare(cython.double, 0.5)
+
+
+# -- the spiral -------------------------------------------------------------------------------------
+# r = growth theta. Arc length from the centre, in units of growth: (theta sqrt(1 + theta^2) + asinh theta) / 2.
+# Its derivative sqrt(1 + theta^2) increases, so Newton from theta = sqrt(2 arc) >= the root falls monotonically.
+
+
+@cython.ccall
+@cython.nogil
+@cython.exceptval(check=False)
+def spiral_arc(theta: cython.double) -> cython.double:
+    """Arc length from the centre to theta, in units of growth."""
+    return 0.5 * (theta * sqrt(1.0 + theta * theta) + asinh(theta))
+
+
+@cython.ccall
+@cython.nogil
+@cython.exceptval(check=False)
+def spiral_theta(arc: cython.double) -> cython.double:
+    """Polar angle at an arc length from the centre, in units of growth (0 for a negative one)."""
+    if arc <= 0.0:
+        return 0.0
+    theta: cython.double = sqrt(2.0 * arc)
+    step: cython.double
+    i: cython.int
+    for i in range(60):
+        step = (spiral_arc(theta) - arc) / sqrt(1.0 + theta * theta)
+        theta -= step
+        if fabs(step) <= 1e-15 * theta:
+            break
+    return theta
+
+
+@cython.ccall
+@cython.exceptval(check=False)
+def spiral_thetas(arcs: cython.double[::1], thetas: cython.double[::1]) -> cython.void:
+    """Polar angle for every arc length from the centre, in units of growth."""
+    i: cython.Py_ssize_t
+    with cython.nogil:
+        for i in range(arcs.shape[0]):
+            thetas[i] = spiral_theta(arcs[i])
+
+
+# -- the next handle on the spiral ------------------------------------------------------------------
+# Handles at theta and theta + delta are a chord apart when, in units of growth,
+#     f(delta) = delta^2 + 4 theta (theta + delta) sin^2(delta / 2) = chord^2,
+#     f_delta / 2 = h(delta) = delta + theta (1 - cos delta) + theta (theta + delta) sin delta,
+#     f_theta / 2 = (2 theta + delta) (1 - cos delta) >= 0.
+# h > 0 on (0, pi], so a root there is the first. Beyond pi,
+#     h' = 1 + 2 theta sin delta + theta (theta + delta) cos delta,
+#     h'' = 3 theta cos delta - theta (theta + delta) sin delta
+# has one zero on (pi, 2 pi), from - to +: h' falls, then rises to h'(2 pi) > 0, so h has one least value after
+# its last fall, and at most one zero before it: the first crest of f. A root lies before that crest, or there is
+# none (the fold). As theta falls f falls, so the root grows: delta is a decreasing function of theta.
+
+
+@cython.cfunc
+@cython.inline
+@cython.nogil
+@cython.exceptval(check=False)
+def half_angle(half: cython.double) -> tuple[cython.double, cython.double]:
+    """sin and cos of a half angle, by their series where that is exact."""
+    if fabs(half) > SERIES_LIMIT:
+        return sin(half), cos(half)
+    z: cython.double = half * half
+    s: cython.double = 1.0 - z / 6.0 * (
+        1.0 - z / 20.0 * (1.0 - z / 42.0 * (1.0 - z / 72.0 * (1.0 - z / 110.0 * (1.0 - z / 156.0))))
+    )
+    c: cython.double = 1.0 - z / 2.0 * (
+        1.0 - z / 12.0 * (1.0 - z / 30.0 * (1.0 - z / 56.0 * (1.0 - z / 90.0 * (1.0 - z / 132.0 * (1.0 - z / 182.0)))))
+    )
+    return half * s, c
+
+
+@cython.cfunc
+@cython.nogil
+@cython.exceptval(check=False)
+def half_slope(theta: cython.double, delta: cython.double) -> cython.double:
+    """h(delta) = f_delta / 2."""
+    return delta + theta * (1.0 - cos(delta)) + theta * (theta + delta) * sin(delta)
+
+
+@cython.cfunc
+@cython.nogil
+@cython.exceptval(check=False)
+def first_crest(theta: cython.double) -> cython.double:
+    """Where f first stops growing, in (pi, 2 pi]; 2 pi if it grows throughout."""
+    low: cython.double = PI
+    high: cython.double = TWO_PI
+    middle: cython.double
+    i: cython.int
+    for i in range(60):
+        middle = 0.5 * (low + high)
+        if 3.0 * cos(middle) - (theta + middle) * sin(middle) < 0.0:
+            low = middle
+        else:
+            high = middle
+    high = TWO_PI
+    for i in range(60):
+        middle = 0.5 * (low + high)
+        if 1.0 + 2.0 * theta * sin(middle) + theta * (theta + middle) * cos(middle) < 0.0:
+            low = middle
+        else:
+            high = middle
+    if half_slope(theta, low) >= 0.0:
+        return TWO_PI
+    high = low
+    low = PI
+    for i in range(60):
+        middle = 0.5 * (low + high)
+        if half_slope(theta, middle) > 0.0:
+            low = middle
+        else:
+            high = middle
+    return low
+
+
+@cython.ccall
+@cython.nogil
+@cython.exceptval(check=False)
+def first_root(theta: cython.double, chord2: cython.double) -> cython.double:
+    """First root delta of f = chord2 in (0, 2 pi], by safe bisection; -1.0 when the chain folds."""
+    low: cython.double = 0.0
+    high: cython.double = PI
+    delta: cython.double
+    value: cython.double
+    i: cython.int
+    if PI * PI + 4.0 * theta * (theta + PI) < chord2:
+        low = PI
+        high = first_crest(theta)
+        value = sin(0.5 * high)
+        if high * high + 4.0 * theta * (theta + high) * value * value < chord2:
+            return -1.0
+    for i in range(60):
+        delta = 0.5 * (low + high)
+        value = sin(0.5 * delta)
+        if delta * delta + 4.0 * theta * (theta + delta) * value * value < chord2:
+            low = delta
+        else:
+            high = delta
+    return 0.5 * (low + high)
+
+
+@cython.cfunc
+@cython.inline
+@cython.nogil
+@cython.exceptval(check=False)
+def next_handle(
+    theta: cython.double, chord2: cython.double, guess: cython.double
+) -> tuple[cython.double, cython.double, cython.double]:
+    """delta, sin(delta / 2), cos(delta / 2) of the next handle; delta -1.0 when the chain folds.
+
+    Halley's iteration from the guess; whatever leaves (0, pi] goes to the safe root.
+    """
+    delta: cython.double = guess
+    s: cython.double
+    c: cython.double
+    value: cython.double
+    slope: cython.double
+    curve: cython.double
+    step: cython.double
+    product: cython.double
+    i: cython.int
+    for i in range(12):
+        s, c = half_angle(0.5 * delta)
+        product = 2.0 * theta * (theta + delta)
+        value = delta * delta + 2.0 * product * s * s - chord2
+        slope = 2.0 * (delta + 2.0 * theta * s * s + product * s * c)
+        curve = 2.0 + 8.0 * theta * s * c + product * (1.0 - 2.0 * s * s)
+        step = 2.0 * value * slope / (2.0 * slope * slope - value * curve)
+        delta -= step
+        if not (0.0 < delta <= PI) or slope <= 0.0:
+            break
+        if fabs(step) <= HALLEY_STEP * delta:
+            step *= -0.5
+            return delta, s + step * (c - 0.5 * step * s), c - step * (s + 0.5 * step * c)
+    delta = first_root(theta, chord2)
+    return delta, sin(0.5 * delta), cos(0.5 * delta)
+
+
+@cython.cfunc
+@cython.inline
+@cython.nogil
+@cython.exceptval(check=False)
+def theta_ratio(
+    theta: cython.double, delta: cython.double, s: cython.double, c: cython.double
+) -> cython.double:
+    """d theta[k+1] / d theta[k] = (f_delta - f_theta) / f_delta: the rigid link (T[k] . u) / (T[k+1] . u)."""
+    sine: cython.double = 2.0 * s * c
+    rise: cython.double = 2.0 * s * s
+    shared: cython.double = delta + theta * (theta + delta) * sine
+    return (shared - (theta + delta) * rise) / (shared + theta * rise)
+
+
+@cython.cfunc
+@cython.inline
+@cython.nogil
+@cython.exceptval(check=False)
+def first_guess(theta: cython.double, chord2: cython.double) -> cython.double:
+    """A start for next_handle without history: the chord as an arc of the circle through theta + half a step."""
+    delta: cython.double = sqrt(chord2 / (1.0 + theta * theta))
+    delta = sqrt(chord2 / (1.0 + theta * (theta + delta)))
+    if delta > 3.0:
+        return 3.0
+    return delta
+
+
+@cython.ccall
+@cython.exceptval(check=False)
+def spiral_trajectory(
+    growth: cython.double,
+    thetas: cython.double[::1],
+    chords: cython.double[::1],
+    head_speed: cython.double,
+    position: cython.double[:, :, ::1],
+    velocity: cython.double[:, :, ::1],
+    speed: cython.double[:, ::1],
+) -> cython.Py_ssize_t:
+    """Position, velocity and speed of every handle for every head angle; returns the first row that folds, or -1.
+
+    thetas: (T,) head angles; chords: (n,) [m]; position, velocity: (T, n + 1, 2); speed: (T, n + 1)
+    """
+    row: cython.Py_ssize_t
+    k: cython.Py_ssize_t
+    theta: cython.double
+    delta: cython.double
+    s: cython.double
+    c: cython.double
+    x: cython.double
+    y: cython.double
+    turn: cython.double
+    rate: cython.double
+    chord: cython.double
+    chord2: cython.double
+    d1: cython.double
+    d2: cython.double
+    d3: cython.double
+    guess: cython.double
+    alike: cython.int
+    with cython.nogil:
+        for row in range(thetas.shape[0]):
+            theta = thetas[row]
+            x = cos(theta)
+            y = sin(theta)
+            rate = -head_speed / sqrt(1.0 + theta * theta)
+            chord = -1.0
+            chord2 = d1 = d2 = d3 = guess = 0.0
+            alike = 0
+            for k in range(chords.shape[0] + 1):
+                position[row, k, 0] = growth * theta * x
+                position[row, k, 1] = growth * theta * y
+                velocity[row, k, 0] = rate * (x - theta * y)
+                velocity[row, k, 1] = rate * (y + theta * x)
+                speed[row, k] = fabs(rate) * sqrt(1.0 + theta * theta)
+                if k == chords.shape[0]:
+                    break
+                if chords[k] != chord:
+                    chord = chords[k]
+                    chord2 = (chord / growth) * (chord / growth)
+                    alike = 0
+                    guess = first_guess(theta, chord2)
+                elif alike == 1:
+                    guess = d1
+                elif alike == 2:
+                    guess = 2.0 * d1 - d2
+                else:
+                    guess = 3.0 * (d1 - d2) + d3
+                alike += 1
+                delta, s, c = next_handle(theta, chord2, guess)
+                if delta < 0.0:
+                    return row
+                rate *= theta_ratio(theta, delta, s, c)
+                turn = 2.0 * s * c
+                s = 2.0 * s * s
+                c = x - (x * s + y * turn)
+                y = y - (y * s - x * turn)
+                x = c
+                theta += delta
+                d3 = d2
+                d2 = d1
+                d1 = delta
+    return -1
+
+
