@@ -1,0 +1,68 @@
+# The first `make` in a fresh clone makes .venv, installs the locked versions and compiles core/kernels.py.
+SHELL := /bin/bash
+.DEFAULT_GOAL := help
+.PHONY: help setup serve test lint bench figures lock clean
+
+VENV := .venv
+BIN := $(VENV)/bin
+PIP := $(BIN)/python -m pip --disable-pip-version-check --quiet
+HOST ?= 127.0.0.1
+PORT ?= 8000
+PYTHON ?= $(shell for p in python3 python3.13 python3.12 python3.11; do \
+	$$p -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null && echo $$p && break; done)
+
+help:
+	@echo 'make serve    the service on http://$(HOST):$(PORT) (HOST=, PORT=)'
+	@echo 'make test     all tests (ARGS= for pytest)'
+	@echo 'make lint     ruff and mypy'
+	@echo 'make bench    benchmarks against a plain SciPy baseline, into the table of README.md'
+	@echo 'make figures  the figures of README.md'
+	@echo 'make lock     new exact versions in requirements.lock'
+	@echo 'make clean    remove everything that make made'
+
+setup: $(VENV)/compiled
+
+$(VENV)/installed: requirements.lock
+	@PYTHON='$(PYTHON)' bash .ci/make-venv $(VENV)
+	@echo 'Installing the locked packages into $(VENV) (about a minute, once)'
+	@$(PIP) install -r requirements.lock
+	@touch $@
+
+# The normal install, editable: it compiles core/kernels.py in place, or says why it runs uncompiled.
+$(VENV)/compiled: core/kernels.py setup.py pyproject.toml $(VENV)/installed
+	@rm -f core/kernels.*.so
+	@$(PIP) install --no-build-isolation --no-deps -e .
+	@$(BIN)/python -c "import core.kernels, sys; core.kernels.__file__.endswith('.py') and print( \
+		'No C compiler with Python headers was found: everything works, but many times slower.\n' \
+		'To change that: install gcc and python3-dev, then run: make clean setup', file=sys.stderr)"
+	@touch $@
+
+serve: setup
+	@$(BIN)/bench-dragon serve --host $(HOST) --port $(PORT)
+
+test: setup
+	@$(BIN)/python -m pytest $(ARGS)
+
+lint: setup
+	@$(BIN)/ruff check .
+	@$(BIN)/ruff format --check .
+	@$(BIN)/mypy
+
+bench: setup
+	@$(BIN)/python -m benchmarks.report README.md
+
+figures: setup
+	@$(BIN)/bench-dragon figures docs
+
+# Resolved anew in an environment of its own; names and versions only.
+lock:
+	@$(PYTHON) -m venv build/lock
+	@build/lock/bin/python -m pip --quiet install -e '.[dev]'
+	@{ sed -n '/^#/p' requirements.lock; build/lock/bin/python -m pip list --format=freeze \
+		| grep -vE '^(pip|bench-dragon)=='; } > build/requirements.lock
+	@mv build/requirements.lock requirements.lock
+	@rm -rf build/lock
+
+clean:
+	@rm -rf $(VENV) build *.egg-info core/kernels.*.so .pytest_cache .hypothesis .mypy_cache .ruff_cache .benchmarks
+	@find . -name __pycache__ -type d -prune -exec rm -rf {} +
