@@ -382,3 +382,383 @@ def previous_theta(theta: cython.double, chord2: cython.double) -> cython.double
     if high < theta and delta > 0.0 and fabs(high + delta - theta) <= ARRIVAL * (1.0 + theta):
         return high
     return -1.0
+
+
+# -- rectangles and pairs of poses --
+# A rectangle is its centre, the unit vector u along its length, and its half length and half width; v is u turned
+# left. Corners count 0 front-left, 1 front-right, 2 rear-right, 3 rear-left; edges 4 front, 5 right, 6 rear, 7 left.
+#
+# Everything is measured from one of the two centres, so that rectangles far from the origin lose nothing. In the
+# frame of a, with d = b - a, the other centre is (d.ua, d.va) and its u is (c, s), c = ua.ub, s = ua x ub; in the
+# frame of b the other centre is (-d.ub, -d.vb) and its u is (c, -s).
+#
+# Gap along a face normal (separating axis theorem): half of the other's extent along u is |c| hl + |s| hw, along v
+# |s| hl + |c| hw, so the gap beyond the front or rear face is |d.u| - hl - (|c| other.hl + |s| other.hw), and so on.
+# Let g be the largest of the four. Each gap is a lower bound of the distance, and
+#   g <= 0: the rectangles meet. The depth is the distance from the origin to the boundary of the Minkowski
+#       difference, whose edges are those of a and b, so it is -g; the foot lies on that edge, so an edge of the one
+#       and a corner of the other (or a shared stretch of two parallel edges) realise it.
+#   g > 0, nearest points a corner and an inner point of an edge: the distance is that edge's gap, and any other gap
+#       is at most distance * (m.n) < distance, so it is g.
+#   g > 0, else: two corners are nearest. The least of the eight distances from a corner to the other rectangle is the
+#       distance in either case; taking all eight keeps a wrong choice between two nearly equal gaps harmless.
+# Error: a few ulp of the larger of the distance and the sizes.
+
+# Edges whose directions differ by less than this sine count as parallel: along a bench the difference is then below
+# the rounding of a coordinate, while headings that should be equal differ by about 1e-16 [1].
+PARALLEL_SINE = cython.declare(cython.double, 1e-14)
+
+
+@cython.cfunc
+@cython.inline
+@cython.nogil
+@cython.exceptval(check=False)
+def side_of(x: cython.double) -> cython.double:
+    """1 from zero upwards, -1 below."""
+    return 1.0 if x >= 0.0 else -1.0
+
+
+@cython.cfunc
+@cython.inline
+@cython.nogil
+@cython.exceptval(check=False)
+def corner_at(along: cython.double, left: cython.double) -> cython.int:
+    """The corner on the given sides of the centre."""
+    if along >= 0.0:
+        return 0 if left >= 0.0 else 1
+    return 3 if left >= 0.0 else 2
+
+
+@cython.cfunc
+@cython.inline
+@cython.nogil
+@cython.exceptval(check=False)
+def face_gap(
+    along: cython.double,
+    left: cython.double,
+    c: cython.double,
+    s: cython.double,
+    hl: cython.double,
+    hw: cython.double,
+    other_hl: cython.double,
+    other_hw: cython.double,
+) -> cython.double:
+    """The larger gap along this rectangle's own normals; the other's centre (along, left), u = (c, s) [m]."""
+    lengthwise: cython.double = fabs(along) - hl - (fabs(c) * other_hl + fabs(s) * other_hw)
+    sideways: cython.double = fabs(left) - hw - (fabs(s) * other_hl + fabs(c) * other_hw)
+    return lengthwise if lengthwise >= sideways else sideways
+
+
+@cython.cfunc
+@cython.inline
+@cython.nogil
+@cython.exceptval(check=False)
+def point_gap_squared(
+    x: cython.double, y: cython.double, hl: cython.double, hw: cython.double
+) -> cython.double:
+    """Squared distance of a point in the rectangle's frame to the rectangle, 0 inside [m^2]."""
+    beyond_x: cython.double = fabs(x) - hl
+    beyond_y: cython.double = fabs(y) - hw
+    if beyond_x < 0.0:
+        beyond_x = 0.0
+    if beyond_y < 0.0:
+        beyond_y = 0.0
+    return beyond_x * beyond_x + beyond_y * beyond_y
+
+
+@cython.cfunc
+@cython.nogil
+@cython.exceptval(check=False)
+def corners_gap_squared(
+    along: cython.double,
+    left: cython.double,
+    c: cython.double,
+    s: cython.double,
+    hl: cython.double,
+    hw: cython.double,
+    other_hl: cython.double,
+    other_hw: cython.double,
+) -> cython.double:
+    """Least squared distance of the other's four corners to this rectangle, arguments as face_gap() [m^2]."""
+    # half diagonals of the other to its front-left and front-right corners
+    px: cython.double = c * other_hl - s * other_hw
+    py: cython.double = s * other_hl + c * other_hw
+    qx: cython.double = c * other_hl + s * other_hw
+    qy: cython.double = s * other_hl - c * other_hw
+    least: cython.double = point_gap_squared(along + px, left + py, hl, hw)
+    gap: cython.double = point_gap_squared(along - px, left - py, hl, hw)
+    if gap < least:
+        least = gap
+    gap = point_gap_squared(along + qx, left + qy, hl, hw)
+    if gap < least:
+        least = gap
+    gap = point_gap_squared(along - qx, left - qy, hl, hw)
+    if gap < least:
+        least = gap
+    return least
+
+
+@cython.ccall
+@cython.nogil
+@cython.exceptval(check=False)
+def pair_gap(
+    ax: cython.double,
+    ay: cython.double,
+    aux: cython.double,
+    auy: cython.double,
+    ahl: cython.double,
+    ahw: cython.double,
+    bx: cython.double,
+    by: cython.double,
+    bux: cython.double,
+    buy: cython.double,
+    bhl: cython.double,
+    bhw: cython.double,
+) -> cython.double:
+    """Signed separation of two rectangles [m], as pair_separation() but without witnesses."""
+    dx: cython.double = bx - ax
+    dy: cython.double = by - ay
+    c: cython.double = aux * bux + auy * buy
+    s: cython.double = aux * buy - auy * bux
+    b_along: cython.double = dx * aux + dy * auy
+    b_left: cython.double = dy * aux - dx * auy
+    a_along: cython.double = -(dx * bux + dy * buy)
+    a_left: cython.double = -(dy * bux - dx * buy)
+    from_a: cython.double = face_gap(b_along, b_left, c, s, ahl, ahw, bhl, bhw)
+    from_b: cython.double = face_gap(a_along, a_left, c, -s, bhl, bhw, ahl, ahw)
+    if from_a <= 0.0 and from_b <= 0.0:
+        return from_a if from_a >= from_b else from_b
+    from_a = corners_gap_squared(b_along, b_left, c, s, ahl, ahw, bhl, bhw)
+    from_b = corners_gap_squared(a_along, a_left, c, -s, bhl, bhw, ahl, ahw)
+    return sqrt(from_a if from_a <= from_b else from_b)
+
+
+@cython.ccall
+@cython.nogil
+@cython.exceptval(check=False)
+def pair_separation(
+    ax: cython.double,
+    ay: cython.double,
+    aux: cython.double,
+    auy: cython.double,
+    ahl: cython.double,
+    ahw: cython.double,
+    bx: cython.double,
+    by: cython.double,
+    bux: cython.double,
+    buy: cython.double,
+    bhl: cython.double,
+    bhw: cython.double,
+    out: cython.double[::1],
+) -> cython.void:
+    """Signed separation, witness on a, witness on b, normal from a to b, and the features that realise it.
+
+    out: (8,) separation, ax, ay, bx, by, nx, ny, 8 * feature of a + feature of b (corner 0..3 or edge 4..7)
+    """
+    dx: cython.double = bx - ax
+    dy: cython.double = by - ay
+    c: cython.double = aux * bux + auy * buy
+    s: cython.double = aux * buy - auy * bux
+    b_along: cython.double = dx * aux + dy * auy
+    b_left: cython.double = dy * aux - dx * auy
+    a_along: cython.double = -(dx * bux + dy * buy)
+    a_left: cython.double = -(dy * bux - dx * buy)
+    from_a: cython.double = face_gap(b_along, b_left, c, s, ahl, ahw, bhl, bhw)
+    from_b: cython.double = face_gap(a_along, a_left, c, -s, bhl, bhw, ahl, ahw)
+    if from_a >= from_b:
+        if edge_witness(ax, ay, aux, auy, ahl, ahw, b_along, b_left, c, s, bhl, bhw, out):
+            return
+    elif edge_witness(bx, by, bux, buy, bhl, bhw, a_along, a_left, c, -s, ahl, ahw, out):
+        reverse_pair(out)
+        return
+    from_a = corners_gap_squared(b_along, b_left, c, s, ahl, ahw, bhl, bhw)
+    from_b = corners_gap_squared(a_along, a_left, c, -s, bhl, bhw, ahl, ahw)
+    if from_a <= from_b:
+        corner_witness(ax, ay, aux, auy, ahl, ahw, b_along, b_left, c, s, bhl, bhw, out)
+    else:
+        corner_witness(bx, by, bux, buy, bhl, bhw, a_along, a_left, c, -s, ahl, ahw, out)
+        reverse_pair(out)
+
+
+# In the two functions below the rectangle at (x, y) plays a, the other plays b; reverse_pair() swaps the roles.
+# Turn the frame so that the chosen face's outward normal is e, f to its left: the other's centre is (p, q) with
+# p >= 0, its u is (ue, uf), hence its v is (-uf, ue). Its corner deepest against e lies at q - sign(ue) uf hl +
+# sign(uf) ue hw along f; with an edge parallel to the face the whole stretch q +- (hw or hl) is equally deep.
+
+
+@cython.cfunc
+@cython.nogil
+@cython.exceptval(check=False)
+def edge_witness(
+    x: cython.double,
+    y: cython.double,
+    ux: cython.double,
+    uy: cython.double,
+    hl: cython.double,
+    hw: cython.double,
+    along: cython.double,
+    left: cython.double,
+    c: cython.double,
+    s: cython.double,
+    other_hl: cython.double,
+    other_hw: cython.double,
+    out: cython.double[::1],
+) -> cython.bint:
+    """Fill out for the face with the largest gap; False when the rectangles are apart and corners are nearest."""
+    gap: cython.double = fabs(along) - hl - (fabs(c) * other_hl + fabs(s) * other_hw)
+    sideways: cython.double = fabs(left) - hw - (fabs(s) * other_hl + fabs(c) * other_hw)
+    side: cython.double = side_of(along)
+    ex: cython.double = side * ux
+    ey: cython.double = side * uy
+    q: cython.double = side * left
+    ue: cython.double = side * c
+    uf: cython.double = side * s
+    h: cython.double = hl
+    w: cython.double = hw
+    edge: cython.int = 4 if side > 0.0 else 6
+    if sideways > gap:
+        gap = sideways
+        side = side_of(left)
+        ex = -side * uy
+        ey = side * ux
+        q = -side * along
+        ue = side * s
+        uf = -side * c
+        h = hw
+        w = hl
+        edge = 7 if side > 0.0 else 5
+    t: cython.double
+    half: cython.double = -1.0
+    other_feature: cython.int
+    if fabs(uf) <= PARALLEL_SINE:
+        half = other_hw
+        other_feature = 6 if ue > 0.0 else 4
+    elif fabs(ue) <= PARALLEL_SINE:
+        half = other_hl
+        other_feature = 7 if uf > 0.0 else 5
+    else:
+        other_feature = corner_at(-ue, uf)
+    if half >= 0.0:
+        low: cython.double = q - half if q - half > -w else -w
+        high: cython.double = q + half if q + half < w else w
+        if gap > 0.0 and low > high:
+            return False
+        t = 0.5 * (low + high)
+    else:
+        t = q - side_of(ue) * uf * other_hl + side_of(uf) * ue * other_hw
+        if fabs(t) > w:
+            if gap > 0.0:
+                return False
+            t = w if t > 0.0 else -w
+    out[0] = gap
+    out[1] = x + (h * ex - t * ey)
+    out[2] = y + (h * ey + t * ex)
+    out[3] = x + ((h + gap) * ex - t * ey)
+    out[4] = y + ((h + gap) * ey + t * ex)
+    out[5] = ex
+    out[6] = ey
+    out[7] = 8 * edge + other_feature
+    return True
+
+
+@cython.cfunc
+@cython.nogil
+@cython.exceptval(check=False)
+def corner_witness(
+    x: cython.double,
+    y: cython.double,
+    ux: cython.double,
+    uy: cython.double,
+    hl: cython.double,
+    hw: cython.double,
+    along: cython.double,
+    left: cython.double,
+    c: cython.double,
+    s: cython.double,
+    other_hl: cython.double,
+    other_hw: cython.double,
+    out: cython.double[::1],
+) -> cython.void:
+    """Fill out for the corner of the other that is nearest to this rectangle."""
+    px: cython.double = 0.0
+    py: cython.double = 0.0
+    least: cython.double = -1.0
+    corner: cython.int = 0
+    k: cython.int
+    for k in range(4):
+        l_side: cython.double = other_hl if k < 2 else -other_hl
+        w_side: cython.double = other_hw if k == 0 or k == 3 else -other_hw
+        cx: cython.double = along + c * l_side - s * w_side
+        cy: cython.double = left + s * l_side + c * w_side
+        squared: cython.double = point_gap_squared(cx, cy, hl, hw)
+        if least < 0.0 or squared < least:
+            least = squared
+            px = cx
+            py = cy
+            corner = k
+    side_x: cython.double = side_of(px)
+    side_y: cython.double = side_of(py)
+    beyond_x: cython.double = fabs(px) - hl
+    beyond_y: cython.double = fabs(py) - hw
+    gap: cython.double = sqrt(least)
+    feature: cython.int = corner_at(px, py)
+    nx: cython.double
+    ny: cython.double
+    if beyond_x > 0.0 and beyond_y > 0.0:
+        nx = side_x * beyond_x / gap
+        ny = side_y * beyond_y / gap
+        px = side_x * hl
+        py = side_y * hw
+    elif beyond_x >= beyond_y:
+        gap = beyond_x
+        nx = side_x
+        ny = 0.0
+        px = side_x * hl
+        feature = 4 if side_x > 0.0 else 6
+    else:
+        gap = beyond_y
+        nx = 0.0
+        ny = side_y
+        py = side_y * hw
+        feature = 7 if side_y > 0.0 else 5
+    out[0] = gap
+    out[1] = x + (px * ux - py * uy)
+    out[2] = y + (px * uy + py * ux)
+    out[3] = x + ((px + gap * nx) * ux - (py + gap * ny) * uy)
+    out[4] = y + ((px + gap * nx) * uy + (py + gap * ny) * ux)
+    out[5] = nx * ux - ny * uy
+    out[6] = nx * uy + ny * ux
+    out[7] = 8 * feature + corner
+
+
+@cython.cfunc
+@cython.nogil
+@cython.exceptval(check=False)
+def reverse_pair(out: cython.double[::1]) -> cython.void:
+    """Swap the roles of a and b in what pair_separation() wrote."""
+    wx: cython.double = out[1]
+    wy: cython.double = out[2]
+    features: cython.int = cython.cast(cython.int, out[7])
+    out[1] = out[3]
+    out[2] = out[4]
+    out[3] = wx
+    out[4] = wy
+    out[5] = -out[5]
+    out[6] = -out[6]
+    out[7] = 8 * (features % 8) + features // 8
+
+
+@cython.ccall
+@cython.exceptval(check=False)
+def pair_separations(
+    a: cython.double[:, ::1], b: cython.double[:, ::1], out: cython.double[:, ::1]
+) -> cython.void:
+    """pair_separation() row by row. a, b: (n, 6) x, y, ux, uy, half length, half width; out: (n, 8)."""
+    i: cython.Py_ssize_t
+    with cython.nogil:
+        for i in range(a.shape[0]):
+            pair_separation(
+                a[i, 0], a[i, 1], a[i, 2], a[i, 3], a[i, 4], a[i, 5],
+                b[i, 0], b[i, 1], b[i, 2], b[i, 3], b[i, 4], b[i, 5],
+                out[i],
+            )  # fmt: skip
