@@ -385,28 +385,31 @@ def previous_theta(theta: cython.double, chord2: cython.double) -> cython.double
 
 
 # -- rectangles and pairs of poses --
-# A rectangle is its centre, the unit vector u along its length, and its half length and half width; v is u turned
-# left. Corners count 0 front-left, 1 front-right, 2 rear-right, 3 rear-left; edges 4 front, 5 right, 6 rear, 7 left.
+# A rectangle is its centre, the unit vector u along its length, half length hl and half width hw; v is u turned
+# left. Corners count 0 front-left, 1 front-right, 2 rear-right, 3 rear-left; edges 4 front, 5 right, 6 rear,
+# 7 left.
 #
-# Everything is measured from one of the two centres, so that rectangles far from the origin lose nothing. In the
-# frame of a, with d = b - a, the other centre is (d.ua, d.va) and its u is (c, s), c = ua.ub, s = ua x ub; in the
-# frame of b the other centre is (-d.ub, -d.vb) and its u is (c, -s).
+# Everything is measured from one of the two centres, so that rectangles far from the origin lose nothing. In
+# the frame of a, with d = b - a, the other centre is (d.ua, d.va) and its u is (c, s), c = ua.ub, s = ua x ub;
+# in the frame of b the other centre is (-d.ub, -d.vb) and its u is (c, -s).
 #
-# Gap along a face normal (separating axis theorem): half of the other's extent along u is |c| hl + |s| hw, along v
-# |s| hl + |c| hw, so the gap beyond the front or rear face is |d.u| - hl - (|c| other.hl + |s| other.hw), and so on.
+# Gap along a face normal (separating axis theorem): the other's half extent along u is |c| hl' + |s| hw', along
+# v |s| hl' + |c| hw', so beyond the front or rear face the gap is |d.u| - hl - (|c| hl' + |s| hw'), and so on.
 # Let g be the largest of the four. Each gap is a lower bound of the distance, and
 #   g <= 0: the rectangles meet. The depth is the distance from the origin to the boundary of the Minkowski
-#       difference, whose edges are those of a and b, so it is -g; the foot lies on that edge, so an edge of the one
-#       and a corner of the other (or a shared stretch of two parallel edges) realise it.
-#   g > 0, nearest points a corner and an inner point of an edge: the distance is that edge's gap, and any other gap
-#       is at most distance * (m.n) < distance, so it is g.
-#   g > 0, else: two corners are nearest. The least of the eight distances from a corner to the other rectangle is the
-#       distance in either case; taking all eight keeps a wrong choice between two nearly equal gaps harmless.
+#       difference, whose edges are those of a and b, so it is -g; the foot lies on that edge, so an edge of
+#       the one and a corner of the other (or a shared stretch of two parallel edges) realise it.
+#   g > 0, nearest points a corner and an inner point of an edge: the distance is that edge's gap, and any
+#       other gap is at most distance * (m.n) < distance, so it is g.
+#   g > 0, else: two corners are nearest. The least of the eight distances from a corner to the other rectangle
+#       is the distance in either case; taking all eight keeps a wrong choice between near-equal gaps harmless.
 # Error: a few ulp of the larger of the distance and the sizes.
 
-# Edges whose directions differ by less than this sine count as parallel: along a bench the difference is then below
-# the rounding of a coordinate, while headings that should be equal differ by about 1e-16 [1].
+# Edges whose directions differ by less than this sine count as parallel: along a bench the difference is then
+# below the rounding of a coordinate, while headings that should be equal differ by about 1e-16 [1].
 PARALLEL_SINE = cython.declare(cython.double, 1e-14)
+# Beyond every distance: the squares of two coordinates would overflow [m].
+NO_LIMIT = cython.declare(cython.double, 1e154)
 
 
 @cython.cfunc
@@ -516,16 +519,42 @@ def pair_gap(
     bhw: cython.double,
 ) -> cython.double:
     """Signed separation of two rectangles [m], as pair_separation() but without witnesses."""
+    return pair_gap_within(ax, ay, aux, auy, ahl, ahw, bx, by, bux, buy, bhl, bhw, NO_LIMIT)
+
+
+@cython.ccall
+@cython.nogil
+@cython.exceptval(check=False)
+def pair_gap_within(
+    ax: cython.double,
+    ay: cython.double,
+    aux: cython.double,
+    auy: cython.double,
+    ahl: cython.double,
+    ahw: cython.double,
+    bx: cython.double,
+    by: cython.double,
+    bux: cython.double,
+    buy: cython.double,
+    bhl: cython.double,
+    bhw: cython.double,
+    limit: cython.double,
+) -> cython.double:
+    """pair_gap() where it is at most limit >= 0, else any value above limit and not above pair_gap() [m]."""
     dx: cython.double = bx - ax
     dy: cython.double = by - ay
     c: cython.double = aux * bux + auy * buy
     s: cython.double = aux * buy - auy * bux
     b_along: cython.double = dx * aux + dy * auy
     b_left: cython.double = dy * aux - dx * auy
+    from_a: cython.double = face_gap(b_along, b_left, c, s, ahl, ahw, bhl, bhw)
+    if from_a > limit:
+        return from_a
     a_along: cython.double = -(dx * bux + dy * buy)
     a_left: cython.double = -(dy * bux - dx * buy)
-    from_a: cython.double = face_gap(b_along, b_left, c, s, ahl, ahw, bhl, bhw)
     from_b: cython.double = face_gap(a_along, a_left, c, -s, bhl, bhw, ahl, ahw)
+    if from_b > limit:
+        return from_b
     if from_a <= 0.0 and from_b <= 0.0:
         return from_a if from_a >= from_b else from_b
     from_a = corners_gap_squared(b_along, b_left, c, s, ahl, ahw, bhl, bhw)
@@ -582,8 +611,9 @@ def pair_separation(
 
 # In the two functions below the rectangle at (x, y) plays a, the other plays b; reverse_pair() swaps the roles.
 # Turn the frame so that the chosen face's outward normal is e, f to its left: the other's centre is (p, q) with
-# p >= 0, its u is (ue, uf), hence its v is (-uf, ue). Its corner deepest against e lies at q - sign(ue) uf hl +
-# sign(uf) ue hw along f; with an edge parallel to the face the whole stretch q +- (hw or hl) is equally deep.
+# p >= 0, its u is (ue, uf), hence its v is (-uf, ue). Its corner deepest against e lies along f at
+# t = q - sign(ue) uf hl' + sign(uf) ue hw'; with an edge parallel to the face the whole stretch q +- (hw' or
+# hl') is equally deep, and the middle of what it shares with the face is taken.
 
 
 @cython.cfunc
