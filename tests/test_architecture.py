@@ -1,0 +1,100 @@
+"""The shape of the house: who may import whom, and what importing core may cost."""
+
+from __future__ import annotations
+
+import ast
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+import core
+
+ROOT = Path(__file__).parent.parent
+
+# The pipeline: a module imports only modules that stand before it. kernels stands first because it knows no other.
+ORDER = (
+    "core.kernels",
+    "core.errors",
+    "core.dragon",
+    "core.paths",
+    "core.kinematics",
+    "core.rectangles",
+    "core.overlaps",
+    "core.contact",
+    "core.design",
+    "core",
+    "app",
+    "app.settings",
+    "app.problems",
+    "app.schemas",
+    "app.answers",
+    "app.tables",
+    "app.figures",
+    "app.api",
+    "app.main",
+    "app.cli",
+)
+OUTSIDE_CORE = {"app", "fastapi", "http", "json", "orjson", "pathlib", "pydantic", "starlette", "time"}
+OVERLAP_ENGINES = {"fcl", "shapely"}
+HEAVY = ("fcl", "shapely", "scipy", "matplotlib")
+
+
+def module_name(path: Path) -> str:
+    return ".".join(path.relative_to(ROOT).with_suffix("").parts).removesuffix(".__init__")
+
+
+MODULES = {
+    module_name(path): path for package in ("core", "app") for path in sorted((ROOT / package).rglob("*.py"))
+}
+
+
+def imports(module: str) -> set[str]:
+    """Every module named by an import statement anywhere in the file, also inside functions."""
+    found: set[str] = set()
+    for node in ast.walk(ast.parse(MODULES[module].read_text(encoding="utf-8"))):
+        if isinstance(node, ast.Import):
+            found |= {alias.name for alias in node.names}
+        elif isinstance(node, ast.ImportFrom):
+            assert node.level == 0, f"{module} has a relative import"
+            found.add(node.module or "")
+            found |= {f"{node.module}.{alias.name}" for alias in node.names}
+    return found
+
+
+def packages(module: str) -> set[str]:
+    return {name.partition(".")[0] for name in imports(module)}
+
+
+def test_every_module_has_its_place_in_the_pipeline() -> None:
+    assert set(MODULES) == set(ORDER)
+
+
+@pytest.mark.parametrize("module", MODULES)
+def test_imports_point_one_way_along_the_pipeline(module: str) -> None:
+    later = ORDER[ORDER.index(module) :]
+    own_package = module.partition(".")[0]  # `from core import kernels` names core too
+    assert (imports(module) & set(later)) - {own_package} == set()
+
+
+@pytest.mark.parametrize("module", [name for name in MODULES if name.startswith("core")])
+def test_core_knows_no_http_json_files_or_clocks(module: str) -> None:
+    assert packages(module) & OUTSIDE_CORE == set()
+
+
+def test_only_overlaps_imports_fcl_and_shapely() -> None:
+    assert {name for name in MODULES if packages(name) & OVERLAP_ENGINES} == {"core.overlaps"}
+
+
+def test_importing_core_loads_nothing_heavy() -> None:
+    code = f"import sys, core; print(*(name for name in {HEAVY} if name in sys.modules))"
+    loaded = subprocess.run(
+        [sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=True
+    )
+    assert loaded.stdout.split() == []
+
+
+def test_public_names_are_sorted_and_exist() -> None:
+    assert core.__all__ == sorted(core.__all__)
+    assert all(hasattr(core, name) for name in core.__all__)
