@@ -1,10 +1,36 @@
-"""Exact signed separation of two oriented rectangles, with witness points and normal."""
+"""Exact signed separation of two oriented rectangles, with witness points and normal.
+
+The derivation stands in core/kernels.py, above its section on rectangles: the separating axis theorem when
+they meet, the least distance from a corner of the one to the other when they are apart.
+"""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
-from core.dragon import Floats
+import numpy as np
+from numpy.typing import ArrayLike
+
+from core import kernels
+from core.dragon import SIZE_MAX, SIZE_MIN, Floats
+from core.errors import InvalidValue
+
+# Further out than any dance: a double resolves only 1e-7 m there [m].
+POSITION_MAX = 1e9
+
+# Lowest and highest value, and unit, of everything that describes a rectangle in the plane.
+LIMITS = {
+    "x": (-POSITION_MAX, POSITION_MAX, "m"),
+    "y": (-POSITION_MAX, POSITION_MAX, "m"),
+    "heading": (-np.inf, np.inf, "rad"),
+    "length": (SIZE_MIN, SIZE_MAX, "m"),
+    "width": (SIZE_MIN, SIZE_MAX, "m"),
+}
+POSE = ("x", "y", "heading")
+SIZE = ("length", "width")
+
+# Sides of the centre on which the corners lie, in units of (half length, half width).
+CORNER_SIDES = np.array([[1.0, 1.0], [1.0, -1.0], [-1.0, -1.0], [-1.0, 1.0]])
 
 
 @dataclass(frozen=True, slots=True)
@@ -21,14 +47,118 @@ class Separation:
     normal: Floats
 
 
-def separation(poses_a: Floats, sizes_a: Floats, poses_b: Floats, sizes_b: Floats) -> Separation:
+def separation(poses_a: ArrayLike, sizes_a: ArrayLike, poses_b: ArrayLike, sizes_b: ArrayLike) -> Separation:
     """Signed separation of rectangles a and b, pair by pair.
 
+    Apart, the Euclidean distance and the nearest points; overlapping, minus the length of the shortest
+    translation that parts them, the corner that reaches deepest and the point of the face over it. Where
+    parallel edges meet, the witnesses are the middle of the stretch that they share. Off by a few ulp of the
+    larger of the sizes and the distance, and witnesses also by an ulp of their own coordinates.
+
     poses: (..., 3) x [m], y [m], heading [rad]; sizes: (..., 2) length [m], width [m]; shapes broadcast
+    raises: InvalidValue for a shape that does not fit, a value that is not finite, or one outside LIMITS
+
+    >>> separation([0.0, 0.0, 0.0], [2.0, 1.0], [3.0, 0.0, 0.0], [2.0, 1.0]).separation
+    array(1.)
     """
-    raise NotImplementedError
+    a = _checked_frames("_a", poses_a, sizes_a)
+    b = _checked_frames("_b", poses_b, sizes_b)
+    try:
+        shape = np.broadcast_shapes(a.shape, b.shape)
+    except ValueError as error:
+        raise InvalidValue(
+            "poses_b", f"shapes of a and b must broadcast, got {a.shape[:-1]} and {b.shape[:-1]} rectangles"
+        ) from error
+    return frames_separation(np.broadcast_to(a, shape), np.broadcast_to(b, shape))
+
+
+def frames_separation(a: Floats, b: Floats) -> Separation:
+    """Signed separation of rectangles given as frames. a, b: (..., 6) as frames() returns, of equal shape."""
+    shape = a.shape[:-1]
+    out = np.empty((a.size // 6, 8))
+    kernels.pair_separations(
+        np.array(a, order="C").reshape(-1, 6), np.array(b, order="C").reshape(-1, 6), out
+    )
+    return Separation(
+        separation=out[:, 0].reshape(shape),
+        witness_a=out[:, 1:3].reshape(*shape, 2),
+        witness_b=out[:, 3:5].reshape(*shape, 2),
+        normal=out[:, 5:7].reshape(*shape, 2),
+    )
+
+
+def frames(poses: Floats, sizes: Floats) -> Floats:
+    """What the kernels take for a rectangle: x, y, unit vector (x, y) along it, half length, half width.
+
+    poses: (..., 3) x [m], y [m], heading [rad]; sizes: (..., 2) length [m], width [m]; shapes broadcast
+    returns: (..., 6) in memory of its own
+    """
+    shape = np.broadcast_shapes(poses.shape[:-1], sizes.shape[:-1])
+    out = np.empty((*shape, 6))
+    out[..., :2] = poses[..., :2]
+    out[..., 2] = np.cos(poses[..., 2])
+    out[..., 3] = np.sin(poses[..., 2])
+    out[..., 4:] = 0.5 * sizes
+    return out
 
 
 def corners(poses: Floats, sizes: Floats) -> Floats:
-    """Corners (..., 4, 2) [m]: front-left, front-right, rear-right, rear-left."""
-    raise NotImplementedError
+    """Corners (..., 4, 2) [m]: front-left, front-right, rear-right, rear-left.
+
+    poses: (..., 3) x [m], y [m], heading [rad]; sizes: (..., 2) length [m], width [m]; shapes broadcast
+
+    >>> corners(np.array([1.0, 0.0, 0.0]), np.array([2.0, 1.0])).tolist()
+    [[2.0, 0.5], [2.0, -0.5], [0.0, -0.5], [0.0, 0.5]]
+    """
+    frame = frames(np.asarray(poses, dtype=np.float64), np.asarray(sizes, dtype=np.float64))[..., None, :]
+    along = CORNER_SIDES[:, :1] * frame[..., 4:5] * frame[..., 2:4]
+    left = CORNER_SIDES[:, 1:] * frame[..., 5:6] * (frame[..., 3:1:-1] * [-1.0, 1.0])
+    return frame[..., :2] + along + left
+
+
+def checked_columns(subject: str, columns: Floats, names: tuple[str, ...]) -> None:
+    """Refuse the first value outside its LIMITS. columns: (n, len(names)).
+
+    raises: InvalidValue with the field subject.row.name, the value, its unit and the limit
+    """
+    for name, column in zip(names, columns.T, strict=True):
+        low, high, unit = LIMITS[name]
+        wrong = np.flatnonzero(~(np.isfinite(column) & (column >= low) & (column <= high)))
+        if wrong.size:
+            k = int(wrong[0])
+            limit = f"from {low:g} to {high:g} {unit}"
+            if not np.isfinite(column[k]):
+                limit = "a finite number"
+            elif low > 0.0 and column[k] <= 0.0:
+                limit = "positive"
+            raise InvalidValue(
+                f"{subject}.{k}.{name}", f"{subject}[{k}].{name} must be {limit}, got {column[k]} {unit}"
+            )
+
+
+def checked_array(name: str, values: ArrayLike, shape: str, last: int | None) -> Floats:
+    """The values as float64 with a last axis of that length (a plain list if None).
+
+    raises: InvalidValue when they are no numbers or have another shape
+    """
+    try:
+        array = np.asarray(values, dtype=np.float64)
+    except (TypeError, ValueError) as error:
+        raise InvalidValue(name, f"{name} must be numbers of shape {shape}") from error
+    if (array.ndim != 1) if last is None else (array.shape[-1:] != (last,)):
+        raise InvalidValue(name, f"{name} must have shape {shape}, got {array.shape}")
+    return array
+
+
+def _checked_frames(suffix: str, poses: ArrayLike, sizes: ArrayLike) -> Floats:
+    pose = checked_array(f"poses{suffix}", poses, "(..., 3): x, y, heading", 3)
+    size = checked_array(f"sizes{suffix}", sizes, "(..., 2): length, width", 2)
+    checked_columns(f"poses{suffix}", pose.reshape(-1, 3), POSE)
+    checked_columns(f"sizes{suffix}", size.reshape(-1, 2), SIZE)
+    try:
+        return frames(pose, size)
+    except ValueError as error:
+        raise InvalidValue(
+            f"sizes{suffix}",
+            f"poses{suffix} and sizes{suffix} must broadcast, got shapes {pose.shape} and {size.shape}",
+        ) from error
