@@ -1,9 +1,9 @@
 """The one part of the build that pyproject.toml cannot say: core/kernels.py is compiled by Cython.
 
 optional: without a C compiler the install succeeds and the same file runs uncompiled.
-No -march=native and no -ffast-math: every machine gives the same digits. The flags only tell the compiler
-that nobody reads errno or floating-point traps, which lets it vectorise square roots and selections, and
-that it must not fuse a multiplication with an addition, which would round differently from the uncompiled file.
+No -march=native and no -ffast-math: every machine gives the same digits. The flags say that nobody reads errno or
+floating-point traps, so that square roots and selections vectorise, and forbid fused multiply-add, which would round
+differently from the uncompiled file.
 """
 
 from Cython.Build import cythonize

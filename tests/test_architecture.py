@@ -45,9 +45,7 @@ def module_name(path: Path) -> str:
     return ".".join(path.relative_to(ROOT).with_suffix("").parts).removesuffix(".__init__")
 
 
-MODULES = {
-    module_name(path): path for package in ("core", "app") for path in sorted((ROOT / package).rglob("*.py"))
-}
+MODULES = {module_name(path): path for package in ("core", "app") for path in sorted((ROOT / package).rglob("*.py"))}
 
 
 def imports(module: str) -> set[str]:

@@ -49,9 +49,7 @@ def test_trajectory_is_the_same_to_the_last_bit(uncompiled: ModuleType) -> None:
 
 
 @pytest.mark.parametrize("chord", [0.5, 3.0, 5.0, 18.845, 32.7, 200.0])
-@pytest.mark.parametrize(
-    ("name", "first"), [("fold_theta", ()), ("first_root", (20.0,)), ("previous_theta", (9.0,))]
-)
+@pytest.mark.parametrize(("name", "first"), [("fold_theta", ()), ("first_root", (20.0,)), ("previous_theta", (9.0,))])
 def test_roots_are_the_same_to_the_last_bit(
     uncompiled: ModuleType, name: str, first: tuple[float, ...], chord: float
 ) -> None:
