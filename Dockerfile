@@ -1,0 +1,29 @@
+# The service alone: no compiler, no root, nothing written outside /tmp.
+#   docker build -t bench-dragon . && docker run --read-only --tmpfs /tmp -p 8000:8000 bench-dragon
+ARG PYTHON_IMAGE=python:3.11-slim-bookworm
+
+FROM ${PYTHON_IMAGE} AS build
+RUN apt-get update \
+    && apt-get install -y --no-install-recommends gcc libc6-dev \
+    && rm -rf /var/lib/apt/lists/*
+RUN python -m venv /opt/bench-dragon
+COPY requirements.lock pyproject.toml setup.py README.md LICENSE /src/
+COPY core /src/core
+COPY app /src/app
+RUN /opt/bench-dragon/bin/pip install --no-cache-dir --disable-pip-version-check -c /src/requirements.lock /src \
+    && /opt/bench-dragon/bin/python -c "import core.kernels; assert core.kernels.COMPILED" \
+    && /opt/bench-dragon/bin/python -m pip uninstall -y --quiet pip setuptools
+
+FROM ${PYTHON_IMAGE}
+COPY --from=build /opt/bench-dragon /opt/bench-dragon
+ENV PATH=/opt/bench-dragon/bin:$PATH \
+    HOME=/tmp \
+    MPLCONFIGDIR=/tmp/matplotlib \
+    PYTHONDONTWRITEBYTECODE=1 \
+    PYTHONUNBUFFERED=1
+USER 10001:10001
+WORKDIR /tmp
+EXPOSE 8000
+HEALTHCHECK --interval=30s --timeout=5s --start-period=20s \
+    CMD ["python", "-c", "import urllib.request; urllib.request.urlopen('http://127.0.0.1:8000/healthz', timeout=4)"]
+CMD ["bench-dragon", "serve", "--host", "0.0.0.0", "--port", "8000"]
