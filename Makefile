@@ -32,9 +32,9 @@ $(VENV)/installed: requirements.lock
 $(VENV)/compiled: core/kernels.py setup.py pyproject.toml $(VENV)/installed
 	@rm -f core/kernels.*.so
 	@$(PIP) install --no-build-isolation --no-deps -e .
-	@$(BIN)/python -c "import core.kernels, sys; core.kernels.__file__.endswith('.py') and print( \
-		'No C compiler with Python headers was found: everything works, but many times slower.\n' \
-		'To change that: install gcc and python3-dev, then run: make clean setup', file=sys.stderr)"
+	@$(BIN)/python -c "from core.kernels import COMPILED; raise SystemExit(not COMPILED)" || printf '%s\n' \
+		'No C compiler with the headers of Python was found: everything works, only many times slower.' \
+		'To change that: apt install gcc python3-dev, then: make clean setup' >&2
 	@touch $@
 
 serve: setup
