@@ -8,25 +8,11 @@ differently from the uncompiled file.
 
 from Cython.Build import cythonize
 from setuptools import Extension, setup
-from setuptools.command.build_ext import build_ext
-from setuptools.errors import CompileError
 
+FLAGS = ["-O3", "-fno-math-errno", "-fno-trapping-math", "-ffp-contract=off"]
 
-class BuildIfPossible(build_ext):
-    """build_ext that counts a compiler that is not there as one that failed, which `optional` forgives."""
+kernels = cythonize([Extension("core.kernels", ["core/kernels.py"], extra_compile_args=FLAGS)], build_dir="build")
+for extension in kernels:
+    extension.optional = True  # cythonize (3.3) forgets what Extension was told
 
-    def build_extension(self, ext: Extension) -> None:
-        try:
-            super().build_extension(ext)
-        except FileNotFoundError as error:
-            raise CompileError(f"no C compiler: {error}") from error
-
-
-kernels = Extension(
-    "core.kernels",
-    ["core/kernels.py"],
-    extra_compile_args=["-O3", "-fno-math-errno", "-fno-trapping-math", "-ffp-contract=off"],
-    optional=True,
-)
-
-setup(ext_modules=cythonize([kernels], build_dir="build"), cmdclass={"build_ext": BuildIfPossible})
+setup(ext_modules=kernels)
