@@ -1,0 +1,217 @@
+"""The calls: to core, call, from core."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from importlib.util import find_spec
+from typing import Annotated, Any
+
+from fastapi import APIRouter, Body, Query, Response
+
+import core
+from app import figures, paper, tables
+from app.answers import (
+    ClearanceTable,
+    CollisionTime,
+    MinimumPitch,
+    OverlapsAnswer,
+    PaperTable,
+    TrajectoryTable,
+    columns_json,
+)
+from app.examples import ANSWERS, BODIES
+from app.problems import PROBLEM_TYPE
+from app.reply import JSON, BodyReply, QueryReply
+from app.schemas import (
+    ClearanceQuery,
+    CollisionQuery,
+    MinimumPitchQuery,
+    Nothing,
+    OverlapsRequest,
+    PitchScanQuery,
+    TrajectoryFigureQuery,
+    TrajectoryRequest,
+)
+from app.settings import check_limit
+
+router = APIRouter()
+
+IMAGES = {figures.Format.SVG: "image/svg+xml", figures.Format.PNG: "image/png"}
+PROBLEM_REF = {PROBLEM_TYPE: {"schema": {"$ref": "#/components/schemas/Problem"}}}
+FILE = {"schema": {"type": "string", "format": "binary"}}
+PROBLEMS = {
+    400: "The body is not JSON",
+    404: "There is no such format",
+    406: "Accept asks for a form that this call does not answer in",
+    413: "The body is too long",
+    415: "The body is not of type application/json",
+    422: "A value is outside its limits, a name is unknown, or an instant lies after the end of the run",
+    500: "The service failed",
+    503: "As many computations run as may run at once",
+}
+DEFAULT_TRAJECTORY = TrajectoryRequest()
+QUERY_STATUSES = (406, 422, 500, 503)
+BODY_STATUSES = (400, 406, 413, 415, 422, 500, 503)
+
+
+def documented(path: str, model: Any, statuses: tuple[int, ...], **content: Any) -> dict[str, Any]:
+    """What OpenAPI says of a call: its answer, in JSON with an example or as a file, and its problems."""
+    if model is not None:
+        content[JSON] = {"example": ANSWERS[path]}
+    answer = {"description": "The answer", "content": content, "model": model}
+    unchanged = {304: {"description": "The client has this answer already (If-None-Match)"}}
+    problems = {status: {"description": PROBLEMS[status], "content": PROBLEM_REF} for status in statuses}
+    return {"path": path, "response_class": Response, "responses": {200: answer, **unchanged, **problems}}
+
+
+def drawn(name: str) -> dict[str, Any]:
+    """What OpenAPI says of a figure."""
+    return documented(
+        f"/figures/{name}.{{format}}", None, (404, *QUERY_STATUSES), **dict.fromkeys(IMAGES.values(), FILE)
+    )
+
+
+def _trajectory_json(found: core.Trajectory, decimals: int | None) -> bytes:
+    x, y = found.position[..., 0], found.position[..., 1]
+    return columns_json({"time": found.time, "x": x, "y": y, "speed": found.speed}, decimals)
+
+
+def _workbook(found: core.Trajectory, decimals: int | None) -> bytes:
+    return tables.trajectory_xlsx(found, decimals=tables.XLSX_DECIMALS if decimals is None else decimals)
+
+
+TABLES: dict[str, Callable[[core.Trajectory, int | None], bytes]] = {
+    JSON: _trajectory_json,
+    tables.CSV_TYPE: lambda found, decimals: tables.trajectory_csv(found, decimals=decimals),
+    tables.XLSX_TYPE: _workbook,
+}
+if find_spec("pyarrow"):
+    TABLES[tables.ARROW_TYPE] = lambda found, decimals: tables.trajectory_arrow(found, decimals=decimals)
+
+
+@router.post(
+    **documented(
+        "/trajectory",
+        TrajectoryTable,
+        BODY_STATUSES,
+        **{kind: FILE for kind in TABLES if kind != JSON},
+    )
+)
+def trajectory(
+    reply: BodyReply,
+    wanted: Annotated[TrajectoryRequest, Body(openapi_examples=BODIES["/trajectory"])] = DEFAULT_TRAJECTORY,
+) -> Response:
+    """Position and speed of every handle at every instant."""
+    media_type = reply.media_type(tuple(TABLES))
+
+    def compute() -> bytes:
+        limits = reply.settings
+        cells_max = limits.workbook_cells_max if media_type == tables.XLSX_TYPE else limits.cells_max
+        dragon = wanted.dragon.to_dragon(limits.benches_max)
+        times = wanted.to_times(dragon.benches + 1, cells_max)
+        found = core.trajectory(dragon, wanted.path.to_path(), times, head_speed=wanted.head_speed)
+        return TABLES[media_type](found, wanted.decimals)
+
+    return reply(wanted, compute, media_type)
+
+
+@router.get(**documented("/collision-time", CollisionTime, QUERY_STATUSES))
+def collision_time(reply: QueryReply, wanted: Annotated[CollisionQuery, Query()]) -> Response:
+    """When two benches that share no handle first touch, how it is known, and what four engines say."""
+
+    def compute() -> bytes:
+        dragon, path = wanted.to_dragon(reply.settings.benches_max), wanted.to_path()
+        found = core.first_contact(dragon, path, head_speed=wanted.head_speed, margin=wanted.margin)
+        return CollisionTime.of(found, dragon, path, wanted.head_speed, wanted.margin).to_json()
+
+    return reply(wanted, compute)
+
+
+@router.get(**documented("/minimum-pitch", MinimumPitch, QUERY_STATUSES))
+def minimum_pitch(reply: QueryReply, wanted: Annotated[MinimumPitchQuery, Query()]) -> Response:
+    """The smallest pitch such that every larger one lets the head reach the turning circle without contact."""
+
+    def compute() -> bytes:
+        dragon, radius = wanted.to_dragon(reply.settings.benches_max), wanted.turning_diameter / 2
+        found = core.minimum_pitch(dragon, turning_radius=radius, start_turns=wanted.start_turns, margin=wanted.margin)
+        return MinimumPitch.of(found, dragon, wanted.margin).to_json()
+
+    return reply(wanted, compute)
+
+
+@router.get(**documented("/clearance", ClearanceTable, QUERY_STATUSES))
+def clearance(reply: QueryReply, wanted: Annotated[ClearanceQuery, Query()]) -> Response:
+    """Smallest separation of two benches that are no neighbours, and whose, at every instant."""
+
+    def compute() -> bytes:
+        dragon = wanted.to_dragon(reply.settings.benches_max)
+        times = wanted.to_times(dragon.benches + 1, reply.settings.cells_max)
+        found = core.clearance_profile(dragon, wanted.to_path(), times, head_speed=wanted.head_speed)
+        return columns_json({"time": found.time, "clearance": found.clearance, "benches": found.benches})
+
+    return reply(wanted, compute)
+
+
+@router.post(**documented("/overlaps", OverlapsAnswer, BODY_STATUSES))
+def overlaps(
+    reply: BodyReply, wanted: Annotated[OverlapsRequest, Body(openapi_examples=BODIES["/overlaps"])]
+) -> Response:
+    """Which benches overlap, how deep and where, and the pairs that each of four engines finds."""
+
+    def compute() -> bytes:
+        poses, lengths, widths = wanted.to_poses(reply.settings.poses_max)
+        found = core.overlaps(poses, lengths, widths, margin=wanted.margin, chained=wanted.chained)
+        check_limit("benches", "overlapping pairs", len(found.pairs), reply.settings.pairs_max, "move them apart")
+        check = core.cross_check(poses, lengths, widths, margin=wanted.margin, chained=wanted.chained)
+        return OverlapsAnswer.of(found, check).to_json()
+
+    return reply(wanted, compute)
+
+
+@router.get(**documented("/paper", PaperTable, QUERY_STATUSES), name="paper")
+def paper_numbers(reply: QueryReply, wanted: Annotated[Nothing, Query()]) -> Response:
+    """The paper's reported numbers beside ours, with the reason for each difference."""
+    return reply(wanted, lambda: PaperTable.model_validate({"rows": paper.comparison()}).to_json())
+
+
+@router.get(**drawn("trajectory"))
+def trajectory_figure(
+    reply: QueryReply, format: figures.Format, wanted: Annotated[TrajectoryFigureQuery, Query()]
+) -> Response:
+    """Every handle at one instant, coloured by its speed."""
+
+    def compute() -> bytes:
+        dragon, path = wanted.to_dragon(reply.settings.drawn_benches_max), wanted.to_path()
+        return figures.trajectory_figure(dragon, path, time=wanted.time, head_speed=wanted.head_speed, format=format)
+
+    return reply(wanted, compute, reply.media_type([IMAGES[format]]))
+
+
+@router.get(**drawn("contact"))
+def contact_figure(reply: QueryReply, format: figures.Format, wanted: Annotated[CollisionQuery, Query()]) -> Response:
+    """The dance at first contact, with the touching pair marked and enlarged."""
+
+    def compute() -> bytes:
+        dragon, path = wanted.to_dragon(reply.settings.drawn_benches_max), wanted.to_path()
+        return figures.contact_figure(dragon, path, head_speed=wanted.head_speed, margin=wanted.margin, format=format)
+
+    return reply(wanted, compute, reply.media_type([IMAGES[format]]))
+
+
+@router.get(**drawn("pitch-scan"))
+def pitch_scan_figure(
+    reply: QueryReply, format: figures.Format, wanted: Annotated[PitchScanQuery, Query()]
+) -> Response:
+    """Where the head stands at first contact, against the pitch: jumps as jumps, the minimum pitch marked."""
+
+    def compute() -> bytes:
+        return figures.pitch_scan_figure(
+            wanted.to_dragon(reply.settings.drawn_benches_max),
+            turning_radius=wanted.turning_diameter / 2,
+            start_turns=wanted.start_turns,
+            margin=wanted.margin,
+            samples=wanted.samples,
+            format=format,
+        )
+
+    return reply(wanted, compute, reply.media_type([IMAGES[format]]))

@@ -1,0 +1,163 @@
+"""The service: create_app(settings) puts the calls, their limits and what surrounds them together.
+
+uvicorn --factory app.main:create_app
+"""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import AsyncIterator
+from contextlib import asynccontextmanager
+from pathlib import Path
+from threading import BoundedSemaphore
+from typing import Any
+
+from fastapi import Depends, FastAPI, Request, Response
+from fastapi.openapi.utils import get_openapi
+from fastapi.responses import FileResponse, HTMLResponse
+from prometheus_client import CollectorRegistry, Gauge, generate_latest
+from prometheus_client.exposition import CONTENT_TYPE_LATEST
+from starlette.middleware import Middleware
+from starlette.staticfiles import StaticFiles
+
+from app import api, problems
+from app.answers import State
+from app.middleware import BodyLimit, HeadAsGet, Metrics, SafetyHeaders
+from app.reply import VERSION, refuse_query
+from app.settings import Settings
+from core import Dragon, Spiral, first_contact, trajectory
+
+logger = logging.getLogger("uvicorn.error")
+
+PAGE = Path(__file__).parent / "page"
+DESCRIPTION = """Where is every bench of a bench dragon and how fast, when do two benches first touch, and how
+tight may the spiral be? SI units and radians throughout. A collision is an answer, never an error; errors are problem
+details (RFC 9457). An answer depends on its request alone and carries a strong ETag.
+"""
+# Swagger UI's files come from a pip package; its start is a file of its own, because pages here run no inline script.
+DOCS = """<!doctype html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<title>Bench Dragon: all calls</title>
+<link rel="stylesheet" href="docs/assets/swagger-ui.css">
+<link rel="icon" href="docs/assets/favicon-32x32.png">
+</head>
+<body>
+<div id="calls"></div>
+<script src="docs/assets/swagger-ui-bundle.js"></script>
+<script src="docs/start.js"></script>
+</body>
+</html>
+"""
+DOCS_START = 'SwaggerUIBundle({ url: "openapi.json", dom_id: "#calls", deepLinking: true });\n'
+
+# Known answers for the self-test, computed once in 256-bit ball arithmetic: first contact of the default dance [s]
+# and x of its handle 1 at the start [m].
+KNOWN_CONTACT = 412.47383768211466
+KNOWN_X = 8.363823851392647
+KNOWN_TOLERANCE = 1e-9
+
+
+def fault() -> str:
+    """What is wrong with this installation's arithmetic, empty when known answers come out."""
+    try:
+        return _difference()
+    except Exception as error:  # Whatever is broken, the process must live to say so at /readyz.
+        logger.exception("The self-test failed")
+        return type(error).__name__
+
+
+def _difference() -> str:
+    x = float(trajectory(Dragon(), Spiral(), [0.0]).position[0, 1, 0])
+    contact = first_contact(Dragon(), Spiral()).time
+    if abs(x - KNOWN_X) > KNOWN_TOLERANCE:
+        return f"x of handle 1 at the start is {x!r} m, known is {KNOWN_X!r} m"
+    if contact is None or abs(contact - KNOWN_CONTACT) > KNOWN_TOLERANCE:
+        return f"first contact is at {contact!r} s, known is {KNOWN_CONTACT!r} s"
+    return ""
+
+
+@asynccontextmanager
+async def _lifespan(app: FastAPI) -> AsyncIterator[None]:
+    app.state.fault = fault()
+    yield
+
+
+def create_app(settings: Settings | None = None) -> FastAPI:
+    """The service with these limits, by default those of the environment."""
+    settings = settings or Settings()
+    registry = CollectorRegistry()
+    app = FastAPI(
+        title="Bench Dragon",
+        version=VERSION,
+        description=DESCRIPTION,
+        docs_url=None,
+        redoc_url=None,
+        redirect_slashes=False,
+        lifespan=_lifespan,
+        middleware=[
+            Middleware(SafetyHeaders),
+            Middleware(HeadAsGet),
+            Middleware(Metrics, registry=registry),
+            Middleware(BodyLimit, bytes_max=settings.body_bytes_max),
+        ],
+    )
+    app.state.settings = settings
+    app.state.free = BoundedSemaphore(settings.concurrent_max)
+    app.state.busy = Gauge("bench_dragon_computations", "Computations running", registry=registry)
+    app.state.registry = registry
+    app.openapi = lambda: _openapi(app)  # type: ignore[method-assign]
+    problems.install(app)
+    app.include_router(api.router)
+    _add_health(app)
+    _add_pages(app)
+    return app
+
+
+def _openapi(app: FastAPI) -> dict[str, Any]:
+    if app.openapi_schema is None:
+        schema = get_openapi(title=app.title, version=app.version, description=app.description, routes=app.routes)
+        problem = problems.Problem.model_json_schema(ref_template="#/components/schemas/{model}")
+        schema["components"]["schemas"] |= problem.pop("$defs") | {"Problem": problem}
+        app.openapi_schema = schema
+    return app.openapi_schema
+
+
+def _add_health(app: FastAPI) -> None:
+    no_query = [Depends(refuse_query)]
+
+    @app.get("/healthz", response_model=State, dependencies=no_query)
+    async def healthz(response: Response) -> State:
+        """Is the process alive?"""
+        response.headers["Cache-Control"] = "no-store"
+        return State(status="ok")
+
+    @app.get("/readyz", response_model=State, dependencies=no_query)
+    async def readyz(request: Request, response: Response) -> State:
+        """Does this installation give known answers?"""
+        if request.app.state.fault:
+            raise problems.Refused(503, f"The self-test failed: {request.app.state.fault}.")
+        response.headers["Cache-Control"] = "no-store"
+        return State(status="ready")
+
+    @app.get("/metrics", include_in_schema=False)
+    async def metrics(request: Request) -> Response:
+        return Response(generate_latest(request.app.state.registry), media_type=CONTENT_TYPE_LATEST)
+
+
+def _add_pages(app: FastAPI) -> None:
+    @app.get("/docs", include_in_schema=False)
+    async def docs() -> Response:
+        return HTMLResponse(DOCS)
+
+    @app.get("/docs/start.js", include_in_schema=False)
+    async def docs_start() -> Response:
+        return Response(DOCS_START, media_type="text/javascript")
+
+    @app.get("/", include_in_schema=False)
+    async def index() -> Response:
+        return FileResponse(PAGE / "index.html")
+
+    app.mount("/docs/assets", StaticFiles(packages=[("fastapi_swagger", "resources")]))
+    app.mount("/page", StaticFiles(directory=PAGE))

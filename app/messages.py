@@ -1,0 +1,82 @@
+"""What is wrong with a value, in words: its name, the value, its unit, the limit, and what to change."""
+
+from __future__ import annotations
+
+import difflib
+import json
+import math
+from collections.abc import Mapping
+from typing import Any
+
+from app.schemas import UNITS
+
+# Longer values are shortened [characters].
+SHOWN_MAX = 60
+IN_WORDS = {"m": "lengths are in metres", "m/s": "speeds are in metres per second", "rad": "angles are in radians"}
+
+
+def shown(value: Any) -> str:
+    if isinstance(value, float) and not math.isfinite(value):
+        return "NaN" if math.isnan(value) else "Infinity" if value > 0 else "-Infinity"
+    text = json.dumps(value, ensure_ascii=False, default=str)
+    return text if len(text) <= SHOWN_MAX else f"{text[:SHOWN_MAX]}... ({len(text)} characters)"
+
+
+def message(error: Mapping[str, Any]) -> str:
+    """What is wrong with one field: its name, the value, the unit, the limit, and what to change."""
+    names = [part for part in error["loc"][1:] if isinstance(part, str)]
+    name = next((part for part in reversed(names) if part in UNITS), names[-1] if names else "the body")
+    kind, value, limits = error["type"], error["input"], error.get("ctx", {})
+    unit = UNITS.get(name, "")
+    if error["loc"] and isinstance(error["loc"][-1], int):
+        name = f"{name}[{error['loc'][-1]}]"
+    number = _number(value, text=error["loc"][0] == "query")
+    words = str(value) if isinstance(value, str) and number is not None else shown(value)
+    got = f"got {words}" + (f" {unit}" if unit and number is not None else "")
+    limit = next((f"{limits[key]:.15g} {unit}".rstrip() for key in ("ge", "gt", "le", "lt") if key in limits), "")
+    of_unit = f" [{unit}]" if unit else ""
+    match kind:
+        case "greater_than_equal":
+            return f"{name} must be at least {limit}, {got}"
+        case "greater_than":
+            return f"{name} must be more than {limit}, {got}"
+        case "less_than_equal":
+            return f"{name} must be at most {limit}, {got}{_unit_hint(number, limits['le'], unit)}"
+        case "finite_number":
+            return f"{name} must be a finite number{of_unit}, {got}"
+        case "float_type" | "float_parsing":
+            return f"{name} must be a number{of_unit}, {got}"
+        case "int_type" | "int_parsing" | "int_from_float" | "int_parsing_size":
+            return f"{name} must be a whole number, {got}"
+        case "missing":
+            return f"{names[-1] if names else name} is missing"
+        case "extra_forbidden":
+            near = [] if names[-1] in UNITS else difflib.get_close_matches(names[-1], UNITS, n=1)
+            return f"{shown(names[-1])} is unknown here: " + (f"did you mean {near[0]}?" if near else "leave it out")
+        case "model_type" | "model_attributes_type" | "dict_type":
+            other = ", or a list of instants [s]" if name == "times" else ""
+            return f"{name} must be a JSON object{other}, {got}"
+        case "too_short":
+            return f"{name} must have at least {limits['min_length']} entry, got none"
+        case "literal_error" | "enum":
+            return f"{name} must be {limits['expected']}, {got}"
+        case "too_many_names":
+            return f"{name} must have at most {limits['most']} names, got {limits['given']}: see /docs for all names"
+    return f"{name}: {error['msg'][:1].lower()}{error['msg'][1:]}, {got}"
+
+
+def _number(value: Any, *, text: bool) -> float | None:
+    """The value as a finite number, also from text if that counts."""
+    if isinstance(value, bool) or not isinstance(value, (int, float, str) if text else (int, float)):
+        return None
+    try:
+        number = float(value)
+    except (ValueError, OverflowError):
+        return None
+    return number if math.isfinite(number) else None
+
+
+def _unit_hint(value: float | None, limit: float, unit: str) -> str:
+    if unit == "m" and value is not None and value / 100 <= limit:
+        return f": lengths are in metres, and {value:g} cm is {value / 100:g} m"
+    return f": {IN_WORDS[unit]}" if unit in IN_WORDS else ""

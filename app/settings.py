@@ -1,0 +1,34 @@
+"""Limits of the service, read from BENCH_DRAGON_* environment variables."""
+
+from __future__ import annotations
+
+from pydantic import Field
+from pydantic_settings import BaseSettings, SettingsConfigDict
+
+from core import TooLarge
+
+
+class Settings(BaseSettings):
+    """What one process is willing to do for one request, and for how many at once.
+
+    Each field is set by BENCH_DRAGON_ followed by its name in capitals, such as BENCH_DRAGON_BENCHES_MAX.
+    """
+
+    model_config = SettingsConfigDict(env_prefix="BENCH_DRAGON_", frozen=True)
+
+    body_bytes_max: int = Field(4_000_000, ge=1, description="Longest request body [bytes]")
+    benches_max: int = Field(100_000, ge=1, description="Longest dragon [benches]")
+    drawn_benches_max: int = Field(5_000, ge=1, description="Longest dragon in a figure [benches]")
+    cells_max: int = Field(1_000_000, ge=1, description="Largest table: instants x handles")
+    workbook_cells_max: int = Field(200_000, ge=1, description="The same for xlsx, which is slow to write")
+    poses_max: int = Field(20_000, ge=1, description="Most benches in one /overlaps request")
+    pairs_max: int = Field(20_000, ge=1, description="Most overlapping pairs in one /overlaps answer")
+    concurrent_max: int = Field(8, ge=1, description="Computations at once; one more is answered with 503")
+    retry_after: int = Field(1, ge=1, description="Wait that a 503 asks for [s]")
+    cache_seconds: int = Field(86_400, ge=0, description="Cache-Control max-age of an answer [s]")
+
+
+def check_limit(field: str, what: str, count: int, limit: int, advice: str) -> None:
+    """raises: TooLarge at the field when there are more than the limit of what"""
+    if count > limit:
+        raise TooLarge(field, f"{what} must be at most {limit} here, got {count}: {advice}")
