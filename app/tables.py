@@ -1,4 +1,4 @@
-"""A trajectory as a file: CSV and Arrow with one row per instant and handle, xlsx laid out like the contest's result1.xlsx.
+"""A trajectory as a file: JSON, CSV, Arrow, or a workbook laid out like the contest's result1.xlsx.
 
 The same trajectory gives the same bytes, so an answer may carry a strong ETag.
 """
@@ -14,6 +14,7 @@ import orjson
 import xlsxwriter
 from xlsxwriter.worksheet import Worksheet
 
+from app.answers import columns_json
 from core import BenchDragonError, TooLarge, Trajectory
 from core.dragon import Floats
 
@@ -76,6 +77,12 @@ def _columns(result: Trajectory, decimals: int | None) -> dict[str, np.ndarray]:
     return dict(zip(COLUMNS, values, strict=True))
 
 
+def trajectory_json(result: Trajectory, *, decimals: int | None = None) -> bytes:
+    """JSON columns time (T,) [s]; x, y (T, H) [m]; speed (T, H) [m/s]."""
+    x, y = result.position[..., 0], result.position[..., 1]
+    return columns_json({"time": result.time, "x": x, "y": y, "speed": result.speed}, decimals)
+
+
 def trajectory_csv(result: Trajectory, *, decimals: int | None = None) -> bytes:
     """CSV with the columns time [s], handle, x [m], y [m], speed [m/s].
 
@@ -109,14 +116,14 @@ def trajectory_arrow(result: Trajectory, *, decimals: int | None = None) -> byte
     return sink.getvalue()
 
 
-def trajectory_xlsx(
-    result: Trajectory, *, decimals: int = XLSX_DECIMALS, language: Language = Language.ENGLISH
-) -> bytes:
+def trajectory_xlsx(result: Trajectory, *, decimals: int | None = None, language: Language = Language.ENGLISH) -> bytes:
     """Workbook with a sheet of positions and a sheet of speeds: handles as rows, instants as columns.
 
     Positions have two rows for each handle, x above y.
+    decimals: None gives XLSX_DECIMALS
     raises: TooLarge when the format has too few rows or columns
     """
+    decimals = XLSX_DECIMALS if decimals is None else decimals
     instants, handles = result.speed.shape
     if 2 * handles + 1 > XLSX_ROWS_MAX or instants + 1 > XLSX_COLUMNS_MAX:
         raise TooLarge(
@@ -126,13 +133,14 @@ def trajectory_xlsx(
         )
     names = handle_names(handles - 1, language)
     chinese = language is Language.CHINESE
+    gap = "" if chinese else " "
     sink = io.BytesIO()
     with xlsxwriter.Workbook(sink, {"in_memory": True}) as book:
         book.set_properties({"created": XLSX_CREATED})
         number = book.add_format({"num_format": "0." + "0" * decimals if decimals else "0"})
         positions = result.position.transpose(1, 2, 0).reshape(2 * handles, instants)
         for title, labels, rows in (
-            ("位置" if chinese else "positions", [f"{n} {axis} (m)" for n in names for axis in "xy"], positions),
+            ("位置" if chinese else "positions", [f"{n}{gap}{axis} (m)" for n in names for axis in "xy"], positions),
             ("速度" if chinese else "speeds", [f"{n} (m/s)" for n in names], result.speed.T),
         ):
             sheet = book.add_worksheet(title)
@@ -144,7 +152,7 @@ def trajectory_xlsx(
 
 
 def _write_rows(sheet: Worksheet, time: Floats, labels: list[str], rows: Floats) -> None:
-    sheet.write_row(0, 1, [f"{instant:g} s" for instant in time.tolist()])
+    sheet.write_row(0, 1, [f"{instant:.12g} s" for instant in time.tolist()])
     for k, (label, row) in enumerate(zip(labels, rows.tolist(), strict=True), start=1):
         sheet.write_string(k, 0, label)
         for column, value in enumerate(row, start=1):

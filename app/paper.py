@@ -1,0 +1,215 @@
+"""What the paper reports beside what this program computes, and why the two differ.
+
+The paper: J. Yang, R. Xie, J. Cao, "Dynamic Simulation and Optimization Analysis of The Bench Dragon Performance".
+Its own four numbers and its search range are typed in here; every other number is computed when asked for.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cache
+
+import numpy as np
+
+from core import (
+    Dragon,
+    FirstContact,
+    Outcome,
+    Spiral,
+    bench_poses,
+    clearance_profile,
+    first_contact,
+    minimum_pitch,
+    run_end,
+)
+from core import trajectory as trajectory_of
+from core.angle_sum import angle_sums, literal_corners
+from core.dragon import Floats
+from core.rectangles import corners
+
+PAPER_LENGTH = 442.590256  # [m], eq. 2
+PAPER_TIME = 406.43  # [s], figure 7
+PAPER_RADIUS = 2.883  # [m], section 3.3
+PAPER_PITCH = 0.474924  # [m], section 3.3
+PAPER_RANGE = (0.30, 0.55)  # [m], section 3.3
+TURNING_RADIUS = 4.5  # [m], section 2.5
+
+# The angle sum [deg] that must count as 360 for the paper's time to come out.
+LOOSE_ANGLE = 359.1
+# Rounding of an angle sum [deg]: corners inside give 360 within 1e-12, corners 1e-9 m outside give less than this.
+EXACT_ANGLE = 360.0 - 1e-6
+# The head's neighbourhood: the ring around it has at most 34 benches, those further back are a ring further out.
+RING_BENCHES = 40
+# Steps of the searches for a first time [s] and for sign changes in the pitch [m], and where bisection stops.
+TIME_STEP = 0.05
+PITCH_STEP = 0.001
+RESOLUTION = 1e-10
+
+
+@dataclass(frozen=True, slots=True)
+class Evidence:
+    """One computation that bears on a difference: what was computed, its value and unit."""
+
+    what: str
+    value: float
+    unit: str
+
+
+@dataclass(frozen=True, slots=True)
+class Comparison:
+    """One number of the paper: where it stands there, ours, ours minus the paper's, and why they differ."""
+
+    quantity: str
+    unit: str
+    source: str
+    paper: float
+    ours: float
+    difference: float
+    reason: str
+    evidence: tuple[Evidence, ...]
+
+
+@cache
+def comparison() -> tuple[Comparison, ...]:
+    """The four numbers that the paper reports, for its own dragon and spiral."""
+    found = first_contact(Dragon(), Spiral())
+    return (_arc_length(), _collision_time(found), _collision_radius(found), _minimum_pitch())
+
+
+def _compared(
+    quantity: str, unit: str, source: str, paper: float, ours: float, reason: str, evidence: list[Evidence]
+) -> Comparison:
+    return Comparison(quantity, unit, source, paper, ours, ours - paper, reason, tuple(evidence))
+
+
+def _arc_length() -> Comparison:
+    length = Spiral().length
+    return _compared(
+        "arc length of the spiral", "m", "eq. 2", PAPER_LENGTH, length, "The same, to the paper's six decimals.", []
+    )
+
+
+def _collision_time(found: FirstContact) -> Comparison:
+    assert found.time is not None
+    loose = _first_time(corners, LOOSE_ANGLE)
+    literal = _first_time(literal_corners, EXACT_ANGLE)
+    there = clearance_profile(Dragon(), Spiral(), np.array([PAPER_TIME]))
+    a, b = (int(bench) for bench in there.benches[0])
+    gap = float(there.clearance[0])
+    return _compared(
+        "time of first contact", "s", "figure 7", PAPER_TIME, found.time,
+        f"The paper's rule adds angles and calls 360 degrees a collision. Near an edge the sum nears 360 degrees "
+        f"without a contact: it passes {LOOSE_ANGLE:g} degrees at {loose:.2f} s, where benches {a} and {b} are "
+        f"{1000 * gap:.1f} mm apart. Rounding such a sum up to 360 gives the paper's time.",
+        [
+            Evidence("largest angle sum at the paper's time", _largest_sum(corners, PAPER_TIME), "deg"),
+            Evidence(f"first time of an angle sum of {LOOSE_ANGLE:g} degrees", loose, "s"),
+            Evidence(f"clearance at the paper's time, benches {a} and {b}", gap, "m"),
+            Evidence("first time of an angle sum of 360 degrees", _first_time(corners, EXACT_ANGLE), "s"),
+            Evidence("the same with the corners of eq. 12 as printed, its wrong signs kept", literal, "s"),
+        ],
+    )  # fmt: skip
+
+
+def _collision_radius(found: FirstContact) -> Comparison:
+    assert found.head is not None
+    head = trajectory_of(Dragon(benches=1), Spiral(), [PAPER_TIME]).position[0, 0]
+    radius = float(np.hypot(*head))
+    # A spiral that starts at that radius is as long as the way that is left.
+    passed = Spiral().length - Spiral(start_turns=PAPER_RADIUS / Spiral().pitch).length
+    return _compared(
+        "radius of the head at first contact", "m", "section 3.3", PAPER_RADIUS, found.head.radius,
+        f"The paper's own numbers exclude each other: at its {PAPER_TIME:g} s the head is at {radius:.3f} m, and "
+        f"it passes {PAPER_RADIUS:g} m at {passed:.2f} s. No reading was found that gives the paper's number.",
+        [
+            Evidence("radius of the head at the paper's time", radius, "m"),
+            Evidence("time at which the head passes the paper's radius", passed, "s"),
+        ],
+    )  # fmt: skip
+
+
+def _minimum_pitch() -> Comparison:
+    found = minimum_pitch(Dragon(), turning_radius=TURNING_RADIUS)
+    below, above = _bisected_radius()
+    at_paper = _contact_radius(PAPER_PITCH)
+    poses = _circle_pitches()
+    return _compared(
+        "minimum pitch", "m", "section 3.3", PAPER_PITCH, found.pitch,
+        f"The paper bisects the radius of first contact towards {TURNING_RADIUS:g} m, but that radius jumps from "
+        f"{_contact_radius(below):.3f} to {_contact_radius(above):.3f} m at a pitch of {above:.7f} m: none gives "
+        f"{TURNING_RADIUS:g} m, so the error that it drives to 1e-10 cannot vanish. At the paper's pitch the head "
+        f"gets to {at_paper:.3f} m, well inside the circle. No reading was found that gives the paper's number.",
+        [
+            Evidence("pitch at which a bisection of the radius ends", above, "m"),
+            Evidence("radius of first contact just below it", _contact_radius(below), "m"),
+            Evidence("radius of first contact just above it", _contact_radius(above), "m"),
+            Evidence("radius of first contact at the paper's pitch", at_paper, "m"),
+            *(Evidence("pitch at which the pose on the circle alone turns clear or touching", p, "m") for p in poses),
+        ],
+    )  # fmt: skip
+
+
+def _largest_sums(outline: Callable[[Floats, Floats], Floats], times: Floats) -> Floats:
+    """The paper's rule, eqs. 13-16: the largest angle sum between head and body benches at every time.
+
+    outline: what makes the corners (..., 4, 2) from poses and sizes; times: (T,) [s]; returns (T,) [deg]
+    """
+    dragon = Dragon(benches=RING_BENCHES)
+    poses = bench_poses(trajectory_of(dragon, Spiral(), times).position)
+    outlines = outline(poses, np.stack([dragon.lengths, dragon.widths], axis=-1))
+    head, body = outlines[:, :1], outlines[:, 2:]
+    sums = np.maximum(angle_sums(body, head), angle_sums(head, body))
+    return np.asarray(np.degrees(sums.max(axis=(1, 2))))
+
+
+def _largest_sum(outline: Callable[[Floats, Floats], Floats], time: float) -> float:
+    return float(_largest_sums(outline, np.array([time]))[0])
+
+
+def _first_time(outline: Callable[[Floats, Floats], Floats], angle: float) -> float:
+    """First time [s] at which an angle sum reaches an angle [deg], among instants TIME_STEP apart, then bisected."""
+    times = np.arange(0.0, run_end(Dragon(), Spiral()).time, TIME_STEP)
+    for some in np.array_split(times, 20):
+        reached = np.flatnonzero(_largest_sums(outline, some) >= angle)
+        if reached.size:
+            high = float(some[reached[0]])
+            return _bisected(lambda time: _largest_sum(outline, time) >= angle, high - TIME_STEP, high)[1]
+    raise AssertionError(f"no angle sum of this dance reaches {angle} degrees")
+
+
+def _bisected(holds: Callable[[float], bool], low: float, high: float) -> tuple[float, float]:
+    """Bracket of one change: holds(low) differs from holds(high), RESOLUTION apart."""
+    before = holds(low)
+    while high - low > RESOLUTION:
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if holds(middle) == before else (low, middle)
+    return low, high
+
+
+def _contact_radius(pitch: float) -> float:
+    """Where the head stands at first contact [m]; 0 when nothing touches."""
+    path = Spiral(pitch)
+    found = first_contact(Dragon(), path)
+    if found.outcome is Outcome.CONTACT_AT_START:
+        return path.growth * path.start_theta
+    return found.head.radius if found.head else 0.0
+
+
+def _bisected_radius() -> tuple[float, float]:
+    """Section 3.3: bisect the pitch until the head stops at the circle; the two pitches where that ends."""
+    return _bisected(lambda pitch: _contact_radius(pitch) <= TURNING_RADIUS, *PAPER_RANGE)
+
+
+def _circle_pitches() -> list[float]:
+    """Every pitch in the paper's range at which the pose on the circle alone starts or stops touching."""
+
+    def touching(pitch: float) -> bool:
+        # On a spiral that starts at the circle the head is there at time 0.
+        path = Spiral(pitch, TURNING_RADIUS / pitch)
+        return bool(clearance_profile(Dragon(), path, np.array([0.0])).clearance[0] <= 0.0)
+
+    pitches = np.arange(*PAPER_RANGE, PITCH_STEP).tolist()
+    words = [touching(pitch) for pitch in pitches]
+    changes = [k for k in range(1, len(words)) if words[k] != words[k - 1]]
+    return [_bisected(touching, pitches[k - 1], pitches[k])[1] for k in changes]

@@ -1,0 +1,146 @@
+"""A trajectory as a file, read back by programs that we did not write."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+import sys
+
+import numpy as np
+import openpyxl
+import pyarrow
+import pytest
+
+from app import tables
+from app.tables import Language
+from core import Dragon, Spiral, TooLarge, Trajectory, trajectory
+from core.dragon import Floats
+
+SIX_DECIMALS = 0.5e-6  # [m and m/s]: half of the last digit written
+ROUNDING = 1e-15  # [m and m/s]: of the decimal text itself
+
+
+@pytest.fixture(scope="module")
+def dance() -> Trajectory:
+    return trajectory(Dragon(benches=5), Spiral(), [0.0, 0.5, 10.0])
+
+
+def columns_of(dance: Trajectory) -> tuple[Floats, ...]:
+    """time, handle, x, y, speed, row by row, written out the slow way."""
+    instants, handles = dance.speed.shape
+    rows = [
+        (dance.time[t], k, *dance.position[t, k], dance.speed[t, k]) for t in range(instants) for k in range(handles)
+    ]
+    return tuple(np.array(rows).T)
+
+
+def test_csv_holds_every_number_in_full_precision(dance: Trajectory) -> None:
+    rows = list(csv.reader(io.StringIO(tables.trajectory_csv(dance).decode())))
+    assert tuple(rows[0]) == ("time", "handle", "x", "y", "speed")
+    read = np.array(rows[1:], dtype=np.float64).T
+    assert np.array_equal(read, np.array(columns_of(dance)))
+
+
+def test_csv_rounds_when_asked(dance: Trajectory) -> None:
+    rows = list(csv.reader(io.StringIO(tables.trajectory_csv(dance, decimals=6).decode())))[1:]
+    assert all(len(text.partition(".")[2]) <= 6 for row in rows for text in row[2:])
+    assert np.abs(np.array(rows, dtype=np.float64).T - columns_of(dance)).max() <= SIX_DECIMALS + ROUNDING
+
+
+def test_rounding_never_writes_a_negative_zero(dance: Trajectory) -> None:
+    # The head starts at y = 8.8 sin(32 pi), a rounding error below zero.
+    assert dance.position[0, 0, 1] < 0.0
+    assert b"-0.0," not in tables.trajectory_csv(dance, decimals=6)
+
+
+def test_csv_of_no_instant_is_its_header() -> None:
+    nothing = Trajectory(np.empty(0), np.empty((0, 3, 2)), np.empty((0, 3, 2)), np.empty((0, 3)))
+    assert tables.trajectory_csv(nothing) == b"time,handle,x,y,speed\n"
+
+
+def test_json_has_one_row_per_instant(dance: Trajectory) -> None:
+    table = json.loads(tables.trajectory_json(dance))
+    assert table == {
+        "time": dance.time.tolist(),
+        "x": dance.position[..., 0].tolist(),
+        "y": dance.position[..., 1].tolist(),
+        "speed": dance.speed.tolist(),
+    }
+
+
+def test_arrow_reads_back_as_the_same_numbers(dance: Trajectory) -> None:
+    table = pyarrow.ipc.open_file(tables.trajectory_arrow(dance)).read_all()
+    assert tuple(table.column_names) == ("time", "handle", "x", "y", "speed")
+    assert np.array_equal([column.to_numpy() for column in table.columns], columns_of(dance))
+
+
+def test_arrow_without_pyarrow_says_what_to_install(dance: Trajectory, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "pyarrow", None)
+    with pytest.raises(tables.MissingPackage, match=r"pip install 'bench-dragon\[arrow\]'"):
+        tables.trajectory_arrow(dance)
+
+
+@pytest.mark.parametrize(
+    ("language", "titles", "first", "last"),
+    [
+        (Language.ENGLISH, ["positions", "speeds"], "head x (m)", "tail (rear) (m/s)"),
+        (Language.CHINESE, ["位置", "速度"], "龙头x (m)", "龙尾（后） (m/s)"),
+    ],
+    ids=["english", "chinese"],
+)
+def test_workbook_has_the_layout_of_the_contest(
+    dance: Trajectory, language: Language, titles: list[str], first: str, last: str
+) -> None:
+    book = openpyxl.load_workbook(io.BytesIO(tables.trajectory_xlsx(dance, language=language)))
+    assert book.sheetnames == titles
+    positions, speeds = (list(sheet.iter_rows(values_only=True)) for sheet in book.worksheets)
+    assert positions[0] == speeds[0] == (None, "0 s", "0.5 s", "10 s")
+    assert positions[1][0] == first
+    assert speeds[-1][0] == last
+    x_and_y = np.array([row[1:] for row in positions[1:]]).reshape(6, 2, 3)
+    assert np.abs(x_and_y - dance.position.transpose(1, 2, 0)).max() <= SIX_DECIMALS + ROUNDING
+    assert np.abs(np.array([row[1:] for row in speeds[1:]]) - dance.speed.T).max() <= SIX_DECIMALS + ROUNDING
+
+
+def test_workbook_shows_six_decimals(dance: Trajectory) -> None:
+    sheet = openpyxl.load_workbook(io.BytesIO(tables.trajectory_xlsx(dance))).worksheets[0]
+    assert sheet["B2"].number_format == "0.000000"
+    assert sheet["B2"].value == 8.8
+
+
+@pytest.mark.parametrize(
+    ("benches", "names"),
+    [
+        (1, ["龙头", "龙尾（后）"]),
+        (2, ["龙头", "龙尾", "龙尾（后）"]),
+        (4, ["龙头", "第1节龙身", "第2节龙身", "龙尾", "龙尾（后）"]),
+    ],
+)
+def test_handles_are_named_after_the_bench_that_they_lead(benches: int, names: list[str]) -> None:
+    assert tables.handle_names(benches, Language.CHINESE) == names
+
+
+def test_the_default_dragon_has_the_names_of_the_contest() -> None:
+    names = tables.handle_names(223, Language.CHINESE)
+    assert (names[221], names[222], names[223]) == ("第221节龙身", "龙尾", "龙尾（后）")
+
+
+@pytest.mark.parametrize("write", [tables.trajectory_csv, tables.trajectory_xlsx, tables.trajectory_arrow])
+def test_equal_trajectories_give_equal_bytes(dance: Trajectory, write) -> None:  # type: ignore[no-untyped-def]
+    assert write(dance) == write(trajectory(Dragon(benches=5), Spiral(), [0.0, 0.5, 10.0]))
+
+
+@pytest.mark.parametrize(("instants", "fits"), [(16_383, True), (16_384, False)], ids=["at", "above"])
+def test_workbook_refuses_more_instants_than_it_has_columns(instants: int, fits: bool) -> None:
+    still = Trajectory(
+        np.arange(instants, dtype=np.float64),
+        np.zeros((instants, 2, 2)),
+        np.zeros((instants, 2, 2)),
+        np.zeros((instants, 2)),
+    )
+    if fits:
+        assert openpyxl.load_workbook(io.BytesIO(tables.trajectory_xlsx(still))).worksheets[0].max_column == 16_384
+    else:
+        with pytest.raises(TooLarge, match="16383 instants"):
+            tables.trajectory_xlsx(still)
