@@ -792,3 +792,1195 @@ def pair_separations(
                 b[i, 0], b[i, 1], b[i, 2], b[i, 3], b[i, 4], b[i, 5],
                 out[i],
             )  # fmt: skip
+
+
+# Broad phase: the rectangles' upright boxes, ordered so that neighbours in the list lie near each other, hang in
+# fours from a complete binary tree: node 1 is the root, node k has the children 2 k and 2 k + 1, node leaves + k
+# holds rows 4 k to 4 k + 3. A walk that needs no stack: down to 2 k where the node's box is met, else on to k + 1
+# and up while that is a left child (even), for its parent has the same first leaf. Starting row i's walk at its
+# own leaf meets every later row once, and every pair whose boxes meet.
+BOXES_PER_LEAF = 4
+LEAF = cython.declare(cython.Py_ssize_t, BOXES_PER_LEAF)
+
+
+@cython.cfunc
+@cython.inline
+@cython.nogil
+@cython.exceptval(check=False)
+def boxes_meet(
+    a: cython.double[:, ::1], i: cython.Py_ssize_t, b: cython.double[:, ::1], j: cython.Py_ssize_t
+) -> cython.bint:
+    """Whether row i of a and row j of b, both x low, y low, x high, y high, meet or touch."""
+    return a[i, 0] <= b[j, 2] and b[j, 0] <= a[i, 2] and a[i, 1] <= b[j, 3] and b[j, 1] <= a[i, 3]
+
+
+@cython.ccall
+@cython.exceptval(check=False)
+def grow_tree(boxes: cython.double[:, ::1], tree: cython.double[:, ::1]) -> cython.void:
+    """Fill the tree over the boxes. boxes: (n, 4); tree: (2 leaves, 4), leaves a power of two >= n / 4."""
+    leaves: cython.Py_ssize_t = tree.shape[0] // 2
+    k: cython.Py_ssize_t
+    i: cython.Py_ssize_t
+    with cython.nogil:
+        for k in range(tree.shape[0]):
+            tree[k, 0] = tree[k, 1] = NO_LIMIT
+            tree[k, 2] = tree[k, 3] = -NO_LIMIT
+        for i in range(boxes.shape[0]):
+            widen(tree, leaves + i // LEAF, boxes, i)
+        for k in range(tree.shape[0] - 1, 1, -1):
+            widen(tree, k // 2, tree, k)
+
+
+@cython.cfunc
+@cython.nogil
+@cython.exceptval(check=False)
+def widen(
+    tree: cython.double[:, ::1], k: cython.Py_ssize_t, boxes: cython.double[:, ::1], i: cython.Py_ssize_t
+) -> cython.void:
+    """Widen node k so that it holds box i."""
+    axis: cython.int
+    for axis in range(2):
+        if boxes[i, axis] < tree[k, axis]:
+            tree[k, axis] = boxes[i, axis]
+        if boxes[i, axis + 2] > tree[k, axis + 2]:
+            tree[k, axis + 2] = boxes[i, axis + 2]
+
+
+@cython.ccall
+@cython.exceptval(check=False)
+def meeting_pairs(
+    frames: cython.double[:, ::1],
+    boxes: cython.double[:, ::1],
+    tree: cython.double[:, ::1],
+    order: cython.longlong[::1],
+    margin: cython.double,
+    exact: cython.bint,
+    chained: cython.bint,
+    limits: cython.longlong[::1],
+    pairs: cython.longlong[:, ::1],
+    counts: cython.longlong[::1],
+) -> cython.void:
+    """Pairs whose boxes meet; with exact, only those whose separation is at most the margin.
+
+    frames (n, 6), boxes (n, 4), order (n,): rows in the tree's order, and each row's own number
+    chained: leave out pairs of consecutive numbers
+    limits: (2,) the search stops once it has found more pairs, or met more boxes, than these
+    pairs: (capacity, 2), a < b, filled as far as it goes; counts: (2,) pairs found and boxes met
+    """
+    leaves: cython.Py_ssize_t = tree.shape[0] // 2
+    capacity: cython.Py_ssize_t = pairs.shape[0]
+    found: cython.longlong = 0
+    met: cython.longlong = 0
+    a: cython.longlong
+    b: cython.longlong
+    i: cython.Py_ssize_t
+    j: cython.Py_ssize_t
+    k: cython.Py_ssize_t
+    last: cython.Py_ssize_t
+    with cython.nogil:
+        for i in range(boxes.shape[0]):
+            if found > limits[0] or met > limits[1]:
+                break
+            k = leaves + i // LEAF
+            while True:
+                if boxes_meet(tree, k, boxes, i):
+                    if k < leaves:
+                        k = 2 * k
+                        continue
+                    j = (k - leaves) * LEAF
+                    last = j + LEAF if j + LEAF < boxes.shape[0] else boxes.shape[0]
+                    if j <= i:
+                        j = i + 1
+                    while j < last:
+                        if boxes_meet(boxes, i, boxes, j):
+                            met += 1
+                            a = order[i] if order[i] < order[j] else order[j]
+                            b = order[j] if order[i] < order[j] else order[i]
+                            if not (chained and b - a == 1) and (
+                                not exact or rows_gap(frames, i, j, margin) <= margin
+                            ):
+                                if found < capacity:
+                                    pairs[found, 0] = a
+                                    pairs[found, 1] = b
+                                found += 1
+                        j += 1
+                k += 1
+                while k % 2 == 0:
+                    k = k // 2
+                if k == 1:
+                    break
+    counts[0] = found
+    counts[1] = met
+
+
+@cython.cfunc
+@cython.nogil
+@cython.exceptval(check=False)
+def rows_gap(
+    frames: cython.double[:, ::1], i: cython.Py_ssize_t, j: cython.Py_ssize_t, limit: cython.double
+) -> cython.double:
+    """pair_gap_within() of two rows of frames."""
+    return pair_gap_within(
+        frames[i, 0], frames[i, 1], frames[i, 2], frames[i, 3], frames[i, 4], frames[i, 5],
+        frames[j, 0], frames[j, 1], frames[j, 2], frames[j, 3], frames[j, 4], frames[j, 5],
+        limit,
+    )  # fmt: skip
+
+
+# -- certified motion -------------------------------------------------------------------------------
+# The head's travel sigma [m] is the variable; ' is d / d sigma. On [L, R] of width h every quantity below is an
+# upper (or _low lower) bound over the whole interval, from the curvature range [k_low, k_high] of the stretch
+# that the two handles of a link (a leads, b follows, chord c, unit vector u from b to a) sweep.
+#
+# Chord lemma. Let the arc from b to a have curvature in [k_low, k_high], 0 <= k_low, and k_high c < 2. A chord of
+# an arc of length l, curvature at most k and k l <= pi is at least (2 / k) sin(k l / 2) (Schur), and the first
+# root is met before k l = pi; so l lies between those of circles of curvature k_low and k_high. The direction of
+# the chord is the average of the tangents, so the angles alpha between tangents and chord lie in
+# [k_low l / 2, k_high l / 2]: k_low c / 2 <= sin alpha <= k_high c / 2 at both ends.
+#   rigid link        b' cos alpha_b = a' cos alpha_a                      (b', a' the rates ds / d sigma)
+#   turning of u      omega = (a' sin alpha_a + b' sin alpha_b) / c        in [k_low b'_low, k_high a'_high]
+#   angles            alpha_a' = k_a a' - omega, alpha_b' = omega - k_b b' so |alpha'| <= k_high a' - k_low b'_low
+#   link, again       b'' cos alpha_b = a'' cos alpha_a - a' alpha_a' sin alpha_a + b' alpha_b' sin alpha_b
+#   turning, again    omega' c = a'' sin alpha_a + a' alpha_a' cos alpha_a + b'' sin alpha_b + b' alpha_b' cos alpha_b
+# On an inward spiral curvature grows in the direction of travel, so alpha_a >= alpha_b (Vogt) and |b'| <= |a'|.
+#
+# Where k_high c >= 2 (near the centre) the angles are followed from the nearer end of the interval instead: with a
+# trial bound on b', |alpha'| <= k_high max(a', b') + omega bounds the cosines half an interval away, these bound b',
+# and the trial is proven when that is below it (b' is continuous and below the trial at both ends).
+#
+# A handle accelerates by |P''| <= |s''| + k s'^2. A point X of a bench with centre M at distance rho:
+#   |X'| <= |M'| + omega rho,  |X''| <= |M''| + (omega^2 + omega') rho.
+# Gap of bench i along an axis e fixed in bench j: g = min over corners X of i of e . (X - M_j) - support of j, and
+#   |(e . p)''| <= |X''| + |M_j''| + 2 omega_j |X' - M_j'| + (omega_j^2 + omega_j') |p|,  p = X - M_j:  call it K.
+# A function with |g''| <= K stays above its chord minus K x (h - x) / 2, so its least value follows from both ends:
+# two benches do not touch on [L, R] if that exceeds the margin for one axis. No step size is guessed.
+
+# Columns of a chain row, one for each handle.
+COS = cython.declare(cython.int, 0)  # of the polar angle, in a frame in which the head stands at angle 0
+SIN = cython.declare(cython.int, 1)
+TX = cython.declare(cython.int, 2)  # unit tangent in the direction of travel
+TY = cython.declare(cython.int, 3)
+THETA = cython.declare(cython.int, 4)
+RATE = cython.declare(cython.int, 5)  # d s / d sigma
+# and, for the bench behind that handle, its centre and direction
+MX = cython.declare(cython.int, 6)
+MY = cython.declare(cython.int, 7)
+UX = cython.declare(cython.int, 8)
+UY = cython.declare(cython.int, 9)
+CHAIN_COLUMNS = 10
+
+# Columns of a motion row, one for each bench: bounds over an interval.
+CENTRE_SPEED = cython.declare(cython.int, 0)
+CORNER_SPEED = cython.declare(cython.int, 1)
+CENTRE_PULL = cython.declare(cython.int, 2)
+CORNER_PULL = cython.declare(cython.int, 3)
+TURN = cython.declare(cython.int, 4)
+TURN_PULL = cython.declare(cython.int, 5)  # omega^2 + omega'
+MOTION_COLUMNS = 6
+
+# Columns of a size row, one for each bench.
+CHORD = cython.declare(cython.int, 0)
+HALF_LENGTH = cython.declare(cython.int, 1)
+HALF_WIDTH = cython.declare(cython.int, 2)
+RADIUS = cython.declare(cython.int, 3)
+SIZE_COLUMNS = 4
+
+# The chord lemma is used up to this k_high c / 2; beyond it the angles are followed [1].
+LEMMA_LIMIT = cython.declare(cython.double, 0.97)
+# Trial bound on a followed handle's rate, as a multiple of what the ends show [1]; any value > 1 is sound.
+TRIAL = cython.declare(cython.double, 1.5)
+# Larger than any step [m].
+FREE = cython.declare(cython.double, 1e300)
+
+
+@cython.cfunc
+@cython.inline
+@cython.nogil
+@cython.exceptval(check=False)
+def spiral_curvature(theta: cython.double) -> cython.double:
+    """Curvature of the spiral times its growth, falling with theta."""
+    square: cython.double = 1.0 + theta * theta
+    return (1.0 + square) / (square * sqrt(square))
+
+
+@cython.cfunc
+@cython.nogil
+@cython.exceptval(check=False)
+def start_chain(theta: cython.double, chain: cython.double[:, ::1]) -> cython.void:
+    """Row 0: the head at polar angle 0."""
+    length: cython.double = sqrt(1.0 + theta * theta)
+    chain[0, COS] = 1.0
+    chain[0, SIN] = 0.0
+    chain[0, TX] = -1.0 / length
+    chain[0, TY] = -theta / length
+    chain[0, THETA] = theta
+    chain[0, RATE] = 1.0
+
+
+@cython.cfunc
+@cython.nogil
+@cython.exceptval(check=False)
+def extend_chain(
+    growth: cython.double,
+    first: cython.Py_ssize_t,
+    last: cython.Py_ssize_t,
+    radius: cython.double,
+    sizes: cython.double[:, ::1],
+    chain: cython.double[:, ::1],
+) -> cython.Py_ssize_t:
+    """Handles after `first` until one stands at `radius` [m] or is the `last`; returns its index, -1 at a fold."""
+    k: cython.Py_ssize_t
+    theta: cython.double
+    delta: cython.double = 0.0
+    s: cython.double
+    c: cython.double
+    x: cython.double
+    y: cython.double
+    turn: cython.double
+    rise: cython.double
+    length: cython.double
+    chord: cython.double
+    reach: cython.double
+    k = first
+    while k < last and growth * chain[k, THETA] < radius:
+        theta = chain[k, THETA]
+        chord = sizes[k, CHORD]
+        reach = (chord / growth) * (chord / growth)
+        if k > 1 and sizes[k - 1, CHORD] == chord and sizes[k - 2, CHORD] == chord:
+            delta = 2.0 * (theta - chain[k - 1, THETA]) - (chain[k - 1, THETA] - chain[k - 2, THETA])
+        elif k > 0 and sizes[k - 1, CHORD] == chord:
+            delta = theta - chain[k - 1, THETA]
+        else:
+            delta = first_guess(theta, reach)
+        delta, s, c = next_handle(theta, reach, delta)
+        if delta < 0.0:
+            return -1
+        turn = 2.0 * s * c
+        rise = 2.0 * s * s
+        x = chain[k, COS]
+        y = chain[k, SIN]
+        chain[k + 1, COS] = x - (x * rise + y * turn)
+        chain[k + 1, SIN] = y - (y * rise - x * turn)
+        chain[k + 1, THETA] = theta + delta
+        x = growth * theta * x
+        y = growth * theta * y
+        theta += delta
+        length = sqrt(1.0 + theta * theta)
+        c = chain[k + 1, COS]
+        s = chain[k + 1, SIN]
+        chain[k + 1, TX] = (theta * s - c) / length
+        chain[k + 1, TY] = -(theta * c + s) / length
+        c = growth * theta * c
+        s = growth * theta * s
+        chain[k, MX] = 0.5 * (x + c)
+        chain[k, MY] = 0.5 * (y + s)
+        chain[k, UX] = (x - c) / chord
+        chain[k, UY] = (y - s) / chord
+        chain[k + 1, RATE] = (
+            chain[k, RATE]
+            * (chain[k, TX] * chain[k, UX] + chain[k, TY] * chain[k, UY])
+            / (chain[k + 1, TX] * chain[k, UX] + chain[k + 1, TY] * chain[k, UY])
+        )
+        k += 1
+    return k
+
+
+@cython.cfunc
+@cython.nogil
+@cython.exceptval(check=False)
+def motion_bounds(
+    growth: cython.double,
+    h: cython.double,
+    benches: cython.Py_ssize_t,
+    sizes: cython.double[:, ::1],
+    before: cython.double[:, ::1],
+    after: cython.double[:, ::1],
+    motion: cython.double[:, ::1],
+) -> cython.bint:
+    """Bounds on the motion of the first benches over an interval of width h; False when h is too wide for any."""
+    k: cython.Py_ssize_t
+    followed: cython.bint = False
+    chord: cython.double
+    inner: cython.double
+    outer: cython.double
+    k_high: cython.double
+    k_low: cython.double
+    sin_high: cython.double
+    cos_high: cython.double
+    cos_low: cython.double
+    omega: cython.double
+    swing_a: cython.double
+    swing_b: cython.double
+    pull: cython.double
+    spin: cython.double
+    rate_a: cython.double = 1.0
+    rate_low: cython.double = 1.0
+    rate_b: cython.double
+    second_a: cython.double = 0.0
+    second_b: cython.double
+    for k in range(benches):
+        chord = sizes[k, CHORD]
+        inner = after[k, THETA] if after[k, THETA] < before[k, THETA] else before[k, THETA]
+        outer = before[k + 1, THETA] if after[k + 1, THETA] < before[k + 1, THETA] else after[k + 1, THETA]
+        if followed:  # the handle may turn back between the ends: it goes no further in than its rate allows
+            swing_a = 2.0 * rate_a * h / (growth * inner) if inner > 0.0 else FREE
+            inner = inner - swing_a if swing_a <= 0.5 * inner else inner - rate_a * h / growth
+            if inner < 0.0:
+                inner = 0.0
+        k_high = spiral_curvature(inner) / growth
+        sin_high = 0.5 * k_high * chord
+        if sin_high <= LEMMA_LIMIT:
+            k_low = 0.0 if followed else spiral_curvature(outer) / growth
+            cos_low = sqrt(1.0 - sin_high * sin_high)
+            cos_high = sqrt(1.0 - 0.25 * k_low * k_low * chord * chord)
+            rate_low *= cos_low / cos_high
+            rate_b = rate_a
+            swing_a = swing_b = k_high * rate_a - k_low * rate_low
+            omega = k_high * rate_a
+        else:
+            followed = True
+            rate_low = 0.0
+            swing_a = before[k, TX] * before[k, UX] + before[k, TY] * before[k, UY]
+            swing_b = after[k, TX] * after[k, UX] + after[k, TY] * after[k, UY]
+            cos_high = fabs(swing_a) if fabs(swing_a) > fabs(swing_b) else fabs(swing_b)
+            swing_a = before[k + 1, TX] * before[k, UX] + before[k + 1, TY] * before[k, UY]
+            swing_b = after[k + 1, TX] * after[k, UX] + after[k + 1, TY] * after[k, UY]
+            cos_low = swing_a if swing_a < swing_b else swing_b
+            if cos_low <= 0.0:
+                return False
+            rate_b = TRIAL * rate_a * cos_high / cos_low + h
+            omega = (rate_a + rate_b) / chord
+            swing_a = k_high * rate_a + omega
+            swing_b = k_high * rate_b + omega
+            cos_high += 0.5 * h * swing_a
+            if cos_high > 1.0:
+                cos_high = 1.0
+            cos_low -= 0.5 * h * swing_b
+            if cos_low <= 0.0 or rate_a * cos_high > rate_b * cos_low:
+                return False
+            sin_high = 1.0
+        second_b = (cos_high * second_a + sin_high * (rate_a * swing_a + rate_b * swing_b)) / cos_low
+        spin = omega * omega + (
+            cos_high * (rate_a * swing_a + rate_b * swing_b) + sin_high * (second_a + second_b)
+        ) / chord
+        if sin_high == 1.0:
+            spin = omega * omega + (rate_a * swing_a + rate_b * swing_b + second_a + second_b) / chord
+        pull = 0.5 * (second_a + second_b + k_high * (rate_a * rate_a + rate_b * rate_b))
+        motion[k, CENTRE_SPEED] = 0.5 * (rate_a + rate_b)
+        motion[k, CORNER_SPEED] = 0.5 * (rate_a + rate_b) + omega * sizes[k, RADIUS]
+        motion[k, CENTRE_PULL] = pull
+        motion[k, CORNER_PULL] = pull + spin * sizes[k, RADIUS]
+        motion[k, TURN] = omega
+        motion[k, TURN_PULL] = spin
+        rate_a = rate_b
+        second_a = second_b
+    return True
+
+
+@cython.cfunc
+@cython.inline
+@cython.nogil
+@cython.exceptval(check=False)
+def gap_along(
+    i: cython.Py_ssize_t,
+    j: cython.Py_ssize_t,
+    along: cython.double,
+    left: cython.double,
+    sizes: cython.double[:, ::1],
+    chain: cython.double[:, ::1],
+) -> cython.double:
+    """Gap between benches i and j along the unit vector (along, left) of bench i's frame, pointing to j [m]."""
+    ex: cython.double = along * chain[i, UX] - left * chain[i, UY]
+    ey: cython.double = along * chain[i, UY] + left * chain[i, UX]
+    return (
+        ex * (chain[j, MX] - chain[i, MX])
+        + ey * (chain[j, MY] - chain[i, MY])
+        - fabs(along) * sizes[i, HALF_LENGTH]
+        - fabs(left) * sizes[i, HALF_WIDTH]
+        - fabs(ex * chain[j, UX] + ey * chain[j, UY]) * sizes[j, HALF_LENGTH]
+        - fabs(ey * chain[j, UX] - ex * chain[j, UY]) * sizes[j, HALF_WIDTH]
+    )
+
+
+@cython.cfunc
+@cython.nogil
+@cython.exceptval(check=False)
+def best_axis(
+    i: cython.Py_ssize_t,
+    j: cython.Py_ssize_t,
+    sizes: cython.double[:, ::1],
+    chain: cython.double[:, ::1],
+) -> tuple[cython.double, cython.double, cython.double]:
+    """The face normal of bench i with the largest gap to bench j, in i's frame: gap [m], along, left."""
+    dx: cython.double = chain[j, MX] - chain[i, MX]
+    dy: cython.double = chain[j, MY] - chain[i, MY]
+    along: cython.double = 1.0 if dx * chain[i, UX] + dy * chain[i, UY] > 0.0 else -1.0
+    left: cython.double = 1.0 if dy * chain[i, UX] - dx * chain[i, UY] > 0.0 else -1.0
+    lengthwise: cython.double = gap_along(i, j, along, 0.0, sizes, chain)
+    sideways: cython.double = gap_along(i, j, 0.0, left, sizes, chain)
+    if sideways >= lengthwise:
+        return sideways, 0.0, left
+    return lengthwise, along, 0.0
+
+
+@cython.cfunc
+@cython.inline
+@cython.nogil
+@cython.exceptval(check=False)
+def least_between(
+    start: cython.double, end: cython.double, bend: cython.double, h: cython.double
+) -> cython.double:
+    """Least value on an interval of width h of a function with the given end values and |second derivative| <= bend."""
+    rise: cython.double = end - start
+    sag: cython.double = bend * h * h
+    if 2.0 * fabs(rise) >= sag:
+        return start if start < end else end
+    return 0.5 * (start + end) - 0.125 * sag - 0.5 * rise * rise / sag
+
+
+@cython.cfunc
+@cython.nogil
+@cython.exceptval(check=False)
+def axis_bend(
+    i: cython.Py_ssize_t,
+    j: cython.Py_ssize_t,
+    distance: cython.double,
+    sizes: cython.double[:, ::1],
+    motion: cython.double[:, ::1],
+) -> cython.double:
+    """Bound K on the second derivative of a gap along an axis fixed in bench i to the corners of bench j [1/m]."""
+    return (
+        motion[j, CORNER_PULL]
+        + motion[i, CENTRE_PULL]
+        + 2.0 * motion[i, TURN] * (motion[j, CORNER_SPEED] + motion[i, CENTRE_SPEED])
+        + motion[i, TURN_PULL] * (distance + sizes[j, RADIUS])
+    )
+
+
+@cython.cfunc
+@cython.nogil
+@cython.exceptval(check=False)
+def axis_least(
+    i: cython.Py_ssize_t,
+    j: cython.Py_ssize_t,
+    after_decides: cython.bint,
+    bend: cython.double,
+    h: cython.double,
+    sizes: cython.double[:, ::1],
+    before: cython.double[:, ::1],
+    after: cython.double[:, ::1],
+) -> cython.double:
+    """Proven least gap over the interval along the face normal of i that is best at one of its ends [m]."""
+    gap: cython.double
+    along: cython.double
+    left: cython.double
+    if after_decides:
+        gap, along, left = best_axis(i, j, sizes, after)
+        return least_between(gap_along(i, j, along, left, sizes, before), gap, bend, h)
+    gap, along, left = best_axis(i, j, sizes, before)
+    return least_between(gap, gap_along(i, j, along, left, sizes, after), bend, h)
+
+
+@cython.cfunc
+@cython.nogil
+@cython.exceptval(check=False)
+def pair_least(
+    i: cython.Py_ssize_t,
+    j: cython.Py_ssize_t,
+    margin: cython.double,
+    h: cython.double,
+    sizes: cython.double[:, ::1],
+    before: cython.double[:, ::1],
+    after: cython.double[:, ::1],
+    motion: cython.double[:, ::1],
+    out: cython.double[::1],
+) -> cython.double:
+    """A proven lower bound of the separation of benches i and j over the interval [m]; FREE when they are far.
+
+    Tries axes until one exceeds the margin; out[0] is the bound K of the last one.
+    """
+    dx: cython.double = before[j, MX] - before[i, MX]
+    dy: cython.double = before[j, MY] - before[i, MY]
+    drift: cython.double = (motion[i, CENTRE_SPEED] + motion[j, CENTRE_SPEED]) * h
+    square: cython.double = dx * dx + dy * dy
+    far: cython.double = sizes[i, RADIUS] + sizes[j, RADIUS] + margin + drift
+    least: cython.double
+    best: cython.double
+    distance: cython.double
+    turn_x: cython.double
+    turn_y: cython.double
+    if square > far * far:
+        return FREE
+    distance = sqrt(square) + drift
+    out[0] = axis_bend(j, i, distance, sizes, motion)
+    best = axis_least(j, i, True, out[0], h, sizes, before, after)
+    if best > margin:
+        return best
+    least = axis_least(j, i, False, out[0], h, sizes, before, after)
+    if least > best:
+        best = least
+    if best > margin:
+        return best
+    out[0] = axis_bend(i, j, distance, sizes, motion)
+    least = axis_least(i, j, True, out[0], h, sizes, before, after)
+    if least > best:
+        best = least
+    if best > margin:
+        return best
+    least = axis_least(i, j, False, out[0], h, sizes, before, after)
+    if least > best:
+        best = least
+    if best > margin or margin <= 0.0:
+        return best
+    # two corners nearest each other: the direction between them, fixed in bench i
+    pair_separation(
+        after[i, MX], after[i, MY], after[i, UX], after[i, UY], sizes[i, HALF_LENGTH], sizes[i, HALF_WIDTH],
+        after[j, MX], after[j, MY], after[j, UX], after[j, UY], sizes[j, HALF_LENGTH], sizes[j, HALF_WIDTH], out[1:],
+    )
+    turn_x = out[6] * after[i, UX] + out[7] * after[i, UY]
+    turn_y = out[7] * after[i, UX] - out[6] * after[i, UY]
+    least = least_between(
+        gap_along(i, j, turn_x, turn_y, sizes, before), gap_along(i, j, turn_x, turn_y, sizes, after), out[0], h
+    )
+    return least if least > best else best
+
+
+# -- marching to first contact ----------------------------------------------------------------------
+
+# How march() ended.
+REACHED = cython.declare(cython.int, 0)
+TOUCHED = cython.declare(cython.int, 1)
+TOUCHED_AT_START = cython.declare(cython.int, 2)
+STUCK = cython.declare(cython.int, 3)
+CAPACITY = cython.declare(cython.int, 4)
+MARCH_STATES = ("reached", "touched", "touched_at_start", "stuck", "capacity")
+
+# Entries of the ring array: what is known of all benches that can be the outer one of a pair [m].
+RING_CLEAR = cython.declare(cython.int, 0)  # no pair whose inner bench leads at this radius or more can touch
+RING_CHORD = cython.declare(cython.int, 1)  # longest chord
+RING_SHORT = cython.declare(cython.int, 2)  # shortest chord
+RING_OVERHANG = cython.declare(cython.int, 3)
+RING_HALF_WIDTH = cython.declare(cython.int, 4)
+# and of all benches
+ALL_CHORD = cython.declare(cython.int, 5)
+ALL_OVERHANG = cython.declare(cython.int, 6)
+ALL_HALF_WIDTH = cython.declare(cython.int, 7)
+RING_ENTRIES = 8
+
+# Entries of march()'s result.
+PROVEN = cython.declare(cython.int, 0)  # nothing touches up to here [m of head travel]
+TOUCHING = cython.declare(cython.int, 1)  # a pair is within the margin here
+FIRST = cython.declare(cython.int, 2)
+SECOND = cython.declare(cython.int, 3)
+STEPS = cython.declare(cython.int, 4)
+BEND = cython.declare(cython.int, 5)
+GRAZE_GAP = cython.declare(cython.int, 6)  # the least local minimum of the clearance on the way [m], FREE if none
+GRAZE_TRAVEL = cython.declare(cython.int, 7)
+GRAZE_FIRST = cython.declare(cython.int, 8)
+GRAZE_SECOND = cython.declare(cython.int, 9)
+MARCH_ENTRIES = cython.declare(cython.int, 10)
+MARCH_FIELDS = (
+    "proven",
+    "touching",
+    "first",
+    "second",
+    "steps",
+    "bend",
+    "graze_gap",
+    "graze_travel",
+    "graze_first",
+    "graze_second",
+)
+# Golden section, and the relative width at which a dip is found: its value is then flat to rounding [1].
+GOLDEN = cython.declare(cython.double, 0.6180339887498949)
+DIP_WIDTH = cython.declare(cython.double, 1e-9)
+
+
+# A point at distance x along the extended centre line of a bench from the foot of the perpendicular from the
+# spiral's centre has radius^2 = d^2 + x^2. With handles at radii r_a < r_b and x0 = (r_b^2 - r_a^2) / (2 c) they
+# stand at x0 -+ c / 2. Where 0 <= x0 <= c: d^2 >= r_a^2 - c^2 / 4, and no point of the bench is further out than
+# sqrt(r_b^2 + o (c + 2 x0) + o^2) + w / 2. A chord is at least (2 / pi) delta sqrt(r_a r_b), so
+# x0 <= (pi / 4) growth (q + 1 / q), q^2 = r_b / r_a = 1 + delta / theta, which is below 1.67 growth once
+# delta <= theta. Otherwise the triangle inequality serves.
+
+
+@cython.cfunc
+@cython.nogil
+@cython.exceptval(check=False)
+def settled(growth: cython.double, radius: cython.double, ring: cython.double[::1]) -> cython.bint:
+    """Do all benches led from this radius outwards have 0 <= x0 <= 1.67 growth <= c?"""
+    return (
+        ring[RING_SHORT] >= 1.67 * growth
+        and radius * radius >= 1.5708 * ring[RING_CHORD] * growth
+        and radius >= 0.5 * ring[RING_CHORD]
+    )
+
+
+@cython.cfunc
+@cython.nogil
+@cython.exceptval(check=False)
+def radius_beyond(growth: cython.double, radius: cython.double, ring: cython.double[::1]) -> cython.double:
+    """A radius such that every bench led from there or further out lies wholly outside `radius` [m]."""
+    target: cython.double = radius + ring[RING_HALF_WIDTH]
+    beyond: cython.double = sqrt(target * target + 0.25 * ring[RING_CHORD] * ring[RING_CHORD])
+    if settled(growth, beyond, ring):
+        return beyond
+    beyond = 0.5 * ring[RING_CHORD]
+    return target + (beyond if beyond > ring[RING_OVERHANG] else ring[RING_OVERHANG])
+
+
+@cython.cfunc
+@cython.nogil
+@cython.exceptval(check=False)
+def leaders_reach(
+    growth: cython.double, lead: cython.double, rear: cython.double, ring: cython.double[::1]
+) -> cython.double:
+    """No point of benches led from radius `lead` or more, rear handles at `rear` or less, is further out [m]."""
+    chord: cython.double = ring[ALL_CHORD]
+    overhang: cython.double = ring[ALL_OVERHANG]
+    if lead >= 0.5 * chord and lead * lead >= 1.5708 * chord * growth:
+        return sqrt(rear * rear + overhang * (chord + 3.34 * growth + overhang)) + ring[ALL_HALF_WIDTH]
+    return rear + overhang + ring[ALL_HALF_WIDTH]
+
+
+# Rings. Let E = |X| - growth psi for a point X of a bench at unwrapped polar angle psi: how far it lies outside the
+# curve itself. Along the centre line e(x) = sqrt(d^2 + x^2) - growth (psi_foot + atan(x / d)) vanishes at both handles
+# and 0 <= e'' = d^2 / rho^3 + 2 growth d x / rho^4 <= q = 1 / d + 2 growth x_max / d^3 (for d > 2 growth), so between
+# the handles e >= -q c^2 / 8 and on an overhang o e <= q o (o + c) / 2. Sideways |dE / dy| <= sqrt(1 + (growth / rho)^2).
+# Hence -I <= E <= O with the bows O and I below, both falling as 1 / r. Points X, Y of two benches whose polar angles
+# differ by 2 pi m + x, m >= 1, |x| <= pi, are apart radially by at least G + growth x, G = pitch - O - I, and sideways by
+# at least 2 rho |x| / pi: together G / sqrt(1 + (pi growth / 2 rho)^2). With m = 0 at least one bench lies between them:
+# its angle less the two overhangs' angles remains, each at most (o + x_b w / 2 d) / (d - w / 2), and a chord spans at
+# least c / sqrt(growth^2 + r_b^2). Every term grows with r, so the bound holds from r outwards.
+
+
+@cython.ccall
+@cython.nogil
+@cython.exceptval(check=False)
+def ring_least(
+    growth: cython.double,
+    radius: cython.double,
+    chord: cython.double,
+    shortest: cython.double,
+    overhang: cython.double,
+    half_width: cython.double,
+    outer_chord: cython.double,
+    outer_half_width: cython.double,
+) -> cython.double:
+    """Lower bound of the separation of any two non-neighbours whose inner bench leads at `radius` or further out [m].
+
+    chord, shortest, overhang, half_width: the extremes over all benches; outer_...: over those that can be the outer
+    one; -1e300 where the bound says nothing.
+    """
+    d2: cython.double = radius * radius - 0.25 * chord * chord
+    d: cython.double
+    rho: cython.double
+    q: cython.double
+    x_rear: cython.double = 0.5 * chord + 1.67 * growth
+    gap: cython.double
+    same_turn: cython.double
+    if d2 <= 0.0 or shortest < 1.67 * growth or radius * radius < 1.5708 * chord * growth:
+        return -FREE
+    d = sqrt(d2)
+    rho = d - (half_width if half_width > outer_half_width else outer_half_width)
+    if d <= 2.0 * growth or rho <= 0.0:
+        return -FREE
+    q = 1.0 / d + 2.0 * growth * (x_rear + overhang) / (d * d2)
+    gap = TWO_PI * growth - 0.5 * q * overhang * (overhang + chord) - 0.125 * q * outer_chord * outer_chord
+    gap -= (half_width + outer_half_width) * sqrt(1.0 + growth * growth / (rho * rho))
+    if gap <= 0.0:
+        return -FREE
+    gap /= sqrt(1.0 + PI * PI * growth * growth / (4.0 * rho * rho))
+    same_turn = shortest * rho / sqrt(growth * growth + (radius + PI * growth * chord / radius) ** 2)
+    same_turn = (same_turn - 2.0 * (overhang + x_rear * half_width / d)) * 2.0 / PI
+    if rho < same_turn:
+        same_turn = rho
+    return gap if gap < same_turn else same_turn
+
+
+@cython.cfunc
+@cython.nogil
+@cython.exceptval(check=False)
+def chain_between(
+    growth: cython.double,
+    theta: cython.double,
+    leaders: cython.Py_ssize_t,
+    benches: cython.Py_ssize_t,
+    margin: cython.double,
+    allowance: cython.double,
+    ring: cython.double[::1],
+    sizes: cython.double[:, ::1],
+    chain: cython.double[:, ::1],
+    found: cython.Py_ssize_t[::1],
+) -> cython.Py_ssize_t:
+    """The chain for a head at theta as far as its leading benches can touch; the last handle's index, -1 at a fold.
+
+    found[0] = how many benches can be the inner one of a touching pair
+    allowance: extra radius for what moves during an interval [m]
+    """
+    k: cython.Py_ssize_t
+    radius: cython.double
+    start_chain(theta, chain)
+    k = extend_chain(growth, 0, leaders, ring[RING_CLEAR], sizes, chain)
+    found[0] = k
+    if k <= 0:
+        return k
+    radius = leaders_reach(growth, growth * theta, growth * chain[k, THETA] + allowance, ring)
+    return extend_chain(growth, k, benches, radius_beyond(growth, radius + margin, ring) + allowance, sizes, chain)
+
+
+@cython.cfunc
+@cython.nogil
+@cython.exceptval(check=False)
+def drift(rate: cython.double, h: cython.double, growth: cython.double, radius: cython.double) -> cython.double:
+    """How far a handle's radius changes while it travels rate * h along the spiral [m]."""
+    radial: cython.double = 2.0 * rate * h * growth / radius if radius > 0.0 else FREE
+    return radial if radial <= 0.5 * radius else rate * h
+
+
+@cython.cfunc
+@cython.nogil
+@cython.exceptval(check=False)
+def interval_least(
+    growth: cython.double,
+    h: cython.double,
+    active: cython.Py_ssize_t,
+    handles: cython.Py_ssize_t,
+    benches: cython.Py_ssize_t,
+    margin: cython.double,
+    ring: cython.double[::1],
+    sizes: cython.double[:, ::1],
+    before: cython.double[:, ::1],
+    after: cython.double[:, ::1],
+    motion: cython.double[:, ::1],
+    out: cython.double[::1],
+) -> cython.double:
+    """Proven least separation over an interval of all pairs led by the first `active` benches [m]; -FREE: too wide.
+
+    out: (14,) [0] K of the least pair, [1] and [2] that pair, [3] the widest interval the same pairs would allow [m],
+    [4] the least gap at the far end; the rest is scratch
+    """
+    i: cython.Py_ssize_t
+    j: cython.Py_ssize_t
+    least: cython.double
+    best: cython.double = FREE
+    bend: cython.double = 0.0
+    room: cython.double = FREE
+    width: cython.double
+    low: cython.double
+    high: cython.double
+    a: cython.Py_ssize_t = 0
+    b: cython.Py_ssize_t = 0
+    if not motion_bounds(growth, h, handles, sizes, before, after, motion):
+        return -FREE
+    if handles < benches:  # those left out must stay outside the reach of the leaders
+        high = before[active, THETA] if before[active, THETA] > after[active, THETA] else after[active, THETA]
+        high *= growth
+        high += drift(2.0 * motion[active - 1, CENTRE_SPEED], h, growth, high)
+        low = before[0, THETA] if before[0, THETA] < after[0, THETA] else after[0, THETA]
+        high = leaders_reach(growth, growth * low, high, ring)
+        low = before[handles, THETA] if before[handles, THETA] < after[handles, THETA] else after[handles, THETA]
+        low *= growth
+        if low - drift(2.0 * motion[handles - 1, CENTRE_SPEED], h, growth, low) < radius_beyond(
+            growth, high + margin, ring
+        ):
+            return -FREE
+    for i in range(active):
+        for j in range(i + 2, handles):
+            least = pair_least(i, j, margin, h, sizes, before, after, motion, out)
+            if least >= FREE:
+                continue
+            width = 8.0 * (least - margin) / out[0] + h * h
+            width = sqrt(width) if width > 0.0 else 0.0
+            if width < room:
+                room = width
+            if least < best:
+                best = least
+                bend = out[0]
+                a = i
+                b = j
+    out[0] = bend
+    out[1] = a
+    out[2] = b
+    out[3] = room
+    return best
+
+
+@cython.cfunc
+@cython.nogil
+@cython.exceptval(check=False)
+def row_gap(
+    i: cython.Py_ssize_t, j: cython.Py_ssize_t, sizes: cython.double[:, ::1], chain: cython.double[:, ::1]
+) -> cython.double:
+    """Separation of benches i and j of a chain [m]."""
+    return pair_gap(
+        chain[i, MX], chain[i, MY], chain[i, UX], chain[i, UY], sizes[i, HALF_LENGTH], sizes[i, HALF_WIDTH],
+        chain[j, MX], chain[j, MY], chain[j, UX], chain[j, UY], sizes[j, HALF_LENGTH], sizes[j, HALF_WIDTH],
+    )
+
+
+@cython.cfunc
+@cython.nogil
+@cython.exceptval(check=False)
+def row_clearance(
+    active: cython.Py_ssize_t,
+    handles: cython.Py_ssize_t,
+    sizes: cython.double[:, ::1],
+    chain: cython.double[:, ::1],
+    pair: cython.Py_ssize_t[::1],
+) -> cython.double:
+    """Least separation among the pairs led by the first `active` benches, and that pair [m]; FREE without pairs."""
+    i: cython.Py_ssize_t
+    j: cython.Py_ssize_t
+    dx: cython.double
+    dy: cython.double
+    far: cython.double
+    gap: cython.double
+    best: cython.double = FREE
+    for i in range(active):
+        for j in range(i + 2, handles):
+            dx = chain[j, MX] - chain[i, MX]
+            dy = chain[j, MY] - chain[i, MY]
+            far = sizes[i, RADIUS] + sizes[j, RADIUS] + (best if best > 0.0 else 0.0)
+            if dx * dx + dy * dy > far * far:
+                continue
+            gap = row_gap(i, j, sizes, chain)
+            if gap < best:
+                best = gap
+                pair[1] = i
+                pair[2] = j
+    return best
+
+
+@cython.ccall
+@cython.nogil
+@cython.exceptval(check=False)
+def clearance_at(
+    growth: cython.double,
+    theta: cython.double,
+    ring: cython.double[::1],
+    sizes: cython.double[:, ::1],
+    chain: cython.double[:, ::1],
+    pair: cython.Py_ssize_t[::1],
+) -> cython.double:
+    """Clearance with the head at theta over all pairs [m]; the pair in pair[1], pair[2]; FREE without pairs.
+
+    chain: (n + 1, CHAIN_COLUMNS) scratch; pair[0]: the last handle placed, -1 if the chain folds
+    """
+    i: cython.Py_ssize_t
+    j: cython.Py_ssize_t
+    benches: cython.Py_ssize_t = sizes.shape[0]
+    dx: cython.double
+    dy: cython.double
+    far: cython.double
+    gap: cython.double
+    best: cython.double = FREE
+    start_chain(theta, chain)
+    pair[0] = extend_chain(growth, 0, benches, FREE, sizes, chain)
+    if pair[0] < 0:
+        return FREE
+    for i in range(benches):
+        far = leaders_reach(growth, growth * theta, growth * chain[i + 1, THETA], ring)
+        far = radius_beyond(growth, far + (best if 0.0 < best < FREE else 0.0), ring)
+        for j in range(i + 2, benches):
+            if best < FREE and growth * chain[j, THETA] > far:
+                break
+            dx = chain[j, MX] - chain[i, MX]
+            dy = chain[j, MY] - chain[i, MY]
+            gap = sizes[i, RADIUS] + sizes[j, RADIUS] + (best if best > 0.0 else 0.0)
+            if dx * dx + dy * dy > gap * gap:
+                continue
+            gap = row_gap(i, j, sizes, chain)
+            if gap < best:
+                best = gap
+                pair[1] = i
+                pair[2] = j
+    return best
+
+
+@cython.cfunc
+@cython.nogil
+@cython.exceptval(check=False)
+def gap_at(
+    growth: cython.double,
+    arc: cython.double,
+    a: cython.Py_ssize_t,
+    b: cython.Py_ssize_t,
+    sizes: cython.double[:, ::1],
+    chain: cython.double[:, ::1],
+) -> cython.double:
+    """Separation of benches a and b with the head at an arc length from the centre [m]; FREE if the chain folds."""
+    start_chain(spiral_theta(arc / growth), chain)
+    if extend_chain(growth, 0, b + 1, FREE, sizes, chain) < 0:
+        return FREE
+    return row_gap(a, b, sizes, chain)
+
+
+@cython.ccall
+@cython.nogil
+@cython.exceptval(check=False)
+def crossing(
+    growth: cython.double,
+    arc: cython.double,
+    low: cython.double,
+    high: cython.double,
+    a: cython.Py_ssize_t,
+    b: cython.Py_ssize_t,
+    margin: cython.double,
+    tolerance: cython.double,
+    sizes: cython.double[:, ::1],
+    chain: cython.double[:, ::1],
+) -> cython.double:
+    """Head travel in [low, high] at which benches a, b come within the margin; apart at low, within it at high [m].
+
+    The Illinois form of the false position, until the bracket is below the tolerance.
+    """
+    above: cython.double = gap_at(growth, arc - low, a, b, sizes, chain) - margin
+    below: cython.double = gap_at(growth, arc - high, a, b, sizes, chain) - margin
+    middle: cython.double
+    value: cython.double
+    side: cython.int = 0
+    i: cython.int
+    for i in range(100):
+        if high - low <= tolerance:
+            break
+        middle = low + (high - low) * above / (above - below)
+        if not (low < middle < high) or i % 4 == 3:
+            middle = 0.5 * (low + high)
+        value = gap_at(growth, arc - middle, a, b, sizes, chain) - margin
+        if value > 0.0:
+            low = middle
+            above = value
+            if side == 1:
+                below *= 0.5
+            side = 1
+        else:
+            high = middle
+            below = value
+            if side == -1:
+                above *= 0.5
+            side = -1
+    return high
+
+
+@cython.ccall
+@cython.nogil
+@cython.exceptval(check=False)
+def dip(
+    growth: cython.double,
+    arc: cython.double,
+    low: cython.double,
+    high: cython.double,
+    a: cython.Py_ssize_t,
+    b: cython.Py_ssize_t,
+    sizes: cython.double[:, ::1],
+    chain: cython.double[:, ::1],
+) -> cython.double:
+    """Head travel in [low, high] where the separation of benches a and b is least, by golden section [m]."""
+    left: cython.double = high - GOLDEN * (high - low)
+    right: cython.double = low + GOLDEN * (high - low)
+    at_left: cython.double = gap_at(growth, arc - left, a, b, sizes, chain)
+    at_right: cython.double = gap_at(growth, arc - right, a, b, sizes, chain)
+    i: cython.int
+    for i in range(60):
+        if high - low <= DIP_WIDTH * (1.0 + high):
+            break
+        if at_left <= at_right:
+            high = right
+            right = left
+            at_right = at_left
+            left = high - GOLDEN * (high - low)
+            at_left = gap_at(growth, arc - left, a, b, sizes, chain)
+        else:
+            low = left
+            left = right
+            at_left = at_right
+            right = low + GOLDEN * (high - low)
+            at_right = gap_at(growth, arc - right, a, b, sizes, chain)
+    return left if at_left <= at_right else right
+
+
+@cython.cfunc
+@cython.nogil
+@cython.exceptval(check=False)
+def passed(
+    first: cython.Py_ssize_t,
+    active: cython.Py_ssize_t,
+    opened: cython.Py_ssize_t,
+    opening: cython.double[:, ::1],
+    chain: cython.double[:, ::1],
+) -> cython.bint:
+    """Has every handle from `first` to the last active one passed where its predecessor began?"""
+    i: cython.Py_ssize_t
+    for i in range(first, active):
+        if i > opened or chain[i, THETA] > opening[i - 1, THETA]:
+            return False
+    return True
+
+
+@cython.ccall
+@cython.exceptval(check=False)
+def march(
+    growth: cython.double,
+    arc: cython.double,
+    start: cython.double,
+    stop: cython.double,
+    leaders: cython.Py_ssize_t,
+    at_start: cython.bint,
+    margin: cython.double,
+    tolerance: cython.double,
+    rounding: cython.double,
+    budget: cython.Py_ssize_t,
+    benches: cython.Py_ssize_t,
+    ring: cython.double[::1],
+    sizes: cython.double[:, ::1],
+    rows: cython.double[:, :, ::1],
+    motion: cython.double[:, ::1],
+    pair: cython.Py_ssize_t[::1],
+    out: cython.double[::1],
+) -> cython.int:
+    """Advance the head from `start` to `stop` [m of travel] by proven steps, until a pair comes within the margin.
+
+    arc: [m] from the centre at travel 0; leaders: benches whose pairs must be followed; at_start: follow all pairs
+    until every bench has passed the start of the one before it; tolerance: half width of the bracket around a
+    contact [m]; rounding: what a computed gap may be off by [m]; budget: steps; benches: n
+    sizes: (R - 1, SIZE_COLUMNS); rows: (4, R, CHAIN_COLUMNS), motion: (R, MOTION_COLUMNS) scratch; out: (MARCH_ENTRIES,)
+    returns: REACHED, TOUCHED, TOUCHED_AT_START, STUCK (budget spent or interval at rounding) or CAPACITY (R too small)
+    """
+    before: cython.double[:, ::1] = rows[0]
+    after: cython.double[:, ::1] = rows[1]
+    spare: cython.double[:, ::1] = rows[2]
+    opening: cython.double[:, ::1] = rows[3]
+    scratch: cython.double[::1] = out[MARCH_ENTRIES:]
+    cap: cython.Py_ssize_t = benches if benches < before.shape[0] - 1 else before.shape[0] - 1
+    first: cython.Py_ssize_t = leaders
+    followers: cython.Py_ssize_t = benches if at_start else leaders
+    placed: cython.Py_ssize_t
+    opened: cython.Py_ssize_t
+    handles: cython.Py_ssize_t
+    active: cython.Py_ssize_t
+    travel: cython.double = start
+    h: cython.double = ring[RING_SHORT]
+    target: cython.double = -1.0
+    least: cython.double
+    floor: cython.double = FREE
+    room: cython.double
+    clearance: cython.double
+    last_clearance: cython.double
+    older_clearance: cython.double = -FREE
+    last_travel: cython.double = start
+    older_travel: cython.double = start
+    last_a: cython.Py_ssize_t = 0
+    last_b: cython.Py_ssize_t = 0
+    a: cython.Py_ssize_t
+    b: cython.Py_ssize_t
+    lowest: cython.double
+    if followers > cap:
+        followers = cap
+    out[GRAZE_GAP] = FREE
+    out[STEPS] = out[BEND] = 0.0
+    with cython.nogil:
+        placed = chain_between(
+            growth, spiral_theta((arc - start) / growth), followers, cap, margin, h, ring, sizes, before, pair
+        )
+        if placed == cap and cap < benches:
+            return CAPACITY
+        if placed < 0:
+            return STUCK
+        opened = placed
+        opening[: placed + 1] = before[: placed + 1]
+        last_clearance = row_clearance(pair[0], placed, sizes, before, pair)
+        if last_clearance <= margin:
+            out[PROVEN] = out[TOUCHING] = start
+            out[FIRST] = pair[1]
+            out[SECOND] = pair[2]
+            return TOUCHED_AT_START
+        while travel < stop:
+            out[PROVEN] = travel
+            if out[STEPS] >= budget or h < rounding:
+                return STUCK
+            out[STEPS] += 1.0
+            if h > stop - travel:
+                h = stop - travel
+            handles = chain_between(
+                growth, spiral_theta((arc - travel - h) / growth), followers, cap, margin, 0.1 * h, ring, sizes,
+                after, pair,
+            )
+            if handles == cap and cap < benches:
+                return CAPACITY
+            active = pair[0]
+            if handles < 0:
+                h *= 0.5
+                target = -1.0
+                continue
+            room = FREE
+            least = FREE
+            if active > 0:
+                if placed < handles:
+                    placed = extend_chain(growth, placed, handles, FREE, sizes, before)
+                least = interval_least(
+                    growth, h, active, handles, benches, margin, ring, sizes, before, after, motion, scratch
+                )
+                room = 0.95 * scratch[3]
+            if least <= margin + rounding:
+                if least == -FREE:
+                    h *= 0.5
+                    target = -1.0
+                    continue
+                a = cython.cast(cython.Py_ssize_t, scratch[1])
+                b = cython.cast(cython.Py_ssize_t, scratch[2])
+                if row_gap(a, b, sizes, after) > margin:
+                    h *= 0.5 if room < 0.5 * h or room >= h else room / h
+                    target = -1.0
+                    continue
+                target = crossing(
+                    growth, arc, travel, travel + h, a, b, margin, 0.25 * tolerance, sizes, spare
+                )
+                out[FIRST] = a
+                out[SECOND] = b
+                out[TOUCHING] = target + tolerance
+                if target - tolerance - travel > rounding and target - tolerance - travel < h:
+                    h = target - tolerance - travel
+                    continue
+                if target - tolerance <= travel and gap_at(
+                    growth, arc - target - tolerance, a, b, sizes, spare
+                ) <= margin:
+                    return TOUCHED
+                h *= 0.5
+                target = -1.0
+                continue
+            travel += h
+            placed = handles
+            before, after = after, before
+            if scratch[0] > out[BEND] and active > 0:
+                out[BEND] = scratch[0]
+            if target > 0.0 and gap_at(
+                growth, arc - target - tolerance, cython.cast(cython.Py_ssize_t, out[FIRST]),
+                cython.cast(cython.Py_ssize_t, out[SECOND]), sizes, spare,
+            ) <= margin:
+                out[PROVEN] = travel
+                return TOUCHED
+            target = -1.0
+            clearance = row_clearance(active, handles, sizes, before, pair)
+            lowest = least if least < floor else floor
+            floor = least
+            if older_clearance > last_clearance <= clearance and lowest < out[GRAZE_GAP]:
+                if clearance < FREE and older_travel < last_travel:
+                    lowest = dip(growth, arc, older_travel, travel, last_a, last_b, sizes, spare)
+                    if gap_at(growth, arc - lowest, last_a, last_b, sizes, spare) < out[GRAZE_GAP]:
+                        out[GRAZE_GAP] = gap_at(growth, arc - lowest, last_a, last_b, sizes, spare)
+                        out[GRAZE_TRAVEL] = lowest
+                        out[GRAZE_FIRST] = last_a
+                        out[GRAZE_SECOND] = last_b
+            older_clearance = last_clearance
+            older_travel = last_travel
+            last_clearance = clearance
+            last_travel = travel
+            last_a = pair[1]
+            last_b = pair[2]
+            if at_start and passed(first, active, opened, opening, before):
+                at_start = False
+                followers = leaders if leaders < cap else cap
+            h = room if room < 2.0 * h else 2.0 * h
+        out[PROVEN] = travel
+        return REACHED

@@ -1,17 +1,46 @@
-"""Which benches overlap at one instant, four ways, and whether the four agree."""
+"""Which benches overlap at one instant, four ways, and whether the four agree.
+
+The only file that knows FCL and shapely, and it imports them only when they are asked for.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from enum import StrEnum
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
-from core.dragon import Floats
-from core.rectangles import Separation
+from core import kernels
+from core.angle_sum import angle_sum_overlap, paper_corners
+from core.dragon import SIZE_MAX, Floats, checked_number
+from core.errors import InvalidValue, TooLarge
+from core.rectangles import (
+    POSE,
+    SIZE,
+    Separation,
+    checked_array,
+    checked_columns,
+    corners,
+    frames,
+    frames_separation,
+)
 
 Pairs = NDArray[np.int64]
+
+# Overlapping pairs in one answer: 100 MB with their witnesses, and 10 for each of 100,000 benches.
+PAIRS_MAX = 1_000_000
+# Pairs of upright boxes that the search may meet: about a second. 100,000 benches on a spiral of pitch 0.55 m meet
+# 340,000, neighbours aside.
+CANDIDATES_MAX = 20_000_000
+# The same for the other engines, of which FCL takes about 5 microseconds for each.
+CROSS_CANDIDATES_MAX = 2_000_000
+# Upright boxes are wider by this share of the coordinates and sizes that they are computed from: each of the few
+# operations rounds by 1.1e-16, and so does the separation that they must not undercut [1].
+BOX_ROUNDING = 4e-15
+# Pairs that the angle-sum rule judges at once, to keep its 16 angles a pair within 30 MB.
+ANGLE_BATCH = 50_000
 
 
 class Engine(StrEnum):
@@ -25,7 +54,7 @@ class Engine(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class Overlaps:
-    """pairs (P, 2), a < b, sorted; contact: separation, witness points and normal of each pair."""
+    """pairs (P, 2), a < b, sorted; contact: exact separation, witnesses and normal of each pair (P, ...)."""
 
     pairs: Pairs
     contact: Separation
@@ -33,13 +62,16 @@ class Overlaps:
 
 @dataclass(frozen=True, slots=True)
 class CrossCheck:
-    """pairs: what each engine found; agree: all the same; only: pairs by engine that not all engines found.
-    missing: pairs by engine that some other engine found and this one did not."""
+    """pairs: what each engine found; agree: all the same; only: pairs by engine that not all engines found;
+    missing: pairs by engine that some other engine found and this one did not.
+    left_out: engines that cannot judge this margin; they stand in none of the others.
+    """
 
     agree: bool
     pairs: dict[Engine, Pairs]
     only: dict[Engine, Pairs]
     missing: dict[Engine, Pairs]
+    left_out: tuple[Engine, ...]
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,9 +83,9 @@ class Verdict:
 
 
 def overlaps(
-    poses: Floats,
-    lengths: Floats,
-    widths: Floats,
+    poses: ArrayLike,
+    lengths: ArrayLike,
+    widths: ArrayLike,
     *,
     engine: Engine = Engine.SEPARATING_AXIS,
     margin: float = 0.0,
@@ -61,23 +93,243 @@ def overlaps(
 ) -> Overlaps:
     """All pairs with separation <= margin (neighbours in the chain left out when chained).
 
+    The engine finds the pairs; their separation is always the exact one of rectangles.py. The angle-sum rule
+    misses rectangles that cross without a corner inside, and knows no margin; the other three miss none.
+
     poses: (n, 3) x [m], y [m], heading [rad]; lengths, widths: (n,) [m]
+    raises: InvalidValue with the field benches.K.x, y, heading, length or width, or margin; TooLarge with the
+        field benches when so many overlap that the pairs are beyond PAIRS_MAX or the work beyond CANDIDATES_MAX
+
+    >>> overlaps([[0, 0, 0], [3, 0, 0], [1, 0, 1.57]], [2.2] * 3, [0.3] * 3).pairs
+    array([[0, 2]])
     """
-    raise NotImplementedError
+    pose, size, margin = _checked(poses, lengths, widths, margin)
+    pairs = _find(engine, pose, size, margin, chained)
+    frame = frames(pose, size)
+    return Overlaps(pairs, frames_separation(frame[pairs[:, 0]], frame[pairs[:, 1]]))
 
 
 def cross_check(
-    poses: Floats, lengths: Floats, widths: Floats, *, margin: float = 0.0, chained: bool = True
+    poses: ArrayLike, lengths: ArrayLike, widths: ArrayLike, *, margin: float = 0.0, chained: bool = True
 ) -> CrossCheck:
-    """The four engines side by side at one instant."""
-    raise NotImplementedError
+    """The four engines side by side at one instant (three when the margin is not 0).
+
+    poses, lengths, widths, raises: as overlaps(), with CROSS_CANDIDATES_MAX
+    """
+    pose, size, margin = _checked(poses, lengths, widths, margin)
+    found = {engine: _find(engine, pose, size, margin, chained) for engine in _able(margin)}
+    codes = {engine: pairs[:, 0] * len(pose) + pairs[:, 1] for engine, pairs in found.items()}
+    some = np.unique(np.concatenate(list(codes.values())))
+    every = some[np.all([np.isin(some, code) for code in codes.values()], axis=0)]
+
+    def decoded(code: Pairs) -> Pairs:
+        return np.stack(np.divmod(code, max(len(pose), 1)), axis=-1)
+
+    return CrossCheck(
+        agree=some.size == every.size,
+        pairs=found,
+        only={engine: decoded(np.setdiff1d(code, every)) for engine, code in codes.items()},
+        missing={engine: decoded(np.setdiff1d(some, code)) for engine, code in codes.items()},
+        left_out=tuple(engine for engine in Engine if engine not in found),
+    )
 
 
 def verdicts(
-    before: Floats, after: Floats, lengths: Floats, widths: Floats, *, margin: float = 0.0
+    before: ArrayLike, after: ArrayLike, lengths: ArrayLike, widths: ArrayLike, *, margin: float = 0.0
 ) -> dict[Engine, Verdict]:
-    """Each engine's word on one pair just before and just after contact.
+    """Each engine's word on one pair just before and just after contact (no angle sum if the margin is not 0).
 
     before, after: (2, 3) poses of the two benches; lengths, widths: (2,) [m]
+    raises: InvalidValue as overlaps()
     """
-    raise NotImplementedError
+    pose_before, size, margin = _checked(before, lengths, widths, margin)
+    pose_after, _, _ = _checked(after, lengths, widths, margin)
+    return {
+        engine: Verdict(
+            before=_find(engine, pose_before, size, margin, False).size > 0,
+            after=_find(engine, pose_after, size, margin, False).size > 0,
+        )
+        for engine in _able(margin)
+    }
+
+
+def broad_phase(
+    poses: ArrayLike, lengths: ArrayLike, widths: ArrayLike, *, margin: float = 0.0, chained: bool = True
+) -> Pairs:
+    """Pairs (P, 2), a < b, sorted, whose upright boxes come within the margin: every pair that does is among them.
+
+    poses, lengths, widths, raises: as overlaps(), with CROSS_CANDIDATES_MAX
+    """
+    pose, size, margin = _checked(poses, lengths, widths, margin)
+    return _meeting(frames(pose, size), margin, chained, exact=False)
+
+
+def _able(margin: float) -> list[Engine]:
+    return [engine for engine in Engine if margin == 0.0 or engine is not Engine.ANGLE_SUM]
+
+
+def _checked(poses: ArrayLike, lengths: ArrayLike, widths: ArrayLike, margin: float) -> tuple[Floats, Floats, float]:
+    pose = checked_array("benches", poses, "(n, 3): x, y, heading", 3)
+    if pose.ndim != 2:
+        raise InvalidValue("benches", f"benches must have shape (n, 3): x, y, heading, got {pose.shape}")
+    length = checked_array("lengths", lengths, "(n,)", None)
+    width = checked_array("widths", widths, "(n,)", None)
+    for name, column in (("lengths", length), ("widths", width)):
+        if column.size != len(pose):
+            raise InvalidValue(name, f"{name} must have one number for each of {len(pose)} benches, got {column.size}")
+    checked_columns("benches", np.column_stack([pose, length, width]), POSE + SIZE)
+    return pose, np.stack([length, width], axis=-1), checked_number("margin", margin, "m", 0.0, SIZE_MAX)
+
+
+def _find(engine: Engine, poses: Floats, sizes: Floats, margin: float, chained: bool) -> Pairs:
+    pairs = FINDERS[engine](poses, sizes, margin, chained)
+    if chained:
+        pairs = pairs[pairs[:, 1] - pairs[:, 0] != 1]
+    return pairs[np.lexsort((pairs[:, 1], pairs[:, 0]))]
+
+
+# -- separating axis ------------------------------------------------------------------------------------------
+
+
+def _separating_axis(poses: Floats, sizes: Floats, margin: float, chained: bool) -> Pairs:
+    return _meeting(frames(poses, sizes), margin, chained, exact=True)
+
+
+# Two rectangles within the margin have upright boxes within it along x and along y, so boxes wider by half of it
+# meet: the broad phase misses none.
+def _meeting(frame: Floats, margin: float, chained: bool, *, exact: bool) -> Pairs:
+    half = np.abs(frame[:, 2:4]) * frame[:, 4:5] + np.abs(frame[:, 3:1:-1]) * frame[:, 5:6]
+    scale = np.abs(frame[:, :2]).sum(axis=1) + frame[:, 4:].sum(axis=1) + margin
+    half += 0.5 * margin + BOX_ROUNDING * scale[:, None]
+    boxes = np.hstack([frame[:, :2] - half, frame[:, :2] + half])
+    leaves = 1 << max(0, (-(-len(frame) // kernels.BOXES_PER_LEAF) - 1).bit_length())
+    order = _tree_order(frame[:, :2], leaves)
+    frame, boxes, tree = frame[order], boxes[order], np.empty((2 * leaves, 4))
+    kernels.grow_tree(boxes, tree)
+    most = PAIRS_MAX, CANDIDATES_MAX
+    if not exact:
+        most = CROSS_CANDIDATES_MAX, CROSS_CANDIDATES_MAX
+    counts = np.zeros(2, dtype=np.int64)
+    pairs = np.empty((2 * len(frame), 2), dtype=np.int64)
+    while True:
+        kernels.meeting_pairs(frame, boxes, tree, order, margin, exact, chained, np.array(most), pairs, counts)
+        for count, limit, what in zip(counts, most, ("within the margin", "close by"), strict=True):
+            if count > limit:
+                raise TooLarge(
+                    "benches", f"benches must have at most {limit} pairs {what}, got more among {len(frame)}"
+                )
+        if counts[0] <= len(pairs):
+            return pairs[: counts[0]]
+        pairs = np.empty((int(counts[0]), 2), dtype=np.int64)
+
+
+def _tree_order(centres: Floats, leaves: int) -> Pairs:
+    """Rows so that fours of them lie close together: strips of equal count along x, each sorted along y.
+
+    By rank, not by coordinate: one bench far away must not crowd all others into one strip.
+    """
+    strip = kernels.BOXES_PER_LEAF << (leaves.bit_length() // 2)
+    strip_of = np.empty(len(centres), dtype=np.int64)
+    strip_of[np.argsort(centres[:, 0], kind="stable")] = np.arange(len(centres)) // strip
+    return np.lexsort((centres[:, 1], strip_of))
+
+
+# -- FCL and shapely ------------------------------------------------------------------------------------------
+
+
+# FCL's yes/no is exact for two boxes and for a sphere and a box; its distance is not. The points within the margin
+# of a rectangle are the rectangle made longer by the margin at both ends, the same made wider, and four discs
+# around the corners, so b comes within the margin of a just where its box meets one of two boxes and four spheres.
+# The manager runs over boxes grown by half the margin on every side, which contain what is within half of it.
+def _fcl(poses: Floats, sizes: Floats, margin: float, chained: bool) -> Pairs:
+    import fcl
+
+    _meeting(frames(poses, sizes), margin, chained, exact=False)  # refuses hopeless work
+    grown = [_fcl_box(pose, *(size + margin)) for pose, size in zip(poses, sizes, strict=True)]
+    number = {id(box): k for k, (box, _) in enumerate(grown)}
+    manager = fcl.DynamicAABBTreeCollisionManager()
+    manager.registerObjects([body for _, body in grown])
+    manager.setup()
+    contacts: list[fcl.Contact] = []
+
+    # An exception in here would vanish, and the bodies handed in are fresh wrappers: only the geometries of a
+    # contact can be told apart.
+    def keep(first: object, second: object, _: object) -> bool:
+        result = fcl.CollisionResult()
+        if fcl.collide(first, second, fcl.CollisionRequest(), result):
+            contacts.append(result.contacts[0])
+        return False
+
+    manager.collide(None, keep)
+    pairs = np.array([(number[id(c.o1)], number[id(c.o2)]) for c in contacts], dtype=np.int64).reshape(-1, 2)
+    pairs.sort(axis=1)
+    if margin > 0.0:
+        near = [_fcl_within(poses[pair], sizes[pair], margin) for pair in pairs]
+        pairs = pairs[np.array(near, dtype=bool)]
+    return pairs
+
+
+def _fcl_body(shape: object, pose: Floats) -> object:
+    import fcl
+
+    cos, sin = np.cos(pose[2]), np.sin(pose[2])
+    turn = np.array([[cos, -sin, 0.0], [sin, cos, 0.0], [0.0, 0.0, 1.0]])
+    return fcl.CollisionObject(shape, fcl.Transform(turn, np.array([pose[0], pose[1], 0.0])))
+
+
+# Of two rectangles, neither penetrates deeper than half of (own width + other's length + other's width), so not
+# deeper than half the sum of the two heights below.
+def _fcl_box(pose: Floats, length: float, width: float) -> tuple[object, object]:
+    import fcl
+
+    box = fcl.Box(length, width, 0.5 * length + width)
+    return box, _fcl_body(box, pose)
+
+
+def _fcl_within(poses: Floats, sizes: Floats, margin: float) -> bool:
+    import fcl
+
+    (length, width), other = sizes[0], _fcl_box(poses[1], *sizes[1])[1]
+    bodies = [
+        _fcl_box(poses[0], length + 2.0 * margin, width)[1],
+        _fcl_box(poses[0], length, width + 2.0 * margin)[1],
+    ]
+    bodies += [_fcl_body(fcl.Sphere(margin), np.array([x, y, 0.0])) for x, y in corners(poses[0], sizes[0])]
+    return any(fcl.collide(body, other, fcl.CollisionRequest(), fcl.CollisionResult()) for body in bodies)
+
+
+def _shapely(poses: Floats, sizes: Floats, margin: float, chained: bool) -> Pairs:
+    import shapely
+
+    _meeting(frames(poses, sizes), margin, chained, exact=False)  # refuses hopeless work
+    polygons = shapely.polygons(corners(poses, sizes))
+    tree = shapely.STRtree(polygons)
+    if margin > 0.0:
+        pairs = tree.query(polygons, predicate="dwithin", distance=margin).T
+    else:
+        pairs = tree.query(polygons, predicate="intersects").T
+    return np.asarray(pairs[pairs[:, 0] < pairs[:, 1]], dtype=np.int64)
+
+
+# -- the paper's angle-sum rule -------------------------------------------------------------------------------
+
+
+def _angle_sum(poses: Floats, sizes: Floats, margin: float, chained: bool) -> Pairs:
+    if margin != 0.0:
+        raise InvalidValue(
+            "margin",
+            f"margin must be 0 m for the angle-sum rule, which knows only inside and outside, got {margin} m",
+        )
+    pairs = _meeting(frames(poses, sizes), margin, chained, exact=False)
+    corner = paper_corners(poses, sizes)
+    batches = [pairs[k : k + ANGLE_BATCH] for k in range(0, len(pairs), ANGLE_BATCH)]
+    seen = [angle_sum_overlap(corner[batch[:, 0]], corner[batch[:, 1]]) for batch in batches]
+    return pairs[np.concatenate(seen)] if seen else pairs
+
+
+FINDERS: dict[Engine, Callable[[Floats, Floats, float, bool], Pairs]] = {
+    Engine.SEPARATING_AXIS: _separating_axis,
+    Engine.FCL: _fcl,
+    Engine.SHAPELY: _shapely,
+    Engine.ANGLE_SUM: _angle_sum,
+}

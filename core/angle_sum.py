@@ -1,0 +1,77 @@
+"""The paper's way to find overlapping benches: corners by its rotation matrix, collision by a sum of angles.
+
+A cross-check, never the judge: the rule sees only corners inside rectangles, and needs a tolerance.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from core.dragon import Floats
+
+# Sums of four angles this close to a full turn count as one: their rounding is below 1e-14. A point d outside
+# the middle of an edge of length e lacks 8 d / e, so in reach this is 4e-13 m for an edge of 3.41 m [rad].
+ANGLE_TOLERANCE = 1e-12
+
+# Eq. 12's order of the corners, top right, bottom right, bottom left, top left, in units of (half length, half
+# width), the length pointing right.
+PAPER_SIDES = np.array([[1.0, 1.0], [1.0, -1.0], [-1.0, -1.0], [-1.0, 1.0]])
+
+
+def paper_corners(poses: Floats, sizes: Floats) -> Floats:
+    """Corners (..., 4, 2) [m] by the paper's construction: centre, rotation matrix, half sizes.
+
+    Eq. 12 as printed does not multiply by the matrix of eq. 11: the sign of w/2 cos theta is wrong in the y of all
+    four corners. Here it is right. The paper's theta points from the front handle to the rear one, and its arctan
+    knows no quadrant: both differ from our heading by half a turn at most, which only renames corners.
+
+    poses: (..., 3) x [m], y [m], heading [rad]; sizes: (..., 2) length [m], width [m]
+    source: Yang et al., eqs. 8-12
+    """
+    return _turned(poses, sizes, last=1.0)
+
+
+def literal_corners(poses: Floats, sizes: Floats) -> Floats:
+    """Corners (..., 4, 2) [m] by eq. 12 as printed: a parallelogram whose shape changes with the heading.
+
+    poses, sizes: as paper_corners()
+    source: Yang et al., eq. 12: as if the last entry of the matrix of eq. 11 were -cos theta
+    """
+    return _turned(poses, sizes, last=-1.0)
+
+
+def _turned(poses: Floats, sizes: Floats, last: float) -> Floats:
+    cos, sin = np.cos(poses[..., 2]), np.sin(poses[..., 2])
+    matrix = np.stack([np.stack([cos, -sin], axis=-1), np.stack([sin, last * cos], axis=-1)], axis=-2)
+    offsets = 0.5 * PAPER_SIDES * sizes[..., None, :]
+    return np.asarray(poses[..., None, :2] + np.einsum("...ij,...kj->...ki", matrix, offsets))
+
+
+def angle_sums(points: Floats, polygon: Floats) -> Floats:
+    """Sum of the angles that the edges of a convex polygon subtend at each point [rad].
+
+    A full turn inside and on an edge, less outside; a corner counts as on the edge.
+
+    points: (..., P, 2) [m]; polygon: (..., C, 2) [m]; returns (..., P)
+    source: Yang et al., eq. 13
+    """
+    to = polygon[..., None, :, :] - points[..., :, None, :]
+    to_next = np.roll(to, -1, axis=-2)
+    cross = to[..., 0] * to_next[..., 1] - to[..., 1] * to_next[..., 0]
+    sums = np.arctan2(np.abs(cross), (to * to_next).sum(axis=-1)).sum(axis=-1)
+    return np.where((to == 0.0).all(axis=-1).any(axis=-1), 2.0 * np.pi, sums)
+
+
+def angle_sum_overlap(corners_a: Floats, corners_b: Floats, *, tolerance: float = ANGLE_TOLERANCE) -> NDArray[np.bool_]:
+    """Whether the rule sees a corner of one polygon in the other, pair by pair.
+
+    It misses polygons that cross without a corner inside, and takes corners a little outside for inside: see
+    ANGLE_TOLERANCE.
+
+    corners_a, corners_b: (..., C, 2) [m]; tolerance [rad]; returns (...)
+    source: Yang et al., eqs. 13-16
+    """
+    full = 2.0 * np.pi - tolerance
+    a_in_b = (angle_sums(corners_a, corners_b) >= full).any(axis=-1)
+    return np.asarray(a_in_b | (angle_sums(corners_b, corners_a) >= full).any(axis=-1))
