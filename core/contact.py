@@ -1,13 +1,44 @@
-"""First contact and clearance along time, with a certificate."""
+"""First contact and clearance along time, with a certificate.
+
+The proof is written above the loops that carry it out: `core/kernels.py`, "certified motion" and "rings". In short:
+the head advances from L to R only if, for every pair that can be near, one axis fixed in one of the two benches
+separates them by more than the margin over all of [L, R], because the gap along that axis is known at both ends and
+its second derivative is bounded in between. What lies further out than a radius known in closed form cannot touch.
+In a dragon whose body benches are alike, pair (i, j) repeats, in place, what pair (m, m + j - i) met when handle m
+stood where handle i stands (m the first of the equal benches), so once every bench has passed the start of the one
+before it, only the pairs of the first m + 1 benches are followed.
+"""
 
 from __future__ import annotations
 
+import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import StrEnum
 
-from core.dragon import Dragon, Floats
-from core.kinematics import RunEnd
+import numpy as np
+
+from core import kernels
+from core.dragon import Dragon, Floats, checked_number
+from core.errors import InvalidValue
+from core.kinematics import EndReason, RunEnd, checked_head_speed, checked_times, run_end
 from core.paths import Spiral
+
+MARGIN_MAX = 1e4  # [m]
+# Steps after which a search gives up as undecided; the default case takes about a hundred.
+STEP_BUDGET = 200_000
+# Half width of the bracket around a contact [m of head travel] at head speeds of 1 m/s and more, and the least that
+# rounding of the travel allows at lower ones.
+BRACKET = 1e-10
+BRACKET_MIN = 2e-11
+# The last stretch before a fold, where handle speeds grow without bound: dismissed by a bound on the motion left [m].
+FOLD_SLIVER = 1e-9
+# A gap is a handful of operations on coordinates: relative to the largest coordinate it is good to this [1].
+GAP_ROUNDING = 1e-14
+# Grazes of a profile are looked for in steps of at most this fraction of the shortest chord [1] ...
+PROFILE_STEP = 0.2
+# ... and at most this many of them.
+PROFILE_SAMPLES = 20_000
 
 
 class Outcome(StrEnum):
@@ -96,15 +127,267 @@ class ClearanceProfile:
     grazes: tuple[Graze, ...]
 
 
+
+METHOD = (
+    "proven steps: second-derivative bound on the gap along a body axis between both ends of each step; "
+    "closed-form ring bound further out"
+)
+CORNERS = ("front-outer", "front-inner", "rear-inner", "rear-outer")
+EDGES = ("front", "inner", "rear", "outer")
+
+
+class SpiralSearch:
+    """The arrays that the kernels need for one dragon on one spiral.
+
+    ring: see kernels, RING_...; sizes: (rows, 4) of the leading benches; clear_radius: no pair whose inner bench leads
+    at this radius or further out comes within the margin [m]
+    """
+
+    def __init__(self, dragon: Dragon, path: Spiral, margin: float) -> None:
+        self.dragon, self.path, self.margin = dragon, path, margin
+        alike = dragon.uniform_from
+        chords, half_widths = dragon.chords[: alike + 1], 0.5 * dragon.widths[: alike + 1]
+        overhangs = dragon.overhangs[: alike + 1]
+        outer = slice(min(2, alike), None)
+        self.ring = np.array(
+            [
+                0.0,
+                chords[outer].max(),
+                chords[outer].min(),
+                overhangs[outer].max(),
+                half_widths[outer].max(),
+                chords.max(),
+                overhangs.max(),
+                half_widths.max(),
+            ]
+        )
+        self._extremes = (
+            chords.max(),
+            chords.min(),
+            overhangs.max(),
+            half_widths.max(),
+            chords[outer].max(),
+            half_widths[outer].max(),
+        )
+        self.clear_radius = self.ring[0] = self._clear_radius()
+        self.rounding = GAP_ROUNDING * (path.growth * path.start_theta + dragon.lengths[: alike + 1].max())
+        self.resize(min(dragon.benches, 255))
+
+    def resize(self, benches: int) -> None:
+        """Room for so many leading benches."""
+        dragon = self.dragon
+        lengths, widths = dragon.lengths[:benches], dragon.widths[:benches]
+        columns = [dragon.chords[:benches], 0.5 * lengths, 0.5 * widths, 0.5 * np.hypot(lengths, widths)]
+        self.sizes = np.stack(columns, axis=1)
+        self.rows = np.empty((4, benches + 1, kernels.CHAIN_COLUMNS))
+        self.motion = np.empty((benches + 1, kernels.MOTION_COLUMNS))
+        self.pair = np.zeros(3, dtype=np.intp)
+
+    def ring_least(self, radius: float) -> float:
+        """Lower bound of the separation of pairs whose inner bench leads at this radius or further out [m]."""
+        return kernels.ring_least(self.path.growth, radius, *self._extremes)
+
+    def _clear_radius(self) -> float:
+        """The least radius, within 1e-3, from which the ring bound exceeds the margin; 1e300 if none."""
+        high = 1.0
+        while self.ring_least(high) <= self.margin:
+            high *= 4.0
+            if high > 1e9:
+                return 1e300
+        low = 0.0
+        while high - low > 1e-3 * high:
+            middle = 0.5 * (low + high)
+            low, high = (low, middle) if self.ring_least(middle) > self.margin else (middle, high)
+        return high
+
+    def travel_at(self, theta: float) -> float:
+        """Head travel from the start to theta [m]."""
+        return self.path.length - self.path.growth * kernels.spiral_arc(theta)
+
+    def theta_at(self, travel: float) -> float:
+        """Head angle after a travel [rad]."""
+        return kernels.spiral_theta((self.path.length - travel) / self.path.growth)
+
+    def march(self, start: float, stop: float, *, at_start: bool, tolerance: float) -> tuple[str, dict[str, float]]:
+        """kernels.march from start to stop [m of travel]: its state and result by name."""
+        out = np.empty(32)
+        while True:
+            code = kernels.march(
+                self.path.growth,
+                self.path.length,
+                start,
+                stop,
+                min(self.dragon.uniform_from + 1, self.dragon.benches),
+                at_start,
+                self.margin,
+                tolerance,
+                self.rounding,
+                STEP_BUDGET,
+                self.dragon.benches,
+                self.ring,
+                self.sizes,
+                self.rows,
+                self.motion,
+                self.pair,
+                out,
+            )
+            state = kernels.MARCH_STATES[code]
+            if state != "capacity":
+                return state, dict(zip(kernels.MARCH_FIELDS, out.tolist(), strict=False))
+            self.resize(min(4 * self.sizes.shape[0], self.dragon.benches))
+
+    def clearance(self, theta: float) -> tuple[float, tuple[int, int]]:
+        """Clearance among the leading benches with the head at theta [m], and its pair."""
+        gap = kernels.clearance_at(self.path.growth, theta, self.ring, self.sizes, self.rows[0], self.pair)
+        return gap, (int(self.pair[1]), int(self.pair[2]))
+
+    def motion_left(self, theta: float, end: RunEnd) -> float:
+        """Bound on how far any two points of two benches approach each other from theta to the fold [m].
+
+        Bench m = end.bench folds: from delta_L to the crest, handle m + 1 moves by at most the change of both ends'
+        angles; the handles before it move less than the head's travel rates there, those behind it less than it.
+        """
+        assert end.bench is not None
+        self.clearance(theta)
+        m, growth = end.bench, self.path.growth
+        lead, rear = self.rows[0, m, 4], self.rows[0, m + 1, 4]
+        fold = kernels.fold_theta(float((self.dragon.chords[m] / growth) ** 2))
+        swing = abs(kernels.first_crest(fold) - (rear - lead)) + abs(lead - fold)
+        moved = growth * swing * math.hypot(1.0, rear + swing)
+        share = 1.0 + (2.0 * self._extremes[2] + 2.0 * self._extremes[3]) / self._extremes[1]
+        return 2.0 * share * moved
+
+
 def first_contact(
     dragon: Dragon, path: Spiral, *, head_speed: float = 1.0, margin: float = 0.0
 ) -> FirstContact:
-    """When two benches first come within the margin, certified."""
-    raise NotImplementedError
+    """When two benches that share no handle first come within the margin, proven not to miss an earlier one.
+
+    head_speed: [m/s]; margin: [m], the clearance required; contact means separation <= margin
+    returns: see FirstContact; times good to 1e-10 s at 1 m/s, bracketed by [proven clear up to, overlapping at]
+    raises: InvalidValue
+    source: the model of Yang et al., sections 2.4 and 2.5, whose times differ: see app/paper.py
+
+    >>> contact = first_contact(Dragon(), Spiral())
+    >>> contact.outcome.value, round(contact.time, 6), contact.benches
+    ('contact', 412.473838, (0, 8))
+    """
+    head_speed = checked_head_speed(head_speed)
+    margin = checked_number("margin", margin, "m", 0.0, MARGIN_MAX)
+    end = run_end(dragon, path, head_speed=head_speed)
+    search = SpiralSearch(dragon, path, margin)
+    end_travel = search.travel_at(end.theta)
+    stop = end_travel if end.reason is EndReason.CENTRE else end_travel - FOLD_SLIVER
+    clear_theta = search.clear_radius / path.growth
+    start = max(search.travel_at(clear_theta), 0.0) if clear_theta < path.start_theta else 0.0
+    if dragon.benches < 3 or start >= stop:
+        certificate = Certificate(METHOD, 0, end.time, 0.0, None)
+        return FirstContact(Outcome.CLEAR, None, None, None, None, None, None, None, end, certificate)
+    tolerance = max(BRACKET * min(1.0, head_speed), BRACKET_MIN)
+    state, found = search.march(start, stop, at_start=start == 0.0, tolerance=tolerance)
+    if state == "reached" and end.reason is EndReason.FOLD:
+        theta = search.theta_at(stop)
+        if search.clearance(theta)[0] <= margin + search.motion_left(theta, end):
+            state = "stuck"
+    return _result(search, state, found, end, tolerance, head_speed)
+
+
+def _result(
+    search: SpiralSearch, state: str, found: dict[str, float], end: RunEnd, tolerance: float, head_speed: float
+) -> FirstContact:
+    graze = None
+    if found["graze_gap"] < 1e300:
+        pair = (int(found["graze_first"]), int(found["graze_second"]))
+        graze = Graze(found["graze_travel"] / head_speed, found["graze_gap"], pair)
+    proven = end.time if state == "reached" else found["proven"] / head_speed
+    certificate = Certificate(METHOD, int(found["steps"]), proven, found["bend"], graze)
+    if state == "reached":
+        return FirstContact(Outcome.CLEAR, None, None, None, None, None, None, None, end, certificate)
+    if state == "stuck":
+        bracket = (proven, end.time)
+        return FirstContact(Outcome.UNDECIDED, None, bracket, None, None, None, None, None, None, certificate)
+    at_start = state == "touched_at_start"
+    travel = found["touching"] if at_start else found["touching"] - tolerance
+    theta = search.theta_at(travel)
+    pair = (int(found["first"]), int(found["second"]))
+    corner, edge, point = _touching_features(search, theta, pair)
+    radius = search.path.growth * theta
+    return FirstContact(
+        Outcome.CONTACT_AT_START if at_start else Outcome.CONTACT,
+        travel / head_speed,
+        None if at_start else (proven, found["touching"] / head_speed),
+        HeadState(theta, radius, radius * math.cos(theta), radius * math.sin(theta)),
+        pair,
+        corner,
+        edge,
+        point,
+        None,
+        certificate,
+    )
+
+
+def _touching_features(
+    search: SpiralSearch, theta: float, pair: tuple[int, int]
+) -> tuple[Feature | None, Feature | None, tuple[float, float]]:
+    """The corner and the edge that meet, and the corner's place in the world frame [m]."""
+    search.clearance(theta)
+    a, b = (search.rows[0, bench, 6:10] for bench in pair)
+    out = np.empty(8)
+    kernels.pair_separation(*a, *search.sizes[pair[0], 1:3], *b, *search.sizes[pair[1], 1:3], out)
+    features = dict(zip(pair, divmod(int(out[7]), 8), strict=True))
+    corners = [Feature(bench, CORNERS[code]) for bench, code in features.items() if code < 4]
+    edges = [Feature(bench, EDGES[code - 4]) for bench, code in features.items() if code >= 4]
+    x, y = out[3:5] if corners and corners[0].bench == pair[1] else out[1:3]
+    cos, sin = math.cos(theta), math.sin(theta)
+    point = (float(x * cos - y * sin), float(x * sin + y * cos))
+    return (corners[0] if corners else None), (edges[0] if edges else None), point
 
 
 def clearance_profile(
-    dragon: Dragon, path: Spiral, times: Floats, *, head_speed: float = 1.0
+    dragon: Dragon, path: Spiral, times: Floats | Sequence[float], *, head_speed: float = 1.0
 ) -> ClearanceProfile:
-    """Exact clearance and its pair at every time, and its local minima refined."""
-    raise NotImplementedError
+    """Exact clearance and its pair at every time, and its local minima refined.
+
+    times: (T,) [s]; head_speed: [m/s]
+    grazes: looked for between the first and the last time in steps of at most PROFILE_STEP of the shortest chord (and
+        at most PROFILE_SAMPLES of them), refined to rounding; a dip narrower than a step may be missed here, never by
+        first_contact()
+    raises: OutsideRun after the end of the run; InvalidValue for fewer than three benches
+    """
+    head_speed = checked_head_speed(head_speed)
+    if dragon.benches < 3:
+        raise InvalidValue(
+            "dragon.benches", f"dragon.benches must be at least 3 for two to share no handle, got {dragon.benches}"
+        )
+    end = run_end(dragon, path, head_speed=head_speed)
+    time = checked_times(times, end)
+    search = SpiralSearch(dragon, path, 0.0)
+    search.resize(dragon.benches)
+    clearance, benches = _sampled(search, time, head_speed)
+    return ClearanceProfile(time, clearance, benches, _grazes(search, time, head_speed))
+
+
+def _sampled(search: SpiralSearch, time: Floats, head_speed: float) -> tuple[Floats, Floats]:
+    clearance, benches = np.empty(time.size), np.empty((time.size, 2), dtype=np.int64)
+    for k, theta in enumerate(search.path.theta(time * head_speed)):
+        clearance[k], benches[k] = search.clearance(float(theta))
+    return clearance, benches
+
+
+def _grazes(search: SpiralSearch, time: Floats, head_speed: float) -> tuple[Graze, ...]:
+    if time.size < 2:
+        return ()
+    span = float(time.max() - time.min())
+    samples = min(PROFILE_SAMPLES, 3 + int(span * head_speed / (PROFILE_STEP * search.dragon.chords.min())))
+    grid = np.linspace(float(time.min()), float(time.max()), samples)
+    clearance, benches = _sampled(search, grid, head_speed)
+    low = 1 + np.flatnonzero((clearance[1:-1] < clearance[:-2]) & (clearance[1:-1] <= clearance[2:]))
+    grazes = []
+    growth, length = search.path.growth, search.path.length
+    for k in low:
+        a, b = (int(bench) for bench in benches[k])
+        ends = grid[k - 1] * head_speed, grid[k + 1] * head_speed
+        travel = kernels.dip(growth, length, *ends, a, b, search.sizes, search.rows[1])
+        gap, pair = search.clearance(search.theta_at(travel))
+        grazes.append(Graze(travel / head_speed, gap, pair))
+    return tuple(grazes)

@@ -102,11 +102,11 @@ def half_slope(theta: cython.double, delta: cython.double) -> cython.double:
     return delta + theta * (1.0 - cos(delta)) + theta * (theta + delta) * sin(delta)
 
 
-@cython.cfunc
+@cython.ccall
 @cython.nogil
 @cython.exceptval(check=False)
 def first_crest(theta: cython.double) -> cython.double:
-    """Where f first stops growing, in (pi, 2 pi]; 2 pi if it grows throughout."""
+    """Where f first stops growing with delta, in (pi, 2 pi]; 2 pi if it grows throughout."""
     low: cython.double = PI
     high: cython.double = TWO_PI
     middle: cython.double
@@ -1680,10 +1680,12 @@ def clearance_at(
     if pair[0] < 0:
         return FREE
     for i in range(benches):
-        far = leaders_reach(growth, growth * theta, growth * chain[i + 1, THETA], ring)
-        far = radius_beyond(growth, far + (best if 0.0 < best < FREE else 0.0), ring)
+        far = FREE
+        if best < FREE:
+            far = leaders_reach(growth, growth * theta, growth * chain[i + 1, THETA], ring)
+            far = radius_beyond(growth, far + (best if best > 0.0 else 0.0), ring)
         for j in range(i + 2, benches):
-            if best < FREE and growth * chain[j, THETA] > far:
+            if growth * chain[j, THETA] > far:
                 break
             dx = chain[j, MX] - chain[i, MX]
             dy = chain[j, MY] - chain[i, MY]

@@ -105,10 +105,7 @@ def trajectory(
     array([8.363824, 2.826544])
     """
     end = run_end(dragon, path, head_speed=head_speed)
-    time = checked_times(times)
-    late = np.flatnonzero(time > end.time)
-    if late.size:
-        raise _after_the_end(end, time, int(late[0]))
+    time = checked_times(times, end)
     head = np.maximum(path.theta(time * head_speed), end.theta)
     shape = (time.size, dragon.benches + 1)
     position, velocity, speed = np.empty((*shape, 2)), np.empty((*shape, 2)), np.empty(shape)
@@ -118,8 +115,8 @@ def trajectory(
     return Trajectory(time, position, velocity, speed)
 
 
-def checked_times(times: Floats | Sequence[float]) -> Floats:
-    """times as a (T,) array of finite numbers [s]."""
+def checked_times(times: Floats | Sequence[float], end: RunEnd) -> Floats:
+    """times as a (T,) array of finite numbers [s], none after the end of the run."""
     try:
         time = np.asarray(times, dtype=np.float64)
     except (TypeError, ValueError) as error:
@@ -129,6 +126,9 @@ def checked_times(times: Floats | Sequence[float]) -> Floats:
     wrong = np.flatnonzero(~np.isfinite(time))
     if wrong.size:
         raise InvalidValue(f"times.{wrong[0]}", f"times[{wrong[0]}] must be finite, got {time[wrong[0]]} s")
+    late = np.flatnonzero(time > end.time)
+    if late.size:
+        raise _after_the_end(end, time, int(late[0]))
     return np.ascontiguousarray(time)
 
 
