@@ -1,0 +1,121 @@
+"""python -m benchmarks.report README.md: run every benchmark and rewrite the table between the two markers."""
+
+from __future__ import annotations
+
+import json
+import os
+import platform
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+from typing import Any
+
+ROOT = Path(__file__).parent.parent
+BEGIN, END = "<!-- performance:begin -->", "<!-- performance:end -->"
+
+# What the row is called, the benchmark, its baseline, and the time it must and the time it should take.
+ROWS = (
+    ("trajectory, 301 x 224, positions and velocities", "trajectory", "trajectory_baseline", "6 ms", "3 ms"),
+    ("first contact, certified", "first_contact[223]", "first_contact_baseline", "20 ms", "4 ms"),
+    ("minimum pitch, 9 m circle", "minimum_pitch", "minimum_pitch_baseline", "250 ms", "60 ms"),
+    ("first contact, 100,000 benches", "first_contact[100000]", None, "2x the default", "the same"),
+    ("overlapping pairs of 100,000 benches", "overlaps", "overlaps_baseline", "1 s", "0.2 s"),
+    ("`GET /collision-time`, p50", "get_collision_time", "first_contact_baseline", "30 ms", "10 ms"),
+    ("`POST /trajectory`, p50", "post_trajectory", "trajectory_baseline", "40 ms", "15 ms"),
+    ("import of `core` and first contact, cold process", "cold_start", "cold_start_baseline", "1.5 s", "0.6 s"),
+)
+BENCHES = (223, 1_000, 10_000, 100_000)
+Results = dict[str, dict[str, Any]]
+
+
+def run_benchmarks() -> Results:
+    """Every benchmark's entry of pytest-benchmark's JSON, by the name of its test."""
+    with tempfile.TemporaryDirectory() as folder:
+        output = Path(folder) / "benchmarks.json"
+        command = [sys.executable, "-m", "pytest", "benchmarks", f"--benchmark-json={output}"]
+        subprocess.run([*command, "--benchmark-columns=median,rounds"], cwd=ROOT, check=True)
+        entries = json.loads(output.read_text(encoding="utf-8"))["benchmarks"]
+    return {entry["name"].removeprefix("test_"): entry for entry in entries}
+
+
+def seconds(results: Results, name: str) -> float:
+    """Median of a benchmark, scaled up where only a part of the work was measured."""
+    entry = results[name]
+    return float(entry["stats"]["median"] * entry["extra_info"].get("scale", 1.0))
+
+
+def shown(time: float) -> str:
+    """A time in the unit that suits it, to three digits."""
+    value, unit = (time * 1e3, "ms") if time < 1.0 else (time, "s")
+    return f"{value:,.0f} {unit}" if value >= 100 else f"{value:.3g} {unit}"
+
+
+def table(results: Results) -> list[str]:
+    """One row for each kind of work, beside its baseline of the same run."""
+    lines = ["| work | must | aim | measured | plain SciPy | ratio |", "|---|---|---|---|---|---|"]
+    for label, name, baseline, must, aim in ROWS:
+        time = seconds(results, name)
+        cells = [label, must, aim, shown(time), "", ""]
+        if baseline:
+            cells[4:] = [shown(seconds(results, baseline)), f"{seconds(results, baseline) / time:,.3g}x"]
+        lines.append(f"| {' | '.join(cells)} |")
+    return lines
+
+
+def growth(results: Results) -> list[str]:
+    """How first contact grows with the number of benches."""
+    times = [seconds(results, f"first_contact[{benches}]") for benches in BENCHES]
+    return [
+        f"| first contact, benches | {' | '.join(f'{benches:,}' for benches in BENCHES)} |",
+        f"|---|{'---|' * len(BENCHES)}",
+        f"| time | {' | '.join(map(shown, times))} |",
+        f"| growth | {' | '.join(f'{time / times[0]:.2f}x' for time in times)} |",
+    ]
+
+
+def throughput(results: Results) -> str:
+    """Requests per second with one client thread and with two."""
+    one, two = (
+        results[name]["extra_info"]["requests"] / seconds(results, name) for name in ("throughput[1]", "throughput[2]")
+    )
+    return (
+        f"`GET /collision-time`, each request at a pitch of its own: {one:,.0f} requests/s from one client thread, "
+        f"{two:,.0f} from two ({two / one:.2f}x)."
+    )
+
+
+def section(results: Results) -> str:
+    """Everything between the markers, in Markdown."""
+    machine = f"{platform.machine()}, {os.cpu_count()} cores, Python {platform.python_version()}"
+    return "\n".join(
+        [
+            f"Medians on {machine}, warm unless cold is said; made by `make bench`.",
+            "",
+            *table(results),
+            "",
+            "Plain SciPy is one `brentq` for each handle at each instant, and shapely's tree over all benches every",
+            "0.1 s (which can miss a contact) with a bisection at the end. It is measured in the same run on a part of the",
+            "instants, and scaled to the whole; for the cold start it is only `import numpy, scipy.optimize, shapely`.",
+            "",
+            *growth(results),
+            "",
+            throughput(results),
+        ]
+    )
+
+
+def main() -> None:
+    """Rewrite the part between the markers in the file named on the command line."""
+    page = Path(sys.argv[1])
+    before, _, rest = page.read_text(encoding="utf-8").partition(BEGIN)
+    _, end, after = rest.partition(END)
+    if not end:
+        sys.exit(f"{page} needs the lines {BEGIN} and {END}")
+    text = section(run_benchmarks())
+    page.write_text(f"{before}{BEGIN}\n{text}\n{END}{after}", encoding="utf-8")
+    print(text)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,104 @@
+"""The rows of the performance table that need no service. Rows of one group are compared with its baseline."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from pytest_benchmark.fixture import BenchmarkFixture
+
+import core
+from benchmarks import baselines
+
+ROOT = Path(__file__).parent.parent
+DRAGON, SPIRAL = core.Dragon(), core.Spiral()
+TIMES = np.arange(301.0)
+SAMPLED_TIMES = TIMES[::60]
+SAMPLED_LOOKS = np.arange(400.0, 401.0, baselines.STEP)
+AGREEMENT = 1e-9  # [m] and [m/s], between the baseline and core
+
+
+def test_trajectory(benchmark: BenchmarkFixture) -> None:
+    benchmark.group = "trajectory"
+    result = benchmark(core.trajectory, DRAGON, SPIRAL, TIMES)
+    assert result.position.shape == (301, 224, 2)
+
+
+def test_trajectory_baseline(benchmark: BenchmarkFixture) -> None:
+    benchmark.group = "trajectory"
+    benchmark.extra_info["scale"] = TIMES.size / SAMPLED_TIMES.size
+
+    def rows() -> list[tuple[core.dragon.Floats, core.dragon.Floats]]:
+        return [baselines.handles_and_velocities(DRAGON, SPIRAL, float(time)) for time in SAMPLED_TIMES]
+
+    position, velocity = map(np.stack, zip(*benchmark.pedantic(rows, rounds=3), strict=True))
+    expected = core.trajectory(DRAGON, SPIRAL, SAMPLED_TIMES)
+    np.testing.assert_allclose(position, expected.position, rtol=0, atol=AGREEMENT)
+    np.testing.assert_allclose(velocity, expected.velocity, rtol=0, atol=AGREEMENT)
+
+
+@pytest.mark.parametrize("benches", [223, 1_000, 10_000, 100_000])
+def test_first_contact(benchmark: BenchmarkFixture, benches: int) -> None:
+    benchmark.group = "first contact"
+    contact = benchmark(core.first_contact, core.Dragon(benches), SPIRAL)
+    assert contact.benches == (0, 8)
+
+
+def test_first_contact_baseline(benchmark: BenchmarkFixture) -> None:
+    time = core.first_contact(DRAGON, SPIRAL).time
+    assert time is not None
+    benchmark.group = "first contact"
+    benchmark.extra_info["scale"] = baselines.looks_for_first_contact(time) / SAMPLED_LOOKS.size
+    assert not any(benchmark.pedantic(baselines.looks, (DRAGON, SPIRAL, SAMPLED_LOOKS), rounds=3))
+    assert baselines.looks(DRAGON, SPIRAL, np.array([time - 1e-6, time + 1e-6])) == [False, True]
+
+
+def test_minimum_pitch(benchmark: BenchmarkFixture) -> None:
+    benchmark.group = "minimum pitch"
+    assert benchmark(core.minimum_pitch, DRAGON).limited_by is core.LimitedBy.GRAZE
+
+
+def test_minimum_pitch_baseline(benchmark: BenchmarkFixture) -> None:
+    pitch = core.minimum_pitch(DRAGON).pitch
+    benchmark.group = "minimum pitch"
+    benchmark.extra_info["scale"] = baselines.looks_for_minimum_pitch(pitch, 16.0, 4.5) / SAMPLED_LOOKS.size
+    path, times = core.Spiral(pitch), SAMPLED_LOOKS - 200.0
+    assert not any(benchmark.pedantic(baselines.looks, (DRAGON, path, times), rounds=3))
+
+
+@pytest.fixture(scope="module")
+def long_dragon() -> tuple[core.Dragon, core.dragon.Floats]:
+    """A dragon of 100,000 benches a moment after its first contact, and where its handles are."""
+    dragon = core.Dragon(100_000)
+    return dragon, core.trajectory(dragon, SPIRAL, [412.5]).position[0]
+
+
+def test_overlaps(benchmark: BenchmarkFixture, long_dragon: tuple[core.Dragon, core.dragon.Floats]) -> None:
+    dragon, handles = long_dragon
+    benchmark.group = "overlaps"
+    found = benchmark(core.overlaps, core.bench_poses(handles), dragon.lengths, dragon.widths)
+    assert found.pairs.tolist() == [[0, 8]]
+
+
+def test_overlaps_baseline(benchmark: BenchmarkFixture, long_dragon: tuple[core.Dragon, core.dragon.Floats]) -> None:
+    benchmark.group = "overlaps"
+    pairs = benchmark.pedantic(lambda: baselines.overlapping_pairs(baselines.polygons(*long_dragon)), rounds=3)
+    assert pairs.tolist() == [[0, 8]]
+
+
+def run_cold(code: str) -> None:
+    subprocess.run([sys.executable, "-c", code], cwd=ROOT, check=True)
+
+
+def test_cold_start(benchmark: BenchmarkFixture) -> None:
+    benchmark.group = "cold start"
+    benchmark.pedantic(run_cold, ("import core; core.first_contact(core.Dragon(), core.Spiral())",), rounds=7)
+
+
+def test_cold_start_baseline(benchmark: BenchmarkFixture) -> None:
+    """Imports alone: the baseline has not looked for anything yet."""
+    benchmark.group = "cold start"
+    benchmark.pedantic(run_cold, ("import numpy, scipy.optimize, shapely",), rounds=7)

@@ -1,0 +1,66 @@
+"""The rows of the performance table that go through the service, over loopback, each answer computed anew."""
+
+from __future__ import annotations
+
+import http.client
+import itertools
+import json
+from concurrent.futures import ThreadPoolExecutor
+
+import pytest
+from pytest_benchmark.fixture import BenchmarkFixture
+
+REQUESTS = 100  # in one round of the throughput rows
+# No two requests of a run share a pitch, so nothing can answer from a cache.
+PITCHES = (0.55 + k * 1e-9 for k in itertools.count())
+
+
+def call(connection: http.client.HTTPConnection, method: str, path: str, body: str | None = None) -> bytes:
+    connection.request(method, path, body, {"Content-Type": "application/json"} if body else {})
+    response = connection.getresponse()
+    answer = response.read()
+    assert response.status == http.client.OK, answer
+    return answer
+
+
+def connect(server: str) -> http.client.HTTPConnection:
+    return http.client.HTTPConnection(server.removeprefix("http://"))
+
+
+def test_get_collision_time(benchmark: BenchmarkFixture, server: str) -> None:
+    benchmark.group = "GET /collision-time"
+    connection = connect(server)
+    benchmark.pedantic(
+        lambda: call(connection, "GET", f"/collision-time?pitch={next(PITCHES):.9f}"), rounds=200, warmup_rounds=10
+    )
+
+
+def test_post_trajectory(benchmark: BenchmarkFixture, server: str) -> None:
+    benchmark.group = "POST /trajectory"
+    connection = connect(server)
+
+    def post() -> bytes:
+        body = {"path": {"kind": "spiral", "pitch": next(PITCHES)}}
+        return call(connection, "POST", "/trajectory", json.dumps(body))
+
+    benchmark.pedantic(post, rounds=200, warmup_rounds=10)
+
+
+@pytest.mark.parametrize("threads", [1, 2])
+def test_throughput(benchmark: BenchmarkFixture, server: str, threads: int) -> None:
+    """Requests per second of /collision-time with one client thread and with two."""
+    benchmark.group = "throughput"
+    benchmark.extra_info["requests"] = REQUESTS
+    pool = ThreadPoolExecutor(threads)
+    connections = [connect(server) for _ in range(threads)]
+
+    def client(connection: http.client.HTTPConnection, paths: list[str]) -> None:
+        for path in paths:
+            call(connection, "GET", path)
+
+    def paths() -> tuple[tuple[list[list[str]]], dict[str, object]]:
+        each = [[f"/collision-time?pitch={next(PITCHES):.9f}" for _ in range(REQUESTS // threads)] for _ in connections]
+        return (each,), {}
+
+    benchmark.pedantic(lambda each: list(pool.map(client, connections, each)), setup=paths, rounds=7, warmup_rounds=1)
+    pool.shutdown()
