@@ -540,7 +540,10 @@ def pair_gap_within(
     bhw: cython.double,
     limit: cython.double,
 ) -> cython.double:
-    """pair_gap() where it is at most limit >= 0, else any value above limit and not above pair_gap() [m]."""
+    """pair_gap() where it is at most limit >= 0, else some value above limit and not above pair_gap() [m].
+
+    Where the two are equal but for rounding, either may come back.
+    """
     dx: cython.double = bx - ax
     dy: cython.double = by - ay
     c: cython.double = aux * bux + auy * buy
@@ -976,7 +979,8 @@ CENTRE_PULL = cython.declare(cython.int, 2)
 CORNER_PULL = cython.declare(cython.int, 3)
 TURN = cython.declare(cython.int, 4)
 TURN_PULL = cython.declare(cython.int, 5)  # omega^2 + omega'
-MOTION_COLUMNS = 6
+HANDLE_SPEED = cython.declare(cython.int, 6)  # of the faster of its two handles
+MOTION_COLUMNS = 7
 
 # Columns of a size row, one for each bench.
 CHORD = cython.declare(cython.int, 0)
@@ -1148,7 +1152,7 @@ def motion_bounds(
             cos_low = swing_a if swing_a < swing_b else swing_b
             if cos_low <= 0.0:
                 return False
-            rate_b = TRIAL * rate_a * cos_high / cos_low + h
+            rate_b = rate_a * (TRIAL * cos_high + h * rate_a * (k_high + 2.0 / chord)) / cos_low
             omega = (rate_a + rate_b) / chord
             swing_a = k_high * rate_a + omega
             swing_b = k_high * rate_b + omega
@@ -1172,6 +1176,7 @@ def motion_bounds(
         motion[k, CORNER_PULL] = pull + spin * sizes[k, RADIUS]
         motion[k, TURN] = omega
         motion[k, TURN_PULL] = spin
+        motion[k, HANDLE_SPEED] = rate_a if rate_a > rate_b else rate_b
         rate_a = rate_b
         second_a = second_b
     return True
@@ -1394,6 +1399,10 @@ MARCH_FIELDS = (
 # Golden section, and the relative width at which a dip is found: its value is then flat to rounding [1].
 GOLDEN = cython.declare(cython.double, 0.6180339887498949)
 DIP_WIDTH = cython.declare(cython.double, 1e-9)
+# The chain is laid out so many drifts further than the pose needs; if that is too little the step is halved [1].
+ALLOWANCE = cython.declare(cython.double, 2.0)
+# A crossing is found this much closer than the bracket that is proven around it [1].
+CROSSING_WIDTH = cython.declare(cython.double, 1e-3)
 
 
 # A point at distance x along the extended centre line of a bench from the foot of the perpendicular from the
@@ -1576,12 +1585,12 @@ def interval_least(
     if handles < benches:  # those left out must stay outside the reach of the leaders
         high = before[active, THETA] if before[active, THETA] > after[active, THETA] else after[active, THETA]
         high *= growth
-        high += drift(2.0 * motion[active - 1, CENTRE_SPEED], h, growth, high)
+        high += drift(motion[active - 1, HANDLE_SPEED], h, growth, high)
         low = before[0, THETA] if before[0, THETA] < after[0, THETA] else after[0, THETA]
         high = leaders_reach(growth, growth * low, high, ring)
         low = before[handles, THETA] if before[handles, THETA] < after[handles, THETA] else after[handles, THETA]
         low *= growth
-        if low - drift(2.0 * motion[handles - 1, CENTRE_SPEED], h, growth, low) < radius_beyond(
+        if low - drift(motion[handles - 1, HANDLE_SPEED], h, growth, low) < radius_beyond(
             growth, high + margin, ring
         ):
             return -FREE
@@ -1905,7 +1914,8 @@ def march(
             if h > stop - travel:
                 h = stop - travel
             handles = chain_between(
-                growth, spiral_theta((arc - travel - h) / growth), followers, cap, margin, 0.1 * h, ring, sizes,
+                growth, spiral_theta((arc - travel - h) / growth), followers, cap, margin,
+                ALLOWANCE * drift(fabs(before[1, RATE]) + 1.0, h, growth, growth * before[1, THETA]), ring, sizes,
                 after, pair,
             )
             if handles == cap and cap < benches:
@@ -1936,7 +1946,7 @@ def march(
                     target = -1.0
                     continue
                 target = crossing(
-                    growth, arc, travel, travel + h, a, b, margin, 0.25 * tolerance, sizes, spare
+                    growth, arc, travel, travel + h, a, b, margin, CROSSING_WIDTH * tolerance, sizes, spare
                 )
                 out[FIRST] = a
                 out[SECOND] = b

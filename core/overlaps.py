@@ -29,16 +29,16 @@ from core.rectangles import (
 
 Pairs = NDArray[np.int64]
 
-# Overlapping pairs in one answer: 100 MB with their witnesses, and 10 for each of 100,000 benches.
+# Overlapping pairs in one answer: 10 for each of 100,000 benches, and 200 MB while they are found.
 PAIRS_MAX = 1_000_000
-# Pairs of upright boxes that the search may meet: about a second. 100,000 benches on a spiral of pitch 0.55 m meet
+# Pairs of upright boxes that the search may meet: under a second. 100,000 benches on a spiral of pitch 0.55 m meet
 # 340,000, neighbours aside.
 CANDIDATES_MAX = 20_000_000
 # The same for the other engines, of which FCL takes about 5 microseconds for each.
 CROSS_CANDIDATES_MAX = 2_000_000
-# Upright boxes are wider by this share of the coordinates and sizes that they are computed from: each of the few
-# operations rounds by 1.1e-16, and so does the separation that they must not undercut [1].
-BOX_ROUNDING = 4e-15
+# Searches reach further by this share of the coordinates and sizes that they compute with: each of their few
+# operations rounds by 1.1e-16, and so does the separation that they must not miss [1].
+ROUNDING = 4e-15
 # Pairs that the angle-sum rule judges at once, to keep its 16 angles a pair within 30 MB.
 ANGLE_BATCH = 50_000
 
@@ -192,7 +192,10 @@ def _find(engine: Engine, poses: Floats, sizes: Floats, margin: float, chained: 
 
 
 def _separating_axis(poses: Floats, sizes: Floats, margin: float, chained: bool) -> Pairs:
-    return _meeting(frames(poses, sizes), margin, chained, exact=True)
+    frame = frames(poses, sizes)
+    reach = margin + ROUNDING * (margin + 2.0 * sizes.sum(axis=1).max(initial=0.0))
+    pairs = _meeting(frame, reach, chained, exact=True)
+    return pairs[frames_separation(frame[pairs[:, 0]], frame[pairs[:, 1]]).separation <= margin]
 
 
 # Two rectangles within the margin have upright boxes within it along x and along y, so boxes wider by half of it
@@ -200,7 +203,7 @@ def _separating_axis(poses: Floats, sizes: Floats, margin: float, chained: bool)
 def _meeting(frame: Floats, margin: float, chained: bool, *, exact: bool) -> Pairs:
     half = np.abs(frame[:, 2:4]) * frame[:, 4:5] + np.abs(frame[:, 3:1:-1]) * frame[:, 5:6]
     scale = np.abs(frame[:, :2]).sum(axis=1) + frame[:, 4:].sum(axis=1) + margin
-    half += 0.5 * margin + BOX_ROUNDING * scale[:, None]
+    half += 0.5 * margin + ROUNDING * scale[:, None]
     boxes = np.hstack([frame[:, :2] - half, frame[:, :2] + half])
     leaves = 1 << max(0, (-(-len(frame) // kernels.BOXES_PER_LEAF) - 1).bit_length())
     order = _tree_order(frame[:, :2], leaves)
