@@ -132,8 +132,13 @@ METHOD = (
     "proven steps: second-derivative bound on the gap along a body axis between both ends of each step; "
     "closed-form ring bound further out"
 )
-CORNERS = ("front-outer", "front-inner", "rear-inner", "rear-outer")
-EDGES = ("front", "inner", "rear", "outer")
+# By the kernels' codes, which count front-left, front-right, rear-right, rear-left and front, right, rear, left: first
+# for a bench that has the centre on its right, then for one that has it on its left.
+CORNERS = (
+    ("front-outer", "front-inner", "rear-inner", "rear-outer"),
+    ("front-inner", "front-outer", "rear-outer", "rear-inner"),
+)
+EDGES = (("front", "inner", "rear", "outer"), ("front", "outer", "rear", "inner"))
 
 
 class SpiralSearch:
@@ -334,13 +339,17 @@ def _touching_features(
     a, b = (search.rows[0, bench, 6:10] for bench in pair)
     out = np.empty(8)
     kernels.pair_separation(*a, *search.sizes[pair[0], 1:3], *b, *search.sizes[pair[1], 1:3], out)
-    features = dict(zip(pair, divmod(int(out[7]), 8), strict=True))
-    corners = [Feature(bench, CORNERS[code]) for bench, code in features.items() if code < 4]
-    edges = [Feature(bench, EDGES[code - 4]) for bench, code in features.items() if code >= 4]
-    x, y = out[3:5] if corners and corners[0].bench == pair[1] else out[1:3]
+    corner, edge = None, None
+    for bench, row, code in zip(pair, (a, b), divmod(int(out[7]), 8), strict=True):
+        centre_on_left = int(row[1] * row[2] < row[0] * row[3])
+        if code >= 4:
+            edge = Feature(bench, EDGES[centre_on_left][code - 4])
+        elif corner is None:
+            corner = Feature(bench, CORNERS[centre_on_left][code])
+    x, y = out[3:5] if corner and corner.bench == pair[1] else out[1:3]
     cos, sin = math.cos(theta), math.sin(theta)
     point = (float(x * cos - y * sin), float(x * sin + y * cos))
-    return (corners[0] if corners else None), (edges[0] if edges else None), point
+    return corner, edge, point
 
 
 def clearance_profile(
