@@ -35,10 +35,12 @@ TABLE = {
     "corner to corner": ((0, 0, 0), SQUARE, (5, 6, 0), SQUARE, 5.0, (1, 1), (4, 5), (0.6, 0.8)),
     "touching at corners only": ((0, 0, 0), SQUARE, (2, -2, 0), SQUARE, 0.0, (1, -1), (1, -1), None),
     "corner of b to edge of a": (
-        (0, 0, 0), SQUARE, (3, 0.25, math.pi / 4), SQUARE, 2 - HALF_DIAGONAL, (1, 0.25), (3 - HALF_DIAGONAL, 0.25), (1, 0),
+        (0, 0, 0), SQUARE, (3, 0.25, math.pi / 4), SQUARE,
+        2 - HALF_DIAGONAL, (1, 0.25), (3 - HALF_DIAGONAL, 0.25), (1, 0),
     ),
     "corner of a to edge of b": (
-        (0, 0, math.pi / 4), SQUARE, (-3, 0, 0), SQUARE, 2 - HALF_DIAGONAL, (-HALF_DIAGONAL, 0), (-2, 0), (-1, 0),
+        (0, 0, math.pi / 4), SQUARE, (-3, 0, 0), SQUARE,
+        2 - HALF_DIAGONAL, (-HALF_DIAGONAL, 0), (-2, 0), (-1, 0),
     ),
     "parallel edges share a stretch": ((0, 0, 0), SQUARE, (1, -3, math.pi), SQUARE, 1.0, (0.5, -1), (0.5, -2), (0, -1)),
     "parallel across": ((0, 0, 0), (4, 2), (0.5, 3, math.pi / 2), (2, 6), 1.0, (0, 1), (0, 2), (0, 1)),

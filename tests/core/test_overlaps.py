@@ -1,0 +1,430 @@
+"""Four engines that find overlapping benches, and a broad phase that must miss none."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from numpy.typing import NDArray
+
+from core.angle_sum import ANGLE_TOLERANCE, angle_sum_overlap, angle_sums, literal_corners, paper_corners
+from core.dragon import SIZE_MAX, Dragon
+from core.errors import InvalidValue, TooLarge
+from core.kinematics import bench_poses, trajectory
+from core.overlaps import (
+    CROSS_CANDIDATES_MAX,
+    PAIRS_MAX,
+    Engine,
+    Verdict,
+    broad_phase,
+    cross_check,
+    overlaps,
+    verdicts,
+)
+from core.paths import Spiral
+from core.rectangles import corners, separation
+
+Floats = NDArray[np.float64]
+Pairs = NDArray[np.int64]
+Scene = tuple[Floats, Floats, Floats]
+
+# Within this of the margin the engines may differ, for each rounds its own corners [m].
+UNDECIDED = 1e-9
+# How close to the margin most random pairs are put: where engines could err without being undecided [m].
+NEAR = 1e-8
+# Rounding of points and distances within ten metres of the origin [m].
+ROUNDING = 2e-14
+# First contact of the default dragon, computed in 256-bit ball arithmetic [s].
+CONTACT_TIME = 412.473837682
+EXACT = (Engine.SEPARATING_AXIS, Engine.FCL, Engine.SHAPELY)
+LENGTH, WIDTH = 2.2, 0.3
+
+
+def benches(*poses: tuple[float, float, float]) -> Scene:
+    """Equal benches at the given poses."""
+    return np.array(poses, dtype=float).reshape(-1, 3), np.full(len(poses), LENGTH), np.full(len(poses), WIDTH)
+
+
+def crowd(count: int, seed: int, *, side: float, smallest: float = 0.05, largest: float = 5.0) -> Scene:
+    """Benches of mixed sizes in a square."""
+    random = np.random.default_rng(seed)
+    pose = np.stack([*random.uniform(0.0, side, (2, count)), random.uniform(-4.0, 4.0, count)], axis=-1)
+    size = 10 ** random.uniform(math.log10(smallest), math.log10(largest), (2, count))
+    return pose, size[0], size[1]
+
+
+def all_gaps(scene: Scene) -> Floats:
+    """Oracle: the separation of every pair, (n, n) [m]."""
+    pose, length, width = scene
+    size = np.stack([length, width], axis=-1)
+    return separation(pose[:, None], size[:, None], pose[None], size[None]).separation
+
+
+def all_pairs(scene: Scene, margin: float = 0.0) -> Pairs:
+    return np.argwhere(np.triu(all_gaps(scene) <= margin, k=1))
+
+
+def near_pairs(count: int, seed: int, margin: float) -> tuple[Scene, Floats]:
+    """Pairs of rectangles 2 k, 2 k + 1, each pair in its own cell, two thirds of them within NEAR of the margin.
+
+    returns: the scene and the separation of each pair (count,) [m]
+    """
+    random = np.random.default_rng(seed)
+    pose = random.uniform(-1.0, 1.0, (2, count, 3)) * [3.0, 3.0, math.pi]
+    square_on = random.random((2, count)) < 1 / 3
+    pose[square_on, 2] = random.integers(0, 8, square_on.sum()) * math.pi / 4
+    size = random.uniform(0.1, 3.0, (2, count, 2))
+    near = random.random(count) < 2 / 3
+    wanted = margin + NEAR * random.choice([0.0, 0.1, -0.1, 0.2, -0.2, 1.0, -1.0], count)
+    found = separation(pose[0], size[0], pose[1], size[1])
+    pose[1, near, :2] -= ((found.separation - wanted)[:, None] * found.normal)[near]
+    cell = 20.0 * np.stack(np.divmod(np.arange(count), math.isqrt(count)), axis=-1)
+    pose[..., :2] += cell
+    gap = separation(pose[0], size[0], pose[1], size[1]).separation
+    flat_size = size.transpose(1, 0, 2).reshape(-1, 2)
+    return (pose.transpose(1, 0, 2).reshape(-1, 3), flat_size[:, 0], flat_size[:, 1]), gap
+
+
+# -- scenes in a table ----------------------------------------------------------------------------------------
+
+SCENES = {
+    "nobody": ((), []),
+    "one bench alone": (((0, 0, 0),), []),
+    "apart": (((0, 0, 0), (0, 0.5, 0)), []),
+    "touching counts": (((0, 0, 0), (LENGTH, 0, 0)), [(0, 1)]),
+    "touching at a corner counts": (((0, 0, 0), (LENGTH, WIDTH, 0)), [(0, 1)]),
+    "overlapping": (((0, 0, 0), (1, 0.1, 0.3)), [(0, 1)]),
+    "the same place": (((0, 0, 0), (0, 0, 0)), [(0, 1)]),
+    "boxes overlap, benches do not": (((0, 0, 0.8), (0.4, -0.4, 0.8)), []),
+    "sorted, lower number first": (
+        ((9, 0, 0), (0, 0, 0), (9, 0.1, 0), (0, 0.1, 0), (9, 0.2, 0)),
+        [(0, 2), (0, 4), (1, 3), (2, 4)],
+    ),
+}
+
+
+@pytest.mark.parametrize("engine", Engine)
+@pytest.mark.parametrize(("poses", "pairs"), SCENES.values(), ids=SCENES.keys())
+def test_every_engine_finds_the_pairs_of_the_table(poses: tuple, pairs: list, engine: Engine) -> None:
+    found = overlaps(*benches(*poses), engine=engine, chained=False)
+    np.testing.assert_array_equal(found.pairs, np.array(pairs).reshape(-1, 2))
+
+
+@pytest.mark.parametrize("engine", Engine)
+def test_neighbours_are_left_out_of_a_chain_only(engine: Engine) -> None:
+    scene = benches((0, 0, 0), (0.5, 0.1, 0.1), (0.2, -0.1, -0.05))
+    assert overlaps(*scene, engine=engine).pairs.tolist() == [[0, 2]]
+    assert overlaps(*scene, engine=engine, chained=False).pairs.tolist() == [[0, 1], [0, 2], [1, 2]]
+
+
+@pytest.mark.parametrize("engine", EXACT)
+@pytest.mark.parametrize(
+    ("gap", "within"), [(0.5, True), (0.5 - 1e-9, True), (0.5 + 1e-9, False)], ids=["at", "below", "above"]
+)
+def test_a_gap_counts_up_to_and_with_the_margin(engine: Engine, gap: float, within: bool) -> None:
+    side_by_side = np.array([[0.0, 0.0, 0.0], [0.0, 1.0 + gap, 0.0]])
+    assert overlaps(side_by_side, [2, 2], [1, 1], engine=engine, margin=0.5, chained=False).pairs.size == 2 * within
+
+
+@pytest.mark.parametrize("engine", EXACT)
+def test_margin_is_a_distance_also_around_corners(engine: Engine) -> None:
+    corner_to_corner = np.array([[0.0, 0.0, 0.0], [2.0 + 0.3, 1.0 + 0.4, 0.0]])
+    for margin, within in ((0.499999, False), (0.500001, True)):
+        found = overlaps(corner_to_corner, [2, 2], [1, 1], engine=engine, margin=margin, chained=False)
+        assert found.pairs.size == 2 * within
+
+
+def test_contact_holds_the_exact_separation_of_each_pair() -> None:
+    pose, length, width = crowd(60, seed=1, side=8.0)
+    size = np.stack([length, width], axis=-1)
+    for engine in Engine:
+        found = overlaps(pose, length, width, engine=engine)
+        a, b = found.pairs.T
+        expected = separation(pose[a], size[a], pose[b], size[b])
+        for name in ("separation", "witness_a", "witness_b", "normal"):
+            np.testing.assert_array_equal(getattr(found.contact, name), getattr(expected, name))
+
+
+# -- the engines against each other ---------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(("count", "margin"), [(100_000, 0.0), (10_000, 0.05)])
+def test_engines_agree_on_random_and_near_touching_pairs(count: int, margin: float) -> None:
+    scene, gap = near_pairs(count, seed=2, margin=margin)
+    assert np.mean(np.abs(gap - margin) <= NEAR + UNDECIDED) > 0.6
+    for engine in EXACT:
+        found = overlaps(*scene, engine=engine, margin=margin, chained=False).pairs
+        np.testing.assert_array_equal(found[:, 1], found[:, 0] + 1)
+        within = np.zeros(count, dtype=bool)
+        within[found[:, 0] // 2] = True
+        differs = within != (gap <= margin)
+        assert np.abs(gap[differs] - margin).max(initial=0.0) <= UNDECIDED, engine
+        assert engine is not Engine.SEPARATING_AXIS or not differs.any()
+
+
+@settings(deadline=None, max_examples=25)
+@given(st.integers(0, 2**32), st.integers(2, 40), st.sampled_from([0.0, 0.05, 1.0]))
+def test_exact_engines_agree_on_crowds(seed: int, count: int, margin: float) -> None:
+    scene = crowd(count, seed, side=8.0)
+    expected = all_pairs(scene, margin)
+    for engine in EXACT:
+        np.testing.assert_array_equal(overlaps(*scene, engine=engine, margin=margin, chained=False).pairs, expected)
+
+
+def test_cross_check_names_the_engine_that_differs_and_its_pairs() -> None:
+    plus_and_corner = benches((0, 0, 0), (0, 0, math.pi / 2), (9, 0, 0), (10, 0.1, 0.3))
+    check = cross_check(*plus_and_corner, chained=False)
+    assert not check.agree
+    for engine in EXACT:
+        assert check.pairs[engine].tolist() == [[0, 1], [2, 3]]
+        assert check.only[engine].tolist() == [[0, 1]]
+        assert check.missing[engine].tolist() == []
+    assert check.pairs[Engine.ANGLE_SUM].tolist() == [[2, 3]]
+    assert check.only[Engine.ANGLE_SUM].tolist() == []
+    assert check.missing[Engine.ANGLE_SUM].tolist() == [[0, 1]]
+    assert check.left_out == ()
+
+
+def test_cross_check_agrees_when_all_find_the_same() -> None:
+    for scene in (benches(), benches((0, 0, 0), (5, 0, 0), (0.5, 0.1, 0.2))):
+        check = cross_check(*scene)
+        assert check.agree
+        assert list(check.pairs) == list(Engine)
+        assert all(pairs.shape == (0, 2) for pairs in (*check.only.values(), *check.missing.values()))
+
+
+def test_cross_check_says_that_the_angle_sum_rule_knows_no_margin() -> None:
+    check = cross_check(*benches((0, 0, 0), (0, 0.34, 0)), margin=0.05, chained=False)
+    assert check.agree
+    assert check.left_out == (Engine.ANGLE_SUM,)
+    assert list(check.pairs) == list(EXACT)
+    assert all(pairs.tolist() == [[0, 1]] for pairs in check.pairs.values())
+
+
+def test_all_four_see_the_head_touch_bench_8_at_the_verified_time() -> None:
+    dragon = Dragon()
+    moment = [CONTACT_TIME - UNDECIDED, CONTACT_TIME + UNDECIDED]
+    before, after = bench_poses(trajectory(dragon, Spiral(), moment).position)
+    pair = [0, 8]
+    seen = verdicts(before[pair], after[pair], dragon.lengths[pair], dragon.widths[pair])
+    assert seen == dict.fromkeys(Engine, Verdict(before=False, after=True))
+    assert cross_check(before, dragon.lengths, dragon.widths).agree
+    assert overlaps(after, dragon.lengths, dragon.widths).pairs.tolist() == [pair]
+
+
+def test_verdicts_of_a_margin_come_from_the_engines_that_know_one() -> None:
+    before, after = (benches((0, 0, 0), (0, WIDTH + gap, 0))[0] for gap in (0.06, 0.04))
+    seen = verdicts(before, after, [LENGTH] * 2, [WIDTH] * 2, margin=0.05)
+    assert seen == dict.fromkeys(EXACT, Verdict(before=False, after=True))
+
+
+# -- the broad phase ------------------------------------------------------------------------------------------
+
+
+@settings(deadline=None)
+@given(st.integers(0, 2**32), st.integers(0, 60), st.sampled_from([0.0, 1e-9, 0.3]), st.sampled_from([0.0, 1e3, 1e8]))
+def test_broad_phase_is_a_superset_of_the_narrow_phase(seed: int, count: int, margin: float, shift: float) -> None:
+    pose, length, width = crowd(count, seed, side=12.0)
+    scene = pose + np.array([shift, -shift, 0.0]), length, width
+    wide = {tuple(pair) for pair in broad_phase(*scene, margin=margin, chained=False)}
+    narrow = {tuple(pair) for pair in all_pairs(scene, margin)}
+    assert narrow <= wide
+    assert {tuple(pair) for pair in overlaps(*scene, margin=margin, chained=False).pairs} == narrow
+
+
+LAYOUTS = {
+    "mixed sizes": crowd(2_000, seed=3, side=100.0, smallest=1e-3, largest=20.0),
+    "in a row": (np.stack([np.arange(2_000) * 0.7, np.zeros(2_000), np.zeros(2_000)], -1), *np.full((2, 2_000), 0.9)),
+    "in a column": (np.stack([np.zeros(2_000), np.arange(2_000) * 0.7, np.ones(2_000)], -1), *np.full((2, 2_000), 0.9)),
+    "all in one place": (np.zeros((300, 3)), *np.ones((2, 300))),
+}
+with_giants = LAYOUTS["mixed sizes"][0].copy(), LAYOUTS["mixed sizes"][1].copy(), LAYOUTS["mixed sizes"][2]
+with_giants[0][:2, :2] = [[1e9, -1e9], [-1e9, 5.0]]
+with_giants[1][2] = SIZE_MAX
+LAYOUTS["a giant and two far away"] = with_giants
+
+
+@pytest.mark.parametrize("scene", LAYOUTS.values(), ids=LAYOUTS.keys())
+def test_separating_axis_finds_what_all_pairs_finds(scene: Scene) -> None:
+    found = overlaps(*scene, chained=False).pairs
+    np.testing.assert_array_equal(found, all_pairs(scene))
+    assert len(found) > 100
+
+
+@settings(deadline=None)
+@given(st.integers(0, 2**32), st.integers(2, 60))
+def test_numbering_the_benches_otherwise_renumbers_the_pairs(seed: int, count: int) -> None:
+    pose, length, width = crowd(count, seed, side=10.0)
+    order = np.random.default_rng(seed).permutation(count)
+    renumbered = order[overlaps(pose[order], length[order], width[order], chained=False).pairs]
+    expected = overlaps(pose, length, width, chained=False).pairs
+    assert {frozenset(pair) for pair in renumbered.tolist()} == {frozenset(pair) for pair in expected.tolist()}
+
+
+@pytest.mark.parametrize("engine", Engine)
+def test_a_hundred_thousand_stacked_benches_are_refused(engine: Engine) -> None:
+    count = 100_000
+    with pytest.raises(TooLarge) as caught:
+        overlaps(np.zeros((count, 3)), np.full(count, LENGTH), np.full(count, WIDTH), engine=engine)
+    assert caught.value.field == "benches"
+    assert str(count) in caught.value.message
+
+
+def test_close_benches_that_do_not_overlap_are_refused_when_too_many_must_be_looked_at() -> None:
+    count = 7_000  # their boxes all meet: 24 million pairs
+    abreast = np.arange(count) * 0.25
+    poses = np.stack([abreast, -abreast, np.full(count, math.pi / 4)], axis=-1)
+    with pytest.raises(TooLarge, match="20000000 pairs close by"):
+        overlaps(poses, np.full(count, SIZE_MAX), np.full(count, WIDTH))
+
+
+# n benches in one place are n (n - 1) / 2 pairs
+@pytest.mark.parametrize(("find", "limit"), [(overlaps, PAIRS_MAX), (broad_phase, CROSS_CANDIDATES_MAX)])
+def test_as_many_pairs_as_the_limit_allows_are_found(find: object, limit: int) -> None:
+    most = (1 + math.isqrt(1 + 8 * limit)) // 2
+    found = find(np.zeros((most, 3)), np.ones(most), np.ones(most), chained=False)
+    assert len(getattr(found, "pairs", found)) == most * (most - 1) // 2
+    with pytest.raises(TooLarge, match=f"at most {limit} pairs"):
+        find(np.zeros((most + 1, 3)), np.ones(most + 1), np.ones(most + 1), chained=False)
+
+
+# -- the paper's rule -----------------------------------------------------------------------------------------
+
+
+def as_set(points: Floats) -> set[tuple[float, float]]:
+    return {(round(x, 12), round(y, 12)) for x, y in points.tolist()}
+
+
+@pytest.mark.parametrize("heading", [0.0, 0.4, math.pi / 2, 2.5, -1.1])
+def test_paper_corners_are_the_rectangle_whichever_way_its_arctan_points(heading: float) -> None:
+    size = np.array([LENGTH, WIDTH])
+    expected = as_set(corners(np.array([3.0, 1.0, heading]), size))
+    assert as_set(paper_corners(np.array([3.0, 1.0, heading]), size)) == expected
+    assert as_set(paper_corners(np.array([3.0, 1.0, heading + math.pi]), size)) == expected
+
+
+@pytest.mark.parametrize("heading", [0.0, 0.4, math.pi / 4, math.pi / 2, 2.5])
+def test_literal_corners_are_sheared_by_the_heading(heading: float) -> None:
+    top_right, bottom_right, bottom_left, _ = literal_corners(np.array([3.0, 1.0, heading]), np.array([LENGTH, WIDTH]))
+    across, along = top_right - bottom_right, bottom_right - bottom_left
+    assert np.hypot(*along) == pytest.approx(LENGTH, abs=ROUNDING)
+    assert np.hypot(*across) == pytest.approx(WIDTH, abs=ROUNDING)
+    assert across @ along == pytest.approx(-LENGTH * WIDTH * math.sin(2.0 * heading), abs=ROUNDING)
+
+
+def test_literal_corners_are_those_of_eq_12_as_printed() -> None:
+    theta, cos, sin = 0.4, math.cos(0.4), math.sin(0.4)
+    expected = [
+        (LENGTH / 2 * cos - WIDTH / 2 * sin, LENGTH / 2 * sin - WIDTH / 2 * cos),
+        (LENGTH / 2 * cos + WIDTH / 2 * sin, LENGTH / 2 * sin + WIDTH / 2 * cos),
+        (-LENGTH / 2 * cos + WIDTH / 2 * sin, -LENGTH / 2 * sin + WIDTH / 2 * cos),
+        (-LENGTH / 2 * cos - WIDTH / 2 * sin, -LENGTH / 2 * sin - WIDTH / 2 * cos),
+    ]
+    found = literal_corners(np.array([0.0, 0.0, theta]), np.array([LENGTH, WIDTH]))
+    np.testing.assert_allclose(found, expected, rtol=0, atol=ROUNDING)
+
+
+SQUARE = np.array([[1.0, 1.0], [1.0, -1.0], [-1.0, -1.0], [-1.0, 1.0]])
+
+
+@pytest.mark.parametrize(
+    ("point", "expected"),
+    [
+        ((0.2, -0.3), 2 * math.pi),
+        ((1.0, 0.3), 2 * math.pi),
+        ((1.0, 1.0), 2 * math.pi),
+        ((1 + 1e-3, 0.0), 4 * math.atan(1e3)),
+        ((1e4, 0.0), 4 * math.atan(1 / (1e4 - 1))),
+    ],
+    ids=["inside", "on an edge", "on a corner", "just outside", "far away"],
+)
+def test_angle_sum_is_a_full_turn_inside_and_less_outside(point: tuple[float, float], expected: float) -> None:
+    assert angle_sums(np.array([point]), SQUARE) == pytest.approx(expected, rel=0, abs=ANGLE_TOLERANCE)
+
+
+@pytest.mark.parametrize(("gap", "seen"), [(-1e-9, True), (0.0, True), (1e-13, True), (1e-12, False), (1e-9, False)])
+def test_angle_sum_tolerance_reaches_less_than_a_picometre(gap: float, seen: bool) -> None:
+    tip = np.array([[1.0 + gap, 0.0], [2.0, 0.5], [2.0, -0.5]])
+    assert angle_sum_overlap(SQUARE, tip) == seen
+    assert angle_sum_overlap(tip, SQUARE) == seen
+
+
+def test_angle_sum_misses_a_crossing_without_a_corner_inside() -> None:
+    crossing = benches((0, 0, 0), (0, 0, math.pi / 2))
+    assert overlaps(*crossing, chained=False).pairs.tolist() == [[0, 1]]
+    assert overlaps(*crossing, chained=False, engine=Engine.ANGLE_SUM).pairs.tolist() == []
+
+
+@settings(deadline=None)
+@given(st.integers(0, 2**32), st.integers(2, 40))
+def test_angle_sum_finds_just_the_overlaps_with_a_corner_inside(seed: int, count: int) -> None:
+    pose, length, width = crowd(count, seed, side=8.0)
+    size = np.stack([length, width], axis=-1)
+    offset = corners(pose, size)[:, None] - pose[None, :, None, :2]
+    cos, sin = np.cos(pose[:, 2])[:, None], np.sin(pose[:, 2])[:, None]
+    along = np.abs(offset[..., 0] * cos + offset[..., 1] * sin) <= length[:, None] / 2
+    across = np.abs(offset[..., 1] * cos - offset[..., 0] * sin) <= width[:, None] / 2
+    holds = (along & across).any(axis=-1)
+    found = overlaps(pose, length, width, engine=Engine.ANGLE_SUM, chained=False).pairs
+    np.testing.assert_array_equal(found, np.argwhere(np.triu(holds | holds.T, k=1)))
+
+
+# -- bad input ------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("row", "name", "value", "said"),
+    [
+        (1, "x", math.nan, "benches[1].x must be a finite number, got nan m"),
+        (0, "y", math.inf, "benches[0].y must be a finite number, got inf m"),
+        (2, "x", 1e308, "benches[2].x must be from -1e+09 to 1e+09 m, got 1e+308 m"),
+        (2, "heading", -math.inf, "benches[2].heading must be a finite number, got -inf rad"),
+        (1, "length", 0.0, "benches[1].length must be positive, got 0.0 m"),
+        (1, "width", -0.3, "benches[1].width must be positive, got -0.3 m"),
+        (0, "width", math.nan, "benches[0].width must be a finite number, got nan m"),
+        (0, "length", 1e5, "benches[0].length must be from 0.001 to 10000 m, got 100000.0 m"),
+    ],
+)
+def test_a_bad_bench_is_refused_by_number_and_name(row: int, name: str, value: float, said: str) -> None:
+    pose, length, width = benches((0, 0, 0), (3, 0, 0), (6, 0, 0))
+    columns = {"x": pose[:, 0], "y": pose[:, 1], "heading": pose[:, 2], "length": length, "width": width}
+    columns[name][row] = value
+    for find in (overlaps, cross_check, broad_phase):
+        with pytest.raises(InvalidValue) as caught:
+            find(pose, length, width)
+        assert caught.value.field == f"benches.{row}.{name}"
+        assert caught.value.message == said
+
+
+@pytest.mark.parametrize(
+    ("poses", "lengths", "widths", "field"),
+    [
+        ([0, 0, 0], [1], [1], "benches"),
+        ([[0, 0]], [1], [1], "benches"),
+        ([], [], [], "benches"),
+        ([["here", 0, 0]], [1], [1], "benches"),
+        ([[0, 0, 0]], [1, 1], [1], "lengths"),
+        ([[0, 0, 0]], [1], [[1]], "widths"),
+        ([[0, 0, 0]], ["long"], [1], "lengths"),
+    ],
+)
+def test_wrong_shapes_are_refused(poses: object, lengths: object, widths: object, field: str) -> None:
+    with pytest.raises(InvalidValue) as caught:
+        overlaps(poses, lengths, widths)
+    assert caught.value.field == field
+
+
+@pytest.mark.parametrize("margin", [-1e-3, math.nan, math.inf, 1e308])
+def test_a_bad_margin_is_refused(margin: float) -> None:
+    with pytest.raises(InvalidValue) as caught:
+        overlaps(*benches((0, 0, 0)), margin=margin)
+    assert caught.value.field == "margin"
+
+
+def test_the_angle_sum_rule_refuses_a_margin() -> None:
+    with pytest.raises(InvalidValue, match="margin must be 0 m for the angle-sum rule") as caught:
+        overlaps(*benches((0, 0, 0)), engine=Engine.ANGLE_SUM, margin=0.05)
+    assert caught.value.field == "margin"
