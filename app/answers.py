@@ -109,16 +109,20 @@ class PairCheck(Answer):
 
     @classmethod
     def of(cls, before: Floats, after: Floats, dragon: Dragon, benches: Pair, margin: float) -> Self:
-        """before, after: (n, 3) poses of the whole dragon"""
+        """before, after: (2, 3) poses of the pair"""
         pair = list(benches)
-        found = core.verdicts(before[pair], after[pair], dragon.lengths[pair], dragon.widths[pair], margin=margin)
-        words = [(verdict.before, verdict.after) for verdict in found.values()]
-        return cls(agree=len(set(words)) == 1, engines=found)
+        found = core.verdicts(before, after, dragon.lengths[pair], dragon.widths[pair], margin=margin)
+        words = {(verdict.before, verdict.after) for verdict in found.values()}
+        return cls(agree=len(words) == 1, engines=found)
 
 
-def _poses(dragon: Dragon, path: Spiral, time: float, head_speed: float) -> Floats:
-    """Poses (n, 3) of all benches at one instant."""
-    return core.bench_poses(core.trajectory(dragon, path, [time], head_speed=head_speed).position[0])
+def _pair_poses(dragon: Dragon, path: Spiral, time: float, head_speed: float, benches: Pair) -> Floats:
+    """Poses (2, 3) of two benches at one instant, or at the end of the run if that is earlier."""
+    until = benches[1] + 1  # No bench moves one in front of it.
+    front = Dragon.of(dragon.lengths[:until], dragon.widths[:until], dragon.overhangs[:until])
+    time = min(time, core.run_end(front, path, head_speed=head_speed).time)
+    position = core.trajectory(front, path, [time], head_speed=head_speed).position[0]
+    return core.bench_poses(position)[list(benches)]
 
 
 class CollisionTime(Answer):
@@ -140,8 +144,8 @@ class CollisionTime(Answer):
     def of(cls, contact: core.FirstContact, dragon: Dragon, path: Spiral, head_speed: float, margin: float) -> Self:
         check = None
         if contact.time is not None and contact.benches is not None:
-            shift = CHECK_TRAVEL / head_speed
-            before, after = (_poses(dragon, path, contact.time + dt, head_speed) for dt in (-shift, shift))
+            times = (contact.time + travel / head_speed for travel in (-CHECK_TRAVEL, CHECK_TRAVEL))
+            before, after = (_pair_poses(dragon, path, time, head_speed, contact.benches) for time in times)
             check = PairCheck.of(before, after, dragon, contact.benches, margin)
         known = {name: getattr(contact, name) for name in cls.model_fields if name != "cross_check"}
         return cls(**known, cross_check=check)
@@ -165,10 +169,9 @@ class MinimumPitch(Answer):
         check = None
         if found.benches is not None and found.head_radius is not None:
             # A spiral that starts at that radius has its head there at time 0.
-            before, after = (
-                _poses(dragon, Spiral(pitch, found.head_radius / pitch), 0.0, 1.0)
-                for pitch in (found.pitch + CHECK_PITCH, found.pitch - CHECK_PITCH)
-            )
+            pitches = (found.pitch + CHECK_PITCH, found.pitch - CHECK_PITCH)
+            spirals = (Spiral(pitch, found.head_radius / pitch) for pitch in pitches)
+            before, after = (_pair_poses(dragon, spiral, 0.0, 1.0, found.benches) for spiral in spirals)
             check = PairCheck.of(before, after, dragon, found.benches, margin)
         known = {name: getattr(found, name) for name in cls.model_fields if name != "cross_check"}
         return cls(**known, cross_check=check)

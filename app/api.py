@@ -19,7 +19,7 @@ from app.answers import (
     TrajectoryTable,
     columns_json,
 )
-from app.examples import ANSWERS, BODIES
+from app.examples import EXAMPLES
 from app.problems import PROBLEM_TYPE
 from app.reply import JSON, BodyReply, QueryReply
 from app.schemas import (
@@ -57,7 +57,7 @@ BODY_STATUSES = (400, 406, 413, 415, 422, 500, 503)
 def documented(path: str, model: Any, statuses: tuple[int, ...], **content: Any) -> dict[str, Any]:
     """What OpenAPI says of a call: its answer, in JSON with an example or as a file, and its problems."""
     if model is not None:
-        content[JSON] = {"example": ANSWERS[path]}
+        content[JSON] = {"example": EXAMPLES[path].answer}
     answer = {"description": "The answer", "content": content, "model": model}
     unchanged = {304: {"description": "The client has this answer already (If-None-Match)"}}
     problems = {status: {"description": PROBLEMS[status], "content": PROBLEM_REF} for status in statuses}
@@ -99,7 +99,7 @@ if find_spec("pyarrow"):
 )
 def trajectory(
     reply: BodyReply,
-    wanted: Annotated[TrajectoryRequest, Body(openapi_examples=BODIES["/trajectory"])] = DEFAULT_TRAJECTORY,
+    wanted: Annotated[TrajectoryRequest, Body(examples=[EXAMPLES["/trajectory"].body])] = DEFAULT_TRAJECTORY,
 ) -> Response:
     """Position and speed of every handle at every instant."""
     media_type = reply.media_type(tuple(TABLES))
@@ -154,7 +154,7 @@ def clearance(reply: QueryReply, wanted: Annotated[ClearanceQuery, Query()]) -> 
 
 @router.post(**documented("/overlaps", OverlapsAnswer, BODY_STATUSES))
 def overlaps(
-    reply: BodyReply, wanted: Annotated[OverlapsRequest, Body(openapi_examples=BODIES["/overlaps"])]
+    reply: BodyReply, wanted: Annotated[OverlapsRequest, Body(examples=[EXAMPLES["/overlaps"].body])]
 ) -> Response:
     """Which benches overlap, how deep and where, and the pairs that each of four engines finds."""
 

@@ -27,7 +27,7 @@ class BodyLimit:
             return await self.app(scope, receive, send)
         read = 0
         detail = f"The body must be at most {self.bytes_max} bytes: ask for less in one request."
-        refused = Refused(413, detail, [ErrorItem(pointer="", detail=detail)])
+        refused = Refused(413, detail, [ErrorItem(pointer="", detail=detail)], {"Connection": "close"})
 
         async def counted() -> Message:
             nonlocal read

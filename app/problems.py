@@ -12,6 +12,7 @@ from pydantic import BaseModel, Field
 from starlette.exceptions import HTTPException
 
 from app.messages import message, shown
+from app.schemas import SHAPES
 from core import BenchDragonError
 
 PROBLEM_TYPE = "application/problem+json"
@@ -136,16 +137,18 @@ async def _item(request: Request, place: Sequence[Any], detail: str) -> ErrorIte
 
 
 def pointer(place: Sequence[Any], body: Any) -> str:
-    """JSON pointer to a place in a body, without steps that are not in the body, such as the name of a shape.
+    """JSON pointer to a place in a body, without names of shapes and indices into what is no list there.
 
     >>> pointer(("dragon", "uniform", "width"), {"dragon": {"width": -1}})
     '/dragon/width'
     """
     steps = []
-    for k, step in enumerate(place):
-        if (isinstance(body, dict) and step in body) or (isinstance(body, list) and step in range(len(body))):
-            body = body[step]
-        elif not (isinstance(body, dict) and isinstance(step, str) and k == len(place) - 1):
+    for step in place:
+        if isinstance(step, int) and not isinstance(body, list):
+            break
+        if step in SHAPES and not (isinstance(body, dict) and step in body):
             continue
         steps.append(str(step).replace("~", "~0").replace("/", "~1"))
+        inside = isinstance(body, list) or (isinstance(body, dict) and step in body)
+        body = body[step] if inside else None
     return "".join(f"/{step}" for step in steps)

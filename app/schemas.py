@@ -149,6 +149,9 @@ def _shape_of_times(value: Any) -> str:
     return "list" if isinstance(value, list) else "range"
 
 
+# Names of shapes: pydantic puts them into the place of an error, though they stand in no body.
+SHAPES = frozenset({"uniform", "bench_by_bench", "range", "list"})
+
 AnyDragon = Annotated[
     Annotated[UniformBody, Tag("uniform")] | Annotated[BenchByBench, Tag("bench_by_bench")],
     Discriminator(_shape_of_dragon),

@@ -1,0 +1,102 @@
+"""The service does what /openapi.json says, and /openapi.json says all of it."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import httpx
+import pytest
+import schemathesis
+from hypothesis import HealthCheck, given, settings
+from schemathesis import GenerationMode
+from schemathesis.checks import CHECKS
+
+from app.examples import EXAMPLES
+from app.main import create_app
+from app.settings import Settings
+
+EXAMPLES_PER_CALL = 25
+EXAMPLE_TOLERANCE = 1e-9  # [m], [s], [rad] and relative
+SPENT = {"steps", "bound", "evaluations", "method", "evidence"}
+# Requests that fit the schema may still be refused: an overhang beyond half a bench, an instant after the fold.
+CHECKED = [check for check in CHECKS.get_all() if check.__name__ != "positive_data_acceptance"]
+
+SCHEMA = schemathesis.openapi.from_dict(create_app(Settings()).openapi())
+CALLS = {call.label: call for call in (found.ok() for found in SCHEMA.get_all_operations())}
+
+
+@pytest.fixture(scope="module")
+def document(client: httpx.Client) -> Any:
+    return client.get("/openapi.json").raise_for_status().json()
+
+
+def takes_values(call: str) -> bool:
+    method, path = call.split()
+    description = SCHEMA.raw_schema["paths"][path][method.lower()]
+    return "requestBody" in description or "parameters" in description
+
+
+@pytest.mark.parametrize(
+    ("call", "mode"),
+    [(call, mode) for call in CALLS for mode in GenerationMode if mode.is_positive or takes_values(call)],
+    ids=lambda part: part.value if isinstance(part, GenerationMode) else part,
+)
+def test_every_call_conforms_to_its_description(server: str, call: str, mode: GenerationMode) -> None:
+    @given(case=CALLS[call].as_strategy(generation_mode=mode))
+    @settings(max_examples=EXAMPLES_PER_CALL, deadline=None, derandomize=True, suppress_health_check=list(HealthCheck))
+    def conforms(case: Any) -> None:
+        case.call_and_validate(base_url=server, checks=CHECKED)
+
+    conforms()
+
+
+def fields(document: Any) -> list[tuple[str, Any]]:
+    """Every field of every schema and every parameter, by name."""
+    schemas = document["components"]["schemas"].values()
+    found = [pair for one in schemas for pair in one.get("properties", {}).items()]
+    calls = [call for path in document["paths"].values() for call in path.values()]
+    return found + [(one["name"], one | one["schema"]) for call in calls for one in call.get("parameters", [])]
+
+
+def holds_floats(field: Any) -> bool:
+    inner = [*field.get("anyOf", []), *field.get("prefixItems", []), *([field["items"]] if "items" in field else [])]
+    return field.get("type") == "number" or any(isinstance(one, dict) and holds_floats(one) for one in inner)
+
+
+def test_every_field_is_described_and_every_measure_has_its_unit(document: Any) -> None:
+    assert [name for name, field in fields(document) if "$ref" not in field and not field.get("description")] == []
+    # A direction has no unit, and the numbers of the paper have theirs beside them.
+    free = {"normal", "paper", "ours", "difference", "value"}
+    bare = [n for n, field in fields(document) if holds_floats(field) and "[" not in field["description"]]
+    assert set(bare) <= free
+
+
+@pytest.mark.parametrize("path", EXAMPLES)
+def test_the_example_of_every_call_is_true(client: httpx.Client, document: Any, path: str) -> None:
+    example = EXAMPLES[path]
+    (method,) = document["paths"][path]
+    got = client.request(method, path, params=example.query, json=example.body).raise_for_status().json()
+    told = document["paths"][path][method]["responses"]["200"]["content"]["application/json"]["example"]
+    assert same(got, told), got
+
+
+def same(got: Any, told: Any) -> bool:
+    """Equal but for rounding, and for what a search spent."""
+    if isinstance(told, dict):
+        names = told.keys() - SPENT
+        return got.keys() == told.keys() and all(same(got[name], told[name]) for name in names)
+    if isinstance(told, list):
+        return len(got) == len(told) and all(map(same, got, told))
+    if isinstance(told, float):
+        return bool(got == pytest.approx(told, rel=EXAMPLE_TOLERANCE, abs=EXAMPLE_TOLERANCE))
+    return bool(got == told)
+
+
+def test_every_call_has_an_example_and_its_problems(document: Any) -> None:
+    calls = {path: call for path, methods in document["paths"].items() for call in methods.values()}
+    for path, call in calls.items():
+        if path.startswith(("/figures", "/healthz", "/readyz")):
+            continue
+        assert path in EXAMPLES
+        for status in ("406", "422", "500", "503"):
+            assert list(call["responses"][status]["content"]) == ["application/problem+json"], (path, status)

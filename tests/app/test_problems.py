@@ -1,0 +1,110 @@
+"""Problems: where they point, what they say, and that no mistake of ours shows its traceback."""
+
+from __future__ import annotations
+
+import asyncio
+from typing import Any
+
+import httpx
+import pytest
+from fastapi import FastAPI
+from pydantic import ValidationError
+
+import core
+from app.main import create_app
+from app.messages import message
+from app.problems import pointer
+from app.reply import accepted
+from app.schemas import CollisionQuery, TrajectoryRequest
+from app.settings import Settings
+
+
+@pytest.mark.parametrize(
+    ("place", "body", "expected"),
+    [
+        ((), {}, ""),
+        (("path", "pitch"), {"path": {"pitch": 0}}, "/path/pitch"),
+        (("dragon", "uniform", "width"), {"dragon": {"width": 0}}, "/dragon/width"),
+        (("dragon", "bench_by_bench", "widths"), {"dragon": {"lengths": [1]}}, "/dragon/widths"),
+        (("times", "list", 1), {"times": [0, "a"]}, "/times/1"),
+        (("times", 300), {"times": {"stop": 600}}, "/times"),
+        (("times", 300), {}, "/times"),
+        (("times", "range", "step"), {}, "/times/step"),
+        (("a/b~c",), {"a/b~c": 1}, "/a~1b~0c"),
+    ],
+)
+def test_a_pointer_leads_to_what_is_in_the_body(place: tuple[str | int, ...], body: Any, expected: str) -> None:
+    assert pointer(place, body) == expected
+
+
+@pytest.mark.parametrize(
+    ("values", "words"),
+    [
+        ({"pitch": "55"}, "pitch must be at most 10 m, got 55 m: lengths are in metres, and 55 cm is 0.55 m"),
+        ({"pitch": "5500"}, "pitch must be at most 10 m, got 5500 m: lengths are in metres"),
+        ({"head_speed": "0"}, "head_speed must be at least 0.001 m/s, got 0 m/s"),
+        ({"benches": "x" * 100}, f'benches must be a whole number, got "{"x" * 59}... (102 characters)'),
+    ],
+)
+def test_a_message_names_the_field_the_value_the_unit_and_the_limit(values: dict[str, str], words: str) -> None:
+    with pytest.raises(ValidationError) as caught:
+        CollisionQuery.model_validate(values)
+    (error,) = caught.value.errors()
+    assert message({**error, "loc": ("query", *error["loc"])}) == words
+
+
+def test_numbers_in_bodies_are_numbers() -> None:
+    with pytest.raises(ValidationError):
+        TrajectoryRequest.model_validate({"head_speed": "1"})
+
+
+@pytest.mark.parametrize(
+    ("header", "expected"),
+    [
+        (None, "application/json"),
+        ("*/*", "application/json"),
+        ("text/csv", "text/csv"),
+        ("TEXT/CSV; charset=utf-8", "text/csv"),
+        ("text/*, application/json;q=0.5", "text/csv"),
+        ("text/csv;q=0.2, application/json;q=0.9", "application/json"),
+        ("application/json;q=0, */*", "text/csv"),
+        ("image/png", None),
+        ("text/csv;q=nonsense", None),
+        ("", "application/json"),
+    ],
+)
+def test_accept_chooses_the_form(header: str | None, expected: str | None) -> None:
+    assert accepted(header, ["application/json", "text/csv"]) == expected
+
+
+def ask(app: FastAPI, path: str) -> httpx.Response:
+    async def get() -> httpx.Response:
+        transport = httpx.ASGITransport(app, raise_app_exceptions=False)
+        async with httpx.AsyncClient(transport=transport, base_url="http://here") as client:
+            return await client.get(path)
+
+    return asyncio.run(get())
+
+
+ERRORS = [kind for kind in vars(core).values() if isinstance(kind, type) and issubclass(kind, core.BenchDragonError)]
+
+
+@pytest.mark.parametrize("kind", ERRORS)
+def test_every_error_of_core_is_a_problem_of_the_client(kind: type[core.BenchDragonError]) -> None:
+    def fail() -> None:
+        raise kind("path.pitch", "pitch is wrong")
+
+    app = create_app(Settings())
+    app.add_api_route("/fail", fail)
+    answer = ask(app, "/fail")
+    assert (answer.status_code, answer.json()["errors"]) == (422, [{"name": "pitch", "detail": "pitch is wrong"}])
+    assert answer.json()["type"] == f"urn:problem-type:bench-dragon:{kind.code}"
+
+
+def test_a_mistake_of_ours_shows_no_traceback() -> None:
+    app = create_app(Settings())
+    app.add_api_route("/mistake", lambda: 1 / 0)
+    answer = ask(app, "/mistake")
+    assert answer.status_code == 500
+    assert answer.headers["content-type"] == "application/problem+json"
+    assert "division" not in answer.text.lower()
