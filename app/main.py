@@ -22,7 +22,7 @@ from starlette.staticfiles import StaticFiles
 
 from app import api, problems
 from app.answers import State
-from app.middleware import BodyLimit, HeadAsGet, Metrics, SafetyHeaders
+from app.middleware import BodyLimit, HeadAsGet, Metrics, Mistakes, SafetyHeaders
 from app.reply import VERSION, refuse_query
 from app.settings import Settings
 from core import Dragon, Spiral, first_contact, trajectory
@@ -100,6 +100,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
             Middleware(SafetyHeaders),
             Middleware(HeadAsGet),
             Middleware(Metrics, registry=registry),
+            Middleware(Mistakes),
             Middleware(BodyLimit, bytes_max=settings.body_bytes_max),
         ],
     )

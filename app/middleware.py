@@ -1,7 +1,8 @@
-"""What holds for every request whatever its path: its size, HEAD, headers of safety, counts and times."""
+"""What holds for every request whatever its path: size, HEAD, headers of safety, mistakes, counts and times."""
 
 from __future__ import annotations
 
+import logging
 from time import perf_counter
 
 from prometheus_client import CollectorRegistry, Counter, Histogram
@@ -9,7 +10,9 @@ from starlette.datastructures import Headers, MutableHeaders
 from starlette.requests import Request
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
-from app.problems import ErrorItem, Refused, http_problem
+from app.problems import ErrorItem, Refused, http_problem, server_problem
+
+logger = logging.getLogger("uvicorn.error")
 
 SELF_ONLY = "default-src 'self'"
 # Swagger UI styles its elements in place and draws its icons from data: addresses.
@@ -82,6 +85,29 @@ class SafetyHeaders:
             await send(message)
 
         return await self.app(scope, receive, guarded)
+
+
+class Mistakes:
+    """Answers 500 where the service itself fails, keeps the connection, and writes the traceback into the log alone."""
+
+    def __init__(self, app: ASGIApp) -> None:
+        self.app = app
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        started = False
+
+        async def noted(message: Message) -> None:
+            nonlocal started
+            started = True
+            await send(message)
+
+        try:
+            await self.app(scope, receive, noted)
+        except Exception:
+            if started or scope["type"] != "http":
+                raise
+            logger.exception("%s %s failed", scope["method"], scope["path"])
+            await server_problem()(scope, receive, send)
 
 
 class Metrics:

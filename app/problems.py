@@ -80,7 +80,6 @@ def install(app: FastAPI) -> None:
     app.add_exception_handler(BenchDragonError, core_problem)  # type: ignore[arg-type]
     app.add_exception_handler(RequestValidationError, validation_problem)  # type: ignore[arg-type]
     app.add_exception_handler(HTTPException, http_problem)  # type: ignore[arg-type]
-    app.add_exception_handler(Exception, server_problem)
 
 
 async def core_problem(request: Request, error: BenchDragonError) -> Response:
@@ -123,7 +122,7 @@ async def http_problem(request: Request, error: HTTPException) -> Response:
     return problem(status, code, detail, items, headers)
 
 
-async def server_problem(request: Request, error: Exception) -> Response:
+def server_problem() -> Response:
     """A mistake of ours; the log has the traceback, the client has not."""
     return problem(500, "internal-error", "The service failed on this request; the log of the service says why.")
 

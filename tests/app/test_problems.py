@@ -79,7 +79,7 @@ def test_accept_chooses_the_form(header: str | None, expected: str | None) -> No
 
 def ask(app: FastAPI, path: str) -> httpx.Response:
     async def get() -> httpx.Response:
-        transport = httpx.ASGITransport(app, raise_app_exceptions=False)
+        transport = httpx.ASGITransport(app)
         async with httpx.AsyncClient(transport=transport, base_url="http://here") as client:
             return await client.get(path)
 
