@@ -61,7 +61,12 @@ def documented(path: str, model: Any, statuses: tuple[int, ...], **content: Any)
     answer = {"description": "The answer", "content": content, "model": model}
     unchanged = {304: {"description": "The client has this answer already (If-None-Match)"}}
     problems = {status: {"description": PROBLEMS[status], "content": PROBLEM_REF} for status in statuses}
-    return {"path": path, "response_class": Response, "responses": {200: answer, **unchanged, **problems}}
+    return {
+        "path": path,
+        "tags": ["Questions" if model is not None else "Figures"],
+        "response_class": Response,
+        "responses": {200: answer, **unchanged, **problems},
+    }
 
 
 def drawn(name: str) -> dict[str, Any]:

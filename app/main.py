@@ -105,6 +105,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
         ],
     )
     app.state.settings = settings
+    app.state.fault = "it has not run"
     app.state.free = BoundedSemaphore(settings.concurrent_max)
     app.state.busy = Gauge("bench_dragon_computations", "Computations running", registry=registry)
     app.state.registry = registry
@@ -128,13 +129,13 @@ def _openapi(app: FastAPI) -> dict[str, Any]:
 def _add_health(app: FastAPI) -> None:
     no_query = [Depends(refuse_query)]
 
-    @app.get("/healthz", response_model=State, dependencies=no_query)
+    @app.get("/healthz", response_model=State, dependencies=no_query, tags=["Service"])
     async def healthz(response: Response) -> State:
         """Is the process alive?"""
         response.headers["Cache-Control"] = "no-store"
         return State(status="ok")
 
-    @app.get("/readyz", response_model=State, dependencies=no_query)
+    @app.get("/readyz", response_model=State, dependencies=no_query, tags=["Service"])
     async def readyz(request: Request, response: Response) -> State:
         """Does this installation give known answers?"""
         if request.app.state.fault:

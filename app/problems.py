@@ -132,7 +132,8 @@ async def _item(request: Request, place: Sequence[Any], detail: str) -> ErrorIte
         name = next((part for part in reversed(place) if isinstance(part, str)), "")
         known = getattr(request.state, "names", frozenset({name}))
         return ErrorItem(name=next((n for n in QUERY_NAMES.get(name, ()) if n in known), name), detail=detail)
-    return ErrorItem(pointer=pointer(place, await request.json()), detail=detail)
+    body = await request.json() if await request.body() else {}
+    return ErrorItem(pointer=pointer(place, body), detail=detail)
 
 
 def pointer(place: Sequence[Any], body: Any) -> str:

@@ -77,13 +77,13 @@ def test_accept_chooses_the_form(header: str | None, expected: str | None) -> No
     assert accepted(header, ["application/json", "text/csv"]) == expected
 
 
-def ask(app: FastAPI, path: str) -> httpx.Response:
-    async def get() -> httpx.Response:
+def ask(app: FastAPI, path: str, method: str = "GET") -> httpx.Response:
+    async def answer() -> httpx.Response:
         transport = httpx.ASGITransport(app)
         async with httpx.AsyncClient(transport=transport, base_url="http://here") as client:
-            return await client.get(path)
+            return await client.request(method, path)
 
-    return asyncio.run(get())
+    return asyncio.run(answer())
 
 
 ERRORS = [kind for kind in vars(core).values() if isinstance(kind, type) and issubclass(kind, core.BenchDragonError)]
@@ -108,3 +108,13 @@ def test_a_mistake_of_ours_shows_no_traceback() -> None:
     assert answer.status_code == 500
     assert answer.headers["content-type"] == "application/problem+json"
     assert "division" not in answer.text.lower()
+
+
+def test_a_limit_on_defaults_points_to_the_value_to_give() -> None:
+    answer = ask(create_app(Settings(benches_max=10)), "/trajectory", "POST")
+    assert answer.status_code == 422
+    assert answer.json()["errors"][0]["pointer"] == "/dragon/benches"
+
+
+def test_readiness_waits_for_the_self_test() -> None:
+    assert ask(create_app(Settings()), "/readyz").status_code == 503
