@@ -48,12 +48,12 @@ class Spiral:
     @cached_property
     def length(self) -> float:
         """Arc length from the start to the centre [m]."""
-        return kernels.spiral_arc(self.start_theta) * self.growth
+        return self.growth * float(kernels.spiral_arc(self.start_theta))
 
     def theta(self, s: Floats | float) -> Floats:
         """Polar angle at arc length s. s: (...) [m], at most length; returns (...) [rad], unwrapped."""
-        from_centre = (self.length - np.asarray(s, dtype=np.float64)) / self.growth
-        theta = np.empty(from_centre.size)
+        from_centre: Floats = (self.length - np.asarray(s, dtype=np.float64)) / self.growth
+        theta: Floats = np.empty(from_centre.size)
         kernels.spiral_thetas(from_centre.reshape(-1), theta)
         return theta.reshape(from_centre.shape)
 
