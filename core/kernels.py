@@ -405,9 +405,9 @@ def previous_theta(theta: cython.double, chord2: cython.double) -> cython.double
 #       is the distance in either case; taking all eight keeps a wrong choice between near-equal gaps harmless.
 # Error: a few ulp of the larger of the distance and the sizes.
 
-# Edges whose directions differ by less than this sine count as parallel: along a bench the difference is then
-# below the rounding of a coordinate, while headings that should be equal differ by about 1e-16 [1].
-PARALLEL_SINE = cython.declare(cython.double, 1e-14)
+# Edges whose directions differ by less than this sine count as parallel: headings that should be equal differ by
+# an ulp or two (4e-16 each), and a witness so placed is off the edge by 1e-15 of its length [1].
+PARALLEL_SINE = cython.declare(cython.double, 2e-15)
 # Beyond every distance: the squares of two coordinates would overflow [m].
 NO_LIMIT = cython.declare(cython.double, 1e154)
 

@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 import shapely
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
@@ -102,6 +102,7 @@ def test_separation_witnesses_and_normal_are_those_of_the_table(row: tuple) -> N
         np.testing.assert_allclose(found.normal, normal, rtol=0, atol=ROUNDING)
 
 
+@settings(deadline=None)
 @given(pairs)
 def test_witnesses_differ_by_separation_times_unit_normal(pair: Pair) -> None:
     found = separation(*pair)
@@ -111,6 +112,7 @@ def test_witnesses_differ_by_separation_times_unit_normal(pair: Pair) -> None:
     assert np.hypot(*found.normal) == pytest.approx(1.0, rel=0, abs=ROUNDING)
 
 
+@settings(deadline=None)
 @given(pairs)
 def test_witnesses_lie_on_the_boundary_of_their_own_rectangle(pair: Pair) -> None:
     found = separation(*pair)
@@ -118,6 +120,7 @@ def test_witnesses_lie_on_the_boundary_of_their_own_rectangle(pair: Pair) -> Non
     assert outside(found.witness_b, *pair[2:]) == pytest.approx(0.0, abs=ROUNDING)
 
 
+@settings(deadline=None)
 @given(pairs)
 def test_moving_b_back_by_the_separation_makes_them_touch(pair: Pair) -> None:
     pose_a, size_a, pose_b, size_b = pair
@@ -126,6 +129,7 @@ def test_moving_b_back_by_the_separation_makes_them_touch(pair: Pair) -> None:
     assert separation(pose_a, size_a, moved, size_b).separation == pytest.approx(0.0, abs=ROUNDING)
 
 
+@settings(deadline=None)
 @given(pairs, coordinates, coordinates, st.floats(-3.0, 3.0))
 def test_separation_ignores_rigid_motion(pair: Pair, dx: float, dy: float, turn: float) -> None:
     pose_a, size_a, pose_b, size_b = pair
@@ -136,6 +140,7 @@ def test_separation_ignores_rigid_motion(pair: Pair, dx: float, dy: float, turn:
     assert moved == pytest.approx(separation(*pair).separation, rel=0, abs=ROUNDING)
 
 
+@settings(deadline=None)
 @given(pairs)
 def test_separation_ignores_the_order_of_the_pair(pair: Pair) -> None:
     pose_a, size_a, pose_b, size_b = pair
@@ -144,6 +149,7 @@ def test_separation_ignores_the_order_of_the_pair(pair: Pair) -> None:
     )
 
 
+@settings(deadline=None)
 @given(pairs, st.floats(0.1, 1000.0))
 def test_scaling_every_length_scales_the_separation(pair: Pair, scale: float) -> None:
     pose_a, size_a, pose_b, size_b = pair
@@ -152,6 +158,7 @@ def test_scaling_every_length_scales_the_separation(pair: Pair, scale: float) ->
     assert scaled == pytest.approx(separation(*pair).separation * scale, rel=0, abs=ROUNDING * scale)
 
 
+@settings(deadline=None)
 @given(pairs)
 def test_gap_alone_equals_the_separation(pair: Pair) -> None:
     a, b = frames(*pair[:2]), frames(*pair[2:])
@@ -199,17 +206,20 @@ def test_rectangles_far_from_the_origin_lose_nothing() -> None:
     np.testing.assert_array_equal(far.normal, near.normal)
 
 
-# Nearly parallel edges: two face gaps are equal to the last bit while the feet on the faces are micrometres apart.
-@pytest.mark.parametrize("turn", [1e-15, 1e-12, 1e-9, 1e-8, 1e-7, 1e-6])
-@pytest.mark.parametrize("gap", [-1e-9, 0.0, 1e-9, 1e-6])
-def test_nearly_parallel_edges_keep_their_distance(turn: float, gap: float) -> None:
-    shift = np.linspace(-2.5, 2.5, 2001)
-    pose_b = np.stack([shift, np.full_like(shift, 0.3 + gap), np.full_like(shift, turn)], axis=-1)
-    found = separation([0.0, 0.0, 0.0], BENCH, pose_b, BENCH).separation
-    oracle = minkowski_separation(
-        np.broadcast_to(corners(np.zeros(3), np.array(BENCH)), (shift.size, 4, 2)), corners(pose_b, np.array(BENCH))
-    )
-    np.testing.assert_allclose(found, oracle, rtol=0, atol=ORACLE_ROUNDING)
+# Nearly parallel edges: the gaps of two faces are equal but for rounding, while the corners that they point at lie
+# up to rounding / turn apart along the edge, so a corner may be a little beside the face that seems to decide.
+@pytest.mark.parametrize("turn", [1e-15, 1e-12, 1e-9, 1e-8, 1e-7, -1e-8, 1e-6])
+@pytest.mark.parametrize("gap", [-0.1, -1e-9, 0.0, 1e-9, 1e-6])
+def test_nearly_parallel_edges_keep_their_distance_and_witnesses(turn: float, gap: float) -> None:
+    little = 10 ** np.linspace(-12, -3, 200)
+    shift = np.concatenate([np.linspace(-2.5, 2.5, 401), little, -little])
+    pose = np.stack([shift, np.full_like(shift, 0.3 + gap), np.full_like(shift, turn)], axis=-1)
+    still, size = np.zeros_like(pose), np.full((shift.size, 2), BENCH)
+    found = separation(still, size, pose, size)
+    oracle = minkowski_separation(corners(still, size), corners(pose, size))
+    np.testing.assert_allclose(found.separation, oracle, rtol=0, atol=ORACLE_ROUNDING)
+    np.testing.assert_allclose(outside(found.witness_a, still, size), 0.0, rtol=0, atol=ROUNDING)
+    np.testing.assert_allclose(outside(found.witness_b, pose, size), 0.0, rtol=0, atol=ROUNDING)
 
 
 def test_witness_of_parallel_edges_does_not_depend_on_rounding() -> None:
