@@ -55,7 +55,7 @@ class Spiral:
         from_centre: Floats = (self.length - np.asarray(s, dtype=np.float64)) / self.growth
         theta: Floats = np.empty(from_centre.size)
         kernels.spiral_thetas(from_centre.reshape(-1), theta)
-        return theta.reshape(from_centre.shape)
+        return np.reshape(theta, from_centre.shape)
 
     def position(self, s: Floats | float) -> Floats:
         """Points at arc length s. s: (...) [m]; returns (..., 2) x, y [m]."""

@@ -29,6 +29,7 @@ ORDER = (
     "core.proof.chain",
     "core.proof.sweeps",
     "core.proof.claims",
+    "core.proof.certificate",
     "core.proof",
     "app",
     "app.settings",
@@ -44,11 +45,12 @@ ORDER = (
     "app.middleware",
     "app.api",
     "app.main",
+    "app.prove",
     "app.cli",
 )
 OUTSIDE_CORE = {"app", "fastapi", "http", "json", "orjson", "pathlib", "pydantic", "starlette", "time"}
 OVERLAP_ENGINES = {"fcl", "shapely"}
-HEAVY = ("fcl", "shapely", "scipy", "matplotlib")
+HEAVY = ("fcl", "flint", "matplotlib", "scipy", "shapely")
 
 
 def module_name(path: Path) -> str:
