@@ -31,14 +31,18 @@ STEP_BUDGET = 200_000
 # rounding of the travel allows at lower ones.
 BRACKET = 1e-10
 BRACKET_MIN = 2e-11
+# The kernels' word for a run without a graze [m].
+NO_GRAZE = 1e300
 # The last stretch before a fold, where handle speeds grow without bound: dismissed by a bound on the motion left [m].
 FOLD_SLIVER = 1e-9
 # A gap is a handful of operations on coordinates: relative to the largest coordinate it is good to this [1].
 GAP_ROUNDING = 1e-14
 # Grazes of a profile are looked for in steps of at most this fraction of the shortest chord [1] ...
 PROFILE_STEP = 0.2
-# ... and at most this many of them.
+# ... and at most this many of them ...
 PROFILE_SAMPLES = 20_000
+# ... and refined to this width [s].
+DIP_WIDTH = 1e-11
 
 
 class Outcome(StrEnum):
@@ -142,31 +146,26 @@ EDGES = (("front", "inner", "rear", "outer"), ("front", "outer", "rear", "inner"
 
 
 class SpiralSearch:
-    """The arrays that the kernels need for one dragon on one spiral.
+    """The arrays that the kernels need for one dragon, and the spiral and margin they are used for now.
 
-    ring: see kernels, RING_...; sizes: (rows, 4) of the leading benches; clear_radius: no pair whose inner bench leads
-    at this radius or further out comes within the margin [m]
+    extremes: longest and shortest chord, longest overhang, half width of all benches, chord and half width of those that
+        can be the outer of a pair [m]; ring: the same for the kernels, see RING_... there
+    sizes: (rows, 4) of the leading benches
+    clear_radius: no pair whose inner bench leads at this radius or further out comes within the margin [m]
     """
 
+    path: Spiral
+    margin: float
+    clear_radius: float
+    rounding: float
+
     def __init__(self, dragon: Dragon, path: Spiral, margin: float) -> None:
-        self.dragon, self.path, self.margin = dragon, path, margin
+        self.dragon = dragon
         alike = dragon.uniform_from
         chords, half_widths = dragon.chords[: alike + 1], 0.5 * dragon.widths[: alike + 1]
         overhangs = dragon.overhangs[: alike + 1]
         outer = slice(min(2, alike), None)
-        self.ring = np.array(
-            [
-                0.0,
-                chords[outer].max(),
-                chords[outer].min(),
-                overhangs[outer].max(),
-                half_widths[outer].max(),
-                chords.max(),
-                overhangs.max(),
-                half_widths.max(),
-            ]
-        )
-        self._extremes = (
+        self.extremes = (
             chords.max(),
             chords.min(),
             overhangs.max(),
@@ -174,9 +173,18 @@ class SpiralSearch:
             chords[outer].max(),
             half_widths[outer].max(),
         )
-        self.clear_radius = self.ring[0] = self._clear_radius()
-        self.rounding = GAP_ROUNDING * (path.growth * path.start_theta + dragon.lengths[: alike + 1].max())
+        longest, _, overhang, half_width, outer_chord, outer_half_width = self.extremes
+        ring = (0.0, outer_chord, chords[outer].min(), overhangs[outer].max(), outer_half_width)
+        self.ring = np.array([*ring, longest, overhang, half_width])
+        self.longest = float(dragon.lengths[: alike + 1].max())
         self.resize(min(dragon.benches, 255))
+        self.use(path, margin)
+
+    def use(self, path: Spiral, margin: float) -> None:
+        """Turn to another spiral or margin."""
+        self.path, self.margin = path, margin
+        self.rounding = GAP_ROUNDING * (path.growth * path.start_theta + self.longest)
+        self.clear_radius = self.ring[0] = self._clear_radius()
 
     def resize(self, benches: int) -> None:
         """Room for so many leading benches."""
@@ -190,7 +198,7 @@ class SpiralSearch:
 
     def ring_least(self, radius: float) -> float:
         """Lower bound of the separation of pairs whose inner bench leads at this radius or further out [m]."""
-        return kernels.ring_least(self.path.growth, radius, *self._extremes)
+        return kernels.ring_least(self.path.growth, self.path.growth, radius, *self.extremes)
 
     def _clear_radius(self) -> float:
         """The least radius, within 1e-3, from which the ring bound exceeds the margin; 1e300 if none."""
@@ -213,8 +221,13 @@ class SpiralSearch:
         """Head angle after a travel [rad]."""
         return kernels.spiral_theta((self.path.length - travel) / self.path.growth)
 
-    def march(self, start: float, stop: float, *, at_start: bool, tolerance: float) -> tuple[str, dict[str, float]]:
-        """kernels.march from start to stop [m of travel]: its state and result by name."""
+    def march(self, stop: float, tolerance: float) -> tuple[str, dict[str, float]]:
+        """kernels.march to stop [m of travel] from where the ring bound ends, or from the start: state, result by name."""
+        clear_theta = self.clear_radius / self.path.growth
+        at_start = clear_theta >= self.path.start_theta
+        start = 0.0 if at_start else max(self.travel_at(clear_theta), 0.0)
+        if self.dragon.benches < 3 or start >= stop:
+            return "reached", dict.fromkeys(kernels.MARCH_FIELDS, 0.0) | {"proven": stop, "graze_gap": NO_GRAZE}
         out = np.empty(32)
         while True:
             code = kernels.march(
@@ -259,7 +272,7 @@ class SpiralSearch:
         fold = kernels.fold_theta(float((self.dragon.chords[m] / growth) ** 2))
         swing = abs(kernels.first_crest(fold) - (rear - lead)) + abs(lead - fold)
         moved = growth * swing * math.hypot(1.0, rear + swing)
-        share = 1.0 + (2.0 * self._extremes[2] + 2.0 * self._extremes[3]) / self._extremes[1]
+        share = 1.0 + (2.0 * self.extremes[2] + 2.0 * self.extremes[3]) / self.extremes[1]
         return 2.0 * share * moved
 
 
@@ -283,14 +296,9 @@ def first_contact(
     search = SpiralSearch(dragon, path, margin)
     end_travel = search.travel_at(end.theta)
     stop = end_travel if end.reason is EndReason.CENTRE else end_travel - FOLD_SLIVER
-    clear_theta = search.clear_radius / path.growth
-    start = max(search.travel_at(clear_theta), 0.0) if clear_theta < path.start_theta else 0.0
-    if dragon.benches < 3 or start >= stop:
-        certificate = Certificate(METHOD, 0, end.time, 0.0, None)
-        return FirstContact(Outcome.CLEAR, None, None, None, None, None, None, None, end, certificate)
     tolerance = max(BRACKET * min(1.0, head_speed), BRACKET_MIN)
-    state, found = search.march(start, stop, at_start=start == 0.0, tolerance=tolerance)
-    if state == "reached" and end.reason is EndReason.FOLD:
+    state, found = search.march(stop, tolerance)
+    if state == "reached" and end.reason is EndReason.FOLD and dragon.benches > 2:
         theta = search.theta_at(stop)
         if search.clearance(theta)[0] <= margin + search.motion_left(theta, end):
             state = "stuck"
@@ -301,7 +309,7 @@ def _result(
     search: SpiralSearch, state: str, found: dict[str, float], end: RunEnd, tolerance: float, head_speed: float
 ) -> FirstContact:
     graze = None
-    if found["graze_gap"] < 1e300:
+    if found["graze_gap"] < NO_GRAZE:
         pair = (int(found["graze_first"]), int(found["graze_second"]))
         graze = Graze(found["graze_travel"] / head_speed, found["graze_gap"], pair)
     proven = end.time if state == "reached" else found["proven"] / head_speed
@@ -392,11 +400,14 @@ def _grazes(search: SpiralSearch, time: Floats, head_speed: float) -> tuple[Graz
     clearance, benches = _sampled(search, grid, head_speed)
     low = 1 + np.flatnonzero((clearance[1:-1] < clearance[:-2]) & (clearance[1:-1] <= clearance[2:]))
     grazes = []
-    growth, length = search.path.growth, search.path.length
+    growth, length, scratch = search.path.growth, search.path.length, np.empty(8)
     for k in low:
         a, b = (int(bench) for bench in benches[k])
         ends = grid[k - 1] * head_speed, grid[k + 1] * head_speed
-        travel = kernels.dip(growth, length, *ends, a, b, search.sizes, search.rows[1])
+        width = DIP_WIDTH * head_speed
+        travel = kernels.crossing(
+            growth, length, *ends, a, b, 0.0, width, True, search.sizes, search.rows[1], scratch
+        )
         gap, pair = search.clearance(search.theta_at(travel))
         grazes.append(Graze(travel / head_speed, gap, pair))
     return tuple(grazes)

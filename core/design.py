@@ -2,10 +2,31 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from enum import StrEnum
 
-from core.dragon import Dragon
+import numpy as np
+
+from core import kernels
+from core.contact import MARGIN_MAX, NO_GRAZE, SpiralSearch
+from core.dragon import Dragon, checked_number, checked_size
+from core.errors import InvalidValue
+from core.kinematics import end_theta
+from core.paths import START_TURNS_MAX, Spiral
+
+# Half width of the bracket around a contact [m of head travel].
+CONTACT_WIDTH = 2e-11
+# The descent ends when the clearance left above the margin is below this [m]; a bisection closes the bracket.
+GAIN_MIN = 2e-10
+# The pitch is bisected to this width [m]; rounding of a clearance is near 1e-14 m.
+PITCH_WIDTH = 2e-13
+# Where no bound on the change of a clearance with the pitch is at hand, pitches are tried in steps of this [m].
+SCAN_STEP = 2.5e-4
+# Islands below the minimum pitch are looked for at so many pitches, evenly spaced.
+ISLAND_SAMPLES = 400
+# A contact this close to the circle or the start, with the pair still approaching, is on it [m of head travel].
+ON_CIRCLE = 1e-4
 
 
 class LimitedBy(StrEnum):
@@ -21,11 +42,13 @@ class MinimumPitch:
     """The smallest pitch such that every larger one is free of contact down to the turning circle.
 
     pitch: [m]; pitch_bracket: (infeasible, feasible) [m]
-    limited_by: graze on the way, contact exactly on the circle, or the start radius
-    benches: the pair that touches just below (None when the start radius limits without contact)
-    head_radius: [m], where; other_feasible_intervals: [m], islands below pitch
-    justified_by: 'bound' or 'scan': how it is known that every larger pitch is feasible
-    evaluations: poses examined
+    limited_by: a graze on the way, contact exactly on the circle, or the start: the dance would touch there, or, without
+        benches, begin inside the circle
+    benches: the pair that touches just below; head_radius: of the head then [m]
+    other_feasible_intervals: [m], islands below pitch, found on a grid of ISLAND_SAMPLES pitches
+    justified_by: how every larger pitch up to proven_up_to [m] is known to be feasible: 'bound' or 'scan' (in steps of
+        SCAN_STEP)
+    evaluations: ways from the start to the circle that were marched
     """
 
     pitch: float
@@ -35,11 +58,221 @@ class MinimumPitch:
     head_radius: float | None
     other_feasible_intervals: tuple[tuple[float, float], ...]
     justified_by: str
+    proven_up_to: float
     evaluations: int
+
+
+# Change of a clearance with the growth b, at a fixed head radius r_0, in the frame in which the head stands at angle 0:
+# handle k stands at radius rho_k = r_0 + b psi_k and angle psi_k. With f = b^2 delta^2 + 2 rho (rho + b delta) (1 - cos delta),
+#     a_{k+1} = a_k (1 - b f_rho / f_delta) + 2 rho (rho + b delta) delta sin delta / f_delta,   a = d rho / db,
+#     d delta / db = -(f_rho a_k + f_b) / f_delta <= 0.
+# 1 - b f_rho / f_delta is the rate of a link, in [0, 1] while no handle turns back, and the last term is in [0, delta], so
+# 0 <= a_k <= psi_k: radii grow and angles fall with b. With f_delta >= 2 rho (rho + b delta) sin delta,
+#     f_rho / f_delta <= (2 / rho) tan(delta / 2),  f_b / f_delta <= (delta / rho) tan(delta / 2) + b delta^2 / (rho^2 sin delta),
+# and as sum(delta_l psi_l + delta_l^2 / 2) = psi^2 / 2, with t = tan(delta / 2) / (delta / 2) for the largest delta,
+#     |d psi_k / db| <= t psi_k^2 / (2 r_0) + (b / r_0^2) (delta / sin delta) psi_k.
+# A point of a bench moves at most 1 + (2 o + w) / c times its handles. Only benches inside the leaders' reach count, and
+# radii grow with b, so the reach at the largest b and the angles at the smallest b serve; all falls with r_0.
+
+
+def _sensitivity(search: SpiralSearch, radius: float, low: float, high: float) -> float:
+    """Bound on |d separation / d pitch| at every head radius >= radius, pitches in [low, high]; inf where none holds [1]."""
+    chord, shortest, overhang, half_width, *_ = (float(extreme) for extreme in search.extremes)
+    b_low, b_high = low / (2.0 * math.pi), high / (2.0 * math.pi)
+    curvature = max(kernels.spiral_curvature(radius / b) / b for b in (b_low, b_high))
+    if 0.5 * curvature * chord > 0.97:
+        return math.inf
+    delta = 2.0 * math.asin(0.5 * chord / radius)
+    leaders = search.dragon.uniform_from + 1
+    rear = radius + b_high * (leaders + 1) * delta
+    reach = kernels.leaders_reach(b_high, radius, rear, search.ring) + search.margin
+    reach = kernels.radius_beyond(b_high, reach, search.ring)
+
+    def moved(psi: float) -> float:
+        angle = math.tan(0.5 * delta) / delta * psi * psi / radius
+        angle += b_high / radius**2 * delta / math.sin(delta) * psi
+        return math.hypot(psi, (reach + b_high * delta) * angle)
+
+    share = 1.0 + 2.0 * (overhang + half_width) / shortest
+    return share * (moved((reach - radius) / b_low + delta) + moved((leaders + 1) * delta)) / (2.0 * math.pi)
+
+
+class _PitchSearch:
+    """Ways from the start to the circle for one dragon: which pitches are free of contact."""
+
+    def __init__(self, dragon: Dragon, radius: float, start_turns: float, margin: float) -> None:
+        self.radius, self.start_turns, self.margin = radius, start_turns, margin
+        self.lowest = radius / start_turns
+        self.search = SpiralSearch(dragon, Spiral(max(self.lowest, 1e-3), start_turns), margin)
+        self.evaluations = 0
+
+    def way(self, pitch: float, extra: float = 0.0) -> tuple[str, dict[str, float]]:
+        """March from the start to the circle: 'reached' proves that all clearances exceed margin + extra [m]."""
+        search = self.search
+        search.use(Spiral(pitch, self.start_turns), self.margin + extra)
+        self.evaluations += 1
+        theta = self.radius / search.path.growth
+        if end_theta(search.dragon, search.path)[0] > theta:
+            return "folded", dict.fromkeys(kernels.MARCH_FIELDS, 0.0)
+        return search.march(max(search.travel_at(theta), 0.0), CONTACT_WIDTH)
+
+    def is_clear(self, pitch: float) -> bool:
+        """Is the whole way proven free of contact?"""
+        return self.way(pitch)[0] == "reached"
+
+    def top(self) -> tuple[float, float]:
+        """A pitch from which the ring bound clears the circle and all outside it, and up to which [m]."""
+        chord, shortest, *_ = (float(extreme) for extreme in self.search.extremes)
+        foot2 = self.radius**2 - 0.25 * chord**2
+        high = 0.0
+        if foot2 > 0.0:
+            high = 0.999 * min(shortest / 1.67, self.radius**2 / (1.5708 * chord), 0.5 * math.sqrt(foot2))
+        growth = high
+        for factor in (0.9, 0.99):
+            while growth > 1e-3 and (
+                kernels.ring_least(factor * growth, growth, self.radius, *self.search.extremes) > self.margin
+            ):
+                growth *= factor
+        return 2.0 * math.pi * growth, 2.0 * math.pi * high
+
+    def next_below(self, pitch: float, gain: float) -> float:
+        """A pitch down to which all are feasible, given a clearance of margin + gain all the way at `pitch` [m]."""
+        search = self.search
+        low = 0.9 * pitch
+        if search.dragon.uniform_from > 1:
+            return pitch
+        search.margin = self.margin + gain
+        below = pitch - gain / _sensitivity(search, self.radius, low, pitch)
+        search.use(Spiral(max(low, below), self.start_turns), self.margin)
+        # the body repeats in place only what its first bench met after the start
+        return below if below > low and search.clear_radius < below * self.start_turns else pitch
+
+    def descend(self, top: float) -> tuple[float, float, str]:
+        """From a feasible pitch down to (infeasible, feasible), close together, and how the way down is justified [m]."""
+        pitch, gain, justified_by = top, 1e-3, "bound"
+        while pitch > self.lowest:
+            if self.way(pitch, gain)[0] != "reached":
+                gain *= 0.5
+                if gain < GAIN_MIN:
+                    return *self.infeasible_below(pitch), justified_by
+                continue
+            below = self.next_below(pitch, gain)
+            gain *= 1.05
+            if pitch - below < 0.5 * gain / 100.0:
+                justified_by = "scan"
+                below = pitch - SCAN_STEP
+                if below > self.lowest and not self.is_clear(below):
+                    return *self.bisect(below, pitch), justified_by
+            pitch = below
+        if self.is_clear(self.lowest):
+            return self.lowest, self.lowest, justified_by
+        return *self.bisect(self.lowest, max(pitch, self.lowest + SCAN_STEP)), justified_by
+
+    def infeasible_below(self, pitch: float) -> tuple[float, float]:
+        """(infeasible, feasible) around the border just below a pitch whose clearance is within GAIN_MIN of the margin."""
+        step = 4.0 * GAIN_MIN
+        while pitch - step > self.lowest and self.is_clear(pitch - step):
+            pitch, step = pitch - step, 2.0 * step
+        return self.bisect(max(pitch - step, self.lowest), pitch)
+
+    def bisect(self, infeasible: float, feasible: float) -> tuple[float, float]:
+        """The same with a bracket of PITCH_WIDTH [m]."""
+        while feasible - infeasible > PITCH_WIDTH:
+            middle = 0.5 * (infeasible + feasible)
+            state = self.way(middle)[0]
+            if state == "stuck":
+                break
+            infeasible, feasible = (infeasible, middle) if state == "reached" else (middle, feasible)
+        return infeasible, feasible
+
+    def islands(self, pitch: float) -> tuple[tuple[float, float], ...]:
+        """Feasible intervals between the lowest pitch and an infeasible one, as far as the grid shows them [m]."""
+        grid = np.linspace(self.lowest, pitch, ISLAND_SAMPLES)
+        feasible = [self.is_clear(float(sample)) for sample in grid]
+        found = []
+        for k in range(ISLAND_SAMPLES):
+            if feasible[k] and (k == 0 or not feasible[k - 1]):
+                start = self.lowest if k == 0 else self.bisect(float(grid[k - 1]), float(grid[k]))[1]
+                end = next(j for j in range(k, ISLAND_SAMPLES) if not feasible[j])
+                found.append((start, self._end_of_island(float(grid[end - 1]), float(grid[end]))))
+        return tuple(found)
+
+    def _end_of_island(self, feasible: float, infeasible: float) -> float:
+        while infeasible - feasible > PITCH_WIDTH:
+            middle = 0.5 * (feasible + infeasible)
+            feasible, infeasible = (middle, infeasible) if self.is_clear(middle) else (feasible, middle)
+        return feasible
+
+    def limit(self, infeasible: float) -> tuple[LimitedBy, tuple[int, int] | None, float | None]:
+        """What meets just below the minimum pitch, and where."""
+        state, found = self.way(infeasible)
+        search, path = self.search, self.search.path
+        stop = search.travel_at(self.radius / path.growth)
+        pair = (int(found["first"]), int(found["second"]))
+        travel = found["touching"] - CONTACT_WIDTH
+        if state == "touched_at_start":
+            return LimitedBy.START, pair, path.growth * path.start_theta
+        if state != "touched":
+            return LimitedBy.START, None, None
+        out = np.empty(8)
+        end = min(travel + 0.01, stop)
+        arc = path.length - end
+        rate = kernels.gap_rate_at(path.growth, arc, *pair, search.sizes, search.rows[0], out)
+        if stop - travel < ON_CIRCLE and rate < 0.0:
+            return LimitedBy.CIRCLE, pair, self.radius
+        bottom = kernels.crossing(
+            path.growth, path.length, travel, end, *pair, 0.0, 1e-12, True, search.sizes, search.rows[0], out
+        )
+        return LimitedBy.GRAZE, pair, path.growth * search.theta_at(bottom)
 
 
 def minimum_pitch(
     dragon: Dragon, *, turning_radius: float = 4.5, start_turns: float = 16.0, margin: float = 0.0
 ) -> MinimumPitch:
-    """The smallest pitch such that every larger one lets the head reach the turning circle."""
-    raise NotImplementedError
+    """The smallest pitch such that every larger one lets the head reach the turning circle without contact.
+
+    turning_radius: [m]; start_turns: turns from the centre to the start; margin: [m], clearance required
+    The least clearance on the way, as a function of the pitch, is brought down to the margin: from a pitch at which the
+    ring bound of `core/kernels.py` clears everything, each proven clearance clears all pitches within clearance /
+    sensitivity below it, so no feasible-looking gap is stepped over. Where that sensitivity has no bound (handles that
+    turn back, bench-by-bench dragons, a start inside the region where benches can touch) a stated scan takes its place.
+    raises: InvalidValue; also when the dragon cannot reach the circle at any pitch
+    source: the model of Yang et al., section 2.5; their bisection of the contact radius cannot converge, because that
+        radius jumps over the circle
+
+    >>> round(minimum_pitch(Dragon()).pitch, 9)
+    0.450337393
+    """
+    radius = checked_size("turning_radius", turning_radius)
+    turns = checked_number("start_turns", start_turns, "turns", 0.0, START_TURNS_MAX, open_low=True)
+    margin = checked_number("margin", margin, "m", 0.0, MARGIN_MAX)
+    search = _PitchSearch(dragon, radius, turns, margin)
+    top, proven_up_to = search.top()
+    justified = "bound"
+    if top >= proven_up_to:
+        top = proven_up_to = max(2.0 * search.lowest, 2.0 * float(dragon.chords.max() + dragon.widths.max()) + margin)
+        justified = "scan"
+    if not search.is_clear(max(top, search.lowest)):
+        raise InvalidValue(
+            "turning_radius",
+            f"turning_radius must be larger for this dragon: even at a pitch of {top:g} m it cannot dance down to "
+            f"{radius:g} m",
+        )
+    infeasible, feasible, justified_by = search.descend(top) if top > search.lowest else (search.lowest,) * 2 + (justified,)
+    if feasible <= search.lowest:
+        limited_by, pair, head_radius = LimitedBy.START, None, None
+        islands: tuple[tuple[float, float], ...] = ()
+    else:
+        limited_by, pair, head_radius = search.limit(infeasible)
+        islands = search.islands(infeasible)
+    return MinimumPitch(
+        feasible,
+        (infeasible, feasible),
+        limited_by,
+        pair,
+        head_radius,
+        islands,
+        justified if justified == "scan" else justified_by,
+        proven_up_to,
+        search.evaluations,
+    )

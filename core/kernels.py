@@ -997,8 +997,7 @@ TRIAL = cython.declare(cython.double, 1.5)
 FREE = cython.declare(cython.double, 1e300)
 
 
-@cython.cfunc
-@cython.inline
+@cython.ccall
 @cython.nogil
 @cython.exceptval(check=False)
 def spiral_curvature(theta: cython.double) -> cython.double:
@@ -1396,9 +1395,8 @@ MARCH_FIELDS = (
     "graze_first",
     "graze_second",
 )
-# Golden section, and the relative width at which a dip is found: its value is then flat to rounding [1].
-GOLDEN = cython.declare(cython.double, 0.6180339887498949)
-DIP_WIDTH = cython.declare(cython.double, 1e-9)
+# Width to which the place of a graze is found [m]: 1e-10 s at 1 m/s.
+DIP_WIDTH = cython.declare(cython.double, 1e-10)
 # The chain is laid out so many drifts further than the pose needs; if that is too little the step is halved [1].
 ALLOWANCE = cython.declare(cython.double, 2.0)
 # A crossing is found this much closer than the bracket that is proven around it [1].
@@ -1425,7 +1423,7 @@ def settled(growth: cython.double, radius: cython.double, ring: cython.double[::
     )
 
 
-@cython.cfunc
+@cython.ccall
 @cython.nogil
 @cython.exceptval(check=False)
 def radius_beyond(growth: cython.double, radius: cython.double, ring: cython.double[::1]) -> cython.double:
@@ -1438,7 +1436,7 @@ def radius_beyond(growth: cython.double, radius: cython.double, ring: cython.dou
     return target + (beyond if beyond > ring[RING_OVERHANG] else ring[RING_OVERHANG])
 
 
-@cython.cfunc
+@cython.ccall
 @cython.nogil
 @cython.exceptval(check=False)
 def leaders_reach(
@@ -1463,10 +1461,15 @@ def leaders_reach(
 # least c / sqrt(growth^2 + r_b^2). Every term grows with r, so the bound holds from r outwards.
 
 
+# For a range of growths: G is concave in growth (its only curved terms are -growth^2 and -sqrt(1 + growth^2 / rho^2)), so
+# it is at least the lesser of its values at both ends; everything else falls with growth.
+
+
 @cython.ccall
 @cython.nogil
 @cython.exceptval(check=False)
 def ring_least(
+    growth_low: cython.double,
     growth: cython.double,
     radius: cython.double,
     chord: cython.double,
@@ -1478,29 +1481,39 @@ def ring_least(
 ) -> cython.double:
     """Lower bound of the separation of any two non-neighbours whose inner bench leads at `radius` or further out [m].
 
-    chord, shortest, overhang, half_width: the extremes over all benches; outer_...: over those that can be the outer
-    one; -1e300 where the bound says nothing.
+    It holds for every growth in [growth_low, growth] [m/rad]. chord, shortest, overhang, half_width: the extremes over
+    all benches; outer_...: over those that can be the outer one; -1e300 where the bound says nothing.
     """
     d2: cython.double = radius * radius - 0.25 * chord * chord
     d: cython.double
     rho: cython.double
     q: cython.double
-    x_rear: cython.double = 0.5 * chord + 1.67 * growth
-    gap: cython.double
+    x_rear: cython.double
+    gap: cython.double = FREE
+    bows: cython.double
+    at: cython.double = growth_low
     same_turn: cython.double
+    end: cython.int
     if d2 <= 0.0 or shortest < 1.67 * growth or radius * radius < 1.5708 * chord * growth:
         return -FREE
     d = sqrt(d2)
     rho = d - (half_width if half_width > outer_half_width else outer_half_width)
     if d <= 2.0 * growth or rho <= 0.0:
         return -FREE
-    q = 1.0 / d + 2.0 * growth * (x_rear + overhang) / (d * d2)
-    gap = TWO_PI * growth - 0.5 * q * overhang * (overhang + chord) - 0.125 * q * outer_chord * outer_chord
-    gap -= (half_width + outer_half_width) * sqrt(1.0 + growth * growth / (rho * rho))
+    for end in range(2):
+        x_rear = 0.5 * chord + 1.67 * at
+        q = 1.0 / d + 2.0 * at * (x_rear + overhang) / (d * d2)
+        bows = 0.5 * q * overhang * (overhang + chord) + 0.125 * q * outer_chord * outer_chord
+        bows += (half_width + outer_half_width) * sqrt(1.0 + at * at / (rho * rho))
+        if TWO_PI * at - bows < gap:
+            gap = TWO_PI * at - bows
+        at = growth
     if gap <= 0.0:
         return -FREE
     gap /= sqrt(1.0 + PI * PI * growth * growth / (4.0 * rho * rho))
-    same_turn = shortest * rho / sqrt(growth * growth + (radius + PI * growth * chord / radius) ** 2)
+    x_rear = 0.5 * chord + 1.67 * growth
+    same_turn = radius + PI * growth * chord / radius
+    same_turn = shortest * rho / sqrt(growth * growth + same_turn * same_turn)
     same_turn = (same_turn - 2.0 * (overhang + x_rear * half_width / d)) * 2.0 / PI
     if rho < same_turn:
         same_turn = rho
@@ -1730,6 +1743,47 @@ def gap_at(
 @cython.ccall
 @cython.nogil
 @cython.exceptval(check=False)
+def gap_rate_at(
+    growth: cython.double,
+    arc: cython.double,
+    a: cython.Py_ssize_t,
+    b: cython.Py_ssize_t,
+    sizes: cython.double[:, ::1],
+    chain: cython.double[:, ::1],
+    out: cython.double[::1],
+) -> cython.double:
+    """How fast benches a and b part per metre of head travel: normal . (velocity of witness b - of witness a) [1].
+
+    A bench moves with its handles: its centre by their mean, and it turns at omega = u x (a' T_a - b' T_b) / chord.
+    """
+    k: cython.Py_ssize_t
+    side: cython.int
+    rate: cython.double = 0.0
+    vx: cython.double
+    vy: cython.double
+    omega: cython.double
+    if gap_at(growth, arc, a, b, sizes, chain) >= FREE:
+        return 0.0
+    pair_separation(
+        chain[a, MX], chain[a, MY], chain[a, UX], chain[a, UY], sizes[a, HALF_LENGTH], sizes[a, HALF_WIDTH],
+        chain[b, MX], chain[b, MY], chain[b, UX], chain[b, UY], sizes[b, HALF_LENGTH], sizes[b, HALF_WIDTH], out,
+    )
+    for side in range(2):
+        k = b if side else a
+        vx = chain[k, RATE] * chain[k, TX] - chain[k + 1, RATE] * chain[k + 1, TX]
+        vy = chain[k, RATE] * chain[k, TY] - chain[k + 1, RATE] * chain[k + 1, TY]
+        omega = (chain[k, UX] * vy - chain[k, UY] * vx) / sizes[k, CHORD]
+        vx = 0.5 * (chain[k, RATE] * chain[k, TX] + chain[k + 1, RATE] * chain[k + 1, TX])
+        vy = 0.5 * (chain[k, RATE] * chain[k, TY] + chain[k + 1, RATE] * chain[k + 1, TY])
+        vx -= omega * (out[2 + 2 * side] - chain[k, MY])
+        vy += omega * (out[1 + 2 * side] - chain[k, MX])
+        rate += (2 * side - 1) * (out[5] * vx + out[6] * vy)
+    return rate
+
+
+@cython.ccall
+@cython.nogil
+@cython.exceptval(check=False)
 def crossing(
     growth: cython.double,
     arc: cython.double,
@@ -1739,76 +1793,48 @@ def crossing(
     b: cython.Py_ssize_t,
     margin: cython.double,
     tolerance: cython.double,
+    of_rate: cython.bint,
     sizes: cython.double[:, ::1],
     chain: cython.double[:, ::1],
+    out: cython.double[::1],
 ) -> cython.double:
-    """Head travel in [low, high] at which benches a, b come within the margin; apart at low, within it at high [m].
+    """Head travel in [low, high] at which benches a, b come within the margin, or (of_rate) stop approaching [m].
 
-    The Illinois form of the false position, until the bracket is below the tolerance.
+    The Illinois form of the false position with a bisection now and then, until the bracket is below the tolerance;
+    its later end. Apart (approaching) at low and within the margin (parting) at high.
     """
-    above: cython.double = gap_at(growth, arc - low, a, b, sizes, chain) - margin
-    below: cython.double = gap_at(growth, arc - high, a, b, sizes, chain) - margin
+    above: cython.double = 1.0
+    below: cython.double = -1.0
     middle: cython.double
     value: cython.double
-    side: cython.int = 0
+    last: cython.int = 0
     i: cython.int
+    if not of_rate:
+        above = gap_at(growth, arc - low, a, b, sizes, chain) - margin
+        below = gap_at(growth, arc - high, a, b, sizes, chain) - margin
     for i in range(100):
         if high - low <= tolerance:
             break
         middle = low + (high - low) * above / (above - below)
         if not (low < middle < high) or i % 4 == 3:
             middle = 0.5 * (low + high)
-        value = gap_at(growth, arc - middle, a, b, sizes, chain) - margin
+        if of_rate:
+            value = -gap_rate_at(growth, arc - middle, a, b, sizes, chain, out)
+        else:
+            value = gap_at(growth, arc - middle, a, b, sizes, chain) - margin
         if value > 0.0:
             low = middle
             above = value
-            if side == 1:
+            if last == 1:
                 below *= 0.5
-            side = 1
+            last = 1
         else:
             high = middle
             below = value
-            if side == -1:
+            if last == -1:
                 above *= 0.5
-            side = -1
+            last = -1
     return high
-
-
-@cython.ccall
-@cython.nogil
-@cython.exceptval(check=False)
-def dip(
-    growth: cython.double,
-    arc: cython.double,
-    low: cython.double,
-    high: cython.double,
-    a: cython.Py_ssize_t,
-    b: cython.Py_ssize_t,
-    sizes: cython.double[:, ::1],
-    chain: cython.double[:, ::1],
-) -> cython.double:
-    """Head travel in [low, high] where the separation of benches a and b is least, by golden section [m]."""
-    left: cython.double = high - GOLDEN * (high - low)
-    right: cython.double = low + GOLDEN * (high - low)
-    at_left: cython.double = gap_at(growth, arc - left, a, b, sizes, chain)
-    at_right: cython.double = gap_at(growth, arc - right, a, b, sizes, chain)
-    i: cython.int
-    for i in range(60):
-        if high - low <= DIP_WIDTH * (1.0 + high):
-            break
-        if at_left <= at_right:
-            high = right
-            right = left
-            at_right = at_left
-            left = high - GOLDEN * (high - low)
-            at_left = gap_at(growth, arc - left, a, b, sizes, chain)
-        else:
-            low = left
-            left = right
-            at_left = at_right
-            right = low + GOLDEN * (high - low)
-            at_right = gap_at(growth, arc - right, a, b, sizes, chain)
-    return left if at_left <= at_right else right
 
 
 @cython.cfunc
@@ -1886,6 +1912,7 @@ def march(
     a: cython.Py_ssize_t
     b: cython.Py_ssize_t
     lowest: cython.double
+    clearance_there: cython.double
     if followers > cap:
         followers = cap
     out[GRAZE_GAP] = FREE
@@ -1946,7 +1973,8 @@ def march(
                     target = -1.0
                     continue
                 target = crossing(
-                    growth, arc, travel, travel + h, a, b, margin, CROSSING_WIDTH * tolerance, sizes, spare
+                    growth, arc, travel, travel + h, a, b, margin, CROSSING_WIDTH * tolerance, False, sizes, spare,
+                    scratch,
                 )
                 out[FIRST] = a
                 out[SECOND] = b
@@ -1978,9 +2006,12 @@ def march(
             floor = least
             if older_clearance > last_clearance <= clearance and lowest < out[GRAZE_GAP]:
                 if clearance < FREE and older_travel < last_travel:
-                    lowest = dip(growth, arc, older_travel, travel, last_a, last_b, sizes, spare)
-                    if gap_at(growth, arc - lowest, last_a, last_b, sizes, spare) < out[GRAZE_GAP]:
-                        out[GRAZE_GAP] = gap_at(growth, arc - lowest, last_a, last_b, sizes, spare)
+                    lowest = crossing(
+                        growth, arc, older_travel, travel, last_a, last_b, margin, DIP_WIDTH, True, sizes, spare, scratch
+                    )
+                    clearance_there = gap_at(growth, arc - lowest, last_a, last_b, sizes, spare)
+                    if clearance_there < out[GRAZE_GAP]:
+                        out[GRAZE_GAP] = clearance_there
                         out[GRAZE_TRAVEL] = lowest
                         out[GRAZE_FIRST] = last_a
                         out[GRAZE_SECOND] = last_b
