@@ -39,7 +39,7 @@ CROSS_CANDIDATES_MAX = 2_000_000
 # Searches reach further by this share of the coordinates and sizes that they compute with: each of their few
 # operations rounds by 1.1e-16, and so does the separation that they must not miss [1].
 ROUNDING = 4e-15
-# Pairs that the angle-sum rule judges at once, to keep its 16 angles a pair within 30 MB.
+# Pairs that the angle-sum rule judges at once, to keep its 32 angles a pair within 60 MB.
 ANGLE_BATCH = 50_000
 
 
@@ -216,7 +216,9 @@ def _meeting(frame: Floats, margin: float, chained: bool, *, exact: bool) -> Pai
     pairs = np.empty((2 * len(frame), 2), dtype=np.int64)
     while True:
         kernels.meeting_pairs(frame, boxes, tree, order, margin, exact, chained, np.array(most), pairs, counts)
-        for count, limit, what in zip(counts, most, ("within the margin", "close by"), strict=True):
+        for count, limit, what in zip(
+            counts, most, ("within the margin" if exact else "close by", "close by"), strict=True
+        ):
             if count > limit:
                 raise TooLarge(
                     "benches", f"benches must have at most {limit} pairs {what}, got more among {len(frame)}"
