@@ -55,12 +55,13 @@ class Spiral:
         from_centre: Floats = (self.length - np.asarray(s, dtype=np.float64)) / self.growth
         theta: Floats = np.empty(from_centre.size)
         kernels.spiral_thetas(from_centre.reshape(-1), theta)
-        return np.reshape(theta, from_centre.shape)
+        return theta.reshape(from_centre.shape)
 
     def position(self, s: Floats | float) -> Floats:
         """Points at arc length s. s: (...) [m]; returns (..., 2) x, y [m]."""
         theta = self.theta(s)
-        return self.growth * theta[..., None] * np.stack([np.cos(theta), np.sin(theta)], axis=-1)
+        direction: Floats = np.stack([np.cos(theta), np.sin(theta)], axis=-1)
+        return direction * (self.growth * theta[..., None])
 
     def tangent(self, s: Floats | float) -> Floats:
         """Unit tangents in the direction of travel. s: (...) [m]; returns (..., 2)."""
