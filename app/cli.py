@@ -30,7 +30,7 @@ from rich.text import Text
 from typer.core import TyperGroup
 
 import core
-from app import answers, schemas, tables
+from app import answers, prove, schemas, tables
 from app.messages import message
 from app.settings import Settings
 from core import BenchDragonError, InvalidValue, Trajectory
@@ -382,7 +382,7 @@ def paper(json: Json = False) -> None:
     with _waiting("recomputing the paper"):
         found = reported.comparison()
     if json:
-        _print_json(orjson.dumps({"comparison": found}))
+        _print_json(answers.PaperTable.model_validate({"rows": found}).to_json())
         return
     table = _table("The paper beside this program", "quantity", "paper", "here", "difference")
     for one in found:
@@ -402,4 +402,14 @@ def serve(
     """The HTTP service."""
     import uvicorn
 
-    uvicorn.run("app.main:create_app", factory=True, host=host, port=port)
+    try:
+        uvicorn.run("app.main:create_app", factory=True, host=host, port=port)
+    except SystemExit as stop:  # The port is taken, or the address is not ours; uvicorn has said so.
+        raise typer.Exit(2 if stop.code else 0) from stop
+
+
+proofs = typer.Typer()
+proofs.callback(invoke_without_command=True)(prove.prove)
+proofs.command()(_asks(prove.CollisionClaim)(prove.collision_time))
+proofs.command()(_asks(prove.PitchClaim)(prove.minimum_pitch))
+app.add_typer(proofs, name="prove")

@@ -45,8 +45,8 @@ PNG_DPI = 150
 SHAPES_MAX = 3_000
 # The figure of a run without contact shows the dance this long before its end [s], where the chain still exists.
 BEFORE_END = 1e-6
-# How far ahead of the head its name stands [m].
-HEAD_LABEL = 1.6
+# Length of the arrow ahead of the head, and how far inwards its name stands [m].
+HEAD_ARROW, HEAD_LABEL = 1.2, 1.0
 # Half the side of the enlarged view, in widths of the wider bench.
 ENLARGED_WIDTHS = 1.5
 # A fall of the first-contact radius [m] between two pitches closer than JUMP_WIDTH [m] is a jump.
@@ -134,19 +134,13 @@ def trajectory_figure(
 
 
 def _mark_head(axes: Axes, head: Floats, velocity: Floats) -> None:
+    """A ring around the head, an arrow where it goes, its name on the inner side."""
+    ahead = head + HEAD_ARROW * velocity / np.hypot(*velocity)
+    inwards = head - HEAD_LABEL * head / max(float(np.hypot(*head)), HEAD_LABEL)
+    arrow = {"arrowstyle": "->", "color": VERMILION, "shrinkA": 5, "linewidth": 1.5}
     axes.plot(*head, marker="o", markersize=9, markerfacecolor="none", markeredgecolor=VERMILION, zorder=4)
-    axes.annotate(
-        "head",
-        (head[0], head[1]),
-        xytext=tuple(head + HEAD_LABEL * velocity / np.hypot(*velocity)),
-        color=VERMILION,
-        fontsize=9,
-        ha="center",
-        va="center",
-        arrowprops={"arrowstyle": "<-", "color": VERMILION, "shrinkB": 6},
-        bbox={"boxstyle": "round,pad=0.15", "facecolor": "white", "edgecolor": "none", "alpha": 0.8},
-        zorder=5,
-    )
+    axes.annotate("", (ahead[0], ahead[1]), xytext=(head[0], head[1]), arrowprops=arrow, zorder=5)
+    axes.text(inwards[0], inwards[1], "head", color=VERMILION, fontsize=10, ha="center", va="center", zorder=5)
 
 
 def contact_figure(
@@ -165,7 +159,7 @@ def contact_figure(
         axes = figure.add_subplot(1, 2, 1) if found.benches else figure.add_subplot()
         _plan(axes)
         _draw_path(axes, path, handles)
-        _draw_benches(axes, outlines, facecolor="white", edgecolor=GREY, linewidth=0.5, zorder=2)
+        _draw_benches(axes, outlines, facecolor="none", edgecolor=GREY, linewidth=0.5, zorder=2)
         _mark_pair(axes, outlines, found, legend=True)
         axes.autoscale_view()
         axes.set_title(_contact_title(found, margin), fontsize=11)
@@ -255,7 +249,7 @@ class PitchScan:
     """Head radius at first contact against pitch.
 
     pitch, radius: (N,) [m], ascending; a run without contact has no entry
-    pieces: (start, end) indices of the continuous stretches; between two stretches the radius jumps
+    pieces: (start, end) indices of the continuous stretches: the radius jumps between two, or there is no contact
     """
 
     pitch: Floats
@@ -302,14 +296,16 @@ def pitch_scan(
             known[middle] = radius(middle)
             intervals += [(low, middle), (middle, high)]
         progress((k + 1) / len(pitches))
-    return _scan(known, sorted(jumps))
+    return _scan(known, jumps)
 
 
 def _scan(known: dict[float, float | None], jumps: list[float]) -> PitchScan:
-    pitches = np.array([pitch for pitch in sorted(known) if known[pitch] is not None])
-    radii = np.array([known[pitch] for pitch in pitches.tolist()], dtype=np.float64)
-    cuts = [0, *np.searchsorted(pitches, jumps).tolist(), len(pitches)]
-    return PitchScan(pitches, radii, tuple(pairwise(cuts)))
+    pitches = sorted(known)
+    found = [pitch for pitch in pitches if known[pitch] is not None]
+    # A stretch ends at a jump and at a pitch without contact.
+    breaks = jumps + [pitch for pitch in pitches if known[pitch] is None]
+    cuts = np.unique([0, *np.searchsorted(found, breaks), len(found)]).tolist()
+    return PitchScan(np.array(found), np.array([known[pitch] for pitch in found]), tuple(pairwise(cuts)))
 
 
 def pitch_scan_figure(
@@ -334,8 +330,9 @@ def pitch_scan_figure(
         figure = _canvas(9.0, 5.6)
         axes = figure.add_subplot()
         _draw_scan(axes, scan, least, turning_radius)
+        axes.plot(pitches, start_turns * pitches, color=GREY, linewidth=0.9, label="start of the dance")
         axes.set(xlim=(pitches[0], pitches[-1]), xlabel="pitch [m]", ylabel="radius of the head at first contact [m]")
-        axes.set_ylim(bottom=0.0)
+        axes.set_ylim(0.0, 1.05 * scan.radius.max())
         axes.legend(loc="lower left", fontsize=9)
         axes.set_title("Where the head stands at first contact, against the pitch", fontsize=11)
         near = axes.inset_axes((0.56, 0.50, 0.41, 0.46))
@@ -343,7 +340,7 @@ def pitch_scan_figure(
         near.set(xlim=(0.995 * least.pitch, 1.005 * least.pitch))
         near.set(ylim=(0.94 * turning_radius, 1.05 * turning_radius))
         near.tick_params(labelsize=8)
-        axes.indicate_inset_zoom(near, edgecolor="black")
+        axes.indicate_inset_zoom(near, edgecolor="black", linewidth=0.7)
         return _bytes(figure, format)
 
 
@@ -352,7 +349,7 @@ def _draw_scan(axes: Axes, scan: PitchScan, least: MinimumPitch, turning_radius:
     axes.add_collection(
         LineCollection([points[a:b] for a, b in scan.pieces], colors=BLUE, linewidths=1.8, label="first contact")
     )
-    falls = [points[a - 1 : a + 1] for a, _ in scan.pieces[1:]]
+    falls = [points[a - 1 : a + 1] for a, _ in scan.pieces[1:] if scan.pitch[a] - scan.pitch[a - 1] <= JUMP_WIDTH]
     axes.add_collection(LineCollection(falls, colors=GREY, linewidths=0.8, linestyles="dotted", label="jump"))
     axes.axhline(
         turning_radius, color="black", linewidth=0.9, linestyle="dashed", label=f"turning circle, {turning_radius:g} m"

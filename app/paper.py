@@ -22,6 +22,7 @@ from core import (
     first_contact,
     minimum_pitch,
     run_end,
+    separation,
 )
 from core import trajectory as trajectory_of
 from core.angle_sum import angle_sums, literal_corners
@@ -42,9 +43,15 @@ EXACT_ANGLE = 360.0 - 1e-6
 # The head's neighbourhood: the ring around it has at most 34 benches, those further back are a ring further out.
 RING_BENCHES = 40
 # Steps of the searches for a first time [s] and for sign changes in the pitch [m], and where bisection stops.
-TIME_STEP = 0.05
+TIME_STEP = 0.1
 PITCH_STEP = 0.001
 RESOLUTION = 1e-10
+# Angle sums of the whole run at once would take 500 MB.
+SUM_BATCHES = 20
+
+
+# Poses (..., 3) and sizes (..., 2) -> corners (..., 4, 2).
+Outline = Callable[[Floats, Floats], Floats]
 
 
 @dataclass(frozen=True, slots=True)
@@ -133,7 +140,7 @@ def _minimum_pitch() -> Comparison:
     found = minimum_pitch(Dragon(), turning_radius=TURNING_RADIUS)
     below, above = _bisected_radius()
     at_paper = _contact_radius(PAPER_PITCH)
-    poses = _circle_pitches()
+    alone, head_alone = _circle_pitch(_any_touch_at_start), _circle_pitch(_head_touches_at_start)
     return _compared(
         "minimum pitch", "m", "section 3.3", PAPER_PITCH, found.pitch,
         f"The paper bisects the radius of first contact towards {TURNING_RADIUS:g} m, but that radius jumps from "
@@ -145,12 +152,13 @@ def _minimum_pitch() -> Comparison:
             Evidence("radius of first contact just below it", _contact_radius(below), "m"),
             Evidence("radius of first contact just above it", _contact_radius(above), "m"),
             Evidence("radius of first contact at the paper's pitch", at_paper, "m"),
-            *(Evidence("pitch at which the pose on the circle alone turns clear or touching", p, "m") for p in poses),
+            Evidence("largest pitch at which the pose on the circle alone touches", alone, "m"),
+            Evidence("the same with the pairs of the head only, as in eqs. 14-17", head_alone, "m"),
         ],
     )  # fmt: skip
 
 
-def _largest_sums(outline: Callable[[Floats, Floats], Floats], times: Floats) -> Floats:
+def _largest_sums(outline: Outline, times: Floats) -> Floats:
     """The paper's rule, eqs. 13-16: the largest angle sum between head and body benches at every time.
 
     outline: what makes the corners (..., 4, 2) from poses and sizes; times: (T,) [s]; returns (T,) [deg]
@@ -163,19 +171,23 @@ def _largest_sums(outline: Callable[[Floats, Floats], Floats], times: Floats) ->
     return np.asarray(np.degrees(sums.max(axis=(1, 2))))
 
 
-def _largest_sum(outline: Callable[[Floats, Floats], Floats], time: float) -> float:
+def _largest_sum(outline: Outline, time: float) -> float:
     return float(_largest_sums(outline, np.array([time]))[0])
 
 
-def _first_time(outline: Callable[[Floats, Floats], Floats], angle: float) -> float:
-    """First time [s] at which an angle sum reaches an angle [deg], among instants TIME_STEP apart, then bisected."""
+@cache
+def _sampled_sums(outline: Outline) -> tuple[Floats, Floats]:
+    """Instants TIME_STEP apart over the whole run [s], and the largest angle sum at each [deg]."""
     times = np.arange(0.0, run_end(Dragon(), Spiral()).time, TIME_STEP)
-    for some in np.array_split(times, 20):
-        reached = np.flatnonzero(_largest_sums(outline, some) >= angle)
-        if reached.size:
-            high = float(some[reached[0]])
-            return _bisected(lambda time: _largest_sum(outline, time) >= angle, high - TIME_STEP, high)[1]
-    raise AssertionError(f"no angle sum of this dance reaches {angle} degrees")
+    batches = np.array_split(times, SUM_BATCHES)
+    return times, np.concatenate([_largest_sums(outline, batch) for batch in batches])
+
+
+def _first_time(outline: Outline, angle: float) -> float:
+    """First time [s] at which an angle sum reaches an angle [deg], among instants TIME_STEP apart, then bisected."""
+    times, sums = _sampled_sums(outline)
+    high = float(times[np.flatnonzero(sums >= angle)[0]])
+    return _bisected(lambda time: _largest_sum(outline, time) >= angle, high - TIME_STEP, high)[1]
 
 
 def _bisected(holds: Callable[[float], bool], low: float, high: float) -> tuple[float, float]:
@@ -201,15 +213,24 @@ def _bisected_radius() -> tuple[float, float]:
     return _bisected(lambda pitch: _contact_radius(pitch) <= TURNING_RADIUS, *PAPER_RANGE)
 
 
-def _circle_pitches() -> list[float]:
-    """Every pitch in the paper's range at which the pose on the circle alone starts or stops touching."""
+def _circle_pitch(touches: Callable[[Spiral], bool]) -> float:
+    """The largest pitch in the paper's range at which the pose on the circle, without the way there, touches [m]."""
 
     def touching(pitch: float) -> bool:
         # On a spiral that starts at the circle the head is there at time 0.
-        path = Spiral(pitch, TURNING_RADIUS / pitch)
-        return bool(clearance_profile(Dragon(), path, np.array([0.0])).clearance[0] <= 0.0)
+        return touches(Spiral(pitch, TURNING_RADIUS / pitch))
 
     pitches = np.arange(*PAPER_RANGE, PITCH_STEP).tolist()
-    words = [touching(pitch) for pitch in pitches]
-    changes = [k for k in range(1, len(words)) if words[k] != words[k - 1]]
-    return [_bisected(touching, pitches[k - 1], pitches[k])[1] for k in changes]
+    last = max(k for k, pitch in enumerate(pitches) if touching(pitch))
+    return _bisected(touching, pitches[last], pitches[last + 1])[0]
+
+
+def _any_touch_at_start(path: Spiral) -> bool:
+    return bool(clearance_profile(Dragon(), path, np.array([0.0])).clearance[0] <= 0.0)
+
+
+def _head_touches_at_start(path: Spiral) -> bool:
+    dragon = Dragon()
+    poses = bench_poses(trajectory_of(dragon, path, [0.0]).position[0])
+    sizes = np.stack([dragon.lengths, dragon.widths], axis=-1)
+    return bool(separation(poses[0], sizes[0], poses[2:], sizes[2:]).separation.min() <= 0.0)

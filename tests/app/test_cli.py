@@ -1,0 +1,264 @@
+"""The command, run as a user runs it: a process of its own, real pipes, a real terminal, real signals."""
+
+from __future__ import annotations
+
+import contextlib
+import csv
+import json
+import os
+import pty
+import re
+import signal
+import socket
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import httpx
+import openpyxl
+import pytest
+
+COMMAND = str(Path(sys.executable).with_name("bench-dragon"))
+ENVIRONMENT = {
+    name: value for name, value in os.environ.items() if not name.startswith(("BENCH_DRAGON_", "FORCE_COLOR"))
+}
+PATIENCE = 120.0  # [s]: only against a test that would hang
+CROSSED = {
+    "benches": [
+        {"x": 0.0, "y": 0.0, "heading": 0.0, "length": 2.2, "width": 0.3},
+        {"x": 1.0, "y": 0.5, "heading": 1.5, "length": 2.2, "width": 0.3},
+    ],
+    "chained": False,
+}
+
+
+def run(*arguments: str, text: str | None = None, **environment: str) -> subprocess.CompletedProcess[str]:
+    return subprocess.run(
+        [COMMAND, *arguments],
+        input=text,
+        capture_output=True,
+        text=True,
+        timeout=PATIENCE,
+        env={**ENVIRONMENT, **environment},
+    )
+
+
+def answer_of(*arguments: str, **keywords: Any) -> str:
+    """Standard output of a run that must succeed without a word on standard error."""
+    done = run(*arguments, **keywords)
+    assert (done.returncode, done.stderr) == (0, "")
+    return done.stdout
+
+
+def served(client: httpx.Client, method: str, target: str, body: object = None) -> Any:
+    reply = client.request(method, target, **({} if body is None else {"json": body}))
+    assert reply.status_code == httpx.codes.OK, reply.text
+    return reply.json()
+
+
+@pytest.mark.parametrize(
+    ("arguments", "method", "target", "body"),
+    [
+        (["collision-time"], "GET", "/collision-time", None),
+        (["collision-time", "--pitch", "0.45"], "GET", "/collision-time?pitch=0.45", None),
+        (["collision-time", "--margin", "0.05"], "GET", "/collision-time?margin=0.05", None),
+        (["minimum-pitch"], "GET", "/minimum-pitch", None),
+        (["minimum-pitch", "--turning-diameter", "6"], "GET", "/minimum-pitch?turning_diameter=6", None),
+        (["trajectory"], "POST", "/trajectory", {}),
+        (
+            ["trajectory", "--start", "1", "--stop", "2", "--step", "0.25", "--decimals", "6", "--head-length", "3"],
+            "POST",
+            "/trajectory",
+            {"times": {"start": 1, "stop": 2, "step": 0.25}, "decimals": 6, "dragon": {"head_length": 3}},
+        ),
+        (["paper"], "GET", "/paper", None),
+    ],
+    ids=lambda value: " ".join(value) if isinstance(value, list) else None,
+)  # fmt: skip
+def test_json_is_the_answer_of_the_service(
+    client: httpx.Client, arguments: list[str], method: str, target: str, body: object
+) -> None:
+    assert json.loads(answer_of(*arguments, "--json")) == served(client, method, target, body)
+
+
+def test_overlaps_reads_benches_from_a_file_or_a_pipe(client: httpx.Client, tmp_path: Path) -> None:
+    file = tmp_path / "benches.json"
+    file.write_text(json.dumps(CROSSED))
+    told = served(client, "POST", "/overlaps", CROSSED)
+    assert [one["benches"] for one in told["overlaps"]] == [[0, 1]]
+    assert json.loads(answer_of("overlaps", str(file), "--json")) == told
+    assert json.loads(answer_of("overlaps", "-", "--json", text=json.dumps(CROSSED))) == told
+
+
+def test_overlaps_of_the_dance_before_and_after_first_contact() -> None:
+    assert json.loads(answer_of("overlaps", "--time", "412.47", "--json"))["overlaps"] == []
+    after = json.loads(answer_of("overlaps", "--time", "412.48", "--json"))
+    assert [one["benches"] for one in after["overlaps"]] == [[0, 8]]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (["trajectory"], ["handle", "223 tail (rear)", "speed [m/s]", "300 s", "0.996478"]),
+        (["collision-time"], ["412.473837682 s", "0, 8", "front-outer", "412.473837682"]),
+        (["collision-time", "--pitch", "0.8"], ["clear", "fold", "637.66"]),
+        (["minimum-pitch"], ["0.450337393 m", "graze", "0, 19"]),
+        (["overlaps", "--time", "413"], ["0, 8", "All four engines agree"]),
+        (["paper"], ["442.590256", "406.43", "412.473837", "2.883", "0.474924", "0.450337"]),
+    ],
+    ids=lambda value: " ".join(value),
+)
+def test_tables_for_people_hold_the_numbers_with_their_units(arguments: list[str], words: list[str]) -> None:
+    table = answer_of(*arguments)
+    assert [word for word in words if word not in table] == []
+
+
+@pytest.mark.parametrize(
+    ("line", "message"),
+    [
+        (
+            "collision-time --pitch 55",
+            "pitch must be at most 10 m, got 55.0 m: lengths are in metres, and 55 cm is 0.55 m",
+        ),
+        ("collision-time --pitch nan", "pitch must be a finite number [m], got NaN"),
+        ("collision-time --pitch -1", "pitch must be at least 0.001 m, got -1.0 m"),
+        ("collision-time --benches 0", "benches must be at least 1, got 0"),
+        (
+            "minimum-pitch --overhang 1.2",
+            "dragon.overhang must be less than half of dragon.body_length (2.2 m / 2 = 1.1 m), got 1.2 m",
+        ),
+        ("trajectory --stop 440", "times[433] must be at most 432.917924228 s, when bench 0 folds, got 433 s"),
+        ("trajectory --decimals 16", "decimals must be at most 15, got 16"),
+        ("trajectory --output dance.doc", "--output must end in .csv, .xlsx, .arrow or .json, got .doc"),
+        ("trajectory --output /no/such/dance.csv", "/no/such/dance.csv: No such file or directory"),
+        ("overlaps /no/such/file", "/no/such/file: No such file or directory"),
+    ],
+)
+def test_wrong_values_get_one_line_on_standard_error_and_exit_code_2(line: str, message: str) -> None:
+    done = run(*line.split())
+    assert (done.returncode, done.stdout, done.stderr) == (2, "", f"Error: {message}\n")
+
+
+def test_too_much_work_is_refused_before_it_starts() -> None:
+    done = run("trajectory", "--step", "1e-6")
+    assert (done.returncode, done.stdout) == (2, "")
+    assert "instants x handles must be at most 1000000 here, got 67200000224" in done.stderr
+
+
+def test_the_limits_are_those_of_the_settings() -> None:
+    done = run("collision-time", "--benches", "11", BENCH_DRAGON_BENCHES_MAX="10")
+    assert done.returncode == 2
+    assert done.stderr == "Error: benches must be at most 10 here, got 11: shorten the dragon\n"
+
+
+def test_a_file_that_is_not_json_is_named() -> None:
+    done = run("overlaps", "-", text="{benches")
+    assert done.returncode == 2
+    assert done.stderr.startswith("Error: - is not JSON: ")
+
+
+@pytest.mark.parametrize(
+    "arguments", [["trajectory", "--pich", "1"], ["dance"], ["serve", "--port", "x"], ["figures", "--kind", "x"]]
+)
+def test_unknown_words_get_exit_code_2(arguments: list[str]) -> None:
+    done = run(*arguments)
+    assert (done.returncode, done.stdout) == (2, "")
+    assert "Traceback" not in done.stderr
+
+
+@pytest.mark.parametrize("suffix", ["csv", "json", "xlsx", "arrow"])
+def test_output_writes_a_file_and_leaves_standard_output_empty(tmp_path: Path, suffix: str) -> None:
+    file = tmp_path / f"dance.{suffix}"
+    done = run("trajectory", "--stop", "10", "--output", str(file))
+    assert (done.returncode, done.stdout) == (0, "")
+    assert done.stderr == f"{file}: 224 handles at 11 instants\n"
+    assert file.stat().st_size > 10_000  # [bytes]: 224 x 11 numbers and more
+
+
+def test_output_takes_decimals_and_language(tmp_path: Path) -> None:
+    assert run("trajectory", "--stop", "1", "--decimals", "3", "--output", str(tmp_path / "a.csv")).returncode == 0
+    rows = list(csv.DictReader((tmp_path / "a.csv").read_text().splitlines()))
+    assert (rows[1]["x"], rows[1]["y"]) == ("8.364", "2.827")
+    assert run("trajectory", "--stop", "1", "--language", "zh", "--output", str(tmp_path / "a.xlsx")).returncode == 0
+    assert openpyxl.load_workbook(tmp_path / "a.xlsx")["位置"]["A2"].value == "龙头x (m)"
+
+
+def test_figures_writes_the_files_that_were_asked_for(tmp_path: Path) -> None:
+    done = run("figures", str(tmp_path / "new"), "--benches", "20", "--samples", "5")
+    assert (done.returncode, done.stdout) == (0, "")
+    assert sorted(file.name for file in (tmp_path / "new").iterdir()) == [
+        "contact.png",
+        "pitch-scan.png",
+        "trajectory.png",
+    ]
+    done = run("figures", str(tmp_path / "one"), "--kind", "contact", "--format", "svg", "--benches", "20")
+    assert (done.returncode, done.stderr) == (0, f"{tmp_path / 'one' / 'contact.svg'}\n")
+    assert b"<svg" in (tmp_path / "one" / "contact.svg").read_bytes()
+
+
+@pytest.mark.parametrize("flags", [[], ["--json"]], ids=["table", "json"])
+def test_a_reader_that_stops_early_is_no_error(flags: list[str]) -> None:
+    with subprocess.Popen(
+        [COMMAND, "trajectory", *flags], stdout=subprocess.PIPE, stderr=subprocess.PIPE, env=ENVIRONMENT
+    ) as process:
+        assert process.stdout is not None
+        assert process.stderr is not None
+        process.stdout.close()
+        assert process.stderr.read() == b""
+        assert process.wait(PATIENCE) in (0, 1)
+
+
+def test_a_long_wait_shows_a_bar_and_ctrl_c_ends_it_cleanly(tmp_path: Path) -> None:
+    leader, follower = pty.openpty()
+    # A workbook of 670,000 cells takes several seconds.
+    arguments = ["trajectory", "--step", "0.1", "--output", str(tmp_path / "dance.xlsx")]
+    process = subprocess.Popen([COMMAND, *arguments], stdout=subprocess.DEVNULL, stderr=follower, env=ENVIRONMENT)
+    os.close(follower)
+    seen = b""
+    while b"trajectory" not in seen:
+        seen += os.read(leader, 1024)
+    process.send_signal(signal.SIGINT)
+    assert process.wait(PATIENCE) == 130
+    # At its end a terminal without a writer is an error, not an end of file.
+    with contextlib.suppress(OSError):
+        while True:
+            seen += os.read(leader, 1024)
+    os.close(leader)
+    assert b"Traceback" not in seen
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_serve_answers_and_ctrl_c_ends_it() -> None:
+    with socket.socket() as free:
+        free.bind(("127.0.0.1", 0))
+        port = free.getsockname()[1]
+    process = subprocess.Popen(
+        [COMMAND, "serve", "--port", str(port)],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        env=ENVIRONMENT,
+    )
+    assert process.stderr is not None
+    for line in process.stderr:
+        if re.search(rf"running on http://127\.0\.0\.1:{port}", line):
+            break
+    assert httpx.get(f"http://127.0.0.1:{port}/healthz").json()["status"] == "ok"
+    process.send_signal(signal.SIGINT)
+    _, rest = process.communicate(timeout=PATIENCE)
+    assert "Traceback" not in rest
+
+
+def test_serve_on_a_port_that_is_taken_gets_exit_code_2(server: str) -> None:
+    done = run("serve", "--port", server.rpartition(":")[2])
+    assert done.returncode == 2
+    assert "address already in use" in done.stderr
+    assert "Traceback" not in done.stderr
+
+
+def test_help_names_every_command_and_unit() -> None:
+    text = answer_of("--help", COLUMNS="100")
+    for name in ("trajectory", "collision-time", "minimum-pitch", "overlaps", "figures", "paper", "serve"):
+        assert name in text
+    assert "Radial advance of the spiral per full turn [m]" in answer_of("collision-time", "--help", COLUMNS="120")

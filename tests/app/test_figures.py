@@ -1,0 +1,130 @@
+"""The figures: what they claim is what core answers; what they draw can be read back from the SVG."""
+
+from __future__ import annotations
+
+import struct
+import threading
+from xml.etree import ElementTree
+
+import numpy as np
+import pytest
+
+from app import figures
+from app.figures import JUMP_WIDTH, Format
+from core import Dragon, OutsideRun, Spiral, first_contact, minimum_pitch
+
+SMALL = Dragon(benches=30)
+PNG_SIGNATURE = b"\x89PNG\r\n\x1a\n"
+BRACKET = 1e-9  # [m]: how well the minimum pitch is known
+
+
+def texts(svg: bytes) -> str:
+    """All text of an SVG: matplotlib keeps each string as a comment beside its outlines."""
+    parser = ElementTree.XMLParser(target=ElementTree.TreeBuilder(insert_comments=True))
+    root = ElementTree.fromstring(svg, parser)
+    return "\n".join(node.text or "" for node in root.iter() if node.tag is ElementTree.Comment)
+
+
+def test_trajectory_figure_names_its_axes_units_and_instant() -> None:
+    words = texts(figures.trajectory_figure(SMALL, Spiral(), time=120.0))
+    for word in ("x [m]", "y [m]", "speed of the handle [m/s]", "120 s", "pitch 0.55 m"):
+        assert word in words
+
+
+def test_contact_figure_states_the_time_pair_and_features_that_core_found() -> None:
+    found = first_contact(Dragon(), Spiral())
+    words = texts(figures.contact_figure(Dragon(), Spiral()))
+    assert f"{found.time:.6f} s" in words
+    assert "bench 0 (head)" in words
+    assert "bench 8" in words
+    assert "inner edge of bench 8" in words
+    assert "front-outer corner of bench 0" in words
+    assert found.point is not None
+    assert "({:.6f} m, {:.6f} m)".format(*found.point) in words
+
+
+def test_contact_figure_of_a_clear_run_says_that_it_is_clear() -> None:
+    words = texts(figures.contact_figure(SMALL, Spiral(pitch=0.8)))
+    assert "No contact: the run ends clear at the fold, " in words
+
+
+def test_contact_figure_at_the_start_says_so() -> None:
+    assert "already at the start" in texts(figures.contact_figure(Dragon(), Spiral(pitch=0.35)))
+
+
+def test_contact_figure_with_a_margin_states_it() -> None:
+    assert "First approach to 0.05 m" in texts(figures.contact_figure(SMALL, Spiral(), margin=0.05))
+
+
+def test_pitch_scan_figure_marks_minimum_pitch_and_circle() -> None:
+    least = minimum_pitch(SMALL)
+    words = texts(figures.pitch_scan_figure(SMALL, samples=9))
+    assert f"minimum pitch, {least.pitch:.9f} m" in words
+    assert "turning circle, 4.5 m" in words
+
+
+@pytest.mark.parametrize("kind", ["trajectory", "contact", "scan"])
+@pytest.mark.parametrize("format", Format)
+def test_equal_questions_give_equal_bytes(kind: str, format: Format) -> None:
+    def drawn() -> bytes:
+        if kind == "trajectory":
+            return figures.trajectory_figure(SMALL, Spiral(), format=format)
+        if kind == "contact":
+            return figures.contact_figure(SMALL, Spiral(), format=format)
+        return figures.pitch_scan_figure(SMALL, samples=5, format=format)
+
+    first = drawn()
+    assert first == drawn()
+    if format is Format.PNG:
+        assert first[:8] == PNG_SIGNATURE
+        assert min(struct.unpack(">II", first[16:24])) > 500  # pixels
+    else:
+        assert ElementTree.fromstring(first).tag.endswith("svg")
+
+
+def test_threads_draw_the_same_bytes_as_one_alone() -> None:
+    times = [0.0, 60.0, 120.0, 180.0]
+    alone = [figures.trajectory_figure(SMALL, Spiral(), time=time) for time in times]
+    together: list[bytes] = [b""] * len(times)
+
+    def draw(k: int) -> None:
+        together[k] = figures.trajectory_figure(SMALL, Spiral(), time=times[k])
+
+    threads = [threading.Thread(target=draw, args=(k,)) for k in range(len(times))]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert together == alone
+
+
+def test_trajectory_figure_after_the_end_of_the_run_is_refused() -> None:
+    with pytest.raises(OutsideRun):
+        figures.trajectory_figure(SMALL, Spiral(), time=440.0)
+
+
+def test_scan_finds_the_jump_at_the_minimum_pitch() -> None:
+    """The head stops at 4.573 m just below 0.4503374 m and at 4.405 m just above; nothing in between."""
+    scan = figures.pitch_scan(Dragon(), np.array([0.449, 0.4515]))
+    edges = [(scan.pitch[start - 1], scan.pitch[start]) for start, _ in scan.pieces[1:]]
+    least = minimum_pitch(Dragon()).pitch
+    [(low, high)] = [(low, high) for low, high in edges if low - BRACKET <= least <= high + BRACKET]
+    assert high - low <= JUMP_WIDTH
+    before, after = (scan.radius[scan.pitch == pitch].item() for pitch in (low, high))
+    assert before > 4.5 > after
+    assert before - after == pytest.approx(4.573 - 4.405, abs=1e-3)  # [m]: the digits given above
+
+
+def test_scan_pieces_are_continuous_and_cover_every_sample() -> None:
+    scan = figures.pitch_scan(Dragon(), np.linspace(0.44, 0.46, 5))
+    assert [end for _, end in scan.pieces[:-1]] == [start for start, _ in scan.pieces[1:]]
+    assert (scan.pieces[0][0], scan.pieces[-1][1]) == (0, len(scan.pitch))
+    for start, end in scan.pieces:
+        assert np.abs(np.diff(scan.radius[start:end])).max(initial=0.0) <= figures.JUMP
+
+
+def test_scan_leaves_out_pitches_without_contact_and_reports_progress() -> None:
+    shares: list[float] = []
+    scan = figures.pitch_scan(SMALL, np.array([0.55, 0.8]), progress=shares.append)
+    assert shares == [0.5, 1.0]
+    assert scan.pitch.max() < 0.8
