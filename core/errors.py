@@ -4,6 +4,7 @@
       InvalidValue            a parameter is outside what its type allows (also a ValueError)
       TooLarge                the work asked for is beyond a stated limit
       OutsideRun              an instant lies after the end of the run (fold, centre or end of path)
+      ProofRefused            a claim could not be proven, or a certificate does not prove what it says
 
 A message names the field, the value, its unit and the limit. A collision is an answer, never an error.
 """
@@ -38,3 +39,9 @@ class OutsideRun(BenchDragonError):
     """An instant lies after the end of the run."""
 
     code = "outside-run"
+
+
+class ProofRefused(BenchDragonError):
+    """A claim could not be proven, or a certificate does not prove what it says."""
+
+    code = "proof-refused"

@@ -1,0 +1,154 @@
+"""Certificates: made with a proof, and checked without a search."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Sequence
+from dataclasses import dataclass, fields
+from itertools import groupby
+from typing import Any
+
+import numpy as np
+from flint import __FLINT_VERSION__, __version__, ctx
+
+from core.dragon import BENCHES_MAX, Dragon
+from core.errors import ProofRefused
+from core.paths import Spiral
+from core.proof.claims import Claim, CollisionTime, MinimumPitch, refusing
+from core.proof.sweeps import Progress, found, recorded, swept
+
+FORMAT = "bench-dragon proof 1"
+# Working precision [bits]: the claims decide gaps of about 1e-12 m; 96 bits leave 1e-24 m after 1e5 handles.
+PRECISION = 96
+
+Certificate = dict[str, Any]
+
+
+@dataclass(frozen=True, slots=True)
+class Proof:
+    """What a certificate proves: statement, and its size: stretches, pair_proofs (a pair apart over a stretch)."""
+
+    statement: str
+    stretches: int
+    pair_proofs: int
+
+
+def prove_collision_time(
+    dragon: Dragon,
+    path: Spiral,
+    time: float,
+    *,
+    head_speed: float = 1.0,
+    every_pair: bool = False,
+    progress: Progress = lambda share: None,
+) -> Certificate:
+    """A certificate that nothing touches in [0, time - 1e-10], and that a pair strictly overlaps at time + 1e-10 [s].
+
+    every_pair: prove each pair of the chain in its own right, without 6.: slower by the number of benches
+    progress: called with the share done, 0 to 1
+    returns: what json can write and check() verifies
+    raises: ProofRefused when the claim is wrong, or nearer to wrong than the balls decide
+    """
+    claim = CollisionTime(dragon, path.pitch, path.start_turns, head_speed, time)
+    return _proven(claim, every_pair, progress)
+
+
+def prove_minimum_pitch(
+    dragon: Dragon,
+    pitch: float,
+    *,
+    turning_radius: float = 4.5,
+    start_turns: float = 16.0,
+    every_pair: bool = False,
+    progress: Progress = lambda share: None,
+) -> Certificate:
+    """A certificate that nothing touches on the way to the circle, and that with 1e-6 m less a pair overlaps on it.
+
+    pitch, turning_radius: [m]; every_pair, progress, returns, raises: as prove_collision_time()
+    With 1e-6 m less the start may also lie within the circle: then the certificate says that instead.
+    """
+    return _proven(MinimumPitch(dragon, pitch, start_turns, turning_radius), every_pair, progress)
+
+
+def _proven(claim: Claim, every_pair: bool, progress: Progress) -> Certificate:
+    with ctx.workprec(PRECISION), refusing("claim"):
+        chain = claim.chain
+        overlap = claim.find_overlap(lambda share: progress(claim.search_share * share))
+        claim.check_overlap(overlap)
+        repeats_from = max(0, chain.count - 3) if every_pair else chain.repeats_from
+        rest = 1.0 - claim.search_share
+        sweeps = swept(
+            chain, *claim.way, repeats_from, found(chain), lambda share: progress(1.0 - rest * (1.0 - share))
+        )
+    certificate = {
+        "format": FORMAT,
+        "versions": {"python-flint": __version__, "flint": __FLINT_VERSION__},
+        "precision": PRECISION,
+        "dragon": _runs(claim.dragon),
+        "claim": {"kind": claim.kind}
+        | {field.name: getattr(claim, field.name) for field in fields(claim) if field.name != "dragon"},
+        "overlap": overlap,
+        "repeats_from": repeats_from,
+        "sweeps": sweeps,
+    }
+    return certificate | {"digest": digest(certificate)}
+
+
+def check(certificate: Certificate, *, progress: Progress = lambda share: None) -> Proof:
+    """What a certificate proves, after every inequality in it was verified again, without a search.
+
+    raises: ProofRefused when anything was changed, is missing, or is not proven
+    """
+    try:
+        if certificate["format"] != FORMAT:
+            raise ProofRefused("format", f"the certificate's format is not {FORMAT!r}: {certificate['format']!r}")
+        content = {name: value for name, value in certificate.items() if name != "digest"}
+        if certificate["digest"] != digest(content):
+            raise ProofRefused("digest", "the certificate was changed after it was made")
+        with ctx.workprec(PRECISION), refusing("certificate"):
+            return _verified(content, progress)
+    except (ArithmeticError, AttributeError, LookupError, RecursionError, TypeError, ValueError) as error:
+        raise ProofRefused("certificate", f"the certificate is malformed: {error!r}") from error
+
+
+def _verified(content: Certificate, progress: Progress) -> Proof:
+    values = dict(content["claim"])
+    kinds: dict[str, type[CollisionTime] | type[MinimumPitch]] = {
+        kind.kind: kind for kind in (CollisionTime, MinimumPitch)
+    }
+    claim = kinds[values.pop("kind")](_dragon(content["dragon"]), **values)
+    chain, repeats_from, sweeps = claim.chain, content["repeats_from"], content["sweeps"]
+    if not chain.repeats_from <= repeats_from <= max(0, chain.count - 3):
+        raise ProofRefused("repeats_from", f"the benches from {repeats_from} on are not alike")
+    statement = claim.check_overlap(content["overlap"])
+    proven = swept(chain, *claim.way, repeats_from, recorded(chain, sweeps), progress)
+    if len(proven) != len(sweeps):
+        raise ProofRefused("sweeps", f"the certificate has {len(sweeps)} sweeps, not {len(proven)}")
+    tiles = [tile for sweep in proven for tile in sweep["stretches"]]
+    return Proof(statement, len(tiles), sum(len(faces) for _, _, faces in tiles))
+
+
+def digest(content: Any) -> str:
+    """A fingerprint of a certificate without its digest: tells accidents and careless edits; the proof is the judge."""
+    return hashlib.sha256(_text(content).encode()).hexdigest()
+
+
+def _text(value: Any) -> str:
+    if isinstance(value, dict):
+        return "{" + ",".join(f"{name!r}:{_text(value[name])}" for name in sorted(value)) + "}"
+    if isinstance(value, list):
+        return "[" + ",".join(map(_text, value)) + "]"
+    return repr(value)
+
+
+def _runs(dragon: Dragon) -> list[list[float]]:
+    """Benches alike in a row as [count, length, width, overhang]."""
+    rows = zip(dragon.lengths.tolist(), dragon.widths.tolist(), dragon.overhangs.tolist(), strict=True)
+    return [[len(list(run)), *sizes] for sizes, run in groupby(rows)]
+
+
+def _dragon(runs: Sequence[Sequence[float]]) -> Dragon:
+    counts = [int(run[0]) for run in runs]
+    if not (min(counts) > 0 and sum(counts) <= BENCHES_MAX):
+        raise ProofRefused("dragon", f"a dragon has 1 to {BENCHES_MAX} benches")
+    return Dragon.of(*(np.repeat([run[column] for run in runs], counts) for column in (1, 2, 3)))
