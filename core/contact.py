@@ -31,12 +31,14 @@ STEP_BUDGET = 200_000
 # rounding of the travel allows at lower ones.
 BRACKET = 1e-10
 BRACKET_MIN = 2e-11
+# The same where benches meet so slowly that rounding hides the gap that near: still 1e-9 s in all [m of head travel].
+BRACKET_GRAZING = 4.9e-10
 # The kernels' word for a run without a graze [m].
 NO_GRAZE = 1e300
 # The last stretch before a fold, where handle speeds grow without bound: dismissed by a bound on the motion left [m].
 FOLD_SLIVER = 1e-9
-# A gap is a handful of operations on coordinates: relative to the largest coordinate it is good to this [1].
-GAP_ROUNDING = 1e-14
+# A gap is a handful of operations on coordinates: relative to the largest of them it is good to this [1].
+GAP_ROUNDING = 4e-15
 # Grazes of a profile are looked for in steps of at most this fraction of the shortest chord [1] ...
 PROFILE_STEP = 0.2
 # ... and at most this many of them ...
@@ -183,8 +185,9 @@ class SpiralSearch:
     def use(self, path: Spiral, margin: float) -> None:
         """Turn to another spiral or margin."""
         self.path, self.margin = path, margin
-        self.rounding = GAP_ROUNDING * (path.growth * path.start_theta + self.longest)
         self.clear_radius = self.ring[0] = self._clear_radius()
+        largest = min(path.growth * path.start_theta, self.clear_radius) + 2.0 * self.longest
+        self.rounding = GAP_ROUNDING * largest
 
     def resize(self, benches: int) -> None:
         """Room for so many leading benches."""
@@ -221,12 +224,15 @@ class SpiralSearch:
         """Head angle after a travel [rad]."""
         return kernels.spiral_theta((self.path.length - travel) / self.path.growth)
 
-    def march(self, stop: float, tolerance: float) -> tuple[str, dict[str, float]]:
-        """kernels.march to stop [m of travel] from where the ring bound ends, or from the start: state, result by name."""
+    def march(self, stop: float, tolerance: float, *, start: float = 0.0) -> tuple[str, dict[str, float]]:
+        """kernels.march from start, or from where the ring bound ends, to stop [m of travel]: state, result by name.
+
+        A start after 0 follows only what a march from 0 would still follow there.
+        """
         clear_theta = self.clear_radius / self.path.growth
-        at_start = clear_theta >= self.path.start_theta
-        start = 0.0 if at_start else max(self.travel_at(clear_theta), 0.0)
-        if self.dragon.benches < 3 or start >= stop:
+        at_start = start == 0.0 and clear_theta >= self.path.start_theta
+        start = max(self.travel_at(clear_theta), start)
+        if self.dragon.benches < 3 or (start >= stop and not at_start):
             return "reached", dict.fromkeys(kernels.MARCH_FIELDS, 0.0) | {"proven": stop, "graze_gap": NO_GRAZE}
         out = np.empty(32)
         while True:
@@ -298,6 +304,9 @@ def first_contact(
     stop = end_travel if end.reason is EndReason.CENTRE else end_travel - FOLD_SLIVER
     tolerance = max(BRACKET * min(1.0, head_speed), BRACKET_MIN)
     state, found = search.march(stop, tolerance)
+    if state == "stuck" and found["touching"] >= 0.0:
+        tolerance = BRACKET_GRAZING * min(1.0, head_speed)
+        state, found = search.march(stop, tolerance)
     if state == "reached" and end.reason is EndReason.FOLD and dragon.benches > 2:
         theta = search.theta_at(stop)
         if search.clearance(theta)[0] <= margin + search.motion_left(theta, end):

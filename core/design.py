@@ -29,6 +29,17 @@ ISLAND_SAMPLES = 400
 ON_CIRCLE = 1e-4
 
 
+# The descent begins with this clearance above the margin [m] and lessens it by this factor [1] a round.
+GAIN_FIRST = 0.02
+GAIN_FACTOR = 0.2
+# The far side of a window of little clearance is looked for in steps of this at the first gain [m of head radius].
+WINDOW_STEP = 2e-3
+
+# Head radii from an inner to an outer one [m].
+Window = tuple[float, float]
+ALL: Window = (0.0, math.inf)
+
+
 class LimitedBy(StrEnum):
     """What stops the pitch from being smaller."""
 
@@ -106,15 +117,36 @@ class _PitchSearch:
         self.search = SpiralSearch(dragon, Spiral(max(self.lowest, 1e-3), start_turns), margin)
         self.evaluations = 0
 
-    def way(self, pitch: float, extra: float = 0.0) -> tuple[str, dict[str, float]]:
-        """March from the start to the circle: 'reached' proves that all clearances exceed margin + extra [m]."""
+    def way(self, pitch: float, extra: float = 0.0, window: Window = ALL) -> tuple[str, dict[str, float]]:
+        """March from the start to the circle, or through a window: 'reached' proves clearances > margin + extra [m]."""
         search = self.search
-        search.use(Spiral(pitch, self.start_turns), self.margin + extra)
+        path = Spiral(pitch, self.start_turns)
+        search.use(path, self.margin + extra)
         self.evaluations += 1
-        theta = self.radius / search.path.growth
-        if end_theta(search.dragon, search.path)[0] > theta:
+        inner, outer = window
+        if window is ALL and end_theta(search.dragon, path)[0] > self.radius / path.growth:
             return "folded", dict.fromkeys(kernels.MARCH_FIELDS, 0.0)
-        return search.march(max(search.travel_at(theta), 0.0), CONTACT_WIDTH)
+        start = search.travel_at(outer / path.growth) if outer < path.growth * path.start_theta else 0.0
+        stop = search.travel_at(max(inner, self.radius) / path.growth)
+        return search.march(max(stop, 0.0), CONTACT_WIDTH, start=start)
+
+    def weak_windows(self, pitch: float, gain: float, windows: list[Window]) -> list[Window]:
+        """Parts of the windows outside which every clearance is proven to exceed margin + gain [m of head radius]."""
+        weak = []
+        for inner, outer in windows:
+            while outer > inner:
+                state, found = self.way(pitch, gain, (inner, outer))
+                if state == "reached":
+                    break
+                search = self.search
+                begin = search.theta_at(found["proven"]) * search.path.growth
+                outer, step = begin, WINDOW_STEP * math.sqrt(gain / GAIN_FIRST)
+                while outer > inner:
+                    outer = max(inner, outer - step)
+                    if outer > self.radius and search.clearance(outer / search.path.growth)[0] > self.margin + 2 * gain:
+                        break
+                weak.append((outer, begin))
+        return weak
 
     def is_clear(self, pitch: float) -> bool:
         """Is the whole way proven free of contact?"""
@@ -148,25 +180,49 @@ class _PitchSearch:
         return below if below > low and search.clear_radius < below * self.start_turns else pitch
 
     def descend(self, top: float) -> tuple[float, float, str]:
-        """From a feasible pitch down to (infeasible, feasible), close together, and how the way down is justified [m]."""
-        pitch, gain, justified_by = top, 1e-3, "bound"
-        while pitch > self.lowest:
-            if self.way(pitch, gain)[0] != "reached":
-                gain *= 0.5
-                if gain < GAIN_MIN:
-                    return *self.infeasible_below(pitch), justified_by
-                continue
+        """From a feasible pitch down to (infeasible, feasible), close together, and how the way down is justified [m].
+
+        A round proves a clearance of margin + gain outside some windows of the head's radius, which holds down to a
+        floor; within it only the windows are marched again, at ever smaller gains.
+        """
+        pitch, floor, windows, gain = top, -math.inf, [ALL], GAIN_FIRST
+        while gain > GAIN_MIN:
             below = self.next_below(pitch, gain)
-            gain *= 1.05
-            if pitch - below < 0.5 * gain / 100.0:
-                justified_by = "scan"
-                below = pitch - SCAN_STEP
-                if below > self.lowest and not self.is_clear(below):
-                    return *self.bisect(below, pitch), justified_by
+            if below >= pitch:
+                return *self.scan(pitch), "scan"
+            windows = self.weak_windows(pitch, gain, windows)
+            floor = max(below, floor)
+            pitch = self.descend_to(floor, pitch, windows, gain) if windows else floor
+            if pitch <= self.lowest:
+                return self.lowest, self.lowest, "bound"
+            if pitch <= floor:
+                floor, windows = -math.inf, [ALL]
+            else:
+                gain *= GAIN_FACTOR
+        return *self.infeasible_below(pitch), "bound"
+
+    def descend_to(self, floor: float, pitch: float, windows: list[Window], gain: float) -> float:
+        """How far down, to the floor at most, the windows are clear too with gains not far below `gain` [m]."""
+        least = GAIN_FACTOR * gain
+        gain *= 0.5
+        while pitch > floor:
+            if all(self.way(pitch, gain, window)[0] == "reached" for window in windows):
+                pitch = max(self.next_below(pitch, gain), floor)
+                gain *= 1.1
+            elif gain < least:
+                break
+            else:
+                gain *= 0.6
+        return pitch
+
+    def scan(self, pitch: float) -> tuple[float, float]:
+        """(infeasible, feasible) by trying pitches in steps of SCAN_STEP, then by bisection [m]."""
+        while pitch > self.lowest:
+            below = max(pitch - SCAN_STEP, self.lowest)
+            if not self.is_clear(below):
+                return self.bisect(below, pitch)
             pitch = below
-        if self.is_clear(self.lowest):
-            return self.lowest, self.lowest, justified_by
-        return *self.bisect(self.lowest, max(pitch, self.lowest + SCAN_STEP)), justified_by
+        return self.lowest, self.lowest
 
     def infeasible_below(self, pitch: float) -> tuple[float, float]:
         """(infeasible, feasible) around the border just below a pitch whose clearance is within GAIN_MIN of the margin."""
@@ -179,23 +235,40 @@ class _PitchSearch:
         """The same with a bracket of PITCH_WIDTH [m]."""
         while feasible - infeasible > PITCH_WIDTH:
             middle = 0.5 * (infeasible + feasible)
-            state = self.way(middle)[0]
-            if state == "stuck":
+            state, found = self.way(middle)
+            if state == "stuck" and found["touching"] < 0.0:
                 break
             infeasible, feasible = (infeasible, middle) if state == "reached" else (middle, feasible)
         return infeasible, feasible
 
     def islands(self, pitch: float) -> tuple[tuple[float, float], ...]:
         """Feasible intervals between the lowest pitch and an infeasible one, as far as the grid shows them [m]."""
-        grid = np.linspace(self.lowest, pitch, ISLAND_SAMPLES)
-        feasible = [self.is_clear(float(sample)) for sample in grid]
-        found = []
-        for k in range(ISLAND_SAMPLES):
-            if feasible[k] and (k == 0 or not feasible[k - 1]):
-                start = self.lowest if k == 0 else self.bisect(float(grid[k - 1]), float(grid[k]))[1]
-                end = next(j for j in range(k, ISLAND_SAMPLES) if not feasible[j])
-                found.append((start, self._end_of_island(float(grid[end - 1]), float(grid[end]))))
-        return tuple(found)
+        grid = np.linspace(pitch, self.lowest, ISLAND_SAMPLES).tolist()
+        found: list[tuple[float, float]] = []
+        touching: tuple[float, int, int] | None = None
+        end = 0.0
+        for k, sample in enumerate(grid):
+            feasible = False
+            if touching is None or not self.still_touches(sample, *touching):
+                state, result = self.way(sample)
+                feasible = state == "reached"
+                radius = self.search.theta_at(result["touching"]) * self.search.path.growth
+                pair = int(result["first"]), int(result["second"])
+                touching = None if state in ("reached", "folded") or result["touching"] < 0.0 else (radius, *pair)
+            if feasible and not end:
+                end = self._end_of_island(sample, grid[k - 1])
+            elif end and not feasible:
+                found.insert(0, (self.bisect(sample, grid[k - 1])[1], end))
+                end = 0.0
+        return ((self.lowest, end), *found) if end else tuple(found)
+
+    def still_touches(self, pitch: float, radius: float, a: int, b: int) -> bool:
+        """Are benches a and b within the margin too with this pitch and the head at this radius, if that is on the way?"""
+        growth, search = pitch / (2.0 * math.pi), self.search
+        if radius > pitch * self.start_turns:
+            return False
+        arc = growth * kernels.spiral_arc(radius / growth)
+        return kernels.gap_at(growth, arc, a, b, search.sizes, search.rows[0]) <= self.margin
 
     def _end_of_island(self, feasible: float, infeasible: float) -> float:
         while infeasible - feasible > PITCH_WIDTH:
@@ -209,10 +282,10 @@ class _PitchSearch:
         search, path = self.search, self.search.path
         stop = search.travel_at(self.radius / path.growth)
         pair = (int(found["first"]), int(found["second"]))
-        travel = found["touching"] - CONTACT_WIDTH
+        travel = found["touching"] - (CONTACT_WIDTH if state == "touched" else 0.0)
         if state == "touched_at_start":
             return LimitedBy.START, pair, path.growth * path.start_theta
-        if state != "touched":
+        if state == "folded":
             return LimitedBy.START, None, None
         out = np.empty(8)
         end = min(travel + 0.01, stop)

@@ -1722,7 +1722,7 @@ def clearance_at(
     return best
 
 
-@cython.cfunc
+@cython.ccall
 @cython.nogil
 @cython.exceptval(check=False)
 def gap_at(
@@ -1916,6 +1916,7 @@ def march(
     if followers > cap:
         followers = cap
     out[GRAZE_GAP] = FREE
+    out[TOUCHING] = -1.0
     out[STEPS] = out[BEND] = 0.0
     with cython.nogil:
         placed = chain_between(
@@ -1978,13 +1979,14 @@ def march(
                 )
                 out[FIRST] = a
                 out[SECOND] = b
-                out[TOUCHING] = target + tolerance
+                out[TOUCHING] = target
                 if target - tolerance - travel > rounding and target - tolerance - travel < h:
                     h = target - tolerance - travel
                     continue
                 if target - tolerance <= travel and gap_at(
                     growth, arc - target - tolerance, a, b, sizes, spare
                 ) <= margin:
+                    out[TOUCHING] = target + tolerance
                     return TOUCHED
                 h *= 0.5
                 target = -1.0
@@ -1999,6 +2001,7 @@ def march(
                 cython.cast(cython.Py_ssize_t, out[SECOND]), sizes, spare,
             ) <= margin:
                 out[PROVEN] = travel
+                out[TOUCHING] = target + tolerance
                 return TOUCHED
             target = -1.0
             clearance = row_clearance(active, handles, sizes, before, pair)
