@@ -260,9 +260,10 @@ class SpiralSearch:
                 return state, dict(zip(kernels.MARCH_FIELDS, out.tolist(), strict=False))
             self.resize(min(4 * self.sizes.shape[0], self.dragon.benches))
 
-    def clearance(self, theta: float) -> tuple[float, tuple[int, int]]:
-        """Clearance among the leading benches with the head at theta [m], and its pair."""
-        gap = kernels.clearance_at(self.path.growth, theta, self.ring, self.sizes, self.rows[0], self.pair)
+    def clearance(self, theta: float, leaders: int | None = None) -> tuple[float, tuple[int, int]]:
+        """Clearance with the head at theta [m], and its pair; among pairs led by the first `leaders` benches only."""
+        leaders = self.sizes.shape[0] if leaders is None else leaders
+        gap = kernels.clearance_at(self.path.growth, theta, leaders, self.ring, self.sizes, self.rows[0], self.pair)
         return gap, (int(self.pair[1]), int(self.pair[2]))
 
     def motion_left(self, theta: float, end: RunEnd) -> float:

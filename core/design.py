@@ -29,9 +29,9 @@ ISLAND_SAMPLES = 400
 ON_CIRCLE = 1e-4
 
 
-# The descent begins with this clearance above the margin [m] and lessens it by this factor [1] a round.
+# The descent begins with this clearance above the margin [m]; the windows narrow when it has fallen by this factor [1].
 GAIN_FIRST = 0.02
-GAIN_FACTOR = 0.2
+GAIN_FACTOR = 0.25
 # The far side of a window of little clearance is looked for in steps of this at the first gain [m of head radius].
 WINDOW_STEP = 2e-3
 
@@ -133,6 +133,7 @@ class _PitchSearch:
     def weak_windows(self, pitch: float, gain: float, windows: list[Window]) -> list[Window]:
         """Parts of the windows outside which every clearance is proven to exceed margin + gain [m of head radius]."""
         weak = []
+        leaders = self.search.dragon.uniform_from + 1
         for inner, outer in windows:
             while outer > inner:
                 state, found = self.way(pitch, gain, (inner, outer))
@@ -143,7 +144,7 @@ class _PitchSearch:
                 outer, step = begin, WINDOW_STEP * math.sqrt(gain / GAIN_FIRST)
                 while outer > inner:
                     outer = max(inner, outer - step)
-                    if outer > self.radius and search.clearance(outer / search.path.growth)[0] > self.margin + 2 * gain:
+                    if outer > self.radius and search.clearance(outer / search.path.growth, leaders)[0] > self.margin + 2 * gain:
                         break
                 weak.append((outer, begin))
         return weak
@@ -182,38 +183,29 @@ class _PitchSearch:
     def descend(self, top: float) -> tuple[float, float, str]:
         """From a feasible pitch down to (infeasible, feasible), close together, and how the way down is justified [m].
 
-        A round proves a clearance of margin + gain outside some windows of the head's radius, which holds down to a
-        floor; within it only the windows are marched again, at ever smaller gains.
+        A proven clearance of margin + gain carries down to next_below(gain). Whenever the gain has fallen to
+        GAIN_FACTOR of what it was, the parts of the way with a clearance that large that it would carry further down
+        than the answer is likely to be (the floor) are left out until then, so that only narrow windows remain.
         """
-        pitch, floor, windows, gain = top, -math.inf, [ALL], GAIN_FIRST
+        pitch, gain = top, GAIN_FIRST
+        windows, floor, narrowed = [ALL], -math.inf, gain
         while gain > GAIN_MIN:
             below = self.next_below(pitch, gain)
             if below >= pitch:
                 return *self.scan(pitch), "scan"
-            windows = self.weak_windows(pitch, gain, windows)
-            floor = max(below, floor)
-            pitch = self.descend_to(floor, pitch, windows, gain) if windows else floor
+            if not all(self.way(pitch, gain, window)[0] == "reached" for window in windows):
+                gain *= 0.6
+                if gain < GAIN_FACTOR * narrowed:
+                    wide = 2.0 * gain * gain / (pitch - below)
+                    windows, narrowed = self.weak_windows(pitch, wide, windows), gain
+                    floor = max(floor, self.next_below(pitch, wide))
+                continue
+            pitch, gain = max(below, floor), 1.1 * gain
             if pitch <= self.lowest:
                 return self.lowest, self.lowest, "bound"
             if pitch <= floor:
-                floor, windows = -math.inf, [ALL]
-            else:
-                gain *= GAIN_FACTOR
+                windows, floor, narrowed = [ALL], -math.inf, gain
         return *self.infeasible_below(pitch), "bound"
-
-    def descend_to(self, floor: float, pitch: float, windows: list[Window], gain: float) -> float:
-        """How far down, to the floor at most, the windows are clear too with gains not far below `gain` [m]."""
-        least = GAIN_FACTOR * gain
-        gain *= 0.5
-        while pitch > floor:
-            if all(self.way(pitch, gain, window)[0] == "reached" for window in windows):
-                pitch = max(self.next_below(pitch, gain), floor)
-                gain *= 1.1
-            elif gain < least:
-                break
-            else:
-                gain *= 0.6
-        return pitch
 
     def scan(self, pitch: float) -> tuple[float, float]:
         """(infeasible, feasible) by trying pitches in steps of SCAN_STEP, then by bisection [m]."""

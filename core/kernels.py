@@ -955,6 +955,14 @@ def rows_gap(
 #   |X'| <= |M'| + omega rho,  |X''| <= |M''| + (omega^2 + omega') rho.
 # Gap of bench i along an axis e fixed in bench j: g = min over corners X of i of e . (X - M_j) - support of j, and
 #   |(e . p)''| <= |X''| + |M_j''| + 2 omega_j |X' - M_j'| + (omega_j^2 + omega_j') |p|,  p = X - M_j:  call it K.
+# The same in a frame that turns with bench j about the spiral's centre, where neighbouring rings hardly move: with
+# Omega = omega_j (clockwise), xi = X' less the velocity Omega |X| of that rotation,
+#   |(e . p)''| <= |X'' + Omega^2 X| + |M_j'' + Omega^2 M_j| + 2 Omega (|xi_X| + |xi_M|) + omega_j' |p|,
+#   handle at radius r, b = growth:  |P'' + Omega^2 P| <= |s''| + |k s'^2 - Omega^2 r| + Omega^2 b,
+#                                    |xi_P| <= |s' - Omega r| + Omega b   (the tangent leans by at most b / r),
+#   corner of bench i:  |X'' + Omega^2 X| <= mean of its handles + (|Omega^2 - omega_i^2| + omega_i') rho,
+#                       |xi_X| <= mean of its handles + |Omega - omega_i| rho.
+# The smaller of the two bounds is used.
 # A function with |g''| <= K stays above its chord minus K x (h - x) / 2, so its least value follows from both ends:
 # two benches do not touch on [L, R] if that exceeds the margin for one axis. No step size is guessed.
 
@@ -980,7 +988,15 @@ CORNER_PULL = cython.declare(cython.int, 3)
 TURN = cython.declare(cython.int, 4)
 TURN_PULL = cython.declare(cython.int, 5)  # omega^2 + omega'
 HANDLE_SPEED = cython.declare(cython.int, 6)  # of the faster of its two handles
-MOTION_COLUMNS = 7
+TURN_LOW = cython.declare(cython.int, 7)
+TURN_RATE = cython.declare(cython.int, 8)  # |omega'|
+# and of the handle in front of it
+RATE_HIGH = cython.declare(cython.int, 9)
+RATE_LOW = cython.declare(cython.int, 10)
+RATE_RATE = cython.declare(cython.int, 11)  # |s''|
+THETA_HIGH = cython.declare(cython.int, 12)
+THETA_LOW = cython.declare(cython.int, 13)
+MOTION_COLUMNS = 14
 
 # Columns of a size row, one for each bench.
 CHORD = cython.declare(cython.int, 0)
@@ -1121,8 +1137,12 @@ def motion_bounds(
     rate_b: cython.double
     second_a: cython.double = 0.0
     second_b: cython.double
+    motion[0, RATE_HIGH] = motion[0, RATE_LOW] = 1.0
+    motion[0, RATE_RATE] = 0.0
     for k in range(benches):
         chord = sizes[k, CHORD]
+        motion[k, THETA_LOW] = after[k, THETA]
+        motion[k, THETA_HIGH] = before[k, THETA]
         inner = after[k, THETA] if after[k, THETA] < before[k, THETA] else before[k, THETA]
         outer = before[k + 1, THETA] if after[k + 1, THETA] < before[k + 1, THETA] else after[k + 1, THETA]
         if followed:  # the handle may turn back between the ends: it goes no further in than its rate allows
@@ -1176,6 +1196,13 @@ def motion_bounds(
         motion[k, TURN] = omega
         motion[k, TURN_PULL] = spin
         motion[k, HANDLE_SPEED] = rate_a if rate_a > rate_b else rate_b
+        motion[k, TURN_LOW] = 0.0 if followed else k_low * rate_low
+        motion[k, TURN_RATE] = spin - omega * omega
+        motion[k + 1, RATE_HIGH] = rate_b
+        motion[k + 1, RATE_LOW] = rate_low
+        motion[k + 1, RATE_RATE] = second_b
+        motion[k + 1, THETA_LOW] = after[k + 1, THETA]
+        motion[k + 1, THETA_HIGH] = before[k + 1, THETA]
         rate_a = rate_b
         second_a = second_b
     return True
@@ -1243,9 +1270,44 @@ def least_between(
 
 
 @cython.cfunc
+@cython.inline
+@cython.nogil
+@cython.exceptval(check=False)
+def apart(a_low: cython.double, a_high: cython.double, b_low: cython.double, b_high: cython.double) -> cython.double:
+    """The largest difference between a number in [a_low, a_high] and one in [b_low, b_high]."""
+    return a_high - b_low if a_high - b_low > b_high - a_low else b_high - a_low
+
+
+@cython.cfunc
+@cython.nogil
+@cython.exceptval(check=False)
+def against_rotation(
+    growth: cython.double,
+    k: cython.Py_ssize_t,
+    turn_low: cython.double,
+    turn_high: cython.double,
+    motion: cython.double[:, ::1],
+) -> tuple[cython.double, cython.double]:
+    """Bounds on |xi| and |P'' + Omega^2 P| of handle k against a rotation Omega in [turn_low, turn_high]."""
+    high: cython.double = motion[k, RATE_HIGH]
+    low: cython.double = motion[k, RATE_LOW]
+    r_low: cython.double = growth * motion[k, THETA_LOW]
+    r_high: cython.double = growth * motion[k, THETA_HIGH]
+    slip: cython.double = apart(low, high, turn_low * r_low, turn_high * r_high) + turn_high * growth
+    pull: cython.double = apart(
+        low * low * spiral_curvature(motion[k, THETA_HIGH]) / growth,
+        high * high * spiral_curvature(motion[k, THETA_LOW]) / growth,
+        turn_low * turn_low * r_low,
+        turn_high * turn_high * r_high,
+    )
+    return slip, pull + motion[k, RATE_RATE] + turn_high * turn_high * growth
+
+
+@cython.cfunc
 @cython.nogil
 @cython.exceptval(check=False)
 def axis_bend(
+    growth: cython.double,
     i: cython.Py_ssize_t,
     j: cython.Py_ssize_t,
     distance: cython.double,
@@ -1253,6 +1315,43 @@ def axis_bend(
     motion: cython.double[:, ::1],
 ) -> cython.double:
     """Bound K on the second derivative of a gap along an axis fixed in bench i to the corners of bench j [1/m]."""
+    low: cython.double = motion[i, TURN_LOW]
+    high: cython.double = motion[i, TURN]
+    plain: cython.double = plain_bend(i, j, distance, sizes, motion)
+    slip: cython.double
+    pull: cython.double
+    slips: cython.double = 0.0
+    pulls: cython.double = 0.0
+    side: cython.int
+    if motion[j, RATE_LOW] <= 0.0 or motion[i, RATE_LOW] <= 0.0 or low <= 0.0 or motion[j, TURN_LOW] <= 0.0:
+        return plain
+    for side in range(2):
+        slip, pull = against_rotation(growth, i + side, low, high, motion)
+        slips += 0.5 * slip
+        pulls += 0.5 * pull
+        slip, pull = against_rotation(growth, j + side, low, high, motion)
+        slips += 0.5 * slip
+        pulls += 0.5 * pull
+    slips += apart(low, high, motion[j, TURN_LOW], motion[j, TURN]) * sizes[j, RADIUS]
+    pulls += motion[j, TURN_RATE] * sizes[j, RADIUS]
+    pulls += sizes[j, RADIUS] * apart(
+        low * low, high * high, motion[j, TURN_LOW] * motion[j, TURN_LOW], motion[j, TURN] * motion[j, TURN]
+    )
+    pulls += 2.0 * high * slips + motion[i, TURN_RATE] * (distance + sizes[j, RADIUS])
+    return pulls if pulls < plain else plain
+
+
+@cython.cfunc
+@cython.nogil
+@cython.exceptval(check=False)
+def plain_bend(
+    i: cython.Py_ssize_t,
+    j: cython.Py_ssize_t,
+    distance: cython.double,
+    sizes: cython.double[:, ::1],
+    motion: cython.double[:, ::1],
+) -> cython.double:
+    """axis_bend() in the resting frame [1/m]."""
     return (
         motion[j, CORNER_PULL]
         + motion[i, CENTRE_PULL]
@@ -1289,6 +1388,7 @@ def axis_least(
 @cython.nogil
 @cython.exceptval(check=False)
 def pair_least(
+    growth: cython.double,
     i: cython.Py_ssize_t,
     j: cython.Py_ssize_t,
     margin: cython.double,
@@ -1316,7 +1416,7 @@ def pair_least(
     if square > far * far:
         return FREE
     distance = sqrt(square) + drift
-    out[0] = axis_bend(j, i, distance, sizes, motion)
+    out[0] = axis_bend(growth, j, i, distance, sizes, motion)
     best = axis_least(j, i, True, out[0], h, sizes, before, after)
     if best > margin:
         return best
@@ -1325,7 +1425,7 @@ def pair_least(
         best = least
     if best > margin:
         return best
-    out[0] = axis_bend(i, j, distance, sizes, motion)
+    out[0] = axis_bend(growth, i, j, distance, sizes, motion)
     least = axis_least(i, j, True, out[0], h, sizes, before, after)
     if least > best:
         best = least
@@ -1609,7 +1709,7 @@ def interval_least(
             return -FREE
     for i in range(active):
         for j in range(i + 2, handles):
-            least = pair_least(i, j, margin, h, sizes, before, after, motion, out)
+            least = pair_least(growth, i, j, margin, h, sizes, before, after, motion, out)
             if least >= FREE:
                 continue
             width = 8.0 * (least - margin) / out[0] + h * h
@@ -1680,12 +1780,13 @@ def row_clearance(
 def clearance_at(
     growth: cython.double,
     theta: cython.double,
+    leaders: cython.Py_ssize_t,
     ring: cython.double[::1],
     sizes: cython.double[:, ::1],
     chain: cython.double[:, ::1],
     pair: cython.Py_ssize_t[::1],
 ) -> cython.double:
-    """Clearance with the head at theta over all pairs [m]; the pair in pair[1], pair[2]; FREE without pairs.
+    """Clearance with the head at theta over all pairs led by the first `leaders` benches [m]; the pair in pair[1], pair[2]; FREE without pairs.
 
     chain: (n + 1, CHAIN_COLUMNS) scratch; pair[0]: the last handle placed, -1 if the chain folds
     """
@@ -1701,7 +1802,7 @@ def clearance_at(
     pair[0] = extend_chain(growth, 0, benches, FREE, sizes, chain)
     if pair[0] < 0:
         return FREE
-    for i in range(benches):
+    for i in range(leaders):
         far = FREE
         if best < FREE:
             far = leaders_reach(growth, growth * theta, growth * chain[i + 1, THETA], ring)
