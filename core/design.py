@@ -117,8 +117,13 @@ class _PitchSearch:
         self.search = SpiralSearch(dragon, Spiral(max(self.lowest, 1e-3), start_turns), margin)
         self.evaluations = 0
 
-    def way(self, pitch: float, extra: float = 0.0, window: Window = ALL) -> tuple[str, dict[str, float]]:
-        """March from the start to the circle, or through a window: 'reached' proves clearances > margin + extra [m]."""
+    def way(
+        self, pitch: float, extra: float = 0.0, window: Window = ALL, width: float = 0.0
+    ) -> tuple[str, dict[str, float]]:
+        """March from the start to the circle, or through a window: 'reached' proves clearances > margin + extra [m].
+
+        width: half width of the bracket around a contact, 0 if any instant of it will do [m of travel]
+        """
         search = self.search
         path = Spiral(pitch, self.start_turns)
         search.use(path, self.margin + extra)
@@ -128,7 +133,7 @@ class _PitchSearch:
             return "folded", dict.fromkeys(kernels.MARCH_FIELDS, 0.0)
         start = search.travel_at(outer / path.growth) if outer < path.growth * path.start_theta else 0.0
         stop = search.travel_at(max(inner, self.radius) / path.growth)
-        return search.march(max(stop, 0.0), CONTACT_WIDTH, start=start)
+        return search.march(max(stop, 0.0), width, start=start)
 
     def weak_windows(self, pitch: float, gain: float, windows: list[Window]) -> list[Window]:
         """Parts of the windows outside which every clearance is proven to exceed margin + gain [m of head radius]."""
@@ -139,9 +144,10 @@ class _PitchSearch:
                 state, found = self.way(pitch, gain, (inner, outer))
                 if state == "reached":
                     break
-                search = self.search
-                begin = search.theta_at(found["proven"]) * search.path.growth
-                outer, step = begin, WINDOW_STEP * math.sqrt(gain / GAIN_FIRST)
+                search, growth = self.search, self.search.path.growth
+                step = WINDOW_STEP * math.sqrt(gain / GAIN_FIRST)
+                begin = search.theta_at(found["proven"]) * growth
+                outer = search.theta_at(max(found["touching"], found["proven"])) * growth
                 while outer > inner:
                     outer = max(inner, outer - step)
                     if outer > self.radius and search.clearance(outer / search.path.growth, leaders)[0] > self.margin + 2 * gain:
@@ -154,19 +160,30 @@ class _PitchSearch:
         return self.way(pitch)[0] == "reached"
 
     def top(self) -> tuple[float, float]:
-        """A pitch from which the ring bound clears the circle and all outside it, and up to which [m]."""
+        """A feasible pitch to descend from, and up to which every larger one is feasible by the ring bound [m].
+
+        The ring bound holds for growths up to those of its derivation, so a pitch beyond is not asked about; where it
+        clears nothing (a circle hardly wider than a bench is long), the two are the same pitch, cleared by a march.
+        """
         chord, shortest, *_ = (float(extreme) for extreme in self.search.extremes)
         foot2 = self.radius**2 - 0.25 * chord**2
-        high = 0.0
-        if foot2 > 0.0:
-            high = 0.999 * min(shortest / 1.67, self.radius**2 / (1.5708 * chord), 0.5 * math.sqrt(foot2))
-        growth = high
-        for factor in (0.9, 0.99):
-            while growth > 1e-3 and (
-                kernels.ring_least(factor * growth, growth, self.radius, *self.search.extremes) > self.margin
-            ):
-                growth *= factor
-        return 2.0 * math.pi * growth, 2.0 * math.pi * high
+        limits = [shortest / 1.67, self.radius**2 / (1.5708 * chord)] + [0.5 * math.sqrt(foot2)] * (foot2 > 0.0)
+        growths = [0.999 * min(limits) * 0.95**k for k in range(200)]
+        for growth in growths:
+            if self._ring_clears(0.95 * growth, growth):
+                low = growth
+                for factor in (0.95, 0.99):
+                    while self._ring_clears(factor * low, low):
+                        low *= factor
+                return 2.0 * math.pi * low, 2.0 * math.pi * growth
+        for growth in growths:
+            if 2.0 * math.pi * growth > self.lowest and self.is_clear(2.0 * math.pi * growth):
+                return (2.0 * math.pi * growth,) * 2
+        return (self.lowest,) * 2
+
+    def _ring_clears(self, low: float, high: float) -> bool:
+        """Does the ring bound clear the circle and all outside it for all growths in [low, high]?"""
+        return kernels.ring_least(low, high, self.radius, *self.search.extremes) > self.margin
 
     def next_below(self, pitch: float, gain: float) -> float:
         """A pitch down to which all are feasible, given a clearance of margin + gain all the way at `pitch` [m]."""
@@ -196,7 +213,7 @@ class _PitchSearch:
             if not all(self.way(pitch, gain, window)[0] == "reached" for window in windows):
                 gain *= 0.6
                 if gain < GAIN_FACTOR * narrowed:
-                    wide = 2.0 * gain * gain / (pitch - below)
+                    wide = 4.0 * gain * gain / (pitch - below)
                     windows, narrowed = self.weak_windows(pitch, wide, windows), gain
                     floor = max(floor, self.next_below(pitch, wide))
                 continue
@@ -270,7 +287,7 @@ class _PitchSearch:
 
     def limit(self, infeasible: float) -> tuple[LimitedBy, tuple[int, int] | None, float | None]:
         """What meets just below the minimum pitch, and where."""
-        state, found = self.way(infeasible)
+        state, found = self.way(infeasible, width=CONTACT_WIDTH)
         search, path = self.search, self.search.path
         stop = search.travel_at(self.radius / path.growth)
         pair = (int(found["first"]), int(found["second"]))
@@ -313,17 +330,15 @@ def minimum_pitch(
     margin = checked_number("margin", margin, "m", 0.0, MARGIN_MAX)
     search = _PitchSearch(dragon, radius, turns, margin)
     top, proven_up_to = search.top()
-    justified = "bound"
-    if top >= proven_up_to:
-        top = proven_up_to = max(2.0 * search.lowest, 2.0 * float(dragon.chords.max() + dragon.widths.max()) + margin)
-        justified = "scan"
     if not search.is_clear(max(top, search.lowest)):
         raise InvalidValue(
             "turning_radius",
-            f"turning_radius must be larger for this dragon: even at a pitch of {top:g} m it cannot dance down to "
-            f"{radius:g} m",
+            f"turning_radius must be larger for this dragon: at no pitch tried can it dance down to {radius:g} m",
         )
-    infeasible, feasible, justified_by = search.descend(top) if top > search.lowest else (search.lowest,) * 2 + (justified,)
+    infeasible = feasible = search.lowest
+    justified_by = "bound"
+    if top > search.lowest:
+        infeasible, feasible, justified_by = search.descend(top)
     if feasible <= search.lowest:
         limited_by, pair, head_radius = LimitedBy.START, None, None
         islands: tuple[tuple[float, float], ...] = ()
@@ -337,7 +352,7 @@ def minimum_pitch(
         pair,
         head_radius,
         islands,
-        justified if justified == "scan" else justified_by,
-        proven_up_to,
+        justified_by,
+        max(proven_up_to, search.lowest),
         search.evaluations,
     )

@@ -1981,7 +1981,7 @@ def march(
 
     arc: [m] from the centre at travel 0; leaders: benches whose pairs must be followed; at_start: follow all pairs
     until every bench has passed the start of the one before it; tolerance: half width of the bracket around a
-    contact [m]; rounding: what a computed gap may be off by [m]; budget: steps; benches: n
+    contact [m], 0 for none: to end at any instant found to be within the margin; rounding: what a computed gap may be off by [m]; budget: steps; benches: n
     sizes: (R - 1, SIZE_COLUMNS); rows: (4, R, CHAIN_COLUMNS), motion: (R, MOTION_COLUMNS) scratch; out: (MARCH_ENTRIES,)
     returns: REACHED, TOUCHED, TOUCHED_AT_START, STUCK (budget spent or interval at rounding) or CAPACITY (R too small)
     """
@@ -2074,6 +2074,11 @@ def march(
                     h *= 0.5 if room < 0.5 * h or room >= h else room / h
                     target = -1.0
                     continue
+                if tolerance <= 0.0:
+                    out[TOUCHING] = travel + h
+                    out[FIRST] = a
+                    out[SECOND] = b
+                    return TOUCHED
                 target = crossing(
                     growth, arc, travel, travel + h, a, b, margin, CROSSING_WIDTH * tolerance, False, sizes, spare,
                     scratch,
