@@ -196,7 +196,7 @@ def _shown_bracket(found: FirstContact) -> str:
 
 
 def _mark_pair(axes: Axes, outlines: Floats, found: FirstContact, *, legend: bool = False) -> None:
-    for k, (bench, colour, hatch) in enumerate(zip(found.benches or (), (VERMILION, BLUE), ("", "////"), strict=True)):
+    for k, (bench, colour, hatch) in enumerate(zip(found.benches or (), (VERMILION, BLUE), ("", "////"), strict=False)):
         label = f"bench {bench}" + (" (head)" if bench == 0 else "")
         axes.add_patch(
             matplotlib.patches.Polygon(
