@@ -124,6 +124,8 @@ def bend(theta: arb, needed: arb) -> arb:
     around = guess + arb(0, GUESS_RADIUS)
     value = guess**2 + 2 * theta * (theta + guess) * (1 - guess.cos()) - needed
     found = _newton(guess, around, value, slopes(theta, around)[1])
+    if not found > 0:
+        raise Unproven("a next handle is not behind")
     if not found < arb.pi():
         past = found.union(arb.pi())
         sine, cosine = past.sin_cos()

@@ -42,9 +42,9 @@ class CollisionTime:
     time: float
 
     def __post_init__(self) -> None:
-        Spiral(self.pitch, self.start_turns)
-        checked_head_speed(self.head_speed)
-        checked_number("time", self.time, "s", 0.0, Spiral(self.pitch, self.start_turns).length / self.head_speed)
+        path, speed = Spiral(self.pitch, self.start_turns), checked_head_speed(self.head_speed)
+        time = checked_number("time", self.time, "s", 0.0, path.length / speed)
+        _set(self, pitch=path.pitch, start_turns=path.start_turns, head_speed=speed, time=time)
 
     @cached_property
     def chain(self) -> Chain:
@@ -77,7 +77,7 @@ class CollisionTime:
         if not overlapping(self.chain, self._after, a, b):
             raise Unproven(f"benches {a} and {b} are not shown to overlap at {self.time!r} + {TIME_BRACKET} s")
         return (
-            f"Of {self.chain.count} benches no two touch before {self.time!r} - {TIME_BRACKET} s, "
+            f"Of {self.chain.count} benches no two non-adjacent ones touch before {self.time!r} - {TIME_BRACKET} s, "
             f"and benches {a} and {b} overlap at {self.time!r} + {TIME_BRACKET} s."
         )
 
@@ -97,8 +97,8 @@ class MinimumPitch:
     turning_radius: float
 
     def __post_init__(self) -> None:
-        Spiral(self.pitch - float(PITCH_STEP), self.start_turns)
-        checked_size("turning_radius", self.turning_radius)
+        path, radius = Spiral(self.pitch, self.start_turns), checked_size("turning_radius", self.turning_radius)
+        _set(self, pitch=path.pitch, start_turns=path.start_turns, turning_radius=radius)
 
     @cached_property
     def chain(self) -> Chain:
@@ -144,9 +144,14 @@ class MinimumPitch:
                 raise Unproven(f"the start is not shown to lie within the circle with {PITCH_STEP} m less")
             why = "the start lies within the circle"
         return (
-            f"With pitch {self.pitch!r} m no two of {less.count} benches touch until the head is "
+            f"With pitch {self.pitch!r} m no two non-adjacent ones of {less.count} benches touch until the head is "
             f"{self.turning_radius!r} m from the centre, and with {PITCH_STEP} m less {why}."
         )
+
+
+def _set(claim: object, **checked: float) -> None:
+    for name, value in checked.items():
+        object.__setattr__(claim, name, value)
 
 
 def overlapping(chain: Chain, head: arb, a: int, b: int) -> bool:

@@ -1,0 +1,121 @@
+"""bench-dragon prove, run as a user runs it: certificates as files, exit codes, a bar, Ctrl-C."""
+
+from __future__ import annotations
+
+import json
+import os
+import pty
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+COMMAND = [str(Path(sys.executable).with_name("bench-dragon")), "prove"]
+ENVIRONMENT = {
+    name: value for name, value in os.environ.items() if not name.startswith(("BENCH_DRAGON_", "FORCE_COLOR"))
+}
+PATIENCE = 120.0  # [s]: only against a test that would hang
+FIVE = ("--benches", "5", "--start-turns", "6")  # a dragon whose proof takes no time
+
+
+def run(*arguments: str, text: str | None = None, **environment: str) -> subprocess.CompletedProcess[str]:
+    return subprocess.run(
+        [*COMMAND, *arguments],
+        input=text,
+        capture_output=True,
+        text=True,
+        timeout=PATIENCE,
+        env={**ENVIRONMENT, **environment},
+    )
+
+
+@pytest.fixture(scope="module")
+def certificate(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    path = tmp_path_factory.mktemp("proof") / "five.json"
+    done = run("collision-time", *FIVE, "--output", str(path))
+    assert done.returncode == 0, done.stderr
+    assert "benches 0 and 4 overlap" in done.stdout
+    return path
+
+
+def test_a_certificate_is_checked_from_a_file_and_from_standard_input(certificate: Path) -> None:
+    for done in (run("--check", str(certificate)), run("--check", "-", text=certificate.read_text())):
+        assert (done.returncode, done.stderr) == (0, "")
+        assert "benches 0 and 4 overlap" in done.stdout
+
+
+def test_a_changed_certificate_is_refused(certificate: Path) -> None:
+    changed = json.loads(certificate.read_text())
+    changed["claim"]["time"] += 1.0
+    done = run("--check", "-", text=json.dumps(changed))
+    assert (done.returncode, done.stdout) == (1, "")
+    assert done.stderr == "Refused: the certificate was changed after it was made\n"
+
+
+def test_a_wrong_claim_is_refused_and_leaves_no_file(tmp_path: Path) -> None:
+    done = run("collision-time", *FIVE, "--time", "20", "--output", str(tmp_path / "wrong.json"))
+    assert (done.returncode, done.stdout) == (1, "")
+    assert done.stderr == "Refused: no two benches overlap at 20.0 + 1e-10 s\n"
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_minimum_pitch_is_proven_and_checked(tmp_path: Path) -> None:
+    path = tmp_path / "pitch.json"
+    circle = ("--turning-diameter", "4", "--benches", "11", "--start-turns", "5")
+    done = run("minimum-pitch", *circle, "--every-pair", "--output", str(path))
+    assert done.returncode == 0, done.stderr
+    assert "with 1e-6 m less benches 0 and 7 overlap on the way" in done.stdout
+    assert run("--check", str(path)).stdout == done.stdout
+
+
+def test_a_dance_without_contact_has_no_collision_time_to_prove(tmp_path: Path) -> None:
+    done = run("collision-time", "--benches", "4", "--output", str(tmp_path / "none.json"))
+    assert (done.returncode, done.stderr) == (1, "Refused: nothing touches, so there is no collision time to prove\n")
+
+
+@pytest.mark.parametrize(
+    ("arguments", "text", "words"),
+    [
+        ((), None, "either a claim to prove or --check FILE"),
+        (("--check", "x", "collision-time"), None, "either a claim to prove or --check FILE"),
+        (("--check", "nowhere.json"), None, "nowhere.json: No such file"),
+        (("--check", "-"), "{", "is not JSON"),
+        (("collision-time", "--output", "nowhere/proof.json"), None, "must be in a folder that exists"),
+        (("collision-time", "--time", "nan"), None, "time"),
+        (("collision-time", "--width", "30"), None, "width"),
+        (("minimum-pitch", "--pitch", "0"), None, "pitch"),
+    ],
+)
+def test_wrong_usage_gets_exit_code_2(arguments: tuple[str, ...], text: str | None, words: str) -> None:
+    done = run(*arguments, text=text, COLUMNS="120")
+    assert (done.returncode, done.stdout) == (2, "")
+    assert words in done.stderr
+    assert "Traceback" not in done.stderr
+
+
+def test_without_flint_the_error_names_the_extra(certificate: Path, tmp_path: Path) -> None:
+    (tmp_path / "flint.py").write_text("raise ImportError\n")
+    done = run("--check", str(certificate), PYTHONPATH=str(tmp_path))
+    assert done.returncode == 2
+    assert done.stderr == "Error: a proof needs python-flint: pip install 'bench-dragon[proof]'\n"
+
+
+def test_a_bar_shows_and_ctrl_c_ends_the_proof_cleanly(tmp_path: Path) -> None:
+    leader, follower = pty.openpty()
+    # All pairs of 223 benches in their own right take most of a minute.
+    arguments = ["collision-time", "--every-pair", "--output", str(tmp_path / "proof.json")]
+    process = subprocess.Popen([*COMMAND, *arguments], stdout=subprocess.DEVNULL, stderr=follower, env=ENVIRONMENT)
+    os.close(follower)
+    seen = b""
+    while b"%" not in seen:
+        seen += os.read(leader, 1024)
+    process.send_signal(signal.SIGINT)
+    while b"Interrupted: nothing was written." not in seen:
+        seen += os.read(leader, 1024)
+    assert process.wait(PATIENCE) == 130
+    os.close(leader)
+    assert b"proof" in seen
+    assert b"Traceback" not in seen
+    assert list(tmp_path.iterdir()) == []

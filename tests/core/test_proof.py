@@ -1,0 +1,338 @@
+"""Proofs: claims that hold are proven and checked, claims and certificates that do not are refused."""
+
+from __future__ import annotations
+
+import copy
+import itertools
+import json
+import math
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import shapely
+from flint import arb, ctx
+
+from core import Dragon, Spiral, first_contact
+from core.errors import InvalidValue, ProofRefused
+from core.proof import Certificate, check, digest, prove_collision_time, prove_minimum_pitch
+from core.proof.chain import Chain, Pose, Unproven, bend
+from core.proof.sweeps import Stretch, _stays_positive
+
+ROOT = Path(__file__).parents[2]
+CONTACTS = {
+    case["name"]: case for case in json.loads((ROOT / "tests/reference/first_contact.json").read_text())["cases"]
+}
+PITCHES = {
+    case["name"]: case for case in json.loads((ROOT / "tests/reference/minimum_pitch.json").read_text())["cases"]
+}
+# The reference pitches are rounded: this much more is free of contact [m].
+PITCH_ROUNDING = 1e-9
+SMALL = CONTACTS["n_5"]
+# A bend from doubles, where F is steep, is this near to the true one [rad].
+DOUBLES = 1e-9
+
+
+def through_json(certificate: Certificate) -> Certificate:
+    return json.loads(json.dumps(certificate, allow_nan=False))  # type: ignore[no-any-return]
+
+
+def proof_of(case: dict[str, Any], **changes: Any) -> Certificate:
+    dragon, path = Dragon(**case["dragon"]), Spiral(case["pitch"], case["start_turns"])
+    return prove_collision_time(dragon, path, case["time"] + changes.pop("later", 0.0), **changes)
+
+
+@pytest.fixture(scope="module")
+def small() -> Certificate:
+    return through_json(proof_of(SMALL))
+
+
+@pytest.mark.parametrize("name", ["default", "n_5", "head_spacing_1.00", "combo_b", "combo_e_body_longer_than_head"])
+def test_a_reference_contact_is_proven_and_checked(name: str) -> None:
+    case = CONTACTS[name]
+    certificate = through_json(proof_of(case, head_speed=case["head_speed"]))
+    assert certificate["overlap"] == {"benches": case["benches"]}
+    assert f"benches {case['benches'][0]} and {case['benches'][1]} overlap" in check(certificate).statement
+
+
+@pytest.mark.parametrize(
+    ("name", "benches", "start_turns"),
+    # Eleven benches that start nearer are limited by the same two as the whole dragon, exactly on the circle.
+    [("default R=6.36", 223, 16.0), ("default R=7", 223, 16.0), ("default R=2", 11, 5.0)],
+    ids=["graze", "start", "circle"],
+)
+def test_a_reference_pitch_is_proven_and_checked(name: str, benches: int, start_turns: float) -> None:
+    case = PITCHES[name]
+    pitch = case["pitch"] + PITCH_ROUNDING
+    dragon = Dragon(**(case["dragon"] | {"benches": benches}))
+    radius = case["turning_diameter"] / 2
+    certificate = through_json(prove_minimum_pitch(dragon, pitch, turning_radius=radius, start_turns=start_turns))
+    if case["limited_by"] == "start":
+        assert certificate["overlap"] == {"start_within_circle": True}
+    else:
+        assert certificate["overlap"]["benches"] == case["benches"]
+    assert repr(pitch) in check(certificate).statement
+
+
+@pytest.mark.parametrize("seed", [0, 2, 8, 17, 26, 35, 42, 55])
+def test_the_contact_of_a_random_dragon_given_bench_by_bench_is_proven_and_its_neighbourhood_refused(seed: int) -> None:
+    random = np.random.default_rng(seed)
+    benches = int(random.integers(4, 12))
+    lengths, overhangs = random.uniform(1.2, 3.6, benches), random.uniform(0.0, 0.4, benches)
+    dragon = Dragon.of(lengths, random.uniform(0.1, 0.4, benches), overhangs)
+    path = Spiral(random.uniform(0.5, 0.8), random.uniform(5.0, 9.0))
+    time = first_contact(dragon, path).time
+    assert time
+    certificate = through_json(prove_collision_time(dragon, path, time))
+    assert certificate["repeats_from"] == benches - 3
+    check(certificate)
+    for wrong in (time - 1e-8, time + 1e-8):
+        with pytest.raises(ProofRefused):
+            prove_collision_time(dragon, path, wrong)
+
+
+@pytest.mark.parametrize("later", [-1.0, -2.1e-10, 2.1e-10, 1e-6, 1.0])
+def test_a_bracket_moved_off_the_contact_is_refused(later: float) -> None:
+    with pytest.raises(ProofRefused, match="no two benches overlap" if later < 0 else "benches 0 and 4 overlap"):
+        proof_of(SMALL, later=later)
+
+
+def test_a_contact_that_is_not_the_first_is_refused() -> None:
+    # At pitch 0.55 the benches part again from 415.02 to 415.375 s: a contact there, but not the first.
+    with pytest.raises(ProofRefused, match="benches 0 and 8 overlap"):
+        prove_collision_time(Dragon(), Spiral(), 415.5)
+
+
+@pytest.mark.parametrize(("more", "reason"), [(-1e-9, "overlap when handle 0"), (1.1e-6, "free of contact too")])
+def test_a_pitch_off_the_smallest_is_refused(more: float, reason: str) -> None:
+    with pytest.raises(ProofRefused, match=reason):
+        prove_minimum_pitch(Dragon(), PITCHES["default R=6.36"]["pitch"] + more, turning_radius=6.36)
+
+
+@pytest.mark.parametrize(
+    ("benches", "reason"), [(1, "no two benches overlap"), (2, "no two benches overlap"), (223, "folds")]
+)
+def test_a_time_after_which_nothing_touches_is_refused(benches: int, reason: str) -> None:
+    with pytest.raises(ProofRefused, match=reason):
+        prove_collision_time(Dragon(benches), Spiral(), 433.0 if benches == 223 else 100.0)
+
+
+@pytest.mark.parametrize("time", [-1.0, math.nan, math.inf, 1e9, "412"])
+def test_a_time_that_is_no_time_of_the_dance_is_an_invalid_value(time: Any) -> None:
+    with pytest.raises(InvalidValue, match="time must be"):
+        prove_collision_time(Dragon(), Spiral(), time)
+
+
+def test_every_pair_in_its_own_right_proves_the_same_as_equal_benches_taken_once() -> None:
+    case = CONTACTS["combo_e_body_longer_than_head"]
+    dragon, path = Dragon(**(case["dragon"] | {"benches": 12})), Spiral(case["pitch"], 4.0)
+    time = first_contact(dragon, path).time
+    assert time is not None
+    once, each = (prove_collision_time(dragon, path, time, every_pair=every) for every in (False, True))
+    assert (len(once["sweeps"]), len(each["sweeps"])) == (2, 10)
+    assert check(once).statement == check(each).statement
+    assert check(each).pair_proofs > check(once).pair_proofs
+
+
+def edit(change: Callable[[dict[str, Any]], Any]) -> Callable[[Certificate], Certificate]:
+    """A forger's edit: the change, and a digest that fits it."""
+
+    def edited(certificate: Certificate) -> Certificate:
+        content = copy.deepcopy(certificate)
+        del content["digest"]
+        change(content)
+        return content | {"digest": digest(content)}
+
+    return edited
+
+
+def stretches(content: dict[str, Any], bench: int = 0) -> list[Any]:
+    return content["sweeps"][bench]["stretches"]  # type: ignore[no-any-return]
+
+
+def other_face(content: dict[str, Any]) -> None:
+    tile = stretches(content)[-1]
+    tile[2] = tile[2][:-1] + str((int(tile[2][-1]) + 2) % 4)
+
+
+def one_for_all(content: dict[str, Any]) -> None:
+    tiles = stretches(content)
+    tiles[:] = [[tiles[0][0], tiles[-1][1], tiles[-1][2]]]
+
+
+FORGERIES = {
+    "a stretch dropped": (lambda c: stretches(c).pop(7), "do not join"),
+    "a stretch twice": (lambda c: stretches(c).insert(7, stretches(c)[7]), "do not join"),
+    "the first stretch dropped": (lambda c: stretches(c).pop(0), "do not join"),
+    "the last stretch dropped": (lambda c: stretches(c).pop(), "short of"),
+    "the last stretch of the body dropped": (lambda c: stretches(c, 1).pop(), "short of"),
+    "a stretch that begins later": (lambda c: stretches(c)[7].__setitem__(0, stretches(c)[7][0] - 1e-9), "do not join"),
+    "a stretch that ends earlier": (lambda c: stretches(c)[7].__setitem__(1, stretches(c)[7][1] + 1e-9), "do not join"),
+    "one stretch for all": (one_for_all, "not proven"),
+    "another face": (other_face, "not apart by face"),
+    "a pair left out": (lambda c: stretches(c)[7].__setitem__(2, stretches(c)[7][2][:-1]), "pairs are missing"),
+    "a sweep dropped": (lambda c: c["sweeps"].pop(), "malformed"),
+    "a sweep too many": (lambda c: c["sweeps"].append(c["sweeps"][-1]), "has 3 sweeps"),
+    "sweeps exchanged": (lambda c: c["sweeps"].reverse(), "of another bench"),
+    "a later time": (lambda c: c["claim"].__setitem__("time", c["claim"]["time"] + 1e-9), "short of"),
+    "an earlier time": (lambda c: c["claim"].__setitem__("time", c["claim"]["time"] - 1e-9), "not shown to overlap"),
+    "a faster head": (lambda c: c["claim"].__setitem__("head_speed", 1.0001), "short of"),
+    "a slower head": (lambda c: c["claim"].__setitem__("head_speed", 0.9999), "not shown to overlap"),
+    "a wider pitch": (lambda c: c["claim"].__setitem__("pitch", 0.5501), "not shown to overlap"),
+    "a narrower pitch": (lambda c: c["claim"].__setitem__("pitch", 0.5499), "not proven"),
+    "a start farther out": (lambda c: c["claim"].__setitem__("start_turns", 16.001), "not shown to overlap"),
+    "a start farther in": (lambda c: c["claim"].__setitem__("start_turns", 15.999), "short of"),
+    "another claim": (lambda c: c["claim"].__setitem__("kind", "minimum-pitch"), "malformed"),
+    "a narrower head": (lambda c: c["dragon"][0].__setitem__(2, 0.2999), "not shown to overlap"),
+    "a wider body": (lambda c: c["dragon"][1].__setitem__(2, 0.3001), "not apart by face"),
+    "a shorter dragon": (lambda c: c["dragon"][1].__setitem__(0, 3), "no pair"),
+    "a dragon of nothing": (lambda c: c["dragon"].clear(), "malformed"),
+    "benches without end": (lambda c: c["dragon"][1].__setitem__(0, 10**12), "1 to 10000000 benches"),
+    "another pair": (lambda c: c["overlap"].__setitem__("benches", [0, 3]), "not shown to overlap"),
+    "neighbours as the pair": (lambda c: c["overlap"].__setitem__("benches", [0, 1]), "no pair"),
+    "the head taken for a body bench": (lambda c: c.__setitem__("repeats_from", 0), "not alike"),
+    "a repetition beyond the tail": (lambda c: c.__setitem__("repeats_from", 3), "not alike"),
+    "another format": (lambda c: c.__setitem__("format", "bench-dragon proof 0"), "format"),
+    "no overlap": (lambda c: c.pop("overlap"), "malformed"),
+    "no number": (lambda c: stretches(c)[7].__setitem__(1, "30"), "malformed"),
+    "not a number": (lambda c: stretches(c)[7].__setitem__(1, math.nan), "not proven"),
+}
+
+
+@pytest.mark.parametrize("name", FORGERIES)
+def test_a_forged_certificate_is_refused(small: Certificate, name: str) -> None:
+    change, reason = FORGERIES[name]
+    with pytest.raises(ProofRefused, match=reason):
+        check(edit(change)(small))
+
+
+def test_an_edit_of_what_no_proof_needs_is_refused_by_the_digest(small: Certificate) -> None:
+    with pytest.raises(ProofRefused, match="was changed"):
+        check(small | {"versions": {}})
+    with pytest.raises(ProofRefused, match="malformed"):
+        check({name: value for name, value in small.items() if name != "digest"})
+
+
+@pytest.mark.parametrize("value", [None, [], {}, "proof", 1.0])
+def test_what_is_no_certificate_is_refused(value: Any) -> None:
+    with pytest.raises(ProofRefused, match="malformed"):
+        check(value)
+
+
+@pytest.mark.parametrize(
+    ("overlap", "reason"),
+    [
+        ({"benches": [0, 26], "head_theta": 97.0}, "not shown to overlap on the way"),  # within the circle
+        ({"benches": [0, 26], "head_theta": 100.0}, "not shown to overlap on the way"),
+        ({"start_within_circle": True}, "not shown to lie within the circle"),
+    ],
+)
+def test_a_forged_overlap_on_the_way_to_the_circle_is_refused(overlap: dict[str, Any], reason: str) -> None:
+    pitch = PITCHES["default R=6.36"]["pitch"] + PITCH_ROUNDING
+    certificate = through_json(prove_minimum_pitch(Dragon(27), pitch, turning_radius=6.36))
+    check(certificate)
+    with pytest.raises(ProofRefused, match=reason):
+        check(edit(lambda content: content.__setitem__("overlap", overlap))(certificate))
+
+
+def test_progress_rises_to_one_and_the_precision_is_left_as_it_was() -> None:
+    before, proving, checking = ctx.prec, [0.0], [0.0]
+    check(proof_of(SMALL, progress=proving.append), progress=checking.append)
+    with pytest.raises(ProofRefused):
+        proof_of(SMALL, later=1.0)
+    assert ctx.prec == before
+    for shares in (proving, checking):
+        assert shares == sorted(shares)
+        assert shares[-1] == 1.0
+
+
+# The default dragon, where handle 1 turns back near the fold (combo_b), and bench by bench.
+PLACES = {
+    "far outside": (Dragon(), Spiral(), 0, 90.0, 90.8),
+    "before the contact": (Dragon(), Spiral(), 0, 26.2, 26.5),
+    "handle 1 turns back": (Dragon(400, 3.61, 2.4, 0.12, 0.1), Spiral(0.48, 25.0), 0, 20.732, 20.7326),
+    "bench by bench": (Dragon.of([3.0, 1.5, 2.5, 1.2, 2.0], [0.3] * 5, [0.2] * 5), Spiral(), 1, 30.0, 30.6),
+}
+
+
+@pytest.mark.parametrize("name", PLACES)
+def test_a_stretch_encloses_every_pose_in_it_and_every_velocity(name: str) -> None:
+    dragon, path, bench, low, high = PLACES[name]
+    chain = Chain(dragon, arb(path.pitch), path.start_turns)
+    with ctx.workprec(128):
+        stretch = Stretch(chain, bench, low, high, dragon.benches)
+        poses = [Pose(chain, bench, arb(theta)) for theta in np.linspace(low, high, 9)]
+        for pose in poses:
+            pose.grow(4)
+        for _ in range(3):
+            stretch.grow()
+        assert stretch.rising == (name != "handle 1 turns back")
+        for before, after in itertools.pairwise(poses):
+            step = after.thetas[0] - before.thetas[0]
+            for k, (centre, along, centre_move, along_move) in enumerate(stretch.placed):
+                assert stretch.thetas[k + 1].contains(before.thetas[k + 1])
+                assert centre.contains(before.centres[k])
+                assert along.contains(before.along[k])
+                # A difference quotient is a velocity somewhere between.
+                assert centre_move.overlaps((after.centres[k] - before.centres[k]) / step)
+                assert along_move.overlaps((after.along[k] - before.along[k]) / step)
+                assert stretch.rates[k + 1].overlaps((after.thetas[k + 1] - before.thetas[k + 1]) / step)
+            assert stretch.rear[0] <= float(before.thetas[1]) <= stretch.rear[1]
+
+
+def test_a_bench_called_far_is_clear_of_the_ring_inside_it() -> None:
+    dragon, chain = Dragon(), Chain(Dragon(), arb(0.55), 16.0)
+    for theta in (27.0, 60.0, 100.0):
+        pose = Pose(chain, 0, arb(theta))
+        pose.grow(120)
+        shapes = [
+            shapely.Polygon(
+                [(float(z.real), float(z.imag)) for z in (centre + along * corner for corner in size.corners)]
+            )
+            for centre, along, size in zip(pose.centres, pose.along, chain.sizes, strict=False)
+        ]
+        far = [k for k in range(2, 120) if chain.far(0, pose.thetas[1], pose.thetas[k])]
+        assert 0 < len(far) < 110
+        assert min(shapes[0].distance(shapes[k]) for k in far) > 0.0
+    assert dragon.benches == chain.count
+
+
+@pytest.mark.parametrize("theta", [14.76, 15.0, 16.0, 30.0, 100.0])
+@pytest.mark.parametrize("chord", [0.1, 1.65, 2.86])
+def test_a_bend_is_the_first_root(theta: float, chord: float) -> None:
+    needed = (arb(chord) / (arb("0.55") / (2 * arb.pi()))) ** 2
+    found = float(bend(arb(theta), needed))
+    before = np.linspace(0.0, found - DOUBLES, 100_000)
+    assert np.all(before**2 + 2 * theta * (theta + before) * (1 - np.cos(before)) < float(needed))
+
+
+def test_there_is_no_bend_past_the_fold_and_one_beyond_pi_just_before() -> None:
+    needed = (arb("2.86") / (arb("0.55") / (2 * arb.pi()))) ** 2
+    assert bend(arb("14.735"), needed) > arb.pi()
+    with pytest.raises(Unproven):
+        bend(arb("14.73"), needed)
+
+
+def test_the_bound_on_a_stretch_never_calls_a_dip_positive() -> None:
+    # g = at + rate x + bow x^2 on [0, width]: with the exact range of g' the bound may only be too careful.
+    random = np.random.default_rng(5)
+    proven = 0
+    for at, rate, bow, width in random.uniform([0.0, -2.0, -3.0, 0.1], [1.0, 2.0, 3.0, 2.0], (4000, 4)):
+        end, end_rate = at + rate * width + bow * width**2, rate + 2 * bow * width
+        inside = -rate / (2 * bow) if 0.0 < -rate / (2 * bow) < width else 0.0
+        least = min(at, end, at + rate * inside + bow * inside**2)
+        positive = _stays_positive(arb(at), arb(end), arb(rate).union(arb(end_rate)), arb(width))
+        assert not positive or least > 0.0
+        proven += positive
+    assert proven > 1000
+
+
+def test_without_flint_the_error_names_the_extra() -> None:
+    code = "import sys; sys.modules['flint'] = None; import core.proof"
+    done = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True)
+    assert done.returncode == 1
+    assert "pip install 'bench-dragon[proof]'" in done.stderr.splitlines()[-1]
