@@ -51,10 +51,10 @@ EXAMPLES = {
             "end": None,
             "certificate": {
                 "method": "proven steps: second-derivative bound on the gap along a body axis between both ends of each step; closed-form ring bound further out",
-                "steps": 230,
+                "steps": 139,
                 "clear_until": 412.47383768201473,
-                "bound": 4.217787017678421,
-                "least_clearance": {"time": 409.83199164421956, "clearance": 0.0008652345651060378, "benches": [0, 11]},
+                "bound": 1.5787730552851817,
+                "least_clearance": {"time": 409.83199150935167, "clearance": 0.000865234565106926, "benches": [0, 11]},
             },
             "cross_check": {
                 "agree": True,
@@ -69,7 +69,25 @@ EXAMPLES = {
     ),
     "/minimum-pitch": Example(
         query={"turning_diameter": 9},
-        answer={},
+        answer={
+            "pitch": 0.45033739302755144,
+            "pitch_bracket": [0.45033739302598896, 0.45033739302755144],
+            "limited_by": "graze",
+            "benches": [0, 19],
+            "head_radius": 4.572603226255634,
+            "other_feasible_intervals": [],
+            "justified_by": "bound",
+            "evaluations": 523,
+            "cross_check": {
+                "agree": True,
+                "engines": {
+                    "separating_axis": {"before": False, "after": True},
+                    "fcl": {"before": False, "after": True},
+                    "shapely": {"before": False, "after": True},
+                    "angle_sum": {"before": False, "after": True},
+                },
+            },
+        },
     ),
     "/clearance": Example(
         query={"pitch": 0.55, "start": 412, "stop": 413, "step": 0.5},
@@ -105,6 +123,97 @@ EXAMPLES = {
         },
     ),
     "/paper": Example(
-        answer={},
+        answer={
+            "rows": [
+                {
+                    "quantity": "arc length of the spiral",
+                    "unit": "m",
+                    "source": "eq. 2",
+                    "paper": 442.590256,
+                    "ours": 442.5902564320173,
+                    "difference": 4.3201731614317396e-07,
+                    "reason": "The same, to the paper's six decimals.",
+                    "evidence": [],
+                },
+                {
+                    "quantity": "time of first contact",
+                    "unit": "s",
+                    "source": "figure 7",
+                    "paper": 406.43,
+                    "ours": 412.4738376821147,
+                    "difference": 6.043837682114713,
+                    "reason": "The paper's rule adds angles and calls 360 degrees a collision. Near an edge the sum nears 360 degrees without a contact: it passes 359.1 degrees at 406.43 s, where benches 0 and 9 are 4.3 mm apart. Rounding such a sum up to 360 gives the paper's time.",
+                    "evidence": [
+                        {"what": "largest angle sum at the paper's time", "value": 359.10177289683384, "unit": "deg"},
+                        {
+                            "what": "first time of an angle sum of 359.1 degrees",
+                            "value": 406.42869536513456,
+                            "unit": "s",
+                        },
+                        {
+                            "what": "clearance at the paper's time, benches 0 and 9",
+                            "value": 0.0043008190299901605,
+                            "unit": "m",
+                        },
+                        {"what": "first time of an angle sum of 360 degrees", "value": 412.4738375104033, "unit": "s"},
+                        {
+                            "what": "the same with the corners of eq. 12 as printed, its wrong signs kept",
+                            "value": 407.4142808882519,
+                            "unit": "s",
+                        },
+                    ],
+                },
+                {
+                    "quantity": "radius of the head at first contact",
+                    "unit": "m",
+                    "source": "section 3.3",
+                    "paper": 2.883,
+                    "ours": 2.288742638382155,
+                    "difference": -0.5942573616178448,
+                    "reason": "The paper's own numbers exclude each other: at its 406.43 s the head is at 2.509 m, and it passes 2.883 m at 394.91 s. No reading was found that gives the paper's number.",
+                    "evidence": [
+                        {"what": "radius of the head at the paper's time", "value": 2.5091305212111488, "unit": "m"},
+                        {
+                            "what": "time at which the head passes the paper's radius",
+                            "value": 394.90882574035953,
+                            "unit": "s",
+                        },
+                    ],
+                },
+                {
+                    "quantity": "minimum pitch",
+                    "unit": "m",
+                    "source": "section 3.3",
+                    "paper": 0.474924,
+                    "ours": 0.45033739302755144,
+                    "difference": -0.024586606972448577,
+                    "reason": "The paper bisects the radius of first contact towards 4.5 m, but that radius jumps from 4.573 to 0.000 m at a pitch of 0.4503351 m: none gives 4.5 m, so the error that it drives to 1e-10 cannot vanish. At the paper's pitch the head gets to 3.846 m, well inside the circle. No reading was found that gives the paper's number.",
+                    "evidence": [
+                        {
+                            "what": "pitch at which a bisection of the radius ends",
+                            "value": 0.4503350502462127,
+                            "unit": "m",
+                        },
+                        {"what": "radius of first contact just below it", "value": 4.573395462720373, "unit": "m"},
+                        {"what": "radius of first contact just above it", "value": 0.0, "unit": "m"},
+                        {
+                            "what": "radius of first contact at the paper's pitch",
+                            "value": 3.84584827371987,
+                            "unit": "m",
+                        },
+                        {
+                            "what": "largest pitch at which the pose on the circle alone touches",
+                            "value": 0.42021689802408224,
+                            "unit": "m",
+                        },
+                        {
+                            "what": "the same with the pairs of the head only, as in eqs. 14-17",
+                            "value": 0.417137597501278,
+                            "unit": "m",
+                        },
+                    ],
+                },
+            ]
+        },
     ),
 }
