@@ -257,6 +257,20 @@ class PitchScan:
     pieces: tuple[tuple[int, int], ...]
 
 
+def stop_radius(dragon: Dragon, path: Spiral, *, margin: float = 0.0) -> float | None:
+    """Where the head stands at first contact [m]; None when nothing touches.
+
+    A search that ends undecided has met a graze too close to the margin to tell: then, where it met it.
+    """
+    found = first_contact(dragon, path, margin=margin)
+    if found.outcome is Outcome.CLEAR:
+        return None
+    if found.head is not None:
+        return found.head.radius
+    time = found.time_bracket[0] if found.time_bracket else 0.0
+    return float(np.hypot(*trajectory(Dragon(benches=1), path, [time]).position[0, 0]))
+
+
 def pitch_scan(
     dragon: Dragon,
     pitches: Floats,
@@ -274,10 +288,7 @@ def pitch_scan(
     """
 
     def radius(pitch: float) -> float | None:
-        found = first_contact(dragon, Spiral(pitch=pitch, start_turns=start_turns), margin=margin)
-        if found.outcome is Outcome.CONTACT_AT_START:
-            return pitch * start_turns
-        return found.head.radius if found.head else None
+        return stop_radius(dragon, Spiral(pitch, start_turns), margin=margin)
 
     known: dict[float, float | None] = {}
     jumps: list[float] = []
@@ -330,9 +341,9 @@ def pitch_scan_figure(
         figure = _canvas(9.0, 5.6)
         axes = figure.add_subplot()
         _draw_scan(axes, scan, least, turning_radius)
-        axes.plot(pitches, start_turns * pitches, color=GREY, linewidth=0.9, label="start of the dance")
+        axes.plot(pitches, start_turns * pitches, color=GREY, linewidth=0.9, zorder=1, label="start of the dance")
         axes.set(xlim=(pitches[0], pitches[-1]), xlabel="pitch [m]", ylabel="radius of the head at first contact [m]")
-        axes.set_ylim(0.0, 1.05 * scan.radius.max())
+        axes.set_ylim(0.0, 1.05 * scan.radius.max(initial=turning_radius))
         axes.legend(loc="lower left", fontsize=9)
         axes.set_title("Where the head stands at first contact, against the pitch", fontsize=11)
         near = axes.inset_axes((0.56, 0.50, 0.41, 0.46))
