@@ -186,11 +186,13 @@ def _flat(answer: BaseModel, prefix: str = "") -> Iterator[tuple[str, str]]:
     for name, field in type(answer).model_fields.items():
         value = getattr(answer, name)
         label = prefix + name.replace("_", " ")
-        if isinstance(value, BaseModel):
+        if isinstance(value, answers.Feature):
+            yield label, ", ".join(f"{word} {_shown(said)}" for word, said in value)
+        elif isinstance(value, BaseModel):
             yield from _flat(value, f"{label}: ")
         elif isinstance(value, dict):
             for key, entry in value.items():
-                yield f"{label}: {key}", ", ".join(f"{word} {said}" for word, said in entry)
+                yield f"{prefix}{key}", ", ".join(f"{word} {_shown(said)}" for word, said in entry)
         elif value is not None:
             unit = re.search(r"\[([^\]]+)\]$", field.description or "")
             yield label, f"{_shown(value)} {unit[1] if unit else ''}".rstrip()
@@ -199,6 +201,8 @@ def _flat(answer: BaseModel, prefix: str = "") -> Iterator[tuple[str, str]]:
 def _shown(value: Any, decimals: int = 9) -> str:
     if isinstance(value, (tuple, list)):
         return ", ".join(_shown(entry, 12) for entry in value) or "none"
+    if isinstance(value, bool):
+        return "yes" if value else "no"
     return f"{value:.{decimals}f}" if isinstance(value, float) else str(value)
 
 

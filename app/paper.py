@@ -12,10 +12,10 @@ from functools import cache
 
 import numpy as np
 
+from app.figures import stop_radius
 from core import (
     Dragon,
     FirstContact,
-    Outcome,
     Spiral,
     bench_poses,
     clearance_profile,
@@ -200,12 +200,8 @@ def _bisected(holds: Callable[[float], bool], low: float, high: float) -> tuple[
 
 
 def _contact_radius(pitch: float) -> float:
-    """Where the head stands at first contact [m]; 0 when nothing touches."""
-    path = Spiral(pitch)
-    found = first_contact(Dragon(), path)
-    if found.outcome is Outcome.CONTACT_AT_START:
-        return path.growth * path.start_theta
-    return found.head.radius if found.head else 0.0
+    """Where the head of the default dragon stands at first contact [m]; 0 when nothing touches."""
+    return stop_radius(Dragon(), Spiral(pitch)) or 0.0
 
 
 def _bisected_radius() -> tuple[float, float]:
