@@ -167,7 +167,7 @@ class _PitchSearch:
         """
         chord, shortest, *_ = (float(extreme) for extreme in self.search.extremes)
         foot2 = self.radius**2 - 0.25 * chord**2
-        limits = [shortest / 1.67, self.radius**2 / (1.5708 * chord)] + [0.5 * math.sqrt(foot2)] * (foot2 > 0.0)
+        limits = [shortest / 1.67, self.radius**2 / (1.5708 * chord)] + ([0.5 * math.sqrt(foot2)] if foot2 > 0.0 else [])
         growths = [0.999 * min(limits) * 0.95**k for k in range(200)]
         for growth in growths:
             if self._ring_clears(0.95 * growth, growth):
@@ -206,18 +206,19 @@ class _PitchSearch:
         """
         pitch, gain = top, GAIN_FIRST
         windows, floor, narrowed = [ALL], -math.inf, gain
+        pace = 2.0
         while gain > GAIN_MIN:
             below = self.next_below(pitch, gain)
             if below >= pitch:
                 return *self.scan(pitch), "scan"
             if not all(self.way(pitch, gain, window)[0] == "reached" for window in windows):
-                gain *= 0.6
+                gain, pace = 0.6 * gain, 1.1
                 if gain < GAIN_FACTOR * narrowed:
                     wide = 4.0 * gain * gain / (pitch - below)
                     windows, narrowed = self.weak_windows(pitch, wide, windows), gain
                     floor = max(floor, self.next_below(pitch, wide))
                 continue
-            pitch, gain = max(below, floor), 1.1 * gain
+            pitch, gain = max(below, floor), pace * gain
             if pitch <= self.lowest:
                 return self.lowest, self.lowest, "bound"
             if pitch <= floor:
