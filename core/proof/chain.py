@@ -129,8 +129,8 @@ def bend(theta: arb, needed: arb) -> arb:
     if not found < arb.pi():
         past = found.union(arb.pi())
         sine, cosine = past.sin_cos()
-        falls = 2 + 4 * theta * sine + 2 * theta * (theta + past) * cosine < 0
-        if not (falls and slopes(theta, found)[1] > 0):
+        # F_d > 0 at the root is what the Newton step has shown.
+        if not 2 + 4 * theta * sine + 2 * theta * (theta + past) * cosine < 0:
             raise Unproven("a next handle is not shown to be the nearest behind")
     return found
 

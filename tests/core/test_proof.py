@@ -17,11 +17,12 @@ import pytest
 import shapely
 from flint import arb, ctx
 
-from core import Dragon, Spiral, first_contact
+from core import Dragon, Spiral, bench_poses, first_contact, trajectory
 from core.errors import InvalidValue, ProofRefused
 from core.proof import Certificate, check, digest, prove_collision_time, prove_minimum_pitch
-from core.proof.chain import Chain, Pose, Unproven, bend
+from core.proof.chain import Chain, Pose, Unproven, _newton, bend
 from core.proof.sweeps import Stretch, _stays_positive
+from core.rectangles import corners
 
 ROOT = Path(__file__).parents[2]
 CONTACTS = {
@@ -138,6 +139,32 @@ def test_every_pair_in_its_own_right_proves_the_same_as_equal_benches_taken_once
     assert check(each).pair_proofs > check(once).pair_proofs
 
 
+@pytest.mark.parametrize("benches", [13, 40])
+def test_at_every_instant_every_pair_has_a_face_between_it_or_is_rings_apart(benches: int) -> None:
+    dragon, path = Dragon(benches), Spiral(0.55, 9.0)
+    time = first_contact(dragon, path).time
+    assert time
+    certificate = prove_collision_time(dragon, path, time)
+    handles = trajectory(dragon, path, np.linspace(0.0, 0.999 * time, 40)).position
+    thetas = np.hypot(*np.moveaxis(handles, -1, 0)) / path.growth
+    sizes = np.stack([dragon.lengths, dragon.widths], axis=-1)
+    for poses, places in zip(bench_poses(handles), thetas, strict=True):
+        corners_all = corners(poses, sizes)
+        radii = np.hypot(*np.moveaxis(corners_all, -1, 0)).max(axis=-1)
+        for a in range(benches - 2):
+            tiles = stretches(certificate, min(a, 1))
+            faces = next(faces for high, low, faces in tiles if low - DOUBLES <= places[a] <= high + DOUBLES)
+            for b in range(a + 2, benches):
+                if b - a - 2 < len(faces):
+                    owner, other = (a, b) if faces[b - a - 2] < "4" else (b, a)
+                    side = int(faces[b - a - 2]) % 4
+                    heading = poses[owner, 2] + side * math.pi / 2
+                    out = (corners_all[other] - poses[owner, :2]) @ [math.cos(heading), math.sin(heading)]
+                    assert out.min() > sizes[owner, side % 2] / 2
+                else:
+                    assert shapely.Polygon(corners_all[b]).distance(shapely.Point(0.0, 0.0)) > radii[a]
+
+
 def edit(change: Callable[[dict[str, Any]], Any]) -> Callable[[Certificate], Certificate]:
     """A forger's edit: the change, and a digest that fits it."""
 
@@ -170,6 +197,7 @@ FORGERIES = {
     "the first stretch dropped": (lambda c: stretches(c).pop(0), "do not join"),
     "the last stretch dropped": (lambda c: stretches(c).pop(), "short of"),
     "the last stretch of the body dropped": (lambda c: stretches(c, 1).pop(), "short of"),
+    "the first stretch of the body dropped": (lambda c: stretches(c, 1).pop(0), "do not join"),
     "a stretch that begins later": (lambda c: stretches(c)[7].__setitem__(0, stretches(c)[7][0] - 1e-9), "do not join"),
     "a stretch that ends earlier": (lambda c: stretches(c)[7].__setitem__(1, stretches(c)[7][1] + 1e-9), "do not join"),
     "one stretch for all": (one_for_all, "not proven"),
@@ -315,6 +343,14 @@ def test_there_is_no_bend_past_the_fold_and_one_beyond_pi_just_before() -> None:
     assert bend(arb("14.735"), needed) > arb.pi()
     with pytest.raises(Unproven):
         bend(arb("14.73"), needed)
+
+
+def test_a_newton_step_that_leaves_its_ball_or_finds_no_slope_proves_nothing() -> None:
+    near = arb(2.0, 1e-8)
+    assert _newton(arb(2.0), near, arb(1e-9), arb(4.0, 1e-7)).contains(2.0 - 2.5e-10)
+    for value, slope in ((arb(1e-7), arb(4.0, 1e-7)), (arb(1e-9), arb(0.0, 1e-7))):
+        with pytest.raises(Unproven):
+            _newton(arb(2.0), near, value, slope)
 
 
 def test_the_bound_on_a_stretch_never_calls_a_dip_positive() -> None:
