@@ -40,7 +40,7 @@ from core.rectangles import corners
 matplotlib.rcParams["svg.hashsalt"] = "bench-dragon"
 
 VERMILION, BLUE, GREY, PALE = "#D55E00", "#0072B2", "#7F7F7F", "#DDDDDD"
-PNG_DPI = 150
+PNG_DPI = 120
 # Beyond this many benches an SVG holds them as one picture instead of as shapes.
 SHAPES_MAX = 3_000
 # The figure of a run without contact shows the dance this long before its end [s], where the chain still exists.
@@ -319,6 +319,22 @@ def _scan(known: dict[float, float | None], jumps: list[float]) -> PitchScan:
     return PitchScan(np.array(found), np.array([known[pitch] for pitch in found]), tuple(pairwise(cuts)))
 
 
+def scan_near_minimum(
+    dragon: Dragon,
+    *,
+    turning_radius: float,
+    start_turns: float,
+    margin: float,
+    samples: int,
+    progress: Callable[[float], None] = lambda share: None,
+) -> tuple[PitchScan, MinimumPitch]:
+    """The scan from SCAN_FROM to SCAN_TO times the minimum pitch at so many samples, and that minimum."""
+    least = minimum_pitch(dragon, turning_radius=turning_radius, start_turns=start_turns, margin=margin)
+    pitches = np.linspace(SCAN_FROM * least.pitch, SCAN_TO * least.pitch, samples)
+    pitches = np.sort(np.append(pitches, least.pitch_bracket))
+    return pitch_scan(dragon, pitches, start_turns=start_turns, margin=margin, progress=progress), least
+
+
 def pitch_scan_figure(
     dragon: Dragon,
     *,
@@ -333,10 +349,10 @@ def pitch_scan_figure(
 
     samples: pitches from SCAN_FROM to SCAN_TO times the minimum pitch; jumps between them are searched for
     """
-    least = minimum_pitch(dragon, turning_radius=turning_radius, start_turns=start_turns, margin=margin)
-    pitches = np.linspace(SCAN_FROM * least.pitch, SCAN_TO * least.pitch, samples)
-    pitches = np.sort(np.append(pitches, least.pitch_bracket))
-    scan = pitch_scan(dragon, pitches, start_turns=start_turns, margin=margin, progress=progress)
+    scan, least = scan_near_minimum(
+        dragon, turning_radius=turning_radius, start_turns=start_turns, margin=margin, samples=samples, progress=progress
+    )
+    pitches = np.array([SCAN_FROM, SCAN_TO]) * least.pitch
     with _DRAWING:
         figure = _canvas(9.0, 5.6)
         axes = figure.add_subplot()

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import csv
+import doctest
 import json
 import os
 import pty
@@ -262,3 +263,9 @@ def test_help_names_every_command_and_unit() -> None:
     for name in ("trajectory", "collision-time", "minimum-pitch", "overlaps", "figures", "paper", "serve"):
         assert name in text
     assert "Radial advance of the spiral per full turn [m]" in answer_of("collision-time", "--help", COLUMNS="120")
+
+
+def test_the_python_session_of_the_readme_is_true() -> None:
+    found = doctest.testfile(str(Path(__file__).parents[2] / "README.md"), module_relative=False)
+    assert found.attempted > 5
+    assert found.failed == 0
