@@ -43,14 +43,6 @@ class TrajectoryTable(Answer):
     speed: list[list[float]] = Field(description="T rows of H [m/s]")
 
 
-class ClearanceTable(Answer):
-    """Columns: one entry per instant."""
-
-    time: list[float] = Field(description="Instants, T of them [s]")
-    clearance: list[float] = Field(description="Smallest separation of two benches that are no neighbours [m]")
-    benches: list[Pair] = Field(description="The pair that is so near")
-
-
 class Head(Answer):
     """Handle 0 at first contact."""
 
@@ -82,6 +74,24 @@ class Graze(Answer):
     time: float = Field(description="[s]")
     clearance: float = Field(description="[m]")
     benches: Pair = Field(description="The pair")
+
+
+class ClearanceTable(Answer):
+    """Columns: one entry per instant; and what lies between them."""
+
+    time: list[float] = Field(description="Instants, T of them [s]")
+    clearance: list[float] = Field(description="Smallest separation of two benches that are no neighbours [m]")
+    benches: list[Pair] = Field(description="The pair that is so near")
+    grazes: list[Graze] = Field(description="Local minima between the first and the last instant, refined")
+
+
+class PitchScanTable(Answer):
+    """Columns: one entry per pitch at which two benches touch, and where the radius jumps."""
+
+    pitch: list[float] = Field(description="Ascending [m]")
+    radius: list[float] = Field(description="Distance of the head from the centre at first contact [m]")
+    pieces: list[Pair] = Field(description="Continuous stretches, as indices [from, to) into pitch and radius")
+    minimum_pitch: float = Field(description="The minimum pitch, around which the pitches lie [m]")
 
 
 class Certificate(Answer):
@@ -248,11 +258,13 @@ class State(Answer):
 
 
 def columns_json(columns: dict[str, Any], decimals: int | None = None) -> bytes:
-    """Columns of numpy as one JSON object.
+    """Columns of numpy as one JSON object; what is no array goes in as it is.
 
     decimals: of every column but time; None writes the shortest text that reads back as the same double
     """
     for name, column in columns.items():
+        if not isinstance(column, np.ndarray):
+            continue
         # orjson writes null for NaN; a mistake of ours must be an error instead.
         assert np.isfinite(column).all(), f"{name} must be finite"
         if decimals is not None and name != "time":

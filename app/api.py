@@ -16,6 +16,7 @@ from app.answers import (
     MinimumPitch,
     OverlapsAnswer,
     PaperTable,
+    PitchScanTable,
     TrajectoryTable,
     columns_json,
 )
@@ -137,9 +138,27 @@ def minimum_pitch(reply: QueryReply, wanted: Annotated[MinimumPitchQuery, Query(
     """The smallest pitch such that every larger one lets the head reach the turning circle without contact."""
 
     def compute() -> bytes:
-        dragon, radius = wanted.to_dragon(reply.settings.benches_max), wanted.turning_diameter / 2
+        dragon, radius = wanted.to_dragon(reply.settings.design_benches_max), wanted.turning_diameter / 2
         found = core.minimum_pitch(dragon, turning_radius=radius, start_turns=wanted.start_turns, margin=wanted.margin)
         return MinimumPitch.of(found, dragon, wanted.margin).to_json()
+
+    return reply(wanted, compute)
+
+
+@router.get(**documented("/pitch-scan", PitchScanTable, QUERY_STATUSES))
+def pitch_scan(reply: QueryReply, wanted: Annotated[PitchScanQuery, Query()]) -> Response:
+    """Where the head stands at first contact, against the pitch, around the minimum pitch."""
+
+    def compute() -> bytes:
+        scan, least = figures.scan_near_minimum(
+            wanted.to_dragon(reply.settings.design_benches_max),
+            turning_radius=wanted.turning_diameter / 2,
+            start_turns=wanted.start_turns,
+            margin=wanted.margin,
+            samples=wanted.samples,
+        )
+        table = {"pitch": scan.pitch, "radius": scan.radius, "pieces": scan.pieces}
+        return columns_json(table | {"minimum_pitch": least.pitch})
 
     return reply(wanted, compute)
 
@@ -152,7 +171,8 @@ def clearance(reply: QueryReply, wanted: Annotated[ClearanceQuery, Query()]) -> 
         dragon = wanted.to_dragon(reply.settings.benches_max)
         times = wanted.to_times(dragon.benches + 1, reply.settings.cells_max)
         found = core.clearance_profile(dragon, wanted.to_path(), times, head_speed=wanted.head_speed)
-        return columns_json({"time": found.time, "clearance": found.clearance, "benches": found.benches})
+        columns = {"time": found.time, "clearance": found.clearance, "benches": found.benches}
+        return columns_json(columns | {"grazes": found.grazes})
 
     return reply(wanted, compute)
 

@@ -350,7 +350,12 @@ def pitch_scan_figure(
     samples: pitches from SCAN_FROM to SCAN_TO times the minimum pitch; jumps between them are searched for
     """
     scan, least = scan_near_minimum(
-        dragon, turning_radius=turning_radius, start_turns=start_turns, margin=margin, samples=samples, progress=progress
+        dragon,
+        turning_radius=turning_radius,
+        start_turns=start_turns,
+        margin=margin,
+        samples=samples,
+        progress=progress,
     )
     pitches = np.array([SCAN_FROM, SCAN_TO]) * least.pitch
     with _DRAWING:

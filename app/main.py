@@ -162,4 +162,5 @@ def _add_pages(app: FastAPI) -> None:
         return FileResponse(PAGE / "index.html")
 
     app.mount("/docs/assets", StaticFiles(packages=[("fastapi_swagger", "resources")]))
+    app.mount("/page/uplot", StaticFiles(packages=[("uplot", "static")]))
     app.mount("/page", StaticFiles(directory=PAGE))

@@ -1,0 +1,107 @@
+/** The answers, and for each how it is known. */
+
+import { make } from "./controls.js";
+import { benchName, handleName, say } from "./text.js";
+
+const MARKS = { contact: "✕", contact_at_start: "✕", clear: "✓", undecided: "?" };
+const millimetres = (metres) => (1000 * metres).toFixed(3);
+const pair = ([a, b], benches) => ({ a: benchName(a, benches), b: benchName(b, benches) });
+
+/** Replace what a box shows, but keep its details open. */
+function show(box, title, value, lines, known, outcome = "") {
+  const open = box.querySelector("details")?.open ?? false;
+  const details = known.length ? make("details", { open }, make("summary", { textContent: say("how") }), ...known) : null;
+  box.dataset.outcome = outcome;
+  const paragraphs = lines.map((line) => (typeof line === "string" ? make("p", { textContent: line }) : line));
+  box.replaceChildren(make("h3", { textContent: title }), make("p", { className: "value" }, value), ...paragraphs, ...(details ? [details] : []));
+}
+
+function facts(rows) {
+  const list = make("dl");
+  for (const [term, text] of rows) list.append(make("dt", { textContent: term }), make("dd", { textContent: text }));
+  return list;
+}
+
+function engines(check) {
+  if (!check) return [make("p", { textContent: say("noEngines") })];
+  const cells = (verdict) => ["before", "after"].map((when) => make("td", { textContent: say(verdict[when] ? "overlapping" : "apart") }));
+  const heads = ["engine", "before", "after"].map((key) => make("th", { scope: "col", textContent: say(key) }));
+  const rows = Object.entries(check.engines).map(([name, verdict]) => make("tr", {}, make("th", { scope: "row", textContent: say(name) }), ...cells(verdict)));
+  const words = `${say("engines")}. ${say(check.agree ? "agree" : "disagree")}`;
+  return [make("table", {}, make("caption", { textContent: words }), make("thead", {}, make("tr", {}, ...heads)), make("tbody", {}, ...rows))];
+}
+
+/** answer: of /collision-time */
+export function showFirstContact(box, answer, { benches, margin }) {
+  const { outcome, time, certificate } = answer;
+  const lines = [];
+  if (outcome.startsWith("contact")) {
+    const [x, y] = answer.point.map((one) => one.toFixed(6));
+    lines.push(say("pairMeets", { ...pair(answer.benches, benches), x, y, radius: answer.head.radius.toFixed(6) }));
+  } else if (outcome === "clear") lines.push(say("clearUntil", { time: answer.end.time.toFixed(6) }));
+  else lines.push(say("undecidedFrom", { time: answer.time_bracket[0].toFixed(9) }));
+  if (margin > 0) lines.push(say("nearMargin", { margin }));
+  const rows = [];
+  if (answer.time_bracket) {
+    const [low, high] = answer.time_bracket.map((one) => one.toFixed(10));
+    rows.push([say("bracket"), say("bracketTime", { low, high })]);
+  }
+  rows.push([say("certificate"), say("certificateSteps", { steps: certificate.steps, until: certificate.clear_until.toFixed(10) })]);
+  const least = certificate.least_clearance;
+  if (least) {
+    const values = { ...pair(least.benches, benches), gap: millimetres(least.clearance), time: least.time.toFixed(6) };
+    rows.push([say("leastBefore"), say("leastBeforeIs", values)]);
+  }
+  const method = make("p", { lang: "en", className: "method", textContent: certificate.method });
+  const value = [make("span", { className: "mark", "aria-hidden": "true", textContent: MARKS[outcome] }), say(outcome, { time: time?.toFixed(6) })];
+  show(box, say("firstContact"), make("span", {}, ...value), lines, [facts(rows), method, ...engines(answer.cross_check)], outcome);
+}
+
+/** answer: of /minimum-pitch; use(pitch) sets it */
+export function showMinimumPitch(box, answer, { benches, diameter }, use) {
+  const lines = [say("toCircle", { diameter })];
+  const names = answer.benches ? pair(answer.benches, benches) : {};
+  lines.push(say(`limited_${answer.limited_by}`, { ...names, radius: answer.head_radius?.toFixed(6) }));
+  const islands = answer.other_feasible_intervals.map(([low, high]) => `${low.toFixed(6)}–${high.toFixed(6)} m`);
+  if (islands.length) lines.push(say("islands", { list: islands.join(", ") }));
+  const button = make("button", { type: "button", textContent: say("usePitch") });
+  button.addEventListener("click", () => use(answer.pitch_bracket[1]));
+  const [low, high] = answer.pitch_bracket.map((one) => one.toFixed(10));
+  const rows = [
+    [say("bracket"), say("bracketPitch", { low, high })],
+    [say("justified"), say(`justified_${answer.justified_by}`)],
+    [say("evaluations"), answer.evaluations],
+  ];
+  show(box, say("minimumPitch"), `${answer.pitch.toFixed(9)} m`, [...lines, button], [facts(rows), ...engines(answer.cross_check)]);
+}
+
+/** table: a trajectory at evenly spaced instants over the whole dance */
+export function showHighestSpeed(box, table, { benches }) {
+  let best = { speed: -1 };
+  table.speed.forEach((row, k) =>
+    row.forEach((speed, handle) => {
+      if (speed > best.speed) best = { speed, handle, time: table.time[k] };
+    }),
+  );
+  const whose = say("whose", { name: handleName(best.handle, benches), time: best.time.toFixed(3) });
+  const known = make("p", { textContent: say("speedKnown", { count: table.time.length }) });
+  show(box, say("highest"), `${best.speed.toFixed(6)} m/s`, [whose], [known]);
+}
+
+export function showEnd(box, answer, time) {
+  const reason = answer.end?.reason ?? (answer.outcome === "undecided" ? "undecided" : "contact");
+  show(box, say("end"), `${time.toFixed(6)} s`, [say(`end_${reason}`)], [make("p", { textContent: say("endKnown") })]);
+}
+
+export function showRefusal(box, title, words) {
+  show(box, say(title), say("unanswered"), [words], []);
+}
+
+/** What stands under the enlarged view. gap: [m] between the two benches, null while unknown */
+export function insetWords({ benches: [a, b], corner, edge }, gap, benches) {
+  const named = corner && edge;
+  const words = named
+    ? say("insetMeet", { corner: say(corner.name), edge: say(edge.name), a: benchName(corner.bench, benches), b: benchName(edge.bench, benches) })
+    : `${benchName(a, benches)}, ${benchName(b, benches)}`;
+  return gap === null ? words : `${words}; ${say("gap", { gap: millimetres(gap).replace(/^-(0\.0+)$/, "$1") })}`;
+}

@@ -1,0 +1,152 @@
+/** What the page asks the service, and when: first contact and the pose at once, the rest when the hand rests. */
+
+import { Problem, Superseded } from "./api.js";
+import { DRAGON } from "./state.js";
+import { Track } from "./track.js";
+
+/** A hand rests when nothing changed for so long [ms]. */
+const REST = 250;
+const CLEARANCE_SAMPLES = 400;
+/** Instants looked at for the highest speed, and how many numbers they may be. */
+const [OVERVIEW_INSTANTS, OVERVIEW_CELLS] = [101, 60_000];
+/** The end of a run is a fold, where the chain is about to break: shown is the instant this long before [s]. */
+const BEFORE_END = 1e-6;
+/** The path is sampled every so many metres, or in so many samples when it is long. */
+const [PATH_STEP, PATH_SAMPLES] = [0.3, 6_000];
+
+const MOTION = [...DRAGON, "pitch", "start_turns", "head_speed"];
+const LIMITS = [...DRAGON, "turning_diameter", "start_turns", "margin"];
+
+/** The last instant that is shown: first contact, or as far as nothing touches. */
+function lastInstant({ time, time_bracket, end }) {
+  return time ?? (end ? end.time - BEFORE_END : time_bracket[0]);
+}
+
+/** Events: each answer by its kind, `refused` when a channel's refusal came or went; errors: name -> words. */
+export class Questions extends EventTarget {
+  dance = null;
+  answers = {};
+  refusals = new Map();
+  #rest = 0;
+  #asked = new Map();
+
+  constructor(service, state) {
+    super();
+    Object.assign(this, { service, state });
+  }
+
+  /** Everything that depends on the numbers of the state. */
+  async refresh() {
+    clearTimeout(this.#rest);
+    this.#rest = setTimeout(() => this.#refreshSlow(), REST);
+    const query = this.state.texts([...MOTION, "margin"]);
+    if (!this.#isNew("contact", query)) return;
+    const answer = await this.#answer("contact", "collision-time", { query });
+    if (answer) this.#accept(answer, query);
+  }
+
+  /** Body of a request about the dance that is shown. */
+  body(more) {
+    const { numbers } = this.dance;
+    const dragon = Object.fromEntries(DRAGON.map((name) => [name, numbers[name]]));
+    const path = { kind: "spiral", pitch: numbers.pitch, start_turns: numbers.start_turns };
+    return { dragon, path, head_speed: numbers.head_speed, ...more };
+  }
+
+  /** The service's own numbers at one instant. */
+  async pose(time) {
+    const { dance } = this;
+    const table = await this.#answer("pose", "trajectory", { body: this.body({ times: [time] }) });
+    if (!table || dance !== this.dance) return;
+    this.#tell("pose", { time, dance, x: table.x[0], y: table.y[0], speed: table.speed[0] });
+  }
+
+  errors() {
+    return new Map([...this.refusals.values()].flatMap(({ errors }) => errors.map((one) => [(one.name ?? one.pointer).split("/").at(-1), one.detail])));
+  }
+
+  #accept(answer, query) {
+    const numbers = Object.fromEntries(Object.entries(query).map(([name, text]) => [name, Number(text)]));
+    if (this.dance?.track) this.dance.track.stopped = true;
+    this.dance = { answer, numbers, query, end: lastInstant(answer), track: null, gap: null };
+    this.#tell("dance", this.dance);
+    this.#askPath();
+  }
+
+  /** The head's way from behind the tail to the end: one bench dances it alone. */
+  async #askPath() {
+    const { numbers, end } = this.dance;
+    // Lengths exceed chords by more than chords fall short of the arc, so this reaches behind the tail.
+    const behind = (numbers.head_length + numbers.benches * numbers.body_length) / numbers.head_speed;
+    const step = Math.max(PATH_STEP / numbers.head_speed, (end + behind) / PATH_SAMPLES);
+    const body = this.body({ times: { start: -behind, stop: end, step }, decimals: 4 });
+    body.dragon = { ...body.dragon, benches: 1 };
+    const table = await this.#answer("path", "trajectory", { body });
+    if (table) this.#tell("path", { x: table.x.map((row) => row[0]), y: table.y.map((row) => row[0]) });
+  }
+
+  async #refreshSlow() {
+    const limits = this.state.texts(LIMITS);
+    if (this.#isNew("minimum", limits)) this.#keep("minimum", "minimum-pitch", { query: limits });
+    if (this.#isNew("scan", limits)) this.#keep("scan", "pitch-scan", { query: limits });
+    const { dance } = this;
+    if (!dance || dance.track) return;
+    this.#startTrack(dance);
+    this.#askGap(dance);
+    const motion = Object.fromEntries(MOTION.map((name) => [name, dance.query[name]]));
+    this.#keep("clearance", "clearance", { query: { ...motion, start: 0, stop: dance.end, step: dance.end / CLEARANCE_SAMPLES || 1 } }, dance);
+    const instants = Math.min(OVERVIEW_INSTANTS, Math.max(5, Math.floor(OVERVIEW_CELLS / (dance.numbers.benches + 1))));
+    const times = Array.from({ length: instants }, (_, k) => (dance.end * k) / (instants - 1));
+    this.#keep("overview", "trajectory", { body: this.body({ times, decimals: 9 }) }, dance);
+  }
+
+  #startTrack(dance) {
+    const ask = (chunk, times, decimals) => this.service.ask(`track ${chunk}`, "trajectory", { body: this.body({ times, decimals }) });
+    const ready = () => dance === this.dance && this.#tell("track", dance);
+    dance.track = new Track(ask, [0, dance.end], dance.numbers.benches + 1, dance.numbers.head_speed, ready);
+    this.#tell("track", dance);
+  }
+
+  /** The gap of the two benches at first contact. */
+  async #askGap(dance) {
+    if (dance.answer.time === null) return;
+    const { margin, ...query } = dance.query;
+    const table = await this.#answer("gap", "clearance", { query: { ...query, start: dance.end, stop: dance.end } });
+    if (!table) return;
+    dance.gap = table.clearance[0];
+    this.#tell("gap", dance);
+  }
+
+  async #keep(kind, path, question, dance = null) {
+    const answer = await this.#answer(kind, path, question);
+    if (!answer) return;
+    this.answers[kind] = { answer, dance, query: question.query };
+    this.#tell(kind, this.answers[kind]);
+  }
+
+  #isNew(kind, query) {
+    const key = JSON.stringify(query);
+    if (this.#asked.get(kind) === key) return false;
+    this.#asked.set(kind, key);
+    return true;
+  }
+
+  /** The answer, or undefined when it was refused or superseded. */
+  async #answer(channel, path, question) {
+    try {
+      const answer = await this.service.ask(channel, path, question);
+      if (this.refusals.delete(channel)) this.#tell("refused", channel);
+      return answer;
+    } catch (error) {
+      if (error instanceof Superseded) return undefined;
+      if (!(error instanceof Problem)) throw error;
+      this.refusals.set(channel, error);
+      this.#tell("refused", channel);
+      return undefined;
+    }
+  }
+
+  #tell(type, detail) {
+    this.dispatchEvent(new CustomEvent(type, { detail }));
+  }
+}

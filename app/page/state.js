@@ -1,0 +1,92 @@
+/** The whole state of the page, and its address: what is not at its default stands in the query. */
+
+/**
+ * The numbers a person may set. Limits are the service's own and come from its OpenAPI document; `slider` is the range
+ * that a hand finds useful: [from, to, step].
+ */
+export const FIELDS = [
+  { name: "pitch", value: "0.55", unit: "m", group: "path", slider: [0.3, 1, 0.001] },
+  { name: "start_turns", value: "16", unit: "turns", group: "path", slider: [4, 40, 0.5] },
+  { name: "turning_diameter", value: "9", unit: "m", group: "path", slider: [2, 16, 0.1] },
+  { name: "benches", value: "223", unit: "", group: "dragon", slider: [1, 400, 1] },
+  { name: "head_length", value: "3.41", unit: "m", group: "dragon", slider: [1, 6, 0.01] },
+  { name: "body_length", value: "2.2", unit: "m", group: "dragon", slider: [1, 4, 0.01] },
+  { name: "width", value: "0.3", unit: "m", group: "dragon", slider: [0.05, 0.6, 0.005] },
+  { name: "overhang", value: "0.275", unit: "m", group: "dragon", slider: [0, 0.45, 0.005] },
+  { name: "head_speed", value: "1", unit: "m/s", group: "motion", slider: [0.1, 3, 0.05] },
+  { name: "margin", value: "0", unit: "m", group: "motion", slider: [0, 0.2, 0.005] },
+];
+
+export const DRAGON = ["benches", "head_length", "body_length", "width", "overhang"];
+export const RATES = [1, 2, 5, 10, 20, 50];
+
+const NUMBERS = Object.fromEntries(FIELDS.map((field) => [field.name, field.value]));
+/** time: null is the end of the dance; view: [x, y, pixels per metre], null shows the whole path. */
+const DEFAULTS = { ...NUMBERS, path: "spiral", time: null, rate: 20, follow: false, handle: null, view: null, lang: null };
+
+const READ = {
+  time: finite,
+  rate: (text) => (RATES.includes(Number(text)) ? Number(text) : DEFAULTS.rate),
+  follow: (text) => text === "true",
+  handle: (text) => (/^\d+$/.test(text) ? Number(text) : null),
+  view: (text) => {
+    const numbers = text.split(",").map(Number);
+    return numbers.length === 3 && numbers.every(Number.isFinite) && numbers[2] > 0 ? numbers : null;
+  },
+  lang: (text) => (["en", "zh"].includes(text) ? text : null),
+  path: (text) => (["spiral", "turn"].includes(text) ? text : DEFAULTS.path),
+};
+
+function finite(text) {
+  return text.trim() !== "" && Number.isFinite(Number(text)) ? Number(text) : null;
+}
+
+/** Tells its listeners `change` with the set of names that changed; writes the address soon after. */
+export class State extends EventTarget {
+  #values = { ...DEFAULTS };
+  #writing = 0;
+
+  constructor(address = location.search) {
+    super();
+    for (const [name, text] of new URLSearchParams(address)) {
+      if (name in DEFAULTS) this.#values[name] = (READ[name] ?? String)(text);
+    }
+  }
+
+  get(name) {
+    return this.#values[name];
+  }
+
+  /** The numbers of these names as a person wrote them. */
+  texts(names) {
+    return Object.fromEntries(names.map((name) => [name, this.#values[name]]));
+  }
+
+  set(changes) {
+    const names = Object.keys(changes).filter((name) => changes[name] !== this.#values[name]);
+    if (!names.length) return;
+    Object.assign(this.#values, changes);
+    // Browsers refuse more than a few changes of the address per second.
+    this.#writing ||= setTimeout(() => this.write(), 300);
+    this.dispatchEvent(new CustomEvent("change", { detail: new Set(names) }));
+  }
+
+  reset(names = Object.keys(NUMBERS)) {
+    this.set(Object.fromEntries(names.map((name) => [name, DEFAULTS[name]])));
+  }
+
+  address() {
+    const query = new URLSearchParams();
+    for (const [name, value] of Object.entries(this.#values)) {
+      if (value !== DEFAULTS[name]) query.set(name, name === "view" ? value.map((one) => +one.toPrecision(6)) : value);
+    }
+    const text = query.toString().replaceAll("%2C", ",");
+    return location.origin + location.pathname + (text && `?${text}`);
+  }
+
+  write() {
+    clearTimeout(this.#writing);
+    this.#writing = 0;
+    history.replaceState(null, "", this.address());
+  }
+}

@@ -1,0 +1,77 @@
+/** Handles at one instant: of thousands of rows only those in sight are made. */
+
+import { make } from "./controls.js";
+import { handleName } from "./text.js";
+
+const ROW = 30;
+const SPARE = 6;
+const DECIMALS = 6;
+
+export class Table {
+  #pose = null;
+  #handle = null;
+  #queued = false;
+
+  /** chosen(handle): a person chose a row */
+  constructor(box, chosen) {
+    Object.assign(this, { box, chosen, body: box.querySelector("tbody"), table: box.querySelector("table") });
+    box.addEventListener("scroll", () => this.#queue());
+    box.addEventListener("keydown", (event) => this.#key(event));
+    this.body.addEventListener("click", (event) => {
+      const row = event.target.closest("tr[data-handle]");
+      if (row) chosen(Number(row.dataset.handle));
+    });
+    new ResizeObserver(() => this.#queue()).observe(box);
+  }
+
+  show(pose) {
+    this.#pose = pose;
+    this.#queue();
+  }
+
+  select(handle) {
+    if (handle === this.#handle) return;
+    this.#handle = handle;
+    if (handle !== null && this.#pose) {
+      const [top, sight] = [handle * ROW, this.box.clientHeight - 2 * ROW];
+      if (top < this.box.scrollTop || top > this.box.scrollTop + sight) this.box.scrollTop = top - sight / 2;
+    }
+    this.#queue();
+  }
+
+  #key(event) {
+    const step = { ArrowDown: 1, ArrowUp: -1, PageDown: 10, PageUp: -10 }[event.key];
+    if (!step || !this.#pose) return;
+    event.preventDefault();
+    const from = this.#handle ?? (step > 0 ? -1 : 0);
+    this.chosen(Math.min(Math.max(from + step, 0), this.#pose.x.length - 1));
+  }
+
+  #queue() {
+    if (!this.#queued) requestAnimationFrame(() => this.#render());
+    this.#queued = true;
+  }
+
+  #render() {
+    this.#queued = false;
+    if (!this.#pose) return;
+    const { x, y, speed } = this.#pose;
+    const first = Math.max(0, Math.floor(this.box.scrollTop / ROW) - SPARE);
+    const last = Math.min(x.length, first + Math.ceil(this.box.clientHeight / ROW) + 2 * SPARE);
+    const rows = [];
+    for (let k = first; k < last; k++) {
+      const cells = [x[k], y[k], speed[k]].map((one) => make("td", { textContent: one.toFixed(DECIMALS) }));
+      const name = make("th", { scope: "row", textContent: `${k} · ${handleName(k, x.length - 1)}` });
+      rows.push(make("tr", { "data-handle": k, "aria-rowindex": k + 2, className: k === this.#handle ? "chosen" : "" }, name, ...cells));
+    }
+    this.table.setAttribute("aria-rowcount", x.length + 1);
+    this.body.replaceChildren(spacer(first), ...rows, spacer(x.length - last));
+  }
+}
+
+function spacer(rows) {
+  const row = make("tr", { "aria-hidden": "true" }, make("td", { colSpan: 4, className: "spacer" }));
+  row.firstChild.style.height = `${rows * ROW}px`;
+  row.hidden = rows <= 0;
+  return row;
+}

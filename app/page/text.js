@@ -1,0 +1,192 @@
+/** Every word of the page in English and in Simplified Chinese, with the terms of the contest. */
+
+const WORDS = {
+  title: ["Bench Dragon", "板凳龙"],
+  tagline: ["Where is everyone, when do two benches first touch, how tight may the spiral be?", "每节板凳在哪里、何时首次碰撞、螺线能盘多紧？"],
+  skip: ["Skip to the dance", "跳到舞龙画面"],
+  language: ["Language", "语言"],
+  share: ["Copy link", "复制链接"],
+  copied: ["Copied", "已复制"],
+  copyFailed: ["The browser did not allow copying", "浏览器不允许复制"],
+  allCalls: ["All calls", "全部接口"],
+  noscript: ["This page needs JavaScript.", "本页需要 JavaScript。"],
+  loading: ["Asking the service…", "正在向服务请求……"],
+  lost: ["The service does not answer. What you see is kept; next try in {seconds} s.", "服务没有响应。画面保持不变，{seconds} 秒后重试。"],
+  retry: ["Try now", "立即重试"],
+  back: ["The service is back.", "服务已恢复。"],
+
+  dance: ["The dance", "舞龙"],
+  danceHelp: ["Picture of the dragon. Arrow keys pan, plus and minus zoom, 0 shows all, F follows the head, [ and ] choose a handle, space plays.", "舞龙画面。方向键平移，加减号缩放，0 显示全部，F 跟随龙头，[ 和 ] 选择把手，空格播放。"],
+  play: ["Play", "播放"],
+  pause: ["Pause", "暂停"],
+  stepBack: ["One second back", "后退一秒"],
+  stepOn: ["One second on", "前进一秒"],
+  time: ["Time", "时间"],
+  toEnd: ["To the end", "到终点"],
+  rate: ["Speed of play", "播放速度"],
+  zoomIn: ["Zoom in", "放大"],
+  zoomOut: ["Zoom out", "缩小"],
+  showAll: ["Show all", "显示全部"],
+  follow: ["Follow the head", "跟随龙头"],
+  legend: ["Speed of the handles now", "当前把手速度"],
+  allEqual: ["all equal", "全部相等"],
+  insetTitle: ["Where they meet", "碰撞处放大"],
+  insetMeet: ["{corner} of {a} meets {edge} of {b}", "{a}的{corner}碰到{b}的{edge}"],
+  gap: ["gap {gap} mm", "间距 {gap} mm"],
+
+  controls: ["The dragon and its path", "舞龙队与路径"],
+  path: ["Path", "路径"],
+  dragon: ["Dragon", "板凳龙"],
+  motion: ["Motion", "运动"],
+  pitch: ["Pitch", "螺距"],
+  start_turns: ["Start", "起始圈数"],
+  turning_diameter: ["Turning circle, diameter", "调头空间直径"],
+  benches: ["Benches", "板凳节数"],
+  head_length: ["Length of the head", "龙头板长"],
+  body_length: ["Length of a body bench", "龙身板长"],
+  width: ["Width", "板宽"],
+  overhang: ["Handle to bench end", "孔心距板头"],
+  head_speed: ["Speed of the head", "龙头速度"],
+  margin: ["Margin", "安全间距"],
+  turns: ["turns", "圈"],
+  limits: ["{low} to {high}", "{low} 至 {high}"],
+  reset: ["Reset {name}", "重置{name}"],
+  resetAll: ["Reset all", "全部重置"],
+  slider: ["{name}, slider", "{name}，滑块"],
+  spiral: ["Spiral", "螺线"],
+  turn: ["Turn", "调头"],
+
+  answers: ["The answers", "结果"],
+  firstContact: ["First contact", "首次碰撞"],
+  contact: ["Contact at {time} s", "{time} s 时碰撞"],
+  contact_at_start: ["Touching already at the start", "起始时已经碰撞"],
+  clear: ["Nothing touches", "全程无碰撞"],
+  undecided: ["Undecided", "无法判定"],
+  nearMargin: ["Nearer than {margin} m counts as touching.", "间距小于 {margin} m 即视为碰撞。"],
+  pairMeets: ["{a} and {b} meet at ({x}, {y}) m; the head is {radius} m from the centre.", "{a}与{b}在 ({x}, {y}) m 处相碰，此时龙头距中心 {radius} m。"],
+  clearUntil: ["Not one pair of benches touches before the run ends at {time} s.", "直到 {time} s 运动结束，没有任何两节板凳相碰。"],
+  undecidedFrom: ["Proven clear up to {time} s; not decided after that.", "已证明 {time} s 之前无碰撞，其后无法判定。"],
+  minimumPitch: ["Minimum pitch", "最小螺距"],
+  usePitch: ["Use this pitch", "采用此螺距"],
+  toCircle: ["The head reaches the turning circle of {diameter} m without contact at every larger pitch.", "螺距大于此值时，龙头都能无碰撞地到达直径 {diameter} m 的调头空间。"],
+  limited_graze: ["Limited by {a} and {b} grazing on the way, head at radius {radius} m.", "受限于途中{a}与{b}擦碰，此时龙头半径 {radius} m。"],
+  limited_circle: ["Limited by {a} and {b} meeting just as the head is on the circle, radius {radius} m.", "受限于龙头到达调头空间边界（半径 {radius} m）时{a}与{b}相碰。"],
+  limited_start: ["Limited by the start: at a smaller pitch the dance starts inside the circle or touching.", "受限于起点：螺距更小时，起点已在圆内或已相碰。"],
+  islands: ["Smaller pitches that also work: {list}", "另外可行的更小螺距：{list}"],
+  highest: ["Highest speed", "最高速度"],
+  whose: ["{name}, at {time} s", "{name}，{time} s"],
+  end: ["End of the run", "运动终点"],
+  end_contact: ["The dance stops at the first contact.", "在首次碰撞时停止。"],
+  end_fold: ["A bench cannot follow any more: the chain folds.", "板凳无法继续跟随：队伍折叠。"],
+  end_centre: ["The head is at the centre.", "龙头到达中心。"],
+  end_undecided: ["The dance is shown as far as it is proven clear.", "画面到已证明无碰撞处为止。"],
+  how: ["How it is known", "依据"],
+  bracket: ["Bracket", "区间"],
+  bracketTime: ["clear up to {low} s, overlapping at {high} s", "{low} s 前无碰撞，{high} s 时重叠"],
+  bracketPitch: ["infeasible at {low} m, feasible at {high} m", "{low} m 不可行，{high} m 可行"],
+  certificate: ["Certificate", "证明"],
+  certificateSteps: ["{steps} proven steps; nothing touches up to {until} s", "{steps} 个已证明的步；{until} s 之前无碰撞"],
+  leastBefore: ["Narrowest graze", "最险擦过"],
+  leastBeforeIs: ["{gap} mm between {a} and {b} at {time} s", "{time} s 时{a}与{b}相距 {gap} mm"],
+  justified: ["Every larger pitch", "更大螺距"],
+  justified_bound: ["feasible by a proven bound", "由已证明的界保证可行"],
+  justified_scan: ["feasible by a scan", "由扫描确认可行"],
+  evaluations: ["Poses examined", "检验的位形数"],
+  engines: ["Four engines", "四种算法"],
+  engine: ["Engine", "算法"],
+  before: ["just before", "之前"],
+  after: ["just after", "之后"],
+  apart: ["apart", "分离"],
+  overlapping: ["overlapping", "重叠"],
+  agree: ["They agree.", "结论一致。"],
+  disagree: ["They differ.", "结论不一致。"],
+  noEngines: ["No pair to cross-check.", "没有需要交叉检验的板凳对。"],
+  separating_axis: ["separating axis", "分离轴"],
+  fcl: ["FCL", "FCL"],
+  shapely: ["shapely", "shapely"],
+  angle_sum: ["angle sum (paper)", "角度和（论文）"],
+  speedKnown: ["Largest of {count} evenly spaced instants, each exact; between them speeds are not examined.", "取 {count} 个等间隔时刻（各时刻精确）中的最大值；时刻之间未检验。"],
+  endKnown: ["From the same search as the first contact.", "与首次碰撞出自同一次搜索。"],
+  unanswered: ["No answer", "没有结果"],
+
+  charts: ["Charts", "图表"],
+  clearance: ["Clearance over time", "间距随时间的变化"],
+  clearanceHelp: ["Smallest gap between two benches that share no handle. Click or drag to move the dance.", "不共用把手的两节板凳之间的最小间距。点击或拖动可移动时间。"],
+  clearanceAt: ["{time} s: {gap} mm, {a} and {b}", "{time} s：{gap} mm，{a}与{b}"],
+  clearanceAxis: ["clearance [mm]", "间距 [mm]"],
+  timeAxis: ["time [s]", "时间 [s]"],
+  graze: ["graze", "擦过"],
+  touch: ["first contact", "首次碰撞"],
+  scan: ["Where the head stops, against the pitch", "首次碰撞时龙头半径与螺距"],
+  scanHelp: ["Radius of the head at first contact; the curve jumps. Click to set the pitch.", "首次碰撞时龙头的半径，曲线有跳跃。点击可设定螺距。"],
+  scanAt: ["pitch {pitch} m: the head stops at {radius} m", "螺距 {pitch} m：龙头停在 {radius} m"],
+  pitchAxis: ["pitch [m]", "螺距 [m]"],
+  radiusAxis: ["radius [m]", "半径 [m]"],
+  circle: ["turning circle", "调头空间"],
+  least: ["minimum pitch", "最小螺距"],
+  current: ["your pitch", "当前螺距"],
+
+  table: ["Handles", "把手"],
+  tableAt: ["at {time} s", "{time} s 时"],
+  tableHelp: ["Choose a handle here or in the picture. Arrow keys move the choice.", "在此处或画面中选择把手，方向键可移动选择。"],
+  handle: ["Handle", "把手"],
+  speed: ["speed [m/s]", "速度 [m/s]"],
+  keep: ["Keep", "保存"],
+  csv: ["Trajectory, CSV", "轨迹 CSV"],
+  png: ["Picture, PNG", "画面 PNG"],
+  figure: ["Figure, SVG", "插图 SVG"],
+  json: ["Answer, JSON", "结果 JSON"],
+  curl: ["The same from a terminal", "在终端中得到同样结果"],
+  copyCurl: ["Copy command", "复制命令"],
+  saved: ["Saved {name}", "已保存 {name}"],
+
+  head: ["head", "龙头"],
+  body: ["body {k}", "第{k}节龙身"],
+  tail: ["tail", "龙尾"],
+  tailRear: ["tail (rear)", "龙尾（后）"],
+  bench: ["{name} (bench {k})", "{name}（{k} 号）"],
+  "front-outer": ["front outer corner", "前外角"],
+  "front-inner": ["front inner corner", "前内角"],
+  "rear-outer": ["rear outer corner", "后外角"],
+  "rear-inner": ["rear inner corner", "后内角"],
+  front: ["front edge", "前边"],
+  rear: ["rear edge", "后边"],
+  outer: ["outer edge", "外边"],
+  inner: ["inner edge", "内边"],
+};
+
+let column = 0;
+
+/** en or zh: the choice, else what the browser prefers. */
+export function setLanguage(choice) {
+  const language = choice ?? (navigator.language.toLowerCase().startsWith("zh") ? "zh" : "en");
+  column = language === "zh" ? 1 : 0;
+  document.documentElement.lang = language === "zh" ? "zh-Hans" : "en";
+  document.title = say("title");
+  for (const element of document.querySelectorAll("[data-text]")) element.textContent = say(element.dataset.text);
+  for (const element of document.querySelectorAll("[data-label]")) {
+    element.setAttribute("aria-label", say(element.dataset.label));
+    if (element.tagName === "BUTTON") element.title = say(element.dataset.label);
+  }
+  return language;
+}
+
+/** The word of this key, with {names} replaced. */
+export function say(key, values = {}) {
+  return WORDS[key][column].replace(/\{(\w+)\}/g, (_, name) => values[name]);
+}
+
+export function has(key) {
+  return key in WORDS;
+}
+
+/** Handle k of a dragon with so many benches, by the bench that it leads. */
+export function handleName(k, benches) {
+  if (k === 0) return say("head");
+  if (k === benches) return say("tailRear");
+  return k === benches - 1 ? say("tail") : say("body", { k });
+}
+
+export function benchName(k, benches) {
+  return say("bench", { name: handleName(k, benches), k });
+}

@@ -1,0 +1,115 @@
+/** From metres to pixels: pan, zoom, pinch and keys on a canvas. y points up in the world and down on the screen. */
+
+const ZOOM_STEP = 1.25;
+const PAN_STEP = 60;
+const CLICK_TRAVEL = 5;
+const [SCALE_MIN, SCALE_MAX] = [0.05, 20_000];
+const PADDING = 24;
+
+export class View {
+  #pointers = new Map();
+  #travel = 0;
+
+  /** moved(): the view is another one; clicked(x, y): in pixels of the canvas */
+  constructor(canvas, { moved, clicked }) {
+    Object.assign(this, { canvas, moved, clicked, x: 0, y: 0, scale: 20, fitted: true });
+    canvas.addEventListener("wheel", (event) => this.#wheel(event), { passive: false });
+    canvas.addEventListener("pointerdown", (event) => this.#down(event));
+    canvas.addEventListener("pointermove", (event) => this.#move(event));
+    for (const type of ["pointerup", "pointercancel"]) canvas.addEventListener(type, (event) => this.#up(event));
+  }
+
+  get width() {
+    return this.canvas.clientWidth;
+  }
+
+  get height() {
+    return this.canvas.clientHeight;
+  }
+
+  toScreen(x, y) {
+    return [this.width / 2 + (x - this.x) * this.scale, this.height / 2 - (y - this.y) * this.scale];
+  }
+
+  /** Let the context draw in metres. */
+  apply(context) {
+    const ratio = this.canvas.width / this.width;
+    const [dx, dy] = this.toScreen(0, 0);
+    context.setTransform(ratio * this.scale, 0, 0, -ratio * this.scale, ratio * dx, ratio * dy);
+  }
+
+  /** Show these bounds [x min, y min, x max, y max] whole. */
+  fit([left, bottom, right, top]) {
+    const [wide, high] = [this.width - 2 * PADDING, this.height - 2 * PADDING];
+    this.#to((left + right) / 2, (bottom + top) / 2, Math.min(wide / (right - left), high / (top - bottom)));
+    this.fitted = true;
+  }
+
+  set(x, y, scale = this.scale) {
+    this.#to(x, y, scale);
+    this.fitted = false;
+  }
+
+  zoom(factor, px = this.width / 2, py = this.height / 2) {
+    const scale = Math.min(Math.max(this.scale * factor, SCALE_MIN), SCALE_MAX);
+    const gain = 1 / this.scale - 1 / scale;
+    this.set(this.x + (px - this.width / 2) * gain, this.y - (py - this.height / 2) * gain, scale);
+    this.moved();
+  }
+
+  pan(dx, dy) {
+    this.set(this.x - dx / this.scale, this.y + dy / this.scale);
+    this.moved();
+  }
+
+  /** True when the key was one of the view's. */
+  key(key) {
+    const arrows = { ArrowLeft: [1, 0], ArrowRight: [-1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
+    if (arrows[key]) this.pan(...arrows[key].map((way) => way * PAN_STEP));
+    else if (key === "+" || key === "=") this.zoom(ZOOM_STEP);
+    else if (key === "-") this.zoom(1 / ZOOM_STEP);
+    else return false;
+    return true;
+  }
+
+  #to(x, y, scale) {
+    Object.assign(this, { x, y, scale: Math.min(Math.max(scale, SCALE_MIN), SCALE_MAX) });
+  }
+
+  #place(event) {
+    const box = this.canvas.getBoundingClientRect();
+    return [event.clientX - box.left, event.clientY - box.top];
+  }
+
+  #wheel(event) {
+    event.preventDefault();
+    this.zoom(Math.exp(-event.deltaY * (event.deltaMode ? 0.05 : 0.0015)), ...this.#place(event));
+  }
+
+  #down(event) {
+    this.canvas.setPointerCapture(event.pointerId);
+    if (!this.#pointers.size) this.#travel = 0;
+    this.#pointers.set(event.pointerId, this.#place(event));
+  }
+
+  #move(event) {
+    const before = this.#pointers.get(event.pointerId);
+    if (!before) return;
+    const now = this.#place(event);
+    const [dx, dy] = [now[0] - before[0], now[1] - before[1]];
+    this.#travel += Math.hypot(dx, dy);
+    this.#pointers.set(event.pointerId, now);
+    if (this.#travel < CLICK_TRAVEL) return;
+    const other = [...this.#pointers].find(([id]) => id !== event.pointerId)?.[1];
+    if (!other) return this.pan(dx, dy);
+    const spread = (point) => Math.hypot(point[0] - other[0], point[1] - other[1]) || 1;
+    this.zoom(spread(now) / spread(before), (now[0] + other[0]) / 2, (now[1] + other[1]) / 2);
+    this.pan(dx / 2, dy / 2);
+  }
+
+  #up(event) {
+    const place = this.#pointers.get(event.pointerId);
+    this.#pointers.delete(event.pointerId);
+    if (place && event.type === "pointerup" && this.#travel < CLICK_TRAVEL) this.clicked(...place);
+  }
+}
