@@ -17,12 +17,14 @@ from dataclasses import dataclass
 from enum import StrEnum
 
 import numpy as np
+from numpy.typing import NDArray
 
 from core import kernels
 from core.dragon import Dragon, Floats, checked_number
 from core.errors import InvalidValue
-from core.kinematics import EndReason, RunEnd, checked_head_speed, checked_times, run_end
+from core.kinematics import EndReason, RunEnd, checked_head_speed, checked_span, checked_times, run_end
 from core.paths import Spiral
+from core.route import Route
 
 MARGIN_MAX = 1e4  # [m]
 # Steps after which a search gives up as undecided; the default case takes about a hundred.
@@ -33,6 +35,10 @@ BRACKET = 1e-10
 BRACKET_MIN = 2e-11
 # The same where benches meet so slowly that rounding hides the gap that near: still 1e-9 s in all [m of head travel].
 BRACKET_GRAZING = 4.9e-10
+# No radius is known to be clear [m].
+NO_BOUND = 1e300
+# A spiral is no route.
+NO_PIECES = np.empty((0, kernels.PIECE_COLUMNS))
 # The kernels' word for a run without a graze [m].
 NO_GRAZE = 1e300
 # The last stretch before a fold, where handle speeds grow without bound: dismissed by a bound on the motion left [m].
@@ -58,9 +64,9 @@ class Outcome(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class HeadState:
-    """Handle 0 at one instant: theta [rad, unwrapped], radius [m], x [m], y [m]."""
+    """Handle 0 at one instant: theta [rad, unwrapped; None off a spiral], radius from the origin [m], x [m], y [m]."""
 
-    theta: float
+    theta: float | None
     radius: float
     x: float
     y: float
@@ -147,22 +153,23 @@ CORNERS = (
 EDGES = (("front", "inner", "rear", "outer"), ("front", "outer", "rear", "inner"))
 
 
-class SpiralSearch:
-    """The arrays that the kernels need for one dragon, and the spiral and margin they are used for now.
+class Search:
+    """The arrays that the kernels need for one dragon, and the path and margin they are used for now.
 
     extremes: longest and shortest chord, longest overhang, half width of all benches, chord and half width of those that
         can be the outer of a pair [m]; ring: the same for the kernels, see RING_... there
-    sizes: (rows, 4) of the leading benches
-    clear_radius: no pair whose inner bench leads at this radius or further out comes within the margin [m]
+    sizes: (rows, 4) of the leading benches; statics: edges at rest, as chain rows beyond the last handle's (routes only)
+    clear_radius: on a spiral, no pair whose inner bench leads at this radius or further out comes within the margin [m]
+    place: what the kernels count places from, at time 0: arc length from the centre of a spiral, minus s on a route [m]
     """
 
-    path: Spiral
     margin: float
     clear_radius: float
     rounding: float
 
-    def __init__(self, dragon: Dragon, path: Spiral, margin: float) -> None:
+    def __init__(self, dragon: Dragon, path: Spiral | Route, margin: float, edges: Floats | None = None) -> None:
         self.dragon = dragon
+        self.edges = np.empty((0, 4)) if edges is None else edges
         alike = dragon.uniform_from
         chords, half_widths = dragon.chords[: alike + 1], 0.5 * dragon.widths[: alike + 1]
         overhangs = dragon.overhangs[: alike + 1]
@@ -179,29 +186,47 @@ class SpiralSearch:
         ring = (0.0, outer_chord, chords[outer].min(), overhangs[outer].max(), outer_half_width)
         self.ring = np.array([*ring, longest, overhang, half_width])
         self.longest = float(dragon.lengths[: alike + 1].max())
-        self.resize(min(dragon.benches, 255))
+        self.resize(dragon.benches if isinstance(path, Route) else min(dragon.benches, 255))
         self.use(path, margin)
 
-    def use(self, path: Spiral, margin: float) -> None:
-        """Turn to another spiral or margin."""
+    def use(self, path: Spiral | Route, margin: float) -> None:
+        """Turn to another path or margin."""
         self.path, self.margin = path, margin
-        self.clear_radius = self.ring[0] = self._clear_radius()
-        largest = min(path.growth * path.start_theta, self.clear_radius) + 2.0 * self.longest
-        self.rounding = GAP_ROUNDING * largest
+        if isinstance(path, Route):
+            self.growth, self.pieces, self.place = 1.0, path.table, 0.0
+            self.clear_radius = NO_BOUND
+            largest = float(np.abs(path.table[:, 5:7]).max()) + path.end - path.begin
+        else:
+            self.growth, self.pieces, self.place = path.growth, NO_PIECES, path.length
+            self.clear_radius = self._clear_radius()
+            largest = min(path.growth * path.start_theta, self.clear_radius)
+        self.ring[0] = self.clear_radius
+        self.rounding = GAP_ROUNDING * (largest + 2.0 * self.longest)
 
     def resize(self, benches: int) -> None:
-        """Room for so many leading benches."""
-        dragon = self.dragon
+        """Room for so many leading benches, and the edges at rest after the row of the last handle."""
+        dragon, edges = self.dragon, self.edges
         lengths, widths = dragon.lengths[:benches], dragon.widths[:benches]
         columns = [dragon.chords[:benches], 0.5 * lengths, 0.5 * widths, 0.5 * np.hypot(lengths, widths)]
-        self.sizes = np.stack(columns, axis=1)
-        self.rows = np.empty((4, benches + 1, kernels.CHAIN_COLUMNS))
-        self.motion = np.empty((benches + 1, kernels.MOTION_COLUMNS))
+        self.sizes = np.zeros((benches + 1 + len(edges), kernels.SIZE_COLUMNS))
+        self.sizes[:benches] = np.stack(columns, axis=1)
+        self.rows = np.zeros((4, benches + 1 + len(edges), kernels.CHAIN_COLUMNS))
+        self.motion = np.zeros((benches + 1 + len(edges), kernels.MOTION_COLUMNS))
         self.pair = np.zeros(3, dtype=np.intp)
+        along = edges[:, 2:4] - edges[:, 0:2]
+        half = 0.5 * np.hypot(along[:, 0], along[:, 1])
+        self.sizes[benches + 1 :, 1] = self.sizes[benches + 1 :, 3] = half
+        self.rows[:, benches + 1 :, 6:8] = 0.5 * (edges[:, 0:2] + edges[:, 2:4])
+        self.rows[:, benches + 1 :, 8:10] = along / (2.0 * half)[:, None]
+
+    @property
+    def room(self) -> int:
+        """How many leading benches there is room for."""
+        return self.sizes.shape[0] - 1 - len(self.edges)
 
     def ring_least(self, radius: float) -> float:
         """Lower bound of the separation of pairs whose inner bench leads at this radius or further out [m]."""
-        return kernels.ring_least(self.path.growth, self.path.growth, radius, *self.extremes)
+        return kernels.ring_least(self.growth, self.growth, radius, *self.extremes)
 
     def _clear_radius(self) -> float:
         """The least radius, within 1e-3, from which the ring bound exceeds the margin; 1e300 if none."""
@@ -209,7 +234,7 @@ class SpiralSearch:
         while self.ring_least(high) <= self.margin:
             high *= 4.0
             if high > 1e9:
-                return 1e300
+                return NO_BOUND
         low = 0.0
         while high - low > 1e-3 * high:
             middle = 0.5 * (low + high)
@@ -217,37 +242,44 @@ class SpiralSearch:
         return high
 
     def travel_at(self, theta: float) -> float:
-        """Head travel from the start to theta [m]."""
-        return self.path.length - self.path.growth * kernels.spiral_arc(theta)
+        """Head travel from the start of a spiral to theta [m]."""
+        return self.place - self.growth * float(kernels.spiral_arc(theta))
 
     def theta_at(self, travel: float) -> float:
-        """Head angle after a travel [rad]."""
-        return kernels.spiral_theta((self.path.length - travel) / self.path.growth)
+        """Head angle on a spiral after a travel [rad]."""
+        return float(kernels.spiral_theta((self.place - travel) / self.growth))
 
-    def march(self, stop: float, tolerance: float, *, start: float = 0.0) -> tuple[str, dict[str, float]]:
+    def march(
+        self, stop: float, tolerance: float, *, start: float = 0.0, opening: bool = True
+    ) -> tuple[str, dict[str, float]]:
         """kernels.march from start, or from where the ring bound ends, to stop [m of travel]: state, result by name.
 
-        A start after 0 follows only what a march from 0 would still follow there.
+        opening: nothing before the start was cleared, so all pairs are followed until the body repeats itself
         """
-        clear_theta = self.clear_radius / self.path.growth
-        at_start = start == 0.0 and clear_theta >= self.path.start_theta
-        start = max(self.travel_at(clear_theta), start)
-        if self.dragon.benches < 3 or (start >= stop and not at_start):
+        if isinstance(self.path, Spiral):
+            clear_theta = self.clear_radius / self.growth
+            if clear_theta < self.path.start_theta:
+                opening = False
+                start = max(self.travel_at(clear_theta), start)
+        nothing = self.dragon.benches < 3 and not len(self.edges)
+        if nothing or (start >= stop and not opening):
             return "reached", dict.fromkeys(kernels.MARCH_FIELDS, 0.0) | {"proven": stop, "graze_gap": NO_GRAZE}
         out = np.empty(32)
         while True:
             code = kernels.march(
-                self.path.growth,
-                self.path.length,
+                self.growth,
+                self.pieces,
+                self.place,
                 start,
                 stop,
                 min(self.dragon.uniform_from + 1, self.dragon.benches),
-                at_start,
+                opening,
                 self.margin,
                 tolerance,
                 self.rounding,
                 STEP_BUDGET,
                 self.dragon.benches,
+                len(self.edges),
                 self.ring,
                 self.sizes,
                 self.rows,
@@ -258,23 +290,54 @@ class SpiralSearch:
             state = kernels.MARCH_STATES[code]
             if state != "capacity":
                 return state, dict(zip(kernels.MARCH_FIELDS, out.tolist(), strict=False))
-            self.resize(min(4 * self.sizes.shape[0], self.dragon.benches))
+            self.resize(min(4 * self.room, self.dragon.benches))
 
-    def clearance(self, theta: float, leaders: int | None = None) -> tuple[float, tuple[int, int]]:
-        """Clearance with the head at theta [m], and its pair; among pairs led by the first `leaders` benches only."""
-        leaders = self.sizes.shape[0] if leaders is None else leaders
-        gap = kernels.clearance_at(self.path.growth, theta, leaders, self.ring, self.sizes, self.rows[0], self.pair)
+    def clearance(self, travel: float, leaders: int | None = None) -> tuple[float, tuple[int, int]]:
+        """Clearance after a travel [m], and its pair; among pairs led by the first `leaders` benches only."""
+        benches = self.room
+        leaders = benches if leaders is None else leaders
+        gap = kernels.clearance_at(
+            self.growth, self.pieces, self.place - travel, benches, leaders, self.ring, self.sizes, self.rows[0], self.pair
+        )
         return gap, (int(self.pair[1]), int(self.pair[2]))
 
-    def motion_left(self, theta: float, end: RunEnd) -> float:
-        """Bound on how far any two points of two benches approach each other from theta to the fold [m].
+    def gap_rate(self, travel: float, pair: tuple[int, int]) -> float:
+        """How fast a pair parts after a travel, per metre of head travel [1]."""
+        return float(
+            kernels.gap_rate_at(
+                self.growth, self.pieces, self.place - travel, self.room, *pair, self.sizes, self.rows[1], np.empty(8)
+            )
+        )
+
+    def bottom(self, low: float, high: float, pair: tuple[int, int], width: float) -> float:
+        """Travel in [low, high] where a pair stops approaching [m]."""
+        return float(
+            kernels.crossing(
+                self.growth,
+                self.pieces,
+                self.place,
+                self.room,
+                low,
+                high,
+                *pair,
+                0.0,
+                width,
+                True,
+                self.sizes,
+                self.rows[1],
+                np.empty(8),
+            )
+        )
+
+    def motion_left(self, travel: float, end: RunEnd) -> float:
+        """Bound on how far any two points of two benches approach each other from a travel to the fold [m].
 
         Bench m = end.bench folds: from delta_L to the crest, handle m + 1 moves by at most the change of both ends'
         angles; the handles before it move less than the head's travel rates there, those behind it less than it.
         """
         assert end.bench is not None
-        self.clearance(theta)
-        m, growth = end.bench, self.path.growth
+        self.clearance(travel)
+        m, growth = end.bench, self.growth
         lead, rear = self.rows[0, m, 4], self.rows[0, m + 1, 4]
         fold = kernels.fold_theta(float((self.dragon.chords[m] / growth) ** 2))
         swing = abs(kernels.first_crest(fold) - (rear - lead)) + abs(lead - fold)
@@ -284,13 +347,20 @@ class SpiralSearch:
 
 
 def first_contact(
-    dragon: Dragon, path: Spiral, *, head_speed: float = 1.0, margin: float = 0.0
+    dragon: Dragon,
+    path: Spiral | Route,
+    *,
+    head_speed: float = 1.0,
+    margin: float = 0.0,
+    start: float = 0.0,
+    stop: float | None = None,
 ) -> FirstContact:
     """When two benches that share no handle first come within the margin, proven not to miss an earlier one.
 
     head_speed: [m/s]; margin: [m], the clearance required; contact means separation <= margin
+    start, stop: the times between which to look [s]; None for the end of the run
     returns: see FirstContact; times good to 1e-10 s at 1 m/s, bracketed by [proven clear up to, overlapping at]
-    raises: InvalidValue
+    raises: InvalidValue; OutsideRun for a stop after the end of the run
     source: the model of Yang et al., sections 2.4 and 2.5, whose times differ: see app/paper.py
 
     >>> contact = first_contact(Dragon(), Spiral())
@@ -300,23 +370,25 @@ def first_contact(
     head_speed = checked_head_speed(head_speed)
     margin = checked_number("margin", margin, "m", 0.0, MARGIN_MAX)
     end = run_end(dragon, path, head_speed=head_speed)
-    search = SpiralSearch(dragon, path, margin)
-    end_travel = search.travel_at(end.theta)
-    stop = end_travel if end.reason is EndReason.CENTRE else end_travel - FOLD_SLIVER
+    begin, until = checked_span(dragon, path, start, stop, end, head_speed)
+    search = Search(dragon, path, margin)
+    to_fold = until >= end.time and end.reason is EndReason.FOLD
+    last = until * head_speed - (FOLD_SLIVER if to_fold else 0.0)
     tolerance = max(BRACKET * min(1.0, head_speed), BRACKET_MIN)
-    state, found = search.march(stop, tolerance)
+    state, found = search.march(last, tolerance, start=begin * head_speed)
     if state == "stuck" and found["touching"] >= 0.0:
         tolerance = BRACKET_GRAZING * min(1.0, head_speed)
-        state, found = search.march(stop, tolerance)
-    if state == "reached" and end.reason is EndReason.FOLD and dragon.benches > 2:
-        theta = search.theta_at(stop)
-        if search.clearance(theta)[0] <= margin + search.motion_left(theta, end):
+        state, found = search.march(last, tolerance, start=begin * head_speed)
+    if state == "reached" and to_fold and dragon.benches > 2:
+        if search.clearance(last)[0] <= margin + search.motion_left(last, end):
             state = "stuck"
+    if stop is not None and state == "reached":
+        end = RunEnd(EndReason.STOP, until, None, None)
     return _result(search, state, found, end, tolerance, head_speed)
 
 
 def _result(
-    search: SpiralSearch, state: str, found: dict[str, float], end: RunEnd, tolerance: float, head_speed: float
+    search: Search, state: str, found: dict[str, float], end: RunEnd, tolerance: float, head_speed: float
 ) -> FirstContact:
     graze = None
     if found["graze_gap"] < NO_GRAZE:
@@ -331,29 +403,33 @@ def _result(
         return FirstContact(Outcome.UNDECIDED, None, bracket, None, None, None, None, None, None, certificate)
     at_start = state == "touched_at_start"
     travel = found["touching"] if at_start else found["touching"] - tolerance
-    theta = search.theta_at(travel)
     pair = (int(found["first"]), int(found["second"]))
-    corner, edge, point = _touching_features(search, theta, pair)
-    radius = search.path.growth * theta
     return FirstContact(
         Outcome.CONTACT_AT_START if at_start else Outcome.CONTACT,
         travel / head_speed,
         None if at_start else (proven, found["touching"] / head_speed),
-        HeadState(theta, radius, radius * math.cos(theta), radius * math.sin(theta)),
+        _head(search, travel),
         pair,
-        corner,
-        edge,
-        point,
+        *_touching_features(search, travel, pair),
         None,
         certificate,
     )
 
 
+def _head(search: Search, travel: float) -> HeadState:
+    if isinstance(search.path, Spiral):
+        theta = search.theta_at(travel)
+        radius = search.growth * theta
+        return HeadState(theta, radius, radius * math.cos(theta), radius * math.sin(theta))
+    x, y = search.path.position(travel).tolist()
+    return HeadState(None, math.hypot(x, y), x, y)
+
+
 def _touching_features(
-    search: SpiralSearch, theta: float, pair: tuple[int, int]
+    search: Search, travel: float, pair: tuple[int, int]
 ) -> tuple[Feature | None, Feature | None, tuple[float, float]]:
     """The corner and the edge that meet, and the corner's place in the world frame [m]."""
-    search.clearance(theta)
+    search.clearance(travel)
     a, b = (search.rows[0, bench, 6:10] for bench in pair)
     out = np.empty(8)
     kernels.pair_separation(*a, *search.sizes[pair[0], 1:3], *b, *search.sizes[pair[1], 1:3], out)
@@ -365,13 +441,13 @@ def _touching_features(
         elif corner is None:
             corner = Feature(bench, CORNERS[centre_on_left][code])
     x, y = out[3:5] if corner and corner.bench == pair[1] else out[1:3]
-    cos, sin = math.cos(theta), math.sin(theta)
-    point = (float(x * cos - y * sin), float(x * sin + y * cos))
-    return corner, edge, point
+    turned = search.theta_at(travel) if isinstance(search.path, Spiral) else 0.0
+    cos, sin = math.cos(turned), math.sin(turned)
+    return corner, edge, (float(x * cos - y * sin), float(x * sin + y * cos))
 
 
 def clearance_profile(
-    dragon: Dragon, path: Spiral, times: Floats | Sequence[float], *, head_speed: float = 1.0
+    dragon: Dragon, path: Spiral | Route, times: Floats | Sequence[float], *, head_speed: float = 1.0
 ) -> ClearanceProfile:
     """Exact clearance and its pair at every time, and its local minima refined.
 
@@ -386,22 +462,21 @@ def clearance_profile(
         raise InvalidValue(
             "dragon.benches", f"dragon.benches must be at least 3 for two to share no handle, got {dragon.benches}"
         )
-    end = run_end(dragon, path, head_speed=head_speed)
-    time = checked_times(times, end)
-    search = SpiralSearch(dragon, path, 0.0)
+    time = checked_times(times, dragon, path, run_end(dragon, path, head_speed=head_speed), head_speed)
+    search = Search(dragon, path, 0.0)
     search.resize(dragon.benches)
     clearance, benches = _sampled(search, time, head_speed)
     return ClearanceProfile(time, clearance, benches, _grazes(search, time, head_speed))
 
 
-def _sampled(search: SpiralSearch, time: Floats, head_speed: float) -> tuple[Floats, Floats]:
+def _sampled(search: Search, time: Floats, head_speed: float) -> tuple[Floats, NDArray[np.int64]]:
     clearance, benches = np.empty(time.size), np.empty((time.size, 2), dtype=np.int64)
-    for k, theta in enumerate(search.path.theta(time * head_speed)):
-        clearance[k], benches[k] = search.clearance(float(theta))
+    for k, instant in enumerate(time.tolist()):
+        clearance[k], benches[k] = search.clearance(instant * head_speed)
     return clearance, benches
 
 
-def _grazes(search: SpiralSearch, time: Floats, head_speed: float) -> tuple[Graze, ...]:
+def _grazes(search: Search, time: Floats, head_speed: float) -> tuple[Graze, ...]:
     if time.size < 2:
         return ()
     span = float(time.max() - time.min())
@@ -410,14 +485,9 @@ def _grazes(search: SpiralSearch, time: Floats, head_speed: float) -> tuple[Graz
     clearance, benches = _sampled(search, grid, head_speed)
     low = 1 + np.flatnonzero((clearance[1:-1] < clearance[:-2]) & (clearance[1:-1] <= clearance[2:]))
     grazes = []
-    growth, length, scratch = search.path.growth, search.path.length, np.empty(8)
     for k in low:
         a, b = (int(bench) for bench in benches[k])
-        ends = grid[k - 1] * head_speed, grid[k + 1] * head_speed
-        width = DIP_WIDTH * head_speed
-        travel = kernels.crossing(
-            growth, length, *ends, a, b, 0.0, width, True, search.sizes, search.rows[1], scratch
-        )
-        gap, pair = search.clearance(search.theta_at(travel))
+        travel = search.bottom(grid[k - 1] * head_speed, grid[k + 1] * head_speed, (a, b), DIP_WIDTH * head_speed)
+        gap, pair = search.clearance(travel)
         grazes.append(Graze(travel / head_speed, gap, pair))
     return tuple(grazes)

@@ -9,7 +9,7 @@ from enum import StrEnum
 import numpy as np
 
 from core import kernels
-from core.contact import MARGIN_MAX, NO_GRAZE, SpiralSearch
+from core.contact import MARGIN_MAX, NO_PIECES, Search
 from core.dragon import Dragon, checked_number, checked_size
 from core.errors import InvalidValue
 from core.kinematics import end_theta
@@ -27,6 +27,8 @@ SCAN_STEP = 2.5e-4
 ISLAND_SAMPLES = 400
 # A contact this close to the circle or the start, with the pair still approaching, is on it [m of head travel].
 ON_CIRCLE = 1e-4
+# From the instant found just below the minimum pitch, the bottom of the graze is within this [m of head travel].
+BOTTOM_WITHIN = 0.01
 
 
 # The descent begins with this clearance above the margin [m]; the windows narrow when it has fallen by this factor [1].
@@ -86,7 +88,7 @@ class MinimumPitch:
 # radii grow with b, so the reach at the largest b and the angles at the smallest b serve; all falls with r_0.
 
 
-def _sensitivity(search: SpiralSearch, radius: float, low: float, high: float) -> float:
+def _sensitivity(search: Search, radius: float, low: float, high: float) -> float:
     """Bound on |d separation / d pitch| at every head radius >= radius, pitches in [low, high]; inf where none holds [1]."""
     chord, shortest, overhang, half_width, *_ = (float(extreme) for extreme in search.extremes)
     b_low, b_high = low / (2.0 * math.pi), high / (2.0 * math.pi)
@@ -114,7 +116,7 @@ class _PitchSearch:
     def __init__(self, dragon: Dragon, radius: float, start_turns: float, margin: float) -> None:
         self.radius, self.start_turns, self.margin = radius, start_turns, margin
         self.lowest = radius / start_turns
-        self.search = SpiralSearch(dragon, Spiral(max(self.lowest, 1e-3), start_turns), margin)
+        self.search = Search(dragon, Spiral(max(self.lowest, 1e-3), start_turns), margin)
         self.evaluations = 0
 
     def way(
@@ -131,9 +133,10 @@ class _PitchSearch:
         inner, outer = window
         if window is ALL and end_theta(search.dragon, path)[0] > self.radius / path.growth:
             return "folded", dict.fromkeys(kernels.MARCH_FIELDS, 0.0)
-        start = search.travel_at(outer / path.growth) if outer < path.growth * path.start_theta else 0.0
+        inside = outer < path.growth * path.start_theta
+        start = search.travel_at(outer / path.growth) if inside else 0.0
         stop = search.travel_at(max(inner, self.radius) / path.growth)
-        return search.march(max(stop, 0.0), width, start=start)
+        return search.march(max(stop, 0.0), width, start=start, opening=not inside)
 
     def weak_windows(self, pitch: float, gain: float, windows: list[Window]) -> list[Window]:
         """Parts of the windows outside which every clearance is proven to exceed margin + gain [m of head radius]."""
@@ -144,13 +147,14 @@ class _PitchSearch:
                 state, found = self.way(pitch, gain, (inner, outer))
                 if state == "reached":
                     break
-                search, growth = self.search, self.search.path.growth
+                search, growth = self.search, self.search.growth
                 step = WINDOW_STEP * math.sqrt(gain / GAIN_FIRST)
                 begin = search.theta_at(found["proven"]) * growth
                 outer = search.theta_at(max(found["touching"], found["proven"])) * growth
                 while outer > inner:
                     outer = max(inner, outer - step)
-                    if outer > self.radius and search.clearance(outer / search.path.growth, leaders)[0] > self.margin + 2 * gain:
+                    travel = search.travel_at(outer / growth)
+                    if outer > self.radius and search.clearance(travel, leaders)[0] > self.margin + 2 * gain:
                         break
                 weak.append((outer, begin))
         return weak
@@ -277,8 +281,9 @@ class _PitchSearch:
         growth, search = pitch / (2.0 * math.pi), self.search
         if radius > pitch * self.start_turns:
             return False
-        arc = growth * kernels.spiral_arc(radius / growth)
-        return kernels.gap_at(growth, arc, a, b, search.sizes, search.rows[0]) <= self.margin
+        place = growth * kernels.spiral_arc(radius / growth)
+        gap = kernels.gap_at(growth, NO_PIECES, place, search.room, a, b, search.sizes, search.rows[0])
+        return float(gap) <= self.margin
 
     def _end_of_island(self, feasible: float, infeasible: float) -> float:
         while infeasible - feasible > PITCH_WIDTH:
@@ -289,24 +294,18 @@ class _PitchSearch:
     def limit(self, infeasible: float) -> tuple[LimitedBy, tuple[int, int] | None, float | None]:
         """What meets just below the minimum pitch, and where."""
         state, found = self.way(infeasible, width=CONTACT_WIDTH)
-        search, path = self.search, self.search.path
-        stop = search.travel_at(self.radius / path.growth)
+        search, growth = self.search, self.search.growth
+        stop = search.travel_at(self.radius / growth)
         pair = (int(found["first"]), int(found["second"]))
         travel = found["touching"] - (CONTACT_WIDTH if state == "touched" else 0.0)
         if state == "touched_at_start":
-            return LimitedBy.START, pair, path.growth * path.start_theta
+            return LimitedBy.START, pair, growth * 2.0 * math.pi * self.start_turns
         if state == "folded":
             return LimitedBy.START, None, None
-        out = np.empty(8)
-        end = min(travel + 0.01, stop)
-        arc = path.length - end
-        rate = kernels.gap_rate_at(path.growth, arc, *pair, search.sizes, search.rows[0], out)
-        if stop - travel < ON_CIRCLE and rate < 0.0:
+        end = min(travel + BOTTOM_WITHIN, stop)
+        if stop - travel < ON_CIRCLE and search.gap_rate(end, pair) < 0.0:
             return LimitedBy.CIRCLE, pair, self.radius
-        bottom = kernels.crossing(
-            path.growth, path.length, travel, end, *pair, 0.0, 1e-12, True, search.sizes, search.rows[0], out
-        )
-        return LimitedBy.GRAZE, pair, path.growth * search.theta_at(bottom)
+        return LimitedBy.GRAZE, pair, growth * search.theta_at(search.bottom(travel, end, pair, 1e-12))
 
 
 def minimum_pitch(

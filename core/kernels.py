@@ -6,7 +6,7 @@ says otherwise; no function allocates. -1.0 inside this file means "no such root
 """
 
 import cython
-from cython.cimports.libc.math import asinh, cos, fabs, sin, sqrt
+from cython.cimports.libc.math import asin, asinh, cos, fabs, sin, sqrt
 
 COMPILED = cython.compiled
 
@@ -966,19 +966,25 @@ def rows_gap(
 # A function with |g''| <= K stays above its chord minus K x (h - x) / 2, so its least value follows from both ends:
 # two benches do not touch on [L, R] if that exceeds the margin for one axis. No step size is guessed.
 
-# Columns of a chain row, one for each handle.
-COS = cython.declare(cython.int, 0)  # of the polar angle, in a frame in which the head stands at angle 0
+# Columns of a chain row, one for each handle. On a spiral the frame is one in which the head stands at polar angle 0.
+COS = cython.declare(cython.int, 0)  # of the polar angle; on a route
 SIN = cython.declare(cython.int, 1)
+PX = cython.declare(cython.int, 0)  # the position instead [m]
+PY = cython.declare(cython.int, 1)
 TX = cython.declare(cython.int, 2)  # unit tangent in the direction of travel
 TY = cython.declare(cython.int, 3)
-THETA = cython.declare(cython.int, 4)
+THETA = cython.declare(cython.int, 4)  # on a route
+PLACE = cython.declare(cython.int, 4)  # minus the arc length s instead [m]: both fall in the direction of travel
 RATE = cython.declare(cython.int, 5)  # d s / d sigma
 # and, for the bench behind that handle, its centre and direction
 MX = cython.declare(cython.int, 6)
 MY = cython.declare(cython.int, 7)
 UX = cython.declare(cython.int, 8)
 UY = cython.declare(cython.int, 9)
-CHAIN_COLUMNS = 10
+# and on a route the handle's curvature [1/m] and piece
+CURVATURE = cython.declare(cython.int, 10)
+PIECE = cython.declare(cython.int, 11)
+CHAIN_COLUMNS = 12
 
 # Columns of a motion row, one for each bench: bounds over an interval.
 CENTRE_SPEED = cython.declare(cython.int, 0)
@@ -1007,8 +1013,11 @@ SIZE_COLUMNS = 4
 
 # The chord lemma is used up to this k_high c / 2; beyond it the angles are followed [1].
 LEMMA_LIMIT = cython.declare(cython.double, 0.97)
+BEND_LIMIT = 0.97
 # Trial bound on a followed handle's rate, as a multiple of what the ends show [1]; any value > 1 is sound.
 TRIAL = cython.declare(cython.double, 1.5)
+# On a route the ratio of a link's rates is followed from the ends of the interval where the lemma leaves more than this [1].
+RATIO_FOLLOWED = cython.declare(cython.double, 1.05)
 # Larger than any step [m].
 FREE = cython.declare(cython.double, 1e300)
 
@@ -1449,6 +1458,458 @@ def pair_least(
     return least if least > best else best
 
 
+# -- routes -----------------------------------------------------------------------------------------
+# A route is a table of pieces joined by arc length s. One row a piece, curvature counter-clockwise positive:
+#   KIND, S_START, S_END, curvature at both ends (for a cubic its bounds), then
+#   line   x, y, dx, dy                     at S_START, unit direction
+#   arc    centre x, y, radius, angle, sign  angle at S_START, sign + counter-clockwise
+#   spiral centre x, y, growth, rotation, sign, arc   sign + outwards, arc length from its centre at S_START
+#   cubic  x0..x3, y0..y3, end              r(t) = sum of c_k t^k for t in [0, end]
+# The first piece also serves before S_START and the last one after S_END.
+#
+# Next handle. Let |curvature| <= k with k chord < 2 (routes are refused otherwise). As long as k l <= pi the distance to the
+# point l behind grows with l: its rate is the cosine of an angle <= k l / 2 (chord lemma, below). It reaches the chord
+# before l = pi chord / 2 <= pi / k, so in [chord, pi chord / 2] there is one root, it is the first along the path, and
+# whatever comes near further back along the path is never taken for it.
+
+PIECE_KIND = cython.declare(cython.int, 0)
+S_START = cython.declare(cython.int, 1)
+S_END = cython.declare(cython.int, 2)
+K_START = cython.declare(cython.int, 3)
+K_END = cython.declare(cython.int, 4)
+PIECE_COLUMNS = 14
+LINE = cython.declare(cython.int, 0)
+ARC = cython.declare(cython.int, 1)
+SPIRAL = cython.declare(cython.int, 2)
+CUBIC = cython.declare(cython.int, 3)
+PIECE_KINDS = ("line", "arc", "spiral", "cubic")
+
+
+@cython.cfunc
+@cython.nogil
+@cython.exceptval(check=False)
+def cubic_speed(pieces: cython.const[cython.double][:, ::1], p: cython.Py_ssize_t, t: cython.double) -> cython.double:
+    """|r'(t)| of a cubic."""
+    x: cython.double = pieces[p, 6] + t * (2.0 * pieces[p, 7] + 3.0 * t * pieces[p, 8])
+    y: cython.double = pieces[p, 10] + t * (2.0 * pieces[p, 11] + 3.0 * t * pieces[p, 12])
+    return sqrt(x * x + y * y)
+
+
+@cython.ccall
+@cython.nogil
+@cython.exceptval(check=False)
+def cubic_arc(pieces: cython.const[cython.double][:, ::1], p: cython.Py_ssize_t, t: cython.double) -> cython.double:
+    """Arc length of a cubic from 0 to t, by Gauss-Legendre quadrature with eight points [m]."""
+    return t * (
+        0.1813418916891810 * (cubic_speed(pieces, p, 0.4082826787521751 * t) + cubic_speed(pieces, p, 0.5917173212478249 * t))
+        + 0.1568533229389436 * (cubic_speed(pieces, p, 0.2372337950418355 * t) + cubic_speed(pieces, p, 0.7627662049581645 * t))
+        + 0.1111905172266872 * (cubic_speed(pieces, p, 0.1016667612931866 * t) + cubic_speed(pieces, p, 0.8983332387068134 * t))
+        + 0.0506142681451881 * (cubic_speed(pieces, p, 0.0198550717512319 * t) + cubic_speed(pieces, p, 0.9801449282487681 * t))
+    )
+
+
+@cython.cfunc
+@cython.nogil
+@cython.exceptval(check=False)
+def piece_of(pieces: cython.const[cython.double][:, ::1], s: cython.double, near: cython.Py_ssize_t) -> cython.Py_ssize_t:
+    """The piece that holds s, searched from a near one; a joint belongs to the piece behind it."""
+    p: cython.Py_ssize_t = near
+    while p > 0 and s <= pieces[p, S_START]:
+        p -= 1
+    while p < pieces.shape[0] - 1 and s > pieces[p, S_END]:
+        p += 1
+    return p
+
+
+@cython.cfunc
+@cython.nogil
+@cython.exceptval(check=False)
+def route_point(
+    pieces: cython.const[cython.double][:, ::1], p: cython.Py_ssize_t, s: cython.double
+) -> tuple[cython.double, cython.double, cython.double, cython.double, cython.double]:
+    """x, y [m], unit tangent, curvature [1/m] at arc length s on piece p."""
+    kind: cython.int = cython.cast(cython.int, pieces[p, PIECE_KIND])
+    u: cython.double = s - pieces[p, S_START]
+    a: cython.double
+    c: cython.double
+    d: cython.double
+    length: cython.double
+    i: cython.int
+    if kind == LINE:
+        return (
+            pieces[p, 5] + u * pieces[p, 7], pieces[p, 6] + u * pieces[p, 8], pieces[p, 7], pieces[p, 8], 0.0,
+        )
+    if kind == ARC:
+        a = pieces[p, 8] + pieces[p, 9] * u / pieces[p, 7]
+        c = cos(a)
+        d = sin(a)
+        return (
+            pieces[p, 5] + pieces[p, 7] * c,
+            pieces[p, 6] + pieces[p, 7] * d,
+            -pieces[p, 9] * d,
+            pieces[p, 9] * c,
+            pieces[p, 9] / pieces[p, 7],
+        )
+    if kind == SPIRAL:
+        return spiral_point(pieces, p, spiral_theta((pieces[p, 10] + pieces[p, 9] * u) / pieces[p, 7]))
+    a = u / (pieces[p, S_END] - pieces[p, S_START]) * pieces[p, 13]
+    for i in range(30):
+        d = (cubic_arc(pieces, p, a) - u) / cubic_speed(pieces, p, a)
+        a -= d
+        if fabs(d) <= 1e-15 * pieces[p, 13]:
+            break
+    c = pieces[p, 6] + a * (2.0 * pieces[p, 7] + 3.0 * a * pieces[p, 8])
+    d = pieces[p, 10] + a * (2.0 * pieces[p, 11] + 3.0 * a * pieces[p, 12])
+    length = sqrt(c * c + d * d)
+    return (
+        pieces[p, 5] + a * (pieces[p, 6] + a * (pieces[p, 7] + a * pieces[p, 8])),
+        pieces[p, 9] + a * (pieces[p, 10] + a * (pieces[p, 11] + a * pieces[p, 12])),
+        c / length,
+        d / length,
+        (c * (2.0 * pieces[p, 11] + 6.0 * a * pieces[p, 12]) - d * (2.0 * pieces[p, 7] + 6.0 * a * pieces[p, 8]))
+        / (length * length * length),
+    )
+
+
+@cython.cfunc
+@cython.inline
+@cython.nogil
+@cython.exceptval(check=False)
+def spiral_point(
+    pieces: cython.const[cython.double][:, ::1], p: cython.Py_ssize_t, theta: cython.double
+) -> tuple[cython.double, cython.double, cython.double, cython.double, cython.double]:
+    """route_point() on a spiral piece at theta."""
+    c: cython.double = cos(theta + pieces[p, 8])
+    d: cython.double = sin(theta + pieces[p, 8])
+    scale: cython.double = pieces[p, 9] / sqrt(1.0 + theta * theta)
+    return (
+        pieces[p, 5] + pieces[p, 7] * theta * c,
+        pieces[p, 6] + pieces[p, 7] * theta * d,
+        scale * (c - theta * d),
+        scale * (d + theta * c),
+        pieces[p, 9] * spiral_curvature(theta) / pieces[p, 7],
+    )
+
+
+@cython.ccall
+@cython.exceptval(check=False)
+def route_points(pieces: cython.const[cython.double][:, ::1], s: cython.const[cython.double][::1], out: cython.double[:, ::1]) -> cython.void:
+    """x, y, tangent x, y, curvature at every s. out: (S, 5)"""
+    i: cython.Py_ssize_t
+    p: cython.Py_ssize_t = 0
+    with cython.nogil:
+        for i in range(s.shape[0]):
+            p = piece_of(pieces, s[i], p)
+            out[i, 0], out[i, 1], out[i, 2], out[i, 3], out[i, 4] = route_point(pieces, p, s[i])
+
+
+@cython.cfunc
+@cython.nogil
+@cython.exceptval(check=False)
+def start_route(pieces: cython.const[cython.double][:, ::1], s: cython.double, chain: cython.double[:, ::1]) -> cython.void:
+    """Row 0 of a chain on a route: the head at s."""
+    p: cython.Py_ssize_t = piece_of(pieces, s, 0)
+    chain[0, PX], chain[0, PY], chain[0, TX], chain[0, TY], chain[0, CURVATURE] = route_point(pieces, p, s)
+    chain[0, PLACE] = -s
+    chain[0, PIECE] = p
+    chain[0, RATE] = 1.0
+
+
+@cython.cfunc
+@cython.nogil
+@cython.exceptval(check=False)
+def extend_route(
+    pieces: cython.const[cython.double][:, ::1],
+    first: cython.Py_ssize_t,
+    last: cython.Py_ssize_t,
+    sizes: cython.double[:, ::1],
+    chain: cython.double[:, ::1],
+) -> cython.Py_ssize_t:
+    """Handles after `first` to the `last`, each the first point behind its leader at the bench's chord; returns last."""
+    k: cython.Py_ssize_t
+    p: cython.Py_ssize_t
+    i: cython.int
+    s: cython.double
+    chord: cython.double
+    step: cython.double
+    low: cython.double
+    high: cython.double
+    distance: cython.double
+    slope: cython.double
+    dx: cython.double
+    dy: cython.double
+    theta: cython.double
+    delta: cython.double
+    half: cython.double
+    cosine: cython.double
+    for k in range(first, last):
+        s = -chain[k, PLACE]
+        p = cython.cast(cython.Py_ssize_t, chain[k, PIECE])
+        chord = sizes[k, CHORD]
+        low = chord
+        high = 0.5 * PI * chord
+        step = chord
+        if k > 0 and sizes[k - 1, CHORD] == chord:
+            step = chain[k, PLACE] - chain[k - 1, PLACE]
+        if pieces[p, PIECE_KIND] == LINE and (p == 0 or s - chord >= pieces[p, S_START]):
+            step = chord
+        elif pieces[p, PIECE_KIND] == ARC:
+            step = 2.0 * pieces[p, 7] * asin(0.5 * chord / pieces[p, 7])
+        elif pieces[p, PIECE_KIND] == SPIRAL:
+            # on an outward spiral the follower is further in: the same equation with theta negative
+            theta = -pieces[p, 9] * spiral_theta(
+                (pieces[p, 10] + pieces[p, 9] * (s - pieces[p, S_START])) / pieces[p, 7]
+            )
+            delta, half, cosine = next_handle(
+                theta, (chord / pieces[p, 7]) * (chord / pieces[p, 7]), step / (pieces[p, 7] * sqrt(1.0 + theta * theta))
+            )
+            if delta > 0.0 and theta * (theta + delta) > 0.0:
+                half = pieces[p, 7] * fabs(spiral_arc(theta + delta) - spiral_arc(theta))
+                if low <= half <= high and (p == 0 or s - half >= pieces[p, S_START]):
+                    step = half
+        for i in range(80):
+            if not (low <= step <= high):
+                step = 0.5 * (low + high)
+            p = piece_of(pieces, s - step, p)
+            (
+                chain[k + 1, PX], chain[k + 1, PY], chain[k + 1, TX], chain[k + 1, TY], chain[k + 1, CURVATURE],
+            ) = route_point(pieces, p, s - step)
+            dx = chain[k, PX] - chain[k + 1, PX]
+            dy = chain[k, PY] - chain[k + 1, PY]
+            distance = sqrt(dx * dx + dy * dy)
+            slope = (dx * chain[k + 1, TX] + dy * chain[k + 1, TY]) / distance
+            if distance < chord:
+                low = step
+            else:
+                high = step
+            if fabs(distance - chord) <= 2e-16 * (chord + fabs(chain[k, PX]) + fabs(chain[k, PY])) or high - low <= 1e-15 * chord:
+                break
+            step += (chord - distance) / slope if slope > 0.1 else 2.0 * high
+        chain[k + 1, PLACE] = step - s
+        chain[k + 1, PIECE] = p
+        finish_link(k, chord, chain)
+    return last
+
+
+@cython.cfunc
+@cython.inline
+@cython.nogil
+@cython.exceptval(check=False)
+def finish_link(k: cython.Py_ssize_t, chord: cython.double, chain: cython.double[:, ::1]) -> cython.void:
+    """Bench k between its placed handles, and the rate of the rear one by the rigid link."""
+    ux: cython.double = (chain[k, PX] - chain[k + 1, PX]) / chord
+    uy: cython.double = (chain[k, PY] - chain[k + 1, PY]) / chord
+    chain[k, MX] = 0.5 * (chain[k, PX] + chain[k + 1, PX])
+    chain[k, MY] = 0.5 * (chain[k, PY] + chain[k + 1, PY])
+    chain[k, UX] = ux
+    chain[k, UY] = uy
+    chain[k + 1, RATE] = (
+        chain[k, RATE]
+        * (chain[k, TX] * ux + chain[k, TY] * uy)
+        / (chain[k + 1, TX] * ux + chain[k + 1, TY] * uy)
+    )
+
+
+@cython.cfunc
+@cython.nogil
+@cython.exceptval(check=False)
+def stretch_curvature(
+    pieces: cython.const[cython.double][:, ::1],
+    rear: cython.Py_ssize_t,
+    k_rear: cython.double,
+    front: cython.Py_ssize_t,
+    k_front: cython.double,
+) -> tuple[cython.double, cython.double]:
+    """Lowest and highest curvature from a place on piece `rear` to one on piece `front` [1/m].
+
+    Within a line, an arc or a spiral it lies between its ends; for a cubic the row holds bounds.
+    """
+    p: cython.Py_ssize_t
+    start: cython.double
+    end: cython.double
+    low: cython.double = FREE
+    high: cython.double = -FREE
+    for p in range(rear, front + 1):
+        start = pieces[p, K_START]
+        end = pieces[p, K_END]
+        if pieces[p, PIECE_KIND] != CUBIC:
+            if p == rear:
+                start = k_rear
+            if p == front:
+                end = k_front
+        low = start if start < low else low
+        low = end if end < low else low
+        high = start if start > high else high
+        high = end if end > high else high
+    return low, high
+
+
+@cython.cfunc
+@cython.nogil
+@cython.exceptval(check=False)
+def route_bounds(
+    pieces: cython.const[cython.double][:, ::1],
+    h: cython.double,
+    benches: cython.Py_ssize_t,
+    sizes: cython.double[:, ::1],
+    before: cython.double[:, ::1],
+    after: cython.double[:, ::1],
+    motion: cython.double[:, ::1],
+) -> cython.bint:
+    """motion_bounds() on a route. The chord lemma serves throughout, as no handle turns back where k chord < 2.
+
+    Where the curvature changes sign between two handles the angles lie in [-k l / 2, k l / 2] for the larger |k|, and the
+    ratio of the rates is also followed from both ends of the interval, as near the centre of a spiral.
+    """
+    k: cython.Py_ssize_t
+    chord: cython.double
+    low: cython.double
+    high: cython.double
+    sin_high: cython.double
+    cos_high: cython.double
+    cos_low: cython.double
+    end_high: cython.double
+    end_low: cython.double
+    value: cython.double
+    omega: cython.double
+    swing: cython.double
+    spin: cython.double
+    pull: cython.double
+    side: cython.int
+    rate_a: cython.double = 1.0
+    rate_b: cython.double
+    rate_low: cython.double = 1.0
+    second_a: cython.double = 0.0
+    second_b: cython.double
+    for k in range(benches):
+        chord = sizes[k, CHORD]
+        low, high = stretch_curvature(
+            pieces, cython.cast(cython.Py_ssize_t, before[k + 1, PIECE]), before[k + 1, CURVATURE],
+            cython.cast(cython.Py_ssize_t, after[k, PIECE]), after[k, CURVATURE],
+        )
+        if high <= 0.0:
+            low, high = -high, -low
+        elif low < 0.0:
+            high = high if high > -low else -low
+            low = -high
+        sin_high = 0.5 * high * chord
+        if sin_high > LEMMA_LIMIT:
+            return False
+        cos_low = sqrt(1.0 - sin_high * sin_high)
+        cos_high = sqrt(1.0 - 0.25 * low * low * chord * chord) if low > 0.0 else 1.0
+        rate_b = rate_a * cos_high / cos_low
+        omega = high * (rate_a if rate_a > rate_b else rate_b)
+        swing = omega - low * (rate_low * cos_low / cos_high if low > 0.0 else rate_a if rate_a > rate_b else rate_b)
+        if rate_b > RATIO_FOLLOWED * rate_a:
+            end_high = 0.0
+            end_low = 1.0
+            for side in range(2):
+                value = (
+                    after[k, TX] * after[k, UX] + after[k, TY] * after[k, UY]
+                    if side
+                    else before[k, TX] * before[k, UX] + before[k, TY] * before[k, UY]
+                )
+                end_high = value if value > end_high else end_high
+                value = (
+                    after[k + 1, TX] * after[k, UX] + after[k + 1, TY] * after[k, UY]
+                    if side
+                    else before[k + 1, TX] * before[k, UX] + before[k + 1, TY] * before[k, UY]
+                )
+                end_low = value if value < end_low else end_low
+            end_high += 0.5 * h * swing * sin_high
+            end_low -= 0.5 * h * swing * sin_high
+            if end_low > 0.0 and end_high < cos_high * end_low / cos_low:
+                rate_b = rate_a * (end_high if end_high < 1.0 else 1.0) / end_low
+                cos_low = end_low if end_low > cos_low else cos_low
+        rate_low *= sqrt(1.0 - sin_high * sin_high) / cos_high
+        second_b = (cos_high * second_a + sin_high * swing * (rate_a + rate_b)) / cos_low
+        spin = omega * omega + (
+            cos_high * swing * (rate_a + rate_b) + sin_high * (second_a + second_b)
+        ) / chord
+        pull = 0.5 * (second_a + second_b + high * (rate_a * rate_a + rate_b * rate_b))
+        motion[k, CENTRE_SPEED] = 0.5 * (rate_a + rate_b)
+        motion[k, CORNER_SPEED] = 0.5 * (rate_a + rate_b) + omega * sizes[k, RADIUS]
+        motion[k, CENTRE_PULL] = pull
+        motion[k, CORNER_PULL] = pull + spin * sizes[k, RADIUS]
+        motion[k, TURN] = omega
+        motion[k, TURN_PULL] = spin
+        motion[k, TURN_LOW] = motion[k, RATE_LOW] = 0.0
+        motion[k, HANDLE_SPEED] = rate_a if rate_a > rate_b else rate_b
+        motion[k + 1, RATE_HIGH] = rate_b
+        motion[k + 1, RATE_RATE] = second_b
+        rate_a = rate_b
+        second_a = second_b
+    return True
+
+
+# -- either kind of path ----------------------------------------------------------------------------
+# `place` falls in the direction of travel: the arc length from the centre of a spiral, minus s on a route. A path without
+# pieces is the spiral of that growth.
+
+
+@cython.cfunc
+@cython.nogil
+@cython.exceptval(check=False)
+def place_chain(
+    growth: cython.double,
+    pieces: cython.const[cython.double][:, ::1],
+    place: cython.double,
+    last: cython.Py_ssize_t,
+    sizes: cython.double[:, ::1],
+    chain: cython.double[:, ::1],
+) -> cython.Py_ssize_t:
+    """The chain with its head at a place, up to handle `last`; returns last, -1 at a fold."""
+    if pieces.shape[0] == 0:
+        start_chain(spiral_theta(place / growth), chain)
+        return extend_chain(growth, 0, last, FREE, sizes, chain)
+    start_route(pieces, -place, chain)
+    return extend_route(pieces, 0, last, sizes, chain)
+
+
+@cython.ccall
+@cython.nogil
+@cython.exceptval(check=False)
+def route_tail(
+    pieces: cython.const[cython.double][:, ::1],
+    s: cython.double,
+    benches: cython.Py_ssize_t,
+    sizes: cython.double[:, ::1],
+    chain: cython.double[:, ::1],
+) -> cython.double:
+    """Where the last handle stands with the head at s on a route [m]."""
+    start_route(pieces, s, chain)
+    extend_route(pieces, 0, benches, sizes, chain)
+    return -chain[benches, PLACE]
+
+
+@cython.ccall
+@cython.exceptval(check=False)
+def route_trajectory(
+    pieces: cython.const[cython.double][:, ::1],
+    s: cython.double[::1],
+    head_speed: cython.double,
+    sizes: cython.double[:, ::1],
+    chain: cython.double[:, ::1],
+    position: cython.double[:, :, ::1],
+    velocity: cython.double[:, :, ::1],
+    speed: cython.double[:, ::1],
+) -> cython.void:
+    """spiral_trajectory() on a route. s: (T,) of the head [m]; chain: (n + 1, CHAIN_COLUMNS) scratch"""
+    row: cython.Py_ssize_t
+    k: cython.Py_ssize_t
+    last: cython.Py_ssize_t = position.shape[1] - 1
+    with cython.nogil:
+        for row in range(s.shape[0]):
+            start_route(pieces, s[row], chain)
+            extend_route(pieces, 0, last, sizes, chain)
+            for k in range(last + 1):
+                position[row, k, 0] = chain[k, PX]
+                position[row, k, 1] = chain[k, PY]
+                velocity[row, k, 0] = head_speed * chain[k, RATE] * chain[k, TX]
+                velocity[row, k, 1] = head_speed * chain[k, RATE] * chain[k, TY]
+                speed[row, k] = head_speed * fabs(chain[k, RATE])
+
+
 # -- marching to first contact ----------------------------------------------------------------------
 
 # How march() ended.
@@ -1625,7 +2086,8 @@ def ring_least(
 @cython.exceptval(check=False)
 def chain_between(
     growth: cython.double,
-    theta: cython.double,
+    pieces: cython.const[cython.double][:, ::1],
+    place: cython.double,
     leaders: cython.Py_ssize_t,
     benches: cython.Py_ssize_t,
     margin: cython.double,
@@ -1635,13 +2097,18 @@ def chain_between(
     chain: cython.double[:, ::1],
     found: cython.Py_ssize_t[::1],
 ) -> cython.Py_ssize_t:
-    """The chain for a head at theta as far as its leading benches can touch; the last handle's index, -1 at a fold.
+    """The chain for a head at a place as far as its leading benches can touch; the last handle's index, -1 at a fold.
 
     found[0] = how many benches can be the inner one of a touching pair
     allowance: extra radius for what moves during an interval [m]
     """
     k: cython.Py_ssize_t
     radius: cython.double
+    theta: cython.double
+    if pieces.shape[0] > 0:
+        found[0] = leaders
+        return place_chain(growth, pieces, place, benches, sizes, chain)
+    theta = spiral_theta(place / growth)
     start_chain(theta, chain)
     k = extend_chain(growth, 0, leaders, ring[RING_CLEAR], sizes, chain)
     found[0] = k
@@ -1665,6 +2132,8 @@ def drift(rate: cython.double, h: cython.double, growth: cython.double, radius: 
 @cython.exceptval(check=False)
 def interval_least(
     growth: cython.double,
+    pieces: cython.const[cython.double][:, ::1],
+    statics: cython.Py_ssize_t,
     h: cython.double,
     active: cython.Py_ssize_t,
     handles: cython.Py_ssize_t,
@@ -1693,7 +2162,10 @@ def interval_least(
     high: cython.double
     a: cython.Py_ssize_t = 0
     b: cython.Py_ssize_t = 0
-    if not motion_bounds(growth, h, handles, sizes, before, after, motion):
+    if pieces.shape[0] > 0:
+        if not route_bounds(pieces, h, handles, sizes, before, after, motion):
+            return -FREE
+    elif not motion_bounds(growth, h, handles, sizes, before, after, motion):
         return -FREE
     if handles < benches:  # those left out must stay outside the reach of the leaders
         high = before[active, THETA] if before[active, THETA] > after[active, THETA] else after[active, THETA]
@@ -1708,7 +2180,9 @@ def interval_least(
         ):
             return -FREE
     for i in range(active):
-        for j in range(i + 2, handles):
+        for j in range(i + 2, handles + 1 + statics):
+            if j == handles:  # the last handle's row holds no bench; after it stand the edges at rest
+                continue
             least = pair_least(growth, i, j, margin, h, sizes, before, after, motion, out)
             if least >= FREE:
                 continue
@@ -1747,6 +2221,7 @@ def row_gap(
 def row_clearance(
     active: cython.Py_ssize_t,
     handles: cython.Py_ssize_t,
+    statics: cython.Py_ssize_t,
     sizes: cython.double[:, ::1],
     chain: cython.double[:, ::1],
     pair: cython.Py_ssize_t[::1],
@@ -1760,7 +2235,9 @@ def row_clearance(
     gap: cython.double
     best: cython.double = FREE
     for i in range(active):
-        for j in range(i + 2, handles):
+        for j in range(i + 2, handles + 1 + statics):
+            if j == handles:
+                continue
             dx = chain[j, MX] - chain[i, MX]
             dy = chain[j, MY] - chain[i, MY]
             far = sizes[i, RADIUS] + sizes[j, RADIUS] + (best if best > 0.0 else 0.0)
@@ -1779,36 +2256,36 @@ def row_clearance(
 @cython.exceptval(check=False)
 def clearance_at(
     growth: cython.double,
-    theta: cython.double,
+    pieces: cython.const[cython.double][:, ::1],
+    place: cython.double,
+    benches: cython.Py_ssize_t,
     leaders: cython.Py_ssize_t,
     ring: cython.double[::1],
     sizes: cython.double[:, ::1],
     chain: cython.double[:, ::1],
     pair: cython.Py_ssize_t[::1],
 ) -> cython.double:
-    """Clearance with the head at theta over all pairs led by the first `leaders` benches [m]; the pair in pair[1], pair[2]; FREE without pairs.
+    """Clearance with the head at a place over all pairs led by the first `leaders` benches [m]; the pair in pair[1], pair[2]; FREE without pairs.
 
     chain: (n + 1, CHAIN_COLUMNS) scratch; pair[0]: the last handle placed, -1 if the chain folds
     """
     i: cython.Py_ssize_t
     j: cython.Py_ssize_t
-    benches: cython.Py_ssize_t = sizes.shape[0]
     dx: cython.double
     dy: cython.double
     far: cython.double
     gap: cython.double
     best: cython.double = FREE
-    start_chain(theta, chain)
-    pair[0] = extend_chain(growth, 0, benches, FREE, sizes, chain)
+    pair[0] = place_chain(growth, pieces, place, benches, sizes, chain)
     if pair[0] < 0:
         return FREE
     for i in range(leaders):
         far = FREE
-        if best < FREE:
-            far = leaders_reach(growth, growth * theta, growth * chain[i + 1, THETA], ring)
+        if best < FREE and pieces.shape[0] == 0:
+            far = leaders_reach(growth, growth * chain[0, THETA], growth * chain[i + 1, THETA], ring)
             far = radius_beyond(growth, far + (best if best > 0.0 else 0.0), ring)
         for j in range(i + 2, benches):
-            if growth * chain[j, THETA] > far:
+            if far < FREE and growth * chain[j, THETA] > far:
                 break
             dx = chain[j, MX] - chain[i, MX]
             dy = chain[j, MY] - chain[i, MY]
@@ -1828,15 +2305,19 @@ def clearance_at(
 @cython.exceptval(check=False)
 def gap_at(
     growth: cython.double,
-    arc: cython.double,
+    pieces: cython.const[cython.double][:, ::1],
+    place: cython.double,
+    benches: cython.Py_ssize_t,
     a: cython.Py_ssize_t,
     b: cython.Py_ssize_t,
     sizes: cython.double[:, ::1],
     chain: cython.double[:, ::1],
 ) -> cython.double:
-    """Separation of benches a and b with the head at an arc length from the centre [m]; FREE if the chain folds."""
-    start_chain(spiral_theta(arc / growth), chain)
-    if extend_chain(growth, 0, b + 1, FREE, sizes, chain) < 0:
+    """Separation of bench a and bench (or, beyond the last handle's row, edge at rest) b with the head at a place [m].
+
+    FREE if the chain folds.
+    """
+    if place_chain(growth, pieces, place, b + 1 if b < benches else a + 1, sizes, chain) < 0:
         return FREE
     return row_gap(a, b, sizes, chain)
 
@@ -1846,7 +2327,9 @@ def gap_at(
 @cython.exceptval(check=False)
 def gap_rate_at(
     growth: cython.double,
-    arc: cython.double,
+    pieces: cython.const[cython.double][:, ::1],
+    place: cython.double,
+    benches: cython.Py_ssize_t,
     a: cython.Py_ssize_t,
     b: cython.Py_ssize_t,
     sizes: cython.double[:, ::1],
@@ -1863,7 +2346,7 @@ def gap_rate_at(
     vx: cython.double
     vy: cython.double
     omega: cython.double
-    if gap_at(growth, arc, a, b, sizes, chain) >= FREE:
+    if gap_at(growth, pieces, place, benches, a, b, sizes, chain) >= FREE:
         return 0.0
     pair_separation(
         chain[a, MX], chain[a, MY], chain[a, UX], chain[a, UY], sizes[a, HALF_LENGTH], sizes[a, HALF_WIDTH],
@@ -1871,6 +2354,8 @@ def gap_rate_at(
     )
     for side in range(2):
         k = b if side else a
+        if k > benches:
+            continue
         vx = chain[k, RATE] * chain[k, TX] - chain[k + 1, RATE] * chain[k + 1, TX]
         vy = chain[k, RATE] * chain[k, TY] - chain[k + 1, RATE] * chain[k + 1, TY]
         omega = (chain[k, UX] * vy - chain[k, UY] * vx) / sizes[k, CHORD]
@@ -1887,7 +2372,9 @@ def gap_rate_at(
 @cython.exceptval(check=False)
 def crossing(
     growth: cython.double,
-    arc: cython.double,
+    pieces: cython.const[cython.double][:, ::1],
+    place: cython.double,
+    benches: cython.Py_ssize_t,
     low: cython.double,
     high: cython.double,
     a: cython.Py_ssize_t,
@@ -1899,7 +2386,7 @@ def crossing(
     chain: cython.double[:, ::1],
     out: cython.double[::1],
 ) -> cython.double:
-    """Head travel in [low, high] at which benches a, b come within the margin, or (of_rate) stop approaching [m].
+    """Head travel from a place, in [low, high], at which benches a, b come within the margin, or (of_rate) stop approaching [m].
 
     The Illinois form of the false position with a bisection now and then, until the bracket is below the tolerance;
     its later end. Apart (approaching) at low and within the margin (parting) at high.
@@ -1911,8 +2398,8 @@ def crossing(
     last: cython.int = 0
     i: cython.int
     if not of_rate:
-        above = gap_at(growth, arc - low, a, b, sizes, chain) - margin
-        below = gap_at(growth, arc - high, a, b, sizes, chain) - margin
+        above = gap_at(growth, pieces, place - low, benches, a, b, sizes, chain) - margin
+        below = gap_at(growth, pieces, place - high, benches, a, b, sizes, chain) - margin
     for i in range(100):
         if high - low <= tolerance:
             break
@@ -1920,9 +2407,9 @@ def crossing(
         if not (low < middle < high) or i % 4 == 3:
             middle = 0.5 * (low + high)
         if of_rate:
-            value = -gap_rate_at(growth, arc - middle, a, b, sizes, chain, out)
+            value = -gap_rate_at(growth, pieces, place - middle, benches, a, b, sizes, chain, out)
         else:
-            value = gap_at(growth, arc - middle, a, b, sizes, chain) - margin
+            value = gap_at(growth, pieces, place - middle, benches, a, b, sizes, chain) - margin
         if value > 0.0:
             low = middle
             above = value
@@ -1960,7 +2447,8 @@ def passed(
 @cython.exceptval(check=False)
 def march(
     growth: cython.double,
-    arc: cython.double,
+    pieces: cython.const[cython.double][:, ::1],
+    place: cython.double,
     start: cython.double,
     stop: cython.double,
     leaders: cython.Py_ssize_t,
@@ -1970,6 +2458,7 @@ def march(
     rounding: cython.double,
     budget: cython.Py_ssize_t,
     benches: cython.Py_ssize_t,
+    statics: cython.Py_ssize_t,
     ring: cython.double[::1],
     sizes: cython.double[:, ::1],
     rows: cython.double[:, :, ::1],
@@ -1979,10 +2468,11 @@ def march(
 ) -> cython.int:
     """Advance the head from `start` to `stop` [m of travel] by proven steps, until a pair comes within the margin.
 
-    arc: [m] from the centre at travel 0; leaders: benches whose pairs must be followed; at_start: follow all pairs
+    place: at travel 0, see above [m]; leaders: benches whose pairs must be followed; at_start: follow all pairs
     until every bench has passed the start of the one before it; tolerance: half width of the bracket around a
-    contact [m], 0 for none: to end at any instant found to be within the margin; rounding: what a computed gap may be off by [m]; budget: steps; benches: n
-    sizes: (R - 1, SIZE_COLUMNS); rows: (4, R, CHAIN_COLUMNS), motion: (R, MOTION_COLUMNS) scratch; out: (MARCH_ENTRIES,)
+    contact [m], 0 for none: to end at any instant found to be within the margin; rounding: what a computed gap may be off by [m]; budget: steps; benches: n; statics: edges at rest in the rows after
+    the last handle's, on a route only
+    sizes: (R - 1, SIZE_COLUMNS) at least; rows: (4, R, CHAIN_COLUMNS), motion: (R, MOTION_COLUMNS) scratch; out: (MARCH_ENTRIES,)
     returns: REACHED, TOUCHED, TOUCHED_AT_START, STUCK (budget spent or interval at rounding) or CAPACITY (R too small)
     """
     before: cython.double[:, ::1] = rows[0]
@@ -1990,7 +2480,7 @@ def march(
     spare: cython.double[:, ::1] = rows[2]
     opening: cython.double[:, ::1] = rows[3]
     scratch: cython.double[::1] = out[MARCH_ENTRIES:]
-    cap: cython.Py_ssize_t = benches if benches < before.shape[0] - 1 else before.shape[0] - 1
+    cap: cython.Py_ssize_t = benches if benches < before.shape[0] - 1 - statics else before.shape[0] - 1 - statics
     first: cython.Py_ssize_t = leaders
     followers: cython.Py_ssize_t = benches if at_start else leaders
     placed: cython.Py_ssize_t
@@ -2021,7 +2511,7 @@ def march(
     out[STEPS] = out[BEND] = 0.0
     with cython.nogil:
         placed = chain_between(
-            growth, spiral_theta((arc - start) / growth), followers, cap, margin, h, ring, sizes, before, pair
+            growth, pieces, place - start, followers, cap, margin, h, ring, sizes, before, pair
         )
         if placed == cap and cap < benches:
             return CAPACITY
@@ -2029,7 +2519,7 @@ def march(
             return STUCK
         opened = placed
         opening[: placed + 1] = before[: placed + 1]
-        last_clearance = row_clearance(pair[0], placed, sizes, before, pair)
+        last_clearance = row_clearance(pair[0], placed, statics, sizes, before, pair)
         if last_clearance <= margin:
             out[PROVEN] = out[TOUCHING] = start
             out[FIRST] = pair[1]
@@ -2043,7 +2533,7 @@ def march(
             if h > stop - travel:
                 h = stop - travel
             handles = chain_between(
-                growth, spiral_theta((arc - travel - h) / growth), followers, cap, margin,
+                growth, pieces, place - travel - h, followers, cap, margin,
                 ALLOWANCE * drift(fabs(before[1, RATE]) + 1.0, h, growth, growth * before[1, THETA]), ring, sizes,
                 after, pair,
             )
@@ -2060,7 +2550,7 @@ def march(
                 if placed < handles:
                     placed = extend_chain(growth, placed, handles, FREE, sizes, before)
                 least = interval_least(
-                    growth, h, active, handles, benches, margin, ring, sizes, before, after, motion, scratch
+                    growth, pieces, statics, h, active, handles, benches, margin, ring, sizes, before, after, motion, scratch
                 )
                 room = 0.95 * scratch[3]
             if least <= margin + rounding:
@@ -2080,7 +2570,7 @@ def march(
                     out[SECOND] = b
                     return TOUCHED
                 target = crossing(
-                    growth, arc, travel, travel + h, a, b, margin, CROSSING_WIDTH * tolerance, False, sizes, spare,
+                    growth, pieces, place, benches, travel, travel + h, a, b, margin, CROSSING_WIDTH * tolerance, False, sizes, spare,
                     scratch,
                 )
                 out[FIRST] = a
@@ -2090,7 +2580,7 @@ def march(
                     h = target - tolerance - travel
                     continue
                 if target - tolerance <= travel and gap_at(
-                    growth, arc - target - tolerance, a, b, sizes, spare
+                    growth, pieces, place - target - tolerance, benches, a, b, sizes, spare
                 ) <= margin:
                     out[TOUCHING] = target + tolerance
                     return TOUCHED
@@ -2103,22 +2593,22 @@ def march(
             if scratch[0] > out[BEND] and active > 0:
                 out[BEND] = scratch[0]
             if target > 0.0 and gap_at(
-                growth, arc - target - tolerance, cython.cast(cython.Py_ssize_t, out[FIRST]),
+                growth, pieces, place - target - tolerance, benches, cython.cast(cython.Py_ssize_t, out[FIRST]),
                 cython.cast(cython.Py_ssize_t, out[SECOND]), sizes, spare,
             ) <= margin:
                 out[PROVEN] = travel
                 out[TOUCHING] = target + tolerance
                 return TOUCHED
             target = -1.0
-            clearance = row_clearance(active, handles, sizes, before, pair)
+            clearance = row_clearance(active, handles, statics, sizes, before, pair)
             lowest = least if least < floor else floor
             floor = least
             if older_clearance > last_clearance <= clearance and lowest < out[GRAZE_GAP]:
                 if clearance < FREE and older_travel < last_travel:
                     lowest = crossing(
-                        growth, arc, older_travel, travel, last_a, last_b, margin, DIP_WIDTH, True, sizes, spare, scratch
+                        growth, pieces, place, benches, older_travel, travel, last_a, last_b, margin, DIP_WIDTH, True, sizes, spare, scratch
                     )
-                    clearance_there = gap_at(growth, arc - lowest, last_a, last_b, sizes, spare)
+                    clearance_there = gap_at(growth, pieces, place - lowest, benches, last_a, last_b, sizes, spare)
                     if clearance_there < out[GRAZE_GAP]:
                         out[GRAZE_GAP] = clearance_there
                         out[GRAZE_TRAVEL] = lowest

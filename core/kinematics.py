@@ -13,25 +13,30 @@ from core import kernels
 from core.dragon import Dragon, Floats, checked_number
 from core.errors import InvalidValue, OutsideRun
 from core.paths import Spiral
+from core.route import Route
 
 HEAD_SPEED_MIN = 1e-6  # [m/s]
 HEAD_SPEED_MAX = 1e4  # [m/s]
+TIME_MAX = 1e12  # [s]
 
 
 class EndReason(StrEnum):
-    """Why a run ends: a chord has no continuous solution any more, or the head is at the centre."""
+    """Why a run ends: a chord has no continuous solution any more, the head is at the centre of the spiral or at the end
+    of the route, or the time asked for is over."""
 
     FOLD = "fold"
     CENTRE = "centre"
+    END = "end"
+    STOP = "stop"
 
 
 @dataclass(frozen=True, slots=True)
 class RunEnd:
-    """Where the run ends: reason, time [s], theta of the head [rad], the bench that folds (None at the centre)."""
+    """Where the run ends: reason, time [s], theta of the head on a spiral [rad], the bench that folds if one does."""
 
     reason: EndReason
     time: float
-    theta: float
+    theta: float | None
     bench: int | None
 
 
@@ -72,13 +77,17 @@ def end_theta(dragon: Dragon, path: Spiral) -> tuple[float, int | None]:
     return (limit, bench) if limit > 0.0 else (0.0, None)
 
 
-def run_end(dragon: Dragon, path: Spiral, *, head_speed: float = 1.0) -> RunEnd:
-    """Where the run ends: the fold or the centre.
+def run_end(dragon: Dragon, path: Spiral | Route, *, head_speed: float = 1.0) -> RunEnd:
+    """Where the run ends: the fold or the centre of a spiral, the end of a route.
 
     head_speed: [m/s]
-    raises: InvalidValue (path.start_turns) when the dragon cannot even stand at the start
+    raises: InvalidValue when the dragon cannot even stand at the start (path.start_turns), or a bend of a route is too
+        tight for a chord (path)
     """
     head_speed = checked_head_speed(head_speed)
+    if isinstance(path, Route):
+        _check_bends(dragon, path)
+        return RunEnd(EndReason.END, path.end / head_speed, None, None)
     theta, bench = end_theta(dragon, path)
     if theta >= path.start_theta:
         raise InvalidValue(
@@ -90,33 +99,56 @@ def run_end(dragon: Dragon, path: Spiral, *, head_speed: float = 1.0) -> RunEnd:
     return RunEnd(EndReason.CENTRE if bench is None else EndReason.FOLD, time, theta, bench)
 
 
+def _check_bends(dragon: Dragon, path: Route) -> None:
+    """Can every bench follow? With |curvature| chord / 2 below the limit the next handle is unique and never turns back."""
+    curvature, s = path.sharpest
+    bench = int(dragon.chords[: dragon.uniform_from + 1].argmax())
+    chord = float(dragon.chords[bench])
+    if 0.5 * curvature * chord > kernels.BEND_LIMIT:
+        x, y = path.position(s)
+        raise InvalidValue(
+            "path",
+            f"path must not bend tighter than a radius of {0.5 * chord / kernels.BEND_LIMIT:.4g} m for the chord of "
+            f"bench {bench} ({chord:g} m), got {1.0 / curvature:.4g} m near ({x:.4g}, {y:.4g}) m, s = {s:.4g} m",
+        )
+
+
 def trajectory(
-    dragon: Dragon, path: Spiral, times: Floats | Sequence[float], *, head_speed: float = 1.0
+    dragon: Dragon, path: Spiral | Route, times: Floats | Sequence[float], *, head_speed: float = 1.0
 ) -> Trajectory:
     """Position and velocity of every handle at every time.
 
-    times: (T,) [s], 0 at the start; at negative times the head is on the outward extension of the spiral
+    times: (T,) [s], 0 at the start; at negative times the head is on the outward extension of the spiral, or on the part
+        of a route before its s = 0
     head_speed: [m/s], constant
     returns: see Trajectory; positions good to 1e-12 m, speeds from the rigid links, never from differences
-    raises: OutsideRun (times) after the end of the run
+    raises: OutsideRun (times) after the end of the run, or where the tail would stand before the beginning of a route
     source: Yang et al., section 2.3, whose eqs. 6-7 divide a sum of speeds by 2 dt where a distance is meant
 
     >>> trajectory(Dragon(), Spiral(), [0.0]).position[0, 1].round(6)
     array([8.363824, 2.826544])
     """
     end = run_end(dragon, path, head_speed=head_speed)
-    time = checked_times(times, end)
-    head = np.maximum(path.theta(time * head_speed), end.theta)
+    time = checked_times(times, dragon, path, end, head_speed)
     shape = (time.size, dragon.benches + 1)
     position, velocity, speed = np.empty((*shape, 2)), np.empty((*shape, 2)), np.empty(shape)
+    if isinstance(path, Route):
+        sizes = np.zeros((dragon.benches, kernels.SIZE_COLUMNS))
+        sizes[:, 0] = dragon.chords
+        chain = np.empty((dragon.benches + 1, kernels.CHAIN_COLUMNS))
+        kernels.route_trajectory(path.table, time * head_speed, head_speed, sizes, chain, position, velocity, speed)
+        return Trajectory(time, position, velocity, speed)
+    head = np.maximum(path.theta(time * head_speed), end.theta)
     folded = kernels.spiral_trajectory(path.growth, head, dragon.chords, head_speed, position, velocity, speed)
     if folded >= 0:
         raise _after_the_end(end, time, folded)
     return Trajectory(time, position, velocity, speed)
 
 
-def checked_times(times: Floats | Sequence[float], end: RunEnd) -> Floats:
-    """times as a (T,) array of finite numbers [s], none after the end of the run."""
+def checked_times(
+    times: Floats | Sequence[float], dragon: Dragon, path: Spiral | Route, end: RunEnd, head_speed: float
+) -> Floats:
+    """times as a (T,) array of finite numbers [s], none after the end of the run or before a route has room."""
     try:
         time = np.asarray(times, dtype=np.float64)
     except (TypeError, ValueError) as error:
@@ -129,13 +161,64 @@ def checked_times(times: Floats | Sequence[float], end: RunEnd) -> Floats:
     late = np.flatnonzero(time > end.time)
     if late.size:
         raise _after_the_end(end, time, int(late[0]))
+    early = np.flatnonzero(time < earliest_time(dragon, path, head_speed))
+    if early.size:
+        k = int(early[0])
+        raise OutsideRun(
+            f"times.{k}",
+            f"times[{k}] must be at least {earliest_time(dragon, path, head_speed):.6f} s, when the whole dragon is on the "
+            f"path, got {time[k]:g} s",
+        )
     return np.ascontiguousarray(time)
 
 
+def checked_span(
+    dragon: Dragon, path: Spiral | Route, start: float, stop: float | None, end: RunEnd, head_speed: float
+) -> tuple[float, float]:
+    """start and stop [s] if the run has them, in that order; None stands for the end of the run."""
+    until = end.time if stop is None else checked_number("stop", stop, "s", -TIME_MAX, TIME_MAX)
+    begin = checked_number("start", start, "s", -TIME_MAX, TIME_MAX)
+    earliest = earliest_time(dragon, path, head_speed)
+    if begin < earliest:
+        raise OutsideRun(
+            "start", f"start must be at least {earliest:.6f} s, when the whole dragon is on the path, got {begin:g} s"
+        )
+    if until > end.time:
+        raise OutsideRun("stop", f"stop must be at most {end.time:.9f} s, when {_why(end)}, got {until:g} s")
+    if until <= begin:
+        raise InvalidValue("stop", f"stop must be after start ({begin:g} s), got {until:g} s")
+    return begin, until
+
+
+def earliest_time(dragon: Dragon, path: Spiral | Route, head_speed: float) -> float:
+    """When the last handle is at the beginning of the route [s]; -TIME_MAX where the path has no beginning.
+
+    A chord spans between its own length and pi / 2 times it of the path, so the place of the head is bisected.
+    """
+    if isinstance(path, Spiral) or path.tail_begin is None:
+        return -TIME_MAX
+    sizes = np.zeros((dragon.benches, kernels.SIZE_COLUMNS))
+    sizes[:, 0] = dragon.chords
+    chain = np.empty((dragon.benches + 1, kernels.CHAIN_COLUMNS))
+    low = path.tail_begin
+    high = low + 0.5 * math.pi * float(dragon.chords.sum())
+    while high - low > 1e-9 * (1.0 + abs(high)):
+        middle = 0.5 * (low + high)
+        tail = kernels.route_tail(path.table, middle, dragon.benches, sizes, chain)
+        low, high = (low, middle) if tail >= path.tail_begin else (middle, high)
+    return high / head_speed
+
+
+def _why(end: RunEnd) -> str:
+    if end.reason is EndReason.FOLD:
+        return f"bench {end.bench} folds"
+    return "the head is at the centre" if end.reason is EndReason.CENTRE else "the path ends"
+
+
 def _after_the_end(end: RunEnd, time: Floats, index: int) -> OutsideRun:
-    why = "the head is at the centre" if end.bench is None else f"bench {end.bench} folds"
     return OutsideRun(
-        f"times.{index}", f"times[{index}] must be at most {end.time:.9f} s, when {why}, got {time[index]:g} s"
+        f"times.{index}",
+        f"times[{index}] must be at most {end.time:.9f} s, when {_why(end)}, got {time[index]:g} s",
     )
 
 

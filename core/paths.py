@@ -1,4 +1,7 @@
-"""Paths: arc length s -> point and tangent. s grows in the direction of travel, the tail has the smaller s."""
+"""Paths: arc length s -> point and tangent. s grows in the direction of travel, the tail has the smaller s.
+
+Spiral is the whole dance of the contest; Route joins pieces (Line, Arc, Coil, Waypoints) into one path.
+"""
 
 from __future__ import annotations
 

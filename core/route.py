@@ -1,0 +1,270 @@
+"""Route: pieces joined into one path by arc length, each joint checked for position and tangent."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from core import kernels
+from core.dragon import Floats, checked_number, checked_size
+from core.errors import InvalidValue
+
+# Coordinates beyond this lose the digits that the chords need [m].
+COORDINATE_MAX = 1e5
+# Pieces that meet within this are joined [m], [rad]: rounding of coordinates up to 1 km.
+JOINT_GAP = 1e-9
+JOINT_KINK = 1e-9
+# A cubic is cut until halving it changes its quadrature by less than this [1] ...
+CUBIC_ARC = 1e-13
+# ... and its bounds on the curvature differ by less than this [1/m], or it is this short [m].
+CUBIC_CURVATURE = 0.01
+CUBIC_SHORT = 0.02
+
+Point = tuple[float, float]
+_KINDS = {name: float(code) for code, name in enumerate(kernels.PIECE_KINDS)}
+
+
+def _checked_point(name: str, value: object) -> Point:
+    try:
+        x, y = value  # type: ignore[misc]
+    except (TypeError, ValueError) as error:
+        raise InvalidValue(name, f"{name} must be a point [x, y] in metres, got {value!r}") from error
+    limits = (-COORDINATE_MAX, COORDINATE_MAX)
+    return (checked_number(f"{name}.0", x, "m", *limits), checked_number(f"{name}.1", y, "m", *limits))
+
+
+def _row(kind: str, start: float, end: float, curvature: Point, *parameters: float) -> list[float]:
+    row = [_KINDS[kind], start, end, *curvature, *parameters]
+    return row + [0.0] * (kernels.PIECE_COLUMNS - len(row))
+
+
+@dataclass(frozen=True)
+class Line:
+    """A straight piece from start to end, (x, y) [m]."""
+
+    start: Point
+    end: Point
+
+    def rows(self, name: str, s: float) -> list[list[float]]:
+        """Rows of the kernels' table from arc length s on."""
+        (x, y), end = _checked_point(f"{name}.start", self.start), _checked_point(f"{name}.end", self.end)
+        length = math.hypot(end[0] - x, end[1] - y)
+        _check_length(name, length)
+        dx, dy = (end[0] - x) / length, (end[1] - y) / length
+        return [_row("line", s, s + length, (0.0, 0.0), x, y, dx, dy)]
+
+
+@dataclass(frozen=True)
+class Arc:
+    """Part of a circle: centre (x, y) [m], radius [m], start_angle [rad], sweep [rad], counter-clockwise if positive."""
+
+    centre: Point
+    radius: float
+    start_angle: float
+    sweep: float
+
+    def rows(self, name: str, s: float) -> list[list[float]]:
+        """Rows of the kernels' table from arc length s on."""
+        x, y = _checked_point(f"{name}.centre", self.centre)
+        radius = checked_size(f"{name}.radius", self.radius)
+        angle = checked_number(f"{name}.start_angle", self.start_angle, "rad", -1e6, 1e6)
+        sweep = checked_number(f"{name}.sweep", self.sweep, "rad", -1e6, 1e6)
+        _check_length(name, radius * abs(sweep))
+        sign = math.copysign(1.0, sweep)
+        bend = sign / radius
+        return [_row("arc", s, s + radius * abs(sweep), (bend, bend), x, y, radius, angle, sign)]
+
+
+@dataclass(frozen=True)
+class Coil:
+    """Part of an Archimedean spiral between two turns: inwards (clockwise) or outwards (counter-clockwise).
+
+    pitch: [m]; start_turns, end_turns: turns from its centre, danced from the one to the other
+    centre: (x, y) [m]; rotation: of the whole spiral [rad]
+    """
+
+    pitch: float
+    start_turns: float
+    end_turns: float
+    centre: Point = (0.0, 0.0)
+    rotation: float = 0.0
+
+    def rows(self, name: str, s: float) -> list[list[float]]:
+        """Rows of the kernels' table from arc length s on."""
+        growth = checked_size(f"{name}.pitch", self.pitch) / (2.0 * math.pi)
+        start = 2.0 * math.pi * checked_number(f"{name}.start_turns", self.start_turns, "turns", 0.0, 1e5)
+        end = 2.0 * math.pi * checked_number(f"{name}.end_turns", self.end_turns, "turns", 0.0, 1e5)
+        x, y = _checked_point(f"{name}.centre", self.centre)
+        rotation = checked_number(f"{name}.rotation", self.rotation, "rad", -1e6, 1e6)
+        arc, end_arc = growth * kernels.spiral_arc(start), growth * kernels.spiral_arc(end)
+        _check_length(name, abs(end_arc - arc))
+        sign = 1.0 if end > start else -1.0
+        bends = (sign * kernels.spiral_curvature(start) / growth, sign * kernels.spiral_curvature(end) / growth)
+        return [_row("spiral", s, s + abs(end_arc - arc), bends, x, y, growth, rotation, sign, arc)]
+
+
+@dataclass(frozen=True)
+class Waypoints:
+    """A smooth curve through points (x, y) [m]: the cubic spline over the length of its polygon, curvature-continuous.
+
+    start_heading, end_heading: direction at its ends [rad]; None leaves the end without curvature
+    """
+
+    points: tuple[Point, ...]
+    start_heading: float | None = None
+    end_heading: float | None = None
+
+    def rows(self, name: str, s: float) -> list[list[float]]:
+        """Rows of the kernels' table from arc length s on: cubics short enough for exact arc lengths."""
+        from scipy.interpolate import CubicSpline
+
+        if len(self.points) < 2:
+            raise InvalidValue(f"{name}.points", f"{name}.points must be at least 2 points, got {len(self.points)}")
+        points = np.array([_checked_point(f"{name}.points.{k}", point) for k, point in enumerate(self.points)])
+        steps = np.hypot(*np.diff(points, axis=0).T)
+        short = np.flatnonzero(steps < 1e-3)
+        if short.size:
+            k = int(short[0])
+            raise InvalidValue(
+                f"{name}.points.{k + 1}", f"{name}.points[{k + 1}] must be at least 0.001 m from the point before it"
+            )
+        knots = np.concatenate([[0.0], np.cumsum(steps)])
+        spline = CubicSpline(knots, points, bc_type=(self._end(self.start_heading), self._end(self.end_heading)))
+        rows: list[list[float]] = []
+        for k in range(len(knots) - 1):
+            for row in _cut(spline.c[::-1, k], float(knots[k + 1] - knots[k])):
+                rows.append([row[0], s, s + row[2], *row[3:]])
+                s += row[2]
+        return rows
+
+    @staticmethod
+    def _end(heading: float | None) -> tuple[int, Floats]:
+        if heading is None:
+            return 2, np.zeros(2)
+        return 1, np.array([math.cos(heading), math.sin(heading)])
+
+
+Piece = Line | Arc | Coil | Waypoints
+
+
+def _check_length(name: str, length: float) -> None:
+    if length < 1e-6:
+        raise InvalidValue(name, f"{name} must be at least 1e-06 m long, got {length:g} m")
+
+
+def _cut(coefficients: Floats, end: float) -> list[list[float]]:
+    """A cubic r(t) = sum c_k t^k on [0, end] as one row, or cut in two where that is not exact enough.
+
+    Bounds on the curvature (x' y'' - y' x'') / |r'|^3: numerator and |r'|^2 are polynomials, and a polynomial lies
+    between the least and the largest of its Bernstein coefficients.
+    """
+    x, y = np.polynomial.Polynomial(coefficients[:, 0]), np.polynomial.Polynomial(coefficients[:, 1])
+    row = _row("cubic", 0.0, 0.0, (0.0, 0.0), *coefficients[:, 0], *coefficients[:, 1], end)
+    table = np.array([row])
+    length = kernels.cubic_arc(table, 0, end)
+    half = _shifted(coefficients, 0.5 * end)
+    halves = kernels.cubic_arc(table, 0, 0.5 * end) + kernels.cubic_arc(
+        np.array([_row("cubic", 0.0, 0.0, (0.0, 0.0), *half[:, 0], *half[:, 1], 0.5 * end)]), 0, 0.5 * end
+    )
+    turn_low, turn_high = _bernstein(x.deriv() * y.deriv(2) - y.deriv() * x.deriv(2), end)
+    fast_low, fast_high = _bernstein(x.deriv() ** 2 + y.deriv() ** 2, end)
+    if fast_low > 0.0:
+        low = turn_low / (fast_low if turn_low < 0.0 else fast_high) ** 1.5
+        high = turn_high / (fast_low if turn_high > 0.0 else fast_high) ** 1.5
+        exact = abs(length - halves) <= CUBIC_ARC * length
+        if exact and (high - low <= CUBIC_CURVATURE or length < CUBIC_SHORT):
+            return [[row[0], 0.0, length, low, high, *row[5:]]]
+    if end < 1e-6:
+        raise InvalidValue("path.points", "path.points must not make the curve stop or turn on the spot")
+    return _cut(coefficients, 0.5 * end) + _cut(half, 0.5 * end)
+
+
+def _shifted(coefficients: Floats, t: float) -> Floats:
+    """Coefficients of r(t + u) in u."""
+    c0, c1, c2, c3 = coefficients
+    return np.array([c0 + t * (c1 + t * (c2 + t * c3)), c1 + t * (2 * c2 + 3 * t * c3), c2 + 3 * t * c3, c3])
+
+
+def _bernstein(polynomial: np.polynomial.Polynomial, end: float) -> tuple[float, float]:
+    power = polynomial.coef * end ** np.arange(polynomial.coef.size)
+    n = power.size - 1
+    values = [sum(math.comb(k, i) / math.comb(n, i) * power[i] for i in range(k + 1)) for k in range(n + 1)]
+    return float(min(values)), float(max(values))
+
+
+class Route:
+    """Pieces joined into one path, s = 0 at `start` metres from the beginning of the first one.
+
+    pieces: in the order they are danced; joints must agree within JOINT_GAP and JOINT_KINK
+    table: rows for the kernels; joints: s of every joint [m]; begin, end: s of both ends [m]. A first piece that coils
+    inwards goes on outwards behind `begin`, so that the tail has a place: then tail_begin is None, else begin.
+    raises: InvalidValue naming the piece or the joint and its gap
+    """
+
+    def __init__(self, pieces: Sequence[Piece], start: float = 0.0) -> None:
+        if not pieces:
+            raise InvalidValue("path.pieces", "path.pieces must hold at least one piece")
+        self.pieces = tuple(pieces)
+        self.start = checked_number("path.start", start, "m", -1e9, 1e9)
+        rows: list[list[float]] = []
+        joints = []
+        for k, piece in enumerate(self.pieces):
+            begin = rows[-1][2] if rows else -self.start
+            joints.append((begin, len(rows)))
+            rows += piece.rows(f"path.pieces.{k}", begin)
+        self.table = np.array(rows)
+        self.joints = tuple(s for s, _ in joints[1:])
+        self.begin, self.end = float(rows[0][1]), float(rows[-1][2])
+        first = self.pieces[0]
+        inwards = isinstance(first, Coil) and first.start_turns > first.end_turns
+        self.tail_begin = None if inwards else self.begin
+        self.table.flags.writeable = False
+        for k, (s, row) in enumerate(joints[1:], start=1):
+            self._check_joint(k, s, row)
+
+    def _check_joint(self, k: int, s: float, row: int) -> None:
+        ends = np.empty((2, 5))
+        for side, part in enumerate((self.table[:row], self.table[row:])):
+            kernels.route_points(np.ascontiguousarray(part), np.array([s]), ends[side : side + 1])
+        (x, y, tx, ty, _), (x2, y2, tx2, ty2, _) = ends
+        gap = math.hypot(x2 - x, y2 - y)
+        kink = abs(math.atan2(tx * ty2 - ty * tx2, tx * tx2 + ty * ty2))
+        name = f"path.pieces.{k}"
+        where = f"the joint of path.pieces[{k - 1}] and path.pieces[{k}]"
+        if gap > JOINT_GAP:
+            raise InvalidValue(
+                name, f"{where} must close: ({x:.9g}, {y:.9g}) m is {gap:.3g} m from ({x2:.9g}, {y2:.9g}) m"
+            )
+        if kink > JOINT_KINK:
+            raise InvalidValue(
+                name, f"{where} must be smooth: at ({x:.9g}, {y:.9g}) m the direction turns by {kink:.3g} rad"
+            )
+
+    def _points(self, s: Floats | float) -> Floats:
+        flat = np.ascontiguousarray(np.asarray(s, dtype=np.float64).reshape(-1))
+        out = np.empty((flat.size, 5))
+        kernels.route_points(self.table, flat, out)
+        return out.reshape(*np.shape(s), 5)
+
+    def position(self, s: Floats | float) -> Floats:
+        """Points at arc length s. s: (...) [m]; returns (..., 2) x, y [m]."""
+        return self._points(s)[..., 0:2]
+
+    def tangent(self, s: Floats | float) -> Floats:
+        """Unit tangents in the direction of travel. s: (...) [m]; returns (..., 2)."""
+        return self._points(s)[..., 2:4]
+
+    def curvature(self, s: Floats | float) -> Floats:
+        """Curvature, counter-clockwise positive. s: (...) [m]; returns (...) [1/m]."""
+        return self._points(s)[..., 4]
+
+    @cached_property
+    def sharpest(self) -> tuple[float, float]:
+        """The largest |curvature| [1/m] and an s [m] where it is reached (for a cubic, bounded)."""
+        bends = np.abs(self.table[:, 3:5])
+        row, end = np.unravel_index(int(bends.argmax()), bends.shape)
+        return float(bends[row, end]), float(self.table[row, 1 + end])
