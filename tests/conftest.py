@@ -15,6 +15,7 @@ import pytest
 
 ROOT = Path(__file__).parent.parent
 START_TIMEOUT = 60.0  # [s] to the first answer; a cold start takes about one
+STOP_TIMEOUT = 30.0  # [s] from the signal to the end; uvicorn lets running computations finish
 
 
 @pytest.fixture(scope="session")
@@ -33,7 +34,12 @@ def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
         yield f"http://127.0.0.1:{port}"
     finally:
         process.terminate()
-        process.wait(timeout=START_TIMEOUT)
+        try:
+            process.wait(STOP_TIMEOUT)
+        except subprocess.TimeoutExpired:
+            process.kill()
+            process.wait()
+            raise
 
 
 def wait_until_live(process: subprocess.Popen[bytes], port: int, log: Path) -> None:

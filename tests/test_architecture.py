@@ -19,6 +19,7 @@ ORDER = (
     "core.errors",
     "core.dragon",
     "core.paths",
+    "core.route",
     "core.kinematics",
     "core.rectangles",
     "core.angle_sum",
