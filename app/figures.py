@@ -366,7 +366,9 @@ def pitch_scan_figure(
         axes.set(xlim=(pitches[0], pitches[-1]), xlabel="pitch [m]", ylabel="radius of the head at first contact [m]")
         axes.set_ylim(0.0, 1.2 * scan.radius.max(initial=turning_radius))
         axes.legend(loc="lower left", fontsize=9)
-        axes.set_title("Where the head stands at first contact, against the pitch", fontsize=11)
+        none = "No contact at any of these pitches"
+        title = "Where the head stands at first contact, against the pitch" if scan.pitch.size else none
+        axes.set_title(title, fontsize=11)
         near = axes.inset_axes((0.56, 0.64, 0.41, 0.33))
         _draw_scan(near, scan, least, turning_radius)
         near.set(xlim=(0.995 * least.pitch, 1.005 * least.pitch))

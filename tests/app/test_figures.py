@@ -128,3 +128,7 @@ def test_scan_leaves_out_pitches_without_contact_and_reports_progress() -> None:
     scan = figures.pitch_scan(SMALL, np.array([0.55, 0.8]), progress=shares.append)
     assert shares == [0.5, 1.0]
     assert scan.pitch.max() < 0.8
+
+
+def test_pitch_scan_figure_of_a_dragon_that_cannot_touch_says_so() -> None:
+    assert "No contact at any of these pitches" in texts(figures.pitch_scan_figure(Dragon(benches=2), samples=3))
