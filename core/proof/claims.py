@@ -77,7 +77,7 @@ class CollisionTime:
         if not overlapping(self.chain, self._after, a, b):
             raise Unproven(f"benches {a} and {b} are not shown to overlap at {self.time!r} + {TIME_BRACKET} s")
         return (
-            f"Of {self.chain.count} benches no two non-adjacent ones touch before {self.time!r} - {TIME_BRACKET} s, "
+            f"Of {self.chain.count} benches no two but neighbours touch before {self.time!r} - {TIME_BRACKET} s, "
             f"and benches {a} and {b} overlap at {self.time!r} + {TIME_BRACKET} s."
         )
 
@@ -144,7 +144,7 @@ class MinimumPitch:
                 raise Unproven(f"the start is not shown to lie within the circle with {PITCH_STEP} m less")
             why = "the start lies within the circle"
         return (
-            f"With pitch {self.pitch!r} m no two non-adjacent ones of {less.count} benches touch until the head is "
+            f"With pitch {self.pitch!r} m no two of {less.count} benches but neighbours touch until the head is "
             f"{self.turning_radius!r} m from the centre, and with {PITCH_STEP} m less {why}."
         )
 
