@@ -45,6 +45,8 @@ NO_GRAZE = 1e300
 FOLD_SLIVER = 1e-9
 # A gap is a handful of operations on coordinates: relative to the largest of them it is good to this [1].
 GAP_ROUNDING = 4e-15
+# Places on a route are rounded as arc lengths are; in units of the coordinates' rounding [1].
+ARC_ROUNDING = 0.1
 # Grazes of a profile are looked for in steps of at most this fraction of the shortest chord [1] ...
 PROFILE_STEP = 0.2
 # ... and at most this many of them ...
@@ -158,7 +160,8 @@ class Search:
 
     extremes: longest and shortest chord, longest overhang, half width of all benches, chord and half width of those that
         can be the outer of a pair [m]; ring: the same for the kernels, see RING_... there
-    sizes: (rows, 4) of the leading benches; statics: edges at rest, as chain rows beyond the last handle's (routes only)
+    sizes: (rows, 4) of the leading benches; edges: (E, 4) x, y, x, y of edges at rest [m], on routes only; with edges, the pairs are bench and edge
+        alone: edge e is bench number room + 1 + e of a pair
     clear_radius: on a spiral, no pair whose inner bench leads at this radius or further out comes within the margin [m]
     place: what the kernels count places from, at time 0: arc length from the centre of a spiral, minus s on a route [m]
     """
@@ -170,6 +173,7 @@ class Search:
     def __init__(self, dragon: Dragon, path: Spiral | Route, margin: float, edges: Floats | None = None) -> None:
         self.dragon = dragon
         self.edges = np.empty((0, 4)) if edges is None else edges
+        self.statics = -len(self.edges)
         alike = dragon.uniform_from
         chords, half_widths = dragon.chords[: alike + 1], 0.5 * dragon.widths[: alike + 1]
         overhangs = dragon.overhangs[: alike + 1]
@@ -195,7 +199,8 @@ class Search:
         if isinstance(path, Route):
             self.growth, self.pieces, self.place = 1.0, path.table, 0.0
             self.clear_radius = NO_BOUND
-            largest = float(np.abs(path.table[:, 5:7]).max()) + path.end - path.begin
+            seen = path.position(np.linspace(path.begin, path.end, 256))
+            largest = float(np.abs(seen).max()) + ARC_ROUNDING * max(abs(path.begin), abs(path.end))
         else:
             self.growth, self.pieces, self.place = path.growth, NO_PIECES, path.length
             self.clear_radius = self._clear_radius()
@@ -279,7 +284,7 @@ class Search:
                 self.rounding,
                 STEP_BUDGET,
                 self.dragon.benches,
-                len(self.edges),
+                self.statics,
                 self.ring,
                 self.sizes,
                 self.rows,
@@ -297,7 +302,8 @@ class Search:
         benches = self.room
         leaders = benches if leaders is None else leaders
         gap = kernels.clearance_at(
-            self.growth, self.pieces, self.place - travel, benches, leaders, self.ring, self.sizes, self.rows[0], self.pair
+            self.growth, self.pieces, self.place - travel, benches, leaders, self.statics, self.ring,
+            self.sizes, self.rows[0], self.pair,
         )
         return gap, (int(self.pair[1]), int(self.pair[2]))
 

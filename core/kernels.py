@@ -981,10 +981,11 @@ MX = cython.declare(cython.int, 6)
 MY = cython.declare(cython.int, 7)
 UX = cython.declare(cython.int, 8)
 UY = cython.declare(cython.int, 9)
-# and on a route the handle's curvature [1/m] and piece
+# and on a route the handle's curvature [1/m], piece, and theta if that is a spiral
 CURVATURE = cython.declare(cython.int, 10)
 PIECE = cython.declare(cython.int, 11)
-CHAIN_COLUMNS = 12
+PIECE_THETA = cython.declare(cython.int, 12)
+CHAIN_COLUMNS = 13
 
 # Columns of a motion row, one for each bench: bounds over an interval.
 CENTRE_SPEED = cython.declare(cython.int, 0)
@@ -1606,6 +1607,22 @@ def route_points(pieces: cython.const[cython.double][:, ::1], s: cython.const[cy
 @cython.cfunc
 @cython.nogil
 @cython.exceptval(check=False)
+def set_piece_theta(
+    pieces: cython.const[cython.double][:, ::1],
+    p: cython.Py_ssize_t,
+    k: cython.Py_ssize_t,
+    chain: cython.double[:, ::1],
+) -> cython.void:
+    """theta of handle k if it stands on a spiral."""
+    if pieces[p, PIECE_KIND] == SPIRAL:
+        chain[k, PIECE_THETA] = spiral_theta(
+            (pieces[p, 10] + pieces[p, 9] * (-chain[k, PLACE] - pieces[p, S_START])) / pieces[p, 7]
+        )
+
+
+@cython.cfunc
+@cython.nogil
+@cython.exceptval(check=False)
 def start_route(pieces: cython.const[cython.double][:, ::1], s: cython.double, chain: cython.double[:, ::1]) -> cython.void:
     """Row 0 of a chain on a route: the head at s."""
     p: cython.Py_ssize_t = piece_of(pieces, s, 0)
@@ -1613,6 +1630,7 @@ def start_route(pieces: cython.const[cython.double][:, ::1], s: cython.double, c
     chain[0, PLACE] = -s
     chain[0, PIECE] = p
     chain[0, RATE] = 1.0
+    set_piece_theta(pieces, p, 0, chain)
 
 
 @cython.cfunc
@@ -1651,22 +1669,30 @@ def extend_route(
         step = chord
         if k > 0 and sizes[k - 1, CHORD] == chord:
             step = chain[k, PLACE] - chain[k - 1, PLACE]
-        if pieces[p, PIECE_KIND] == LINE and (p == 0 or s - chord >= pieces[p, S_START]):
+        if pieces[p, PIECE_KIND] == LINE:
             step = chord
         elif pieces[p, PIECE_KIND] == ARC:
             step = 2.0 * pieces[p, 7] * asin(0.5 * chord / pieces[p, 7])
         elif pieces[p, PIECE_KIND] == SPIRAL:
             # on an outward spiral the follower is further in: the same equation with theta negative
-            theta = -pieces[p, 9] * spiral_theta(
-                (pieces[p, 10] + pieces[p, 9] * (s - pieces[p, S_START])) / pieces[p, 7]
-            )
+            theta = -pieces[p, 9] * chain[k, PIECE_THETA]
             delta, half, cosine = next_handle(
                 theta, (chord / pieces[p, 7]) * (chord / pieces[p, 7]), step / (pieces[p, 7] * sqrt(1.0 + theta * theta))
             )
             if delta > 0.0 and theta * (theta + delta) > 0.0:
-                half = pieces[p, 7] * fabs(spiral_arc(theta + delta) - spiral_arc(theta))
-                if low <= half <= high and (p == 0 or s - half >= pieces[p, S_START]):
+                half = pieces[p, 7] * (spiral_arc(theta + delta) - spiral_arc(theta))
+                if low <= half <= high:
                     step = half
+                    if p == 0 or s - half >= pieces[p, S_START]:
+                        chain[k + 1, PIECE_THETA] = fabs(theta + delta)
+                        (
+                            chain[k + 1, PX], chain[k + 1, PY], chain[k + 1, TX], chain[k + 1, TY],
+                            chain[k + 1, CURVATURE],
+                        ) = spiral_point(pieces, p, fabs(theta + delta))
+                        chain[k + 1, PLACE] = step - s
+                        chain[k + 1, PIECE] = p
+                        finish_link(k, chord, chain)
+                        continue
         for i in range(80):
             if not (low <= step <= high):
                 step = 0.5 * (low + high)
@@ -1682,11 +1708,15 @@ def extend_route(
                 low = step
             else:
                 high = step
-            if fabs(distance - chord) <= 2e-16 * (chord + fabs(chain[k, PX]) + fabs(chain[k, PY])) or high - low <= 1e-15 * chord:
+            if (
+                fabs(distance - chord) <= 4e-16 * (chord + fabs(chain[k, PX]) + fabs(chain[k, PY]))
+                or high - low <= 1e-15 * chord
+            ):
                 break
             step += (chord - distance) / slope if slope > 0.1 else 2.0 * high
         chain[k + 1, PLACE] = step - s
         chain[k + 1, PIECE] = p
+        set_piece_theta(pieces, p, k + 1, chain)
         finish_link(k, chord, chain)
     return last
 
@@ -2180,7 +2210,7 @@ def interval_least(
         ):
             return -FREE
     for i in range(active):
-        for j in range(i + 2, handles + 1 + statics):
+        for j in range(i + 2 if statics >= 0 else handles + 1, handles + 1 + abs(statics)):
             if j == handles:  # the last handle's row holds no bench; after it stand the edges at rest
                 continue
             least = pair_least(growth, i, j, margin, h, sizes, before, after, motion, out)
@@ -2235,7 +2265,7 @@ def row_clearance(
     gap: cython.double
     best: cython.double = FREE
     for i in range(active):
-        for j in range(i + 2, handles + 1 + statics):
+        for j in range(i + 2 if statics >= 0 else handles + 1, handles + 1 + abs(statics)):
             if j == handles:
                 continue
             dx = chain[j, MX] - chain[i, MX]
@@ -2260,6 +2290,7 @@ def clearance_at(
     place: cython.double,
     benches: cython.Py_ssize_t,
     leaders: cython.Py_ssize_t,
+    statics: cython.Py_ssize_t,
     ring: cython.double[::1],
     sizes: cython.double[:, ::1],
     chain: cython.double[:, ::1],
@@ -2279,6 +2310,8 @@ def clearance_at(
     pair[0] = place_chain(growth, pieces, place, benches, sizes, chain)
     if pair[0] < 0:
         return FREE
+    if statics != 0:
+        return row_clearance(leaders, benches, statics, sizes, chain, pair)
     for i in range(leaders):
         far = FREE
         if best < FREE and pieces.shape[0] == 0:
@@ -2471,7 +2504,7 @@ def march(
     place: at travel 0, see above [m]; leaders: benches whose pairs must be followed; at_start: follow all pairs
     until every bench has passed the start of the one before it; tolerance: half width of the bracket around a
     contact [m], 0 for none: to end at any instant found to be within the margin; rounding: what a computed gap may be off by [m]; budget: steps; benches: n; statics: edges at rest in the rows after
-    the last handle's, on a route only
+    the last handle's, on a route only; negative: these alone, without pairs of benches
     sizes: (R - 1, SIZE_COLUMNS) at least; rows: (4, R, CHAIN_COLUMNS), motion: (R, MOTION_COLUMNS) scratch; out: (MARCH_ENTRIES,)
     returns: REACHED, TOUCHED, TOUCHED_AT_START, STUCK (budget spent or interval at rounding) or CAPACITY (R too small)
     """
@@ -2480,7 +2513,7 @@ def march(
     spare: cython.double[:, ::1] = rows[2]
     opening: cython.double[:, ::1] = rows[3]
     scratch: cython.double[::1] = out[MARCH_ENTRIES:]
-    cap: cython.Py_ssize_t = benches if benches < before.shape[0] - 1 - statics else before.shape[0] - 1 - statics
+    cap: cython.Py_ssize_t = benches if benches < before.shape[0] - 1 - abs(statics) else before.shape[0] - 1 - abs(statics)
     first: cython.Py_ssize_t = leaders
     followers: cython.Py_ssize_t = benches if at_start else leaders
     placed: cython.Py_ssize_t
