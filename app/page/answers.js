@@ -1,11 +1,12 @@
 /** The answers, and for each how it is known. */
 
 import { make } from "./controls.js";
-import { benchName, handleName, say } from "./text.js";
+import { handleName, say } from "./text.js";
 
 const MARKS = { contact: "✕", contact_at_start: "✕", clear: "✓", undecided: "?" };
-const millimetres = (metres) => (1000 * metres).toFixed(3);
-const pair = ([a, b], benches) => ({ a: benchName(a, benches), b: benchName(b, benches) });
+/** Metres in millimetres; what rounds to zero has no sign. */
+export const millimetres = (metres) => (1000 * metres).toFixed(3).replace(/^-(0\.0+)$/, "$1");
+const pair = ([a, b], benches) => ({ a: handleName(a, benches), b: handleName(b, benches) });
 
 /** Replace what a box shows, but keep its details open. */
 function show(box, title, value, lines, known, outcome = "") {
@@ -75,17 +76,19 @@ export function showMinimumPitch(box, answer, { benches, diameter }, use) {
   show(box, say("minimumPitch"), `${answer.pitch.toFixed(9)} m`, [...lines, button], [facts(rows), ...engines(answer.cross_check)]);
 }
 
-/** table: a trajectory at evenly spaced instants over the whole dance */
-export function showHighestSpeed(box, table, { benches }) {
+/** table: a trajectory at evenly spaced instants over the whole dance, which ends as answer says */
+export function showHighestSpeed(box, table, { end }, { benches, head_speed }) {
   let best = { speed: -1 };
   table.speed.forEach((row, k) =>
     row.forEach((speed, handle) => {
       if (speed > best.speed) best = { speed, handle, time: table.time[k] };
     }),
   );
-  const whose = say("whose", { name: handleName(best.handle, benches), time: best.time.toFixed(3) });
-  const known = make("p", { textContent: say("speedKnown", { count: table.time.length }) });
-  show(box, say("highest"), `${best.speed.toFixed(6)} m/s`, [whose], [known]);
+  const words = { name: handleName(best.handle, benches), speed: best.speed.toFixed(1), time: best.time.toFixed(3) };
+  const folds = end?.reason === "fold" && best.speed > head_speed;
+  const whose = say(folds ? "towardsFold" : best.handle ? "whose" : "headFastest", words);
+  const known = make("p", { textContent: say(folds ? "foldKnown" : "speedKnown", { count: table.time.length }) });
+  show(box, say("highest"), folds ? say("unbounded") : `${best.speed.toFixed(6)} m/s`, [whose], [known]);
 }
 
 export function showEnd(box, answer, time) {
@@ -101,7 +104,7 @@ export function showRefusal(box, title, words) {
 export function insetWords({ benches: [a, b], corner, edge }, gap, benches) {
   const named = corner && edge;
   const words = named
-    ? say("insetMeet", { corner: say(corner.name), edge: say(edge.name), a: benchName(corner.bench, benches), b: benchName(edge.bench, benches) })
-    : `${benchName(a, benches)}, ${benchName(b, benches)}`;
-  return gap === null ? words : `${words}; ${say("gap", { gap: millimetres(gap).replace(/^-(0\.0+)$/, "$1") })}`;
+    ? say("insetMeet", { corner: say(corner.name), edge: say(edge.name), a: handleName(corner.bench, benches), b: handleName(edge.bench, benches) })
+    : `${handleName(a, benches)}, ${handleName(b, benches)}`;
+  return gap === null ? words : `${words}; ${say("gap", { gap: millimetres(gap) })}`;
 }

@@ -2,25 +2,21 @@
 
 import { View } from "./view.js";
 
-/** Cividis, dark to light: safe for colour-blind eyes. */
-const RAMP = ["#00224e", "#2a3f6d", "#575d6d", "#7d7c78", "#a59c74", "#d3c164", "#fee838"];
 const SHADES = 48;
 /** Speeds closer than this [m/s] are one colour: the colours must not show rounding. */
 const SPEED_SPREAD_MIN = 1e-9;
 const PICK_RADIUS = 22;
 const INSET_WIDTHS = 1.6;
 
-const palette = Array.from({ length: SHADES }, (_, k) => shade(k / (SHADES - 1)));
-
-function shade(share) {
-  const place = Math.min(share * (RAMP.length - 1), RAMP.length - 1 - 1e-9);
-  const [low, high] = [RAMP[Math.floor(place)], RAMP[Math.floor(place) + 1]].map((colour) =>
-    [1, 3, 5].map((at) => parseInt(colour.slice(at, at + 2), 16)),
-  );
-  return `rgb(${low.map((one, k) => Math.round(one + (high[k] - one) * (place % 1))).join(" ")})`;
+/** So many colours along a list of them such as "#00224e, #fee838". */
+function palette(ramp) {
+  const stops = ramp.split(",").map((colour) => [1, 3, 5].map((at) => parseInt(colour.trim().slice(at, at + 2), 16)));
+  return Array.from({ length: SHADES }, (_, k) => {
+    const place = (k / SHADES) * (stops.length - 1);
+    const [low, high] = [stops[Math.floor(place)], stops[Math.floor(place) + 1]];
+    return `rgb(${low.map((one, at) => Math.round(one + (high[at] - one) * (place % 1))).join(" ")})`;
+  });
 }
-
-export const speedGradient = `linear-gradient(to right, ${RAMP.join(", ")})`;
 
 /** [smallest, largest] speed of a pose. */
 export function speedRange({ speed }) {
@@ -61,11 +57,15 @@ function smooth({ x, y }) {
 }
 
 export class Dance {
-  /** pose {x, y, speed}, its dragon {width, overhang}, contact (the service's answer, when it is shown), handle, names */
-  scene = { pose: null, dragon: null, contact: null, handle: null, headName: "", circle: null };
+  /**
+   * pose {x, y, speed}, its dragon {width, overhang}, contact: the service's answer while its instant is shown, handle:
+   * the chosen one, names of head and handle, circle: radius of the turning circle [m]
+   */
+  scene = { pose: null, dragon: null, contact: null, handle: null, headName: "", handleName: "", circle: null };
   #path = null;
   #bounds = null;
   #colours = {};
+  #palette = [];
 
   constructor(canvas, inset, { moved, picked }) {
     Object.assign(this, { canvas, inset });
@@ -77,6 +77,7 @@ export class Dance {
     const style = getComputedStyle(this.canvas);
     for (const name of ["text", "outline", "path", "circle", "head", "first", "second", "pick", "card"])
       this.#colours[name] = style.getPropertyValue(`--${name}`).trim();
+    this.#palette = palette(style.getPropertyValue("--ramp"));
   }
 
   /** The head's way, {x, y}, as the service samples it. */
@@ -113,7 +114,7 @@ export class Dance {
   }
 
   #draw(context, pose, scale) {
-    const { dragon, contact, handle, headName } = this.scene;
+    const { dragon, contact, handle, headName, handleName } = this.scene;
     this.#benches(context, pose, dragon, scale);
     const head = new Path2D();
     trace(head, outline(pose, dragon, 0));
@@ -121,20 +122,21 @@ export class Dance {
     if (contact?.benches) this.#pair(context, pose, dragon, contact, scale);
     this.#dot(context, pose.x[0], pose.y[0], 4, this.#colours.head, scale);
     if (handle !== null && handle < pose.x.length) this.#ring(context, pose.x[handle], pose.y[handle], scale);
-    this.#label(context, headName, pose.x[0], pose.y[0]);
+    this.#label(context, headName, pose.x[0], pose.y[0], this.#colours.head);
+    if (handle > 0 && handle < pose.x.length) this.#label(context, handleName, pose.x[handle], pose.y[handle], this.#colours.pick);
   }
 
   #benches(context, pose, dragon, scale) {
     const [low, high] = speedRange(pose);
     const gain = high - low > SPEED_SPREAD_MIN ? (SHADES - 1) / (high - low) : 0;
-    const paths = palette.map(() => new Path2D());
+    const paths = this.#palette.map(() => new Path2D());
     const all = new Path2D();
     for (let k = pose.x.length - 2; k >= 0; k--) {
       const path = paths[gain ? Math.round((pose.speed[k] - low) * gain) : SHADES - 1];
       trace(path, outline(pose, dragon, k));
     }
     paths.forEach((path, k) => {
-      context.fillStyle = palette[k];
+      context.fillStyle = this.#palette[k];
       context.fill(path);
       all.addPath(path);
     });
@@ -194,12 +196,12 @@ export class Dance {
     this.#stroke(context, path, colour, width, scale);
   }
 
-  #label(context, text, x, y) {
+  #label(context, text, x, y, colour) {
     const [px, py] = this.view.toScreen(x, y);
     const ratio = this.canvas.width / this.view.width;
     context.setTransform(ratio, 0, 0, ratio, 0, 0);
     context.font = "600 14px system-ui, sans-serif";
-    Object.assign(context, { lineWidth: 4, lineJoin: "round", strokeStyle: this.#colours.card, fillStyle: this.#colours.head });
+    Object.assign(context, { lineWidth: 4, lineJoin: "round", strokeStyle: this.#colours.card, fillStyle: colour });
     context.strokeText(text, px + 10, py - 10);
     context.fillText(text, px + 10, py - 10);
   }

@@ -1,16 +1,16 @@
 /** The page: what a person does goes into the state, what the service answers goes onto the screen. */
 
-import { insetWords, showEnd, showFirstContact, showHighestSpeed, showMinimumPitch, showRefusal } from "./answers.js";
+import { insetWords, millimetres, showEnd, showFirstContact, showHighestSpeed, showMinimumPitch, showRefusal } from "./answers.js";
 import { Service } from "./api.js";
 import { ClearanceChart, ScanChart } from "./charts.js";
 import { Controls } from "./controls.js";
-import { Dance, speedGradient, speedRange } from "./dance.js";
+import { Dance, speedRange } from "./dance.js";
 import { Keep } from "./keep.js";
 import { Player } from "./player.js";
 import { Questions } from "./questions.js";
 import { FIELDS, State } from "./state.js";
 import { Table } from "./table.js";
-import { benchName, handleName, say, setLanguage } from "./text.js";
+import { handleName, say, setLanguage } from "./text.js";
 
 const $ = (selector) => document.querySelector(selector);
 const NUMBERS = new Set(FIELDS.map((field) => field.name));
@@ -55,7 +55,7 @@ function draw() {
 function showPose(pose) {
   const shown = questions.dance;
   const contact = shown.answer.benches && pose.time === shown.end ? shown.answer : null;
-  Object.assign(dance.scene, { pose, dragon: shown.numbers, contact });
+  Object.assign(dance.scene, { pose, dragon: shown.numbers, contact, ...names() });
   $("#inset").hidden = !contact?.point;
   if (contact) $("#inset figcaption").textContent = insetWords(contact, shown.gap, shown.numbers.benches);
   const [low, high] = speedRange(pose);
@@ -65,6 +65,11 @@ function showPose(pose) {
   if (pose.dance) showTable(pose);
   showTime(pose.time);
   draw();
+}
+
+function names() {
+  const handle = state.get("handle");
+  return { headName: say("head"), handleName: handle === null ? "" : handleName(handle, questions.dance.numbers.benches) };
 }
 
 function showTable(pose) {
@@ -82,8 +87,8 @@ function showTime(time) {
   if (!answer || of !== questions.dance) return;
   const step = of.end / (answer.time.length - 1) || 1;
   const k = Math.min(Math.round(time / step), answer.time.length - 1);
-  const [a, b] = answer.benches[k].map((bench) => benchName(bench, of.numbers.benches));
-  $("#clearance .reading").textContent = say("clearanceAt", { time: answer.time[k].toFixed(2), gap: (1000 * answer.clearance[k]).toFixed(3), a, b });
+  const [a, b] = answer.benches[k].map((bench) => handleName(bench, of.numbers.benches));
+  $("#clearance .reading").textContent = say("clearanceAt", { time: answer.time[k].toFixed(2), gap: millimetres(answer.clearance[k]), a, b });
 }
 
 /** Each kind of answer and what it changes on the screen; also called again after a change of language. */
@@ -106,7 +111,7 @@ const SHOW = {
   },
   overview() {
     const { answer, dance: of } = questions.answers.overview;
-    showHighestSpeed($("#highest-speed"), answer, of.numbers);
+    showHighestSpeed($("#highest-speed"), answer, of.answer, of.numbers);
   },
   clearance() {
     const { answer, dance: of } = questions.answers.clearance;
@@ -148,6 +153,7 @@ function showState(changed) {
   if (changed.has("handle")) {
     const handle = state.get("handle");
     dance.scene.handle = handle;
+    if (questions.dance) Object.assign(dance.scene, names());
     table.select(handle);
     if (handle !== null && questions.dance) announce(handleName(handle, questions.dance.numbers.benches));
   }
@@ -164,7 +170,6 @@ function translate() {
   const language = setLanguage(state.get("lang"));
   for (const button of document.querySelectorAll("[data-lang]")) button.setAttribute("aria-pressed", button.dataset.lang === language);
   controls.translate(limits);
-  dance.scene.headName = say("head");
   player.translate();
   for (const [kind, show] of Object.entries(SHOW)) if (kind === "dance" ? questions.dance : questions.answers[kind]) show();
   if (dance.scene.pose) showPose(dance.scene.pose);
@@ -238,7 +243,6 @@ async function readLimits() {
   controls.translate(limits);
 }
 
-$("#ramp").style.backgroundImage = speedGradient;
 listen();
 translate();
 showState(new Set(["follow", "rate", "handle", "view", "turning_diameter"]));

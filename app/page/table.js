@@ -25,18 +25,24 @@ export class Table {
   }
 
   show(pose) {
+    const first = !this.#pose;
     this.#pose = pose;
+    if (first) this.#render();
+    if (first) this.#reveal();
     this.#queue();
   }
 
   select(handle) {
     if (handle === this.#handle) return;
     this.#handle = handle;
-    if (handle !== null && this.#pose) {
-      const [top, sight] = [handle * ROW, this.box.clientHeight - 2 * ROW];
-      if (top < this.box.scrollTop || top > this.box.scrollTop + sight) this.box.scrollTop = top - sight / 2;
-    }
+    this.#reveal();
     this.#queue();
+  }
+
+  #reveal() {
+    if (this.#handle === null || !this.#pose) return;
+    const [top, sight] = [this.#handle * ROW, this.box.clientHeight - 2 * ROW];
+    if (top < this.box.scrollTop || top > this.box.scrollTop + sight) this.box.scrollTop = top - sight / 2;
   }
 
   #key(event) {

@@ -75,6 +75,10 @@ const WORDS = {
   islands: ["Smaller pitches that also work: {list}", "另外可行的更小螺距：{list}"],
   highest: ["Highest speed", "最高速度"],
   whose: ["{name}, at {time} s", "{name}，{time} s"],
+  headFastest: ["nobody is faster than the head", "没有把手比龙头更快"],
+  unbounded: ["Grows without bound", "无限增大"],
+  towardsFold: ["towards the fold: {name} has {speed} m/s a microsecond before it", "接近折叠时：折叠前一微秒，{name}的速度为 {speed} m/s"],
+  foldKnown: ["Where a chord folds, the handle behind it moves as one over the square root of the way that is left.", "在折叠处，后一把手的速度与剩余路程的平方根成反比。"],
   end: ["End of the run", "运动终点"],
   end_contact: ["The dance stops at the first contact.", "在首次碰撞时停止。"],
   end_fold: ["A bench cannot follow any more: the chain folds.", "板凳无法继续跟随：队伍折叠。"],
@@ -144,7 +148,6 @@ const WORDS = {
   body: ["body {k}", "第{k}节龙身"],
   tail: ["tail", "龙尾"],
   tailRear: ["tail (rear)", "龙尾（后）"],
-  bench: ["{name} (bench {k})", "{name}（{k} 号）"],
   "front-outer": ["front outer corner", "前外角"],
   "front-inner": ["front inner corner", "前内角"],
   "rear-outer": ["rear outer corner", "后外角"],
@@ -180,13 +183,9 @@ export function has(key) {
   return key in WORDS;
 }
 
-/** Handle k of a dragon with so many benches, by the bench that it leads. */
+/** Handle k of a dragon with so many benches, by the bench that it leads; bench k has the same name. */
 export function handleName(k, benches) {
   if (k === 0) return say("head");
   if (k === benches) return say("tailRear");
   return k === benches - 1 ? say("tail") : say("body", { k });
-}
-
-export function benchName(k, benches) {
-  return say("bench", { name: handleName(k, benches), k });
 }
