@@ -2181,6 +2181,7 @@ def interval_least(
     out: (14,) [0] K of the least pair, [1] and [2] that pair, [3] the widest interval the same pairs would allow [m],
     [4] the least gap at the far end; the rest is scratch
     """
+    edges: cython.Py_ssize_t = statics if statics >= 0 else -statics
     i: cython.Py_ssize_t
     j: cython.Py_ssize_t
     least: cython.double
@@ -2210,7 +2211,7 @@ def interval_least(
         ):
             return -FREE
     for i in range(active):
-        for j in range(i + 2 if statics >= 0 else handles + 1, handles + 1 + abs(statics)):
+        for j in range(i + 2 if statics >= 0 else handles + 1, handles + 1 + edges):
             if j == handles:  # the last handle's row holds no bench; after it stand the edges at rest
                 continue
             least = pair_least(growth, i, j, margin, h, sizes, before, after, motion, out)
@@ -2257,6 +2258,7 @@ def row_clearance(
     pair: cython.Py_ssize_t[::1],
 ) -> cython.double:
     """Least separation among the pairs led by the first `active` benches, and that pair [m]; FREE without pairs."""
+    edges: cython.Py_ssize_t = statics if statics >= 0 else -statics
     i: cython.Py_ssize_t
     j: cython.Py_ssize_t
     dx: cython.double
@@ -2265,7 +2267,7 @@ def row_clearance(
     gap: cython.double
     best: cython.double = FREE
     for i in range(active):
-        for j in range(i + 2 if statics >= 0 else handles + 1, handles + 1 + abs(statics)):
+        for j in range(i + 2 if statics >= 0 else handles + 1, handles + 1 + edges):
             if j == handles:
                 continue
             dx = chain[j, MX] - chain[i, MX]
@@ -2513,7 +2515,9 @@ def march(
     spare: cython.double[:, ::1] = rows[2]
     opening: cython.double[:, ::1] = rows[3]
     scratch: cython.double[::1] = out[MARCH_ENTRIES:]
-    cap: cython.Py_ssize_t = benches if benches < before.shape[0] - 1 - abs(statics) else before.shape[0] - 1 - abs(statics)
+    edges: cython.Py_ssize_t = statics if statics >= 0 else -statics
+    room: cython.double
+    cap: cython.Py_ssize_t = before.shape[0] - 1 - edges
     first: cython.Py_ssize_t = leaders
     followers: cython.Py_ssize_t = benches if at_start else leaders
     placed: cython.Py_ssize_t
@@ -2525,7 +2529,6 @@ def march(
     target: cython.double = -1.0
     least: cython.double
     floor: cython.double = FREE
-    room: cython.double
     clearance: cython.double
     last_clearance: cython.double
     older_clearance: cython.double = -FREE
@@ -2537,6 +2540,8 @@ def march(
     b: cython.Py_ssize_t
     lowest: cython.double
     clearance_there: cython.double
+    if cap > benches:
+        cap = benches
     if followers > cap:
         followers = cap
     out[GRAZE_GAP] = FREE
