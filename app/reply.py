@@ -70,7 +70,7 @@ class Reply:
         return f'"{hashlib.blake2b(asked.encode(), digest_size=16).hexdigest()}"'
 
 
-def reply_body(request: Request) -> Reply:
+async def reply_body(request: Request) -> Reply:
     """Reply to a call that takes a JSON body and no query.
 
     raises: Refused 415 for a body of another type, 422 for a query
@@ -80,11 +80,11 @@ def reply_body(request: Request) -> Reply:
     if has_body and kind != JSON:
         detail = f"The body must be {JSON}, got {kind or 'no Content-Type'}: send the header Content-Type: {JSON}."
         raise Refused(415, detail, [ErrorItem(name="Content-Type", detail=detail)], {"Accept-Post": JSON})
-    refuse_query(request)
+    await refuse_query(request)
     return Reply(request)
 
 
-def refuse_query(request: Request) -> None:
+async def refuse_query(request: Request) -> None:
     """raises: Refused (422) when the request has query parameters, for calls without any"""
     detail = "this call takes no query parameters: leave it out"
     unknown = [ErrorItem(name=name, detail=f"{name[:60]} is unknown here: {detail}") for name in request.query_params]
@@ -92,7 +92,7 @@ def refuse_query(request: Request) -> None:
         raise Refused(422, unknown[0].detail, unknown)
 
 
-def reply_query(request: Request) -> Reply:
+async def reply_query(request: Request) -> Reply:
     """Reply to a call that takes its values from the query.
 
     raises: Refused (422) for a name that is given twice
