@@ -167,7 +167,8 @@ class _PitchSearch:
         """A feasible pitch to descend from, and up to which every larger one is feasible by the ring bound [m].
 
         The ring bound holds for growths up to those of its derivation, so a pitch beyond is not asked about; where it
-        clears nothing (a circle hardly wider than a bench is long), the two are the same pitch, cleared by a march.
+        clears nothing (a circle hardly wider than a bench is long), the two are the same pitch, cleared by a march and no
+        larger than the circle's radius.
         """
         chord, shortest, *_ = (float(extreme) for extreme in self.search.extremes)
         foot2 = self.radius**2 - 0.25 * chord**2
@@ -181,7 +182,7 @@ class _PitchSearch:
                         low *= factor
                 return 2.0 * math.pi * low, 2.0 * math.pi * growth
         for growth in growths:
-            if 2.0 * math.pi * growth > self.lowest and self.is_clear(2.0 * math.pi * growth):
+            if self.lowest < 2.0 * math.pi * growth < self.radius and self.is_clear(2.0 * math.pi * growth):
                 return (2.0 * math.pi * growth,) * 2
         return (self.lowest,) * 2
 

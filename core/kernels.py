@@ -1988,6 +1988,10 @@ MARCH_FIELDS = (
 )
 # Width to which the place of a graze is found [m]: 1e-10 s at 1 m/s.
 DIP_WIDTH = cython.declare(cython.double, 1e-10)
+# Shorter steps than this part of the bracket would get nowhere [1].
+LEAST_STEP = cython.declare(cython.double, 0.05)
+# Without a bracket to reach, a step this short means that the way is not clear enough to be proven [m].
+LEAST_WAY = cython.declare(cython.double, 1e-7)
 # The chain is laid out so many drifts further than the pose needs; if that is too little the step is halved [1].
 ALLOWANCE = cython.declare(cython.double, 2.0)
 # A crossing is found this much closer than the bracket that is proven around it [1].
@@ -2565,7 +2569,7 @@ def march(
             return TOUCHED_AT_START
         while travel < stop:
             out[PROVEN] = travel
-            if out[STEPS] >= budget or h < rounding:
+            if out[STEPS] >= budget or h < rounding or h < (LEAST_STEP * tolerance if tolerance > 0.0 else LEAST_WAY):
                 return STUCK
             out[STEPS] += 1.0
             if h > stop - travel:
@@ -2638,7 +2642,9 @@ def march(
                 out[TOUCHING] = target + tolerance
                 return TOUCHED
             target = -1.0
-            clearance = row_clearance(active, handles, statics, sizes, before, pair)
+            clearance = FREE
+            if tolerance > 0.0:
+                clearance = row_clearance(active, handles, statics, sizes, before, pair)
             lowest = least if least < floor else floor
             floor = least
             if older_clearance > last_clearance <= clearance and lowest < out[GRAZE_GAP]:
