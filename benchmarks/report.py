@@ -58,7 +58,8 @@ def table(results: Results) -> list[str]:
         time = seconds(results, name)
         cells = [label, must, aim, shown(time), "", ""]
         if baseline:
-            cells[4:] = [shown(seconds(results, baseline)), f"{seconds(results, baseline) / time:,.3g}x"]
+            ratio = seconds(results, baseline) / time
+            cells[4:] = [shown(seconds(results, baseline)), f"{ratio:,.0f}x" if ratio >= 10 else f"{ratio:.1f}x"]
         lines.append(f"| {' | '.join(cells)} |")
     return lines
 
