@@ -70,14 +70,14 @@ EXAMPLES = {
     "/minimum-pitch": Example(
         query={"turning_diameter": 9},
         answer={
-            "pitch": 0.45033739302755144,
-            "pitch_bracket": [0.45033739302598896, 0.45033739302755144],
+            "pitch": 0.4503373930284276,
+            "pitch_bracket": [0.4503373930253026, 0.4503373930284276],
             "limited_by": "graze",
             "benches": [0, 19],
-            "head_radius": 4.572603226255634,
+            "head_radius": 4.5726032262560565,
             "other_feasible_intervals": [],
             "justified_by": "bound",
-            "evaluations": 523,
+            "evaluations": 550,
             "cross_check": {
                 "agree": True,
                 "engines": {
@@ -103,9 +103,9 @@ EXAMPLES = {
         answer={
             "pitch": [0.225, 0.253125, 0.28125, 0.305859375, 0.33046875, 0.355078125, 0.3796875],
             "radius": [
-                1.42161927225644,
-                1.408705612846023,
-                1.3958809507627408,
+                1.4216192722564407,
+                1.4087056128460238,
+                1.3958809507627425,
                 1.3847532370600086,
                 1.3737365868999227,
                 1.362859361468651,
@@ -203,17 +203,17 @@ EXAMPLES = {
                     "unit": "m",
                     "source": "section 3.3",
                     "paper": 0.474924,
-                    "ours": 0.45033739302755144,
-                    "difference": -0.024586606972448577,
-                    "reason": "The paper bisects the radius of first contact towards 4.5 m, but that radius jumps from 4.573 to 0.000 m at a pitch of 0.4503351 m: none gives 4.5 m, so the error that it drives to 1e-10 cannot vanish. At the paper's pitch the head gets to 3.846 m, well inside the circle. No reading was found that gives the paper's number.",
+                    "ours": 0.4503373930284276,
+                    "difference": -0.02458660697157239,
+                    "reason": "The paper bisects the radius of first contact towards 4.5 m, but that radius jumps from 4.573 to 4.406 m at a pitch of 0.4503374 m: none gives 4.5 m, so the error that it drives to 1e-10 cannot vanish. At the paper's pitch the head gets to 3.846 m, well inside the circle. No reading was found that gives the paper's number.",
                     "evidence": [
                         {
                             "what": "pitch at which a bisection of the radius ends",
-                            "value": 0.4503350502462127,
+                            "value": 0.4503373930463568,
                             "unit": "m",
                         },
-                        {"what": "radius of first contact just below it", "value": 4.573395462720373, "unit": "m"},
-                        {"what": "radius of first contact just above it", "value": 0.0, "unit": "m"},
+                        {"what": "radius of first contact just below it", "value": 4.57260645642985, "unit": "m"},
+                        {"what": "radius of first contact just above it", "value": 4.40590926523223, "unit": "m"},
                         {
                             "what": "radius of first contact at the paper's pitch",
                             "value": 3.84584827371987,

@@ -22,6 +22,7 @@ from starlette.staticfiles import StaticFiles
 
 from app import api, problems
 from app.answers import State
+from app.examples import EXAMPLES
 from app.middleware import BodyLimit, HeadAsGet, Metrics, Mistakes, SafetyHeaders
 from app.reply import VERSION, refuse_query
 from app.settings import Settings
@@ -122,6 +123,9 @@ def _openapi(app: FastAPI) -> dict[str, Any]:
         schema = get_openapi(title=app.title, version=app.version, description=app.description, routes=app.routes)
         problem = problems.Problem.model_json_schema(ref_template="#/components/schemas/{model}")
         schema["components"]["schemas"] |= problem.pop("$defs") | {"Problem": problem}
+        for path, example in EXAMPLES.items():  # FastAPI drops every null of an example.
+            (call,) = schema["paths"][path].values()
+            call["responses"]["200"]["content"]["application/json"]["example"] = example.answer
         app.openapi_schema = schema
     return app.openapi_schema
 
