@@ -309,6 +309,11 @@ class Search:
         )
         return gap, (int(self.pair[1]), int(self.pair[2]))
 
+    def rates(self, travel: float) -> Floats:
+        """Speed of every handle along the path over the head's after a travel, negative where one turns back [1]."""
+        self.clearance(travel)
+        return self.rows[0, : self.room + 1, 5].copy()
+
     def gap_rate(self, travel: float, pair: tuple[int, int]) -> float:
         """How fast a pair parts after a travel, per metre of head travel [1]."""
         return float(

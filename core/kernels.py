@@ -1986,6 +1986,9 @@ MARCH_FIELDS = (
     "graze_first",
     "graze_second",
 )
+# Golden section; width to which the place of a peak is found [m]: a kink's height is then good to 1e-11.
+GOLDEN = cython.declare(cython.double, 0.6180339887498949)
+PEAK_WIDTH = cython.declare(cython.double, 1e-11)
 # Width to which the place of a graze is found [m]: 1e-10 s at 1 m/s.
 DIP_WIDTH = cython.declare(cython.double, 1e-10)
 # Shorter steps than this part of the bracket would get nowhere [1].
@@ -2670,3 +2673,164 @@ def march(
             h = room if room < 2.0 * h else 2.0 * h
         out[PROVEN] = travel
         return REACHED
+
+
+# -- the highest speed ------------------------------------------------------------------------------
+# Rates are Lipschitz: |d rate / d sigma| = |s''| is bounded over an interval as above, so between two ends a rate is at most
+# (start + end + bound h) / 2, and never above its own bound over the interval.
+
+
+@cython.cfunc
+@cython.nogil
+@cython.exceptval(check=False)
+def fastest(benches: cython.Py_ssize_t, chain: cython.double[:, ::1]) -> cython.Py_ssize_t:
+    """The handle with the largest |rate|, the first of equals."""
+    k: cython.Py_ssize_t
+    best: cython.Py_ssize_t = 0
+    for k in range(1, benches + 1):
+        if fabs(chain[k, RATE]) > fabs(chain[best, RATE]):
+            best = k
+    return best
+
+
+@cython.cfunc
+@cython.nogil
+@cython.exceptval(check=False)
+def top_rate(
+    growth: cython.double,
+    pieces: cython.const[cython.double][:, ::1],
+    place: cython.double,
+    benches: cython.Py_ssize_t,
+    sizes: cython.double[:, ::1],
+    chain: cython.double[:, ::1],
+) -> cython.double:
+    """The largest |rate| with the head at a place; 0 if the chain folds."""
+    if place_chain(growth, pieces, place, benches, sizes, chain) < 0:
+        return 0.0
+    return fabs(chain[fastest(benches, chain), RATE])
+
+
+@cython.cfunc
+@cython.nogil
+@cython.exceptval(check=False)
+def refined_peak(
+    growth: cython.double,
+    pieces: cython.const[cython.double][:, ::1],
+    place: cython.double,
+    low: cython.double,
+    high: cython.double,
+    benches: cython.Py_ssize_t,
+    sizes: cython.double[:, ::1],
+    chain: cython.double[:, ::1],
+) -> cython.double:
+    """Head travel in [low, high] where the largest rate peaks, by golden section [m]."""
+    left: cython.double = high - GOLDEN * (high - low)
+    right: cython.double = low + GOLDEN * (high - low)
+    at_left: cython.double = top_rate(growth, pieces, place - left, benches, sizes, chain)
+    at_right: cython.double = top_rate(growth, pieces, place - right, benches, sizes, chain)
+    while high - low > PEAK_WIDTH:
+        if at_left >= at_right:
+            high = right
+            right = left
+            at_right = at_left
+            left = high - GOLDEN * (high - low)
+            at_left = top_rate(growth, pieces, place - left, benches, sizes, chain)
+        else:
+            low = left
+            left = right
+            at_left = at_right
+            right = low + GOLDEN * (high - low)
+            at_right = top_rate(growth, pieces, place - right, benches, sizes, chain)
+    return left if at_left >= at_right else right
+
+
+@cython.ccall
+@cython.exceptval(check=False)
+def peak_rate(
+    growth: cython.double,
+    pieces: cython.const[cython.double][:, ::1],
+    place: cython.double,
+    start: cython.double,
+    stop: cython.double,
+    step: cython.double,
+    tolerance: cython.double,
+    budget: cython.Py_ssize_t,
+    benches: cython.Py_ssize_t,
+    sizes: cython.double[:, ::1],
+    rows: cython.double[:, :, ::1],
+    motion: cython.double[:, ::1],
+    out: cython.double[::1],
+) -> cython.void:
+    """The largest |rate| of any handle while the head travels from start to stop [m], and a proven upper bound.
+
+    Samples every `step`, refines around the best, then proves interval after interval that no rate exceeds the best by
+    more than the tolerance; a rate found above it becomes the best. out: (4,) rate, upper bound, travel, intervals
+    """
+    before: cython.double[:, ::1] = rows[0]
+    after: cython.double[:, ::1] = rows[1]
+    spare: cython.double[:, ::1] = rows[2]
+    k: cython.Py_ssize_t
+    travel: cython.double = start
+    best: cython.double = 0.0
+    at: cython.double = start
+    rate: cython.double
+    upper: cython.double
+    bound: cython.double
+    bounded: cython.bint
+    h: cython.double
+    with cython.nogil:
+        while travel <= stop:
+            rate = top_rate(growth, pieces, place - travel, benches, sizes, spare)
+            if rate > best:
+                best = rate
+                at = travel
+            travel += step
+        h = at - step if at - step > start else start
+        travel = refined_peak(
+            growth, pieces, place, h, at + step if at + step < stop else stop, benches, sizes, spare
+        )
+        rate = top_rate(growth, pieces, place - travel, benches, sizes, spare)
+        if rate > best:
+            best = rate
+            at = travel
+        out[1] = best
+        out[3] = 0.0
+        travel = start
+        h = step
+        place_chain(growth, pieces, place - start, benches, sizes, before)
+        while travel < stop:
+            out[3] += 1.0
+            if h > stop - travel:
+                h = stop - travel
+            upper = FREE
+            if place_chain(growth, pieces, place - travel - h, benches, sizes, after) >= 0:
+                rate = fabs(after[fastest(benches, after), RATE])
+                if rate > best:
+                    best = rate
+                    at = travel + h
+                if pieces.shape[0] > 0:
+                    bounded = route_bounds(pieces, h, benches, sizes, before, after, motion)
+                else:
+                    bounded = motion_bounds(growth, h, benches, sizes, before, after, motion)
+                if bounded:
+                    upper = 1.0
+                    for k in range(1, benches + 1):
+                        bound = 0.5 * (
+                            fabs(before[k, RATE]) + fabs(after[k, RATE]) + motion[k, RATE_RATE] * h
+                        )
+                        if motion[k, RATE_HIGH] < bound:
+                            bound = motion[k, RATE_HIGH]
+                        if bound > upper:
+                            upper = bound
+            if upper > best + tolerance and out[3] < budget and h > PEAK_WIDTH:
+                h *= 0.5
+                continue
+            if upper > out[1]:
+                out[1] = upper
+            travel += h
+            before, after = after, before
+            h *= 1.5
+        out[0] = best
+        if best > out[1]:
+            out[1] = best
+        out[2] = at

@@ -99,12 +99,18 @@ def run_end(dragon: Dragon, path: Spiral | Route, *, head_speed: float = 1.0) ->
     return RunEnd(EndReason.CENTRE if bench is None else EndReason.FOLD, time, theta, bench)
 
 
+def follows(dragon: Dragon, path: Route) -> bool:
+    """Does no piece of the route bend too tight for a chord?"""
+    longest = float(dragon.chords[: dragon.uniform_from + 1].max())
+    return bool(0.5 * path.sharpest[0] * longest <= kernels.BEND_LIMIT)
+
+
 def _check_bends(dragon: Dragon, path: Route) -> None:
     """Can every bench follow? With |curvature| chord / 2 below the limit the next handle is unique and never turns back."""
     curvature, s = path.sharpest
     bench = int(dragon.chords[: dragon.uniform_from + 1].argmax())
     chord = float(dragon.chords[bench])
-    if 0.5 * curvature * chord > kernels.BEND_LIMIT:
+    if not follows(dragon, path):
         x, y = path.position(s)
         raise InvalidValue(
             "path",

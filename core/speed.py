@@ -1,0 +1,120 @@
+"""The highest speed of any handle, and the largest constant head speed that keeps a limit."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from core import kernels
+from core.contact import Search
+from core.dragon import Dragon, checked_number
+from core.errors import InvalidValue
+from core.kinematics import HEAD_SPEED_MAX, EndReason, checked_head_speed, checked_span, earliest_time, run_end
+from core.paths import Spiral
+from core.route import Route
+
+# No handle is proven to stay below less than this above the highest rate found [1]; the rate itself is good to 1e-12.
+RATE_TOLERANCE = 1e-6
+# Rates are first sampled in steps of this part of the shortest chord [1].
+SAMPLE_STEP = 0.2
+INTERVAL_BUDGET = 400_000
+# Handles whose rates differ by less share the highest one [1].
+TIED = 1e-9
+
+
+@dataclass(frozen=True, slots=True)
+class HighestSpeed:
+    """speed: the highest found [m/s]; speed_bracket: (found, proven not to be exceeded) [m/s]; time [s];
+    handles: those that reach it together."""
+
+    speed: float
+    speed_bracket: tuple[float, float]
+    time: float
+    handles: tuple[int, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class MaximumHeadSpeed:
+    """head_speed: the largest [m/s]; head_speed_bracket: (proven to keep the limit, found to reach it) [m/s]
+    speed_ratio: highest handle speed over head speed; handles: those that reach the limit together
+    time: when they do at that head speed [s]; time_at_unit_head_speed [s]"""
+
+    head_speed: float
+    head_speed_bracket: tuple[float, float]
+    speed_ratio: float
+    handles: tuple[int, ...]
+    time: float
+    time_at_unit_head_speed: float
+
+
+def highest_speed(
+    dragon: Dragon,
+    path: Spiral | Route,
+    *,
+    head_speed: float = 1.0,
+    start: float | None = None,
+    stop: float | None = None,
+) -> HighestSpeed:
+    """The highest speed of any handle over continuous time, with the handles that reach it.
+
+    start, stop: [s]; the defaults are 0 (on a route: when it begins, or the whole dragon is on it) and the end of the run
+    Sampled, refined by golden section (at a joint the speed is continuous and its derivative jumps: the peak may be a
+    kink), then every interval of time is proven not to exceed it by more than RATE_TOLERANCE.
+    raises: InvalidValue (stop) for a spiral danced to its fold, where speeds grow without bound
+    """
+    head_speed = checked_head_speed(head_speed)
+    end = run_end(dragon, path, head_speed=head_speed)
+    if end.reason is EndReason.FOLD and (stop is None or stop >= end.time):
+        raise InvalidValue(
+            "stop", f"stop must be before {end.time:.9f} s, when bench {end.bench} folds and speeds grow without bound"
+        )
+    if start is None:
+        begin = path.begin / head_speed if isinstance(path, Route) else 0.0
+        start = max(begin, earliest_time(dragon, path, head_speed))
+    begin, until = checked_span(dragon, path, start, stop, end, head_speed)
+    search = Search(dragon, path, 0.0)
+    search.resize(dragon.benches)
+    out = np.empty(4)
+    kernels.peak_rate(
+        search.growth,
+        search.pieces,
+        search.place,
+        begin * head_speed,
+        until * head_speed,
+        SAMPLE_STEP * float(search.extremes[1]),
+        RATE_TOLERANCE,
+        INTERVAL_BUDGET,
+        dragon.benches,
+        search.sizes,
+        search.rows,
+        search.motion,
+        out,
+    )
+    rate, upper, travel, _ = out.tolist()
+    rates = np.abs(search.rates(travel))
+    tied = tuple(int(k) for k in np.flatnonzero(rates >= rate * (1.0 - TIED)))
+    return HighestSpeed(rate * head_speed, (rate * head_speed, upper * head_speed), travel / head_speed, tied)
+
+
+def maximum_head_speed(
+    dragon: Dragon,
+    path: Spiral | Route,
+    speed_limit: float,
+    *,
+    start: float | None = None,
+    stop: float | None = None,
+) -> MaximumHeadSpeed:
+    """The largest constant head speed at which no handle ever exceeds the limit.
+
+    speed_limit: [m/s]; start, stop: [s at a head speed of 1 m/s], as in highest_speed()
+    Speeds are proportional to the head's, so this is the limit over the highest rate.
+    raises: InvalidValue
+    """
+    if isinstance(speed_limit, (int, float)) and speed_limit <= 0:
+        raise InvalidValue("speed_limit", f"speed_limit must be positive, got {speed_limit} m/s")
+    limit = checked_number("speed_limit", speed_limit, "m/s", 1e-6, HEAD_SPEED_MAX)
+    found = highest_speed(dragon, path, start=start, stop=stop)
+    speed = limit / found.speed
+    bracket = (limit / found.speed_bracket[1], speed)
+    return MaximumHeadSpeed(speed, bracket, found.speed, found.handles, found.time / speed, found.time)

@@ -1,0 +1,181 @@
+"""The turn: two tangent arcs from a coil inwards to the same coil outwards, turned by half a revolution."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from core.contact import Outcome, first_contact
+from core.dragon import Dragon, Floats, checked_number, checked_size
+from core.errors import InvalidValue
+from core.kinematics import follows
+from core.route import Arc, Coil, Point, Route
+
+RATIO_MIN = 0.01
+RATIO_MAX = 100.0
+# Entry radii are tried in steps of this part of the turning radius [1], then bisected to this width [m].
+ENTRY_STEP = 0.01
+ENTRY_WIDTH = 1e-9
+
+
+@dataclass(frozen=True, slots=True)
+class Turn:
+    """Two arcs, first clockwise, then counter-clockwise; the path has s = 0 at the entry.
+
+    pitch, turning_radius [m]; ratio: of the first radius to the second; entry_radius: of the entry from the centre [m]
+    radii [m]; centres [m]; angles: turned on each arc [rad]; entry, tangent_point, exit [m]; length: of both arcs [m]
+    path: coil inwards, both arcs, coil outwards
+    """
+
+    pitch: float
+    turning_radius: float
+    ratio: float
+    entry_radius: float
+    radii: tuple[float, float]
+    centres: tuple[Point, Point]
+    angles: tuple[float, float]
+    entry: Point
+    tangent_point: Point
+    exit: Point
+    length: float
+    path: Route = field(repr=False)
+
+
+def turn(
+    pitch: float,
+    turning_radius: float = 4.5,
+    ratio: float = 2.0,
+    *,
+    start_turns: float = 16.0,
+    entry_radius: float | None = None,
+) -> Turn:
+    """The turn of two tangent arcs, tangent to the incoming coil and to the outgoing one, its rotation by 180 degrees.
+
+    pitch [m]; turning_radius [m]; ratio: radius of the first arc over that of the second; start_turns: of both coils
+    entry_radius: where the turn begins, at most the turning radius, which is its default [m]
+    raises: InvalidValue
+
+    At the entry E, |E| = R, the direction of travel T makes the angle gamma with the circle, tan gamma = 1 / theta (theta
+    the polar angle there). By symmetry the dance leaves at -E in the same direction T. With n the normal to the right of
+    T the centres are C1 = E + r1 n and C2 = -E - r2 n, and the arcs touch if |C1 - C2| = r1 + r2 =: S:
+        |2 E + S n|^2 = S^2   =>   S = |E|^2 / (-E . n) = R / cos gamma = R sqrt(1 + theta^2) / theta,
+    whatever the ratio: so r1 = S ratio / (1 + ratio), r2 = S / (1 + ratio). The triangles O C1 E and O C2 (-E) show the
+    same angle turned on both arcs, hence the length S alpha does not depend on the ratio either.
+
+    >>> [round(radius, 9) for radius in turn(1.7).radii]
+    [3.005417668, 1.502708834]
+    """
+    pitch = checked_size("pitch", pitch)
+    radius = checked_size("turning_radius", turning_radius)
+    ratio = checked_number("ratio", ratio, "", RATIO_MIN, RATIO_MAX)
+    inner = radius if entry_radius is None else checked_number("entry_radius", entry_radius, "m", 1e-3, radius)
+    turns = checked_number("start_turns", start_turns, "turns", 0.0, 1e5, open_low=True)
+    if turns * pitch <= radius:
+        raise InvalidValue(
+            "start_turns",
+            f"start_turns must be more than {radius / pitch:.6g} turns, which is the turning circle, got {turns:g} turns",
+        )
+    theta = 2.0 * math.pi * inner / pitch
+    cos, sin, stretch = math.cos(theta), math.sin(theta), math.hypot(1.0, theta)
+    entry = inner * np.array([cos, sin])
+    ahead = np.array([theta * sin - cos, -theta * cos - sin]) / stretch
+    right = np.array([ahead[1], -ahead[0]])
+    total = inner * stretch / theta
+    radii = (total * ratio / (1.0 + ratio), total / (1.0 + ratio))
+    first, second = entry + radii[0] * right, -entry - radii[1] * right
+    middle = first + (second - first) * (radii[0] / total)
+    start, end = _angle(entry - first), _angle(middle - first)
+    begin, finish = _angle(middle - second), _angle(-entry - second)
+    angles = ((start - end) % (2.0 * math.pi), (finish - begin) % (2.0 * math.pi))
+    here = inner / pitch
+    pieces = (
+        Coil(pitch, turns, here),
+        Arc(_point(first), radii[0], start, -angles[0]),
+        Arc(_point(second), radii[1], begin, angles[1]),
+        Coil(pitch, here, turns, rotation=math.pi),
+    )
+    route = Route(pieces)
+    return Turn(
+        pitch=pitch,
+        turning_radius=radius,
+        ratio=ratio,
+        entry_radius=inner,
+        radii=radii,
+        centres=(_point(first), _point(second)),
+        angles=angles,
+        entry=_point(entry),
+        tangent_point=_point(middle),
+        exit=_point(-entry),
+        length=radii[0] * angles[0] + radii[1] * angles[1],
+        path=Route(pieces, start=route.joints[0]),
+    )
+
+
+def _angle(vector: Floats) -> float:
+    return math.atan2(vector[1], vector[0])
+
+
+def _point(vector: Floats) -> Point:
+    return (float(vector[0]), float(vector[1]))
+
+
+@dataclass(frozen=True, slots=True)
+class ShortestTurn:
+    """The turn with the smallest entry radius that the dragon can dance.
+
+    turn: at the feasible end of entry_bracket (infeasible, feasible) [m]; limited_by: 'bend' (a chord cannot follow the
+    smaller arc), 'contact' or 'circle' (nothing limits it down to the smallest entry tried)
+    benches: the pair that would touch, time: when [s at 1 m/s]; found by: a scan of entries in steps of ENTRY_STEP
+    """
+
+    turn: Turn
+    entry_bracket: tuple[float, float]
+    limited_by: str
+    benches: tuple[int, int] | None
+    time: float | None
+
+
+def shortest_turn(
+    dragon: Dragon,
+    pitch: float,
+    turning_radius: float = 4.5,
+    ratio: float = 2.0,
+    *,
+    start_turns: float = 16.0,
+    margin: float = 0.0,
+) -> ShortestTurn:
+    """The smallest entry radius, coming from the turning circle, at which nothing touches and every handle can follow.
+
+    Entries are tried in steps of ENTRY_STEP of the turning radius and the first border is bisected; each try is a
+    certified first_contact() from one dragon's length before the turn until the whole dragon is past it.
+    raises: InvalidValue (turning_radius) when even the turn at the circle fails
+    """
+    radius = checked_size("turning_radius", turning_radius)
+
+    def fault(entry: float) -> tuple[str, tuple[int, int] | None, float | None] | None:
+        path = turn(pitch, radius, ratio, start_turns=start_turns, entry_radius=entry).path
+        if not follows(dragon, path):
+            return "bend", None, None
+        span = 0.5 * math.pi * float(dragon.chords.sum())
+        start, stop = max(path.begin, -span), min(path.end, path.joints[-1] + span)
+        found = first_contact(dragon, path, margin=margin, start=start, stop=stop)
+        return None if found.outcome is Outcome.CLEAR else ("contact", found.benches, found.time)
+
+    if fault(radius) is not None:
+        raise InvalidValue(
+            "turning_radius",
+            f"turning_radius must be larger: the dragon cannot dance this turn even at {radius:g} m ({fault(radius)})",
+        )
+    feasible, infeasible = radius, radius
+    limit: tuple[str, tuple[int, int] | None, float | None] | None = None
+    while limit is None and infeasible > 2.0 * ENTRY_STEP * radius:
+        feasible, infeasible = infeasible, infeasible - ENTRY_STEP * radius
+        limit = fault(infeasible)
+    while limit is not None and feasible - infeasible > ENTRY_WIDTH:
+        middle = 0.5 * (feasible + infeasible)
+        found = fault(middle)
+        feasible, infeasible, limit = (middle, infeasible, limit) if found is None else (feasible, middle, found)
+    best = turn(pitch, radius, ratio, start_turns=start_turns, entry_radius=feasible)
+    return ShortestTurn(best, (infeasible, feasible), *(limit or ("circle", None, None)))
