@@ -9,7 +9,7 @@ differently from the uncompiled file.
 from Cython.Build import cythonize
 from setuptools import Extension, setup
 
-FLAGS = ["-O3", "-fno-math-errno", "-fno-trapping-math", "-ffp-contract=off"]
+FLAGS = ["-O3", "-g0", "-fno-math-errno", "-fno-trapping-math", "-ffp-contract=off"]
 
 kernels = cythonize([Extension("core.kernels", ["core/kernels.py"], extra_compile_args=FLAGS)], build_dir="build")
 for extension in kernels:
