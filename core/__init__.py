@@ -1,5 +1,7 @@
 """Bench Dragon: where is everyone, when do two benches first touch, how tight may the curve be."""
 
+from core.bend import SharpestBend, sharpest_bend
+from core.check import Failure, FailureKind, Report, check
 from core.contact import (
     Certificate,
     ClearanceProfile,
@@ -15,42 +17,76 @@ from core.design import LimitedBy, MinimumPitch, minimum_pitch
 from core.dragon import Dragon
 from core.errors import BenchDragonError, InvalidValue, OutsideRun, TooLarge
 from core.kinematics import EndReason, RunEnd, Trajectory, bench_poses, run_end, trajectory
+from core.least import LeastClearance, least_clearance
 from core.overlaps import CrossCheck, Engine, Overlaps, Verdict, cross_check, overlaps, verdicts
 from core.paths import Spiral
 from core.rectangles import Separation, separation
+from core.route import Arc, Coil, Line, Piece, Route, Waypoints
+from core.speed import HighestSpeed, MaximumHeadSpeed, highest_speed, maximum_head_speed
+from core.turn import ShortestTurn, Turn, shortest_turn, turn
+from core.venue import Area, AreaClearance, Nearest, Stray, Venue, VenueClearance, venue_clearance
 
 __all__ = [
+    "Arc",
+    "Area",
+    "AreaClearance",
     "BenchDragonError",
     "Certificate",
     "ClearanceProfile",
+    "Coil",
     "CrossCheck",
     "Dragon",
     "EndReason",
     "Engine",
+    "Failure",
+    "FailureKind",
     "Feature",
     "FirstContact",
     "Graze",
     "HeadState",
+    "HighestSpeed",
     "InvalidValue",
+    "LeastClearance",
     "LimitedBy",
+    "Line",
+    "MaximumHeadSpeed",
     "MinimumPitch",
+    "Nearest",
     "Outcome",
     "OutsideRun",
     "Overlaps",
+    "Piece",
+    "Report",
+    "Route",
     "RunEnd",
     "Separation",
+    "SharpestBend",
+    "ShortestTurn",
     "Spiral",
+    "Stray",
     "TooLarge",
     "Trajectory",
+    "Turn",
+    "Venue",
+    "VenueClearance",
     "Verdict",
+    "Waypoints",
     "bench_poses",
+    "check",
     "clearance_profile",
     "cross_check",
     "first_contact",
+    "highest_speed",
+    "least_clearance",
+    "maximum_head_speed",
     "minimum_pitch",
     "overlaps",
     "run_end",
     "separation",
+    "sharpest_bend",
+    "shortest_turn",
     "trajectory",
+    "turn",
+    "venue_clearance",
     "verdicts",
 ]

@@ -5,7 +5,7 @@ The only file that knows FCL and shapely, and it imports them only when they are
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
 
@@ -314,6 +314,32 @@ def _shapely(poses: Floats, sizes: Floats, margin: float, chained: bool) -> Pair
     else:
         pairs = tree.query(polygons, predicate="intersects").T
     return np.asarray(pairs[pairs[:, 0] < pairs[:, 1]], dtype=np.int64)
+
+
+# -- shapely: polygons at rest --------------------------------------------------------------------------------
+
+
+def polygon_fault(rings: Sequence[ArrayLike]) -> tuple[str, float, float] | None:
+    """What is wrong with a polygon and where, (reason, x [m], y [m]); None if it is valid.
+
+    rings: closed, (points, 2) [m]: the outer one, then the holes
+    """
+    import shapely
+
+    reason = str(shapely.is_valid_reason(shapely.Polygon(rings[0], rings[1:])))
+    if "[" not in reason:
+        return None
+    words, _, place = reason.removesuffix("]").partition("[")
+    x, y = (float(number) for number in place.split())
+    return words.lower(), x, y
+
+
+def inside(rings: Sequence[ArrayLike], points: Floats) -> NDArray[np.bool_]:
+    """Which points lie inside a valid polygon, not on its boundary. rings: as in polygon_fault(); points: (P, 2) [m]"""
+    import shapely
+
+    found: NDArray[np.bool_] = shapely.contains_xy(shapely.Polygon(rings[0], rings[1:]), points)
+    return found
 
 
 # -- the paper's angle-sum rule -------------------------------------------------------------------------------

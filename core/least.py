@@ -1,0 +1,152 @@
+"""The least distance over a stretch of the dance: found by sampling, proven by marching."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from core.contact import (
+    BRACKET,
+    BRACKET_MIN,
+    BRACKETS_GRAZING,
+    DIP_WIDTH,
+    FOLD_SLIVER,
+    PROFILE_SAMPLES,
+    PROFILE_STEP,
+    Search,
+)
+from core.dragon import Dragon
+from core.kinematics import EndReason, checked_head_speed, checked_span, run_end
+from core.paths import Spiral
+from core.route import Route
+
+# The least distance is proven to this [m]; to the next one where that takes more steps than a search may.
+PROOF_WIDTHS = (1e-5, 1e-3)
+# So many of the lowest samples are refined before the proof begins.
+DIPS_REFINED = 5
+# So often the proof may come upon something nearer; each time the distance falls by PROOF_WIDTHS[0] or more.
+ROUNDS = 100
+
+Pair = tuple[int, int]
+# Gap [m], head travel [m], pair.
+Dip = tuple[float, float, Pair]
+
+
+@dataclass(frozen=True, slots=True)
+class LeastClearance:
+    """The least clearance over a stretch of the dance.
+
+    distance: [m], met at `time` [s] by `benches`; 0 at the first touch if benches touch
+    at_least: proven [m]: nothing comes nearer than this; None where the search gave up first
+    """
+
+    distance: float
+    at_least: float | None
+    time: float
+    benches: Pair
+
+
+def least_clearance(
+    dragon: Dragon,
+    path: Spiral | Route,
+    *,
+    head_speed: float = 1.0,
+    start: float = 0.0,
+    stop: float | None = None,
+) -> LeastClearance | None:
+    """The least clearance between start and stop [s], None for the end of the run; None with fewer than three benches.
+
+    head_speed: [m/s]
+    raises: InvalidValue; OutsideRun for a stop after the end of the run
+    """
+    head_speed = checked_head_speed(head_speed)
+    end = run_end(dragon, path, head_speed=head_speed)
+    begin, until = checked_span(dragon, path, start, stop, end, head_speed)
+    if dragon.benches < 3:
+        return None
+    to_fold = until >= end.time and end.reason is EndReason.FOLD
+    last = until * head_speed - (FOLD_SLIVER if to_fold else 0.0)
+    search = Search(dragon, path, 0.0)
+    (distance, travel, pair), at_least = least_over(search, begin * head_speed, last, head_speed)
+    if to_fold and at_least is not None and distance > 0.0:
+        at_least = min(at_least, max(0.0, search.clearance(last)[0] - search.motion_left(last, end)))
+    return LeastClearance(distance, at_least, travel / head_speed, pair)
+
+
+def approach(search: Search, begin: float, until: float, head_speed: float) -> tuple[str, dict[str, float], float]:
+    """Search.march between two travels [m] with the bracket of a contact: state, result by name, half width [m]."""
+    tolerance = max(BRACKET * min(1.0, head_speed), BRACKET_MIN)
+    state, found = search.march(until, tolerance, start=begin)
+    for wider in BRACKETS_GRAZING:
+        if state != "stuck" or found["touching"] < 0.0:
+            break
+        tolerance = wider * min(1.0, head_speed)
+        state, found = search.march(until, tolerance, start=begin)
+    return state, found, tolerance
+
+
+def first_pair(found: dict[str, float]) -> Pair:
+    """The pair that a march found within the margin."""
+    return int(found["first"]), int(found["second"])
+
+
+# A sampled and refined gap is an upper bound of the least one, as it is met. A march whose margin is that gap less a
+# width either ends, and so proves that nothing comes nearer, or meets a lower gap: then that one is refined, and the
+# march goes on from there with the lower margin, since what was passed is clear of the higher one.
+def least_over(search: Search, begin: float, until: float, head_speed: float) -> tuple[Dip, float | None]:
+    """The least gap of the search's pairs between two travels of the head, and what is proven of it [m].
+
+    A gap of 0 stands for the first touch. The search's margin is another one afterwards.
+    """
+    best = _sampled(search, begin, until)
+    proven_to = begin
+    for width in PROOF_WIDTHS:
+        for _ in range(ROUNDS):
+            if best[0] <= 0.0:
+                return _first_touch(search, proven_to, until, head_speed, best)
+            search.use(search.path, max(best[0] - width, 0.0))
+            margin = search.margin
+            state, found = search.march(until, 0.0, start=proven_to)
+            if state == "reached":
+                return best, margin
+            if state == "stuck":
+                break
+            proven_to = max(proven_to, found["proven"])
+            reach = PROFILE_STEP * search.extremes[1]
+            touching = found["touching"]
+            best = min(best, _refined(search, max(begin, touching - reach), touching, min(until, touching + reach)))
+    return best, None
+
+
+def _first_touch(search: Search, begin: float, until: float, head_speed: float, touching: Dip) -> tuple[Dip, float]:
+    """Something touches for certain: when first; at the instant known where the search gives up."""
+    search.use(search.path, 0.0)
+    state, found, tolerance = approach(search, begin, until, head_speed)
+    if not state.startswith("touched"):
+        return (0.0, *touching[1:]), 0.0
+    travel = found["touching"] - (tolerance if state == "touched" else 0.0)
+    return (0.0, travel, first_pair(found)), 0.0
+
+
+def _sampled(search: Search, begin: float, until: float) -> Dip:
+    """The least of the dips seen in steps of PROFILE_STEP of the shortest chord (PROFILE_SAMPLES of them at most)."""
+    samples = min(PROFILE_SAMPLES, 3 + int((until - begin) / (PROFILE_STEP * search.extremes[1])))
+    grid = np.linspace(begin, until, samples).tolist()
+    leaders = min(search.dragon.uniform_from + 1, search.dragon.benches)
+    gaps = np.array([search.clearance(travel, leaders)[0] for travel in grid])
+    inner = 1 + np.flatnonzero((gaps[1:-1] <= gaps[:-2]) & (gaps[1:-1] <= gaps[2:]))
+    deepest = inner[np.argsort(gaps[inner], kind="stable")[:DIPS_REFINED]]
+    ends = [(gap, travel, pair) for travel in (begin, until) for gap, pair in (search.clearance(travel),)]
+    return min(ends + [_refined(search, *grid[k - 1 : k + 2]) for k in deepest.tolist()])
+
+
+def _refined(search: Search, low: float, middle: float, high: float) -> Dip:
+    """The bottom of the dip that the middle travel lies in; a second time if another pair is nearer there."""
+    gap, pair = search.clearance(middle)
+    best = (gap, middle, pair)
+    for _ in range(2):
+        travel = search.bottom(low, high, best[2], DIP_WIDTH)
+        gap, pair = search.clearance(travel)
+        best = min(best, (gap, travel, pair))
+    return best

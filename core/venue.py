@@ -1,0 +1,281 @@
+"""Venue: the square and what stands in it, and how near the benches come to them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import pairwise
+
+import numpy as np
+
+from core import kernels
+from core.contact import MARGIN_MAX, Outcome, Search
+from core.dragon import Dragon, Floats, checked_number
+from core.errors import InvalidValue
+from core.kinematics import bench_poses, checked_head_speed, checked_span, run_end, trajectory
+from core.least import Pair, approach, first_pair, least_over
+from core.overlaps import inside, polygon_fault
+from core.paths import Spiral
+from core.route import COORDINATE_MAX, Coil, Point, Route
+
+Ring = tuple[Point, ...]
+
+# Edges of one venue: each is followed like a bench, but it stands.
+EDGES_MAX = 2_000
+# A collection of features of collections of polygons, and some more.
+DEPTH_MAX = 8
+# A spiral is danced a little past the last instant, so that rounding does not leave it outside [m].
+SPARE = 1e-6
+
+
+@dataclass(frozen=True)
+class Area:
+    """A polygon: the square, or an obstacle in it.
+
+    rings: the outer one, then the holes; each closed, at least 4 points (x, y) [m]
+    raises: InvalidValue with the reason and the place when the polygon is invalid
+    """
+
+    name: str
+    rings: tuple[Ring, ...]
+
+    def __post_init__(self) -> None:
+        for ring in self.rings:
+            if len(ring) < 4 or ring[0] != ring[-1]:
+                words = f"venue: a ring of {self.name!r} must be closed and have at least 4 points"
+                raise InvalidValue("venue", f"{words}, got {len(ring)}, from {ring[:1]} to {ring[-1:]}")
+        if fault := polygon_fault(self.rings):
+            reason, x, y = fault
+            raise InvalidValue(
+                "venue", f"venue: {self.name!r} must be a valid polygon, got a {reason} at ({x:g}, {y:g}) m"
+            )
+
+    @cached_property
+    def edges(self) -> Floats:
+        """(E, 4) x, y, x, y [m] of every edge of some length."""
+        found = np.array([(*a, *b) for ring in self.rings for a, b in pairwise(ring) if a != b])
+        return found.reshape(-1, 4)
+
+
+@dataclass(frozen=True)
+class Venue:
+    """The square with its holes, and obstacles that stand in it.
+
+    >>> Venue.from_geojson({"type": "Polygon", "coordinates": [[[0, 0], [9, 0], [9, 9], [0, 0]]]}).square.name
+    'square'
+    """
+
+    square: Area
+    obstacles: tuple[Area, ...] = ()
+
+    def __post_init__(self) -> None:
+        edges = sum(len(area.edges) for area in self.areas)
+        if edges > EDGES_MAX:
+            raise InvalidValue("venue", f"venue must have at most {EDGES_MAX} edges, got {edges}")
+        names = [area.name for area in self.areas]
+        for k, name in enumerate(names):
+            if name in names[:k]:
+                raise InvalidValue("venue", f"venue must give each polygon its own name, got {name!r} twice")
+
+    @property
+    def areas(self) -> tuple[Area, ...]:
+        """The square, then the obstacles."""
+        return (self.square, *self.obstacles)
+
+    @classmethod
+    def from_geojson(cls, geometry: Mapping[str, object]) -> Venue:
+        """The venue in a GeoJSON object with coordinates in metres, x to the east and y to the north.
+
+        geometry: a Polygon, a Feature of one, a GeometryCollection or a FeatureCollection of them. The square is the
+            feature whose property `name` is "square", else the first polygon; the others are obstacles, named by their
+            property `name`, else "obstacle 1" and so on. Heights are passed over.
+        raises: InvalidValue naming the member at fault, or the polygon with the reason and the place
+        """
+        named = _polygons("venue", geometry)
+        if not named:
+            raise InvalidValue("venue", "venue must hold at least one polygon, the square")
+        square = next((k for k, (name, _) in enumerate(named) if name == "square"), 0)
+        others = [polygon for k, polygon in enumerate(named) if k != square]
+        return cls(
+            Area(named[square][0] or "square", named[square][1]),
+            tuple(Area(name or f"obstacle {k}", rings) for k, (name, rings) in enumerate(others, start=1)),
+        )
+
+
+@dataclass(frozen=True, slots=True)
+class Nearest:
+    """How near the benches come to an area's edges, holes included.
+
+    distance: [m], met at `time` [s] by `bench`; 0 at the first touch
+    at_least: proven [m]: no bench comes nearer than this; None where the search gave up first
+    point: of the bench; wall: of the area (x, y) [m]
+    """
+
+    distance: float
+    at_least: float | None
+    time: float
+    bench: int
+    point: Point
+    wall: Point
+
+
+@dataclass(frozen=True, slots=True)
+class AreaClearance:
+    """The benches and the edges of one area, named.
+
+    outcome: does a bench come within the margin; time: when first [s], None when clear or undecided
+    time_bracket: (proven clear up to, within the margin at) [s]; for undecided up to the end; None when clear or at the
+        start
+    bench, point (x, y) [m]: the first one within the margin, and where it is nearest
+    """
+
+    name: str
+    outcome: Outcome
+    time: float | None
+    time_bracket: tuple[float, float] | None
+    bench: int | None
+    point: Point | None
+    nearest: Nearest
+
+
+@dataclass(frozen=True, slots=True)
+class Stray:
+    """A bench that starts outside the square or in an obstacle: the area's name, the bench, its centre (x, y) [m]."""
+
+    name: str
+    bench: int
+    point: Point
+
+
+@dataclass(frozen=True, slots=True)
+class VenueClearance:
+    """stray: the first bench that starts where it must not, None if all are well; areas: the square, then obstacles."""
+
+    stray: Stray | None
+    areas: tuple[AreaClearance, ...]
+
+
+def venue_clearance(
+    dragon: Dragon,
+    path: Spiral | Route,
+    venue: Venue,
+    *,
+    head_speed: float = 1.0,
+    margin: float = 0.0,
+    start: float = 0.0,
+    stop: float | None = None,
+) -> VenueClearance:
+    """How near the benches come to the square's edges and to each obstacle, and when first within the margin.
+
+    An edge is a rectangle without width that stands: benches and edges are marched like pairs of benches, with the same
+    proof. A bench that touches no edge at the start stays inside or outside with its centre.
+    head_speed: [m/s]; margin: [m]; start, stop: [s], None for the end of the run
+    raises: InvalidValue, also for a path that bends too tightly for a chord by the stop; OutsideRun
+    """
+    head_speed = checked_head_speed(head_speed)
+    margin = checked_number("margin", margin, "m", 0.0, MARGIN_MAX)
+    end = run_end(dragon, path, head_speed=head_speed)
+    begin, until = checked_span(dragon, path, start, stop, end, head_speed)
+    route = _route(path, until * head_speed)
+    run_end(dragon, route, head_speed=head_speed)
+    areas = tuple(
+        _area_clearance(Search(dragon, route, margin, area.edges), area.name, begin, until, head_speed)
+        for area in venue.areas
+    )
+    return VenueClearance(_stray(dragon, route, venue, begin, head_speed), areas)
+
+
+def _route(path: Spiral | Route, stop: float) -> Route:
+    """The path in the world frame up to a head travel [m]: a spiral as a coil."""
+    if isinstance(path, Route):
+        return path
+    theta = float(path.theta(min(stop + SPARE, path.length)))
+    return Route([Coil(path.pitch, path.start_turns, theta / (2.0 * math.pi))])
+
+
+def _area_clearance(search: Search, name: str, begin: float, until: float, head_speed: float) -> AreaClearance:
+    state, found, tolerance = approach(search, begin * head_speed, until * head_speed, head_speed)
+    outcome, time, bracket, bench, point = Outcome.CLEAR, None, None, None, None
+    if state == "stuck":
+        outcome, bracket = Outcome.UNDECIDED, (found["proven"] / head_speed, until)
+    elif state != "reached":
+        at_start = state == "touched_at_start"
+        travel = found["touching"] - (0.0 if at_start else tolerance)
+        outcome, time = Outcome.CONTACT_AT_START if at_start else Outcome.CONTACT, travel / head_speed
+        bracket = None if at_start else (found["proven"] / head_speed, found["touching"] / head_speed)
+        pair = first_pair(found)
+        bench, point = pair[0], _witnesses(search, travel, pair)[0]
+    (distance, travel, pair), at_least = least_over(search, begin * head_speed, until * head_speed, head_speed)
+    nearest = Nearest(distance, at_least, travel / head_speed, pair[0], *_witnesses(search, travel, pair))
+    return AreaClearance(name, outcome, time, bracket, bench, point, nearest)
+
+
+def _witnesses(search: Search, travel: float, pair: Pair) -> tuple[Point, Point]:
+    """The points of a bench and an edge that are nearest to each other [m]."""
+    search.clearance(travel)
+    a, b = (search.rows[0, k, 6:10] for k in pair)
+    out = np.empty(8)
+    kernels.pair_separation(*a, *search.sizes[pair[0], 1:3], *b, *search.sizes[pair[1], 1:3], out)
+    return (float(out[1]), float(out[2])), (float(out[3]), float(out[4]))
+
+
+def _stray(dragon: Dragon, route: Route, venue: Venue, begin: float, head_speed: float) -> Stray | None:
+    centres = bench_poses(trajectory(dragon, route, [begin], head_speed=head_speed).position[0])[:, :2]
+    for area in venue.areas:
+        wrong = np.flatnonzero(inside(area.rings, centres) != (area is venue.square))
+        if wrong.size:
+            x, y = centres[wrong[0]].tolist()
+            return Stray(area.name, int(wrong[0]), (x, y))
+    return None
+
+
+def _polygons(field: str, geometry: object, depth: int = 0) -> list[tuple[str | None, tuple[Ring, ...]]]:
+    """Name and rings of every polygon of a GeoJSON object, in its order."""
+    if depth > DEPTH_MAX:
+        raise InvalidValue("venue", f"venue must not nest objects deeper than {DEPTH_MAX}")
+    if not isinstance(geometry, Mapping):
+        raise InvalidValue(field, f"{field} must be a GeoJSON object, got {type(geometry).__name__}")
+    kind = geometry.get("type")
+    if kind == "Polygon":
+        return [(None, _rings(f"{field}.coordinates", geometry.get("coordinates")))]
+    if kind == "Feature":
+        properties = geometry.get("properties")
+        name = properties.get("name") if isinstance(properties, Mapping) else None
+        if name is not None and not isinstance(name, str):
+            raise InvalidValue(f"{field}.properties.name", f"{field}.properties.name must be a text, got {name!r}")
+        inner = _polygons(f"{field}.geometry", geometry.get("geometry"), depth + 1)
+        return [(name or own, rings) for own, rings in inner]
+    members = {"FeatureCollection": "features", "GeometryCollection": "geometries"}.get(str(kind))
+    if members is None:
+        raise InvalidValue(
+            f"{field}.type",
+            f"{field}.type must be Polygon, Feature, FeatureCollection or GeometryCollection, got {kind!r}",
+        )
+    items = _listed(f"{field}.{members}", geometry.get(members))
+    return [found for k, item in enumerate(items) for found in _polygons(f"{field}.{members}.{k}", item, depth + 1)]
+
+
+def _rings(field: str, value: object) -> tuple[Ring, ...]:
+    rings = _listed(field, value)
+    if not rings:
+        raise InvalidValue(field, f"{field} must hold at least one ring")
+    return tuple(
+        tuple(_place(f"{field}.{k}.{i}", point) for i, point in enumerate(_listed(f"{field}.{k}", ring)))
+        for k, ring in enumerate(rings)
+    )
+
+
+def _place(field: str, value: object) -> Point:
+    numbers = _listed(field, value)
+    if len(numbers) not in (2, 3):
+        raise InvalidValue(field, f"{field} must be a position [x, y] in metres, got {len(numbers)} numbers")
+    x, y = (checked_number(f"{field}.{k}", numbers[k], "m", -COORDINATE_MAX, COORDINATE_MAX) for k in range(2))
+    return x, y
+
+
+def _listed(field: str, value: object) -> list[object]:
+    if not isinstance(value, (list, tuple)):
+        raise InvalidValue(field, f"{field} must be a list, got {type(value).__name__}")
+    return list(value)
