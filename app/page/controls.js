@@ -14,6 +14,9 @@ export function make(tag, properties = {}, ...children) {
   return element;
 }
 
+/** Half-typed numbers are not asked: a text counts after a pause of the hand [ms], or with Enter. */
+const TYPING = 300;
+
 export class Controls {
   #rows = new Map();
   #groups = new Map();
@@ -45,7 +48,12 @@ export class Controls {
       limits: make("span", { id: `${name}-limits`, className: "limits" }),
       error: make("p", { id: `${name}-error`, className: "error", hidden: true }),
     };
-    row.text.addEventListener("input", change);
+    let typing = 0;
+    row.text.addEventListener("input", (event) => {
+      clearTimeout(typing);
+      typing = setTimeout(change, TYPING, event);
+    });
+    row.text.addEventListener("change", change);
     row.slider.addEventListener("input", change);
     row.reset.addEventListener("click", () => this.state.reset([name]));
     this.#rows.set(name, row);

@@ -63,7 +63,7 @@ function showPose(pose) {
   ends[0].textContent = high - low > 1e-9 ? low.toFixed(6) : say("allEqual");
   ends[1].textContent = `${high.toFixed(6)} m/s`;
   if (pose.dance) showTable(pose);
-  showTime(pose.time);
+  showTime(player.time());
   draw();
 }
 
@@ -161,6 +161,7 @@ function showState(changed) {
   if (changed.has("view") && !state.get("view")) dance.view.fitted = true;
   if (changed.has("turning_diameter")) dance.scene.circle = Number(state.get("turning_diameter")) / 2;
   if (changed.has("lang")) translate();
+  if (changed.has("time")) showTime(player.time());
   if (changed.has("time")) player.update();
   if ([...changed].some((name) => NUMBERS.has(name))) questions.refresh();
   draw();

@@ -50,7 +50,7 @@ export class Player {
 
   toggle() {
     if (this.#playing) return this.#stop();
-    if (!this.questions.dance) return;
+    if (!this.questions.dance?.end) return;
     if (this.state.get("time") === null) this.seek(0);
     this.#playing = true;
     this.translate();

@@ -38,7 +38,7 @@ export class Questions extends EventTarget {
   /** Everything that depends on the numbers of the state. */
   async refresh() {
     clearTimeout(this.#rest);
-    this.#rest = setTimeout(() => this.#refreshSlow(), REST);
+    this.#rest = setTimeout(() => this.#atRest(), REST);
     const query = this.state.texts([...MOTION, "margin"]);
     if (!this.#isNew("contact", query)) return;
     const answer = await this.#answer("contact", "collision-time", { query });
@@ -71,6 +71,7 @@ export class Questions extends EventTarget {
     this.dance = { answer, numbers, query, end: lastInstant(answer), track: null, gap: null };
     this.#tell("dance", this.dance);
     this.#askPath();
+    if (!this.#rest) this.#askDance();
   }
 
   /** The head's way from behind the tail to the end: one bench dances it alone. */
@@ -85,10 +86,21 @@ export class Questions extends EventTarget {
     if (table) this.#tell("path", { x: table.x.map((row) => row[0]), y: table.y.map((row) => row[0]) });
   }
 
-  async #refreshSlow() {
+  #atRest() {
+    this.#rest = 0;
     const limits = this.state.texts(LIMITS);
-    if (this.#isNew("minimum", limits)) this.#keep("minimum", "minimum-pitch", { query: limits });
-    if (this.#isNew("scan", limits)) this.#keep("scan", "pitch-scan", { query: limits });
+    this.#askDance();
+    if (this.#isNew("limits", limits)) this.#askLimits(limits);
+  }
+
+  /** One after the other: both are long, and the service computes only so many at once. */
+  async #askLimits(query) {
+    this.service.cancel("scan");
+    if (await this.#keep("minimum", "minimum-pitch", { query })) this.#keep("scan", "pitch-scan", { query });
+  }
+
+  /** What belongs to the dance that is shown, once. */
+  #askDance() {
     const { dance } = this;
     if (!dance || dance.track) return;
     this.#startTrack(dance);
@@ -117,11 +129,13 @@ export class Questions extends EventTarget {
     this.#tell("gap", dance);
   }
 
+  /** Whether an answer came; it is kept, to be shown again in another language. */
   async #keep(kind, path, question, dance = null) {
     const answer = await this.#answer(kind, path, question);
-    if (!answer) return;
+    if (!answer) return false;
     this.answers[kind] = { answer, dance, query: question.query };
     this.#tell(kind, this.answers[kind]);
+    return true;
   }
 
   #isNew(kind, query) {

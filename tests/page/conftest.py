@@ -1,0 +1,89 @@
+"""A real Chromium on the real service: every page that a test opens must stay without errors and without strangers."""
+
+from __future__ import annotations
+
+import shutil
+import json
+from collections.abc import Callable, Iterator
+from typing import Any
+from urllib.parse import urlsplit
+
+import pytest
+from playwright.sync_api import Browser, BrowserContext, Page, expect, sync_playwright
+
+CHROMIUM = shutil.which("chromium")
+ARGUMENTS = [
+    "--no-sandbox",
+    "--disable-gpu",
+    "--disable-quic",
+    "--no-first-run",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-sync",
+]
+WIDE = {"width": 1440, "height": 900}
+TIMEOUT = 30_000  # [ms]; no test waits this long for what is coming
+
+# What Chromium itself writes when a request fails; only tests that make one fail may see it.
+FAILED_REQUEST = "Failed to load resource"
+
+
+@pytest.fixture(scope="module")
+def browser() -> Iterator[Browser]:
+    if CHROMIUM is None:
+        pytest.skip("no chromium on this machine: apt-get install chromium fonts-noto-cjk")
+    expect.set_options(timeout=TIMEOUT)
+    with sync_playwright() as playwright:
+        browser = playwright.chromium.launch(executable_path=CHROMIUM, args=ARGUMENTS)
+        yield browser
+        browser.close()
+
+
+@pytest.fixture(scope="module")
+def contexts() -> dict[str, BrowserContext]:
+    """One browser's memory for each way of opening pages, so that its cache serves all tests of a module."""
+    return {}
+
+
+@pytest.fixture
+def open_page(browser: Browser, contexts: dict[str, BrowserContext], server: str) -> Iterator[Callable[..., Page]]:
+    """open_page(query, failing=False, base=server, **options of the context): a page, watched until the test ends.
+
+    failing: requests of this page are meant to fail, of which the browser itself writes a line
+    """
+    watched: list[tuple[Page, str, bool, list[str], list[str]]] = []
+
+    def opened(query: str = "", *, failing: bool = False, base: str = server, **options: Any) -> Page:
+        options = {"viewport": WIDE, "locale": "en-GB", **options}
+        key = json.dumps(options, sort_keys=True)
+        if key not in contexts:
+            contexts[key] = browser.new_context(**options)
+            contexts[key].set_default_timeout(TIMEOUT)
+        page = contexts[key].new_page()
+        told: list[str] = []
+        asked: list[str] = []
+        page.on("console", lambda message: told.append(message.text) if message.type in ("error", "warning") else None)
+        page.on("pageerror", lambda error: told.append(str(error)))
+        page.on("request", lambda request: asked.append(request.url))
+        watched.append((page, base, failing, told, asked))
+        page.goto(f"{base}/{query}")
+        return page
+
+    yield opened
+    for page, base, failing, told, asked in watched:
+        page.close()
+        assert [line for line in told if not (failing and line.startswith(FAILED_REQUEST))] == []
+        strangers = [url for url in asked if urlsplit(url)[:2] != urlsplit(base)[:2] and not url.startswith("blob:")]
+        assert strangers == []
+
+
+@pytest.fixture
+def settled() -> Callable[[Page], None]:
+    """settled(page) returns when nothing is being computed for the page any more."""
+
+    def until_settled(page: Page) -> None:
+        page.locator("#scan .uplot").wait_for()
+        expect(page.locator("[aria-busy=true]")).to_have_count(0)
+        page.evaluate("new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve)))")
+
+    return until_settled

@@ -1,0 +1,232 @@
+"""What a person sees and does on the page, against the service's own answers."""
+
+from __future__ import annotations
+
+import json
+import re
+import shlex
+from pathlib import Path
+from typing import Any
+
+import httpx
+import pytest
+
+PNG_SIGNATURE = b"\x89PNG\r\n\x1a\n"
+# Between two samples the picture may be off by this much [m]; a bench is 0.3 m wide.
+SMOOTH_TOLERANCE = 1e-3
+TRACK = """async ([times, step]) => {
+  const { Track } = await import("/page/track.js");
+  const ask = async (_, times, decimals) => {
+    const options = { method: "POST", headers: { "Content-Type": "application/json" }, body: JSON.stringify({ times, decimals }) };
+    return (await fetch("/trajectory", options)).json();
+  };
+  let ready;
+  const track = new Track(ask, [0, 412], 224, 1, () => ready());
+  const found = [];
+  for (const time of times) {
+    while (!track.at(time)) await new Promise((resolve) => (ready = resolve));
+    const { x, y } = track.at(time);
+    found.push([[...x], [...y]]);
+  }
+  return found;
+}"""
+
+
+def collision_time(server: str, **query: Any) -> Any:
+    return httpx.get(f"{server}/collision-time", params=query).raise_for_status().json()
+
+
+def text_of(page: Any, selector: str, wanted: str) -> None:
+    """Wait until the element holds the wanted text."""
+    page.locator(selector, has_text=wanted).first.wait_for()
+
+
+def clock(page: Any) -> float:
+    return float(page.locator("#clock").inner_text().removesuffix(" s"))
+
+
+def test_the_first_view_shows_the_contact_its_certificate_and_the_four_engines(open_page: Any, server: str) -> None:
+    page, answer = open_page(), collision_time(server)
+    text_of(page, "#first-contact .value", f"{answer['time']:.6f} s")
+    assert page.locator("#first-contact").get_attribute("data-outcome") == "contact"
+    page.locator("#first-contact summary").click()
+    text_of(page, "#first-contact dl", f"{answer['time_bracket'][1]:.10f}")
+    text_of(page, "#first-contact dl", f"{answer['certificate']['steps']} proven steps")
+    assert page.locator("#first-contact tbody tr").count() == len(answer["cross_check"]["engines"])
+    text_of(page, "#inset figcaption", "gap 0.000 mm")
+    text_of(page, "#inset figcaption", "front outer corner of head meets inner edge of body 8")
+
+
+def test_the_picture_is_drawn_in_the_colours_of_its_speeds(open_page: Any, settled: Any) -> None:
+    page = open_page()
+    text_of(page, "#legend", "m/s")
+    settled(page)
+    count = "c => new Set(new Uint32Array(c.getContext('2d').getImageData(0, 0, c.width, c.height).data.buffer)).size"
+    assert page.locator("#canvas").evaluate(count) > 40
+
+
+def test_every_answer_stands_with_how_it_is_known(open_page: Any, settled: Any, server: str) -> None:
+    page = open_page()
+    settled(page)
+    least = httpx.get(f"{server}/minimum-pitch").json()
+    text_of(page, "#minimum-pitch .value", f"{least['pitch']:.9f} m")
+    assert page.locator(".answer details").count() == page.locator(".answer").count() == 4
+
+
+def test_dragging_the_pitch_to_045_shows_the_numbers_of_the_service(open_page: Any, settled: Any, server: str) -> None:
+    page = open_page()
+    settled(page)
+    slider = page.locator("#controls input[type=range]").first
+    box = slider.bounding_box()
+    page.mouse.move(box["x"] + box["width"] * 0.357, box["y"] + box["height"] / 2)
+    page.mouse.down()
+    for pitch_share in range(35, 20, -1):
+        page.mouse.move(box["x"] + box["width"] * pitch_share / 100, box["y"] + box["height"] / 2)
+    page.mouse.up()
+    assert float(page.locator("#pitch").input_value()) < 0.5
+    slider.press("ArrowRight")
+    while float(page.locator("#pitch").input_value()) != 0.45:
+        slider.press("ArrowRight" if float(page.locator("#pitch").input_value()) < 0.45 else "ArrowLeft")
+    answer = collision_time(server, pitch=0.45)
+    text_of(page, "#first-contact .value", f"{answer['time']:.6f} s")
+    text_of(page, "#clock", f"{answer['time']:.2f} s")
+    text_of(page, "#table-time", f"{answer['time']:.6f} s")
+    text_of(page, "#rows tbody tr:not([hidden])", f"{answer['head']['x']:.6f}")
+
+
+def test_the_dance_plays_to_the_contact_and_stops_there(open_page: Any, server: str) -> None:
+    page = open_page("?time=400&rate=10")
+    text_of(page, "#clock", "400.00 s")
+    assert page.locator("#inset").is_hidden()
+    page.locator("#play").click()
+    text_of(page, "#play", "Pause")
+    text_of(page, "#clock", f"{collision_time(server)['time']:.2f} s")
+    text_of(page, "#play", "Play")
+    page.locator("#inset").wait_for()
+    page.locator("#back").click()
+    text_of(page, "#clock", "411.47 s")
+    assert page.locator("#inset").is_hidden()
+
+
+def test_motion_between_samples_is_true_to_a_millimetre(open_page: Any, server: str) -> None:
+    times = [0.1, 57.33, 299.9, 411.77]
+    drawn = open_page().evaluate(TRACK, [times, 0.5])
+    table = httpx.post(f"{server}/trajectory", json={"times": times}).json()
+    for k, rows in enumerate(drawn):
+        for row, axis in zip(rows, "xy", strict=True):
+            assert row == pytest.approx(table[axis][k], abs=SMOOTH_TOLERANCE)
+
+
+def test_the_clearance_chart_and_the_dance_have_one_time(open_page: Any, settled: Any, server: str) -> None:
+    page = open_page()
+    settled(page)
+    plot = page.locator("#clearance .u-over")
+    box = plot.bounding_box()
+    plot.click(position={"x": box["width"] / 2, "y": 20})
+    time = clock(page)
+    assert time == pytest.approx(collision_time(server)["time"] / 2, rel=0.02)
+    text_of(page, "#table-time", page.locator("#clock").inner_text().removesuffix(" s")[:-1])
+    page.locator("#time").press("End")
+    text_of(page, "#clock", f"{collision_time(server)['time']:.2f} s")
+    before = page.locator("#clearance .now").bounding_box()["x"]
+    page.locator("#time").press("Home")
+    text_of(page, "#clock", "0.00 s")
+    assert page.locator("#clearance .now").bounding_box()["x"] == pytest.approx(
+        before - box["width"], abs=box["width"] / 50
+    )
+
+
+def test_a_click_on_the_pitch_chart_sets_the_pitch(open_page: Any, settled: Any, server: str) -> None:
+    page = open_page()
+    settled(page)
+    plot = page.locator("#scan .u-over")
+    plot.click(position={"x": plot.bounding_box()["width"] / 4, "y": 40})
+    pitch = page.locator("#pitch").input_value()
+    assert float(pitch) < 0.5
+    text_of(page, "#first-contact .value", f"{collision_time(server, pitch=pitch)['time']:.6f} s")
+
+
+def test_that_nothing_touches_is_as_clear_as_a_contact(open_page: Any, server: str) -> None:
+    page = open_page("?pitch=2&start_turns=8")
+    text_of(page, "#first-contact .value", "Nothing touches")
+    assert page.locator("#first-contact").get_attribute("data-outcome") == "clear"
+    text_of(page, "#first-contact p", f"{collision_time(server, pitch=2, start_turns=8)['end']['time']:.6f} s")
+    text_of(page, "#run-end", "the chain folds")
+    text_of(page, "#highest-speed .value", "Grows without bound")
+    assert page.locator("#inset").is_hidden()
+
+
+def test_contact_at_the_start_has_its_picture_and_its_depth(open_page: Any) -> None:
+    page = open_page("?pitch=0.3")
+    text_of(page, "#first-contact .value", "Touching already at the start")
+    text_of(page, "#inset figcaption", "gap -")
+    text_of(page, "#clock", "0.00 s")
+
+
+def test_two_benches_cannot_touch_and_the_chart_says_so_in_the_services_words(open_page: Any, server: str) -> None:
+    page = open_page("?benches=2", failing=True)
+    text_of(page, "#first-contact .value", "Nothing touches")
+    words = httpx.get(f"{server}/clearance?benches=2").json()["detail"]
+    text_of(page, "#clearance .reading", words)
+
+
+def test_a_handle_chosen_in_the_picture_is_chosen_in_the_table_and_back(open_page: Any) -> None:
+    page = open_page("?time=0&view=8.8,0,40")
+    text_of(page, "#table-time", "0.000000")
+    box = page.locator("#canvas").bounding_box()
+    page.locator("#canvas").click(position={"x": box["width"] / 2, "y": box["height"] / 2})
+    text_of(page, "#rows tr.chosen", "0 · head")
+    page.locator("#rows tr[data-handle='5']").click()
+    text_of(page, "#rows tr.chosen", "5 · body 5")
+    page.wait_for_url(re.compile("handle=5"))
+
+
+def test_two_thousand_benches_are_drawn_and_listed(open_page: Any, server: str) -> None:
+    page = open_page("?benches=2000&time=0")
+    text_of(page, "#table-time", "0.000000")
+    page.locator("#rows").press("ArrowUp")
+    page.locator("#rows").evaluate("box => box.scrollTo(0, box.scrollHeight)")
+    last = httpx.post(f"{server}/trajectory", json={"dragon": {"benches": 2000}, "times": [0]}).json()["x"][0][-1]
+    text_of(page, "#rows tr[data-handle='2000']", f"{last:.6f}")
+
+
+def test_a_shared_link_opens_the_same_state(open_page: Any, settled: Any) -> None:
+    page = open_page("?pitch=0.5&margin=0.01&time=120.5&rate=5&handle=7&lang=zh&view=1,2,35")
+    settled(page)
+    page.locator("#width").fill("0.25")
+    page.locator("#share").click()
+    page.wait_for_url(re.compile("width=0.25"))
+    settled(page)
+    other = open_page(page.url.split("/")[-1])
+    settled(other)
+    for shown in ("#first-contact", "#clock", "#table-time", "tr.chosen", "#minimum-pitch", "#curl"):
+        assert other.locator(shown).inner_text() == page.locator(shown).inner_text()
+    assert other.url.split("?")[1] == page.url.split("?")[1]
+    picture = "c => c.toDataURL()"
+    assert other.locator("#canvas").evaluate(picture) == page.locator("#canvas").evaluate(picture)
+
+
+def test_the_files_hold_what_the_service_answers(open_page: Any, settled: Any, server: str) -> None:
+    page = open_page("?pitch=0.5")
+    settled(page)
+    kept = {}
+    for kind in ("csv", "png", "figure", "json"):
+        with page.expect_download() as download:
+            page.locator(f"#{kind}").click()
+        kept[kind] = Path(download.value.path()).read_bytes()
+    answer = collision_time(server, pitch=0.5)
+    assert json.loads(kept["json"]) == answer
+    rows = kept["csv"].decode().split("\n")
+    assert rows[0] == "time,handle,x,y,speed"
+    assert len(rows) == 1 + 224 * (int(answer["time"]) + 1) + 1
+    assert kept["png"].startswith(PNG_SIGNATURE)
+    assert b"<svg" in kept["figure"]
+
+
+def test_the_commands_give_what_the_page_shows(open_page: Any, server: str) -> None:
+    page = open_page("?pitch=0.5")
+    text_of(page, "#curl", "pitch=0.5")
+    get, post = (shlex.split(line) for line in page.locator("#curl").inner_text().splitlines())
+    assert httpx.get(get[1]).json() == collision_time(server, pitch=0.5)
+    table = httpx.post(post[1], content=post[-1], headers=dict([post[3].split(": ")])).raise_for_status().json()
+    assert len(table["x"][0]) == 224

@@ -1,0 +1,132 @@
+"""The page for everyone: two languages, keyboard, phone, dark, reduced motion, screen readers."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+PHONE = {"width": 390, "height": 844}
+SERIOUS = {"serious", "critical"}
+
+
+def focused(page: Any) -> str:
+    return str(
+        page.evaluate("document.activeElement.id || document.activeElement.className || document.activeElement.tagName")
+    )
+
+
+def test_chinese_is_the_first_language_of_a_chinese_browser_with_the_terms_of_the_contest(open_page: Any) -> None:
+    page = open_page(locale="zh-CN")
+    page.locator("#first-contact .value", has_text="时碰撞").wait_for()
+    words = page.locator("body").inner_text()
+    for term in ("龙头", "龙身", "把手", "螺距", "调头空间"):
+        assert term in words
+    page.locator("#rows").evaluate("box => box.scrollTo(0, box.scrollHeight)")
+    page.locator("#rows tr", has_text="龙尾（后）").wait_for()
+    assert page.locator("html").get_attribute("lang") == "zh-Hans"
+
+
+def test_the_language_is_switched_on_the_page_and_stays_in_the_address(open_page: Any, settled: Any) -> None:
+    page = open_page()
+    settled(page)
+    page.get_by_role("button", name="中文").click()
+    page.locator("h1", has_text="板凳龙").wait_for()
+    page.locator("#minimum-pitch", has_text="最小螺距").wait_for()
+    assert "Pitch" not in page.locator("main").inner_text()
+    page.wait_for_url("**lang=zh")
+    page.reload()
+    page.locator("h1", has_text="板凳龙").wait_for()
+    page.get_by_role("button", name="English").click()
+    page.locator("h1", has_text="Bench Dragon").wait_for()
+
+
+def test_no_text_is_missing_in_either_language(open_page: Any) -> None:
+    page = open_page()
+    for language in ("English", "中文"):
+        page.get_by_role("button", name=language).click()
+        empty = "[...document.querySelectorAll('[data-text]')].filter((one) => !one.textContent).length"
+        assert page.evaluate(empty) == 0
+        assert "undefined" not in page.locator("body").inner_text()
+
+
+def test_the_page_is_used_by_keyboard_alone(open_page: Any, settled: Any) -> None:
+    page = open_page("?time=100")
+    settled(page)
+    page.keyboard.press("Tab")
+    assert focused(page) == "skip"
+    page.keyboard.press("Enter")
+    page.locator("#canvas").focus()
+    page.keyboard.press("]")
+    page.locator("tr.chosen", has_text="0 · head").wait_for()
+    page.keyboard.press("+")
+    page.keyboard.press("ArrowLeft")
+    page.wait_for_url("**view=**")
+    page.keyboard.press("0")
+    page.keyboard.press("f")
+    page.locator("#follow[aria-pressed=true]").wait_for()
+    page.keyboard.press(" ")
+    page.locator("#play", has_text="Pause").wait_for()
+    page.keyboard.press(" ")
+    page.locator("#play", has_text="Play").wait_for()
+    seen = set()
+    for _ in range(80):
+        page.keyboard.press("Tab")
+        seen.add(focused(page))
+        visible = "getComputedStyle(document.activeElement).outlineStyle !== 'none' || document.activeElement === document.body"
+        assert page.evaluate(visible)
+    assert {"play", "time", "rate", "pitch", "benches", "margin", "rows", "csv", "share", "follow"} <= seen
+    page.locator("#pitch").focus()
+    page.keyboard.press("ControlOrMeta+a")
+    page.keyboard.type("0.5")
+    page.locator("#scan .reading", has_text="0.5 m").wait_for()
+
+
+@pytest.mark.parametrize("locale", ["en-GB", "zh-CN"])
+def test_nothing_is_cut_off_at_390_pixels(open_page: Any, settled: Any, locale: str) -> None:
+    page = open_page(viewport=PHONE, locale=locale, has_touch=True, is_mobile=True)
+    settled(page)
+    assert page.evaluate("document.documentElement.scrollWidth") <= PHONE["width"]
+    outside = """(width) => [...document.querySelectorAll('button, input, select, h1, h2, h3, .value')]
+      .filter((one) => one.checkVisibility() && one.getBoundingClientRect().right > width + 1).map((one) => one.outerHTML)"""
+    assert page.evaluate(outside, PHONE["width"]) == []
+    page.locator("#play").tap()
+    page.locator("#play", has_text="❚❚").wait_for()
+
+
+def test_reduced_motion_moves_in_steps(open_page: Any, settled: Any) -> None:
+    page = open_page("?time=0&rate=1", reduced_motion="reduce")
+    settled(page)
+    page.locator("#play").click()
+    count = """() => new Promise((resolve) => {
+      const seen = new Set();
+      const look = () => seen.add(document.querySelector("#clock").textContent).size < 3 ? requestAnimationFrame(look) : resolve([...seen]);
+      look();
+    })"""
+    times = sorted(float(text.removesuffix(" s")) for text in page.evaluate(count))
+    assert times[2] - times[1] >= 0.4
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+@pytest.mark.parametrize(
+    ("query", "options"),
+    [
+        ("?handle=3", {}),
+        ("?pitch=2&start_turns=8", {"locale": "zh-CN"}),
+        ("?pitch=55&benches=x", {"viewport": PHONE}),
+    ],
+    ids=["contact", "clear in Chinese", "refused on a phone"],
+)
+def test_axe_finds_nothing_serious(
+    open_page: Any, settled: Any, scheme: str, query: str, options: dict[str, Any]
+) -> None:
+    from axe_playwright_python.sync_playwright import Axe
+
+    refused = "pitch=55" in query
+    page = open_page(query, failing=refused, color_scheme=scheme, **options)
+    page.locator("#pitch-error").wait_for() if refused else settled(page)
+    for summary in page.locator("summary").all():
+        summary.click()
+    # The page's own policy forbids inline scripts; the test's script comes over the debugging protocol.
+    found = Axe().run(page).response["violations"]
+    assert [(one["id"], one["nodes"][0]["html"]) for one in found if one["impact"] in SERIOUS] == []

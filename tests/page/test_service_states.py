@@ -1,0 +1,188 @@
+"""The page and the service between them: refusals, slow answers, superseded questions, loss and return, safety, weight."""
+
+from __future__ import annotations
+
+import gzip
+import os
+import socket
+import subprocess
+import sys
+import time
+from pathlib import Path
+from typing import Any
+
+import httpx
+import pytest
+
+ROOT = Path(__file__).parents[2]
+OWN_MAX, ALL_MAX = 150_000, 1_600_000  # [bytes], compressed
+
+
+@pytest.fixture
+def port() -> int:
+    with socket.socket() as free:
+        free.bind(("127.0.0.1", 0))
+        return int(free.getsockname()[1])
+
+
+def started(port: int) -> subprocess.Popen[bytes]:
+    command = [sys.executable, "-m", "uvicorn", "--factory", "app.main:create_app", "--port", str(port)]
+    quiet = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
+    process = subprocess.Popen(command, cwd=ROOT, env=dict(os.environ), **quiet)
+    for _ in range(600):
+        try:
+            httpx.get(f"http://127.0.0.1:{port}/healthz")
+            return process
+        except httpx.ConnectError:
+            time.sleep(0.1)
+    process.kill()
+    pytest.fail("the server did not start")
+
+
+def stopped(process: subprocess.Popen[bytes]) -> None:
+    process.terminate()
+    process.wait(timeout=60)
+
+
+def test_a_lost_service_is_said_the_picture_stays_and_the_page_recovers_by_itself(
+    open_page: Any, settled: Any, port: int
+) -> None:
+    process = started(port)
+    try:
+        page = open_page(base=f"http://127.0.0.1:{port}", failing=True)
+        settled(page)
+        answer = page.locator("#first-contact").inner_text()
+        picture = page.locator("#canvas").evaluate("c => c.toDataURL()")
+        stopped(process)
+        page.locator("#pitch").fill("0.5")
+        page.locator("#lost", has_text="does not answer").wait_for()
+        assert page.locator("#first-contact").inner_text() == answer
+        assert page.locator("#canvas").evaluate("c => c.toDataURL()") == picture
+        process = started(port)
+        page.locator("#lost").wait_for(state="hidden")
+        wanted = httpx.get(f"http://127.0.0.1:{port}/collision-time?pitch=0.5").json()["time"]
+        page.locator("#first-contact .value", has_text=f"{wanted:.6f}").wait_for()
+    finally:
+        stopped(process)
+
+
+def test_an_idle_page_notices_a_lost_service(open_page: Any, settled: Any, port: int) -> None:
+    process = started(port)
+    try:
+        page = open_page(base=f"http://127.0.0.1:{port}", failing=True)
+        settled(page)
+    finally:
+        stopped(process)
+    page.locator("#lost", has_text="does not answer").wait_for()
+
+
+def test_a_wrong_value_has_the_services_own_words_beside_it(open_page: Any, settled: Any, server: str) -> None:
+    page = open_page(failing=True)
+    settled(page)
+    for name, text in (("pitch", "55"), ("benches", "0"), ("overhang", "3"), ("turning_diameter", "wide")):
+        page.locator(f"#{name}").fill(text)
+        call = "minimum-pitch" if name == "turning_diameter" else "collision-time"
+        [error] = httpx.get(f"{server}/{call}", params={name: text}).json()["errors"]
+        page.locator(f"#{name}-error", has_text=error["detail"]).wait_for()
+        assert page.locator(f"#{name}").get_attribute("aria-invalid") == "true"
+        page.get_by_role("button", name="Reset all").click()
+        page.locator(f"#{name}-error").wait_for(state="hidden")
+    page.locator("#first-contact .value", has_text="412.473838").wait_for()
+
+
+def test_limits_and_units_are_the_services_own(open_page: Any, server: str) -> None:
+    page = open_page()
+    parameters = httpx.get(f"{server}/openapi.json").json()["paths"]["/collision-time"]["get"]["parameters"]
+    for one in parameters:
+        low = one["schema"].get("minimum", one["schema"].get("exclusiveMinimum"))
+        page.locator(f"#{one['name']}-limits", has_text=f"{low:.15g} to {one['schema']['maximum']:.15g}").wait_for()
+
+
+def test_superseded_questions_are_aborted_and_the_slider_does_not_wait(
+    open_page: Any, settled: Any, server: str
+) -> None:
+    page = open_page()
+    settled(page)
+    aborted = []
+    page.on("requestfailed", lambda request: aborted.append(request.url))
+    slow = """const ask = window.fetch;
+      window.fetch = async (url, options) => {
+        if (!String(url).startsWith("collision-time")) return ask(url, options);
+        await new Promise((resolve, reject) => {
+          setTimeout(resolve, 1000);
+          options.signal.addEventListener("abort", () => { window.aborted = (window.aborted ?? 0) + 1; reject(options.signal.reason); });
+        });
+        return ask(url, options);
+      };"""
+    page.evaluate(f"() => {{ {slow} }}")
+    slider = page.locator("#controls input[type=range]").first
+    for _ in range(20):
+        slider.press("ArrowLeft")
+    assert page.locator("#pitch").input_value() == "0.53"
+    wanted = httpx.get(f"{server}/collision-time?pitch=0.53").json()["time"]
+    page.locator("#first-contact .value", has_text=f"{wanted:.6f}").wait_for()
+    assert page.evaluate("window.aborted") >= 1
+
+
+def test_a_wait_of_more_than_half_a_second_shows_its_progress(open_page: Any, settled: Any) -> None:
+    page = open_page()
+    settled(page)
+    page.route("**/minimum-pitch*", lambda route: None)
+    page.locator("#width").fill("0.28")
+    box = page.locator("#minimum-pitch[aria-busy=true]")
+    box.wait_for()
+    shown = "box => Number(getComputedStyle(box, '::after').opacity)"
+    assert box.evaluate(shown) == 0
+    while box.evaluate(shown) == 0:
+        page.wait_for_timeout(50)
+
+
+def test_a_service_that_fails_is_told_in_its_own_words(open_page: Any, settled: Any) -> None:
+    page = open_page("?pitch=0.5", failing=True)
+    settled(page)
+    problem = '{"title": "Internal Server Error", "status": 500, "detail": "The service failed here.", "errors": []}'
+    page.route("**/collision-time*", lambda route: route.fulfill(status=500, body=problem))
+    page.locator("#pitch").fill("0.51")
+    page.locator("#first-contact", has_text="The service failed here.").wait_for()
+    page.unroute("**/collision-time*")
+    page.locator("#pitch").fill("0.52")
+    page.locator("#first-contact[data-outcome=contact]").wait_for()
+
+
+def test_a_busy_service_is_asked_again(open_page: Any, settled: Any) -> None:
+    page = open_page("?pitch=0.5", failing=True)
+    settled(page)
+    refused = []
+
+    def once(route: Any) -> None:
+        refused.append(route.request.url)
+        route.fulfill(status=503, headers={"Retry-After": "1"}, body="{}") if len(refused) == 1 else route.continue_()
+
+    page.route("**/collision-time*", once)
+    page.locator("#pitch").fill("0.45")
+    page.locator("#first-contact .value", has_text="215.337253").wait_for()
+    assert len(refused) == 2
+
+
+def test_the_policy_lets_the_page_load_from_its_service_alone(open_page: Any, settled: Any, server: str) -> None:
+    policy = httpx.get(server).headers["content-security-policy"]
+    assert policy == "default-src 'self'"
+    page = open_page()
+    settled(page)
+    assert page.evaluate("document.querySelectorAll('script:not([src]), style, [style*=url], [onclick]').length") == 0
+
+
+def test_the_page_is_light(open_page: Any, settled: Any) -> None:
+    page = open_page()
+    requests: list[Any] = []
+    page.on("request", lambda request: requests.append(request))
+    page.reload()
+    settled(page)
+    weights: dict[str, int] = {}
+    for one in requests:
+        headers = {"Content-Type": "application/json"} if one.post_data else {}
+        answer = httpx.request(one.method, one.url, content=one.post_data, headers=headers, timeout=60)
+        weights[one.url] = weights.get(one.url, 0) + len(gzip.compress(answer.raise_for_status().content))
+    own = sum(weight for url, weight in weights.items() if "/page/" in url and "uplot" not in url or url.endswith("/"))
+    assert 0 < own < OWN_MAX
+    assert sum(weights.values()) < ALL_MAX
