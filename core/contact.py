@@ -42,6 +42,8 @@ NO_BOUND = 1e300
 NO_PIECES = np.empty((0, kernels.PIECE_COLUMNS))
 # The kernels' word for a run without a graze [m].
 NO_GRAZE = 1e300
+# Travels are doubles: steps and brackets cannot be finer than this part of them [1].
+TRAVEL_ROUNDING = 1e-15
 # The last stretch before a fold, where handle speeds grow without bound: dismissed by a bound on the motion left [m].
 FOLD_SLIVER = 1e-9
 # Rounding of a gap, relative to the largest coordinate [1]: four times the largest error, 3.4e-15 m at 12 m, of 60 gaps
@@ -387,8 +389,9 @@ def first_contact(
     begin, until = checked_span(dragon, path, start, stop, end, head_speed)
     search = Search(dragon, path, margin)
     to_fold = until >= end.time and end.reason is EndReason.FOLD
-    last = until * head_speed - (FOLD_SLIVER if to_fold else 0.0)
-    tolerance = max(BRACKET * min(1.0, head_speed), BRACKET_MIN)
+    rounding = TRAVEL_ROUNDING * until * head_speed
+    last = until * head_speed - (FOLD_SLIVER + 1e3 * rounding if to_fold else 0.0)
+    tolerance = max(BRACKET * min(1.0, head_speed), BRACKET_MIN, rounding)
     state, found = search.march(last, tolerance, start=begin * head_speed)
     for wider in BRACKETS_GRAZING:
         if state != "stuck" or found["touching"] < 0.0:

@@ -1986,8 +1986,9 @@ MARCH_FIELDS = (
     "graze_first",
     "graze_second",
 )
-# Golden section; width to which the place of a peak is found [m]: a kink's height is then good to 1e-11.
-GOLDEN = cython.declare(cython.double, 0.6180339887498949)
+# Rates that differ by less are equal [1].
+NOISE = cython.declare(cython.double, 1e-13)
+# Width to which the place of a peak is found [m]: a kink's height is then good to 1e-11.
 PEAK_WIDTH = cython.declare(cython.double, 1e-11)
 # Width to which the place of a graze is found [m]: 1e-10 s at 1 m/s.
 DIP_WIDTH = cython.declare(cython.double, 1e-10)
@@ -2196,6 +2197,7 @@ def interval_least(
     bend: cython.double = 0.0
     room: cython.double = FREE
     width: cython.double
+    far: cython.double
     low: cython.double
     high: cython.double
     a: cython.Py_ssize_t = 0
@@ -2218,9 +2220,20 @@ def interval_least(
         ):
             return -FREE
     for i in range(active):
+        far = FREE
+        if pieces.shape[0] == 0:
+            far = before[i + 1, THETA] if before[i + 1, THETA] > after[i + 1, THETA] else after[i + 1, THETA]
+            far = growth * far + drift(motion[i, HANDLE_SPEED], h, growth, growth * far)
+            low = before[i, THETA] if before[i, THETA] < after[i, THETA] else after[i, THETA]
+            low = growth * low - drift(motion[i, HANDLE_SPEED], h, growth, growth * low)
+            far = radius_beyond(growth, leaders_reach(growth, low, far, ring) + margin, ring)
         for j in range(i + 2 if statics >= 0 else handles + 1, handles + 1 + edges):
             if j == handles:  # the last handle's row holds no bench; after it stand the edges at rest
                 continue
+            if far < FREE:
+                low = before[j, THETA] if before[j, THETA] < after[j, THETA] else after[j, THETA]
+                if growth * low - drift(motion[j, HANDLE_SPEED], h, growth, growth * low) > far:
+                    break  # handles stand in order, so all further ones lie outside too
             least = pair_least(growth, i, j, margin, h, sizes, before, after, motion, out)
             if least >= FREE:
                 continue
@@ -2257,6 +2270,8 @@ def row_gap(
 @cython.nogil
 @cython.exceptval(check=False)
 def row_clearance(
+    growth: cython.double,
+    ring: cython.double[::1],
     active: cython.Py_ssize_t,
     handles: cython.Py_ssize_t,
     statics: cython.Py_ssize_t,
@@ -2264,7 +2279,7 @@ def row_clearance(
     chain: cython.double[:, ::1],
     pair: cython.Py_ssize_t[::1],
 ) -> cython.double:
-    """Least separation among the pairs led by the first `active` benches, and that pair [m]; FREE without pairs."""
+    """Least separation among the pairs led by the first `active` benches, and that pair [m]; FREE without pairs. growth: 0 on a route."""
     edges: cython.Py_ssize_t = statics if statics >= 0 else -statics
     i: cython.Py_ssize_t
     j: cython.Py_ssize_t
@@ -2273,10 +2288,17 @@ def row_clearance(
     far: cython.double
     gap: cython.double
     best: cython.double = FREE
+    beyond: cython.double
     for i in range(active):
+        beyond = FREE
+        if growth > 0.0 and best < FREE:
+            beyond = leaders_reach(growth, growth * chain[i, THETA], growth * chain[i + 1, THETA], ring)
+            beyond = radius_beyond(growth, beyond + (best if best > 0.0 else 0.0), ring)
         for j in range(i + 2 if statics >= 0 else handles + 1, handles + 1 + edges):
             if j == handles:
                 continue
+            if beyond < FREE and growth * chain[j, THETA] > beyond:
+                break
             dx = chain[j, MX] - chain[i, MX]
             dy = chain[j, MY] - chain[i, MY]
             far = sizes[i, RADIUS] + sizes[j, RADIUS] + (best if best > 0.0 else 0.0)
@@ -2309,37 +2331,12 @@ def clearance_at(
 
     chain: (n + 1, CHAIN_COLUMNS) scratch; pair[0]: the last handle placed, -1 if the chain folds
     """
-    i: cython.Py_ssize_t
-    j: cython.Py_ssize_t
-    dx: cython.double
-    dy: cython.double
-    far: cython.double
-    gap: cython.double
-    best: cython.double = FREE
     pair[0] = place_chain(growth, pieces, place, benches, sizes, chain)
     if pair[0] < 0:
         return FREE
-    if statics != 0:
-        return row_clearance(leaders, benches, statics, sizes, chain, pair)
-    for i in range(leaders):
-        far = FREE
-        if best < FREE and pieces.shape[0] == 0:
-            far = leaders_reach(growth, growth * chain[0, THETA], growth * chain[i + 1, THETA], ring)
-            far = radius_beyond(growth, far + (best if best > 0.0 else 0.0), ring)
-        for j in range(i + 2, benches):
-            if far < FREE and growth * chain[j, THETA] > far:
-                break
-            dx = chain[j, MX] - chain[i, MX]
-            dy = chain[j, MY] - chain[i, MY]
-            gap = sizes[i, RADIUS] + sizes[j, RADIUS] + (best if best > 0.0 else 0.0)
-            if dx * dx + dy * dy > gap * gap:
-                continue
-            gap = row_gap(i, j, sizes, chain)
-            if gap < best:
-                best = gap
-                pair[1] = i
-                pair[2] = j
-    return best
+    return row_clearance(
+        growth if pieces.shape[0] == 0 else 0.0, ring, leaders, benches, statics, sizes, chain, pair
+    )
 
 
 @cython.ccall
@@ -2528,6 +2525,7 @@ def march(
     first: cython.Py_ssize_t = leaders
     followers: cython.Py_ssize_t = benches if at_start else leaders
     placed: cython.Py_ssize_t
+    solo: cython.double = growth if pieces.shape[0] == 0 else 0.0
     opened: cython.Py_ssize_t
     handles: cython.Py_ssize_t
     active: cython.Py_ssize_t
@@ -2564,7 +2562,7 @@ def march(
             return STUCK
         opened = placed
         opening[: placed + 1] = before[: placed + 1]
-        last_clearance = row_clearance(pair[0], placed, statics, sizes, before, pair)
+        last_clearance = row_clearance(solo, ring, pair[0], placed, statics, sizes, before, pair)
         if last_clearance <= margin:
             out[PROVEN] = out[TOUCHING] = start
             out[FIRST] = pair[1]
@@ -2647,7 +2645,7 @@ def march(
             target = -1.0
             clearance = FREE
             if tolerance > 0.0:
-                clearance = row_clearance(active, handles, statics, sizes, before, pair)
+                clearance = row_clearance(solo, ring, active, handles, statics, sizes, before, pair)
             lowest = least if least < floor else floor
             floor = least
             if older_clearance > last_clearance <= clearance and lowest < out[GRAZE_GAP]:
@@ -2713,6 +2711,37 @@ def top_rate(
 @cython.cfunc
 @cython.nogil
 @cython.exceptval(check=False)
+def route_climb(
+    k: cython.Py_ssize_t, sizes: cython.double[:, ::1], chain: cython.double[:, ::1]
+) -> cython.double:
+    """d |rate of handle k| / d sigma of a chain on a route [1/m].
+
+    With D = P_a - P_b twice differentiated, |D| constant, N to the left of T and signed curvature:
+    b'' (D . T_b) = |D'|^2 + D . (a'' T_a + k_a a'^2 N_a - k_b b'^2 N_b),  D' = a' T_a - b' T_b.
+    """
+    i: cython.Py_ssize_t
+    second: cython.double = 0.0
+    a: cython.double
+    b: cython.double
+    x: cython.double
+    y: cython.double
+    for i in range(k):
+        a = chain[i, RATE]
+        b = chain[i + 1, RATE]
+        x = a * chain[i, TX] - b * chain[i + 1, TX]
+        y = a * chain[i, TY] - b * chain[i + 1, TY]
+        second = (
+            (x * x + y * y) / sizes[i, CHORD]
+            + chain[i, UX] * (second * chain[i, TX] - chain[i, CURVATURE] * a * a * chain[i, TY])
+            + chain[i, UY] * (second * chain[i, TY] + chain[i, CURVATURE] * a * a * chain[i, TX])
+            + chain[i + 1, CURVATURE] * b * b * (chain[i, UX] * chain[i + 1, TY] - chain[i, UY] * chain[i + 1, TX])
+        ) / (chain[i, UX] * chain[i + 1, TX] + chain[i, UY] * chain[i + 1, TY])
+    return second if chain[k, RATE] >= 0.0 else -second
+
+
+@cython.cfunc
+@cython.nogil
+@cython.exceptval(check=False)
 def refined_peak(
     growth: cython.double,
     pieces: cython.const[cython.double][:, ::1],
@@ -2723,25 +2752,22 @@ def refined_peak(
     sizes: cython.double[:, ::1],
     chain: cython.double[:, ::1],
 ) -> cython.double:
-    """Head travel in [low, high] where the largest rate peaks, by golden section [m]."""
-    left: cython.double = high - GOLDEN * (high - low)
-    right: cython.double = low + GOLDEN * (high - low)
-    at_left: cython.double = top_rate(growth, pieces, place - left, benches, sizes, chain)
-    at_right: cython.double = top_rate(growth, pieces, place - right, benches, sizes, chain)
+    """Head travel in [low, high] where the largest rate peaks [m].
+
+    On a route by bisection on whether the fastest handle still gains (also where it stops at a kink), on a spiral, where
+    rates only grow towards the centre, the better end.
+    """
+    middle: cython.double
+    if pieces.shape[0] == 0:
+        return high
     while high - low > PEAK_WIDTH:
-        if at_left >= at_right:
-            high = right
-            right = left
-            at_right = at_left
-            left = high - GOLDEN * (high - low)
-            at_left = top_rate(growth, pieces, place - left, benches, sizes, chain)
+        middle = 0.5 * (low + high)
+        top_rate(growth, pieces, place - middle, benches, sizes, chain)
+        if route_climb(fastest(benches, chain), sizes, chain) > 0.0:
+            low = middle
         else:
-            low = left
-            left = right
-            at_left = at_right
-            right = low + GOLDEN * (high - low)
-            at_right = top_rate(growth, pieces, place - right, benches, sizes, chain)
-    return left if at_left >= at_right else right
+            high = middle
+    return high
 
 
 @cython.ccall
@@ -2805,7 +2831,7 @@ def peak_rate(
             upper = FREE
             if place_chain(growth, pieces, place - travel - h, benches, sizes, after) >= 0:
                 rate = fabs(after[fastest(benches, after), RATE])
-                if rate > best:
+                if rate > best * (1.0 + NOISE):
                     best = rate
                     at = travel + h
                 if pieces.shape[0] > 0:
