@@ -303,13 +303,22 @@ class Search:
 
     def clearance(self, travel: float, leaders: int | None = None) -> tuple[float, tuple[int, int]]:
         """Clearance after a travel [m], and its pair; among pairs led by the first `leaders` benches only."""
-        benches = self.room
+        benches = self.room if leaders is None else min(self.room, leaders + self._followed(travel, leaders))
         leaders = benches if leaders is None else leaders
         gap = kernels.clearance_at(
             self.growth, self.pieces, self.place - travel, benches, leaders, self.statics, self.ring,
             self.sizes, self.rows[0], self.pair,
         )
         return gap, (int(self.pair[1]), int(self.pair[2]))
+
+    def _followed(self, travel: float, leaders: int) -> int:
+        """How many benches behind the leaders of a spiral can be as near to them as the leaders' own sizes."""
+        start, growth = self.theta_at(travel), self.growth
+        rear = growth * start + leaders * self.extremes[0]
+        reach = kernels.leaders_reach(growth, growth * start, rear, self.ring) + self.longest
+        beyond = kernels.radius_beyond(growth, reach, self.ring) / growth
+        arc = growth * (kernels.spiral_arc(max(beyond, start)) - kernels.spiral_arc(start))
+        return 2 + int(arc / self.extremes[1])
 
     def rates(self, travel: float) -> Floats:
         """Speed of every handle along the path over the head's after a travel, negative where one turns back [1]."""
