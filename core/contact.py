@@ -141,9 +141,8 @@ class ClearanceProfile:
 
     time: Floats
     clearance: Floats
-    benches: Floats
+    benches: NDArray[np.int64]
     grazes: tuple[Graze, ...]
-
 
 
 METHOD = (
@@ -162,9 +161,11 @@ EDGES = (("front", "inner", "rear", "outer"), ("front", "outer", "rear", "inner"
 class Search:
     """The arrays that the kernels need for one dragon, and the path and margin they are used for now.
 
-    extremes: longest and shortest chord, longest overhang, half width of all benches, chord and half width of those that
+    extremes: longest and shortest chord, longest overhang, half width of all benches, chord and half width of those
+        that
         can be the outer of a pair [m]; ring: the same for the kernels, see RING_... there
-    sizes: (rows, 4) of the leading benches; edges: (E, 4) x, y, x, y of edges at rest [m], on routes only; with edges, the pairs are bench and edge
+    sizes: (rows, 4) of the leading benches; edges: (E, 4) x, y, x, y of edges at rest [m], on routes only; with
+        edges, the pairs are bench and edge
         alone: edge e is bench number room + 1 + e of a pair
     clear_radius: on a spiral, no pair whose inner bench leads at this radius or further out comes within the margin [m]
     place: what the kernels count places from, at time 0: arc length from the centre of a spiral, minus s on a route [m]
@@ -235,7 +236,7 @@ class Search:
 
     def ring_least(self, radius: float) -> float:
         """Lower bound of the separation of pairs whose inner bench leads at this radius or further out [m]."""
-        return kernels.ring_least(self.growth, self.growth, radius, *self.extremes)
+        return float(kernels.ring_least(self.growth, self.growth, radius, *self.extremes))
 
     def _clear_radius(self) -> float:
         """The least radius, within 1e-3, from which the ring bound exceeds the margin; 1e300 if none."""
@@ -306,8 +307,16 @@ class Search:
         benches = self.room if leaders is None else min(self.room, leaders + self._followed(travel, leaders))
         leaders = benches if leaders is None else leaders
         gap = kernels.clearance_at(
-            self.growth, self.pieces, self.place - travel, benches, leaders, self.statics, self.ring,
-            self.sizes, self.rows[0], self.pair,
+            self.growth,
+            self.pieces,
+            self.place - travel,
+            benches,
+            leaders,
+            self.statics,
+            self.ring,
+            self.sizes,
+            self.rows[0],
+            self.pair,
         )
         return gap, (int(self.pair[1]), int(self.pair[2]))
 
@@ -353,6 +362,12 @@ class Search:
             )
         )
 
+    def clear_to_fold(self, travel: float, end: RunEnd) -> bool:
+        """Is the clearance after a travel more than what is left of the motion to the fold can use up?"""
+        if self.dragon.benches < 3:
+            return True
+        return self.clearance(travel)[0] > self.margin + self.motion_left(travel, end)
+
     def motion_left(self, travel: float, end: RunEnd) -> float:
         """Bound on how far any two points of two benches approach each other from a travel to the fold [m].
 
@@ -367,7 +382,7 @@ class Search:
         swing = abs(kernels.first_crest(fold) - (rear - lead)) + abs(lead - fold)
         moved = growth * swing * math.hypot(1.0, rear + swing)
         share = 1.0 + (2.0 * self.extremes[2] + 2.0 * self.extremes[3]) / self.extremes[1]
-        return 2.0 * share * moved
+        return float(2.0 * share * moved)
 
 
 def first_contact(
@@ -383,7 +398,8 @@ def first_contact(
 
     head_speed: [m/s]; margin: [m], the clearance required; contact means separation <= margin
     start, stop: the times between which to look [s]; None for the end of the run
-    returns: see FirstContact; times good to 1e-10 s at 1 m/s, bracketed by [proven clear up to, overlapping at], no wider
+    returns: see FirstContact; times good to 1e-10 s at 1 m/s, bracketed by [proven clear up to, overlapping at], no
+        wider
         than 1e-9 s unless the benches meet within about 1e-8 m of a graze
     raises: InvalidValue; OutsideRun for a stop after the end of the run
     source: the model of Yang et al., sections 2.4 and 2.5, whose times differ: see app/paper.py
@@ -407,9 +423,8 @@ def first_contact(
             break
         tolerance = wider * min(1.0, head_speed)
         state, found = search.march(last, tolerance, start=begin * head_speed)
-    if state == "reached" and to_fold and dragon.benches > 2:
-        if search.clearance(last)[0] <= margin + search.motion_left(last, end):
-            state = "stuck"
+    if state == "reached" and to_fold and not search.clear_to_fold(last, end):
+        state = "stuck"
     if stop is not None and state == "reached":
         end = RunEnd(EndReason.STOP, until, None, None)
     return _result(search, state, found, end, tolerance, head_speed)

@@ -55,7 +55,8 @@ class MinimumPitch:
     """The smallest pitch such that every larger one is free of contact down to the turning circle.
 
     pitch: [m]; pitch_bracket: (infeasible, feasible) [m]
-    limited_by: a graze on the way, contact exactly on the circle, or the start: the dance would touch there, or, without
+    limited_by: a graze on the way, contact exactly on the circle, or the start: the dance would touch there, or,
+        without
         benches, begin inside the circle
     benches: the pair that touches just below; head_radius: of the head then [m]
     other_feasible_intervals: [m], islands below pitch, found on a grid of ISLAND_SAMPLES pitches
@@ -76,20 +77,25 @@ class MinimumPitch:
 
 
 # Change of a clearance with the growth b, at a fixed head radius r_0, in the frame in which the head stands at angle 0:
-# handle k stands at radius rho_k = r_0 + b psi_k and angle psi_k. With f = b^2 delta^2 + 2 rho (rho + b delta) (1 - cos delta),
+# handle k stands at radius rho_k = r_0 + b psi_k and angle psi_k. With f = b^2 delta^2 + 2 rho (rho + b delta) (1 -
+# cos delta),
 #     a_{k+1} = a_k (1 - b f_rho / f_delta) + 2 rho (rho + b delta) delta sin delta / f_delta,   a = d rho / db,
 #     d delta / db = -(f_rho a_k + f_b) / f_delta <= 0.
-# 1 - b f_rho / f_delta is the rate of a link, in [0, 1] while no handle turns back, and the last term is in [0, delta], so
-# 0 <= a_k <= psi_k: radii grow and angles fall with b. With f_delta >= 2 rho (rho + b delta) sin delta,
-#     f_rho / f_delta <= (2 / rho) tan(delta / 2),  f_b / f_delta <= (delta / rho) tan(delta / 2) + b delta^2 / (rho^2 sin delta),
+# 1 - b f_rho / f_delta is the rate of a link, in [0, 1] while no handle turns back, and the last term is in [0,
+# delta], so 0 <= a_k <= psi_k: radii grow and angles fall with b. With f_delta >= 2 rho (rho + b delta) sin delta,
+#     f_rho / f_delta <= (2 / rho) tan(delta / 2),  f_b / f_delta <= (delta / rho) tan(delta / 2) + b delta^2 /
+# (rho^2 sin delta),
 # and as sum(delta_l psi_l + delta_l^2 / 2) = psi^2 / 2, with t = tan(delta / 2) / (delta / 2) for the largest delta,
 #     |d psi_k / db| <= t psi_k^2 / (2 r_0) + (b / r_0^2) (delta / sin delta) psi_k.
-# A point of a bench moves at most 1 + (2 o + w) / c times its handles. Only benches inside the leaders' reach count, and
-# radii grow with b, so the reach at the largest b and the angles at the smallest b serve; all falls with r_0.
+# A point of a bench moves at most 1 + (2 o + w) / c times its handles. Only benches inside the leaders' reach count,
+# and radii grow with b, so the reach at the largest b and the angles at the smallest b serve; all falls with r_0.
 
 
 def _sensitivity(search: Search, radius: float, low: float, high: float) -> float:
-    """Bound on |d separation / d pitch| at every head radius >= radius, pitches in [low, high]; inf where none holds [1]."""
+    """Bound on |d separation / d pitch| at every head radius >= radius, pitches in [low, high].
+
+    Inf where none holds [1].
+    """
     chord, shortest, overhang, half_width, *_ = (float(extreme) for extreme in search.extremes)
     b_low, b_high = low / (2.0 * math.pi), high / (2.0 * math.pi)
     curvature = max(kernels.spiral_curvature(radius / b) / b for b in (b_low, b_high))
@@ -167,12 +173,14 @@ class _PitchSearch:
         """A feasible pitch to descend from, and up to which every larger one is feasible by the ring bound [m].
 
         The ring bound holds for growths up to those of its derivation, so a pitch beyond is not asked about; where it
-        clears nothing (a circle hardly wider than a bench is long), the two are the same pitch, cleared by a march and no
-        larger than the circle's radius.
+        clears nothing (a circle hardly wider than a bench is long), the two are the same pitch, cleared by a march
+        and no larger than the circle's radius.
         """
         chord, shortest, *_ = (float(extreme) for extreme in self.search.extremes)
         foot2 = self.radius**2 - 0.25 * chord**2
-        limits = [shortest / 1.67, self.radius**2 / (1.5708 * chord)] + ([0.5 * math.sqrt(foot2)] if foot2 > 0.0 else [])
+        limits = [shortest / 1.67, self.radius**2 / (1.5708 * chord)] + (
+            [0.5 * math.sqrt(foot2)] if foot2 > 0.0 else []
+        )
         growths = [0.999 * min(limits) * 0.95**k for k in range(200)]
         for growth in growths:
             if self._ring_clears(0.95 * growth, growth):
@@ -188,7 +196,7 @@ class _PitchSearch:
 
     def _ring_clears(self, low: float, high: float) -> bool:
         """Does the ring bound clear the circle and all outside it for all growths in [low, high]?"""
-        return kernels.ring_least(low, high, self.radius, *self.search.extremes) > self.margin
+        return float(kernels.ring_least(low, high, self.radius, *self.search.extremes)) > self.margin
 
     def next_below(self, pitch: float, gain: float) -> float:
         """A pitch down to which all are feasible, given a clearance of margin + gain all the way at `pitch` [m]."""
@@ -240,7 +248,10 @@ class _PitchSearch:
         return self.lowest, self.lowest
 
     def infeasible_below(self, pitch: float) -> tuple[float, float]:
-        """(infeasible, feasible) around the border just below a pitch whose clearance is within GAIN_MIN of the margin."""
+        """(infeasible.
+
+        Feasible) around the border just below a pitch whose clearance is within GAIN_MIN of the margin.
+        """
         step = 4.0 * GAIN_MIN
         while pitch - step > self.lowest and self.is_clear(pitch - step):
             pitch, step = pitch - step, 2.0 * step
@@ -267,7 +278,7 @@ class _PitchSearch:
             if touching is None or not self.still_touches(sample, *touching):
                 state, result = self.way(sample)
                 feasible = state == "reached"
-                radius = self.search.theta_at(result["touching"]) * self.search.path.growth
+                radius = self.search.theta_at(result["touching"]) * self.search.growth
                 pair = int(result["first"]), int(result["second"])
                 touching = None if state in ("reached", "folded") or result["touching"] < 0.0 else (radius, *pair)
             if feasible and not end:
@@ -278,7 +289,10 @@ class _PitchSearch:
         return ((self.lowest, end), *found) if end else tuple(found)
 
     def still_touches(self, pitch: float, radius: float, a: int, b: int) -> bool:
-        """Are benches a and b within the margin too with this pitch and the head at this radius, if that is on the way?"""
+        """Are benches a and b within the margin too with this pitch and the head at this radius.
+
+        If that is on the way?.
+        """
         growth, search = pitch / (2.0 * math.pi), self.search
         if radius > pitch * self.start_turns:
             return False

@@ -19,9 +19,7 @@ SIZE_MAX = 1e4
 BENCHES_MAX = 10_000_000
 
 
-def checked_number(
-    name: str, value: object, unit: str, low: float, high: float, *, open_low: bool = False
-) -> float:
+def checked_number(name: str, value: object, unit: str, low: float, high: float, *, open_low: bool = False) -> float:
     """The value as a float if it is a finite number in [low, high] ((low, high] with open_low).
 
     raises: InvalidValue naming the field, the value, its unit and the limit
@@ -35,9 +33,7 @@ def checked_number(
         raise InvalidValue(name, f"{name} must be a finite number, got {shown}")
     if number < low or (open_low and number == low):
         if low == 0.0:
-            raise InvalidValue(
-                name, f"{name} must be {'positive' if open_low else 'zero or more'}, got {shown}"
-            )
+            raise InvalidValue(name, f"{name} must be {'positive' if open_low else 'zero or more'}, got {shown}")
         raise InvalidValue(name, f"{name} must be at least {low:g}{limit_unit}, got {shown}")
     if number > high:
         raise InvalidValue(name, f"{name} must be at most {high:g}{limit_unit}, got {shown}")
@@ -64,9 +60,7 @@ def _column(name: str, values: object, benches: int | None) -> Floats:
     wrong = np.flatnonzero(~(np.isfinite(column) & (column >= low) & (column <= SIZE_MAX)))
     if wrong.size:
         k = int(wrong[0])
-        raise InvalidValue(
-            f"{name}.{k}", f"{name}[{k}] must be from {low:g} to {SIZE_MAX:g} m, got {column[k]} m"
-        )
+        raise InvalidValue(f"{name}.{k}", f"{name}[{k}] must be from {low:g} to {SIZE_MAX:g} m, got {column[k]} m")
     return column
 
 
@@ -162,8 +156,7 @@ class Dragon:
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, Dragon) and all(
-            np.array_equal(getattr(self, name), getattr(other, name))
-            for name in ("lengths", "widths", "overhangs")
+            np.array_equal(getattr(self, name), getattr(other, name)) for name in ("lengths", "widths", "overhangs")
         )
 
     def __hash__(self) -> int:

@@ -204,9 +204,7 @@ def next_handle(
 @cython.inline
 @cython.nogil
 @cython.exceptval(check=False)
-def theta_ratio(
-    theta: cython.double, delta: cython.double, s: cython.double, c: cython.double
-) -> cython.double:
+def theta_ratio(theta: cython.double, delta: cython.double, s: cython.double, c: cython.double) -> cython.double:
     """d theta[k+1] / d theta[k] = (f_delta - f_theta) / f_delta: the rigid link (T[k] . u) / (T[k+1] . u)."""
     sine: cython.double = 2.0 * s * c
     rise: cython.double = 2.0 * s * s
@@ -456,9 +454,7 @@ def face_gap(
 @cython.inline
 @cython.nogil
 @cython.exceptval(check=False)
-def point_gap_squared(
-    x: cython.double, y: cython.double, hl: cython.double, hw: cython.double
-) -> cython.double:
+def point_gap_squared(x: cython.double, y: cython.double, hl: cython.double, hw: cython.double) -> cython.double:
     """Squared distance of a point in the rectangle's frame to the rectangle, 0 inside [m^2]."""
     beyond_x: cython.double = fabs(x) - hl
     beyond_y: cython.double = fabs(y) - hw
@@ -783,9 +779,7 @@ def reverse_pair(out: cython.double[::1]) -> cython.void:
 
 @cython.ccall
 @cython.exceptval(check=False)
-def pair_separations(
-    a: cython.double[:, ::1], b: cython.double[:, ::1], out: cython.double[:, ::1]
-) -> cython.void:
+def pair_separations(a: cython.double[:, ::1], b: cython.double[:, ::1], out: cython.double[:, ::1]) -> cython.void:
     """pair_separation() row by row. a, b: (n, 6) x, y, ux, uy, half length, half width; out: (n, 8)."""
     i: cython.Py_ssize_t
     with cython.nogil:
@@ -899,9 +893,7 @@ def meeting_pairs(
                             met += 1
                             a = order[i] if order[i] < order[j] else order[j]
                             b = order[j] if order[i] < order[j] else order[i]
-                            if not (chained and b - a == 1) and (
-                                not exact or rows_gap(frames, i, j, margin) <= margin
-                            ):
+                            if not (chained and b - a == 1) and (not exact or rows_gap(frames, i, j, margin) <= margin):
                                 if found < capacity:
                                     pairs[found, 0] = a
                                     pairs[found, 1] = b
@@ -1017,7 +1009,8 @@ LEMMA_LIMIT = cython.declare(cython.double, 0.97)
 BEND_LIMIT = 0.97
 # Trial bound on a followed handle's rate, as a multiple of what the ends show [1]; any value > 1 is sound.
 TRIAL = cython.declare(cython.double, 1.5)
-# On a route the ratio of a link's rates is followed from the ends of the interval where the lemma leaves more than this [1].
+# On a route the ratio of a link's rates is followed from the ends of the interval where the lemma leaves more than
+# this [1].
 RATIO_FOLLOWED = cython.declare(cython.double, 1.05)
 # Larger than any step [m].
 FREE = cython.declare(cython.double, 1e300)
@@ -1193,9 +1186,10 @@ def motion_bounds(
                 return False
             sin_high = 1.0
         second_b = (cos_high * second_a + sin_high * (rate_a * swing_a + rate_b * swing_b)) / cos_low
-        spin = omega * omega + (
-            cos_high * (rate_a * swing_a + rate_b * swing_b) + sin_high * (second_a + second_b)
-        ) / chord
+        spin = (
+            omega * omega
+            + (cos_high * (rate_a * swing_a + rate_b * swing_b) + sin_high * (second_a + second_b)) / chord
+        )
         if sin_high == 1.0:
             spin = omega * omega + (rate_a * swing_a + rate_b * swing_b + second_a + second_b) / chord
         pull = 0.5 * (second_a + second_b + k_high * (rate_a * rate_a + rate_b * rate_b))
@@ -1268,9 +1262,7 @@ def best_axis(
 @cython.inline
 @cython.nogil
 @cython.exceptval(check=False)
-def least_between(
-    start: cython.double, end: cython.double, bend: cython.double, h: cython.double
-) -> cython.double:
+def least_between(start: cython.double, end: cython.double, bend: cython.double, h: cython.double) -> cython.double:
     """Least value on an interval of width h of a function with the given end values and |second derivative| <= bend."""
     rise: cython.double = end - start
     sag: cython.double = bend * h * h
@@ -1448,8 +1440,19 @@ def pair_least(
         return best
     # two corners nearest each other: the direction between them, fixed in bench i
     pair_separation(
-        after[i, MX], after[i, MY], after[i, UX], after[i, UY], sizes[i, HALF_LENGTH], sizes[i, HALF_WIDTH],
-        after[j, MX], after[j, MY], after[j, UX], after[j, UY], sizes[j, HALF_LENGTH], sizes[j, HALF_WIDTH], out[1:],
+        after[i, MX],
+        after[i, MY],
+        after[i, UX],
+        after[i, UY],
+        sizes[i, HALF_LENGTH],
+        sizes[i, HALF_WIDTH],
+        after[j, MX],
+        after[j, MY],
+        after[j, UX],
+        after[j, UY],
+        sizes[j, HALF_LENGTH],
+        sizes[j, HALF_WIDTH],
+        out[1:],
     )
     turn_x = out[6] * after[i, UX] + out[7] * after[i, UY]
     turn_y = out[7] * after[i, UX] - out[6] * after[i, UY]
@@ -1468,7 +1471,8 @@ def pair_least(
 #   cubic  x0..x3, y0..y3, end              r(t) = sum of c_k t^k for t in [0, end]
 # The first piece also serves before S_START and the last one after S_END.
 #
-# Next handle. Let |curvature| <= k with k chord < 2 (routes are refused otherwise). As long as k l <= pi the distance to the
+# Next handle. Let |curvature| <= k with k chord < 2 (routes are refused otherwise). As long as k l <= pi the
+# distance to the
 # point l behind grows with l: its rate is the cosine of an angle <= k l / 2 (chord lemma, below). It reaches the chord
 # before l = pi chord / 2 <= pi / k, so in [chord, pi chord / 2] there is one root, it is the first along the path, and
 # whatever comes near further back along the path is never taken for it.
@@ -1502,17 +1506,23 @@ def cubic_speed(pieces: cython.const[cython.double][:, ::1], p: cython.Py_ssize_
 def cubic_arc(pieces: cython.const[cython.double][:, ::1], p: cython.Py_ssize_t, t: cython.double) -> cython.double:
     """Arc length of a cubic from 0 to t, by Gauss-Legendre quadrature with eight points [m]."""
     return t * (
-        0.1813418916891810 * (cubic_speed(pieces, p, 0.4082826787521751 * t) + cubic_speed(pieces, p, 0.5917173212478249 * t))
-        + 0.1568533229389436 * (cubic_speed(pieces, p, 0.2372337950418355 * t) + cubic_speed(pieces, p, 0.7627662049581645 * t))
-        + 0.1111905172266872 * (cubic_speed(pieces, p, 0.1016667612931866 * t) + cubic_speed(pieces, p, 0.8983332387068134 * t))
-        + 0.0506142681451881 * (cubic_speed(pieces, p, 0.0198550717512319 * t) + cubic_speed(pieces, p, 0.9801449282487681 * t))
+        0.1813418916891810
+        * (cubic_speed(pieces, p, 0.4082826787521751 * t) + cubic_speed(pieces, p, 0.5917173212478249 * t))
+        + 0.1568533229389436
+        * (cubic_speed(pieces, p, 0.2372337950418355 * t) + cubic_speed(pieces, p, 0.7627662049581645 * t))
+        + 0.1111905172266872
+        * (cubic_speed(pieces, p, 0.1016667612931866 * t) + cubic_speed(pieces, p, 0.8983332387068134 * t))
+        + 0.0506142681451881
+        * (cubic_speed(pieces, p, 0.0198550717512319 * t) + cubic_speed(pieces, p, 0.9801449282487681 * t))
     )
 
 
 @cython.cfunc
 @cython.nogil
 @cython.exceptval(check=False)
-def piece_of(pieces: cython.const[cython.double][:, ::1], s: cython.double, near: cython.Py_ssize_t) -> cython.Py_ssize_t:
+def piece_of(
+    pieces: cython.const[cython.double][:, ::1], s: cython.double, near: cython.Py_ssize_t
+) -> cython.Py_ssize_t:
     """The piece that holds s, searched from a near one; a joint belongs to the piece behind it."""
     p: cython.Py_ssize_t = near
     while p > 0 and s <= pieces[p, S_START]:
@@ -1538,7 +1548,11 @@ def route_point(
     i: cython.int
     if kind == LINE:
         return (
-            pieces[p, 5] + u * pieces[p, 7], pieces[p, 6] + u * pieces[p, 8], pieces[p, 7], pieces[p, 8], 0.0,
+            pieces[p, 5] + u * pieces[p, 7],
+            pieces[p, 6] + u * pieces[p, 8],
+            pieces[p, 7],
+            pieces[p, 8],
+            0.0,
         )
     if kind == ARC:
         a = pieces[p, 8] + pieces[p, 9] * u / pieces[p, 7]
@@ -1594,7 +1608,9 @@ def spiral_point(
 
 @cython.ccall
 @cython.exceptval(check=False)
-def route_points(pieces: cython.const[cython.double][:, ::1], s: cython.const[cython.double][::1], out: cython.double[:, ::1]) -> cython.void:
+def route_points(
+    pieces: cython.const[cython.double][:, ::1], s: cython.const[cython.double][::1], out: cython.double[:, ::1]
+) -> cython.void:
     """x, y, tangent x, y, curvature at every s. out: (S, 5)"""
     i: cython.Py_ssize_t
     p: cython.Py_ssize_t = 0
@@ -1623,7 +1639,9 @@ def set_piece_theta(
 @cython.cfunc
 @cython.nogil
 @cython.exceptval(check=False)
-def start_route(pieces: cython.const[cython.double][:, ::1], s: cython.double, chain: cython.double[:, ::1]) -> cython.void:
+def start_route(
+    pieces: cython.const[cython.double][:, ::1], s: cython.double, chain: cython.double[:, ::1]
+) -> cython.void:
     """Row 0 of a chain on a route: the head at s."""
     p: cython.Py_ssize_t = piece_of(pieces, s, 0)
     chain[0, PX], chain[0, PY], chain[0, TX], chain[0, TY], chain[0, CURVATURE] = route_point(pieces, p, s)
@@ -1643,7 +1661,10 @@ def extend_route(
     sizes: cython.double[:, ::1],
     chain: cython.double[:, ::1],
 ) -> cython.Py_ssize_t:
-    """Handles after `first` to the `last`, each the first point behind its leader at the bench's chord; returns last."""
+    """Handles after `first` to the `last`, each the first point behind its leader at the bench's chord.
+
+    Returns last.
+    """
     k: cython.Py_ssize_t
     p: cython.Py_ssize_t
     i: cython.int
@@ -1659,7 +1680,6 @@ def extend_route(
     theta: cython.double
     delta: cython.double
     half: cython.double
-    cosine: cython.double
     for k in range(first, last):
         s = -chain[k, PLACE]
         p = cython.cast(cython.Py_ssize_t, chain[k, PIECE])
@@ -1676,8 +1696,10 @@ def extend_route(
         elif pieces[p, PIECE_KIND] == SPIRAL:
             # on an outward spiral the follower is further in: the same equation with theta negative
             theta = -pieces[p, 9] * chain[k, PIECE_THETA]
-            delta, half, cosine = next_handle(
-                theta, (chord / pieces[p, 7]) * (chord / pieces[p, 7]), step / (pieces[p, 7] * sqrt(1.0 + theta * theta))
+            delta, half, _ = next_handle(
+                theta,
+                (chord / pieces[p, 7]) * (chord / pieces[p, 7]),
+                step / (pieces[p, 7] * sqrt(1.0 + theta * theta)),
             )
             if delta > 0.0 and theta * (theta + delta) > 0.0:
                 half = pieces[p, 7] * (spiral_arc(theta + delta) - spiral_arc(theta))
@@ -1686,7 +1708,10 @@ def extend_route(
                     if p == 0 or s - half >= pieces[p, S_START]:
                         chain[k + 1, PIECE_THETA] = fabs(theta + delta)
                         (
-                            chain[k + 1, PX], chain[k + 1, PY], chain[k + 1, TX], chain[k + 1, TY],
+                            chain[k + 1, PX],
+                            chain[k + 1, PY],
+                            chain[k + 1, TX],
+                            chain[k + 1, TY],
                             chain[k + 1, CURVATURE],
                         ) = spiral_point(pieces, p, fabs(theta + delta))
                         chain[k + 1, PLACE] = step - s
@@ -1698,7 +1723,11 @@ def extend_route(
                 step = 0.5 * (low + high)
             p = piece_of(pieces, s - step, p)
             (
-                chain[k + 1, PX], chain[k + 1, PY], chain[k + 1, TX], chain[k + 1, TY], chain[k + 1, CURVATURE],
+                chain[k + 1, PX],
+                chain[k + 1, PY],
+                chain[k + 1, TX],
+                chain[k + 1, TY],
+                chain[k + 1, CURVATURE],
             ) = route_point(pieces, p, s - step)
             dx = chain[k, PX] - chain[k + 1, PX]
             dy = chain[k, PY] - chain[k + 1, PY]
@@ -1734,9 +1763,7 @@ def finish_link(k: cython.Py_ssize_t, chord: cython.double, chain: cython.double
     chain[k, UX] = ux
     chain[k, UY] = uy
     chain[k + 1, RATE] = (
-        chain[k, RATE]
-        * (chain[k, TX] * ux + chain[k, TY] * uy)
-        / (chain[k + 1, TX] * ux + chain[k + 1, TY] * uy)
+        chain[k, RATE] * (chain[k, TX] * ux + chain[k, TY] * uy) / (chain[k + 1, TX] * ux + chain[k + 1, TY] * uy)
     )
 
 
@@ -1788,8 +1815,8 @@ def route_bounds(
 ) -> cython.bint:
     """motion_bounds() on a route. The chord lemma serves throughout, as no handle turns back where k chord < 2.
 
-    Where the curvature changes sign between two handles the angles lie in [-k l / 2, k l / 2] for the larger |k|, and the
-    ratio of the rates is also followed from both ends of the interval, as near the centre of a spiral.
+    Where the curvature changes sign between two handles the angles lie in [-k l / 2, k l / 2] for the larger |k|,
+    and the ratio of the rates is also followed from both ends of the interval, as near the centre of a spiral.
     """
     k: cython.Py_ssize_t
     chord: cython.double
@@ -1814,8 +1841,11 @@ def route_bounds(
     for k in range(benches):
         chord = sizes[k, CHORD]
         low, high = stretch_curvature(
-            pieces, cython.cast(cython.Py_ssize_t, before[k + 1, PIECE]), before[k + 1, CURVATURE],
-            cython.cast(cython.Py_ssize_t, after[k, PIECE]), after[k, CURVATURE],
+            pieces,
+            cython.cast(cython.Py_ssize_t, before[k + 1, PIECE]),
+            before[k + 1, CURVATURE],
+            cython.cast(cython.Py_ssize_t, after[k, PIECE]),
+            after[k, CURVATURE],
         )
         if high <= 0.0:
             low, high = -high, -low
@@ -1853,9 +1883,7 @@ def route_bounds(
                 cos_low = end_low if end_low > cos_low else cos_low
         rate_low *= sqrt(1.0 - sin_high * sin_high) / cos_high
         second_b = (cos_high * second_a + sin_high * swing * (rate_a + rate_b)) / cos_low
-        spin = omega * omega + (
-            cos_high * swing * (rate_a + rate_b) + sin_high * (second_a + second_b)
-        ) / chord
+        spin = omega * omega + (cos_high * swing * (rate_a + rate_b) + sin_high * (second_a + second_b)) / chord
         pull = 0.5 * (second_a + second_b + high * (rate_a * rate_a + rate_b * rate_b))
         motion[k, CENTRE_SPEED] = 0.5 * (rate_a + rate_b)
         motion[k, CORNER_SPEED] = 0.5 * (rate_a + rate_b) + omega * sizes[k, RADIUS]
@@ -1873,8 +1901,8 @@ def route_bounds(
 
 
 # -- either kind of path ----------------------------------------------------------------------------
-# `place` falls in the direction of travel: the arc length from the centre of a spiral, minus s on a route. A path without
-# pieces is the spiral of that growth.
+# `place` falls in the direction of travel: the arc length from the centre of a spiral, minus s on a route. A path
+# without pieces is the spiral of that growth.
 
 
 @cython.cfunc
@@ -2052,16 +2080,19 @@ def leaders_reach(
 # Rings. Let E = |X| - growth psi for a point X of a bench at unwrapped polar angle psi: how far it lies outside the
 # curve itself. Along the centre line e(x) = sqrt(d^2 + x^2) - growth (psi_foot + atan(x / d)) vanishes at both handles
 # and 0 <= e'' = d^2 / rho^3 + 2 growth d x / rho^4 <= q = 1 / d + 2 growth x_max / d^3 (for d > 2 growth), so between
-# the handles e >= -q c^2 / 8 and on an overhang o e <= q o (o + c) / 2. Sideways |dE / dy| <= sqrt(1 + (growth / rho)^2).
+# the handles e >= -q c^2 / 8 and on an overhang o e <= q o (o + c) / 2. Sideways |dE / dy| <= sqrt(1 + (growth /
+# rho)^2).
 # Hence -I <= E <= O with the bows O and I below, both falling as 1 / r. Points X, Y of two benches whose polar angles
-# differ by 2 pi m + x, m >= 1, |x| <= pi, are apart radially by at least G + growth x, G = pitch - O - I, and sideways by
-# at least 2 rho |x| / pi: together G / sqrt(1 + (pi growth / 2 rho)^2). With m = 0 at least one bench lies between them:
+# differ by 2 pi m + x, m >= 1, |x| <= pi, are apart radially by at least G + growth x, G = pitch - O - I, and
+# sideways by
+# at least 2 rho |x| / pi: together G / sqrt(1 + (pi growth / 2 rho)^2). With m = 0 at least one bench lies between
+# them:
 # its angle less the two overhangs' angles remains, each at most (o + x_b w / 2 d) / (d - w / 2), and a chord spans at
 # least c / sqrt(growth^2 + r_b^2). Every term grows with r, so the bound holds from r outwards.
 
 
-# For a range of growths: G is concave in growth (its only curved terms are -growth^2 and -sqrt(1 + growth^2 / rho^2)), so
-# it is at least the lesser of its values at both ends; everything else falls with growth.
+# For a range of growths: G is concave in growth (its only curved terms are -growth^2 and -sqrt(1 + growth^2 /
+# rho^2)), so it is at least the lesser of its values at both ends; everything else falls with growth.
 
 
 @cython.ccall
@@ -2215,9 +2246,7 @@ def interval_least(
         high = leaders_reach(growth, growth * low, high, ring)
         low = before[handles, THETA] if before[handles, THETA] < after[handles, THETA] else after[handles, THETA]
         low *= growth
-        if low - drift(motion[handles - 1, HANDLE_SPEED], h, growth, low) < radius_beyond(
-            growth, high + margin, ring
-        ):
+        if low - drift(motion[handles - 1, HANDLE_SPEED], h, growth, low) < radius_beyond(growth, high + margin, ring):
             return -FREE
     for i in range(active):
         far = FREE
@@ -2261,8 +2290,18 @@ def row_gap(
 ) -> cython.double:
     """Separation of benches i and j of a chain [m]."""
     return pair_gap(
-        chain[i, MX], chain[i, MY], chain[i, UX], chain[i, UY], sizes[i, HALF_LENGTH], sizes[i, HALF_WIDTH],
-        chain[j, MX], chain[j, MY], chain[j, UX], chain[j, UY], sizes[j, HALF_LENGTH], sizes[j, HALF_WIDTH],
+        chain[i, MX],
+        chain[i, MY],
+        chain[i, UX],
+        chain[i, UY],
+        sizes[i, HALF_LENGTH],
+        sizes[i, HALF_WIDTH],
+        chain[j, MX],
+        chain[j, MY],
+        chain[j, UX],
+        chain[j, UY],
+        sizes[j, HALF_LENGTH],
+        sizes[j, HALF_WIDTH],
     )
 
 
@@ -2279,7 +2318,10 @@ def row_clearance(
     chain: cython.double[:, ::1],
     pair: cython.Py_ssize_t[::1],
 ) -> cython.double:
-    """Least separation among the pairs led by the first `active` benches, and that pair [m]; FREE without pairs. growth: 0 on a route."""
+    """Least separation among the pairs led by the first `active` benches, and that pair [m]; FREE without pairs.
+
+    Growth: 0 on a route.
+    """
     edges: cython.Py_ssize_t = statics if statics >= 0 else -statics
     i: cython.Py_ssize_t
     j: cython.Py_ssize_t
@@ -2327,16 +2369,15 @@ def clearance_at(
     chain: cython.double[:, ::1],
     pair: cython.Py_ssize_t[::1],
 ) -> cython.double:
-    """Clearance with the head at a place over all pairs led by the first `leaders` benches [m]; the pair in pair[1], pair[2]; FREE without pairs.
+    """Clearance with the head at a place over all pairs led by the first `leaders` benches [m]; the pair in pair[1],
+    pair[2]; FREE without pairs.
 
     chain: (n + 1, CHAIN_COLUMNS) scratch; pair[0]: the last handle placed, -1 if the chain folds
     """
     pair[0] = place_chain(growth, pieces, place, benches, sizes, chain)
     if pair[0] < 0:
         return FREE
-    return row_clearance(
-        growth if pieces.shape[0] == 0 else 0.0, ring, leaders, benches, statics, sizes, chain, pair
-    )
+    return row_clearance(growth if pieces.shape[0] == 0 else 0.0, ring, leaders, benches, statics, sizes, chain, pair)
 
 
 @cython.ccall
@@ -2388,8 +2429,19 @@ def gap_rate_at(
     if gap_at(growth, pieces, place, benches, a, b, sizes, chain) >= FREE:
         return 0.0
     pair_separation(
-        chain[a, MX], chain[a, MY], chain[a, UX], chain[a, UY], sizes[a, HALF_LENGTH], sizes[a, HALF_WIDTH],
-        chain[b, MX], chain[b, MY], chain[b, UX], chain[b, UY], sizes[b, HALF_LENGTH], sizes[b, HALF_WIDTH], out,
+        chain[a, MX],
+        chain[a, MY],
+        chain[a, UX],
+        chain[a, UY],
+        sizes[a, HALF_LENGTH],
+        sizes[a, HALF_WIDTH],
+        chain[b, MX],
+        chain[b, MY],
+        chain[b, UX],
+        chain[b, UY],
+        sizes[b, HALF_LENGTH],
+        sizes[b, HALF_WIDTH],
+        out,
     )
     for side in range(2):
         k = b if side else a
@@ -2425,7 +2477,8 @@ def crossing(
     chain: cython.double[:, ::1],
     out: cython.double[::1],
 ) -> cython.double:
-    """Head travel from a place, in [low, high], at which benches a, b come within the margin, or (of_rate) stop approaching [m].
+    """Head travel from a place, in [low, high], at which benches a, b come within the margin, or (of_rate) stop
+    approaching [m].
 
     The Illinois form of the false position with a bisection now and then, until the bracket is below the tolerance;
     its later end. Apart (approaching) at low and within the margin (parting) at high.
@@ -2509,9 +2562,11 @@ def march(
 
     place: at travel 0, see above [m]; leaders: benches whose pairs must be followed; at_start: follow all pairs
     until every bench has passed the start of the one before it; tolerance: half width of the bracket around a
-    contact [m], 0 for none: to end at any instant found to be within the margin; rounding: what a computed gap may be off by [m]; budget: steps; benches: n; statics: edges at rest in the rows after
+    contact [m], 0 for none: to end at any instant found to be within the margin; rounding: what a computed gap may
+    be off by [m]; budget: steps; benches: n; statics: edges at rest in the rows after
     the last handle's, on a route only; negative: these alone, without pairs of benches
-    sizes: (R - 1, SIZE_COLUMNS) at least; rows: (4, R, CHAIN_COLUMNS), motion: (R, MOTION_COLUMNS) scratch; out: (MARCH_ENTRIES,)
+    sizes: (R - 1, SIZE_COLUMNS) at least; rows: (4, R, CHAIN_COLUMNS), motion: (R, MOTION_COLUMNS) scratch; out:
+        (MARCH_ENTRIES,)
     returns: REACHED, TOUCHED, TOUCHED_AT_START, STUCK (budget spent or interval at rounding) or CAPACITY (R too small)
     """
     before: cython.double[:, ::1] = rows[0]
@@ -2553,9 +2608,7 @@ def march(
     out[TOUCHING] = -1.0
     out[STEPS] = out[BEND] = 0.0
     with cython.nogil:
-        placed = chain_between(
-            growth, pieces, place - start, followers, cap, margin, h, ring, sizes, before, pair
-        )
+        placed = chain_between(growth, pieces, place - start, followers, cap, margin, h, ring, sizes, before, pair)
         if placed == cap and cap < benches:
             return CAPACITY
         if placed < 0:
@@ -2576,9 +2629,17 @@ def march(
             if h > stop - travel:
                 h = stop - travel
             handles = chain_between(
-                growth, pieces, place - travel - h, followers, cap, margin,
-                ALLOWANCE * drift(fabs(before[1, RATE]) + 1.0, h, growth, growth * before[1, THETA]), ring, sizes,
-                after, pair,
+                growth,
+                pieces,
+                place - travel - h,
+                followers,
+                cap,
+                margin,
+                ALLOWANCE * drift(fabs(before[1, RATE]) + 1.0, h, growth, growth * before[1, THETA]),
+                ring,
+                sizes,
+                after,
+                pair,
             )
             if handles == cap and cap < benches:
                 return CAPACITY
@@ -2593,7 +2654,20 @@ def march(
                 if placed < handles:
                     placed = extend_chain(growth, placed, handles, FREE, sizes, before)
                 least = interval_least(
-                    growth, pieces, statics, h, active, handles, benches, margin, ring, sizes, before, after, motion, scratch
+                    growth,
+                    pieces,
+                    statics,
+                    h,
+                    active,
+                    handles,
+                    benches,
+                    margin,
+                    ring,
+                    sizes,
+                    before,
+                    after,
+                    motion,
+                    scratch,
                 )
                 room = 0.95 * scratch[3]
             if least <= margin + rounding:
@@ -2613,7 +2687,19 @@ def march(
                     out[SECOND] = b
                     return TOUCHED
                 target = crossing(
-                    growth, pieces, place, benches, travel, travel + h, a, b, margin, CROSSING_WIDTH * tolerance, False, sizes, spare,
+                    growth,
+                    pieces,
+                    place,
+                    benches,
+                    travel,
+                    travel + h,
+                    a,
+                    b,
+                    margin,
+                    CROSSING_WIDTH * tolerance,
+                    False,
+                    sizes,
+                    spare,
                     scratch,
                 )
                 out[FIRST] = a
@@ -2622,9 +2708,10 @@ def march(
                 if target - tolerance - travel > rounding and target - tolerance - travel < h:
                     h = target - tolerance - travel
                     continue
-                if target - tolerance <= travel and gap_at(
-                    growth, pieces, place - target - tolerance, benches, a, b, sizes, spare
-                ) <= margin:
+                if (
+                    target - tolerance <= travel
+                    and gap_at(growth, pieces, place - target - tolerance, benches, a, b, sizes, spare) <= margin
+                ):
                     out[TOUCHING] = target + tolerance
                     return TOUCHED
                 h *= 0.5
@@ -2635,10 +2722,20 @@ def march(
             before, after = after, before
             if scratch[0] > out[BEND] and active > 0:
                 out[BEND] = scratch[0]
-            if target > 0.0 and gap_at(
-                growth, pieces, place - target - tolerance, benches, cython.cast(cython.Py_ssize_t, out[FIRST]),
-                cython.cast(cython.Py_ssize_t, out[SECOND]), sizes, spare,
-            ) <= margin:
+            if (
+                target > 0.0
+                and gap_at(
+                    growth,
+                    pieces,
+                    place - target - tolerance,
+                    benches,
+                    cython.cast(cython.Py_ssize_t, out[FIRST]),
+                    cython.cast(cython.Py_ssize_t, out[SECOND]),
+                    sizes,
+                    spare,
+                )
+                <= margin
+            ):
                 out[PROVEN] = travel
                 out[TOUCHING] = target + tolerance
                 return TOUCHED
@@ -2651,7 +2748,20 @@ def march(
             if older_clearance > last_clearance <= clearance and lowest < out[GRAZE_GAP]:
                 if clearance < FREE and older_travel < last_travel:
                     lowest = crossing(
-                        growth, pieces, place, benches, older_travel, travel, last_a, last_b, margin, DIP_WIDTH, True, sizes, spare, scratch
+                        growth,
+                        pieces,
+                        place,
+                        benches,
+                        older_travel,
+                        travel,
+                        last_a,
+                        last_b,
+                        margin,
+                        DIP_WIDTH,
+                        True,
+                        sizes,
+                        spare,
+                        scratch,
                     )
                     clearance_there = gap_at(growth, pieces, place - lowest, benches, last_a, last_b, sizes, spare)
                     if clearance_there < out[GRAZE_GAP]:
@@ -2674,8 +2784,8 @@ def march(
 
 
 # -- the highest speed ------------------------------------------------------------------------------
-# Rates are Lipschitz: |d rate / d sigma| = |s''| is bounded over an interval as above, so between two ends a rate is at most
-# (start + end + bound h) / 2, and never above its own bound over the interval.
+# Rates are Lipschitz: |d rate / d sigma| = |s''| is bounded over an interval as above, so between two ends a rate is
+# at most (start + end + bound h) / 2, and never above its own bound over the interval.
 
 
 @cython.cfunc
@@ -2711,9 +2821,7 @@ def top_rate(
 @cython.cfunc
 @cython.nogil
 @cython.exceptval(check=False)
-def route_climb(
-    k: cython.Py_ssize_t, sizes: cython.double[:, ::1], chain: cython.double[:, ::1]
-) -> cython.double:
+def route_climb(k: cython.Py_ssize_t, sizes: cython.double[:, ::1], chain: cython.double[:, ::1]) -> cython.double:
     """d |rate of handle k| / d sigma of a chain on a route [1/m].
 
     With D = P_a - P_b twice differentiated, |D| constant, N to the left of T and signed curvature:
@@ -2754,8 +2862,8 @@ def refined_peak(
 ) -> cython.double:
     """Head travel in [low, high] where the largest rate peaks [m].
 
-    On a route by bisection on whether the fastest handle still gains (also where it stops at a kink), on a spiral, where
-    rates only grow towards the centre, the better end.
+    On a route by bisection on whether the fastest handle still gains (also where it stops at a kink), on a spiral,
+    where rates only grow towards the centre, the better end.
     """
     middle: cython.double
     if pieces.shape[0] == 0:
@@ -2812,9 +2920,7 @@ def peak_rate(
                 at = travel
             travel += step
         h = at - step if at - step > start else start
-        travel = refined_peak(
-            growth, pieces, place, h, at + step if at + step < stop else stop, benches, sizes, spare
-        )
+        travel = refined_peak(growth, pieces, place, h, at + step if at + step < stop else stop, benches, sizes, spare)
         rate = top_rate(growth, pieces, place - travel, benches, sizes, spare)
         if rate > best:
             best = rate
@@ -2841,9 +2947,7 @@ def peak_rate(
                 if bounded:
                     upper = 1.0
                     for k in range(1, benches + 1):
-                        bound = 0.5 * (
-                            fabs(before[k, RATE]) + fabs(after[k, RATE]) + motion[k, RATE_RATE] * h
-                        )
+                        bound = 0.5 * (fabs(before[k, RATE]) + fabs(after[k, RATE]) + motion[k, RATE_RATE] * h)
                         if motion[k, RATE_HIGH] < bound:
                             bound = motion[k, RATE_HIGH]
                         if bound > upper:

@@ -21,8 +21,8 @@ TIME_MAX = 1e12  # [s]
 
 
 class EndReason(StrEnum):
-    """Why a run ends: a chord has no continuous solution any more, the head is at the centre of the spiral or at the end
-    of the route, or the time asked for is over."""
+    """Why a run ends: a chord has no continuous solution any more, the head is at the centre of the spiral or at the
+    end of the route, or the time asked for is over."""
 
     FOLD = "fold"
     CENTRE = "centre"
@@ -106,7 +106,10 @@ def follows(dragon: Dragon, path: Route) -> bool:
 
 
 def _check_bends(dragon: Dragon, path: Route) -> None:
-    """Can every bench follow? With |curvature| chord / 2 below the limit the next handle is unique and never turns back."""
+    """.
+
+    An every bench follow? With |curvature| chord / 2 below the limit the next handle is unique and never turns back.
+    """
     curvature, s = path.sharpest
     bench = int(dragon.chords[: dragon.uniform_from + 1].argmax())
     chord = float(dragon.chords[bench])
@@ -124,7 +127,8 @@ def trajectory(
 ) -> Trajectory:
     """Position and velocity of every handle at every time.
 
-    times: (T,) [s], 0 at the start; at negative times the head is on the outward extension of the spiral, or on the part
+    times: (T,) [s], 0 at the start; at negative times the head is on the outward extension of the spiral, or on the
+        part
         of a route before its s = 0
     head_speed: [m/s], constant
     returns: see Trajectory; positions good to 1e-12 m, speeds from the rigid links, never from differences
@@ -144,7 +148,7 @@ def trajectory(
         chain = np.empty((dragon.benches + 1, kernels.CHAIN_COLUMNS))
         kernels.route_trajectory(path.table, time * head_speed, head_speed, sizes, chain, position, velocity, speed)
         return Trajectory(time, position, velocity, speed)
-    head = np.maximum(path.theta(time * head_speed), end.theta)
+    head = np.maximum(path.theta(time * head_speed), end.theta or 0.0)
     folded = kernels.spiral_trajectory(path.growth, head, dragon.chords, head_speed, position, velocity, speed)
     if folded >= 0:
         raise _after_the_end(end, time, folded)
@@ -172,8 +176,8 @@ def checked_times(
         k = int(early[0])
         raise OutsideRun(
             f"times.{k}",
-            f"times[{k}] must be at least {earliest_time(dragon, path, head_speed):.6f} s, when the whole dragon is on the "
-            f"path, got {time[k]:g} s",
+            f"times[{k}] must be at least {earliest_time(dragon, path, head_speed):.6f} s, when the whole dragon "
+            f"is on the path, got {time[k]:g} s",
         )
     return np.ascontiguousarray(time)
 

@@ -76,7 +76,7 @@ def frames_separation(a: Floats, b: Floats) -> Separation:
     """Signed separation of rectangles given as frames. a, b: (..., 6) as frames() returns, of equal shape."""
     shape = a.shape[:-1]
     out = np.empty((a.size // 6, 8))
-    rows_a, rows_b = (np.require(frame, requirements="CW").reshape(-1, 6) for frame in (a, b))
+    rows_a, rows_b = (np.require(frame, requirements=["C", "W"]).reshape(-1, 6) for frame in (a, b))
     kernels.pair_separations(rows_a, rows_b, out)
     return Separation(
         separation=out[:, 0].reshape(shape),

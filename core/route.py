@@ -6,6 +6,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
@@ -28,9 +29,9 @@ Point = tuple[float, float]
 _KINDS = {name: float(code) for code, name in enumerate(kernels.PIECE_KINDS)}
 
 
-def _checked_point(name: str, value: object) -> Point:
+def _checked_point(name: str, value: Any) -> Point:
     try:
-        x, y = value  # type: ignore[misc]
+        x, y = value
     except (TypeError, ValueError) as error:
         raise InvalidValue(name, f"{name} must be a point [x, y] in metres, got {value!r}") from error
     limits = (-COORDINATE_MAX, COORDINATE_MAX)
@@ -60,7 +61,10 @@ class Line:
 
 @dataclass(frozen=True)
 class Arc:
-    """Part of a circle: centre (x, y) [m], radius [m], start_angle [rad], sweep [rad], counter-clockwise if positive."""
+    """Part of a circle: centre (x, y) [m], radius [m], start_angle [rad], sweep [rad].
+
+    Counter-clockwise if positive.
+    """
 
     centre: Point
     radius: float
@@ -120,7 +124,7 @@ class Waypoints:
 
     def rows(self, name: str, s: float) -> list[list[float]]:
         """Rows of the kernels' table from arc length s on: cubics short enough for exact arc lengths."""
-        from scipy.interpolate import CubicSpline
+        from scipy.interpolate import CubicSpline  # type: ignore[import-untyped]
 
         if len(self.points) < 2:
             raise InvalidValue(f"{name}.points", f"{name}.points must be at least 2 points, got {len(self.points)}")
@@ -190,7 +194,7 @@ def _shifted(coefficients: Floats, t: float) -> Floats:
 
 
 def _bernstein(polynomial: np.polynomial.Polynomial, end: float) -> tuple[float, float]:
-    power = polynomial.coef * end ** np.arange(polynomial.coef.size)
+    power: Floats = np.asarray(polynomial.coef, dtype=np.float64) * end ** np.arange(polynomial.coef.size)
     n = power.size - 1
     values = [sum(math.comb(k, i) / math.comb(n, i) * power[i] for i in range(k + 1)) for k in range(n + 1)]
     return float(min(values)), float(max(values))

@@ -58,8 +58,10 @@ def highest_speed(
 ) -> HighestSpeed:
     """The highest speed of any handle over continuous time, with the handles that reach it.
 
-    start, stop: [s]; the defaults are 0 (on a route: when it begins, or the whole dragon is on it) and the end of the run
-    Sampled, refined by bisection on the exact derivative (at a joint the speed is continuous and its derivative jumps, so
+    start, stop: [s]; the defaults are 0 (on a route: when it begins, or the whole dragon is on it) and the end of
+        the run
+    Sampled, refined by bisection on the exact derivative (at a joint the speed is continuous and its derivative
+    jumps, so
     the peak may be a kink), then every interval of time is proven not to exceed it by more than RATE_TOLERANCE.
     raises: InvalidValue (stop) for a spiral danced to its fold, where speeds grow without bound
     """

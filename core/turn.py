@@ -57,9 +57,10 @@ def turn(
     entry_radius: where the turn begins, at most the turning radius, which is its default [m]
     raises: InvalidValue
 
-    At the entry E, |E| = R, the direction of travel T makes the angle gamma with the circle, tan gamma = 1 / theta (theta
-    the polar angle there). By symmetry the dance leaves at -E in the same direction T. With n the normal to the right of
-    T the centres are C1 = E + r1 n and C2 = -E - r2 n, and the arcs touch if |C1 - C2| = r1 + r2 =: S:
+    At the entry E, |E| = R, the direction of travel T makes the angle gamma with the circle, tan gamma = 1 / theta
+    (theta
+    the polar angle there). By symmetry the dance leaves at -E in the same direction T. With n the normal to the
+    right of T the centres are C1 = E + r1 n and C2 = -E - r2 n, and the arcs touch if |C1 - C2| = r1 + r2 =: S:
         |2 E + S n|^2 = S^2   =>   S = |E|^2 / (-E . n) = R / cos gamma = R sqrt(1 + theta^2) / theta,
     whatever the ratio: so r1 = S ratio / (1 + ratio), r2 = S / (1 + ratio). The triangles O C1 E and O C2 (-E) show the
     same angle turned on both arcs, hence the length S alpha does not depend on the ratio either.
@@ -75,7 +76,8 @@ def turn(
     if turns * pitch <= radius:
         raise InvalidValue(
             "start_turns",
-            f"start_turns must be more than {radius / pitch:.6g} turns, which is the turning circle, got {turns:g} turns",
+            f"start_turns must be more than {radius / pitch:.6g} turns, which is the turning circle, "
+            f"got {turns:g} turns",
         )
     theta = 2.0 * math.pi * inner / pitch
     cos, sin, stretch = math.cos(theta), math.sin(theta), math.hypot(1.0, theta)
