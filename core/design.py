@@ -9,11 +9,11 @@ from enum import StrEnum
 import numpy as np
 
 from core import kernels
-from core.contact import MARGIN_MAX, NO_PIECES, Search
 from core.dragon import Dragon, checked_number, checked_size
 from core.errors import InvalidValue
 from core.kinematics import end_theta
 from core.paths import START_TURNS_MAX, Spiral
+from core.search import MARGIN_MAX, NO_PIECES, Search
 
 # Half width of the bracket around a contact [m of head travel].
 CONTACT_WIDTH = 2e-11

@@ -20,6 +20,7 @@ from core.dragon import Dragon
 from core.kinematics import EndReason, checked_head_speed, checked_span, run_end
 from core.paths import Spiral
 from core.route import Route
+from core.search import 
 
 # The least distance is proven to this [m]; to the next one where that takes more steps than a search may.
 PROOF_WIDTHS = (1e-5, 1e-3)

@@ -7,12 +7,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from core import kernels
-from core.contact import Search
 from core.dragon import Dragon, checked_number
 from core.errors import InvalidValue
 from core.kinematics import HEAD_SPEED_MAX, EndReason, checked_head_speed, checked_span, earliest_time, run_end
 from core.paths import Spiral
 from core.route import Route
+from core.search import Search
 
 # No handle is proven to stay below less than this above the highest rate found [1]; the rate itself is good to 1e-12.
 RATE_TOLERANCE = 1e-5

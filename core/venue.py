@@ -11,7 +11,7 @@ from itertools import pairwise
 import numpy as np
 
 from core import kernels
-from core.contact import MARGIN_MAX, Outcome, Search
+from core.contact import Outcome
 from core.dragon import Dragon, Floats, checked_number
 from core.errors import InvalidValue
 from core.kinematics import bench_poses, checked_head_speed, checked_span, run_end, trajectory
@@ -19,6 +19,7 @@ from core.least import Pair, approach, first_pair, least_over
 from core.overlaps import inside, polygon_fault
 from core.paths import Spiral
 from core.route import COORDINATE_MAX, Coil, Point, Route
+from core.search import MARGIN_MAX, Search
 
 Ring = tuple[Point, ...]
 

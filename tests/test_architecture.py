@@ -24,6 +24,7 @@ ORDER = (
     "core.rectangles",
     "core.angle_sum",
     "core.overlaps",
+    "core.search",
     "core.contact",
     "core.design",
     "core.turn",

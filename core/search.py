@@ -1,0 +1,258 @@
+"""Search: one dragon on one path, as the certified march of the kernels needs them.
+
+The proof of a march is written above the loops that carry it out: `core/kernels.py`, "certified motion" and "rings".
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from core import kernels
+from core.dragon import Dragon, Floats
+from core.kinematics import RunEnd
+from core.paths import Spiral
+from core.route import Route
+
+MARGIN_MAX = 1e4  # [m]
+# Steps after which a search gives up as undecided; the default case takes about a hundred.
+STEP_BUDGET = 200_000
+# No radius is known to be clear [m].
+NO_BOUND = 1e300
+# A spiral is no route.
+NO_PIECES = np.empty((0, kernels.PIECE_COLUMNS))
+# The kernels' word for a run without a graze [m].
+NO_GRAZE = 1e300
+# Rounding of a gap, relative to the largest coordinate [1]: four times the largest error, 3.4e-15 m at 12 m, of 60 gaps
+# after chains of 6 to 21 benches against 40-digit arithmetic, 2026-11-21.
+GAP_ROUNDING = 1e-15
+# Places on a route are rounded as arc lengths are; in units of the coordinates' rounding [1].
+ARC_ROUNDING = 0.1
+
+
+class Search:
+    """The arrays that the kernels need for one dragon, and the path and margin they are used for now.
+
+    extremes: longest and shortest chord, longest overhang, half width of all benches, chord and half width of those
+        that
+        can be the outer of a pair [m]; ring: the same for the kernels, see RING_... there
+    sizes: (rows, 4) of the leading benches; edges: (E, 4) x, y, x, y of edges at rest [m], on routes only; with
+        edges, the pairs are bench and edge
+        alone: edge e is bench number room + 1 + e of a pair
+    clear_radius: on a spiral, no pair whose inner bench leads at this radius or further out comes within the margin [m]
+    place: what the kernels count places from, at time 0: arc length from the centre of a spiral, minus s on a route [m]
+    """
+
+    margin: float
+    clear_radius: float
+    rounding: float
+
+    def __init__(self, dragon: Dragon, path: Spiral | Route, margin: float, edges: Floats | None = None) -> None:
+        self.dragon = dragon
+        self.edges = np.empty((0, 4)) if edges is None else edges
+        self.statics = -len(self.edges)
+        alike = dragon.uniform_from
+        chords, half_widths = dragon.chords[: alike + 1], 0.5 * dragon.widths[: alike + 1]
+        overhangs = dragon.overhangs[: alike + 1]
+        outer = slice(min(2, alike), None)
+        self.extremes = (
+            chords.max(),
+            chords.min(),
+            overhangs.max(),
+            half_widths.max(),
+            chords[outer].max(),
+            half_widths[outer].max(),
+        )
+        longest, _, overhang, half_width, outer_chord, outer_half_width = self.extremes
+        ring = (0.0, outer_chord, chords[outer].min(), overhangs[outer].max(), outer_half_width)
+        self.ring = np.array([*ring, longest, overhang, half_width])
+        self.longest = float(dragon.lengths[: alike + 1].max())
+        self.resize(dragon.benches if isinstance(path, Route) else min(dragon.benches, 255))
+        self.use(path, margin)
+
+    def use(self, path: Spiral | Route, margin: float) -> None:
+        """Turn to another path or margin."""
+        self.path, self.margin = path, margin
+        if isinstance(path, Route):
+            self.growth, self.pieces, self.place = 1.0, path.table, 0.0
+            self.clear_radius = NO_BOUND
+            seen = path.position(np.linspace(path.begin, path.end, 256))
+            largest = float(np.abs(seen).max()) + ARC_ROUNDING * max(abs(path.begin), abs(path.end))
+        else:
+            self.growth, self.pieces, self.place = path.growth, NO_PIECES, path.length
+            self.clear_radius = self._clear_radius()
+            largest = min(path.growth * path.start_theta, self.clear_radius)
+        self.ring[0] = self.clear_radius
+        self.rounding = GAP_ROUNDING * (largest + 2.0 * self.longest)
+
+    def resize(self, benches: int) -> None:
+        """Room for so many leading benches, and the edges at rest after the row of the last handle."""
+        dragon, edges = self.dragon, self.edges
+        lengths, widths = dragon.lengths[:benches], dragon.widths[:benches]
+        columns = [dragon.chords[:benches], 0.5 * lengths, 0.5 * widths, 0.5 * np.hypot(lengths, widths)]
+        self.sizes = np.zeros((benches + 1 + len(edges), kernels.SIZE_COLUMNS))
+        self.sizes[:benches] = np.stack(columns, axis=1)
+        self.rows = np.zeros((4, benches + 1 + len(edges), kernels.CHAIN_COLUMNS))
+        self.motion = np.zeros((benches + 1 + len(edges), kernels.MOTION_COLUMNS))
+        self.pair = np.zeros(3, dtype=np.intp)
+        along = edges[:, 2:4] - edges[:, 0:2]
+        half = 0.5 * np.hypot(along[:, 0], along[:, 1])
+        self.sizes[benches + 1 :, 1] = self.sizes[benches + 1 :, 3] = half
+        self.rows[:, benches + 1 :, 6:8] = 0.5 * (edges[:, 0:2] + edges[:, 2:4])
+        self.rows[:, benches + 1 :, 8:10] = along / (2.0 * half)[:, None]
+
+    @property
+    def room(self) -> int:
+        """How many leading benches there is room for."""
+        return self.sizes.shape[0] - 1 - len(self.edges)
+
+    def ring_least(self, radius: float) -> float:
+        """Lower bound of the separation of pairs whose inner bench leads at this radius or further out [m]."""
+        return float(kernels.ring_least(self.growth, self.growth, radius, *self.extremes))
+
+    def _clear_radius(self) -> float:
+        """The least radius, within 1e-3, from which the ring bound exceeds the margin; 1e300 if none."""
+        high = 1.0
+        while self.ring_least(high) <= self.margin:
+            high *= 4.0
+            if high > 1e9:
+                return NO_BOUND
+        low = 0.0
+        while high - low > 1e-3 * high:
+            middle = 0.5 * (low + high)
+            low, high = (low, middle) if self.ring_least(middle) > self.margin else (middle, high)
+        return high
+
+    def travel_at(self, theta: float) -> float:
+        """Head travel from the start of a spiral to theta [m]."""
+        return self.place - self.growth * float(kernels.spiral_arc(theta))
+
+    def theta_at(self, travel: float) -> float:
+        """Head angle on a spiral after a travel [rad]."""
+        return float(kernels.spiral_theta((self.place - travel) / self.growth))
+
+    def march(
+        self, stop: float, tolerance: float, *, start: float = 0.0, opening: bool = True
+    ) -> tuple[str, dict[str, float]]:
+        """kernels.march from start, or from where the ring bound ends, to stop [m of travel]: state, result by name.
+
+        opening: nothing before the start was cleared, so all pairs are followed until the body repeats itself
+        """
+        if isinstance(self.path, Spiral):
+            clear_theta = self.clear_radius / self.growth
+            if clear_theta < self.path.start_theta:
+                opening = False
+                start = max(self.travel_at(clear_theta), start)
+        nothing = self.dragon.benches < 3 and not len(self.edges)
+        if nothing or (start >= stop and not opening):
+            return "reached", dict.fromkeys(kernels.MARCH_FIELDS, 0.0) | {"proven": stop, "graze_gap": NO_GRAZE}
+        out = np.empty(32)
+        while True:
+            code = kernels.march(
+                self.growth,
+                self.pieces,
+                self.place,
+                start,
+                stop,
+                min(self.dragon.uniform_from + 1, self.dragon.benches),
+                opening,
+                self.margin,
+                tolerance,
+                self.rounding,
+                STEP_BUDGET,
+                self.dragon.benches,
+                self.statics,
+                self.ring,
+                self.sizes,
+                self.rows,
+                self.motion,
+                self.pair,
+                out,
+            )
+            state = kernels.MARCH_STATES[code]
+            if state != "capacity":
+                return state, dict(zip(kernels.MARCH_FIELDS, out.tolist(), strict=False))
+            self.resize(min(4 * self.room, self.dragon.benches))
+
+    def clearance(self, travel: float, leaders: int | None = None) -> tuple[float, tuple[int, int]]:
+        """Clearance after a travel [m], and its pair; among pairs led by the first `leaders` benches only."""
+        benches = self.room if leaders is None else min(self.room, leaders + self._followed(travel, leaders))
+        leaders = benches if leaders is None else leaders
+        gap = kernels.clearance_at(
+            self.growth,
+            self.pieces,
+            self.place - travel,
+            benches,
+            leaders,
+            self.statics,
+            self.ring,
+            self.sizes,
+            self.rows[0],
+            self.pair,
+        )
+        return gap, (int(self.pair[1]), int(self.pair[2]))
+
+    def _followed(self, travel: float, leaders: int) -> int:
+        """How many benches behind the leaders of a spiral can be as near to them as the leaders' own sizes."""
+        start, growth = self.theta_at(travel), self.growth
+        rear = growth * start + leaders * self.extremes[0]
+        reach = kernels.leaders_reach(growth, growth * start, rear, self.ring) + self.longest
+        beyond = kernels.radius_beyond(growth, reach, self.ring) / growth
+        arc = growth * (kernels.spiral_arc(max(beyond, start)) - kernels.spiral_arc(start))
+        return 2 + int(arc / self.extremes[1])
+
+    def rates(self, travel: float) -> Floats:
+        """Speed of every handle along the path over the head's after a travel, negative where one turns back [1]."""
+        self.clearance(travel)
+        return self.rows[0, : self.room + 1, 5].copy()
+
+    def gap_rate(self, travel: float, pair: tuple[int, int]) -> float:
+        """How fast a pair parts after a travel, per metre of head travel [1]."""
+        return float(
+            kernels.gap_rate_at(
+                self.growth, self.pieces, self.place - travel, self.room, *pair, self.sizes, self.rows[1], np.empty(8)
+            )
+        )
+
+    def bottom(self, low: float, high: float, pair: tuple[int, int], width: float) -> float:
+        """Travel in [low, high] where a pair stops approaching [m]."""
+        return float(
+            kernels.crossing(
+                self.growth,
+                self.pieces,
+                self.place,
+                self.room,
+                low,
+                high,
+                *pair,
+                0.0,
+                width,
+                True,
+                self.sizes,
+                self.rows[1],
+                np.empty(8),
+            )
+        )
+
+    def clear_to_fold(self, travel: float, end: RunEnd) -> bool:
+        """Is the clearance after a travel more than what is left of the motion to the fold can use up?"""
+        if self.dragon.benches < 3:
+            return True
+        return self.clearance(travel)[0] > self.margin + self.motion_left(travel, end)
+
+    def motion_left(self, travel: float, end: RunEnd) -> float:
+        """Bound on how far any two points of two benches approach each other from a travel to the fold [m].
+
+        Bench m = end.bench folds: from delta_L to the crest, handle m + 1 moves by at most the change of both ends'
+        angles; the handles before it move less than the head's travel rates there, those behind it less than it.
+        """
+        assert end.bench is not None
+        self.clearance(travel)
+        m, growth = end.bench, self.growth
+        lead, rear = self.rows[0, m, 4], self.rows[0, m + 1, 4]
+        fold = kernels.fold_theta(float((self.dragon.chords[m] / growth) ** 2))
+        swing = abs(kernels.first_crest(fold) - (rear - lead)) + abs(lead - fold)
+        moved = growth * swing * math.hypot(1.0, rear + swing)
+        share = 1.0 + (2.0 * self.extremes[2] + 2.0 * self.extremes[3]) / self.extremes[1]
+        return float(2.0 * share * moved)
