@@ -14,13 +14,12 @@ from core.contact import (
     FOLD_SLIVER,
     PROFILE_SAMPLES,
     PROFILE_STEP,
-    Search,
 )
 from core.dragon import Dragon
 from core.kinematics import EndReason, checked_head_speed, checked_span, run_end
 from core.paths import Spiral
 from core.route import Route
-from core.search import 
+from core.search import Search
 
 # The least distance is proven to this [m]; to the next one where that takes more steps than a search may.
 PROOF_WIDTHS = (1e-5, 1e-3)
