@@ -82,6 +82,8 @@ class SafetyHeaders:
                 headers["Content-Security-Policy"] = policy
                 headers["X-Content-Type-Options"] = "nosniff"
                 headers["Referrer-Policy"] = "no-referrer"
+                # Files of the page are asked for anew: modules of two versions must not meet.
+                headers.setdefault("Cache-Control", "no-cache")
             await send(message)
 
         return await self.app(scope, receive, guarded)

@@ -46,7 +46,7 @@ export class Controls {
       slider: make("input", { type: "range", min, max, step }),
       reset: make("button", { type: "button", className: "reset", textContent: "↺" }),
       limits: make("span", { id: `${name}-limits`, className: "limits" }),
-      error: make("p", { id: `${name}-error`, className: "error", hidden: true }),
+      error: make("p", { id: `${name}-error`, className: "error", lang: "en", hidden: true }),
     };
     let typing = 0;
     row.text.addEventListener("input", (event) => {

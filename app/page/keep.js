@@ -1,6 +1,6 @@
 /** What a person takes away: the link, files, and the command that gives the same. */
 
-import { Problem } from "./api.js";
+import { Problem, Superseded } from "./api.js";
 import { say } from "./text.js";
 
 const $ = (selector) => document.querySelector(selector);
@@ -49,8 +49,8 @@ export class Keep {
       setTimeout(() => URL.revokeObjectURL(link.href), 10_000);
       this.announce(say("saved", { name }));
     } catch (error) {
-      if (!(error instanceof Problem)) throw error;
-      this.announce(error.message);
+      if (error instanceof Problem) this.announce(error.message);
+      else if (!(error instanceof Superseded)) throw error;
     }
   }
 

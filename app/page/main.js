@@ -22,9 +22,9 @@ const state = new State();
 const service = new Service();
 const questions = new Questions(service, state);
 const dance = new Dance($("#canvas"), $("#inset canvas"), {
-  moved() {
-    const { x, y, scale, fitted } = dance.view;
-    state.set({ view: fitted ? null : [x, y, scale], follow: false });
+  moved(panned) {
+    const { x, y, scale } = dance.view;
+    state.set({ view: [x, y, scale], follow: state.get("follow") && !panned });
     draw();
   },
   picked: (handle) => state.set({ handle }),
@@ -138,6 +138,7 @@ function showRefusals() {
   const { refusals } = questions;
   controls.refuse(questions.errors());
   $("main").classList.toggle("stale", refusals.has("contact"));
+  if (refusals.has("contact") && !questions.dance) for (const box of document.querySelectorAll("[aria-busy=true]")) box.setAttribute("aria-busy", false);
   if (refusals.has("contact")) showRefusal($("#first-contact"), "firstContact", refusals.get("contact").message);
   if (refusals.has("minimum")) showRefusal($("#minimum-pitch"), "minimumPitch", refusals.get("minimum").message);
   for (const [kind, chart] of [["clearance", clearanceChart], ["scan", scanChart]]) {

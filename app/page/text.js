@@ -9,8 +9,6 @@ const WORDS = {
   copied: ["Copied", "已复制"],
   copyFailed: ["The browser did not allow copying", "浏览器不允许复制"],
   allCalls: ["All calls", "全部接口"],
-  noscript: ["This page needs JavaScript.", "本页需要 JavaScript。"],
-  loading: ["Asking the service…", "正在向服务请求……"],
   lost: ["The service does not answer. What you see is kept; next try in {seconds} s.", "服务没有响应。画面保持不变，{seconds} 秒后重试。"],
   retry: ["Try now", "立即重试"],
   back: ["The service is back.", "服务已恢复。"],
@@ -115,20 +113,15 @@ const WORDS = {
 
   charts: ["Charts", "图表"],
   clearance: ["Clearance over time", "间距随时间的变化"],
-  clearanceHelp: ["Smallest gap between two benches that share no handle. Click or drag to move the dance.", "不共用把手的两节板凳之间的最小间距。点击或拖动可移动时间。"],
+  clearanceHelp: ["Smallest gap between two benches that share no handle. Dots: local minima; dashed: the margin; cross: first contact. Click or drag to move the dance.", "不共用把手的两节板凳之间的最小间距。圆点：局部最小值；虚线：安全间距；叉：首次碰撞。点击或拖动可移动时间。"],
   clearanceAt: ["{time} s: {gap} mm, {a} and {b}", "{time} s：{gap} mm，{a}与{b}"],
   clearanceAxis: ["clearance [mm]", "间距 [mm]"],
   timeAxis: ["time [s]", "时间 [s]"],
-  graze: ["graze", "擦过"],
-  touch: ["first contact", "首次碰撞"],
   scan: ["Where the head stops, against the pitch", "首次碰撞时龙头半径与螺距"],
-  scanHelp: ["Radius of the head at first contact; the curve jumps. Click to set the pitch.", "首次碰撞时龙头的半径，曲线有跳跃。点击可设定螺距。"],
+  scanHelp: ["Radius of the head at first contact; the curve jumps. Dashed: turning circle; dotted: minimum pitch; line: your pitch. Click to set the pitch.", "首次碰撞时龙头的半径，曲线有跳跃。虚线：调头空间；点线：最小螺距；实线：当前螺距。点击可设定螺距。"],
   scanAt: ["pitch {pitch} m: the head stops at {radius} m", "螺距 {pitch} m：龙头停在 {radius} m"],
   pitchAxis: ["pitch [m]", "螺距 [m]"],
   radiusAxis: ["radius [m]", "半径 [m]"],
-  circle: ["turning circle", "调头空间"],
-  least: ["minimum pitch", "最小螺距"],
-  current: ["your pitch", "当前螺距"],
 
   table: ["Handles", "把手"],
   tableAt: ["at {time} s", "{time} s 时"],
@@ -177,10 +170,6 @@ export function setLanguage(choice) {
 /** The word of this key, with {names} replaced. */
 export function say(key, values = {}) {
   return WORDS[key][column].replace(/\{(\w+)\}/g, (_, name) => values[name]);
-}
-
-export function has(key) {
-  return key in WORDS;
 }
 
 /** Handle k of a dragon with so many benches, by the bench that it leads; bench k has the same name. */

@@ -10,7 +10,7 @@ export class View {
   #pointers = new Map();
   #travel = 0;
 
-  /** moved(): the view is another one; clicked(x, y): in pixels of the canvas */
+  /** moved(panned): the view is another one; clicked(x, y): in pixels of the canvas */
   constructor(canvas, { moved, clicked }) {
     Object.assign(this, { canvas, moved, clicked, x: 0, y: 0, scale: 20, fitted: true });
     canvas.addEventListener("wheel", (event) => this.#wheel(event), { passive: false });
@@ -54,12 +54,12 @@ export class View {
     const scale = Math.min(Math.max(this.scale * factor, SCALE_MIN), SCALE_MAX);
     const gain = 1 / this.scale - 1 / scale;
     this.set(this.x + (px - this.width / 2) * gain, this.y - (py - this.height / 2) * gain, scale);
-    this.moved();
+    this.moved(false);
   }
 
   pan(dx, dy) {
     this.set(this.x - dx / this.scale, this.y + dy / this.scale);
-    this.moved();
+    this.moved(true);
   }
 
   /** True when the key was one of the view's. */

@@ -17,8 +17,8 @@ SMOOTH_TOLERANCE = 1e-3
 TRACK = """async ([times, step]) => {
   const { Track } = await import("/page/track.js");
   const ask = async (_, times, decimals) => {
-    const options = { method: "POST", headers: { "Content-Type": "application/json" }, body: JSON.stringify({ times, decimals }) };
-    return (await fetch("/trajectory", options)).json();
+    const headers = { "Content-Type": "application/json" };
+    return (await fetch("/trajectory", { method: "POST", headers, body: JSON.stringify({ times, decimals }) })).json();
   };
   let ready;
   const track = new Track(ask, [0, 412], 224, 1, () => ready());

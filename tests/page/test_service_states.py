@@ -1,4 +1,4 @@
-"""The page and the service between them: refusals, slow answers, superseded questions, loss and return, safety, weight."""
+"""Between the page and the service: refusals, slow answers, superseded questions, loss and return, safety, weight."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ def stopped(process: subprocess.Popen[bytes]) -> None:
     process.wait(timeout=60)
 
 
-def test_a_lost_service_is_said_the_picture_stays_and_the_page_recovers_by_itself(
+def test_a_lost_service_is_said_and_the_page_stays_and_recovers_by_itself(
     open_page: Any, settled: Any, port: int
 ) -> None:
     process = started(port)
@@ -103,14 +103,15 @@ def test_superseded_questions_are_aborted_and_the_slider_does_not_wait(
 ) -> None:
     page = open_page()
     settled(page)
-    aborted = []
-    page.on("requestfailed", lambda request: aborted.append(request.url))
     slow = """const ask = window.fetch;
       window.fetch = async (url, options) => {
         if (!String(url).startsWith("collision-time")) return ask(url, options);
         await new Promise((resolve, reject) => {
           setTimeout(resolve, 1000);
-          options.signal.addEventListener("abort", () => { window.aborted = (window.aborted ?? 0) + 1; reject(options.signal.reason); });
+          options.signal.addEventListener("abort", () => {
+            window.aborted = (window.aborted ?? 0) + 1;
+            reject(options.signal.reason);
+          });
         });
         return ask(url, options);
       };"""
@@ -183,6 +184,8 @@ def test_the_page_is_light(open_page: Any, settled: Any) -> None:
         headers = {"Content-Type": "application/json"} if one.post_data else {}
         answer = httpx.request(one.method, one.url, content=one.post_data, headers=headers, timeout=60)
         weights[one.url] = weights.get(one.url, 0) + len(gzip.compress(answer.raise_for_status().content))
-    own = sum(weight for url, weight in weights.items() if "/page/" in url and "uplot" not in url or url.endswith("/"))
+    own = sum(
+        weight for url, weight in weights.items() if ("/page/" in url and "uplot" not in url) or url.endswith("/")
+    )
     assert 0 < own < OWN_MAX
     assert sum(weights.values()) < ALL_MAX
