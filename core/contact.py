@@ -27,17 +27,6 @@ from core.paths import Spiral
 from core.route import Route
 from core.search import MARGIN_MAX, NO_GRAZE, Search
 
-# Half width of the bracket around a contact [m of head travel] at head speeds of 1 m/s and more, and the least that
-# rounding of the travel allows at lower ones.
-BRACKET = 1e-10
-BRACKET_MIN = 2e-11
-# The same where benches meet so slowly that rounding hides the gap that near: 1e-9 s in all at 1 m/s, and beyond, for
-# contacts within about 1e-8 m of a graze, wider ones that still hold what they say [m of head travel].
-BRACKETS_GRAZING = (4.9e-10, 5e-9, 5e-8, 5e-7)
-# Travels are doubles: steps and brackets cannot be finer than this part of them [1].
-TRAVEL_ROUNDING = 1e-15
-# The last stretch before a fold, where handle speeds grow without bound: dismissed by a bound on the motion left [m].
-FOLD_SLIVER = 1e-9
 # Grazes of a profile are looked for in steps of at most this fraction of the shortest chord [1] ...
 PROFILE_STEP = 0.2
 # ... and at most this many of them ...
@@ -159,8 +148,7 @@ def first_contact(
     head_speed: [m/s]; margin: [m], the clearance required; contact means separation <= margin
     start, stop: the times between which to look [s]; None for the end of the run
     returns: see FirstContact; times good to 1e-10 s at 1 m/s, bracketed by [proven clear up to, overlapping at], no
-        wider
-        than 1e-9 s unless the benches meet within about 1e-8 m of a graze
+        wider than 1e-9 s unless the benches meet within about 1e-8 m of a graze
     raises: InvalidValue; OutsideRun for a stop after the end of the run
     source: the model of Yang et al., sections 2.4 and 2.5, whose times differ: see app/paper.py
 
@@ -174,24 +162,17 @@ def first_contact(
     begin, until = checked_span(dragon, path, start, stop, end, head_speed)
     search = Search(dragon, path, margin)
     to_fold = until >= end.time and end.reason is EndReason.FOLD
-    rounding = TRAVEL_ROUNDING * until * head_speed
-    last = until * head_speed - (FOLD_SLIVER + 1e3 * rounding if to_fold else 0.0)
-    tolerance = max(BRACKET * min(1.0, head_speed), BRACKET_MIN, rounding)
-    state, found = search.march(last, tolerance, start=begin * head_speed)
-    for wider in BRACKETS_GRAZING:
-        if state != "stuck" or found["touching"] < 0.0:
-            break
-        tolerance = wider * min(1.0, head_speed)
-        state, found = search.march(last, tolerance, start=begin * head_speed)
+    last = search.last_travel(until * head_speed, to_fold)
+    state, found, tolerance = search.approach(begin * head_speed, last, head_speed)
     if state == "reached" and to_fold and not search.clear_to_fold(last, end):
         state = "stuck"
     if stop is not None and state == "reached":
         end = RunEnd(EndReason.STOP, until, None, None)
-    return _result(search, state, found, end, tolerance, head_speed)
+    return _result(search, state, found, end, until, tolerance, head_speed)
 
 
 def _result(
-    search: Search, state: str, found: dict[str, float], end: RunEnd, tolerance: float, head_speed: float
+    search: Search, state: str, found: dict[str, float], end: RunEnd, until: float, tolerance: float, head_speed: float
 ) -> FirstContact:
     graze = None
     if found["graze_gap"] < NO_GRAZE:
@@ -202,7 +183,7 @@ def _result(
     if state == "reached":
         return FirstContact(Outcome.CLEAR, None, None, None, None, None, None, None, end, certificate)
     if state == "stuck":
-        bracket = (proven, end.time)
+        bracket = (proven, until)
         return FirstContact(Outcome.UNDECIDED, None, bracket, None, None, None, None, None, None, certificate)
     at_start = state == "touched_at_start"
     travel = found["touching"] if at_start else found["touching"] - tolerance

@@ -6,15 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from core.contact import (
-    BRACKET,
-    BRACKET_MIN,
-    BRACKETS_GRAZING,
-    DIP_WIDTH,
-    FOLD_SLIVER,
-    PROFILE_SAMPLES,
-    PROFILE_STEP,
-)
+from core.contact import DIP_WIDTH, PROFILE_SAMPLES, PROFILE_STEP
 from core.dragon import Dragon
 from core.kinematics import EndReason, checked_head_speed, checked_span, run_end
 from core.paths import Spiral
@@ -66,24 +58,12 @@ def least_clearance(
     if dragon.benches < 3:
         return None
     to_fold = until >= end.time and end.reason is EndReason.FOLD
-    last = until * head_speed - (FOLD_SLIVER if to_fold else 0.0)
     search = Search(dragon, path, 0.0)
+    last = search.last_travel(until * head_speed, to_fold)
     (distance, travel, pair), at_least = least_over(search, begin * head_speed, last, head_speed)
     if to_fold and at_least is not None and distance > 0.0:
         at_least = min(at_least, max(0.0, search.clearance(last)[0] - search.motion_left(last, end)))
     return LeastClearance(distance, at_least, travel / head_speed, pair)
-
-
-def approach(search: Search, begin: float, until: float, head_speed: float) -> tuple[str, dict[str, float], float]:
-    """Search.march between two travels [m] with the bracket of a contact: state, result by name, half width [m]."""
-    tolerance = max(BRACKET * min(1.0, head_speed), BRACKET_MIN)
-    state, found = search.march(until, tolerance, start=begin)
-    for wider in BRACKETS_GRAZING:
-        if state != "stuck" or found["touching"] < 0.0:
-            break
-        tolerance = wider * min(1.0, head_speed)
-        state, found = search.march(until, tolerance, start=begin)
-    return state, found, tolerance
 
 
 def first_pair(found: dict[str, float]) -> Pair:
@@ -122,7 +102,7 @@ def least_over(search: Search, begin: float, until: float, head_speed: float) ->
 def _first_touch(search: Search, begin: float, until: float, head_speed: float, touching: Dip) -> tuple[Dip, float]:
     """Something touches for certain: when first; at the instant known where the search gives up."""
     search.use(search.path, 0.0)
-    state, found, tolerance = approach(search, begin, until, head_speed)
+    state, found, tolerance = search.approach(begin, until, head_speed)
     if not state.startswith("touched"):
         return (0.0, *touching[1:]), 0.0
     travel = found["touching"] - (tolerance if state == "touched" else 0.0)

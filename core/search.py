@@ -18,6 +18,17 @@ from core.route import Route
 MARGIN_MAX = 1e4  # [m]
 # Steps after which a search gives up as undecided; the default case takes about a hundred.
 STEP_BUDGET = 200_000
+# Half width of the bracket around a contact [m of head travel] at head speeds of 1 m/s and more, and the least that
+# rounding of the travel allows at lower ones.
+BRACKET = 1e-10
+BRACKET_MIN = 2e-11
+# The same where benches meet so slowly that rounding hides the gap that near: 1e-9 s in all at 1 m/s, and beyond, for
+# contacts within about 1e-8 m of a graze, wider ones that still hold what they say [m of head travel].
+BRACKETS_GRAZING = (4.9e-10, 5e-9, 5e-8, 5e-7)
+# Travels are doubles: steps and brackets cannot be finer than this part of them [1].
+TRAVEL_ROUNDING = 1e-15
+# The last stretch before a fold, where handle speeds grow without bound: dismissed by a bound on the motion left [m].
+FOLD_SLIVER = 1e-9
 # No radius is known to be clear [m].
 NO_BOUND = 1e300
 # A spiral is no route.
@@ -140,10 +151,10 @@ class Search:
         opening: nothing before the start was cleared, so all pairs are followed until the body repeats itself
         """
         if isinstance(self.path, Spiral):
-            clear_theta = self.clear_radius / self.growth
-            if clear_theta < self.path.start_theta:
+            clear_until = self.travel_at(self.clear_radius / self.growth) if self.clear_radius < NO_BOUND else start
+            if clear_until > start:
                 opening = False
-                start = max(self.travel_at(clear_theta), start)
+                start = clear_until
         nothing = self.dragon.benches < 3 and not len(self.edges)
         if nothing or (start >= stop and not opening):
             return "reached", dict.fromkeys(kernels.MARCH_FIELDS, 0.0) | {"proven": stop, "graze_gap": NO_GRAZE}
@@ -174,6 +185,22 @@ class Search:
             if state != "capacity":
                 return state, dict(zip(kernels.MARCH_FIELDS, out.tolist(), strict=False))
             self.resize(min(4 * self.room, self.dragon.benches))
+
+    @staticmethod
+    def last_travel(until: float, to_fold: bool) -> float:
+        """How far to march for a run until a travel [m]: short of a fold by a sliver, see clear_to_fold()."""
+        return until - (FOLD_SLIVER + 1e3 * TRAVEL_ROUNDING * until if to_fold else 0.0)
+
+    def approach(self, begin: float, until: float, head_speed: float) -> tuple[str, dict[str, float], float]:
+        """march() between two travels [m] with the bracket of a contact: state, result by name, its half width [m]."""
+        tolerance = max(BRACKET * min(1.0, head_speed), BRACKET_MIN, TRAVEL_ROUNDING * abs(until))
+        state, found = self.march(until, tolerance, start=begin)
+        for wider in BRACKETS_GRAZING:
+            if state != "stuck" or found["touching"] < 0.0:
+                break
+            tolerance = wider * min(1.0, head_speed)
+            state, found = self.march(until, tolerance, start=begin)
+        return state, found, tolerance
 
     def clearance(self, travel: float, leaders: int | None = None) -> tuple[float, tuple[int, int]]:
         """Clearance after a travel [m], and its pair; among pairs led by the first `leaders` benches only."""

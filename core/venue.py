@@ -15,7 +15,7 @@ from core.contact import Outcome
 from core.dragon import Dragon, Floats, checked_number
 from core.errors import InvalidValue
 from core.kinematics import bench_poses, checked_head_speed, checked_span, run_end, trajectory
-from core.least import Pair, approach, first_pair, least_over
+from core.least import Pair, first_pair, least_over
 from core.overlaps import inside, polygon_fault
 from core.paths import Spiral
 from core.route import COORDINATE_MAX, Coil, Point, Route
@@ -197,7 +197,7 @@ def _route(path: Spiral | Route, stop: float) -> Route:
 
 
 def _area_clearance(search: Search, name: str, begin: float, until: float, head_speed: float) -> AreaClearance:
-    state, found, tolerance = approach(search, begin * head_speed, until * head_speed, head_speed)
+    state, found, tolerance = search.approach(begin * head_speed, until * head_speed, head_speed)
     outcome, time, bracket, bench, point = Outcome.CLEAR, None, None, None, None
     if state == "stuck":
         outcome, bracket = Outcome.UNDECIDED, (found["proven"] / head_speed, until)
