@@ -1012,8 +1012,8 @@ TRIAL = cython.declare(cython.double, 1.5)
 # On a route the ratio of a link's rates is followed from the ends of the interval where the lemma leaves more than
 # this [1].
 RATIO_FOLLOWED = cython.declare(cython.double, 1.05)
-# Larger than any step [m].
-FREE = cython.declare(cython.double, 1e300)
+# Larger than any step or distance, and so is its square no overflow [m].
+FREE = cython.declare(cython.double, 1e150)
 
 
 @cython.ccall
@@ -2112,7 +2112,7 @@ def ring_least(
     """Lower bound of the separation of any two non-neighbours whose inner bench leads at `radius` or further out [m].
 
     It holds for every growth in [growth_low, growth] [m/rad]. chord, shortest, overhang, half_width: the extremes over
-    all benches; outer_...: over those that can be the outer one; -1e300 where the bound says nothing.
+    all benches; outer_...: over those that can be the outer one; -1e150 where the bound says nothing.
     """
     d2: cython.double = radius * radius - 0.25 * chord * chord
     d: cython.double

@@ -30,11 +30,11 @@ TRAVEL_ROUNDING = 1e-15
 # The last stretch before a fold, where handle speeds grow without bound: dismissed by a bound on the motion left [m].
 FOLD_SLIVER = 1e-9
 # No radius is known to be clear [m].
-NO_BOUND = 1e300
+NO_BOUND = 1e150
 # A spiral is no route.
 NO_PIECES = np.empty((0, kernels.PIECE_COLUMNS))
 # The kernels' word for a run without a graze [m].
-NO_GRAZE = 1e300
+NO_GRAZE = 1e150
 # Rounding of a gap, relative to the largest coordinate [1]: four times the largest error, 3.4e-15 m at 12 m, of 60 gaps
 # after chains of 6 to 21 benches against 40-digit arithmetic, 2026-11-21.
 GAP_ROUNDING = 1e-15
@@ -123,7 +123,7 @@ class Search:
         return float(kernels.ring_least(self.growth, self.growth, radius, *self.extremes))
 
     def _clear_radius(self) -> float:
-        """The least radius, within 1e-3, from which the ring bound exceeds the margin; 1e300 if none."""
+        """The least radius, within 1e-3, from which the ring bound exceeds the margin; 1e150 if none."""
         high = 1.0
         while self.ring_least(high) <= self.margin:
             high *= 4.0
