@@ -1,0 +1,453 @@
+"""Routes: joints, arc length, and the same answers as an independent slow way."""
+
+from __future__ import annotations
+
+import cmath
+import json
+import math
+from itertools import pairwise
+from pathlib import Path
+
+import numpy as np
+import pytest
+import shapely
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+from scipy.integrate import quad
+from scipy.interpolate import CubicSpline
+from scipy.optimize import brentq
+
+from core import (
+    Arc,
+    Coil,
+    Dragon,
+    InvalidValue,
+    Line,
+    Outcome,
+    OutsideRun,
+    Route,
+    Spiral,
+    Waypoints,
+    bench_poses,
+    clearance_profile,
+    first_contact,
+    least_clearance,
+    trajectory,
+    turn,
+)
+from core.rectangles import corners
+
+REFERENCE = json.loads((Path(__file__).parents[1] / "reference" / "turn.json").read_text())
+TURN = turn(1.7, 4.5, 2.0)
+
+REFERENCE_ERROR = 1e-9  # [m], [m/s], [s]: what was asked of the reference values
+SAME = 1e-10  # [m], [m/s], [s]: one curve written in two ways
+CHORD_ERROR = 1e-11  # [m], at coordinates to 100 m
+PLACE_ERROR = 1e-9  # [m]: handles by a scan and brentq, each good to 1e-12 m, along a chain
+ARC_ERROR = 1e-10  # [m]: arc length of curves through waypoints
+TANGENT_ERROR = 1e-6  # [1]: by difference quotients
+QUOTIENT_STEP = 1e-6  # [s]
+QUOTIENT_ERROR = 1e-4  # [m/s]: accelerations jump at joints, which moves a quotient by their size times the step
+TOUCHING = 1e-8  # [m]: two benches at the far end of a contact's bracket
+
+DRAGON = Dragon(benches=8, head_length=1.8, body_length=1.4, width=0.3, overhang=0.2)
+
+
+# -- joints and other faults ----------------------------------------------------------------------------------
+
+
+def test_a_gap_is_refused_with_its_joint_and_size() -> None:
+    with pytest.raises(
+        InvalidValue, match=r"path\.pieces\[0\] and path\.pieces\[1\] must close: \(5, 0\) m is 0\.25 m"
+    ) as e:
+        Route([Line((0, 0), (5, 0)), Line((5.25, 0), (9, 0))])
+    assert e.value.field == "path.pieces.1"
+
+
+def test_a_kink_is_refused_with_its_joint_and_angle() -> None:
+    kinked = Line((6, 0), (6 + math.cos(0.1), math.sin(0.1)))
+    with pytest.raises(
+        InvalidValue, match=r"path\.pieces\[2\] must be smooth: at \(6, 0\) m .* turns by 0\.1 rad"
+    ) as e:
+        Route([Line((0, 0), (5, 0)), Line((5, 0), (6, 0)), kinked])
+    assert e.value.field == "path.pieces.2"
+
+
+def test_a_way_back_on_itself_is_a_kink() -> None:
+    with pytest.raises(InvalidValue, match=r"turns by 3\.14 rad"):
+        Route([Line((0, 0), (5, 0)), Line((5, 0), (0, 0))])
+
+
+@pytest.mark.parametrize(
+    "piece",
+    [Line((1, 1), (1, 1)), Arc((0, 0), 2, 0, 0), Coil(0.5, 4, 4)],
+    ids=["line", "arc", "coil"],
+)
+def test_a_piece_of_zero_length_is_refused(piece: Line | Arc | Coil) -> None:
+    with pytest.raises(InvalidValue, match=r"path\.pieces\.0 must be at least 1e-06 m long, got 0 m") as e:
+        Route([piece])
+    assert e.value.field == "path.pieces.0"
+
+
+def test_waypoints_upon_each_other_are_refused() -> None:
+    with pytest.raises(InvalidValue) as e:
+        Route([Waypoints(((0, 0), (3, 0), (3, 0), (5, 1)))])
+    assert e.value.field == "path.pieces.0.points.2"
+
+
+def test_waypoints_that_stop_on_the_spot_are_refused() -> None:
+    with pytest.raises(InvalidValue, match="must not make the curve stop") as e:
+        Route([Waypoints(((0, 0), (1, 0), (0, 0)))])
+    assert e.value.field == "path.points"
+
+
+def test_no_pieces_are_refused() -> None:
+    with pytest.raises(InvalidValue, match="at least one piece"):
+        Route([])
+
+
+@pytest.mark.parametrize("bad", [math.nan, math.inf, "1", None])
+def test_a_coordinate_that_is_no_finite_number_is_refused(bad: object) -> None:
+    with pytest.raises(InvalidValue) as e:
+        Route([Line((0, 0), (1, bad))])  # type: ignore[arg-type]
+    assert e.value.field == "path.pieces.0.end.1"
+
+
+def test_a_bend_too_tight_for_a_chord_names_the_bench_and_the_place() -> None:
+    route = Route([Line((-30, 0), (0, 0)), Arc((0, 1.2), 1.2, -0.5 * math.pi, math.pi), Line((0, 2.4), (-30, 2.4))])
+    with pytest.raises(InvalidValue, match=r"bench 0 \(2\.86 m\), got 1\.2 m near \(.*\) m, s = 30 m") as e:
+        trajectory(Dragon(benches=5), route, [20.0])
+    assert e.value.field == "path"
+    assert trajectory(Dragon(benches=5, head_length=2.2), route, [20.0]).speed.min() > 0.0
+
+
+def test_a_start_before_the_beginning_of_the_path_is_refused() -> None:
+    route = Route([Line((0, 0), (100, 0))])
+    length = float(DRAGON.chords.sum())
+    assert trajectory(DRAGON, route, [length + SAME * 100]).position[0, -1, 0] == pytest.approx(0.0, abs=1e-7)
+    with pytest.raises(OutsideRun, match=f"at least {length:.6f} s, when the whole dragon is on the path"):
+        trajectory(DRAGON, route, [length - 0.001])
+    with pytest.raises(OutsideRun) as e:
+        first_contact(DRAGON, route, start=0.0)
+    assert e.value.field == "start"
+
+
+def test_an_instant_after_the_end_of_the_path_is_refused() -> None:
+    route = Route([Line((0, 0), (100, 0))])
+    trajectory(DRAGON, route, [100.0])
+    with pytest.raises(OutsideRun, match=r"at most 100\.000000000 s, when the path ends"):
+        trajectory(DRAGON, route, [100.001])
+
+
+# -- the reference turn ---------------------------------------------------------------------------------------
+
+
+def test_the_turn_has_the_reference_arcs() -> None:
+    known = REFERENCE["turn"]
+    assert TURN.length == pytest.approx(known["length"], abs=REFERENCE_ERROR)
+    for name in ("radii", "angles", "entry", "exit", "tangent_point"):
+        assert getattr(TURN, name) == pytest.approx(known[name], abs=REFERENCE_ERROR), name
+    assert np.array(TURN.centres) == pytest.approx(np.array(known["centres"]), abs=REFERENCE_ERROR)
+
+
+@pytest.mark.parametrize("table", REFERENCE["tables"], ids=lambda table: f"{table['time']:g} s")
+def test_every_handle_on_the_turn_is_the_reference_one(table: dict) -> None:
+    found = trajectory(Dragon(), TURN.path, [table["time"]])
+    handles = [row["handle"] for row in table["handles"]]
+    known = np.array([[row["x"], row["y"], row["speed"]] for row in table["handles"]])
+    assert len(handles) > 5
+    assert np.abs(found.position[0, handles] - known[:, :2]).max() < REFERENCE_ERROR
+    assert np.abs(found.speed[0, handles] - known[:, 2]).max() < REFERENCE_ERROR
+
+
+def test_the_least_clearance_on_the_turn_is_the_reference_one() -> None:
+    known = REFERENCE["clearance"]
+    start, stop = known["interval"]
+    least = least_clearance(Dragon(), TURN.path, start=start, stop=stop)
+    assert least is not None
+    assert least.distance == pytest.approx(known["least"], abs=REFERENCE_ERROR)
+    assert least.time == pytest.approx(known["time"], abs=REFERENCE_ERROR)
+    assert list(least.benches) == known["benches"]
+    assert least.at_least is not None
+    assert least.distance - 1.1e-5 < least.at_least <= least.distance
+    assert first_contact(Dragon(), TURN.path, start=start, stop=stop, margin=known["least"] - 1e-9).time is None
+    graze = first_contact(Dragon(), TURN.path, start=start, stop=stop, margin=known["least"] + 1e-9)
+    assert graze.time == pytest.approx(known["time"], abs=1e-3)
+
+
+# -- a spiral written as a route --------------------------------------------------------------------------------
+
+
+def as_route(spiral: Spiral, end_turns: float, cuts: tuple[float, ...] = ()) -> Route:
+    turns = (spiral.start_turns, *cuts, end_turns)
+    return Route([Coil(spiral.pitch, a, b) for a, b in pairwise(turns)])
+
+
+@pytest.mark.parametrize("cuts", [(), (10.0, 4.2)], ids=["one coil", "three coils"])
+def test_a_spiral_as_a_route_has_the_spirals_trajectory(cuts: tuple[float, ...]) -> None:
+    times = np.linspace(-50.0, 412.0, 9)
+    a = trajectory(Dragon(), Spiral(), times)
+    b = trajectory(Dragon(), as_route(Spiral(), 3.0, cuts), times)
+    for name in ("position", "velocity", "speed"):
+        assert np.abs(getattr(a, name) - getattr(b, name)).max() < SAME, name
+
+
+@pytest.mark.parametrize("cuts", [(), (10.0, 4.2)], ids=["one coil", "three coils"])
+def test_a_spiral_as_a_route_has_the_spirals_first_contact(cuts: tuple[float, ...]) -> None:
+    a = first_contact(Dragon(), Spiral())
+    b = first_contact(Dragon(), as_route(Spiral(), 3.0, cuts))
+    assert (a.outcome, a.benches, a.corner, a.edge) == (b.outcome, b.benches, b.corner, b.edge)
+    assert a.time == pytest.approx(b.time, abs=SAME)
+    assert a.point == pytest.approx(b.point, abs=10 * SAME)  # the time's error at the corner's speed
+    assert b.head is not None
+    assert a.head is not None
+    assert b.head.theta is None
+    assert (a.head.x, a.head.y) == pytest.approx((b.head.x, b.head.y), abs=2 * SAME)
+
+
+def test_a_spiral_as_a_route_has_the_spirals_clearance() -> None:
+    times = np.linspace(300.0, 412.0, 15)
+    a = clearance_profile(Dragon(), Spiral(), times)
+    b = clearance_profile(Dragon(), as_route(Spiral(), 3.0), times)
+    assert np.abs(a.clearance - b.clearance).max() < SAME
+    assert [g.benches for g in a.grazes] == [g.benches for g in b.grazes]
+    assert [g.time for g in a.grazes] == pytest.approx([g.time for g in b.grazes], abs=1e-7)  # flat at the bottom
+
+
+# -- random routes ----------------------------------------------------------------------------------------------
+
+
+class Pen:
+    """Draws pieces one after the other from a place in a direction, so that every joint is smooth."""
+
+    def __init__(self, place: complex, heading: float) -> None:
+        self.place, self.heading, self.pieces = place, heading, []
+
+    def line(self, length: float) -> None:
+        end = self.place + length * cmath.rect(1.0, self.heading)
+        self.pieces.append(Line((self.place.real, self.place.imag), (end.real, end.imag)))
+        self.place = end
+
+    def arc(self, radius: float, sweep: float) -> None:
+        angle = self.heading - math.copysign(0.5 * math.pi, sweep)
+        centre = self.place - cmath.rect(radius, angle)
+        self.pieces.append(Arc((centre.real, centre.imag), radius, angle, sweep))
+        self.place, self.heading = centre + cmath.rect(radius, angle + sweep), self.heading + sweep
+
+    def coil(self, pitch: float, start: float, end: float) -> None:
+        growth, sign = pitch / (2.0 * math.pi), 1.0 if end > start else -1.0
+        theta, last = 2.0 * math.pi * start, 2.0 * math.pi * end
+        rotation = self.heading - cmath.phase(sign * complex(1.0, theta)) - theta
+        centre = self.place - cmath.rect(growth * theta, theta + rotation)
+        self.pieces.append(Coil(pitch, start, end, (centre.real, centre.imag), rotation))
+        self.place = centre + cmath.rect(growth * last, last + rotation)
+        self.heading = cmath.phase(sign * complex(1.0, last)) + last + rotation
+
+    def waypoints(self, legs: list[tuple[float, float]]) -> None:
+        points, place, heading = [self.place], self.place, self.heading
+        for length, swerve in legs:
+            heading += swerve
+            place += cmath.rect(length, heading)
+            points.append(place)
+        self.pieces.append(Waypoints(tuple((p.real, p.imag) for p in points), self.heading, heading))
+        self.place, self.heading = place, heading
+
+
+lengths = st.floats(0.3, 6.0)
+radii = st.floats(0.9, 3.0)
+sweeps = st.floats(0.2, 5.5).flatmap(lambda angle: st.sampled_from([angle, -angle]))
+coils = st.tuples(st.floats(0.9, 2.0), st.floats(2.0, 3.5), st.floats(2.0, 3.5)).filter(
+    lambda c: abs(c[2] - c[1]) > 0.1
+)
+legs = st.lists(st.tuples(st.floats(2.5, 5.0), st.floats(-0.5, 0.5)), min_size=2, max_size=5)
+strokes = st.one_of(
+    st.tuples(st.just("line"), lengths.map(lambda x: (x,))),
+    st.tuples(st.just("arc"), st.tuples(radii, sweeps)),
+    st.tuples(st.just("coil"), coils),
+    st.tuples(st.just("waypoints"), legs.map(lambda x: (x,))),
+)
+
+
+@st.composite
+def routes(draw: st.DrawFn) -> Route:
+    """Two to six smooth pieces of any kind behind a line as long as the dragon; they may cross themselves."""
+    pen = Pen(complex(draw(st.floats(-20, 20)), draw(st.floats(-20, 20))), draw(st.floats(-3.0, 3.0)))
+    pen.line(1.01 * float(DRAGON.chords.sum()))
+    for kind, values in draw(st.lists(strokes, min_size=2, max_size=6)):
+        getattr(pen, kind)(*values)
+    route = Route(pen.pieces)
+    assume(0.5 * route.sharpest[0] * DRAGON.chords.max() < 0.9)
+    return route
+
+
+def instants(route: Route, count: int) -> np.ndarray:
+    return np.linspace(1.005 * float(DRAGON.chords.sum()), route.end - QUOTIENT_STEP, count)
+
+
+@settings(max_examples=40, deadline=None)
+@given(routes())
+def test_chords_keep_their_length_on_any_route(route: Route) -> None:
+    handles = trajectory(DRAGON, route, instants(route, 25)).position
+    chords = np.linalg.norm(np.diff(handles, axis=1), axis=-1)
+    assert np.abs(chords - DRAGON.chords).max() < CHORD_ERROR
+
+
+@settings(max_examples=40, deadline=None)
+@given(routes())
+def test_velocities_are_difference_quotients_on_any_route(route: Route) -> None:
+    times = instants(route, 15)
+    found = trajectory(DRAGON, route, times)
+    before, after = (trajectory(DRAGON, route, times + step).position for step in (-QUOTIENT_STEP, QUOTIENT_STEP))
+    assert np.abs((after - before) / (2.0 * QUOTIENT_STEP) - found.velocity).max() < QUOTIENT_ERROR
+    assert np.abs(np.linalg.norm(found.velocity, axis=-1) - found.speed).max() < CHORD_ERROR
+
+
+def first_behind(route: Route, s: float, chord: float) -> float:
+    """The first place behind s at the chord's distance, by a dense scan and brentq."""
+
+    def beyond(back: float | np.ndarray) -> np.ndarray:
+        return np.hypot(*(route.position(s - back) - route.position(s)).T) - chord
+
+    backs = np.linspace(0.0, 2.0 * chord, 2_001)
+    k = int(np.argmax(beyond(backs) >= 0.0))
+    assert k > 0
+    return s - brentq(beyond, backs[k - 1], backs[k], xtol=1e-14)
+
+
+@settings(max_examples=20, deadline=None)
+@given(routes())
+def test_the_next_handle_is_the_first_point_behind_at_chord_distance(route: Route) -> None:
+    times = instants(route, 4)
+    found = trajectory(DRAGON, route, times).position
+    for handles, time in zip(found, times, strict=True):
+        s = float(time)
+        for k, chord in enumerate(DRAGON.chords.tolist()):
+            assert np.abs(route.position(s) - handles[k]).max() < PLACE_ERROR
+            s = first_behind(route, s, chord)
+        assert np.abs(route.position(s) - handles[-1]).max() < PLACE_ERROR
+
+
+@settings(max_examples=40, deadline=None)
+@given(routes(), st.floats(0.0, 1.0))
+def test_position_runs_along_the_tangent_at_unit_speed(route: Route, share: float) -> None:
+    step = 1e-6
+    s = route.begin + step + share * (route.end - route.begin - 2.0 * step)
+    quotient = (route.position(s + step) - route.position(s - step)) / (2.0 * step)
+    assert np.abs(quotient - route.tangent(s)).max() < TANGENT_ERROR
+    assert np.linalg.norm(route.tangent(s)) == pytest.approx(1.0, abs=1e-14)
+
+
+def slow_clearance(route: Route, times: np.ndarray) -> np.ndarray:
+    """Least distance of benches that share no handle, by shapely; 0 where two overlap. (T,) [m]"""
+    a, b = np.triu_indices(DRAGON.benches, 2)
+    sizes = np.broadcast_to(np.stack([DRAGON.lengths, DRAGON.widths], axis=-1), (times.size, DRAGON.benches, 2))
+    shapes = shapely.polygons(corners(bench_poses(trajectory(DRAGON, route, times).position), sizes))
+    return shapely.distance(shapes[:, a], shapes[:, b]).min(axis=1)
+
+
+@settings(max_examples=60, deadline=None)
+@given(routes())
+def test_first_contact_on_any_route_is_that_of_a_slow_search(route: Route) -> None:
+    times = np.linspace(float(instants(route, 2)[0]), route.end, 3_000)
+    slow = slow_clearance(route, times)
+    found = first_contact(DRAGON, route, start=float(times[0]))
+    if found.outcome is Outcome.CLEAR:
+        assert slow.min() > 0.0
+        return
+    assert found.outcome is Outcome.CONTACT
+    assert found.time_bracket is not None
+    clear, touching = found.time_bracket
+    assert touching - clear < 1.1e-9
+    assert slow[times < clear].min() > 0.0
+    assert slow_clearance(route, np.array([touching]))[0] < TOUCHING
+
+
+def test_random_routes_do_meet_themselves() -> None:
+    pen = Pen(0j, 0.0)
+    pen.line(12.0)
+    pen.arc(1.0, 5.5)
+    pen.line(6.0)
+    found = first_contact(DRAGON, Route(pen.pieces), start=11.0)
+    assert found.outcome is Outcome.CONTACT
+
+
+# -- waypoints --------------------------------------------------------------------------------------------------
+
+POINTS = ((0.0, 0.0), (6.0, 1.0), (11.0, 6.0), (9.0, 13.0), (2.0, 14.0), (-3.0, 9.0))
+
+
+def spline_of(points: tuple[tuple[float, float], ...]) -> tuple[CubicSpline, np.ndarray]:
+    knots = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))])
+    return CubicSpline(knots, points, bc_type="natural"), knots
+
+
+def arc_of(spline: CubicSpline, knots: np.ndarray, end: float) -> float:
+    """Arc length of a spline from its beginning, by adaptive quadrature between the knots."""
+    stops = [*knots[knots < end], end]
+    speed = spline.derivative()
+    return sum(
+        quad(lambda t: float(np.linalg.norm(speed(t))), a, b, epsabs=1e-13, epsrel=1e-13, limit=200)[0]
+        for a, b in pairwise(stops)
+    )
+
+
+def test_the_arc_length_through_waypoints_is_scipys() -> None:
+    route = Route([Waypoints(POINTS)])
+    spline, knots = spline_of(POINTS)
+    assert route.end - route.begin == pytest.approx(arc_of(spline, knots, knots[-1]), abs=ARC_ERROR)
+    for t in np.linspace(0.7, knots[-1] - 0.1, 12):
+        assert np.abs(route.position(arc_of(spline, knots, t)) - spline(t)).max() < ARC_ERROR
+
+
+@settings(max_examples=25, deadline=None)
+@given(legs)
+def test_the_arc_length_through_random_waypoints_is_scipys(steps: list[tuple[float, float]]) -> None:
+    pen = Pen(0j, 0.0)
+    pen.waypoints(steps)
+    points = pen.pieces[0].points
+    spline, knots = spline_of(points)
+    route = Route([Waypoints(points)])
+    assert route.end - route.begin == pytest.approx(arc_of(spline, knots, knots[-1]), abs=ARC_ERROR)
+
+
+def test_the_curve_passes_through_its_waypoints_without_a_jump_of_curvature() -> None:
+    route = Route([Waypoints(POINTS)])
+    spline, knots = spline_of(POINTS)
+    at_knots = [arc_of(spline, knots, t) for t in knots[1:-1]]
+    assert np.abs(route.position(np.array(at_knots)) - POINTS[1:-1]).max() < ARC_ERROR
+    inner = np.array([*at_knots, *route.table[1:, 1]])
+    step = 1e-7
+    assert np.abs(route.curvature(inner + step) - route.curvature(inner - step)).max() < 1e-6  # slope below 5 / m^2
+    assert np.abs(route.curvature(np.array([route.begin, route.end]))).max() < 1e-9  # natural ends
+
+
+def test_waypoints_take_the_headings_at_their_ends() -> None:
+    route = Route([Waypoints(POINTS, start_heading=0.3, end_heading=-2.0)])
+    ends = route.tangent(np.array([route.begin, route.end]))
+    assert ends == pytest.approx(np.array([[math.cos(a), math.sin(a)] for a in (0.3, -2.0)]), abs=1e-12)
+
+
+def test_two_waypoints_are_a_line() -> None:
+    a, b = Route([Waypoints(((0, 0), (3, 4)))]), Route([Line((0, 0), (3, 4))])
+    s = np.linspace(0.0, 5.0, 11)
+    assert a.end == pytest.approx(5.0, abs=1e-14)
+    assert np.abs(a.position(s) - b.position(s)).max() < 1e-13
+
+
+# -- s and batches ------------------------------------------------------------------------------------------------
+
+
+def test_s_counts_from_the_start_asked_for() -> None:
+    pieces = [Line((0, 0), (5, 0)), Arc((5, 2), 2, -0.5 * math.pi, math.pi)]
+    route = Route(pieces, start=3.0)
+    assert (route.begin, route.joints, route.end) == (-3.0, (2.0,), pytest.approx(2.0 + 2.0 * math.pi, abs=1e-14))
+    assert route.position(0.0) == pytest.approx([3.0, 0.0], abs=1e-15)
+    assert route.position(2.0 + math.pi) == pytest.approx([7.0, 2.0], abs=1e-14)
+    assert route.curvature(np.array([1.0, 3.0])) == pytest.approx([0.0, 0.5], abs=1e-15)
+
+
+def test_a_batch_of_places_is_a_loop_over_its_items() -> None:
+    s = np.linspace(-20.0, 30.0, 12).reshape(3, 4)
+    for name in ("position", "tangent", "curvature"):
+        batch = getattr(TURN.path, name)(s)
+        assert (batch == [[getattr(TURN.path, name)(x) for x in row] for row in s]).all(), name
