@@ -201,14 +201,16 @@ class _PitchSearch:
     def next_below(self, pitch: float, gain: float) -> float:
         """A pitch down to which all are feasible, given a clearance of margin + gain all the way at `pitch` [m]."""
         search = self.search
-        low = 0.9 * pitch
         if search.dragon.uniform_from > 1:
             return pitch
         search.margin = self.margin + gain
-        below = pitch - gain / _sensitivity(search, self.radius, low, pitch)
-        search.use(Spiral(max(low, below), self.start_turns), self.margin)
+        below = pitch
+        for low in (0.9 * pitch, 0.99 * pitch, 0.999 * pitch):
+            carried = pitch - gain / _sensitivity(search, self.radius, low, pitch)
+            below = carried if carried >= low else below
+        search.use(Spiral(below, self.start_turns), self.margin)
         # the body repeats in place only what its first bench met after the start
-        return below if below > low and search.clear_radius < below * self.start_turns else pitch
+        return below if search.clear_radius < below * self.start_turns else pitch
 
     def descend(self, top: float) -> tuple[float, float, str]:
         """From a feasible pitch down to (infeasible, feasible), close together, and how the way down is justified [m].
