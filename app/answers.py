@@ -12,8 +12,9 @@ import orjson
 from pydantic import BaseModel, ConfigDict, Field
 
 import core
-from core import Dragon, Engine, Outcome, Spiral
+from core import Dragon, Engine, Outcome, Route, Spiral
 from core.dragon import Floats
+from core.kinematics import earliest_time
 
 # How far the head travels from first contact to the poses that the four engines judge [m]: far above the
 # rounding of positions (1e-13 m), far below a bench.
@@ -46,8 +47,8 @@ class TrajectoryTable(Answer):
 class Head(Answer):
     """Handle 0 at first contact."""
 
-    theta: float = Field(description="Polar angle, unwrapped [rad]")
-    radius: float = Field(description="Distance from the spiral's centre [m]")
+    theta: float | None = Field(description="Polar angle on a spiral, unwrapped; null on any other path [rad]")
+    radius: float = Field(description="Distance from the origin, where a spiral has its centre [m]")
     x: float = Field(description="[m]")
     y: float = Field(description="[m]")
 
@@ -64,7 +65,10 @@ class Feature(Answer):
 class End(Answer):
     """Where a run ends on which nothing touches."""
 
-    reason: core.EndReason = Field(description="fold: a bench cannot follow any more; centre: the head arrived")
+    reason: core.EndReason = Field(
+        description="fold: a bench cannot follow any more; centre: the head arrived; end: the path ends; stop: the "
+        "time asked for is over"
+    )
     time: float = Field(description="[s]")
 
 
@@ -112,10 +116,12 @@ class Verdict(Answer):
 
 
 class PairCheck(Answer):
-    """Four independent engines on the touching pair, just before and just after."""
+    """Independent engines on the touching pair, just before and just after."""
 
-    agree: bool = Field(description="All four say the same")
-    engines: dict[Engine, Verdict] = Field(description="Each engine's verdict")
+    agree: bool = Field(description="All engines asked say the same")
+    engines: dict[Engine, Verdict] = Field(
+        description="Each engine's verdict; angle_sum knows no margin, so it is asked only where that is 0"
+    )
 
     @classmethod
     def of(cls, before: Floats, after: Floats, dragon: Dragon, benches: Pair, margin: float) -> Self:
@@ -126,10 +132,11 @@ class PairCheck(Answer):
         return cls(agree=len(words) == 1, engines=found)
 
 
-def _pair_poses(dragon: Dragon, path: Spiral, time: float, head_speed: float, benches: Pair) -> Floats:
-    """Poses (2, 3) of two benches at one instant, or at the end of the run if that is earlier."""
+def _pair_poses(dragon: Dragon, path: Spiral | Route, time: float, head_speed: float, benches: Pair) -> Floats:
+    """Poses (2, 3) of two benches at one instant, or at the nearest one that the run has."""
     until = benches[1] + 1  # No bench moves one in front of it.
     front = Dragon.of(dragon.lengths[:until], dragon.widths[:until], dragon.overhangs[:until])
+    time = max(time, earliest_time(front, path, head_speed))
     time = min(time, core.run_end(front, path, head_speed=head_speed).time)
     position = core.trajectory(front, path, [time], head_speed=head_speed).position[0]
     return core.bench_poses(position)[list(benches)]
@@ -148,10 +155,12 @@ class CollisionTime(Answer):
     point: Point | None = Field(description="Where, x and y [m]")
     end: End | None = Field(description="Where the run ends, when clear")
     certificate: Certificate = Field(description="How the answer is known")
-    cross_check: PairCheck | None = Field(description="Four engines on the pair 1e-6 m of travel before and after")
+    cross_check: PairCheck | None = Field(description="Engines on the pair 1e-6 m of travel before and after")
 
     @classmethod
-    def of(cls, contact: core.FirstContact, dragon: Dragon, path: Spiral, head_speed: float, margin: float) -> Self:
+    def of(
+        cls, contact: core.FirstContact, dragon: Dragon, path: Spiral | Route, head_speed: float, margin: float
+    ) -> Self:
         check = None
         if contact.time is not None and contact.benches is not None:
             times = (contact.time + travel / head_speed for travel in (-CHECK_TRAVEL, CHECK_TRAVEL))
@@ -172,7 +181,7 @@ class MinimumPitch(Answer):
     other_feasible_intervals: list[Point] = Field(description="Feasible islands below [m]")
     justified_by: str = Field(description="How it is known that every larger pitch is feasible: bound or scan")
     evaluations: int = Field(description="Poses examined")
-    cross_check: PairCheck | None = Field(description="Four engines on the pair at a pitch 1e-6 m larger and smaller")
+    cross_check: PairCheck | None = Field(description="Engines on the pair at a pitch 1e-6 m larger and smaller")
 
     @classmethod
     def of(cls, found: core.MinimumPitch, dragon: Dragon, margin: float) -> Self:
@@ -198,28 +207,32 @@ class Overlap(Answer):
 
 
 class OverlapsCheck(Answer):
-    """Four independent engines side by side."""
+    """Independent engines side by side."""
 
-    agree: bool = Field(description="All four found the same pairs")
+    agree: bool = Field(description="All engines asked found the same pairs")
     engines: dict[Engine, list[Pair]] = Field(description="The pairs that each engine found")
+    left_out: list[Engine] = Field(description="Engines that cannot judge this margin, and were not asked")
 
 
 class OverlapsAnswer(Answer):
     """All pairs with separation <= margin."""
 
     overlaps: list[Overlap] = Field(description="The pairs, sorted")
-    cross_check: OverlapsCheck = Field(description="Four independent engines side by side")
+    cross_check: OverlapsCheck = Field(description="Independent engines side by side")
 
     @classmethod
     def of(cls, found: core.Overlaps, check: core.CrossCheck) -> Self:
         contact = found.contact
         columns = (contact.separation, contact.witness_a, contact.witness_b, contact.normal)
-        rows = zip(found.pairs.tolist(), *(column.tolist() for column in columns), strict=True)
+        # Adding 0.0 turns -0.0 into 0.0.
+        rows = zip(found.pairs.tolist(), *((column + 0.0).tolist() for column in columns), strict=True)
         names = tuple(Overlap.model_fields)
         return cls(
             overlaps=[Overlap(**dict(zip(names, row, strict=True))) for row in rows],
             cross_check=OverlapsCheck(
-                agree=check.agree, engines={engine: pairs.tolist() for engine, pairs in check.pairs.items()}
+                agree=check.agree,
+                engines={engine: pairs.tolist() for engine, pairs in check.pairs.items()},
+                left_out=check.left_out,
             ),
         )
 

@@ -23,17 +23,25 @@ from app.answers import (
 from app.examples import EXAMPLES
 from app.problems import PROBLEM_TYPE
 from app.reply import JSON, BodyReply, QueryReply
+from app.report import MaximumHeadSpeed, Report, Turn
 from app.schemas import (
+    CheckRequest,
     ClearanceQuery,
+    ClearanceRequest,
     CollisionQuery,
+    ContactFigureRequest,
+    MaximumHeadSpeedQuery,
     MinimumPitchQuery,
     Nothing,
     OverlapsRequest,
     PitchScanQuery,
     TrajectoryFigureQuery,
+    TrajectoryFigureRequest,
     TrajectoryRequest,
+    TurnQuery,
 )
 from app.settings import check_limit
+from core.scan import scan_near_minimum
 
 router = APIRouter()
 
@@ -51,14 +59,19 @@ PROBLEMS = {
     503: "As many computations run as may run at once",
 }
 DEFAULT_TRAJECTORY = TrajectoryRequest()
+DEFAULT_CLEARANCE = ClearanceRequest()
+DEFAULT_CHECK = CheckRequest()
+DEFAULT_TRAJECTORY_FIGURE = TrajectoryFigureRequest()
+DEFAULT_CONTACT_FIGURE = ContactFigureRequest()
 QUERY_STATUSES = (406, 422, 500, 503)
 BODY_STATUSES = (400, 406, 413, 415, 422, 500, 503)
 
 
-def documented(path: str, model: Any, statuses: tuple[int, ...], **content: Any) -> dict[str, Any]:
-    """What OpenAPI says of a call: its answer, in JSON with an example or as a file, and its problems."""
+def documented(call: str, model: Any, statuses: tuple[int, ...], **content: Any) -> dict[str, Any]:
+    """What OpenAPI says of a call, "GET /path": its answer, in JSON with an example or as a file, and its problems."""
+    path = call.split()[1]
     if model is not None:
-        content[JSON] = {"example": EXAMPLES[path].answer}
+        content[JSON] = {"example": EXAMPLES[call].answer}
     answer = {"description": "The answer", "content": content, "model": model}
     unchanged = {304: {"description": "The client has this answer already (If-None-Match)"}}
     problems = {status: {"description": PROBLEMS[status], "content": PROBLEM_REF} for status in statuses}
@@ -70,11 +83,9 @@ def documented(path: str, model: Any, statuses: tuple[int, ...], **content: Any)
     }
 
 
-def drawn(name: str) -> dict[str, Any]:
+def drawn(call: str, statuses: tuple[int, ...]) -> dict[str, Any]:
     """What OpenAPI says of a figure."""
-    return documented(
-        f"/figures/{name}.{{format}}", None, (404, *QUERY_STATUSES), **dict.fromkeys(IMAGES.values(), FILE)
-    )
+    return documented(f"{call}.{{format}}", None, (404, *statuses), **dict.fromkeys(IMAGES.values(), FILE))
 
 
 def _trajectory_json(found: core.Trajectory, decimals: int | None) -> bytes:
@@ -97,7 +108,7 @@ if find_spec("pyarrow"):
 
 @router.post(
     **documented(
-        "/trajectory",
+        "POST /trajectory",
         TrajectoryTable,
         BODY_STATUSES,
         **{kind: FILE for kind in TABLES if kind != JSON},
@@ -105,7 +116,7 @@ if find_spec("pyarrow"):
 )
 def trajectory(
     reply: BodyReply,
-    wanted: Annotated[TrajectoryRequest, Body(examples=[EXAMPLES["/trajectory"].body])] = DEFAULT_TRAJECTORY,
+    wanted: Annotated[TrajectoryRequest, Body(examples=[EXAMPLES["POST /trajectory"].body])] = DEFAULT_TRAJECTORY,
 ) -> Response:
     """Position and speed of every handle at every instant."""
     media_type = reply.media_type(tuple(TABLES))
@@ -121,7 +132,7 @@ def trajectory(
     return reply(wanted, compute, media_type)
 
 
-@router.get(**documented("/collision-time", CollisionTime, QUERY_STATUSES))
+@router.get(**documented("GET /collision-time", CollisionTime, QUERY_STATUSES))
 def collision_time(reply: QueryReply, wanted: Annotated[CollisionQuery, Query()]) -> Response:
     """When two benches that share no handle first touch, how it is known, and what four engines say."""
 
@@ -133,25 +144,25 @@ def collision_time(reply: QueryReply, wanted: Annotated[CollisionQuery, Query()]
     return reply(wanted, compute)
 
 
-@router.get(**documented("/minimum-pitch", MinimumPitch, QUERY_STATUSES))
+@router.get(**documented("GET /minimum-pitch", MinimumPitch, QUERY_STATUSES))
 def minimum_pitch(reply: QueryReply, wanted: Annotated[MinimumPitchQuery, Query()]) -> Response:
     """The smallest pitch such that every larger one lets the head reach the turning circle without contact."""
 
     def compute() -> bytes:
-        dragon, radius = wanted.to_dragon(reply.settings.design_benches_max), wanted.turning_diameter / 2
+        dragon, radius = wanted.to_dragon(reply.settings.benches_max), wanted.turning_diameter / 2
         found = core.minimum_pitch(dragon, turning_radius=radius, start_turns=wanted.start_turns, margin=wanted.margin)
         return MinimumPitch.of(found, dragon, wanted.margin).to_json()
 
     return reply(wanted, compute)
 
 
-@router.get(**documented("/pitch-scan", PitchScanTable, QUERY_STATUSES))
+@router.get(**documented("GET /pitch-scan", PitchScanTable, QUERY_STATUSES))
 def pitch_scan(reply: QueryReply, wanted: Annotated[PitchScanQuery, Query()]) -> Response:
     """Where the head stands at first contact, against the pitch, around the minimum pitch."""
 
     def compute() -> bytes:
-        scan, least = figures.scan_near_minimum(
-            wanted.to_dragon(reply.settings.design_benches_max),
+        scan, least = scan_near_minimum(
+            wanted.to_dragon(reply.settings.scanned_benches_max),
             turning_radius=wanted.turning_diameter / 2,
             start_turns=wanted.start_turns,
             margin=wanted.margin,
@@ -163,23 +174,73 @@ def pitch_scan(reply: QueryReply, wanted: Annotated[PitchScanQuery, Query()]) ->
     return reply(wanted, compute)
 
 
-@router.get(**documented("/clearance", ClearanceTable, QUERY_STATUSES))
+def _clearance_json(found: core.ClearanceProfile) -> bytes:
+    columns = {"time": found.time, "clearance": found.clearance, "benches": found.benches}
+    return columns_json(columns | {"grazes": found.grazes})
+
+
+@router.get(**documented("GET /clearance", ClearanceTable, QUERY_STATUSES))
 def clearance(reply: QueryReply, wanted: Annotated[ClearanceQuery, Query()]) -> Response:
-    """Smallest separation of two benches that are no neighbours, and whose, at every instant."""
+    """Smallest separation of two benches that are no neighbours, and whose, at every instant, on a spiral."""
 
     def compute() -> bytes:
         dragon = wanted.to_dragon(reply.settings.benches_max)
         times = wanted.to_times(dragon.benches + 1, reply.settings.cells_max)
-        found = core.clearance_profile(dragon, wanted.to_path(), times, head_speed=wanted.head_speed)
-        columns = {"time": found.time, "clearance": found.clearance, "benches": found.benches}
-        return columns_json(columns | {"grazes": found.grazes})
+        return _clearance_json(core.clearance_profile(dragon, wanted.to_path(), times, head_speed=wanted.head_speed))
 
     return reply(wanted, compute)
 
 
-@router.post(**documented("/overlaps", OverlapsAnswer, BODY_STATUSES))
+@router.post(**documented("POST /clearance", ClearanceTable, BODY_STATUSES))
+def path_clearance(
+    reply: BodyReply,
+    wanted: Annotated[ClearanceRequest, Body(examples=[EXAMPLES["POST /clearance"].body])] = DEFAULT_CLEARANCE,
+) -> Response:
+    """Smallest separation of two benches that are no neighbours, and whose, at every instant, on any path."""
+
+    def compute() -> bytes:
+        dragon = wanted.dragon.to_dragon(reply.settings.benches_max)
+        times = wanted.to_times(dragon.benches + 1, reply.settings.cells_max)
+        path = wanted.path.to_path()
+        return _clearance_json(core.clearance_profile(dragon, path, times, head_speed=wanted.head_speed))
+
+    return reply(wanted, compute)
+
+
+@router.get(**documented("GET /turn", Turn, QUERY_STATUSES))
+def turn(reply: QueryReply, wanted: Annotated[TurnQuery, Query()]) -> Response:
+    """Two tangent arcs that lead from a spiral inwards to the same one outwards."""
+    return reply(wanted, lambda: Turn.of(wanted.to_turn()).to_json())
+
+
+@router.get(**documented("GET /maximum-head-speed", MaximumHeadSpeed, QUERY_STATUSES))
+def maximum_head_speed(reply: QueryReply, wanted: Annotated[MaximumHeadSpeedQuery, Query()]) -> Response:
+    """The largest constant head speed at which no handle ever exceeds the limit on the way through a turn."""
+
+    def compute() -> bytes:
+        dragon, path = wanted.to_dragon(reply.settings.checked_benches_max), wanted.to_turn().path
+        return MaximumHeadSpeed.model_validate(core.maximum_head_speed(dragon, path, wanted.speed_limit)).to_json()
+
+    return reply(wanted, compute)
+
+
+@router.post(**documented("POST /check", Report, BODY_STATUSES))
+def check(
+    reply: BodyReply, wanted: Annotated[CheckRequest, Body(examples=[EXAMPLES["POST /check"].body])] = DEFAULT_CHECK
+) -> Response:
+    """Can the dragon dance this path here: first contact, least clearance, venue, speed, sharpest bend."""
+
+    def compute() -> bytes:
+        dragon, path = wanted.dragon.to_dragon(reply.settings.checked_benches_max), wanted.path.to_path()
+        found = wanted.to_report(dragon, path)
+        return Report.of(found, dragon, path, wanted.head_speed, wanted.margin).to_json()
+
+    return reply(wanted, compute)
+
+
+@router.post(**documented("POST /overlaps", OverlapsAnswer, BODY_STATUSES))
 def overlaps(
-    reply: BodyReply, wanted: Annotated[OverlapsRequest, Body(examples=[EXAMPLES["/overlaps"].body])]
+    reply: BodyReply, wanted: Annotated[OverlapsRequest, Body(examples=[EXAMPLES["POST /overlaps"].body])]
 ) -> Response:
     """Which benches overlap, how deep and where, and the pairs that each of four engines finds."""
 
@@ -193,13 +254,13 @@ def overlaps(
     return reply(wanted, compute)
 
 
-@router.get(**documented("/paper", PaperTable, QUERY_STATUSES), name="paper")
+@router.get(**documented("GET /paper", PaperTable, QUERY_STATUSES), name="paper")
 def paper_numbers(reply: QueryReply, wanted: Annotated[Nothing, Query()]) -> Response:
     """The paper's reported numbers beside ours, with the reason for each difference."""
     return reply(wanted, lambda: PaperTable.model_validate({"rows": paper.comparison()}).to_json())
 
 
-@router.get(**drawn("trajectory"))
+@router.get(**drawn("GET /figures/trajectory", QUERY_STATUSES))
 def trajectory_figure(
     reply: QueryReply, format: figures.Format, wanted: Annotated[TrajectoryFigureQuery, Query()]
 ) -> Response:
@@ -212,7 +273,7 @@ def trajectory_figure(
     return reply(wanted, compute, reply.media_type([IMAGES[format]]))
 
 
-@router.get(**drawn("contact"))
+@router.get(**drawn("GET /figures/contact", QUERY_STATUSES))
 def contact_figure(reply: QueryReply, format: figures.Format, wanted: Annotated[CollisionQuery, Query()]) -> Response:
     """The dance at first contact, with the touching pair marked and enlarged."""
 
@@ -223,7 +284,7 @@ def contact_figure(reply: QueryReply, format: figures.Format, wanted: Annotated[
     return reply(wanted, compute, reply.media_type([IMAGES[format]]))
 
 
-@router.get(**drawn("pitch-scan"))
+@router.get(**drawn("GET /figures/pitch-scan", QUERY_STATUSES))
 def pitch_scan_figure(
     reply: QueryReply, format: figures.Format, wanted: Annotated[PitchScanQuery, Query()]
 ) -> Response:
@@ -236,6 +297,46 @@ def pitch_scan_figure(
             start_turns=wanted.start_turns,
             margin=wanted.margin,
             samples=wanted.samples,
+            format=format,
+        )
+
+    return reply(wanted, compute, reply.media_type([IMAGES[format]]))
+
+
+@router.post(**drawn("POST /figures/trajectory", BODY_STATUSES))
+def path_trajectory_figure(
+    reply: BodyReply, format: figures.Format, wanted: TrajectoryFigureRequest = DEFAULT_TRAJECTORY_FIGURE
+) -> Response:
+    """Every handle at one instant, coloured by its speed, on any path and in any venue."""
+
+    def compute() -> bytes:
+        return figures.trajectory_figure(
+            wanted.dragon.to_dragon(reply.settings.drawn_benches_max),
+            wanted.path.to_path(),
+            venue=wanted.to_venue(),
+            time=wanted.time,
+            head_speed=wanted.head_speed,
+            format=format,
+        )
+
+    return reply(wanted, compute, reply.media_type([IMAGES[format]]))
+
+
+@router.post(**drawn("POST /figures/contact", BODY_STATUSES))
+def path_contact_figure(
+    reply: BodyReply, format: figures.Format, wanted: ContactFigureRequest = DEFAULT_CONTACT_FIGURE
+) -> Response:
+    """The dance at first contact, with the touching pair marked and enlarged, on any path and in any venue."""
+
+    def compute() -> bytes:
+        return figures.contact_figure(
+            wanted.dragon.to_dragon(reply.settings.checked_benches_max),
+            wanted.path.to_path(),
+            venue=wanted.to_venue(),
+            head_speed=wanted.head_speed,
+            margin=wanted.margin,
+            start=wanted.start,
+            stop=wanted.stop,
             format=format,
         )
 

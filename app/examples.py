@@ -17,7 +17,7 @@ class Example:
 
 
 EXAMPLES = {
-    "/trajectory": Example(
+    "POST /trajectory": Example(
         body={
             "dragon": {"benches": 2},
             "path": {"kind": "spiral", "pitch": 0.55, "start_turns": 16},
@@ -32,7 +32,7 @@ EXAMPLES = {
             "speed": [[1.0, 0.999971, 0.999966], [1.0, 0.999971, 0.999965], [1.0, 0.999971, 0.999965]],
         },
     ),
-    "/collision-time": Example(
+    "GET /collision-time": Example(
         query={"pitch": 0.55},
         answer={
             "outcome": "contact",
@@ -67,17 +67,17 @@ EXAMPLES = {
             },
         },
     ),
-    "/minimum-pitch": Example(
+    "GET /minimum-pitch": Example(
         query={"turning_diameter": 9},
         answer={
-            "pitch": 0.4503373930284276,
-            "pitch_bracket": [0.4503373930253026, 0.4503373930284276],
+            "pitch": 0.45033739302757186,
+            "pitch_bracket": [0.45033739302679066, 0.45033739302757186],
             "limited_by": "graze",
             "benches": [0, 19],
-            "head_radius": 4.5726032262560565,
+            "head_radius": 4.572603226255144,
             "other_feasible_intervals": [],
             "justified_by": "bound",
-            "evaluations": 550,
+            "evaluations": 473,
             "cross_check": {
                 "agree": True,
                 "engines": {
@@ -89,7 +89,7 @@ EXAMPLES = {
             },
         },
     ),
-    "/clearance": Example(
+    "GET /clearance": Example(
         query={"pitch": 0.55, "start": 409.5, "stop": 410.5, "step": 0.5},
         answer={
             "time": [409.5, 410.0, 410.5],
@@ -98,7 +98,7 @@ EXAMPLES = {
             "grazes": [{"time": 409.83199150935167, "clearance": 0.000865234565106926, "benches": [0, 11]}],
         },
     ),
-    "/pitch-scan": Example(
+    "GET /pitch-scan": Example(
         query={"benches": 4, "samples": 2},
         answer={
             "pitch": [0.225, 0.253125, 0.28125, 0.305859375, 0.33046875, 0.355078125, 0.3796875],
@@ -115,7 +115,7 @@ EXAMPLES = {
             "minimum_pitch": 0.28125,
         },
     ),
-    "/overlaps": Example(
+    "POST /overlaps": Example(
         body={
             "benches": [
                 {"x": 0.0, "y": 0.0, "heading": 0.0, "length": 2.2, "width": 0.3},
@@ -137,10 +137,11 @@ EXAMPLES = {
             "cross_check": {
                 "agree": True,
                 "engines": {"separating_axis": [[0, 1]], "fcl": [[0, 1]], "shapely": [[0, 1]], "angle_sum": [[0, 1]]},
+                "left_out": [],
             },
         },
     ),
-    "/paper": Example(
+    "GET /paper": Example(
         answer={
             "rows": [
                 {
@@ -175,7 +176,7 @@ EXAMPLES = {
                         },
                         {"what": "first time of an angle sum of 360 degrees", "value": 412.4738375104033, "unit": "s"},
                         {
-                            "what": "the same with the corners of eq. 12 as printed, its wrong signs kept",
+                            "what": "the same with eq. 12 as printed: w/2 cos theta of the wrong sign in all four y",
                             "value": 407.4142808882519,
                             "unit": "s",
                         },
@@ -203,8 +204,8 @@ EXAMPLES = {
                     "unit": "m",
                     "source": "section 3.3",
                     "paper": 0.474924,
-                    "ours": 0.4503373930284276,
-                    "difference": -0.02458660697157239,
+                    "ours": 0.45033739302757186,
+                    "difference": -0.02458660697242815,
                     "reason": "The paper bisects the radius of first contact towards 4.5 m, but that radius jumps from 4.573 to 4.406 m at a pitch of 0.4503374 m: none gives 4.5 m, so the error that it drives to 1e-10 cannot vanish. At the paper's pitch the head gets to 3.846 m, well inside the circle. No reading was found that gives the paper's number.",
                     "evidence": [
                         {
@@ -212,7 +213,7 @@ EXAMPLES = {
                             "value": 0.4503373930463568,
                             "unit": "m",
                         },
-                        {"what": "radius of first contact just below it", "value": 4.57260645642985, "unit": "m"},
+                        {"what": "radius of first contact just below it", "value": 4.572606454449852, "unit": "m"},
                         {"what": "radius of first contact just above it", "value": 4.40590926523223, "unit": "m"},
                         {
                             "what": "radius of first contact at the paper's pitch",
@@ -232,6 +233,173 @@ EXAMPLES = {
                     ],
                 },
             ]
+        },
+    ),
+    "POST /clearance": Example(
+        body={"path": {"kind": "turn", "pitch": 1.7}, "times": {"start": 13, "stop": 15, "step": 1}},
+        answer={
+            "time": [13.0, 14.0, 15.0],
+            "clearance": [0.44638693737338364, 0.33439748383834, 0.3599655448858322],
+            "benches": [[0, 15], [0, 16], [0, 18]],
+            "grazes": [
+                {"time": 13.329214078262213, "clearance": 0.36975484774939227, "benches": [0, 15]},
+                {"time": 13.858789679988373, "clearance": 0.3223087236640937, "benches": [0, 16]},
+                {"time": 14.427680397230917, "clearance": 0.33099422536113166, "benches": [0, 17]},
+            ],
+        },
+    ),
+    "GET /turn": Example(
+        query={"pitch": 1.7, "turning_diameter": 9, "ratio": 2},
+        answer={
+            "pitch": 1.7,
+            "turning_diameter": 9.0,
+            "ratio": 2.0,
+            "entry_radius": 4.5,
+            "radii": [3.0054176677890356, 1.5027088338945178],
+            "centres": [[-0.7600091166555296, -1.3057264263462565], [1.7359324901810944, 2.448401974553665]],
+            "angles": [3.0214868419806518, 3.021486841980652],
+            "entry": [-2.7118558637066594, -3.591077522761074],
+            "tangent_point": [0.9039519545688863, 1.1970258409203582],
+            "exit": [2.7118558637066594, 3.591077522761074],
+            "length": 13.621244906821124,
+        },
+    ),
+    "GET /maximum-head-speed": Example(
+        query={"pitch": 1.7, "turning_diameter": 9, "ratio": 2, "speed_limit": 2},
+        answer={
+            "head_speed": 1.2462663581574853,
+            "head_speed_bracket": [1.2462585933398662, 1.2462663581574853],
+            "speed_ratio": 1.6047933789666402,
+            "handles": [3, 4, 5, 6, 7],
+            "time": 11.618679669023782,
+            "time_at_unit_head_speed": 14.479969597712685,
+        },
+    ),
+    "POST /check": Example(
+        body={
+            "dragon": {"benches": 12},
+            "path": {
+                "kind": "route",
+                "pieces": [
+                    {"kind": "line", "start": [0, 0], "end": [30, 0]},
+                    {
+                        "kind": "arc",
+                        "centre": [30, 5],
+                        "radius": 5,
+                        "start_angle": -1.5707963267948966,
+                        "sweep": 3.141592653589793,
+                    },
+                    {"kind": "line", "start": [30, 10], "end": [0, 10]},
+                ],
+                "start": 0,
+            },
+            "venue": {
+                "type": "FeatureCollection",
+                "features": [
+                    {
+                        "type": "Feature",
+                        "properties": {"name": "square"},
+                        "geometry": {
+                            "type": "Polygon",
+                            "coordinates": [[[-2, -3], [37, -3], [37, 13], [-2, 13], [-2, -3]]],
+                        },
+                    },
+                    {
+                        "type": "Feature",
+                        "properties": {"name": "well"},
+                        "geometry": {
+                            "type": "Polygon",
+                            "coordinates": [[[20, 9], [21, 9], [21, 9.8], [20, 9.8], [20, 9]]],
+                        },
+                    },
+                ],
+            },
+            "margin": 0.5,
+            "speed_limit": 1.2,
+            "head_speed": 1,
+        },
+        answer={
+            "passed": False,
+            "failures": [
+                {
+                    "kind": "venue",
+                    "time": 53.935469549395705,
+                    "benches": [0],
+                    "area": "well",
+                    "message": "Bench 0 comes within 0.5 m of 'well' at 53.935470 s.",
+                }
+            ],
+            "start": 21.010000013018747,
+            "stop": 75.70796326794897,
+            "first_contact": {
+                "outcome": "clear",
+                "time": None,
+                "time_bracket": None,
+                "head": None,
+                "benches": None,
+                "corner": None,
+                "edge": None,
+                "point": None,
+                "end": {"reason": "end", "time": 75.70796326794897},
+                "certificate": {
+                    "method": "proven steps: second-derivative bound on the gap along a body axis between both ends of each step; closed-form ring bound further out",
+                    "steps": 38,
+                    "clear_until": 75.70796326794897,
+                    "bound": 4.294473499278129,
+                    "least_clearance": {"time": 36.44336400533787, "clearance": 1.0289277260467204, "benches": [0, 2]},
+                },
+                "cross_check": None,
+            },
+            "least_clearance": {
+                "distance": 1.0289277260467162,
+                "at_least": 1.0289177260467162,
+                "time": 36.40403757578354,
+                "benches": [0, 2],
+            },
+            "venue": {
+                "stray": None,
+                "areas": [
+                    {
+                        "name": "square",
+                        "outcome": "clear",
+                        "time": None,
+                        "time_bracket": None,
+                        "bench": None,
+                        "point": None,
+                        "nearest": {
+                            "distance": 1.7250000000000003,
+                            "at_least": 1.7249900000000002,
+                            "time": 75.70796326794897,
+                            "bench": 0,
+                            "point": [-0.2749999999999997, 10.0],
+                            "wall": [-2.0, 10.0],
+                        },
+                    },
+                    {
+                        "name": "well",
+                        "outcome": "contact",
+                        "time": 53.935469549395705,
+                        "time_bracket": [53.9354695492957, 53.93546954949571],
+                        "bench": 0,
+                        "point": [21.497493718553265, 9.85],
+                        "nearest": {
+                            "distance": 0.04999999999999907,
+                            "at_least": 0.04998999999999907,
+                            "time": 57.29296326795023,
+                            "bench": 1,
+                            "point": [21.0, 9.85],
+                            "wall": [21.0, 9.8],
+                        },
+                    },
+                ],
+            },
+            "highest_speed": {
+                "speed": 1.0253742302121582,
+                "speed_bracket": [1.0253742302121582, 1.025384222028984],
+                "time": 46.65053743846384,
+                "handles": [1, 2, 3, 4, 5, 6, 7, 8, 9],
+            },
+            "sharpest_bend": {"angle": 0.45580786839893567, "time": 38.0198656333185, "benches": [0, 1]},
         },
     ),
 }

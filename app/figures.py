@@ -10,9 +10,7 @@ from __future__ import annotations
 import io
 import threading
 from collections.abc import Callable
-from dataclasses import dataclass
 from enum import StrEnum
-from itertools import pairwise
 from typing import Any
 
 import matplotlib
@@ -27,15 +25,17 @@ from core import (
     FirstContact,
     MinimumPitch,
     Outcome,
+    Route,
     Spiral,
+    Venue,
     bench_poses,
     first_contact,
-    minimum_pitch,
     run_end,
     trajectory,
 )
 from core.dragon import Floats
 from core.rectangles import corners
+from core.scan import JUMP_WIDTH, SCAN_FROM, SCAN_TO, PitchScan, scan_near_minimum
 
 matplotlib.rcParams["svg.hashsalt"] = "bench-dragon"
 
@@ -49,11 +49,9 @@ BEFORE_END = 1e-6
 HEAD_ARROW, HEAD_LABEL = 1.2, 1.0
 # Half the side of the enlarged view, in widths of the wider bench.
 ENLARGED_WIDTHS = 1.5
-# A fall of the first-contact radius [m] between two pitches closer than JUMP_WIDTH [m] is a jump.
-JUMP = 0.02
-JUMP_WIDTH = 1e-6
-# The scanned pitches, in minimum pitches.
-SCAN_FROM, SCAN_TO = 0.8, 1.35
+# A route is drawn this far around its start [m], as a line of so many points.
+ROUTE_DRAWN = 2_000.0
+PATH_POINTS = 20_000
 # One drawing at a time: matplotlib does not promise that its font caches bear more.
 _DRAWING = threading.Lock()
 
@@ -85,12 +83,38 @@ def _plan(axes: Axes) -> None:
     axes.tick_params(labelsize=9)
 
 
-def _draw_path(axes: Axes, path: Spiral, handles: Floats) -> None:
-    """The spiral, faint, from the centre to the outermost handle or the start."""
+def _draw_path(axes: Axes, path: Spiral | Route, handles: Floats) -> None:
+    """The path, faint: a spiral from the centre to the outermost handle or the start, a route as it is."""
+    if isinstance(path, Route):
+        s = np.linspace(max(path.begin, -ROUTE_DRAWN), min(path.end, ROUTE_DRAWN), PATH_POINTS)
+        axes.plot(*path.position(s).T, color=PALE, linewidth=0.6, zorder=1)
+        return
     radius = max(float(np.hypot(*handles.T).max()), path.growth * path.start_theta)
     theta = np.linspace(0.0, radius / path.growth, 120 * int(radius / path.pitch + 2))
     line = path.growth * theta * np.stack([np.cos(theta), np.sin(theta)])
     axes.plot(*line, color=PALE, linewidth=0.6, zorder=1)
+
+
+def _draw_venue(axes: Axes, venue: Venue | None) -> None:
+    """The square as an outline, obstacles hatched, each with its name."""
+    for area in venue.areas if venue else ():
+        obstacle = area is not venue.square if venue else False
+        axes.add_collection(
+            PolyCollection(
+                [np.array(ring) for ring in area.rings],
+                facecolor=PALE if obstacle else "none",
+                edgecolor="black",
+                hatch="xx" if obstacle else None,
+                linewidth=1.0,
+                zorder=1.5,
+            )
+        )
+        x, y = np.array(area.rings[0])[:-1].T
+        centre = (float(x.mean()), float(y.mean()))
+        place = centre if obstacle else (float(x.min()), float(y.max()))
+        side, height = ("center", "center") if obstacle else ("left", "bottom")
+        axes.text(*place, area.name, fontsize=8, zorder=6, ha=side, va=height)
+    axes.autoscale_view()
 
 
 def _outlines(dragon: Dragon, handles: Floats) -> Floats:
@@ -102,9 +126,15 @@ def _draw_benches(axes: Axes, outlines: Floats, **style: Any) -> None:
 
 
 def trajectory_figure(
-    dragon: Dragon, path: Spiral, *, time: float = 300.0, head_speed: float = 1.0, format: Format = Format.SVG
+    dragon: Dragon,
+    path: Spiral | Route,
+    *,
+    venue: Venue | None = None,
+    time: float = 300.0,
+    head_speed: float = 1.0,
+    format: Format = Format.SVG,
 ) -> bytes:
-    """Figure 6: every handle at one instant, coloured by its speed.
+    """Figure 6: every handle at one instant, coloured by its speed; on any path, in any venue.
 
     time: [s]; raises: OutsideRun after the end of the run
     """
@@ -115,6 +145,7 @@ def trajectory_figure(
         axes = figure.add_subplot()
         _plan(axes)
         _draw_path(axes, path, handles)
+        _draw_venue(axes, venue)
         _draw_benches(axes, _outlines(dragon, handles), facecolor="none", edgecolor=GREY, linewidth=0.4, zorder=2)
         dots = axes.scatter(
             handles[:, 0],
@@ -129,8 +160,12 @@ def trajectory_figure(
         _mark_head(axes, handles[0], result.velocity[0, 0])
         bar = figure.colorbar(dots, ax=axes, label="speed of the handle [m/s]", shrink=0.85)
         bar.ax.ticklabel_format(useOffset=False)
-        axes.set_title(f"Handles and their speeds at {time:g} s (pitch {path.pitch:g} m)", fontsize=11)
+        axes.set_title(f"Handles and their speeds at {time:g} s{_pitch_words(path)}", fontsize=11)
         return _bytes(figure, format)
+
+
+def _pitch_words(path: Spiral | Route) -> str:
+    return f" (pitch {path.pitch:g} m)" if isinstance(path, Spiral) else ""
 
 
 def _mark_head(axes: Axes, head: Floats, velocity: Floats) -> None:
@@ -144,13 +179,21 @@ def _mark_head(axes: Axes, head: Floats, velocity: Floats) -> None:
 
 
 def contact_figure(
-    dragon: Dragon, path: Spiral, *, head_speed: float = 1.0, margin: float = 0.0, format: Format = Format.SVG
+    dragon: Dragon,
+    path: Spiral | Route,
+    *,
+    venue: Venue | None = None,
+    head_speed: float = 1.0,
+    margin: float = 0.0,
+    start: float = 0.0,
+    stop: float | None = None,
+    format: Format = Format.SVG,
 ) -> bytes:
     """Figure 7: the dance at first contact, the two benches marked, corner, edge and point enlarged.
 
     Without a contact it shows the dance just before the run ends, and says so.
     """
-    found = first_contact(dragon, path, head_speed=head_speed, margin=margin)
+    found = first_contact(dragon, path, head_speed=head_speed, margin=margin, start=start, stop=stop)
     time = _shown_time(dragon, path, head_speed, found)
     handles = trajectory(dragon, path, [time], head_speed=head_speed).position[0]
     outlines = _outlines(dragon, handles)
@@ -159,6 +202,7 @@ def contact_figure(
         axes = figure.add_subplot(1, 2, 1) if found.benches else figure.add_subplot()
         _plan(axes)
         _draw_path(axes, path, handles)
+        _draw_venue(axes, venue)
         _draw_benches(axes, outlines, facecolor="none", edgecolor=GREY, linewidth=0.5, zorder=2)
         _mark_pair(axes, outlines, found, legend=True)
         axes.autoscale_view()
@@ -170,7 +214,7 @@ def contact_figure(
         return _bytes(figure, format)
 
 
-def _shown_time(dragon: Dragon, path: Spiral, head_speed: float, found: FirstContact) -> float:
+def _shown_time(dragon: Dragon, path: Spiral | Route, head_speed: float, found: FirstContact) -> float:
     if found.time is not None:
         return found.time
     if found.time_bracket is not None:
@@ -242,97 +286,6 @@ def _edge(outline: Floats, name: str) -> Floats:
     """The two ends of a named edge of one bench; outline: (4, 2) front-left, front-right, rear-right, rear-left."""
     sides = sorted((outline[[0, 3]], outline[[1, 2]]), key=lambda side: float(np.hypot(*side.mean(axis=0))))
     return {"front": outline[[0, 1]], "rear": outline[[2, 3]], "inner": sides[0], "outer": sides[1]}[name]
-
-
-@dataclass(frozen=True, slots=True)
-class PitchScan:
-    """Head radius at first contact against pitch.
-
-    pitch, radius: (N,) [m], ascending; a run without contact has no entry
-    pieces: (start, end) indices of the continuous stretches: the radius jumps between two, or there is no contact
-    """
-
-    pitch: Floats
-    radius: Floats
-    pieces: tuple[tuple[int, int], ...]
-
-
-def stop_radius(dragon: Dragon, path: Spiral, *, margin: float = 0.0) -> float | None:
-    """Where the head stands at first contact [m]; None when nothing touches.
-
-    A search that ends undecided has met a graze too close to the margin to tell: then, where it met it.
-    """
-    found = first_contact(dragon, path, margin=margin)
-    if found.outcome is Outcome.CLEAR:
-        return None
-    if found.head is not None:
-        return found.head.radius
-    time = found.time_bracket[0] if found.time_bracket else 0.0
-    return float(np.hypot(*trajectory(Dragon(benches=1), path, [time]).position[0, 0]))
-
-
-def pitch_scan(
-    dragon: Dragon,
-    pitches: Floats,
-    *,
-    start_turns: float = 16.0,
-    margin: float = 0.0,
-    progress: Callable[[float], None] = lambda share: None,
-) -> PitchScan:
-    """First-contact radius at every pitch, and between samples wherever it falls by more than JUMP.
-
-    Such an interval is halved until the fall is gone, then the curve is continuous there, or until it is narrower
-    than JUMP_WIDTH, then it is a jump. A jump smaller than JUMP between two samples is not found.
-
-    pitches: (N,) [m], ascending; progress: called with the share of the samples that is done
-    """
-
-    def radius(pitch: float) -> float | None:
-        return stop_radius(dragon, Spiral(pitch, start_turns), margin=margin)
-
-    known: dict[float, float | None] = {}
-    jumps: list[float] = []
-    for k, pitch in enumerate(pitches.tolist()):
-        known[pitch] = radius(pitch)
-        intervals = [(float(pitches[k - 1]), pitch)] if k else []
-        while intervals:
-            low, high = intervals.pop()
-            before, after = known[low], known[high]
-            if before is None or after is None or abs(before - after) <= JUMP:
-                continue
-            if high - low <= JUMP_WIDTH:
-                jumps.append(high)
-                continue
-            middle = 0.5 * (low + high)
-            known[middle] = radius(middle)
-            intervals += [(low, middle), (middle, high)]
-        progress((k + 1) / len(pitches))
-    return _scan(known, jumps)
-
-
-def _scan(known: dict[float, float | None], jumps: list[float]) -> PitchScan:
-    pitches = sorted(known)
-    found = [pitch for pitch in pitches if known[pitch] is not None]
-    # A stretch ends at a jump and at a pitch without contact.
-    breaks = jumps + [pitch for pitch in pitches if known[pitch] is None]
-    cuts = np.unique([0, *np.searchsorted(found, breaks), len(found)]).tolist()
-    return PitchScan(np.array(found), np.array([known[pitch] for pitch in found]), tuple(pairwise(cuts)))
-
-
-def scan_near_minimum(
-    dragon: Dragon,
-    *,
-    turning_radius: float,
-    start_turns: float,
-    margin: float,
-    samples: int,
-    progress: Callable[[float], None] = lambda share: None,
-) -> tuple[PitchScan, MinimumPitch]:
-    """The scan from SCAN_FROM to SCAN_TO times the minimum pitch at so many samples, and that minimum."""
-    least = minimum_pitch(dragon, turning_radius=turning_radius, start_turns=start_turns, margin=margin)
-    pitches = np.linspace(SCAN_FROM * least.pitch, SCAN_TO * least.pitch, samples)
-    pitches = np.sort(np.append(pitches, least.pitch_bracket))
-    return pitch_scan(dragon, pitches, start_turns=start_turns, margin=margin, progress=progress), least
 
 
 def pitch_scan_figure(

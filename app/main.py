@@ -123,8 +123,9 @@ def _openapi(app: FastAPI) -> dict[str, Any]:
         schema = get_openapi(title=app.title, version=app.version, description=app.description, routes=app.routes)
         problem = problems.Problem.model_json_schema(ref_template="#/components/schemas/{model}")
         schema["components"]["schemas"] |= problem.pop("$defs") | {"Problem": problem}
-        for path, example in EXAMPLES.items():  # FastAPI drops every null of an example.
-            (call,) = schema["paths"][path].values()
+        for name, example in EXAMPLES.items():  # FastAPI drops every null of an example.
+            method, path = name.split()
+            call = schema["paths"][path][method.lower()]
             call["responses"]["200"]["content"]["application/json"]["example"] = example.answer
         app.openapi_schema = schema
     return app.openapi_schema

@@ -5,10 +5,12 @@ from __future__ import annotations
 import difflib
 import json
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from itertools import takewhile
 from typing import Any
 
 from app.schemas import UNITS
+from app.wire_paths import KINDS
 
 # Longer values are shortened [characters].
 SHOWN_MAX = 60
@@ -27,9 +29,9 @@ def message(error: Mapping[str, Any]) -> str:
     names = [part for part in error["loc"][1:] if isinstance(part, str)]
     name = next((part for part in reversed(names) if part in UNITS), names[-1] if names else "the body")
     kind, value, limits = error["type"], error["input"], error.get("ctx", {})
-    unit = UNITS.get(name, "")
-    if error["loc"] and isinstance(error["loc"][-1], int):
-        name = f"{name}[{error['loc'][-1]}]"
+    told_apart = next((part for part in reversed(names) if part in KINDS), "")
+    unit = UNITS.get(f"{told_apart}.{name}", UNITS.get(name, ""))
+    name += "".join(f"[{part}]" for part in _last_indices(error["loc"]))
     number = _number(value, text=error["loc"][0] == "query")
     words = str(value) if isinstance(value, str) and number is not None else shown(value)
     got = f"got {words}" + (f" {unit}" if unit and number is not None else "")
@@ -57,12 +59,27 @@ def message(error: Mapping[str, Any]) -> str:
             other = ", or a list of instants [s]" if name == "times" else ""
             return f"{name} must be a JSON object{other}, {got}"
         case "too_short":
-            return f"{name} must have at least {limits['min_length']} entry, got none"
+            least, given = limits["min_length"], limits["actual_length"]
+            return f"{name} must have at least {least} {'entry' if least == 1 else 'entries'}, got {given or 'none'}"
+        case "too_long":
+            return f"{name} must have at most {limits['max_length']} entries, got more"
+        case "union_tag_invalid":
+            return f"kind must be one of {limits['expected_tags']}, got {shown(limits['tag'])}"
+        case "union_tag_not_found":
+            return "kind is missing"
+        case "too_deep":
+            return f"{name} must hold at most {limits['most']} objects and lists in one another"
         case "literal_error" | "enum":
             return f"{name} must be {limits['expected']}, {got}"
         case "too_many_names":
             return f"{name} must have at most {limits['most']} names, got {limits['given']}: see /docs for all names"
     return f"{name}: {error['msg'][:1].lower()}{error['msg'][1:]}, {got}"
+
+
+def _last_indices(place: Sequence[Any]) -> list[int]:
+    """Indices at the end of a place."""
+    indices = list(takewhile(lambda part: isinstance(part, int), reversed(place)))
+    return indices[::-1]
 
 
 def _number(value: Any, *, text: bool) -> float | None:

@@ -12,7 +12,6 @@ from functools import cache
 
 import numpy as np
 
-from app.figures import stop_radius
 from core import (
     Dragon,
     FirstContact,
@@ -28,6 +27,7 @@ from core import trajectory as trajectory_of
 from core.angle_sum import angle_sums, literal_corners
 from core.dragon import Floats
 from core.rectangles import corners
+from core.scan import stop_radius
 
 PAPER_LENGTH = 442.590256  # [m], eq. 2
 PAPER_TIME = 406.43  # [s], figure 7
@@ -114,7 +114,7 @@ def _collision_time(found: FirstContact) -> Comparison:
             Evidence(f"first time of an angle sum of {LOOSE_ANGLE:g} degrees", loose, "s"),
             Evidence(f"clearance at the paper's time, benches {a} and {b}", gap, "m"),
             Evidence("first time of an angle sum of 360 degrees", _first_time(corners, EXACT_ANGLE), "s"),
-            Evidence("the same with the corners of eq. 12 as printed, its wrong signs kept", literal, "s"),
+            Evidence("the same with eq. 12 as printed: w/2 cos theta of the wrong sign in all four y", literal, "s"),
         ],
     )  # fmt: skip
 

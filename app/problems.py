@@ -21,7 +21,13 @@ ERRORS_MAX = 20
 # Titles by RFC 9110, which newer Pythons know by these names and older ones do not.
 TITLES = {413: "Content Too Large", 422: "Unprocessable Content"}
 # Names of core that a query knows by another name: the first of them that the call has.
-QUERY_NAMES = {"turning_radius": ("turning_diameter",), "times": ("stop", "time")}
+QUERY_NAMES = {
+    "turning_radius": ("turning_diameter",),
+    "times": ("stop", "time"),
+    "path": ("entry_radius", "turning_diameter"),
+}
+# What pydantic says of a union, though it is the field `kind` that is wrong.
+UNION_ERRORS = frozenset({"union_tag_invalid", "union_tag_not_found"})
 
 
 class ErrorItem(BaseModel):
@@ -97,6 +103,8 @@ async def validation_problem(request: Request, error: RequestValidationError) ->
         return problem(400, "broken-json", detail, [ErrorItem(pointer="", detail=detail)])
     if found[0]["loc"][0] == "path":
         return await http_problem(request, HTTPException(404))
+    for one in found:
+        one["loc"] = (*one["loc"], "kind") if one["type"] in UNION_ERRORS else one["loc"]
     items = [await _item(request, one["loc"][1:], message(one)) for one in found[:ERRORS_MAX]]
     more = f" (and {len(found) - 1} more)" if len(found) > 1 else ""
     return problem(422, "invalid-value", items[0].detail + more, items)

@@ -23,6 +23,7 @@ from rich.progress import Progress
 import core
 from app import schemas
 from app.settings import Settings
+from app.wire import StartTurns, TurningDiameter, Wire
 from core import InvalidValue
 from core.errors import ProofRefused
 
@@ -35,7 +36,7 @@ WRONG_USAGE = 2
 INTERRUPTED = 130
 
 
-class _Thorough(schemas.Wire):
+class _Thorough(Wire):
     every_pair: bool = Field(
         False, description="Prove each pair in its own right, also those that equal benches repeat"
     )
@@ -51,10 +52,8 @@ class PitchClaim(_Thorough, schemas.UniformDragon):
     """How tight the spiral may be."""
 
     pitch: float | None = Field(None, ge=1e-3, le=10, description="The claim; else what minimum-pitch answers [m]")
-    turning_diameter: float = Field(
-        9.0, ge=2e-3, le=200, description="Diameter of the circle that the head must reach [m]"
-    )
-    start_turns: schemas.StartTurns = 16.0
+    turning_diameter: TurningDiameter = Field(9.0, description="Diameter of the circle that the head must reach [m]")
+    start_turns: StartTurns = 16.0
 
 
 @contextmanager

@@ -1,53 +1,30 @@
 """Requests on the wire and what they become in core.
 
 Queries are flat, bodies are nested; both are made of the same field groups. Unknown names are refused, and so
-are values that are not finite. The limits here are narrower than core's own: they fit a dance in a real place,
-so that a length in centimetres is noticed.
+are values that are not finite.
 """
 
 from __future__ import annotations
 
 import math
 import re
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, get_args
 
 import numpy as np
-from pydantic import BaseModel, ConfigDict, Discriminator, Field, Tag, model_validator
+from pydantic import AfterValidator, Discriminator, Field, Tag
 from pydantic_core import PydanticCustomError
 
 from app.settings import check_limit
-from core import Dragon, InvalidValue, Spiral
+from app.wire import Coordinate, Instant, Length, Margin, Overhang, SpeedLimit, StartTurns, TurningDiameter, Width, Wire
+from app.wire_paths import KINDS, AnyPath, SpiralFields, SpiralPath, TurnFields
+from core import Dragon, InvalidValue, Report, Route, Spiral, Venue, check
 from core.dragon import BENCHES_MAX, Floats
 
 # The last instant of a range may miss `stop` by this share of a step, so that 0 to 0.3 by 0.1 has four instants.
 LAST_STEP_TOLERANCE = 1e-9
-# An object with more names than this is not looked into.
-NAMES_MAX = 100
 FEWER_CELLS = "take a larger step, a shorter range or fewer benches"
-
-Length = Annotated[float, Field(ge=1e-3, le=50)]
-Width = Annotated[float, Field(ge=1e-3, le=5)]
-Overhang = Annotated[float, Field(ge=0, le=5)]
-Pitch = Annotated[float, Field(ge=1e-3, le=10, description="Radial advance of the spiral per full turn [m]")]
-StartTurns = Annotated[float, Field(gt=0, le=200, description="Turns between the centre and the start [turns]")]
-Margin = Annotated[float, Field(ge=0, le=2, description="Clearance that counts as touching [m]")]
-Coordinate = Annotated[float, Field(ge=-1e6, le=1e6)]
-Instant = Annotated[float, Field(ge=-1e6, le=1e6)]
-
-
-class Wire(BaseModel):
-    """What comes in: no unknown names, no infinities, never changed."""
-
-    model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
-
-    @model_validator(mode="before")
-    @classmethod
-    def _few_names(cls, value: Any) -> Any:
-        # Each unknown name would become an error of its own: 300,000 of them took 2 s (measured 2026-11-21).
-        if isinstance(value, dict) and len(value) > NAMES_MAX:
-            counts = {"most": NAMES_MAX, "given": len(value)}
-            raise PydanticCustomError("too_many_names", "at most {most} names, got {given}", counts)
-        return value
+# Objects and lists in one another: a collection of features of polygons has nine.
+VENUE_DEPTH_MAX = 20
 
 
 class Nothing(Wire):
@@ -84,17 +61,6 @@ class BenchByBench(Wire, strict=True):
         return Dragon.of(self.lengths, self.widths, self.overhangs)
 
 
-class SpiralFields(Wire):
-    """The spiral of the dance."""
-
-    pitch: Pitch = 0.55
-    start_turns: StartTurns = 16.0
-
-    def to_path(self) -> Spiral:
-        """raises: InvalidValue"""
-        return Spiral(self.pitch, self.start_turns)
-
-
 class HeadSpeed(Wire):
     """How fast the head dances."""
 
@@ -103,12 +69,6 @@ class HeadSpeed(Wire):
 
 class UniformBody(UniformDragon, strict=True):
     """A head and a body of equal benches, in a body."""
-
-
-class SpiralPath(SpiralFields, strict=True):
-    """An Archimedean spiral, danced inwards."""
-
-    kind: Literal["spiral"] = Field("spiral", description="Kind of path")
 
 
 class TimeRange(Wire):
@@ -150,14 +110,12 @@ def _shape_of_times(value: Any) -> str:
 
 
 # Names of shapes: pydantic puts them into the place of an error, though they stand in no body.
-SHAPES = frozenset({"uniform", "bench_by_bench", "range", "list"})
+SHAPES = frozenset({"uniform", "bench_by_bench", "range", "list"}) | KINDS
 
 AnyDragon = Annotated[
     Annotated[UniformBody, Tag("uniform")] | Annotated[BenchByBench, Tag("bench_by_bench")],
     Discriminator(_shape_of_dragon),
 ]
-# A second kind of path turns this into a union told apart by `kind`.
-AnyPath = SpiralPath
 AnyTimes = Annotated[
     Annotated[TimeSteps, Tag("range")] | Annotated[list[Instant], Field(min_length=1, fail_fast=True), Tag("list")],
     Discriminator(_shape_of_times),
@@ -171,13 +129,12 @@ class Dance(HeadSpeed, strict=True):
     path: AnyPath = Field(default_factory=SpiralPath, description="The path")
 
 
-class TrajectoryRequest(Dance):
-    """Where every handle is at every instant, and how fast."""
+class TimedDance(Dance):
+    """A dance at some instants."""
 
     times: AnyTimes = Field(
         default_factory=TimeSteps, description="Instants: evenly spaced, or a list; 0 is the start of the dance [s]"
     )
-    decimals: int | None = Field(None, ge=0, le=15, description="Decimals of x, y and speed; null: full precision")
 
     def to_times(self, handles: int, cells_max: int) -> Floats:
         """Instants (T,) [s]. raises: TooLarge, InvalidValue"""
@@ -185,6 +142,84 @@ class TrajectoryRequest(Dance):
             return self.times.to_times(handles, cells_max)
         check_limit("times", "instants x handles", len(self.times) * handles, cells_max, FEWER_CELLS)
         return np.array(self.times, dtype=np.float64)
+
+
+class TrajectoryRequest(TimedDance):
+    """Where every handle is at every instant, and how fast."""
+
+    decimals: int | None = Field(None, ge=0, le=15, description="Decimals of x, y and speed; null: full precision")
+
+
+class ClearanceRequest(TimedDance):
+    """How near do two benches come over time, on any path?"""
+
+
+def _shallow(value: dict[str, Any] | None) -> dict[str, Any] | None:
+    """Deeper ones exhaust the stack of whoever walks them by recursion."""
+    level: list[Any] = [value]
+    for _ in range(VENUE_DEPTH_MAX):
+        level = [inner for outer in level for inner in _inside(outer)]
+    if level:
+        raise PydanticCustomError("too_deep", "objects and lists in one another", {"most": VENUE_DEPTH_MAX})
+    return value
+
+
+def _inside(outer: Any) -> list[Any]:
+    """Objects and lists right inside of an object or a list."""
+    entries = outer.values() if isinstance(outer, dict) else outer if isinstance(outer, list) else ()
+    return [inner for inner in entries if isinstance(inner, (dict, list))]
+
+
+class PlacedDance(Dance):
+    """A dance, and the place where it is danced."""
+
+    venue: Annotated[dict[str, Any] | None, AfterValidator(_shallow)] = Field(
+        None,
+        description="GeoJSON with coordinates in metres: the square (the polygon named square, else the first one; its "
+        "holes are outside) and the obstacles in it; null: an endless plain",
+    )
+
+    def to_venue(self) -> Venue | None:
+        """raises: InvalidValue"""
+        return None if self.venue is None else Venue.from_geojson(self.venue)
+
+
+class CheckRequest(PlacedDance):
+    """Can this dragon dance this path here?"""
+
+    margin: Margin = 0.0
+    speed_limit: SpeedLimit | None = Field(None, description="Of every handle; null: none [m/s]")
+    start: Instant | None = Field(
+        None, description="From when; null: the start of the dance, or when the whole dragon is on the path [s]"
+    )
+    stop: Instant | None = Field(None, description="Until when; null: the end of the run [s]")
+
+    def to_report(self, dragon: Dragon, path: Spiral | Route) -> Report:
+        """raises: InvalidValue, OutsideRun"""
+        return check(
+            dragon,
+            path,
+            venue=self.to_venue(),
+            margin=self.margin,
+            speed_limit=self.speed_limit,
+            head_speed=self.head_speed,
+            start=self.start,
+            stop=self.stop,
+        )
+
+
+class TrajectoryFigureRequest(PlacedDance):
+    """Every handle at one instant, drawn on any path."""
+
+    time: Instant = Field(0.0, description="The instant [s]")
+
+
+class ContactFigureRequest(PlacedDance):
+    """The dance at first contact, drawn on any path."""
+
+    margin: Margin = 0.0
+    start: Instant = Field(0.0, description="From when [s]")
+    stop: Instant | None = Field(None, description="Until when; null: the end of the run [s]")
 
 
 class DanceQuery(HeadSpeed, SpiralFields, UniformDragon):
@@ -200,9 +235,7 @@ class CollisionQuery(DanceQuery):
 class MinimumPitchQuery(UniformDragon):
     """How tight may the spiral be?"""
 
-    turning_diameter: float = Field(
-        9.0, ge=2e-3, le=200, description="Diameter of the circle that the head must reach [m]"
-    )
+    turning_diameter: TurningDiameter = Field(9.0, description="Diameter of the circle that the head must reach [m]")
     start_turns: StartTurns = 16.0
     margin: Margin = 0.0
 
@@ -217,6 +250,16 @@ class PitchScanQuery(MinimumPitchQuery):
     """First contact against the pitch, drawn."""
 
     samples: int = Field(101, ge=2, le=401, description="Pitches to sample; jumps between them are searched for")
+
+
+class TurnQuery(TurnFields):
+    """Two tangent arcs between two coils."""
+
+
+class MaximumHeadSpeedQuery(TurnFields, UniformDragon):
+    """How fast may the head dance through a turn?"""
+
+    speed_limit: SpeedLimit = Field(2.0, description="Of every handle [m/s]")
 
 
 class ClearanceQuery(TimeRange, DanceQuery):
@@ -248,13 +291,19 @@ class OverlapsRequest(Wire, strict=True):
 
 
 def _units(models: list[type[Wire]]) -> dict[str, str]:
-    """Unit of every field by its name, from the end of its description."""
-    found = {}
-    for model in models:
+    """Unit of every field by its name, from the end of its description; of a kind of path also by kind and name."""
+    found: dict[str, str] = {}
+    for model in sorted(models, key=lambda model: "kind" in model.model_fields):
+        kind = model.model_fields.get("kind")
         for name, field in model.model_fields.items():
             stated = re.search(r"\[([^\]]+)\]$", field.description or "")
-            found[name] = stated[1] if stated else ""
-        found |= _units(model.__subclasses__())
+            unit = stated[1] if stated else ""
+            if kind:
+                for word in get_args(kind.annotation):
+                    found[f"{word}.{name}"] = unit
+            found.setdefault(name, unit)
+        for name, unit in _units(model.__subclasses__()).items():
+            found.setdefault(name, unit)
     return found
 
 

@@ -18,7 +18,12 @@ class Settings(BaseSettings):
 
     body_bytes_max: int = Field(4_000_000, ge=1, description="Longest request body [bytes]")
     benches_max: int = Field(100_000, ge=1, description="Longest dragon [benches]")
-    design_benches_max: int = Field(10_000, ge=1, description="Longest dragon whose minimum pitch is sought [benches]")
+    scanned_benches_max: int = Field(10_000, ge=1, description="Longest dragon whose pitches are scanned [benches]")
+    checked_benches_max: int = Field(
+        500,
+        ge=1,
+        description="Longest dragon that is checked as a whole, or whose maximum head speed is sought [benches]",
+    )
     drawn_benches_max: int = Field(5_000, ge=1, description="Longest dragon in a figure [benches]")
     cells_max: int = Field(1_000_000, ge=1, description="Largest table: instants x handles")
     workbook_cells_max: int = Field(200_000, ge=1, description="The same for xlsx, which is slow to write")

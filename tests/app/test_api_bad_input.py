@@ -81,7 +81,7 @@ BAD_BODIES = [
         "/dragon/overhangs/1",
         ("half",),
     ),
-    Bad("other_path", '{"path": {"kind": "maze"}}', "/path/kind", ("'spiral'", "maze")),
+    Bad("other_path", '{"path": {"kind": "maze"}}', "/path/kind", ("'spiral'", "'route'", "maze")),
     Bad("path_as_list", '{"path": []}', "/path", ("JSON object",)),
     Bad("unknown_field", '{"path": {"pich": 0.5}}', "/path/pich", ("unknown", "did you mean pitch?")),
     Bad("slash_in_name", '{"a/b": 1}', "/a~1b", ("unknown",)),
@@ -150,7 +150,7 @@ def test_another_content_type_is_a_problem(client: httpx.Client, kind: str) -> N
     [
         ("/minimum-pitch?turning_diameter=900", "turning_diameter", ("at most 200 m", "metres", "9 m")),
         ("/minimum-pitch?turning_diameter=0", "turning_diameter", ("at least",)),
-        ("/minimum-pitch?benches=10001", "benches", ("at most 10000", "got 10001")),
+        ("/pitch-scan?benches=10001", "benches", ("at most 10000", "got 10001")),
         ("/clearance?step=0", "step", ("at least",)),
         ("/clearance?stop=433", "stop", ("432.9179", "folds")),
         ("/clearance?step=0.0001", "step", ("at most 1000000", "larger step")),

@@ -82,7 +82,7 @@ def test_at_the_time_of_the_paper_the_head_passes_bench_9_without_touching(rows:
 def test_the_exact_angle_rule_agrees_with_ours_and_eq_12_as_printed_does_not(rows: dict[str, Comparison]) -> None:
     row = rows["time of first contact"]
     [exact] = evidence(row, "first time of an angle sum of 360 degrees")
-    [literal] = evidence(row, "the same with the corners of eq. 12 as printed")
+    [literal] = evidence(row, "the same with eq. 12 as printed")
     assert exact == pytest.approx(row.ours, abs=1e-6)  # [s]: the angle sum nears 360 degrees continuously
     assert round(literal, 1) == 407.4
 

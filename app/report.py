@@ -1,0 +1,137 @@
+"""Answers about a turn, the speed limit and a whole dance."""
+
+from __future__ import annotations
+
+from typing import Self
+
+from pydantic import Field
+
+import core
+from app.answers import Answer, CollisionTime, Pair, Point
+from core import Dragon, Outcome, Route, Spiral
+
+
+class Turn(Answer):
+    """Two tangent arcs between two coils: the first clockwise, the second counter-clockwise."""
+
+    pitch: float = Field(description="Of both coils [m]")
+    turning_diameter: float = Field(description="Diameter of the circle in which the turn lies [m]")
+    ratio: float = Field(description="Radius of the first arc over that of the second")
+    entry_radius: float = Field(description="Distance of the entry from the centre [m]")
+    radii: Point = Field(description="Radii of both arcs [m]")
+    centres: tuple[Point, Point] = Field(description="Centres of both arcs, x and y [m]")
+    angles: Point = Field(description="Angle turned on each arc [rad]")
+    entry: Point = Field(description="Where the first arc begins, x and y [m]")
+    tangent_point: Point = Field(description="Where the two arcs meet, x and y [m]")
+    exit: Point = Field(description="Where the second arc ends, x and y [m]")
+    length: float = Field(description="Of both arcs together [m]")
+
+    @classmethod
+    def of(cls, found: core.Turn) -> Self:
+        known = {name: getattr(found, name) for name in cls.model_fields if name != "turning_diameter"}
+        return cls(**known, turning_diameter=2 * found.turning_radius)
+
+
+class MaximumHeadSpeed(Answer):
+    """The largest constant head speed at which no handle ever exceeds the limit."""
+
+    head_speed: float = Field(description="[m/s]")
+    head_speed_bracket: Point = Field(description="Proven to keep the limit, found to reach it [m/s]")
+    speed_ratio: float = Field(description="Highest speed of a handle over that of the head")
+    handles: list[int] = Field(description="The handles that reach the limit together")
+    time: float = Field(description="When they do, at that head speed; 0 is the entry into the turn [s]")
+    time_at_unit_head_speed: float = Field(description="The same at a head speed of 1 m/s [s]")
+
+
+class LeastClearance(Answer):
+    """The least clearance over the dance."""
+
+    distance: float = Field(description="The least that was met; 0 at the first touch [m]")
+    at_least: float | None = Field(description="Proven: nothing comes nearer; null: the search gave up first [m]")
+    time: float = Field(description="When it is met [s]")
+    benches: Pair = Field(description="The pair that is so near")
+
+
+class Nearest(Answer):
+    """How near the benches come to the edges of one area."""
+
+    distance: float = Field(description="The least that was met; 0 at the first touch [m]")
+    at_least: float | None = Field(description="Proven: no bench comes nearer; null: the search gave up first [m]")
+    time: float = Field(description="When it is met [s]")
+    bench: int = Field(description="The bench that comes so near")
+    point: Point = Field(description="The point of the bench, x and y [m]")
+    wall: Point = Field(description="The point of the area, x and y [m]")
+
+
+class AreaClearance(Answer):
+    """The benches and the edges of the square or of one obstacle."""
+
+    name: str = Field(description="Name of the area")
+    outcome: Outcome = Field(description="Does a bench come within the margin?")
+    time: float | None = Field(description="When first; null when clear or undecided [s]")
+    time_bracket: Point | None = Field(description="Proven clear up to, within the margin at [s]")
+    bench: int | None = Field(description="The first bench within the margin")
+    point: Point | None = Field(description="Its point that is nearest then, x and y [m]")
+    nearest: Nearest = Field(description="The least distance over the dance")
+
+
+class Stray(Answer):
+    """A bench that starts where it must not."""
+
+    name: str = Field(description="The area: the square that it is outside of, or the obstacle that it is in")
+    bench: int = Field(description="The bench")
+    point: Point = Field(description="Its centre, x and y [m]")
+
+
+class VenueClearance(Answer):
+    """The benches and the venue."""
+
+    stray: Stray | None = Field(description="The first bench that starts outside the square or in an obstacle")
+    areas: list[AreaClearance] = Field(description="The square, then the obstacles")
+
+
+class HighestSpeed(Answer):
+    """The highest speed of any handle over continuous time."""
+
+    speed: float = Field(description="The highest found [m/s]")
+    speed_bracket: Point = Field(description="Found, proven not to be exceeded [m/s]")
+    time: float = Field(description="When it is reached [s]")
+    handles: list[int] = Field(description="The handles that reach it together")
+
+
+class SharpestBend(Answer):
+    """The largest angle between two consecutive benches."""
+
+    angle: float = Field(description="Between their headings [rad]")
+    time: float = Field(description="When it is reached [s]")
+    benches: Pair = Field(description="The two benches")
+
+
+class Failure(Answer):
+    """One thing that fails."""
+
+    kind: core.FailureKind = Field(description="What fails")
+    time: float = Field(description="When; of a speed, when it is highest [s]")
+    benches: list[int] = Field(description="The benches at fault; of a speed: the handles")
+    area: str | None = Field(description="The area of the venue; null where it has no part")
+    message: str = Field(description="One sentence")
+
+
+class Report(Answer):
+    """Can the dragon dance this path here? Where benches touch, the dance stops."""
+
+    passed: bool = Field(description="Nothing fails")
+    failures: list[Failure] = Field(description="What fails, in order of time")
+    start: float = Field(description="Looked at from here [s]")
+    stop: float = Field(description="Looked at until here [s]")
+    first_contact: CollisionTime = Field(description="When two benches first come within the margin")
+    least_clearance: LeastClearance | None = Field(description="Of any two benches; null with fewer than three")
+    venue: VenueClearance | None = Field(description="The benches and the venue; null without one")
+    highest_speed: HighestSpeed | None = Field(description="Of any handle; null in a run to its fold, without bound")
+    sharpest_bend: SharpestBend | None = Field(description="Between two consecutive benches; null for a single bench")
+
+    @classmethod
+    def of(cls, found: core.Report, dragon: Dragon, path: Spiral | Route, head_speed: float, margin: float) -> Self:
+        contact = CollisionTime.of(found.first_contact, dragon, path, head_speed, margin)
+        known = {name: getattr(found, name) for name in cls.model_fields if name != "first_contact"}
+        return cls(**known, first_contact=contact)

@@ -1,0 +1,187 @@
+"""Paths on the wire, told apart by `kind`: spiral, turn, waypoints, and a route of pieces.
+
+What core refuses is named by its place in the body: core knows no `path.` before the fields of a turn, and knows a
+curve through waypoints as the only piece of a route.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from typing import Annotated, Any, Literal
+
+from pydantic import Discriminator, Field, Tag
+
+import core
+from app.settings import check_limit
+from app.wire import Angle, Coordinate, Pitch, StartTurns, TurningDiameter, Wire
+from core import InvalidValue, Route, Spiral
+
+# A curve is cut into cubics in Python: so many points take up to half a second (measured 2026-11-21).
+POINTS_MAX = 200
+PIECES_MAX = 200
+
+Radius = Annotated[float, Field(ge=1e-3, le=1e4)]
+Point = Annotated[list[Coordinate], Field(min_length=2, max_length=2)]
+# An entry deeper inside the circle makes the turn shorter.
+EntryRadius = Annotated[
+    float | None, Field(ge=1e-3, le=100, description="Where the turn begins; null: on the circle [m]")
+]
+
+
+@contextmanager
+def placed(place: Callable[[str], str]) -> Iterator[None]:
+    """Name what core refuses by its place in the request."""
+    try:
+        yield
+    except InvalidValue as error:
+        where = place(error.field)
+        raise InvalidValue(where, error.message.replace(error.field, where)) from error
+
+
+class SpiralFields(Wire):
+    """The spiral of the dance."""
+
+    pitch: Pitch = 0.55
+    start_turns: StartTurns = 16.0
+
+    def to_path(self) -> Spiral:
+        """raises: InvalidValue"""
+        return Spiral(self.pitch, self.start_turns)
+
+
+class TurnFields(Wire):
+    """A coil inwards, two tangent arcs and the same coil outwards; time 0 is when the head enters the first arc."""
+
+    pitch: Pitch = 1.7
+    turning_diameter: TurningDiameter = Field(9.0, description="Diameter of the circle in which the turn lies [m]")
+    ratio: float = Field(2.0, ge=0.01, le=100, description="Radius of the first arc over that of the second")
+    start_turns: StartTurns = 16.0
+    entry_radius: EntryRadius = None
+
+    def to_turn(self) -> core.Turn:
+        """raises: InvalidValue"""
+        return core.turn(
+            self.pitch,
+            self.turning_diameter / 2,
+            self.ratio,
+            start_turns=self.start_turns,
+            entry_radius=self.entry_radius,
+        )
+
+    def to_path(self) -> Route:
+        """raises: InvalidValue, named by the place in a body"""
+        with placed(lambda field: f"path.{field}".replace("turning_radius", "turning_diameter")):
+            return self.to_turn().path
+
+
+class SpiralPath(SpiralFields, strict=True):
+    """An Archimedean spiral, danced inwards."""
+
+    kind: Literal["spiral"] = Field("spiral", description="Kind of path")
+
+
+class TurnPath(TurnFields, strict=True):
+    """A turn between two coils."""
+
+    kind: Literal["turn"] = Field(description="Kind of path")
+
+
+class LinePiece(Wire, strict=True):
+    """A straight piece."""
+
+    kind: Literal["line"] = Field(description="Kind of piece")
+    start: Point = Field(description="Where it begins, x and y [m]")
+    end: Point = Field(description="Where it ends, x and y [m]")
+
+    def to_piece(self) -> core.Piece:
+        return core.Line(_point(self.start), _point(self.end))
+
+
+class ArcPiece(Wire, strict=True):
+    """Part of a circle."""
+
+    kind: Literal["arc"] = Field(description="Kind of piece")
+    centre: Point = Field(description="Centre of the circle, x and y [m]")
+    radius: Radius = Field(description="Radius of the circle [m]")
+    start_angle: Angle = Field(description="Direction from the centre to where it begins [rad]")
+    sweep: Angle = Field(description="Angle covered, counter-clockwise positive [rad]")
+
+    def to_piece(self) -> core.Piece:
+        return core.Arc(_point(self.centre), self.radius, self.start_angle, self.sweep)
+
+
+class CoilPiece(Wire, strict=True):
+    """Part of a spiral: inwards (clockwise) if it ends nearer to its centre, else outwards (counter-clockwise)."""
+
+    kind: Literal["coil"] = Field(description="Kind of piece")
+    pitch: Pitch = 0.55
+    start_turns: float = Field(ge=0, le=200, description="Turns between the centre and where it begins [turns]")
+    end_turns: float = Field(ge=0, le=200, description="Turns between the centre and where it ends [turns]")
+    centre: Point = Field([0.0, 0.0], description="Centre of the spiral, x and y [m]")
+    rotation: Angle = Field(0.0, description="Of the whole spiral about its centre [rad]")
+
+    def to_piece(self) -> core.Piece:
+        return core.Coil(self.pitch, self.start_turns, self.end_turns, _point(self.centre), self.rotation)
+
+
+class WaypointsPiece(Wire, strict=True):
+    """A smooth curve through points, without a jump of curvature."""
+
+    kind: Literal["waypoints"] = Field(description="Kind of piece, or of path")
+    points: list[Point] = Field(
+        min_length=2, max_length=POINTS_MAX, fail_fast=True, description="Points to pass, x and y [m]"
+    )
+    start_heading: Angle | None = Field(None, description="Direction at the start; null: no curvature there [rad]")
+    end_heading: Angle | None = Field(None, description="Direction at the end; null: no curvature there [rad]")
+
+    def to_piece(self) -> core.Piece:
+        return core.Waypoints(tuple(map(_point, self.points)), self.start_heading, self.end_heading)
+
+
+class WaypointsPath(WaypointsPiece, strict=True):
+    """A smooth curve through points as the whole path."""
+
+    def to_path(self) -> Route:
+        """raises: InvalidValue"""
+        with placed(lambda field: field.replace(".pieces.0", "")):
+            return Route((self.to_piece(),))
+
+
+def _point(value: list[float]) -> tuple[float, float]:
+    return (value[0], value[1])
+
+
+AnyPiece = Annotated[LinePiece | ArcPiece | CoilPiece | WaypointsPiece, Field(discriminator="kind")]
+
+
+class RoutePath(Wire, strict=True):
+    """Pieces joined into one path; where two meet, place and direction agree."""
+
+    kind: Literal["route"] = Field(description="Kind of path")
+    pieces: list[AnyPiece] = Field(
+        min_length=1, max_length=PIECES_MAX, fail_fast=True, description="In the order they are danced"
+    )
+    start: float = Field(0.0, ge=-1e6, le=1e6, description="How far along the first piece the head is at time 0 [m]")
+
+    def to_path(self) -> Route:
+        """raises: TooLarge, InvalidValue"""
+        points = sum(len(piece.points) for piece in self.pieces if isinstance(piece, WaypointsPiece))
+        check_limit("path.pieces", "waypoints", points, POINTS_MAX, "take fewer")
+        return Route([piece.to_piece() for piece in self.pieces], self.start)
+
+
+def _kind(value: Any) -> str:
+    """What a path says it is; a spiral if it does not say, or is no object at all."""
+    kind = value.get("kind", "spiral") if isinstance(value, dict) else getattr(value, "kind", "spiral")
+    return kind if isinstance(kind, str) else str(kind)
+
+
+AnyPath = Annotated[
+    Annotated[SpiralPath, Tag("spiral")]
+    | Annotated[TurnPath, Tag("turn")]
+    | Annotated[RoutePath, Tag("route")]
+    | Annotated[WaypointsPath, Tag("waypoints")],
+    Discriminator(_kind),
+]
+KINDS = frozenset({"spiral", "turn", "route", "waypoints", "line", "arc", "coil"})
