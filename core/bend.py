@@ -18,7 +18,7 @@ ZOOM = np.linspace(-1.0, 1.0, 33)
 ZOOM_ROUNDS = 7
 PEAKS_REFINED = 5
 # Angles that differ by less are the same, and the first one counts [rad].
-SAME_ANGLE = 1e-12
+SAME_ANGLE = 1e-13
 # Instants whose handles are held at once.
 BATCH = 1_000
 
@@ -62,7 +62,7 @@ def sharpest_bend(
         _sharpest(front, path, grid, head_speed),
     ]
     largest = max(bend.angle for bend in found)
-    return min((bend for bend in found if bend.angle >= largest - SAME_ANGLE), key=lambda bend: bend.time)
+    return min((bend for bend in found if bend.angle >= largest - 2.0 * SAME_ANGLE), key=lambda bend: bend.time)
 
 
 def _opened(dragon: Dragon, path: Spiral | Route, grid: Floats, head_speed: float) -> int:
@@ -83,10 +83,11 @@ def _sharpest(dragon: Dragon, path: Spiral | Route, grid: Floats, head_speed: fl
     joint = np.concatenate([batch.argmax(axis=1) for batch in batches])
     around = np.pad(angle, 1, constant_values=-1.0)
     peaks = np.flatnonzero((angle >= around[:-2]) & (angle >= around[2:]))
-    peaks = peaks[np.argsort(-angle[peaks], kind="stable")[:PEAKS_REFINED]]
-    refined = [_refined(dragon, path, grid[k], step, int(joint[k]), grid, head_speed) for k in peaks.tolist()]
+    highest = peaks[np.argsort(-angle[peaks], kind="stable")[:PEAKS_REFINED]].tolist()
+    first = int(np.argmax(angle >= angle.max() - SAME_ANGLE))  # where it stays as sharp, as on an arc
+    refined = [_refined(dragon, path, grid[k], step, int(joint[k]), grid, head_speed) for k in {first, *highest}]
     largest = max(bend.angle for bend in refined)
-    return min((bend for bend in refined if bend.angle >= largest - SAME_ANGLE), key=lambda bend: bend.time)
+    return min((bend for bend in refined if bend.angle >= largest - 2.0 * SAME_ANGLE), key=lambda bend: bend.time)
 
 
 def _refined(

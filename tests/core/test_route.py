@@ -50,10 +50,10 @@ QUOTIENT_STEP = 1e-6  # [s]
 QUOTIENT_ERROR = 1e-4  # [m/s]: accelerations jump at joints, which moves a quotient by their size times the step
 TOUCHING = 1e-8  # [m]: two benches at the far end of a contact's bracket
 
-DRAGON = Dragon(benches=8, head_length=1.8, body_length=1.4, width=0.3, overhang=0.2)
+DRAGON = Dragon(benches=16, head_length=1.8, body_length=1.4, width=0.3, overhang=0.2)
 
 
-# -- joints and other faults ----------------------------------------------------------------------------------
+# -- joints and other faults ---------------------------------------------------------------------------------
 
 
 def test_a_gap_is_refused_with_its_joint_and_size() -> None:
@@ -124,7 +124,7 @@ def test_a_bend_too_tight_for_a_chord_names_the_bench_and_the_place() -> None:
 def test_a_start_before_the_beginning_of_the_path_is_refused() -> None:
     route = Route([Line((0, 0), (100, 0))])
     length = float(DRAGON.chords.sum())
-    assert trajectory(DRAGON, route, [length + SAME * 100]).position[0, -1, 0] == pytest.approx(0.0, abs=1e-7)
+    assert trajectory(DRAGON, route, [length + 1e-6]).position[0, -1, 0] == pytest.approx(1e-6, abs=SAME)
     with pytest.raises(OutsideRun, match=f"at least {length:.6f} s, when the whole dragon is on the path"):
         trajectory(DRAGON, route, [length - 0.001])
     with pytest.raises(OutsideRun) as e:
@@ -139,7 +139,7 @@ def test_an_instant_after_the_end_of_the_path_is_refused() -> None:
         trajectory(DRAGON, route, [100.001])
 
 
-# -- the reference turn ---------------------------------------------------------------------------------------
+# -- the reference turn --------------------------------------------------------------------------------------
 
 
 def test_the_turn_has_the_reference_arcs() -> None:
@@ -175,7 +175,7 @@ def test_the_least_clearance_on_the_turn_is_the_reference_one() -> None:
     assert graze.time == pytest.approx(known["time"], abs=1e-3)
 
 
-# -- a spiral written as a route --------------------------------------------------------------------------------
+# -- a spiral written as a route -----------------------------------------------------------------------------
 
 
 def as_route(spiral: Spiral, end_turns: float, cuts: tuple[float, ...] = ()) -> Route:
@@ -214,7 +214,7 @@ def test_a_spiral_as_a_route_has_the_spirals_clearance() -> None:
     assert [g.time for g in a.grazes] == pytest.approx([g.time for g in b.grazes], abs=1e-7)  # flat at the bottom
 
 
-# -- random routes ----------------------------------------------------------------------------------------------
+# -- random routes -------------------------------------------------------------------------------------------
 
 
 class Pen:
@@ -253,13 +253,13 @@ class Pen:
         self.place, self.heading = place, heading
 
 
-lengths = st.floats(0.3, 6.0)
+lengths = st.floats(0.3, 3.0)
 radii = st.floats(0.9, 3.0)
 sweeps = st.floats(0.2, 5.5).flatmap(lambda angle: st.sampled_from([angle, -angle]))
 coils = st.tuples(st.floats(0.9, 2.0), st.floats(2.0, 3.5), st.floats(2.0, 3.5)).filter(
     lambda c: abs(c[2] - c[1]) > 0.1
 )
-legs = st.lists(st.tuples(st.floats(2.5, 5.0), st.floats(-0.5, 0.5)), min_size=2, max_size=5)
+legs = st.lists(st.tuples(st.floats(2.5, 5.0), st.floats(-0.5, 0.5)), min_size=2, max_size=4)
 strokes = st.one_of(
     st.tuples(st.just("line"), lengths.map(lambda x: (x,))),
     st.tuples(st.just("arc"), st.tuples(radii, sweeps)),
@@ -270,10 +270,10 @@ strokes = st.one_of(
 
 @st.composite
 def routes(draw: st.DrawFn) -> Route:
-    """Two to six smooth pieces of any kind behind a line as long as the dragon; they may cross themselves."""
+    """Three to seven smooth pieces of any kind behind a line as long as the dragon; they may cross themselves."""
     pen = Pen(complex(draw(st.floats(-20, 20)), draw(st.floats(-20, 20))), draw(st.floats(-3.0, 3.0)))
     pen.line(1.01 * float(DRAGON.chords.sum()))
-    for kind, values in draw(st.lists(strokes, min_size=2, max_size=6)):
+    for kind, values in draw(st.lists(strokes, min_size=3, max_size=7)):
         getattr(pen, kind)(*values)
     route = Route(pen.pieces)
     assume(0.5 * route.sharpest[0] * DRAGON.chords.max() < 0.9)
@@ -364,14 +364,14 @@ def test_first_contact_on_any_route_is_that_of_a_slow_search(route: Route) -> No
 
 def test_random_routes_do_meet_themselves() -> None:
     pen = Pen(0j, 0.0)
-    pen.line(12.0)
+    pen.line(18.0)
     pen.arc(1.0, 5.5)
     pen.line(6.0)
-    found = first_contact(DRAGON, Route(pen.pieces), start=11.0)
+    found = first_contact(DRAGON, Route(pen.pieces), start=17.0)
     assert found.outcome is Outcome.CONTACT
 
 
-# -- waypoints --------------------------------------------------------------------------------------------------
+# -- waypoints -----------------------------------------------------------------------------------------------
 
 POINTS = ((0.0, 0.0), (6.0, 1.0), (11.0, 6.0), (9.0, 13.0), (2.0, 14.0), (-3.0, 9.0))
 
@@ -434,7 +434,7 @@ def test_two_waypoints_are_a_line() -> None:
     assert np.abs(a.position(s) - b.position(s)).max() < 1e-13
 
 
-# -- s and batches ------------------------------------------------------------------------------------------------
+# -- s and batches -------------------------------------------------------------------------------------------
 
 
 def test_s_counts_from_the_start_asked_for() -> None:

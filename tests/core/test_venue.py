@@ -75,7 +75,7 @@ VENUE = Venue.from_geojson(features(feature("square", SQUARE), feature("well", W
 VENUE_ROUND = Venue.from_geojson(polygon(box(-13, -14, 13.5, 12.5)))
 
 
-# -- reading ------------------------------------------------------------------------------------------------------
+# -- reading -------------------------------------------------------------------------------------------------
 
 
 def test_a_single_polygon_is_the_square_with_its_holes() -> None:
@@ -158,7 +158,7 @@ def test_too_many_edges_are_refused() -> None:
         Venue.from_geojson(polygon([*circle, circle[0]]))
 
 
-# -- distances ------------------------------------------------------------------------------------------------------
+# -- distances -----------------------------------------------------------------------------------------------
 
 
 def shapely_distances(dragon: Dragon, path: Spiral | Route, area: Area, times: np.ndarray) -> np.ndarray:
@@ -270,7 +270,7 @@ def test_a_spiral_too_tight_for_the_head_by_the_stop_is_refused() -> None:
         venue_clearance(Dragon(benches=3), Spiral(), VENUE_ROUND, stop=432.0)
 
 
-# -- the start ---------------------------------------------------------------------------------------------------------
+# -- the start -----------------------------------------------------------------------------------------------
 
 
 def test_a_dragon_inside_the_square_has_no_stray() -> None:
