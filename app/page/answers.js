@@ -39,7 +39,7 @@ export function showFirstContact(box, answer, { benches, margin }) {
   if (outcome.startsWith("contact")) {
     const [x, y] = answer.point.map((one) => one.toFixed(6));
     lines.push(say("pairMeets", { ...pair(answer.benches, benches), x, y, radius: answer.head.radius.toFixed(6) }));
-  } else if (outcome === "clear") lines.push(say("clearUntil", { time: answer.end.time.toFixed(6) }));
+  } else if (outcome === "clear") lines.push(answer.end ? say("clearUntil", { time: answer.end.time.toFixed(6) }) : say("clearAll"));
   else lines.push(say("undecidedFrom", { time: answer.time_bracket[0].toFixed(9) }));
   if (margin > 0) lines.push(say("nearMargin", { margin }));
   const rows = [];
@@ -91,8 +91,15 @@ export function showHighestSpeed(box, table, { end }, { benches, head_speed }) {
   show(box, say("highest"), folds ? say("unbounded") : `${best.speed.toFixed(6)} m/s`, [whose], [known]);
 }
 
+/** fastest: the proven highest speed of /check */
+export function showProvenSpeed(box, { speed, speed_bracket: [low, high], time, handles }, { benches }) {
+  const names = handles.map((handle) => handleName(handle, benches)).join(", ");
+  const rows = [[say("bracket"), say("bracketSpeed", { low: low.toFixed(9), high: high.toFixed(9) })]];
+  show(box, say("highest"), `${speed.toFixed(6)} m/s`, [say("whose", { name: names, time: time.toFixed(6) })], [facts(rows)]);
+}
+
 export function showEnd(box, answer, time) {
-  const reason = answer.end?.reason ?? (answer.outcome === "undecided" ? "undecided" : "contact");
+  const reason = answer.end?.reason ?? { undecided: "undecided", clear: "turn" }[answer.outcome] ?? "contact";
   show(box, say("end"), `${time.toFixed(6)} s`, [say(`end_${reason}`)], [make("p", { textContent: say("endKnown") })]);
 }
 

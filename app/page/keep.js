@@ -17,13 +17,11 @@ export class Keep {
 
   /** The commands for the dance that is shown. */
   show() {
-    const { query, end } = this.questions.dance;
-    const body = JSON.stringify(this.questions.body({ times: { start: 0, stop: Math.floor(end), step: CSV_STEP } }));
+    const { dance } = this.questions;
     const base = new URL("./", location).href;
-    $("#curl").textContent = [
-      `curl '${base}collision-time?${new URLSearchParams(query)}'`,
-      `curl '${base}trajectory' -H 'Content-Type: application/json' -d '${body}'`,
-    ].join("\n");
+    const post = (path, body) => `curl '${base}${path}' -H 'Content-Type: application/json' -d '${JSON.stringify(body)}'`;
+    const contact = dance.kind === "turn" ? post("check", this.questions.checkBody(dance)) : `curl '${base}collision-time?${new URLSearchParams(dance.query)}'`;
+    $("#curl").textContent = `${contact}\n${post("trajectory", this.#table())}`;
   }
 
   async #share() {
@@ -54,9 +52,13 @@ export class Keep {
     }
   }
 
+  #table() {
+    const { begin, end } = this.questions.dance;
+    return this.questions.body({ times: { start: begin, stop: end, step: CSV_STEP } });
+  }
+
   async csv() {
-    const body = this.questions.body({ times: { start: 0, stop: this.questions.dance.end, step: CSV_STEP } });
-    return ["trajectory.csv", await this.service.ask("csv", "trajectory", { body, accept: "text/csv" })];
+    return ["trajectory.csv", await this.service.ask("csv", "trajectory", { body: this.#table(), accept: "text/csv" })];
   }
 
   async png() {

@@ -1,7 +1,7 @@
 /** The page: what a person does goes into the state, what the service answers goes onto the screen. */
 
-import { insetWords, millimetres, showEnd, showFirstContact, showHighestSpeed, showMinimumPitch, showRefusal } from "./answers.js";
-import { Service } from "./api.js";
+import { insetWords, millimetres, showEnd, showFirstContact, showHighestSpeed, showMinimumPitch, showProvenSpeed, showRefusal } from "./answers.js";
+import { Problem, Service } from "./api.js";
 import { ClearanceChart, ScanChart } from "./charts.js";
 import { Controls } from "./controls.js";
 import { Dance, speedRange } from "./dance.js";
@@ -13,7 +13,9 @@ import { Table } from "./table.js";
 import { handleName, say, setLanguage } from "./text.js";
 
 const $ = (selector) => document.querySelector(selector);
-const NUMBERS = new Set(FIELDS.map((field) => field.name));
+const NUMBERS = new Set([...FIELDS.map((field) => field.name), "path"]);
+/** A turn needs a wider spiral: the contest's pitch. */
+const PITCHES = { spiral: "0.55", turn: "1.7" };
 /** Which boxes wait for which answers. */
 const BUSY = { contact: ["#first-contact", "#run-end"], pose: ["#stage"], minimum: ["#minimum-pitch"], overview: ["#highest-speed"], clearance: ["#clearance"], scan: ["#scan"] };
 const PITCH_DECIMALS = 4;
@@ -55,7 +57,9 @@ function draw() {
 function showPose(pose) {
   const shown = questions.dance;
   const contact = shown.answer.benches && pose.time === shown.end ? shown.answer : null;
-  Object.assign(dance.scene, { pose, dragon: shown.numbers, contact, ...names() });
+  // Inner and outer are told by the centre of a spiral, which other paths have not.
+  const drawn = contact && shown.kind !== "spiral" ? { ...contact, edge: null } : contact;
+  Object.assign(dance.scene, { pose, dragon: shown.numbers, contact: drawn, ...names() });
   $("#inset").hidden = !contact?.point;
   if (contact) $("#inset figcaption").textContent = insetWords(contact, shown.gap, shown.numbers.benches);
   const [low, high] = speedRange(pose);
@@ -85,8 +89,8 @@ function showTime(time) {
   clearanceChart.now(time);
   const { answer, dance: of } = questions.answers.clearance ?? {};
   if (!answer || of !== questions.dance) return;
-  const step = of.end / (answer.time.length - 1) || 1;
-  const k = Math.min(Math.round(time / step), answer.time.length - 1);
+  const step = (of.end - of.begin) / (answer.time.length - 1) || 1;
+  const k = Math.min(Math.round((time - of.begin) / step), answer.time.length - 1);
   const [a, b] = answer.benches[k].map((bench) => handleName(bench, of.numbers.benches));
   $("#clearance .reading").textContent = say("clearanceAt", { time: answer.time[k].toFixed(2), gap: millimetres(answer.clearance[k]), a, b });
 }
@@ -94,8 +98,8 @@ function showTime(time) {
 /** Each kind of answer and what it changes on the screen; also called again after a change of language. */
 const SHOW = {
   dance() {
-    const { answer, numbers, end } = questions.dance;
-    $("#time").max = end;
+    const { answer, numbers, begin, end } = questions.dance;
+    Object.assign($("#time"), { min: begin, max: end });
     dance.scene.circle = Number(state.get("turning_diameter")) / 2;
     showFirstContact($("#first-contact"), answer, numbers);
     showEnd($("#run-end"), answer, end);
@@ -111,7 +115,8 @@ const SHOW = {
   },
   overview() {
     const { answer, dance: of } = questions.answers.overview;
-    showHighestSpeed($("#highest-speed"), answer, of.answer, of.numbers);
+    if (of.fastest) showProvenSpeed($("#highest-speed"), of.fastest, of.numbers);
+    else showHighestSpeed($("#highest-speed"), answer, of.answer, of.numbers);
   },
   clearance() {
     const { answer, dance: of } = questions.answers.clearance;
@@ -127,9 +132,9 @@ const SHOW = {
 };
 
 function showScanReading() {
-  const { answer, numbers } = questions.dance ?? {};
+  const { answer, numbers, kind } = questions.dance ?? {};
   if (!questions.answers.scan || !answer) return;
-  $("#scan .reading").textContent = answer.head
+  $("#scan .reading").textContent = kind !== "spiral" ? "" : answer.head
     ? say("scanAt", { pitch: numbers.pitch, radius: answer.head.radius.toFixed(6) })
     : `${say("pitch")} ${numbers.pitch} m: ${say(answer.outcome)}`;
 }
@@ -161,11 +166,17 @@ function showState(changed) {
   if (changed.has("view") && state.get("view")) dance.view.set(...state.get("view"));
   if (changed.has("view") && !state.get("view")) dance.view.fitted = true;
   if (changed.has("turning_diameter")) dance.scene.circle = Number(state.get("turning_diameter")) / 2;
+  if (changed.has("path")) showPath();
   if (changed.has("lang")) translate();
   if (changed.has("time")) showTime(player.time());
   if (changed.has("time")) player.update();
   if ([...changed].some((name) => NUMBERS.has(name))) questions.refresh();
   draw();
+}
+
+function showPath() {
+  for (const button of document.querySelectorAll("[data-path]")) button.setAttribute("aria-pressed", button.dataset.path === state.get("path"));
+  $("#figure").hidden = state.get("path") !== "spiral";
 }
 
 function translate() {
@@ -199,6 +210,8 @@ function listen() {
   });
   $("#lost button").addEventListener("click", () => service.retry());
   for (const button of document.querySelectorAll("[data-lang]")) button.addEventListener("click", () => state.set({ lang: button.dataset.lang }));
+  for (const { dataset: { path } } of document.querySelectorAll("[data-path]"))
+    $(`[data-path=${path}]`).addEventListener("click", () => state.get("path") !== path && state.set({ path, pitch: PITCHES[path], time: null, view: null }));
   listenToView();
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", restyle);
   new ResizeObserver(draw).observe($("#stage"));
@@ -237,9 +250,11 @@ function restyle() {
   draw();
 }
 
-/** Limits of every number, from the service's own description of itself. */
-async function readLimits() {
-  const { paths } = await service.ask("openapi", "openapi.json");
+/** Limits of every number and what paths there are, from the service's own description of itself. */
+async function readDescription() {
+  const { paths, components } = await service.ask("openapi", "openapi.json");
+  const kinds = Object.values(components.schemas).map((one) => one.properties?.kind?.const);
+  $("#paths").hidden = !(paths["/check"]?.post && paths["/clearance"].post && kinds.includes("turn"));
   const parameters = ["/collision-time", "/minimum-pitch"].flatMap((path) => paths[path].get.parameters);
   limits = Object.fromEntries(parameters.map(({ name, schema }) => [name, [schema.minimum ?? schema.exclusiveMinimum, schema.maximum]]));
   controls.translate(limits);
@@ -248,5 +263,9 @@ async function readLimits() {
 listen();
 translate();
 showState(new Set(["follow", "rate", "handle", "view", "turning_diameter"]));
+showPath();
 questions.refresh();
-readLimits();
+readDescription().catch((error) => {
+  // Without it the page only lacks the limits.
+  if (!(error instanceof Problem)) throw error;
+});

@@ -33,14 +33,18 @@ export class Player {
 
   /** The instant that is shown: no time in the state is the end. */
   time() {
-    const end = this.questions.dance?.end ?? 0;
+    const { begin, end } = this.#span();
     const time = this.state.get("time");
-    return time === null ? end : Math.min(Math.max(time, 0), end);
+    return time === null ? end : Math.min(Math.max(time, begin), end);
   }
 
   seek(time) {
-    const { end } = this.questions.dance ?? { end: 0 };
-    this.state.set({ time: time >= end ? null : Math.max(0, time) });
+    const { begin, end } = this.#span();
+    this.state.set({ time: time >= end ? null : Math.max(begin, time) });
+  }
+
+  #span() {
+    return this.questions.dance ?? { begin: 0, end: 0 };
   }
 
   step(seconds) {
@@ -50,8 +54,9 @@ export class Player {
 
   toggle() {
     if (this.#playing) return this.#stop();
-    if (!this.questions.dance?.end) return;
-    if (this.state.get("time") === null) this.seek(0);
+    const { begin, end } = this.#span();
+    if (begin >= end) return;
+    if (this.state.get("time") === null) this.seek(begin);
     this.#playing = true;
     this.translate();
     this.#tick(performance.now(), performance.now());

@@ -5,7 +5,7 @@
  * that a hand finds useful: [from, to, step].
  */
 export const FIELDS = [
-  { name: "pitch", value: "0.55", unit: "m", group: "path", slider: [0.3, 1, 0.001] },
+  { name: "pitch", value: "0.55", unit: "m", group: "path", slider: [0.3, 2, 0.001] },
   { name: "start_turns", value: "16", unit: "turns", group: "path", slider: [4, 40, 0.5] },
   { name: "turning_diameter", value: "9", unit: "m", group: "path", slider: [2, 16, 0.1] },
   { name: "benches", value: "223", unit: "", group: "dragon", slider: [1, 400, 1] },
