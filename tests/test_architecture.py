@@ -60,6 +60,9 @@ ORDER = (
     "app.api",
     "app.main",
     "app.prove",
+    "app.show",
+    "app.files",
+    "app.options",
     "app.cli",
 )
 OUTSIDE_CORE = {"app", "fastapi", "http", "json", "orjson", "pathlib", "pydantic", "starlette", "time"}

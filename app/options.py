@@ -1,0 +1,56 @@
+"""Fields of the service's requests as options of the command, refused in the service's words."""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Callable
+from typing import Annotated, Any, TypeVar
+
+import typer
+from pydantic import BaseModel, ValidationError
+from rich.markup import escape
+
+from app.messages import message
+from app.schemas import SHAPES
+from core import InvalidValue
+
+Model = TypeVar("Model", bound=BaseModel)
+
+
+def checked(model: type[Model], values: object) -> Model:
+    """The values as the service's own request; a wrong one is refused in the service's words."""
+    try:
+        return model.model_validate(values)
+    except ValidationError as error:
+        first = error.errors()[0]
+        field = ".".join(str(part) for part in first["loc"] if part not in SHAPES)
+        words = message({**first, "loc": ("", *first["loc"])})
+        raise InvalidValue(field, f"{field}: {words}" if "." in field else words) from error
+
+
+def asks(model: type[Model]) -> Callable[[Callable[..., None]], Callable[..., None]]:
+    """Make the fields of a request the options of a command; the command gets the request as its first argument."""
+
+    def decorated(command: Callable[..., None]) -> Callable[..., None]:
+        own = list(inspect.signature(command, eval_str=True).parameters.values())[1:]
+        fields = [
+            inspect.Parameter(
+                name,
+                inspect.Parameter.KEYWORD_ONLY,
+                default=field.default,
+                annotation=Annotated[field.annotation, typer.Option(help=escape(field.description or ""))],
+            )
+            for name, field in model.model_fields.items()
+        ]
+
+        def asked(**values: Any) -> None:
+            request = checked(model, {name: values.pop(name) for name in model.model_fields})
+            command(request, **values)
+
+        parameters = [p.replace(kind=inspect.Parameter.KEYWORD_ONLY) for p in own] + fields
+        asked.__signature__ = inspect.Signature(parameters)  # type: ignore[attr-defined]
+        asked.__annotations__ = {p.name: p.annotation for p in parameters}
+        asked.__name__, asked.__doc__ = command.__name__, command.__doc__
+        return asked
+
+    return decorated
