@@ -123,7 +123,7 @@ def paper_tables(rows: Sequence[Comparison]) -> list[Part]:
 
 def report_tables(report: Report) -> list[Part]:
     """The verdict, what fails in order of time, and what was measured."""
-    verdict = "Nothing fails." if report.passed else f"{len(report.failures)} thing{"" if len(report.failures) == 1 else "s"} that fail{"s" if len(report.failures) == 1 else ""}:"
+    verdict = "Nothing fails." if report.passed else "What fails, in order of time:"
     facts = _table(f"From {report.start:.3f} to {report.stop:.3f} s", "what", "value", "at", "who")
     for name, value, time, who in _measured(report):
         facts.add_row(name, value, "" if time is None else f"{time:.6f} s", who)
@@ -145,7 +145,7 @@ def _measured(report: Report) -> Iterator[tuple[str, str, float | None, str]]:
             f"bench {area.nearest.bench}",
         )
     if speed := report.highest_speed:
-        yield "highest speed", f"{speed.speed:.6f} m/s", speed.time, f"handle {_shown(speed.handles)}"
+        yield "highest speed", f"{speed.speed:.6f} m/s", speed.time, f"handles {_shown(speed.handles)}"
     if bend := report.sharpest_bend:
         yield "sharpest bend", f"{bend.angle:.6f} rad", bend.time, f"benches {_shown(bend.benches)}"
 
