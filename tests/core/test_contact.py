@@ -1,0 +1,393 @@
+"""First contact: against the reference, against a slow search that shares no code, at grazes, at the edges."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+
+from core import (
+    Dragon,
+    EndReason,
+    FirstContact,
+    InvalidValue,
+    Outcome,
+    OutsideRun,
+    Spiral,
+    clearance_profile,
+    first_contact,
+    run_end,
+)
+from core.search import BRACKET, MARGIN_MAX
+from tests.core.slow_search import SlowDance
+
+CASES = json.loads((Path(__file__).parents[1] / "reference" / "first_contact.json").read_text())["cases"]
+# Times are promised to this [s] and places to what the head moves meanwhile [m].
+ACCURACY = 1e-9
+# Rounding of a separation at some ten metres from the centre [m].
+ROUNDING = 1e-13
+# The clearance of the slow search at its own contact is rounding; pairs this close to the margin are tied [m].
+TIED = 1e-9
+# The last of a run to a fold, where handles move without bound and rounding may leave an answer open [s].
+FOLD = 1e-7
+# Half width of the window around a graze in which the slow search looks for its bottom [s].
+AROUND = 0.1
+
+
+@pytest.mark.parametrize("case", CASES, ids=[case["name"] for case in CASES])
+def test_every_case_of_the_reference_is_met(case: dict[str, Any]) -> None:
+    found = first_contact(
+        Dragon(**case["dragon"]), Spiral(case["pitch"], case["start_turns"]), head_speed=case["head_speed"]
+    )
+    assert found.outcome == case["outcome"]
+    if found.outcome is Outcome.CONTACT:
+        assert found.time == pytest.approx(case["time"], rel=0, abs=ACCURACY)
+        assert found.head is not None
+        assert found.head.theta == pytest.approx(case["head_theta"], rel=0, abs=ACCURACY)
+        assert found.head.radius == pytest.approx(case["head_radius"], rel=0, abs=ACCURACY)
+        assert list(found.benches) == case["benches"]
+        assert (found.corner.bench, found.corner.name) == tuple(case["corner"].values())
+        assert (found.edge.bench, found.edge.name) == tuple(case["edge"].values())
+        np.testing.assert_allclose(found.point, case["point"], rtol=0, atol=ACCURACY)
+        assert found.time_bracket[1] - found.time_bracket[0] <= ACCURACY
+        assert found.time_bracket[0] <= found.time <= found.time_bracket[1]
+        assert found.end is None
+    elif found.outcome is Outcome.CLEAR:
+        assert (found.time, found.time_bracket, found.benches) == (None, None, None)
+        assert found.certificate.clear_until == found.end.time
+
+
+def random_dragon(rng: np.random.Generator, bench_by_bench: bool) -> Dragon:
+    benches = int(rng.choice([3, 4, 6, 10, 20, 40]))
+    chord = 10 ** rng.uniform(-0.3, 0.4)
+    overhang = rng.choice([0.0, rng.uniform(0.0, 0.3)])
+    head, width = chord * 10 ** rng.uniform(-0.3, 0.3), 10 ** rng.uniform(-1.5, -0.3)
+    if not bench_by_bench:
+        return Dragon(benches, head + 2 * overhang, chord + 2 * overhang, width, overhang)
+    chords = np.where(rng.random(benches) < 0.5, chord, chord * 10 ** rng.uniform(-0.3, 0.3, benches))
+    chords[int(rng.integers(1, benches + 1)) :] = chord
+    widths = width * rng.choice([1.0, 2.0], benches)
+    return Dragon.of(chords + 2 * overhang, widths, np.full(benches, overhang))
+
+
+def random_dance(seed: int, bench_by_bench: bool) -> tuple[Dragon, Spiral]:
+    """A dragon that stands apart at the start of a spiral short enough for the slow search."""
+    rng = np.random.default_rng(seed)
+    while True:
+        dragon = random_dragon(rng, bench_by_bench)
+        spiral = Spiral(dragon.widths.max() * rng.uniform(1.2, 4.0), rng.uniform(1.0, 6.0))
+        try:
+            way = run_end(dragon, spiral).time
+        except InvalidValue:
+            continue
+        if 2.0 < way / dragon.chords.min() < 60.0 and SlowDance.of(dragon, spiral).clearance([0.0])[0][0] > 0.0:
+            return dragon, spiral
+
+
+def assert_as_slow_search(dragon: Dragon, spiral: Spiral, margin: float) -> None:
+    found = first_contact(dragon, spiral, margin=margin)
+    slow = SlowDance.of(dragon, spiral)
+    touch = slow.first_touch(margin)
+    if touch is None:
+        assert found.outcome is Outcome.CLEAR
+        return
+    time, pair = touch
+    if time == 0.0:
+        assert found.outcome is Outcome.CONTACT_AT_START
+        return
+    assert found.outcome is Outcome.CONTACT
+    assert found.time == pytest.approx(time, rel=0, abs=ACCURACY)
+    if found.benches != pair:  # two pairs at once
+        assert slow.pair_gap(time, found.benches) == pytest.approx(margin, abs=TIED)
+
+
+@pytest.mark.parametrize("seed", range(14))
+def test_random_dragons_touch_when_and_where_the_slow_search_says(seed: int) -> None:
+    assert_as_slow_search(*random_dance(seed, False), margin=0.0)
+
+
+@pytest.mark.parametrize("seed", range(100, 110))
+def test_random_dragons_given_bench_by_bench_touch_when_and_where_the_slow_search_says(seed: int) -> None:
+    assert_as_slow_search(*random_dance(seed, True), margin=0.0)
+
+
+@pytest.mark.parametrize("seed", range(200, 206))
+def test_random_dragons_come_within_a_margin_when_and_where_the_slow_search_says(seed: int) -> None:
+    dragon, spiral = random_dance(seed, seed % 2 == 1)
+    assert_as_slow_search(dragon, spiral, margin=0.4 * float(SlowDance.of(dragon, spiral).clearance([0.0])[0][0]))
+
+
+@pytest.mark.parametrize("seed", range(300, 312))
+def test_the_general_way_agrees_with_the_family_of_a_uniform_body(seed: int) -> None:
+    """The last bench is longer by a nanometre: no two benches form a family, and nothing else changes."""
+    dragon, spiral = random_dance(seed, False)
+    lengths = np.array(dragon.lengths)
+    lengths[-1] += 1e-9
+    general = Dragon.of(lengths, dragon.widths, dragon.overhangs)
+    assert general.uniform_from == dragon.benches - 1
+    family, general_way = first_contact(dragon, spiral), first_contact(general, spiral)
+    assert family.outcome == general_way.outcome
+    if family.outcome is Outcome.CONTACT and dragon.benches - 1 not in family.benches:
+        assert general_way.time == pytest.approx(family.time, rel=0, abs=ACCURACY)
+        assert general_way.benches == family.benches
+
+
+@pytest.mark.parametrize("benches", [223, 224, 1000, 100_000])
+def test_benches_that_the_contact_does_not_reach_change_nothing(benches: int) -> None:
+    few, many = first_contact(Dragon(30), Spiral()), first_contact(Dragon(benches), Spiral())
+    assert (many.time, many.benches, many.time_bracket) == (few.time, few.benches, few.time_bracket)
+
+
+def test_the_last_bench_that_matters_is_found_among_three_hundred() -> None:
+    """A body of 300 short benches on a spiral that only its own neighbouring rings are too wide for."""
+    dragon, spiral = Dragon(300, 0.7, 0.7, 0.2, 0.1), Spiral(0.2055, 5.5)
+    assert_as_slow_search(dragon, spiral, margin=0.0)
+
+
+# Start inside the region in which rings can touch: pairs far down the body are met before the body repeats itself.
+@pytest.mark.parametrize(
+    ("dragon", "spiral"),
+    [
+        (Dragon(60, 0.6, 1.4, 0.2, 0.2), Spiral(0.36, 4.3)),
+        (Dragon(60, 1.4, 1.4, 0.2, 0.2), Spiral(0.38, 2.9)),
+        (Dragon(40, 1.0, 2.0, 0.1, 0.3), Spiral(0.42, 2.6)),
+        (Dragon(8, 1.0, 2.0, 0.1, 0.1), Spiral(0.9, 1.4)),
+    ],
+    ids=["short-head", "uniform", "long-overhang", "one-turn"],
+)
+def test_a_start_near_the_centre_is_searched_with_all_pairs(dragon: Dragon, spiral: Spiral) -> None:
+    assert_as_slow_search(dragon, spiral, margin=0.0)
+
+
+def test_contact_at_the_start_names_a_touching_pair() -> None:
+    found = first_contact(Dragon(), Spiral(0.35))
+    assert (found.outcome, found.time, found.time_bracket) == (Outcome.CONTACT_AT_START, 0.0, None)
+    assert SlowDance.of(Dragon(), Spiral(0.35)).pair_gap(0.0, found.benches) <= 0.0
+
+
+@pytest.mark.parametrize("benches", [1, 2])
+def test_two_benches_share_a_handle_and_are_always_clear(benches: int) -> None:
+    found = first_contact(Dragon(benches), Spiral(0.1, 40.0))
+    assert found.outcome is Outcome.CLEAR
+    assert found.end == run_end(Dragon(benches), Spiral(0.1, 40.0))
+
+
+def test_overhangs_that_cross_over_a_short_bench_touch_at_the_start() -> None:
+    assert first_contact(Dragon(3, 1.0, 1.0, 0.1, 0.4), Spiral(2.0, 5.0)).outcome is Outcome.CONTACT_AT_START
+
+
+def test_a_wide_spiral_is_clear_to_its_centre() -> None:
+    found = first_contact(Dragon(12, 1.0, 1.0, 0.05, 0.0), Spiral(3.0, 4.0))
+    assert found.outcome is Outcome.CLEAR
+    assert found.end.reason is EndReason.CENTRE
+
+
+# -- grazes: pitches at which a dip of the clearance just reaches the margin, so that the time of contact jumps --
+
+JUMPS = [
+    (Dragon(), 16.0, 0.4503, 0.4504, 0.0),
+    (Dragon(40), 8.0, 0.632, 0.633, 0.0),
+    (Dragon(30, 2.0, 2.2, 0.3, 0.275), 8.0, 0.55, 0.60, 0.0),
+    (Dragon(60, 3.0, 2.0, 0.3, 0.0), 9.0, 0.499, 0.500, 0.0),
+    (Dragon(40), 10.0, 0.50, 0.51, 0.05),
+    (Dragon(40), 10.0, 0.679, 0.680, 0.05),
+]
+# How far from the jump on both sides [m]; and the least jump of the head's way that counts [m].
+BESIDE = 1e-7
+JUMP = 0.2
+
+
+def jump_between(dragon: Dragon, turns: float, low: float, high: float, margin: float) -> tuple[float, float]:
+    """Pitches on both sides of the largest jump of the head's radius at first contact, 1e-12 m apart."""
+
+    def radius(pitch: float) -> float:
+        found = first_contact(dragon, Spiral(pitch, turns), margin=margin)
+        return found.head.radius if found.head else 0.0
+
+    below, above = radius(low), radius(high)
+    while high - low > 1e-12:
+        middle = 0.5 * (low + high)
+        there = radius(middle)
+        if abs(below - there) >= abs(there - above):
+            high, above = middle, there
+        else:
+            low, below = middle, there
+    return low, high
+
+
+@pytest.mark.parametrize(
+    ("dragon", "turns", "low", "high", "margin"), JUMPS, ids=[f"pitch-{jump[2]}-margin-{jump[4]}" for jump in JUMPS]
+)
+def test_a_graze_is_met_just_below_a_jump_and_passed_just_above(
+    dragon: Dragon, turns: float, low: float, high: float, margin: float
+) -> None:
+    pitch = jump_between(dragon, turns, low, high, margin)[1]
+    tight, wide = Spiral(pitch - BESIDE, turns), Spiral(pitch + BESIDE, turns)
+    met, passed = (first_contact(dragon, spiral, margin=margin) for spiral in (tight, wide))
+    assert met.outcome is Outcome.CONTACT
+    later = passed.time if passed.time is not None else passed.end.time
+    assert later - met.time > JUMP
+    for spiral, reaches in ((tight, True), (wide, False)):
+        bottom, least = SlowDance.of(dragon, spiral).dip(met.time - AROUND, met.time + AROUND, met.benches)
+        assert bool(least <= margin) == reaches
+        assert least == pytest.approx(margin, abs=10 * BESIDE)
+        if reaches:
+            assert met.time < bottom
+        else:
+            graze = passed.certificate.least_clearance
+            assert graze is not None
+            assert graze.benches == met.benches
+            assert graze.clearance == pytest.approx(least, rel=0, abs=ROUNDING)
+            assert graze.time == pytest.approx(bottom, rel=0, abs=1e-5)
+
+
+def test_a_margin_between_a_graze_and_zero_is_met_at_the_graze() -> None:
+    graze = first_contact(Dragon(), Spiral(0.4504)).certificate.least_clearance
+    assert graze is not None
+    for factor, near in ((1.001, True), (0.999, False)):
+        found = first_contact(Dragon(), Spiral(0.4504), margin=graze.clearance * factor)
+        assert found.outcome is Outcome.CONTACT
+        assert (abs(found.time - graze.time) < AROUND) is near
+
+
+# -- margin ------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("pitch", [0.52, 0.55, 0.62])
+@pytest.mark.parametrize("margin", [1e-6, 0.05, 0.12])
+def test_at_first_contact_with_a_margin_shapely_measures_the_margin(pitch: float, margin: float) -> None:
+    found = first_contact(Dragon(40), Spiral(pitch, 10.0), margin=margin)
+    slow = SlowDance.of(Dragon(40), Spiral(pitch, 10.0))
+    if found.outcome is Outcome.CONTACT_AT_START:
+        assert slow.clearance([0.0])[0][0] <= margin
+        return
+    assert found.outcome is Outcome.CONTACT
+    assert slow.pair_gap(found.time, found.benches) == pytest.approx(margin, rel=0, abs=1e-9)
+    proven, overlapping = found.time_bracket
+    assert slow.clearance([proven])[0][0] >= margin - ROUNDING
+    assert slow.clearance([overlapping])[0][0] <= margin + ROUNDING
+
+
+@given(st.floats(0.0, 0.2), st.floats(0.0, 0.2))
+@settings(max_examples=30, deadline=None)
+def test_a_larger_margin_is_never_met_later(one: float, other: float) -> None:
+    less, more = sorted((one, other))
+    times = [first_contact(Dragon(30), Spiral(0.6, 8.0), margin=margin).time for margin in (less, more)]
+    assert None not in times
+    assert times[1] <= times[0] + ACCURACY
+
+
+# -- laws ----------------------------------------------------------------------------------------------
+
+
+def outcome_before_fold(found: FirstContact) -> Outcome:
+    """Clear too where rounding leaves only the last of the way to the fold undecided."""
+    if found.outcome is Outcome.UNDECIDED:
+        proven, end = found.time_bracket
+        assert end - proven < FOLD
+        return Outcome.CLEAR
+    return found.outcome
+
+
+DANCES = st.integers(0, 10_000).map(lambda seed: random_dance(seed, seed % 3 == 0))
+
+
+@settings(max_examples=25, deadline=None)
+@given(DANCES)
+def test_all_is_clear_just_before_first_contact_and_not_just_after(dance: tuple[Dragon, Spiral]) -> None:
+    dragon, spiral = dance
+    found = first_contact(dragon, spiral)
+    assume(found.outcome is Outcome.CONTACT)
+    slow = SlowDance.of(dragon, spiral)
+    before = found.time_bracket[0] * (1.0 - np.array([0.0, 1e-9, 1e-6, 1e-3, 0.01, 0.1, 0.5]))
+    assert slow.clearance(before)[0].min() > -ROUNDING
+    assert slow.clearance([found.time_bracket[1]])[0][0] <= ROUNDING
+
+
+@settings(max_examples=25, deadline=None)
+@given(DANCES, st.floats(0.1, 10.0))
+def test_scaling_every_length_scales_the_answer(dance: tuple[Dragon, Spiral], k: float) -> None:
+    dragon, spiral = dance
+    found = first_contact(dragon, spiral)
+    large = Dragon.of(k * dragon.lengths, k * dragon.widths, k * dragon.overhangs)
+    scaled = first_contact(large, Spiral(k * spiral.pitch, spiral.start_turns))
+    assert outcome_before_fold(scaled) == outcome_before_fold(found)
+    if found.outcome is Outcome.CONTACT:
+        assert scaled.time == pytest.approx(k * found.time, rel=1e-9, abs=ACCURACY)
+        np.testing.assert_allclose(scaled.point, k * np.array(found.point), atol=1e-8 * max(1.0, k))
+
+
+@settings(max_examples=15, deadline=None)
+@given(DANCES, st.floats(0.1, 10.0))
+def test_a_faster_head_meets_the_same_contact_sooner(dance: tuple[Dragon, Spiral], head_speed: float) -> None:
+    found, faster = (first_contact(*dance, head_speed=speed) for speed in (1.0, head_speed))
+    assert outcome_before_fold(faster) == outcome_before_fold(found)
+    if found.time is not None:
+        assert faster.time * head_speed == pytest.approx(found.time, rel=0, abs=ACCURACY * max(1.0, head_speed))
+        assert faster.head.radius == pytest.approx(found.head.radius, abs=ACCURACY * max(1.0, head_speed))
+
+
+def test_the_bracket_is_as_narrow_as_promised() -> None:
+    low, high = first_contact(Dragon(), Spiral()).time_bracket
+    assert 0.0 < high - low <= 2.1 * BRACKET
+
+
+# -- clearance along time --------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("seed", range(400, 406))
+def test_the_profile_is_the_least_separation_of_all_pairs(seed: int) -> None:
+    dragon, spiral = random_dance(seed, seed % 2 == 0)
+    times = np.linspace(0.0, 0.999 * run_end(dragon, spiral).time, 25)
+    profile = clearance_profile(dragon, spiral, times)
+    slow, pairs = SlowDance.of(dragon, spiral).clearance(times)
+    np.testing.assert_allclose(profile.clearance, slow, rtol=0, atol=1e-10)
+    for k in np.flatnonzero((profile.benches != pairs).any(axis=1)):
+        gap = SlowDance.of(dragon, spiral).pair_gap(times[k], tuple(profile.benches[k]))
+        assert gap == pytest.approx(slow[k], abs=1e-10)
+
+
+def test_the_grazes_of_a_profile_are_the_bottoms_of_its_dips() -> None:
+    """At pitch 0.55 the benches overlap from 412.47 to 415.02 s, are clear to 415.375 s and overlap again."""
+    profile = clearance_profile(Dragon(30), Spiral(), np.linspace(405.0, 416.0, 50))
+    assert profile.grazes
+    slow = SlowDance.of(Dragon(30), Spiral())
+    for graze in profile.grazes:
+        around = graze.time + np.linspace(-1e-3, 1e-3, 11)
+        values, pairs = slow.clearance(around)
+        assert graze.clearance == pytest.approx(values[5], abs=ROUNDING)
+        assert values.min() >= graze.clearance - ROUNDING
+        assert tuple(pairs[5]) == graze.benches
+
+
+@pytest.mark.parametrize("benches", [1, 2])
+def test_a_profile_needs_two_benches_that_share_no_handle(benches: int) -> None:
+    with pytest.raises(InvalidValue) as refused:
+        clearance_profile(Dragon(benches), Spiral(), [0.0])
+    assert refused.value.field == "dragon.benches"
+
+
+def test_a_profile_past_the_end_is_outside_the_run() -> None:
+    with pytest.raises(OutsideRun) as refused:
+        clearance_profile(Dragon(5), Spiral(), [0.0, 433.0])
+    assert refused.value.field == "times.1"
+
+
+# -- limits ----------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("margin", [0.0, MARGIN_MAX])
+def test_a_margin_at_its_limits_is_accepted(margin: float) -> None:
+    assert first_contact(Dragon(5), Spiral(), margin=margin).outcome is not Outcome.UNDECIDED
+
+
+@pytest.mark.parametrize("margin", [-1e-12, MARGIN_MAX * 1.001, float("nan"), float("inf"), "0", None])
+def test_a_margin_beyond_its_limits_is_refused(margin: object) -> None:
+    with pytest.raises(InvalidValue) as refused:
+        first_contact(Dragon(5), Spiral(), margin=margin)  # type: ignore[arg-type]
+    assert refused.value.field == "margin"

@@ -1,0 +1,259 @@
+"""Handles, velocities, poses and the end of a run."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from core import Dragon, EndReason, InvalidValue, OutsideRun, Spiral, bench_poses, run_end, trajectory
+from core.kinematics import HEAD_SPEED_MAX, HEAD_SPEED_MIN
+from tests.core.slow_search import SlowDance
+
+REFERENCE = json.loads((Path(__file__).parents[1] / "reference" / "trajectory.json").read_text())
+# Positions and speeds are promised to this [m] and [m/s].
+ACCURACY = 1e-11
+# Rounding of a position, relative to the largest coordinate [1].
+ROUNDING = 1e-12
+# The slow dance finds the end by bisecting on whether a chain exists: as good as the crest is flat [m of travel].
+SLOW_END = 1e-8
+
+SIZES = st.floats(0.3, 3.0)
+DRAGONS = st.one_of(
+    st.builds(
+        Dragon, st.integers(1, 25), st.floats(0.5, 4.0), st.floats(0.5, 4.0), st.floats(0.05, 1.0), st.floats(0, 0.2)
+    ),
+    st.lists(SIZES, min_size=1, max_size=12).map(lambda c: Dragon.of(c, [0.2] * len(c), [0.1] * len(c))),
+)
+SPIRALS = st.builds(Spiral, pitch=st.floats(0.2, 3.0), start_turns=st.floats(3.0, 20.0))
+
+
+def instant(dragon: Dragon, spiral: Spiral, share: float) -> float:
+    """The time at a share of the run, 1 at its end [s]; negative before the start."""
+    return share * run_end(dragon, spiral).time
+
+
+def stands(dragon: Dragon, spiral: Spiral) -> bool:
+    try:
+        return run_end(dragon, spiral).time > 1.0
+    except InvalidValue:
+        return False
+
+
+DANCES = st.tuples(DRAGONS, SPIRALS).filter(lambda dance: stands(*dance))
+
+
+def test_the_selected_handles_are_those_of_the_reference() -> None:
+    rows = REFERENCE["selected"]
+    dance = trajectory(Dragon(), Spiral(), [row["time"] for row in rows])
+    for k, row in enumerate(rows):
+        for handle in row["handles"]:
+            place = dance.position[k, handle["handle"]]
+            np.testing.assert_allclose(place, [handle["x"], handle["y"]], rtol=0, atol=ACCURACY)
+            assert dance.speed[k, handle["handle"]] == pytest.approx(handle["speed"], rel=0, abs=ACCURACY)
+
+
+def test_every_handle_is_that_of_the_reference() -> None:
+    rows = REFERENCE["full"]
+    dance = trajectory(Dragon(), Spiral(), [row["time"] for row in rows])
+    for k, row in enumerate(rows):
+        places = [[handle["x"], handle["y"]] for handle in row["handles"]]
+        np.testing.assert_allclose(dance.position[k], places, rtol=0, atol=ACCURACY)
+        np.testing.assert_allclose(dance.speed[k], [h["speed"] for h in row["handles"]], rtol=0, atol=ACCURACY)
+
+
+def test_all_rows_rounded_to_six_decimals_have_the_sha256_of_the_reference() -> None:
+    dance = trajectory(Dragon(), Spiral(), np.arange(301.0))
+    digest = hashlib.sha256()
+    for t in range(301):
+        for k in range(224):
+            row = [f"{value:.6f}" for value in (*dance.position[t, k], dance.speed[t, k])]
+            row = ["0.000000" if value == "-0.000000" else value for value in row]
+            digest.update(f"{t} {k} {' '.join(row)}\n".encode())
+    assert digest.hexdigest() == REFERENCE["sha256_of_all_six_decimal_rows"]["t=0..300 step 1"]
+
+
+@settings(max_examples=60, deadline=None)
+@given(DANCES, st.floats(-0.5, 1.0))
+def test_chords_keep_their_length_and_handles_stay_on_the_spiral(dance: tuple[Dragon, Spiral], share: float) -> None:
+    dragon, spiral = dance
+    position = trajectory(dragon, spiral, [instant(dragon, spiral, share)]).position[0]
+    size = ROUNDING * (np.abs(position).max() + spiral.pitch)
+    links = np.linalg.norm(np.diff(position, axis=0), axis=1)
+    np.testing.assert_allclose(links, dragon.chords, rtol=0, atol=10 * size)
+    turns = np.hypot(*position.T) / spiral.pitch - np.arctan2(position[:, 1], position[:, 0]) / (2 * np.pi)
+    off = np.abs(turns - np.round(turns)) * spiral.pitch
+    assert off[np.hypot(*position.T) > 1e-3 * spiral.pitch].max(initial=0.0) <= 100 * size
+
+
+@settings(max_examples=40, deadline=None)
+@given(DANCES, st.floats(-0.5, 0.999))
+def test_handles_are_those_of_the_slow_dance(dance: tuple[Dragon, Spiral], share: float) -> None:
+    dragon, spiral = dance
+    time = instant(dragon, spiral, share)
+    position = trajectory(dragon, spiral, [time]).position[0]
+    slow = SlowDance.of(dragon, spiral).handles([time])[0]
+    # close to the fold a handle moves as the square root of what is left
+    np.testing.assert_allclose(position, slow, rtol=0, atol=1e-9 * (1.0 + np.abs(position).max()))
+
+
+@settings(max_examples=60, deadline=None)
+@given(DANCES, st.floats(-0.5, 0.9), st.floats(0.2, 5.0))
+def test_velocities_are_the_difference_quotients_of_positions(
+    dance: tuple[Dragon, Spiral], share: float, head_speed: float
+) -> None:
+    dragon, spiral = dance
+    end = run_end(dragon, spiral, head_speed=head_speed).time
+    time, h = share * end, 1e-6 * end * (1.0 - share)
+    moving = trajectory(dragon, spiral, [time - h, time, time + h], head_speed=head_speed)
+    quotient = (moving.position[2] - moving.position[0]) / (2 * h)
+    fastest = moving.speed.max()
+    np.testing.assert_allclose(quotient, moving.velocity[1], rtol=0, atol=1e-5 * fastest + 1e-8 / h * ROUNDING)
+    np.testing.assert_allclose(np.linalg.norm(moving.velocity, axis=-1), moving.speed, rtol=1e-12, atol=1e-12)
+    np.testing.assert_allclose(moving.speed[:, 0], head_speed, rtol=1e-14)
+
+
+@settings(max_examples=40, deadline=None)
+@given(DANCES, st.lists(st.floats(-0.2, 1.0), max_size=5))
+def test_a_batch_equals_a_loop_to_the_last_bit(dance: tuple[Dragon, Spiral], shares: list[float]) -> None:
+    dragon, spiral = dance
+    times = [instant(dragon, spiral, share) for share in shares]
+    batch = trajectory(dragon, spiral, times)
+    assert batch.position.shape == (len(times), dragon.benches + 1, 2)
+    for k, time in enumerate(times):
+        one = trajectory(dragon, spiral, [time])
+        assert np.array_equal(batch.position[k], one.position[0])
+        assert np.array_equal(batch.velocity[k], one.velocity[0])
+
+
+@settings(max_examples=40, deadline=None)
+@given(DANCES, st.floats(-0.2, 0.95), st.floats(0.5, 2.0))
+def test_scaling_every_length_scales_every_place(dance: tuple[Dragon, Spiral], share: float, k: float) -> None:
+    dragon, spiral = dance
+    large = Dragon.of(k * dragon.lengths, k * dragon.widths, k * dragon.overhangs)
+    time = instant(dragon, spiral, share)
+    small = trajectory(dragon, spiral, [time])
+    scaled = trajectory(large, Spiral(k * spiral.pitch, spiral.start_turns), [k * time])
+    np.testing.assert_allclose(scaled.position, k * small.position, rtol=0, atol=1e-9 * np.abs(small.position).max())
+    np.testing.assert_allclose(scaled.speed, small.speed, rtol=1e-8)
+
+
+@settings(max_examples=40, deadline=None)
+@given(DANCES, st.floats(0.0, 0.99), st.floats(0.1, 10.0))
+def test_a_faster_head_is_at_the_same_place_sooner(
+    dance: tuple[Dragon, Spiral], share: float, head_speed: float
+) -> None:
+    dragon, spiral = dance
+    time = instant(dragon, spiral, share)
+    slow, fast = (trajectory(dragon, spiral, [time / v], head_speed=v) for v in (1.0, head_speed))
+    size = np.abs(slow.position).max() + spiral.pitch
+    np.testing.assert_allclose(fast.position, slow.position, rtol=0, atol=1e-9 * size)
+    np.testing.assert_allclose(fast.speed, head_speed * slow.speed, rtol=1e-7)
+
+
+def test_the_default_run_ends_at_the_fold_of_the_head() -> None:
+    end = run_end(Dragon(), Spiral())
+    assert (end.reason, end.bench) == (EndReason.FOLD, 0)
+    assert end.time == pytest.approx(432.917924228, abs=1e-8)
+    assert end.theta is not None
+    assert end.theta * Spiral().growth == pytest.approx(1.28980, abs=1e-5)
+
+
+def test_a_wide_spiral_is_danced_to_its_centre() -> None:
+    spiral = Spiral(9.0, 3.0)
+    end = run_end(Dragon(5), spiral)
+    assert (end.reason, end.bench, end.theta) == (EndReason.CENTRE, None, 0.0)
+    assert end.time == spiral.length
+    assert trajectory(Dragon(5), spiral, [end.time]).position[0, 0].tolist() == [0.0, 0.0]
+
+
+def test_the_reference_agrees_on_every_fold() -> None:
+    cases = json.loads((Path(__file__).parents[1] / "reference" / "first_contact.json").read_text())["cases"]
+    folding = [case for case in cases if case.get("fold_time")]
+    assert folding
+    for case in folding:
+        end = run_end(
+            Dragon(**case["dragon"]), Spiral(case["pitch"], case["start_turns"]), head_speed=case["head_speed"]
+        )
+        assert end.time == pytest.approx(case["fold_time"], rel=0, abs=1e-9), case["name"]
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_a_run_of_unlike_benches_ends_where_the_slow_chain_stops(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    benches = int(rng.integers(1, 8))
+    dragon = Dragon.of(10 ** rng.uniform(-0.5, 0.6, benches), [0.1] * benches, [0.05] * benches)
+    spiral = Spiral(10 ** rng.uniform(-0.5, 0.8), 4.0)
+    end = run_end(dragon, spiral)
+    assert end.time == pytest.approx(SlowDance.of(dragon, spiral).end(), abs=SLOW_END)
+
+
+@settings(max_examples=40, deadline=None)
+@given(DANCES)
+def test_the_last_instant_is_danced_and_the_next_is_outside_the_run(dance: tuple[Dragon, Spiral]) -> None:
+    dragon, spiral = dance
+    end = run_end(dragon, spiral)
+    assert np.isfinite(trajectory(dragon, spiral, [0.0, end.time]).speed).all()
+    with pytest.raises(OutsideRun) as refused:
+        trajectory(dragon, spiral, [0.0, math.nextafter(end.time, math.inf)])
+    assert refused.value.field == "times.1"
+    assert ("folds" in str(refused.value)) == (end.reason is EndReason.FOLD)
+
+
+def test_a_start_inside_the_fold_is_refused() -> None:
+    fold = run_end(Dragon(), Spiral()).theta
+    assert fold is not None
+    turns = fold / (2 * math.pi)
+    assert run_end(Dragon(), Spiral(0.55, turns * (1 + 1e-9))).time > 0.0
+    with pytest.raises(InvalidValue) as refused:
+        run_end(Dragon(), Spiral(0.55, turns))
+    assert refused.value.field == "path.start_turns"
+
+
+@pytest.mark.parametrize("head_speed", [HEAD_SPEED_MIN, 1.0, HEAD_SPEED_MAX])
+def test_a_head_speed_at_its_limits_is_accepted(head_speed: float) -> None:
+    assert run_end(Dragon(), Spiral(), head_speed=head_speed).time == pytest.approx(432.917924228 / head_speed)
+
+
+@pytest.mark.parametrize(
+    "head_speed", [HEAD_SPEED_MIN / 2, HEAD_SPEED_MAX * 2, 0.0, -1.0, math.nan, math.inf, "1", None]
+)
+def test_a_head_speed_beyond_its_limits_is_refused(head_speed: object) -> None:
+    with pytest.raises(InvalidValue) as refused:
+        trajectory(Dragon(), Spiral(), [0.0], head_speed=head_speed)  # type: ignore[arg-type]
+    assert refused.value.field == "head_speed"
+
+
+@pytest.mark.parametrize(
+    ("times", "field"),
+    [([[0.0]], "times"), (0.0, "times"), (["soon"], "times"), ([0.0, math.nan], "times.1"), ([math.inf], "times.0")],
+)
+def test_times_that_are_no_flat_list_of_numbers_are_refused(times: object, field: str) -> None:
+    with pytest.raises(InvalidValue) as refused:
+        trajectory(Dragon(), Spiral(), times)  # type: ignore[arg-type]
+    assert refused.value.field == field
+
+
+def test_no_times_give_an_empty_table() -> None:
+    assert trajectory(Dragon(4), Spiral(), []).position.shape == (0, 5, 2)
+
+
+@given(st.integers(1, 6), st.integers(0, 3), st.data())
+def test_poses_of_many_instants_equal_those_one_by_one(benches: int, instants: int, data: st.DataObject) -> None:
+    numbers = 2 * (benches + 1) * instants
+    places = st.lists(st.floats(-100.0, 100.0), min_size=numbers, max_size=numbers)
+    handles = np.array(data.draw(places)).reshape(instants, benches + 1, 2)
+    poses = bench_poses(handles)
+    assert poses.shape == (instants, benches, 3)
+    for k in range(instants):
+        assert np.array_equal(poses[k], bench_poses(handles[k]))
+        np.testing.assert_allclose(poses[k, :, :2], 0.5 * (handles[k, 1:] + handles[k, :-1]), atol=1e-14)
+        reach = np.hypot(*(handles[k, :-1] - handles[k, 1:]).T)
+        along = np.stack([np.cos(poses[k, :, 2]), np.sin(poses[k, :, 2])], axis=-1) * reach[:, None]
+        np.testing.assert_allclose(along, handles[k, :-1] - handles[k, 1:], atol=1e-12)
