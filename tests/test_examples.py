@@ -1,0 +1,61 @@
+"""Every file under examples/ is a request that runs, with the verdict that its comment promises."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+from app.files import read_dance
+from app.schemas import CheckRequest
+from core import FailureKind, Outcome, Report
+
+EXAMPLES = Path(__file__).parents[1] / "examples"
+REFERENCE = Path(__file__).parent / "reference"
+REFERENCE_ERROR = 1e-9  # [m], [m/s], [s]
+
+
+def report(name: str) -> Report:
+    """The verdict on an example, read as the command reads it."""
+    request = CheckRequest.model_validate(read_dance(EXAMPLES / f"{name}.toml"))
+    return request.to_report(request.dragon.to_dragon(1000), request.path.to_path())
+
+
+def test_every_example_has_its_test() -> None:
+    assert {path.stem for path in EXAMPLES.glob("*.toml")} == {"paper_dance", "contest_turn", "village_square"}
+    assert [path.name for path in EXAMPLES.iterdir() if path.suffix != ".toml"] == ["village_square.geojson"]
+
+
+def test_the_papers_dance_ends_where_the_head_touches_bench_8() -> None:
+    cases = json.loads((REFERENCE / "first_contact.json").read_text())["cases"]
+    time = next(case["time"] for case in cases if case["name"] == "default")
+    found = report("paper_dance")
+    assert not found.passed
+    assert [(failure.kind, failure.benches) for failure in found.failures] == [(FailureKind.CONTACT, (0, 8))]
+    assert found.first_contact.time == pytest.approx(time, abs=REFERENCE_ERROR)
+    assert found.stop == pytest.approx(time, abs=REFERENCE_ERROR)
+
+
+def test_the_contests_turn_passes_below_2_metres_a_second() -> None:
+    clearance = json.loads((REFERENCE / "turn.json").read_text())["clearance"]
+    speed = json.loads((REFERENCE / "maximum_head_speed.json").read_text())
+    found = report("contest_turn")
+    assert found.passed
+    assert found.least_clearance is not None
+    assert found.least_clearance.distance == pytest.approx(clearance["least"], abs=REFERENCE_ERROR)
+    assert found.highest_speed is not None
+    assert found.highest_speed.speed == pytest.approx(speed["speed_ratio"], abs=REFERENCE_ERROR)
+
+
+def test_the_village_dragon_keeps_half_a_metre_from_everything() -> None:
+    found = report("village_square")
+    assert found.passed, found.failures
+    assert found.first_contact.outcome is Outcome.CLEAR
+    assert found.venue is not None
+    assert found.venue.stray is None
+    names = [area.name for area in found.venue.areas]
+    assert names == ["square", "well", "stage", "linden tree", "chestnut tree"]
+    for area in found.venue.areas:
+        assert area.nearest.at_least is not None
+        assert area.nearest.at_least > 0.5, area.name
