@@ -11,10 +11,12 @@ const pair = ([a, b], benches) => ({ a: handleName(a, benches), b: handleName(b,
 /** Replace what a box shows, but keep its details open. */
 function show(box, title, value, lines, known, outcome = "") {
   const open = box.querySelector("details")?.open ?? false;
-  const details = known.length ? make("details", { open }, make("summary", { textContent: say("how") }), ...known) : null;
+  const summary = make("summary", { textContent: say("how") });
+  const details = known.length ? [make("details", { open }, summary, ...known)] : [];
   box.dataset.outcome = outcome;
   const paragraphs = lines.map((line) => (typeof line === "string" ? make("p", { textContent: line }) : line));
-  box.replaceChildren(make("h3", { textContent: title }), make("p", { className: "value" }, value), ...paragraphs, ...(details ? [details] : []));
+  const heading = make("h3", { textContent: title });
+  box.replaceChildren(heading, make("p", { className: "value" }, value), ...paragraphs, ...details);
 }
 
 function facts(rows) {
@@ -25,11 +27,14 @@ function facts(rows) {
 
 function engines(check) {
   if (!check) return [make("p", { textContent: say("noEngines") })];
-  const cells = (verdict) => ["before", "after"].map((when) => make("td", { textContent: say(verdict[when] ? "overlapping" : "apart") }));
-  const heads = ["engine", "before", "after"].map((key) => make("th", { scope: "col", textContent: say(key) }));
-  const rows = Object.entries(check.engines).map(([name, verdict]) => make("tr", {}, make("th", { scope: "row", textContent: say(name) }), ...cells(verdict)));
-  const words = `${say("engines")}. ${say(check.agree ? "agree" : "disagree")}`;
-  return [make("table", {}, make("caption", { textContent: words }), make("thead", {}, make("tr", {}, ...heads)), make("tbody", {}, ...rows))];
+  const cell = (overlaps) => make("td", { textContent: say(overlaps ? "overlapping" : "apart") });
+  const head = (key, scope) => make("th", { scope, textContent: say(key) });
+  const rows = Object.entries(check.engines).map(([name, { before, after }]) =>
+    make("tr", {}, head(name, "row"), cell(before), cell(after)),
+  );
+  const heads = make("tr", {}, ...["engine", "before", "after"].map((key) => head(key, "col")));
+  const caption = make("caption", { textContent: `${say("engines")}. ${say(check.agree ? "agree" : "disagree")}` });
+  return [make("table", {}, caption, make("thead", {}, heads), make("tbody", {}, ...rows))];
 }
 
 /** answer: of /collision-time */
@@ -39,23 +44,26 @@ export function showFirstContact(box, answer, { benches, margin }) {
   if (outcome.startsWith("contact")) {
     const [x, y] = answer.point.map((one) => one.toFixed(6));
     lines.push(say("pairMeets", { ...pair(answer.benches, benches), x, y, radius: answer.head.radius.toFixed(6) }));
-  } else if (outcome === "clear") lines.push(answer.end ? say("clearUntil", { time: answer.end.time.toFixed(6) }) : say("clearAll"));
-  else lines.push(say("undecidedFrom", { time: answer.time_bracket[0].toFixed(9) }));
+  } else if (outcome === "clear") {
+    lines.push(answer.end ? say("clearUntil", { time: answer.end.time.toFixed(6) }) : say("clearAll"));
+  } else lines.push(say("undecidedFrom", { time: answer.time_bracket[0].toFixed(9) }));
   if (margin > 0) lines.push(say("nearMargin", { margin }));
   const rows = [];
   if (answer.time_bracket) {
     const [low, high] = answer.time_bracket.map((one) => one.toFixed(10));
     rows.push([say("bracket"), say("bracketTime", { low, high })]);
   }
-  rows.push([say("certificate"), say("certificateSteps", { steps: certificate.steps, until: certificate.clear_until.toFixed(10) })]);
+  const proven = { steps: certificate.steps, until: certificate.clear_until.toFixed(10) };
+  rows.push([say("certificate"), say("certificateSteps", proven)]);
   const least = certificate.least_clearance;
   if (least) {
     const values = { ...pair(least.benches, benches), gap: millimetres(least.clearance), time: least.time.toFixed(6) };
     rows.push([say("leastBefore"), say("leastBeforeIs", values)]);
   }
   const method = make("p", { lang: "en", className: "method", textContent: certificate.method });
-  const value = [make("span", { className: "mark", "aria-hidden": "true", textContent: MARKS[outcome] }), say(outcome, { time: time?.toFixed(6) })];
-  show(box, say("firstContact"), make("span", {}, ...value), lines, [facts(rows), method, ...engines(answer.cross_check)], outcome);
+  const mark = make("span", { className: "mark", "aria-hidden": "true", textContent: MARKS[outcome] });
+  const value = make("span", {}, mark, say(outcome, { time: time?.toFixed(6) }));
+  show(box, say("firstContact"), value, lines, [facts(rows), method, ...engines(answer.cross_check)], outcome);
 }
 
 /** answer: of /minimum-pitch; use(pitch) sets it */
@@ -73,7 +81,8 @@ export function showMinimumPitch(box, answer, { benches, diameter }, use) {
     [say("justified"), say(`justified_${answer.justified_by}`)],
     [say("evaluations"), answer.evaluations],
   ];
-  show(box, say("minimumPitch"), `${answer.pitch.toFixed(9)} m`, [...lines, button], [facts(rows), ...engines(answer.cross_check)]);
+  const known = [facts(rows), ...engines(answer.cross_check)];
+  show(box, say("minimumPitch"), `${answer.pitch.toFixed(9)} m`, [...lines, button], known);
 }
 
 /** table: a trajectory at evenly spaced instants over the whole dance, which ends as answer says */
@@ -109,9 +118,10 @@ export function showRefusal(box, title, words) {
 
 /** What stands under the enlarged view. gap: [m] between the two benches, null while unknown */
 export function insetWords({ benches: [a, b], corner, edge }, gap, benches) {
-  const named = corner && edge;
-  const words = named
-    ? say("insetMeet", { corner: say(corner.name), edge: say(edge.name), a: handleName(corner.bench, benches), b: handleName(edge.bench, benches) })
-    : `${handleName(a, benches)}, ${handleName(b, benches)}`;
+  const name = (bench) => handleName(bench, benches);
+  const words =
+    corner && edge
+      ? say("insetMeet", { corner: say(corner.name), a: name(corner.bench), edge: say(edge.name), b: name(edge.bench) })
+      : `${name(a)}, ${name(b)}`;
   return gap === null ? words : `${words}; ${say("gap", { gap: millimetres(gap) })}`;
 }

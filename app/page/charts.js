@@ -8,7 +8,8 @@ const ABOVE = 1.06;
 function colours() {
   const style = getComputedStyle(document.documentElement);
   const read = (name) => style.getPropertyValue(`--${name}`).trim();
-  return { text: read("muted"), grid: read("line"), line: read("accent"), bad: read("contact"), mark: read("text"), good: read("clear") };
+  const [text, grid, line, bad, mark, good] = ["muted", "line", "accent", "contact", "text", "clear"].map(read);
+  return { text, grid, line, bad, mark, good };
 }
 
 /** A chart in a box; click or drag calls seek(x). The marker `now` is an element, so moving it redraws nothing. */
@@ -45,13 +46,19 @@ class Chart {
   }
 
   frame(paint, xAxis, yAxis, series, hook, y) {
-    const axis = (label) => ({ label, stroke: paint.text, grid: { stroke: paint.grid, width: 1 }, ticks: { stroke: paint.grid, width: 1 }, font: "12px system-ui, sans-serif", labelFont: "12px system-ui, sans-serif", size: 52, labelSize: 22 });
+    const [grid, font] = [{ stroke: paint.grid, width: 1 }, "12px system-ui, sans-serif"];
+    const looks = { stroke: paint.text, grid, ticks: grid, font, labelFont: font, labelSize: 22 };
     return {
-      width: this.box.clientWidth, height: HEIGHT, legend: { show: false },
+      width: this.box.clientWidth,
+      height: HEIGHT,
+      legend: { show: false },
       cursor: { drag: { x: false, y: false }, y: false, points: { show: false } },
       scales: { x: { time: false }, y },
-      axes: [{ ...axis(say(xAxis)), size: 34 }, axis(say(yAxis))],
-      series: [{}, ...series],
+      axes: [
+        { ...looks, label: say(xAxis), size: 34 },
+        { ...looks, label: say(yAxis), size: 52 },
+      ],
+      series: [{}, series],
       hooks: { draw: [hook], setSize: [() => this.now(this.#now)], ready: [() => this.now(this.#now)] },
     };
   }
@@ -82,9 +89,10 @@ function pen(plot) {
     context.stroke();
     context.setLineDash([]);
   };
+  const { left, top, width, height } = plot.bbox;
   return {
-    across: (y, colour, dash) => line([plot.bbox.left, at(0, y)[1]], [plot.bbox.left + plot.bbox.width, at(0, y)[1]], colour, dash),
-    up: (x, colour, dash) => line([at(x, 0)[0], plot.bbox.top], [at(x, 0)[0], plot.bbox.top + plot.bbox.height], colour, dash),
+    across: (y, colour, dash) => line([left, at(0, y)[1]], [left + width, at(0, y)[1]], colour, dash),
+    up: (x, colour, dash) => line([at(x, 0)[0], top], [at(x, 0)[0], top + height], colour, dash),
     dot(x, y, colour, radius) {
       context.beginPath();
       context.arc(...at(x, y), radius * devicePixelRatio, 0, 2 * Math.PI);
@@ -115,7 +123,8 @@ export class ClearanceChart extends Chart {
       if (contact !== null) draw.cross(contact, 1000 * margin, paint.bad);
     };
     const range = [ABOVE * low - 0.04 * high, ABOVE * high];
-    return this.frame(paint, "timeAxis", "clearanceAxis", [{ stroke: paint.line, width: 1.5, points: { show: false } }], hook, { range });
+    const series = { stroke: paint.line, width: 1.5, points: { show: false } };
+    return this.frame(paint, "timeAxis", "clearanceAxis", series, hook, { range });
   }
 }
 
@@ -143,6 +152,7 @@ export class ScanChart extends Chart {
       for (const [from, to] of pieces) for (const k of [from, to - 1]) draw.dot(pitch[k], radius[k], paint.line, 2);
     };
     const range = [0, ABOVE * Math.max(circle, ...radius)];
-    return this.frame(paint, "pitchAxis", "radiusAxis", [{ stroke: paint.line, width: 2, points: { show: false }, spanGaps: false }], hook, { range });
+    const series = { stroke: paint.line, width: 2, points: { show: false } };
+    return this.frame(paint, "pitchAxis", "radiusAxis", series, hook, { range });
   }
 }

@@ -59,7 +59,7 @@ export class Controls {
     this.#rows.set(name, row);
     this.#show(name);
     const label = make("label", { htmlFor: name, "data-text": name });
-    const shownUnit = unit === "turns" ? make("span", { className: "unit", "data-text": unit }) : make("span", { className: "unit", textContent: unit });
+    const shownUnit = make("span", { className: "unit", ...(unit === "turns" ? { "data-text": unit } : { textContent: unit }) });
     return make("div", { className: "field" }, label, row.text, shownUnit, row.reset, row.slider, row.limits, row.error);
   }
 

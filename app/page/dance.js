@@ -85,7 +85,8 @@ export class Dance {
     this.#path = points && smooth(points);
     if (!points) return;
     const { x, y } = points;
-    this.#bounds = [[x, Math.min], [y, Math.min], [x, Math.max], [y, Math.max]].map(([a, pick]) => a.reduce((p, q) => pick(p, q)));
+    const pick = (choice, numbers) => numbers.reduce((a, b) => choice(a, b));
+    this.#bounds = [pick(Math.min, x), pick(Math.min, y), pick(Math.max, x), pick(Math.max, y)];
   }
 
   fit() {
@@ -98,7 +99,8 @@ export class Dance {
     if (this.view.fitted) this.fit();
     this.view.apply(context);
     if (this.#path) this.#stroke(context, this.#path, this.#colours.path, 1);
-    if (this.scene.circle > 0) this.#ring(context, 0, 0, this.view.scale, this.scene.circle * this.view.scale, this.#colours.circle, 1.5);
+    const { scale } = this.view;
+    if (this.scene.circle > 0) this.#ring(context, 0, 0, scale, this.scene.circle * scale, this.#colours.circle, 1.5);
     if (pose) this.#draw(context, pose, this.view.scale);
     if (pose && !this.inset.hidden) this.#drawInset(pose);
   }
@@ -123,7 +125,8 @@ export class Dance {
     this.#dot(context, pose.x[0], pose.y[0], 4, this.#colours.head, scale);
     if (handle !== null && handle < pose.x.length) this.#ring(context, pose.x[handle], pose.y[handle], scale);
     this.#label(context, headName, pose.x[0], pose.y[0], this.#colours.head);
-    if (handle > 0 && handle < pose.x.length) this.#label(context, handleName, pose.x[handle], pose.y[handle], this.#colours.pick);
+    const chosen = handle > 0 && handle < pose.x.length;
+    if (chosen) this.#label(context, handleName, pose.x[handle], pose.y[handle], this.#colours.pick);
   }
 
   #benches(context, pose, dragon, scale) {

@@ -20,7 +20,10 @@ export class Keep {
     const { dance } = this.questions;
     const base = new URL("./", location).href;
     const post = (path, body) => `curl '${base}${path}' -H 'Content-Type: application/json' -d '${JSON.stringify(body)}'`;
-    const contact = dance.kind === "turn" ? post("check", this.questions.checkBody(dance)) : `curl '${base}collision-time?${new URLSearchParams(dance.query)}'`;
+    const contact =
+      dance.kind === "turn"
+        ? post("check", this.questions.checkBody(dance))
+        : `curl '${base}collision-time?${new URLSearchParams(dance.query)}'`;
     $("#curl").textContent = `${contact}\n${post("trajectory", this.#table())}`;
   }
 

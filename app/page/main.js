@@ -1,6 +1,7 @@
 /** The page: what a person does goes into the state, what the service answers goes onto the screen. */
 
-import { insetWords, millimetres, showEnd, showFirstContact, showHighestSpeed, showMinimumPitch, showProvenSpeed, showRefusal } from "./answers.js";
+import { insetWords, millimetres, showEnd, showFirstContact } from "./answers.js";
+import { showHighestSpeed, showMinimumPitch, showProvenSpeed, showRefusal } from "./answers.js";
 import { Problem, Service } from "./api.js";
 import { ClearanceChart, ScanChart } from "./charts.js";
 import { Controls } from "./controls.js";
@@ -17,7 +18,14 @@ const NUMBERS = new Set([...FIELDS.map((field) => field.name), "path"]);
 /** A turn needs a wider spiral: the contest's pitch. */
 const PITCHES = { spiral: "0.55", turn: "1.7" };
 /** Which boxes wait for which answers. */
-const BUSY = { contact: ["#first-contact", "#run-end"], pose: ["#stage"], minimum: ["#minimum-pitch"], overview: ["#highest-speed"], clearance: ["#clearance"], scan: ["#scan"] };
+const BUSY = {
+  contact: ["#first-contact", "#run-end"],
+  pose: ["#stage"],
+  minimum: ["#minimum-pitch"],
+  overview: ["#highest-speed"],
+  clearance: ["#clearance"],
+  scan: ["#scan"],
+};
 const PITCH_DECIMALS = 4;
 
 const state = new State();
@@ -92,7 +100,8 @@ function showTime(time) {
   const step = (of.end - of.begin) / (answer.time.length - 1) || 1;
   const k = Math.min(Math.round((time - of.begin) / step), answer.time.length - 1);
   const [a, b] = answer.benches[k].map((bench) => handleName(bench, of.numbers.benches));
-  $("#clearance .reading").textContent = say("clearanceAt", { time: answer.time[k].toFixed(2), gap: millimetres(answer.clearance[k]), a, b });
+  const gap = millimetres(answer.clearance[k]);
+  $("#clearance .reading").textContent = say("clearanceAt", { time: answer.time[k].toFixed(2), gap, a, b });
 }
 
 /** Each kind of answer and what it changes on the screen; also called again after a change of language. */
@@ -143,7 +152,8 @@ function showRefusals() {
   const { refusals } = questions;
   controls.refuse(questions.errors());
   $("main").classList.toggle("stale", refusals.has("contact"));
-  if (refusals.has("contact") && !questions.dance) for (const box of document.querySelectorAll("[aria-busy=true]")) box.setAttribute("aria-busy", false);
+  if (refusals.has("contact") && !questions.dance)
+    for (const box of document.querySelectorAll("[aria-busy=true]")) box.setAttribute("aria-busy", false);
   if (refusals.has("contact")) showRefusal($("#first-contact"), "firstContact", refusals.get("contact").message);
   if (refusals.has("minimum")) showRefusal($("#minimum-pitch"), "minimumPitch", refusals.get("minimum").message);
   for (const [kind, chart] of [["clearance", clearanceChart], ["scan", scanChart]]) {
@@ -174,14 +184,20 @@ function showState(changed) {
   draw();
 }
 
+function choosePath(path) {
+  if (path !== state.get("path")) state.set({ path, pitch: PITCHES[path], time: null, view: null });
+}
+
 function showPath() {
-  for (const button of document.querySelectorAll("[data-path]")) button.setAttribute("aria-pressed", button.dataset.path === state.get("path"));
+  for (const button of document.querySelectorAll("[data-path]"))
+    button.setAttribute("aria-pressed", button.dataset.path === state.get("path"));
   $("#figure").hidden = state.get("path") !== "spiral";
 }
 
 function translate() {
   const language = setLanguage(state.get("lang"));
-  for (const button of document.querySelectorAll("[data-lang]")) button.setAttribute("aria-pressed", button.dataset.lang === language);
+  for (const button of document.querySelectorAll("[data-lang]"))
+    button.setAttribute("aria-pressed", button.dataset.lang === language);
   controls.translate(limits);
   player.translate();
   for (const [kind, show] of Object.entries(SHOW)) if (kind === "dance" ? questions.dance : questions.answers[kind]) show();
@@ -209,9 +225,10 @@ function listen() {
     announce(say("back"));
   });
   $("#lost button").addEventListener("click", () => service.retry());
-  for (const button of document.querySelectorAll("[data-lang]")) button.addEventListener("click", () => state.set({ lang: button.dataset.lang }));
-  for (const { dataset: { path } } of document.querySelectorAll("[data-path]"))
-    $(`[data-path=${path}]`).addEventListener("click", () => state.get("path") !== path && state.set({ path, pitch: PITCHES[path], time: null, view: null }));
+  for (const button of document.querySelectorAll("[data-lang]"))
+    button.addEventListener("click", () => state.set({ lang: button.dataset.lang }));
+  for (const button of document.querySelectorAll("[data-path]"))
+    button.addEventListener("click", () => choosePath(button.dataset.path));
   listenToView();
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", restyle);
   new ResizeObserver(draw).observe($("#stage"));
@@ -232,7 +249,9 @@ function listenToView() {
     const last = (dance.scene.pose?.x.length ?? 1) - 1;
     state.set({ handle: Math.min(Math.max((state.get("handle") ?? -step) + step, 0), last) });
   };
-  const keys = { 0: all, f: follow, F: follow, "[": () => choose(-1), "]": () => choose(1), " ": () => player.toggle(), Escape: () => state.set({ handle: null }) };
+  const [back, on] = [() => choose(-1), () => choose(1)];
+  const [none, play] = [() => state.set({ handle: null }), () => player.toggle()];
+  const keys = { 0: all, f: follow, F: follow, "[": back, "]": on, " ": play, Escape: none };
   $("#canvas").addEventListener("keydown", (event) => {
     if (event.ctrlKey || event.metaKey || event.altKey) return;
     if (dance.view.key(event.key)) event.preventDefault();
@@ -256,7 +275,8 @@ async function readDescription() {
   const kinds = Object.values(components.schemas).map((one) => one.properties?.kind?.const);
   $("#paths").hidden = !(paths["/check"]?.post && paths["/clearance"].post && kinds.includes("turn"));
   const parameters = ["/collision-time", "/minimum-pitch"].flatMap((path) => paths[path].get.parameters);
-  limits = Object.fromEntries(parameters.map(({ name, schema }) => [name, [schema.minimum ?? schema.exclusiveMinimum, schema.maximum]]));
+  const range = ({ minimum, exclusiveMinimum, maximum }) => [minimum ?? exclusiveMinimum, maximum];
+  limits = Object.fromEntries(parameters.map(({ name, schema }) => [name, range(schema)]));
   controls.translate(limits);
 }
 

@@ -82,7 +82,8 @@ export class Questions extends EventTarget {
   }
 
   errors() {
-    return new Map([...this.refusals.values()].flatMap(({ errors }) => errors.map((one) => [(one.name ?? one.pointer).split("/").at(-1), one.detail])));
+    const all = [...this.refusals.values()].flatMap(({ errors }) => errors);
+    return new Map(all.map(({ name, pointer, detail }) => [(name ?? pointer).split("/").at(-1), detail]));
   }
 
   /** asked: kind, query, numbers; fastest: as /check answers, null where the page looks at samples */

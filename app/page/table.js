@@ -68,7 +68,8 @@ export class Table {
     for (let k = first; k < last; k++) {
       const cells = [x[k], y[k], speed[k]].map((one) => make("td", { textContent: one.toFixed(DECIMALS) }));
       const name = make("th", { scope: "row", textContent: `${k} · ${handleName(k, x.length - 1)}` });
-      rows.push(make("tr", { "data-handle": k, "aria-rowindex": k + 2, className: k === this.#handle ? "chosen" : "" }, name, ...cells));
+      const className = k === this.#handle ? "chosen" : "";
+      rows.push(make("tr", { "data-handle": k, "aria-rowindex": k + 2, className }, name, ...cells));
     }
     this.table.setAttribute("aria-rowcount", x.length + 1);
     this.body.replaceChildren(spacer(first), ...rows, spacer(x.length - last));

@@ -241,7 +241,7 @@ def test_the_turn_is_offered_by_a_service_that_knows_it_and_shows_its_verdict(
     assert page.locator("#paths").is_visible() == knows
     if not knows:
         return
-    page.get_by_role("button", name="Turn").click()
+    page.get_by_role("button", name="Turn", exact=True).click()
     text_of(page, "#first-contact .value", "Nothing touches")
     times = {"start": -100 / 1.5, "stop": 100 / 1.5}
     body = {"path": {"kind": "turn", "pitch": 1.7}, "head_speed": 1.5, **times}
@@ -250,5 +250,5 @@ def test_the_turn_is_offered_by_a_service_that_knows_it_and_shows_its_verdict(
     text_of(page, "#clock", f"{report['stop']:.2f} s")
     page.locator("#time").press("Home")
     text_of(page, "#clock", f"{report['start']:.2f} s")
-    page.get_by_role("button", name="Spiral").click()
+    page.get_by_role("button", name="Spiral", exact=True).click()
     text_of(page, "#first-contact .value", f"{collision_time(server, head_speed=1.5)['time']:.6f} s")
