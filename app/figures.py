@@ -117,6 +117,13 @@ def _draw_venue(axes: Axes, venue: Venue | None) -> None:
     axes.autoscale_view()
 
 
+def _fit_height(figure: Figure, axes: Axes) -> None:
+    """A venue may be long and low: no empty paper above and below it."""
+    (left, right), (low, high) = axes.get_xlim(), axes.get_ylim()
+    width = figure.get_figwidth()
+    figure.set_figheight(float(np.clip(0.75 * width * (high - low) / (right - left) + 1.0, 0.4 * width, 1.2 * width)))
+
+
 def _outlines(dragon: Dragon, handles: Floats) -> Floats:
     return corners(bench_poses(handles), np.stack([dragon.lengths, dragon.widths], axis=-1))
 
@@ -160,6 +167,8 @@ def trajectory_figure(
         _mark_head(axes, handles[0], result.velocity[0, 0])
         bar = figure.colorbar(dots, ax=axes, label="speed of the handle [m/s]", shrink=0.85)
         bar.ax.ticklabel_format(useOffset=False)
+        if venue:
+            _fit_height(figure, axes)
         axes.set_title(f"Handles and their speeds at {time:g} s{_pitch_words(path)}", fontsize=11)
         return _bytes(figure, format)
 

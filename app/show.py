@@ -16,7 +16,7 @@ from rich.text import Text
 
 from app import answers, tables
 from app.paper import Comparison
-from app.report import Report
+from app.report import LeastClearance, Nearest, Report
 from core import Trajectory
 
 # A trajectory on a terminal: the handles that the contest asks for, at this many instants.
@@ -136,11 +136,11 @@ def _measured(report: Report) -> Iterator[tuple[str, str, float | None, str]]:
     pair = f"benches {_shown(contact.benches)}" if contact.benches else ""
     yield "first contact", contact.outcome.value, contact.time, pair
     if least := report.least_clearance:
-        yield "least clearance", _distance(least.distance), least.time, f"benches {_shown(least.benches)}"
+        yield "least clearance", _distance(least), least.time, f"benches {_shown(least.benches)}"
     for area in report.venue.areas if report.venue else ():
         yield (
             f"nearest to {area.name}",
-            _distance(area.nearest.distance),
+            _distance(area.nearest),
             area.nearest.time,
             f"bench {area.nearest.bench}",
         )
@@ -150,5 +150,6 @@ def _measured(report: Report) -> Iterator[tuple[str, str, float | None, str]]:
         yield "sharpest bend", f"{bend.angle:.6f} rad", bend.time, f"benches {_shown(bend.benches)}"
 
 
-def _distance(value: float) -> str:
-    return f"{value:.6f} m"
+def _distance(found: LeastClearance | Nearest) -> str:
+    proven = "not proven" if found.at_least is None else f"proven: at least {found.at_least:.6f} m"
+    return f"{found.distance:.6f} m, {proven}"
