@@ -74,8 +74,10 @@ export class Keep {
   }
 
   async figure() {
-    const { query } = this.questions.dance;
-    return ["first-contact.svg", await this.service.ask("figure", "figures/contact.svg", { query, accept: "image/svg+xml" })];
+    const { kind, query, numbers } = this.questions.dance;
+    const asked = kind === "spiral" ? { query } : { body: this.questions.body({ margin: numbers.margin }) };
+    const blob = await this.service.ask("figure", "figures/contact.svg", { ...asked, accept: "image/svg+xml" });
+    return ["first-contact.svg", blob];
   }
 
   async json() {

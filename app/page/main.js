@@ -191,7 +191,6 @@ function choosePath(path) {
 function showPath() {
   for (const button of document.querySelectorAll("[data-path]"))
     button.setAttribute("aria-pressed", button.dataset.path === state.get("path"));
-  $("#figure").hidden = state.get("path") !== "spiral";
 }
 
 function translate() {
@@ -269,11 +268,9 @@ function restyle() {
   draw();
 }
 
-/** Limits of every number and what paths there are, from the service's own description of itself. */
-async function readDescription() {
-  const { paths, components } = await service.ask("openapi", "openapi.json");
-  const kinds = Object.values(components.schemas).map((one) => one.properties?.kind?.const);
-  $("#paths").hidden = !(paths["/check"]?.post && paths["/clearance"].post && kinds.includes("turn"));
+/** Limits of every number, from the service's own description of itself. */
+async function readLimits() {
+  const { paths } = await service.ask("openapi", "openapi.json");
   const parameters = ["/collision-time", "/minimum-pitch"].flatMap((path) => paths[path].get.parameters);
   const range = ({ minimum, exclusiveMinimum, maximum }) => [minimum ?? exclusiveMinimum, maximum];
   limits = Object.fromEntries(parameters.map(({ name, schema }) => [name, range(schema)]));
@@ -285,7 +282,7 @@ translate();
 showState(new Set(["follow", "rate", "handle", "view", "turning_diameter"]));
 showPath();
 questions.refresh();
-readDescription().catch((error) => {
+readLimits().catch((error) => {
   // Without it the page only lacks the limits.
   if (!(error instanceof Problem)) throw error;
 });
