@@ -24,7 +24,7 @@ TITLES = {413: "Content Too Large", 422: "Unprocessable Content"}
 QUERY_NAMES = {
     "turning_radius": ("turning_diameter",),
     "times": ("stop", "time"),
-    "path": ("entry_radius", "turning_diameter"),
+    "path": ("turning_diameter",),
 }
 # What pydantic says of a union, though it is the field `kind` that is wrong.
 UNION_ERRORS = frozenset({"union_tag_invalid", "union_tag_not_found"})

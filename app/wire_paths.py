@@ -6,7 +6,7 @@ curve through waypoints as the only piece of a route.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Annotated, Any, Literal
 
@@ -30,13 +30,12 @@ EntryRadius = Annotated[
 
 
 @contextmanager
-def placed(place: Callable[[str], str]) -> Iterator[None]:
-    """Name what core refuses by its place in the request."""
+def placed(old: str, new: str) -> Iterator[None]:
+    """Name what core refuses by its place in the request: new instead of old."""
     try:
         yield
     except InvalidValue as error:
-        where = place(error.field)
-        raise InvalidValue(where, error.message.replace(error.field, where)) from error
+        raise InvalidValue(error.field.replace(old, new, 1), error.message.replace(old, new, 1)) from error
 
 
 class SpiralFields(Wire):
@@ -71,7 +70,7 @@ class TurnFields(Wire):
 
     def to_path(self) -> Route:
         """raises: InvalidValue, named by the place in a body"""
-        with placed(lambda field: f"path.{field}".replace("turning_radius", "turning_diameter")):
+        with placed("", "path."):
             return self.to_turn().path
 
 
@@ -144,7 +143,7 @@ class WaypointsPath(WaypointsPiece, strict=True):
 
     def to_path(self) -> Route:
         """raises: InvalidValue"""
-        with placed(lambda field: field.replace(".pieces.0", "")):
+        with placed("path.pieces.0", "path"):
             return Route((self.to_piece(),))
 
 

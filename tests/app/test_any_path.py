@@ -1,0 +1,262 @@
+"""Turns, routes, waypoints and venues through the real service."""
+
+from __future__ import annotations
+
+import json
+import math
+from pathlib import Path
+from typing import Any
+
+import httpx
+import numpy as np
+import pytest
+
+import core
+
+REFERENCE = Path(__file__).parent.parent / "reference"
+REFERENCE_TOLERANCE = 1e-9  # [m], [rad], [s] and [m/s]
+SAME_PATH_TOLERANCE = 1e-10  # [m] and [m/s]
+TURN = {"kind": "turn", "pitch": 1.7, "turning_diameter": 9, "ratio": 2}
+TURN_QUERY = "pitch=1.7&turning_diameter=9&ratio=2"
+LANE = {"kind": "line", "start": [0, 0], "end": [60, 0]}
+BEND = {"kind": "arc", "centre": [60, 20], "radius": 20, "start_angle": -math.pi / 2, "sweep": math.pi / 2}
+SHORT = {"benches": 4}
+
+
+def reference(name: str) -> Any:
+    return json.loads((REFERENCE / f"{name}.json").read_text())
+
+
+def posted(client: httpx.Client, call: str, **body: Any) -> Any:
+    return client.post(call, json=body).raise_for_status().json()
+
+
+def route(*pieces: dict[str, Any], start: float = 0) -> dict[str, Any]:
+    return {"kind": "route", "pieces": list(pieces), "start": start}
+
+
+def polygon(name: str, *ring: tuple[float, float]) -> dict[str, Any]:
+    geometry = {"type": "Polygon", "coordinates": [[*map(list, ring), list(ring[0])]]}
+    return {"type": "Feature", "properties": {"name": name}, "geometry": geometry}
+
+
+def box(name: str, left: float, low: float, right: float, high: float) -> dict[str, Any]:
+    return polygon(name, (left, low), (right, low), (right, high), (left, high))
+
+
+def venue(*areas: dict[str, Any]) -> dict[str, Any]:
+    return {"type": "FeatureCollection", "features": list(areas)}
+
+
+def test_the_turn_is_the_known_one(client: httpx.Client) -> None:
+    known, got = reference("turn")["turn"], client.get(f"/turn?{TURN_QUERY}").raise_for_status().json()
+    for name, value in known.items():
+        assert np.array(got[name]) == pytest.approx(np.array(value), rel=0, abs=REFERENCE_TOLERANCE), name
+
+
+@pytest.mark.parametrize("table", reference("turn")["tables"], ids=lambda one: f"{one['time']:g}s")
+def test_trajectory_through_the_turn_has_the_known_handles(client: httpx.Client, table: dict[str, Any]) -> None:
+    got = posted(client, "/trajectory", path=TURN, times=[table["time"]])
+    assert len(got["x"][0]) == len(table["handles"]) == 224
+    for handle in table["handles"]:
+        for name in ("x", "y", "speed"):
+            value = got[name][0][handle["handle"]]
+            assert value == pytest.approx(handle[name], rel=0, abs=REFERENCE_TOLERANCE), (name, handle["handle"])
+
+
+def test_the_maximum_head_speed_is_the_known_one(client: httpx.Client) -> None:
+    known = reference("maximum_head_speed")
+    got = client.get(f"/maximum-head-speed?{TURN_QUERY}&speed_limit=2").raise_for_status().json()
+    for name in ("head_speed", "speed_ratio", "time_at_unit_head_speed"):
+        assert got[name] == pytest.approx(known[name], rel=0, abs=REFERENCE_TOLERANCE), name
+    assert set(got["handles"]) <= set(known["handles_exactly_tied"])
+    low, high = got["head_speed_bracket"]
+    assert low <= got["head_speed"] <= high
+
+
+def test_the_check_of_the_turn_meets_the_known_clearance_and_passes(client: httpx.Client) -> None:
+    known = reference("turn")["clearance"]
+    got = posted(client, "/check", path=TURN, start=-100, stop=100, speed_limit=2)
+    assert (got["passed"], got["failures"], got["venue"]) == (True, [], None)
+    assert got["least_clearance"]["distance"] == pytest.approx(known["least"], abs=REFERENCE_TOLERANCE)
+    assert got["least_clearance"]["at_least"] <= got["least_clearance"]["distance"]
+    assert got["first_contact"]["end"] == {"reason": "stop", "time": 100.0}
+
+
+def test_a_spiral_as_a_route_gives_the_answers_of_the_spiral(client: httpx.Client) -> None:
+    times = [-20.0, 0.0, 150.0, 300.0]
+    as_route = route({"kind": "coil", "pitch": 0.55, "start_turns": 16, "end_turns": 3})
+    for call, names in (("/trajectory", ("x", "y", "speed")), ("/clearance", ("clearance",))):
+        spiral, same = (posted(client, call, path=path, times=times) for path in ({"kind": "spiral"}, as_route))
+        for name in names:
+            assert np.array(same[name]) == pytest.approx(np.array(spiral[name]), rel=0, abs=SAME_PATH_TOLERANCE)
+    found = posted(client, "/check", path=as_route, margin=0.05)["first_contact"]
+    known = client.get("/collision-time?margin=0.05").json()
+    assert found["time"] == pytest.approx(known["time"], rel=0, abs=REFERENCE_TOLERANCE)
+    assert (found["benches"], found["cross_check"]["agree"]) == (known["benches"], True)
+    assert found["head"]["theta"] is None
+
+
+def test_waypoints_are_a_path_and_a_piece(client: httpx.Client) -> None:
+    curve = {"kind": "waypoints", "points": [[0, 0], [20, 3], [40, -3], [60, 0]], "start_heading": 0}
+    alone = posted(client, "/trajectory", dragon=SHORT, path=curve, times=[30.0, 45.0])
+    assert alone == posted(client, "/trajectory", dragon=SHORT, path=route(curve), times=[30.0, 45.0])
+    x, y = np.array(alone["x"]), np.array(alone["y"])
+    chords = np.hypot(np.diff(x, axis=1), np.diff(y, axis=1))
+    assert chords == pytest.approx(np.tile(core.Dragon(**SHORT).chords, (2, 1)), rel=0, abs=SAME_PATH_TOLERANCE)
+
+
+def test_clearance_on_a_spiral_is_the_same_by_get_and_by_post(client: httpx.Client) -> None:
+    got = client.get("/clearance?start=409&stop=410&step=0.5").json()
+    assert got == posted(client, "/clearance", times={"start": 409, "stop": 410, "step": 0.5})
+
+
+def test_a_check_names_what_fails_in_order_of_time(client: httpx.Client) -> None:
+    square = venue(box("square", -2, -3, 62, 3), box("stall", 40, 1, 42, 2), box("tree", 30, -2, 31, -1))
+    got = posted(
+        client, "/check", dragon=SHORT, path=route(LANE), venue=square, margin=0.9, speed_limit=0.5, start=15.0
+    )
+    assert not got["passed"]
+    assert {(one["kind"], one["area"]) for one in got["failures"]} == {
+        ("venue", "stall"), ("venue", "tree"), ("speed", None),
+    }  # fmt: skip
+    times = [one["time"] for one in got["failures"]]
+    assert times == sorted(times)
+    # On a straight line the edge of the bench is half its width off the lane.
+    nearest = {area["name"]: area["nearest"]["distance"] for area in got["venue"]["areas"]}
+    assert nearest["tree"] == pytest.approx(1 - 0.15, abs=REFERENCE_TOLERANCE)
+    assert nearest["square"] == pytest.approx(2 - 0.275, abs=REFERENCE_TOLERANCE)
+
+
+@pytest.mark.parametrize("left", [20.0, 9.0], ids=["all_outside", "tail_outside"])
+def test_a_dragon_that_starts_outside_the_venue_is_a_verdict(client: httpx.Client, left: float) -> None:
+    got = posted(client, "/check", dragon=SHORT, path=route(LANE), venue=box("yard", left, -3, 70, 3), start=15.0)
+    assert got["failures"][0]["kind"] == "outside"
+    assert got["failures"][0]["time"] == 15.0
+    assert got["venue"]["stray"]["name"] == "yard"
+
+
+BAD_PATHS = {
+    "gap": (route(LANE, BEND | {"centre": [60.1, 20]}), "/path/pieces/1", ("close", "0.1 m")),
+    "kink": (route(LANE, BEND | {"centre": [60, 20], "start_angle": -1.5, "radius": 20}), "/path/pieces/1", ("close",)),
+    "corner": (
+        route(LANE, {"kind": "line", "start": [60, 0], "end": [60, 9]}), "/path/pieces/1", ("smooth", "1.57 rad"),
+    ),
+    "no_length": (route(LANE | {"end": [0, 0]}), "/path/pieces/0", ("1e-06 m", "got 0 m")),
+    "no_sweep": (route(BEND | {"sweep": 0}), "/path/pieces/0", ("got 0 m",)),
+    "no_radius": (route(BEND | {"radius": 0}), "/path/pieces/0/radius", ("at least 0.001 m", "got 0 m")),
+    "tight_bend": (route(BEND | {"radius": 1}), "/path", ("bench 0", "got 1 m", "near (")),
+    "no_pieces": (route(), "/path/pieces", ("at least 1 entry",)),
+    "many_pieces": (route(*[LANE] * 201), "/path/pieces", ("at most 200",)),
+    "piece_without_kind": (route({"start": [0, 0], "end": [1, 0]}), "/path/pieces/0/kind", ("missing",)),
+    "unknown_piece": (route({"kind": "loop"}), "/path/pieces/0/kind", ("'line'", "'coil'", '"loop"')),
+    "piece_as_number": (route(3), "/path/pieces/0", ("JSON object",)),  # type: ignore[arg-type]
+    "point_of_one": (route(LANE | {"start": [0]}), "/path/pieces/0/start", ("at least 2 entries", "got 1")),
+    "point_of_three": (route(LANE | {"start": [0, 0, 0]}), "/path/pieces/0/start", ("at most 2 entries",)),
+    "text_in_a_point": (route(LANE | {"start": [0, "a"]}), "/path/pieces/0/start/1", ("start[1]", "[m]")),
+    "one_waypoint": ({"kind": "waypoints", "points": [[0, 0]]}, "/path/points", ("at least 2 entries",)),
+    "many_waypoints": ({"kind": "waypoints", "points": [[k, 0] for k in range(201)]}, "/path/points", ("at most 200",)),
+    "many_waypoints_in_pieces": (
+        route(*[{"kind": "waypoints", "points": [[k, 0] for k in range(150)]}] * 2), "/path/pieces", ("at most 200",),
+    ),
+    "same_waypoint_twice": (
+        {"kind": "waypoints", "points": [[0, 0], [1, 0], [1, 0]]}, "/path/points/2", ("path.points[2]", "0.001 m"),
+    ),
+    "turn_outside_its_coil": (TURN | {"start_turns": 2}, "/path/start_turns", ("2.64706 turns", "path.start_turns")),
+    "turn_too_tight": (TURN | {"turning_diameter": 2}, "/path", ("radius", "bench 0")),
+    "entry_outside_the_circle": (TURN | {"entry_radius": 5}, "/path/entry_radius", ("at most 4.5 m", "got 5")),
+    "lopsided_turn": (TURN | {"ratio": 1000}, "/path/ratio", ("at most 100", "got 1000")),
+    "unknown_name": (TURN | {"radius": 4.5}, "/path/radius", ("unknown",)),
+    "kind_as_list": ({"kind": []}, "/path/kind", ("'turn'",)),
+}  # fmt: skip
+BAD_DANCES = {
+    "before_the_path": ({"start": 1}, "/start", ("at least 7.81", "whole dragon", "got 1 s")),
+    "after_the_path": ({"stop": 61}, "/stop", ("60.0", "path ends")),
+    "stop_before_start": ({"start": 30, "stop": 20}, "/stop", ("after start", "got 20 s")),
+    "no_limit": ({"speed_limit": 0}, "/speed_limit", ("at least 0.001 m/s",)),
+    "self_crossing": (
+        {"venue": polygon("bow", (0, 0), (9, 9), (9, 0), (0, 9))},
+        "/venue",
+        ("'bow'", "self-intersection", "(4.5, 4.5)"),
+    ),
+    "point_as_venue": ({"venue": {"type": "Point", "coordinates": [0, 0]}}, "/venue/type", ("Polygon", "'Point'")),
+    "empty_venue": ({"venue": {}}, "/venue/type", ("Polygon",)),
+    "venue_as_text": ({"venue": "square"}, "/venue", ("JSON object",)),
+    "number_as_position": (
+        {"venue": {"type": "Polygon", "coordinates": [[1, 2, 3]]}}, "/venue/coordinates/0/0", ("list",),
+    ),
+    "open_ring": (
+        {"venue": {"type": "Polygon", "coordinates": [[[0, 0], [9, 0], [9, 9]]]}}, "/venue", ("closed",),
+    ),
+    "deep_venue": ({"venue": {"a": json.loads("[" * 900 + "]" * 900)}}, "/venue", ("at most 20",)),
+    "same_name_twice": ({"venue": venue(box("a", -9, -9, 99, 9), box("a", 0, 5, 1, 6))}, "/venue", ("'a' twice",)),
+    "many_edges": (
+        {"venue": polygon("ring", *[(math.cos(k / 400), math.sin(k / 400)) for k in range(2400)])},
+        "/venue", ("at most 2000 edges", "2400"),
+    ),
+    "long_dragon": ({"dragon": {"benches": 501}}, "/dragon/benches", ("at most 500", "got 501")),
+}  # fmt: skip
+
+
+def assert_refused(answer: httpx.Response, place: str, words: tuple[str, ...]) -> None:
+    assert answer.status_code == 422, answer.text
+    (item,) = [one for one in answer.json()["errors"] if place in (one.get("pointer"), one.get("name"))][:1]
+    assert [word for word in words if word not in item["detail"]] == [], item["detail"]
+
+
+@pytest.mark.parametrize("call", ["/trajectory", "/clearance", "/check", "/figures/trajectory.svg"])
+@pytest.mark.parametrize(("path", "place", "words"), BAD_PATHS.values(), ids=BAD_PATHS)
+def test_a_path_that_is_none_is_a_problem_that_names_the_place(
+    client: httpx.Client, call: str, path: Any, place: str, words: tuple[str, ...]
+) -> None:
+    assert_refused(client.post(call, json={"path": path}), place, words)
+
+
+@pytest.mark.parametrize(("fields", "place", "words"), BAD_DANCES.values(), ids=BAD_DANCES)
+def test_a_dance_that_is_none_is_a_problem_that_names_the_place(
+    client: httpx.Client, fields: dict[str, Any], place: str, words: tuple[str, ...]
+) -> None:
+    body = {"dragon": SHORT, "path": route(LANE), **fields}
+    assert_refused(client.post("/check", json=body), place, words)
+
+
+@pytest.mark.parametrize(
+    ("query", "place", "words"),
+    [
+        ("/turn?ratio=0", "ratio", ("at least 0.01",)),
+        ("/turn?start_turns=1", "start_turns", ("2.64706 turns",)),
+        ("/turn?entry_radius=9", "entry_radius", ("at most 4.5 m",)),
+        ("/maximum-head-speed?speed_limit=0", "speed_limit", ("at least 0.001 m/s",)),
+        ("/maximum-head-speed?turning_diameter=2", "turning_diameter", ("radius", "bench 0")),
+        ("/maximum-head-speed?benches=501", "benches", ("at most 500",)),
+    ],
+)
+def test_a_turn_that_is_none_is_a_problem(client: httpx.Client, query: str, place: str, words: tuple[str, ...]) -> None:
+    assert_refused(client.get(query), place, words)
+
+
+@pytest.mark.parametrize("call", ["/check", "/clearance", "/figures/trajectory.svg", "/figures/contact.png"])
+def test_an_equal_question_is_answered_from_the_cache(client: httpx.Client, call: str) -> None:
+    asked = {"dragon": SHORT, "path": route(LANE)}
+    if call == "/clearance":
+        asked["times"] = [20.0]
+    elif call == "/figures/trajectory.svg":
+        asked["time"] = 20.0
+    elif call == "/figures/contact.png":
+        asked["start"] = 20.0
+    first = client.post(call, json=asked).raise_for_status()
+    again = client.post(call, json=asked, headers={"If-None-Match": first.headers["etag"]})
+    assert (again.status_code, again.content) == (304, b"")
+    other = client.post(call, json=asked | {"head_speed": 1.1}, headers={"If-None-Match": first.headers["etag"]})
+    assert other.status_code == 200
+
+
+def test_a_figure_draws_the_venue_with_its_names(client: httpx.Client) -> None:
+    areas = venue(box("market square", -2, -3, 62, 3), box("well", 40, 1, 42, 2))
+    asked = {"dragon": SHORT, "path": route(LANE), "venue": areas, "time": 20}
+    drawn = client.post("/figures/trajectory.svg", json=asked).raise_for_status()
+    assert drawn.headers["content-type"].startswith("image/svg+xml")
+    for name in ("market square", "well", "20 s"):
+        assert f"<!-- {name} -->" in drawn.text or name in drawn.text
+    plain = client.post("/figures/trajectory.svg", json=asked | {"venue": None}).raise_for_status()
+    assert "market square" not in plain.text
