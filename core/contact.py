@@ -164,8 +164,8 @@ def first_contact(
     to_fold = until >= end.time and end.reason is EndReason.FOLD
     last = search.last_travel(until * head_speed, to_fold)
     state, found, tolerance = search.approach(begin * head_speed, last, head_speed)
-    if state == "reached" and to_fold and not search.clear_to_fold(last, end):
-        state = "stuck"
+    if to_fold and (state == "reached" or (state == "stuck" and found["touching"] < 0.0)):
+        state = "reached" if search.clear_to_fold(min(found["proven"], last), end) else "stuck"
     if stop is not None and state == "reached":
         end = RunEnd(EndReason.STOP, until, None, None)
     return _result(search, state, found, end, until, tolerance, head_speed)

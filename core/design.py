@@ -9,7 +9,7 @@ from enum import StrEnum
 import numpy as np
 
 from core import kernels
-from core.dragon import Dragon, checked_number, checked_size
+from core.dragon import SIZE_MIN, Dragon, checked_number, checked_size
 from core.errors import InvalidValue
 from core.kinematics import end_theta
 from core.paths import START_TURNS_MAX, Spiral
@@ -21,8 +21,8 @@ CONTACT_WIDTH = 2e-11
 GAIN_MIN = 2e-10
 # The pitch is bisected to this width [m]; rounding of a clearance is near 1e-14 m.
 PITCH_WIDTH = 2e-13
-# Where no bound on the change of a clearance with the pitch is at hand, pitches are tried in steps of this [m].
-SCAN_STEP = 2.5e-4
+# Where no bound on the change of a clearance with the pitch is at hand, so many pitches are tried, evenly spaced.
+SCAN_SAMPLES = 1000
 # Islands below the minimum pitch are looked for at so many pitches, evenly spaced.
 ISLAND_SAMPLES = 400
 # A contact this close to the circle or the start, with the pair still approaching, is on it [m of head travel].
@@ -60,8 +60,8 @@ class MinimumPitch:
         benches, begin inside the circle
     benches: the pair that touches just below; head_radius: of the head then [m]
     other_feasible_intervals: [m], islands below pitch, found on a grid of ISLAND_SAMPLES pitches
-    justified_by: how every larger pitch up to proven_up_to [m] is known to be feasible: 'bound' or 'scan' (in steps of
-        SCAN_STEP)
+    justified_by: how every larger pitch up to proven_up_to [m] is known to be feasible: 'bound' or 'scan', in steps of
+        scan_step [m]
     evaluations: ways from the start to the circle that were marched
     """
 
@@ -73,6 +73,7 @@ class MinimumPitch:
     other_feasible_intervals: tuple[tuple[float, float], ...]
     justified_by: str
     proven_up_to: float
+    scan_step: float | None
     evaluations: int
 
 
@@ -122,8 +123,9 @@ class _PitchSearch:
     def __init__(self, dragon: Dragon, radius: float, start_turns: float, margin: float) -> None:
         self.radius, self.start_turns, self.margin = radius, start_turns, margin
         self.lowest = radius / start_turns
-        self.search = Search(dragon, Spiral(max(self.lowest, 1e-3), start_turns), margin)
+        self.search = Search(dragon, Spiral(max(self.lowest, SIZE_MIN), start_turns), margin)
         self.evaluations = 0
+        self.scan_step: float | None = None
 
     def way(
         self, pitch: float, extra: float = 0.0, window: Window = ALL, width: float = 0.0
@@ -190,7 +192,9 @@ class _PitchSearch:
                         low *= factor
                 return 2.0 * math.pi * low, 2.0 * math.pi * growth
         for growth in growths:
-            if self.lowest < 2.0 * math.pi * growth < self.radius and self.is_clear(2.0 * math.pi * growth):
+            if max(self.lowest, SIZE_MIN) < 2.0 * math.pi * growth < self.radius and self.is_clear(
+                2.0 * math.pi * growth
+            ):
                 return (2.0 * math.pi * growth,) * 2
         return (self.lowest,) * 2
 
@@ -241,18 +245,20 @@ class _PitchSearch:
         return *self.infeasible_below(pitch), "bound"
 
     def scan(self, pitch: float) -> tuple[float, float]:
-        """(infeasible, feasible) by trying pitches in steps of SCAN_STEP, then by bisection [m]."""
-        while pitch > self.lowest:
-            below = max(pitch - SCAN_STEP, self.lowest)
+        """(infeasible, feasible) by trying SCAN_SAMPLES pitches down to the lowest, then by bisection [m]."""
+        self.scan_step = (pitch - self.lowest) / SCAN_SAMPLES
+        for k in range(1, SCAN_SAMPLES + 1):
+            below = pitch - self.scan_step if k < SCAN_SAMPLES else self.lowest
             if not self.is_clear(below):
                 return self.bisect(below, pitch)
             pitch = below
         return self.lowest, self.lowest
 
     def infeasible_below(self, pitch: float) -> tuple[float, float]:
-        """(infeasible.
+        """(infeasible, feasible) around the border just below a pitch with less than GAIN_MIN above the margin.
 
-        Feasible) around the border just below a pitch whose clearance is within GAIN_MIN of the margin.
+        On these last steps of 4 GAIN_MIN and more [m] the ways are proven at each pitch tried, not in between: an
+        infeasible strip narrower than such a step would be passed over, an error below 1e-9 m.
         """
         step = 4.0 * GAIN_MIN
         while pitch - step > self.lowest and self.is_clear(pitch - step):
@@ -347,6 +353,10 @@ def minimum_pitch(
     margin = checked_number("margin", margin, "m", 0.0, MARGIN_MAX)
     search = _PitchSearch(dragon, radius, turns, margin)
     top, proven_up_to = search.top()
+    if max(top, search.lowest) < SIZE_MIN:
+        raise InvalidValue(
+            "turning_radius", f"turning_radius must allow pitches of {SIZE_MIN:g} m and more, got {radius:g} m"
+        )
     if not search.is_clear(max(top, search.lowest)):
         raise InvalidValue(
             "turning_radius",
@@ -371,5 +381,6 @@ def minimum_pitch(
         islands,
         justified_by,
         max(proven_up_to, search.lowest),
+        search.scan_step,
         search.evaluations,
     )

@@ -2522,15 +2522,19 @@ def crossing(
 @cython.exceptval(check=False)
 def passed(
     first: cython.Py_ssize_t,
-    active: cython.Py_ssize_t,
-    opened: cython.Py_ssize_t,
+    last: cython.Py_ssize_t,
+    placed: cython.Py_ssize_t,
     opening: cython.double[:, ::1],
     chain: cython.double[:, ::1],
 ) -> cython.bint:
-    """Has every handle from `first` to the last active one passed where its predecessor began?"""
+    """Has every handle from `first` to `last` passed where its predecessor began?
+
+    last: the first bench that began where none can touch, whose predecessor began where they can: from there outwards
+    nothing needs to be followed
+    """
     i: cython.Py_ssize_t
-    for i in range(first, active):
-        if i > opened or chain[i, THETA] > opening[i - 1, THETA]:
+    for i in range(first, last + 1):
+        if i > placed or chain[i, THETA] > opening[i - 1, THETA]:
             return False
     return True
 
@@ -2613,7 +2617,7 @@ def march(
             return CAPACITY
         if placed < 0:
             return STUCK
-        opened = placed
+        opened = pair[0] if pair[0] < benches else benches - 1
         opening[: placed + 1] = before[: placed + 1]
         last_clearance = row_clearance(solo, ring, pair[0], placed, statics, sizes, before, pair)
         if last_clearance <= margin:
@@ -2775,7 +2779,7 @@ def march(
             last_travel = travel
             last_a = pair[1]
             last_b = pair[2]
-            if at_start and passed(first, active, opened, opening, before):
+            if at_start and passed(first, opened, placed, opening, before):
                 at_start = False
                 followers = leaders if leaders < cap else cap
             h = room if room < 2.0 * h else 2.0 * h
