@@ -27,8 +27,10 @@ Ring = tuple[Point, ...]
 EDGES_MAX = 2_000
 # A collection of features of collections of polygons, and some more.
 DEPTH_MAX = 8
+# The place where a spiral bends too tightly is bisected to this [1].
+BEND_WIDTH = 1e-9
 # A spiral is danced a little past the last instant, so that rounding does not leave it outside [m].
-SPARE = 1e-6
+SPARE = 1e-3
 
 
 @dataclass(frozen=True)
@@ -109,8 +111,8 @@ class Venue:
 class Nearest:
     """How near the benches come to an area's edges, holes included.
 
-    distance: [m], met at `time` [s] by `bench`; 0 at the first touch
-    at_least: proven [m]: no bench comes nearer than this; None where the search gave up first
+    distance: the least found [m], met at `time` [s] by `bench`; 0 at the first touch
+    at_least: proven [m]: no bench comes nearer than this, see LeastClearance; None where the search gave up first
     point: of the bench; wall: of the area (x, y) [m]
     """
 
@@ -192,8 +194,25 @@ def _route(path: Spiral | Route, stop: float) -> Route:
     """The path in the world frame up to a head travel [m]: a spiral as a coil."""
     if isinstance(path, Route):
         return path
-    theta = float(path.theta(min(stop + SPARE, path.length)))
+    theta = float(path.theta(min(max(stop, 0.0) + SPARE, path.length)))
     return Route([Coil(path.pitch, path.start_turns, theta / (2.0 * math.pi))])
+
+
+def venue_end(dragon: Dragon, path: Spiral | Route, *, head_speed: float = 1.0) -> float:
+    """Until when venue_clearance() can follow the dance [s]: on a spiral, until it bends too tightly for a chord.
+
+    raises: InvalidValue when the dragon cannot even stand at the start
+    """
+    end = run_end(dragon, path, head_speed=head_speed).time
+    if isinstance(path, Route):
+        return end
+    bend = 2.0 * kernels.BEND_LIMIT * path.growth / float(dragon.chords.max())
+    low, high = 0.0, path.start_theta
+    while high - low > BEND_WIDTH * high:
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if kernels.spiral_curvature(middle) > bend else (low, middle)
+    travel = path.length - path.growth * float(kernels.spiral_arc(high)) - 2.0 * SPARE
+    return min(end, travel / head_speed)
 
 
 def _area_clearance(search: Search, name: str, begin: float, until: float, head_speed: float) -> AreaClearance:

@@ -36,6 +36,7 @@ from core import (
     venue_clearance,
 )
 
+BEND_LIMIT = 0.97  # half a chord over the radius of the tightest bend that a route may have [1]
 REFERENCE = Path(__file__).parents[1] / "reference"
 CLEARANCE = json.loads((REFERENCE / "turn.json").read_text())["clearance"]
 SPEED = json.loads((REFERENCE / "maximum_head_speed.json").read_text())
@@ -157,6 +158,17 @@ def test_without_a_limit_a_run_to_the_fold_has_no_highest_speed() -> None:
     assert speed.kind is FailureKind.SPEED
     assert "without bound" in speed.message
     assert speed.time == report.stop
+
+
+def test_towards_the_fold_the_venue_is_followed_as_far_as_it_can_be() -> None:
+    report = check(Dragon(benches=3), Spiral(), venue=SQUARE)
+    undecided = report.failures[0]
+    assert undecided.kind is FailureKind.UNDECIDED
+    assert 429.0 < undecided.time < report.stop
+    head = trajectory(Dragon(benches=3), Spiral(), [undecided.time]).position[0, 0]
+    assert np.hypot(*head) == pytest.approx(0.5 * 2.86 / BEND_LIMIT, abs=1e-2)  # the curvature is not quite 1 / r
+    assert report.venue is not None
+    assert report.venue.areas[0].outcome is Outcome.CLEAR
 
 
 @pytest.mark.parametrize("benches", [1, 2])

@@ -214,7 +214,9 @@ def test_any_obstacle_is_met_when_a_slow_search_meets_it(
     found = venue_clearance(DRAGON, LAP, venue, margin=margin).areas[1]
     times = np.linspace(0.0, LAP.end, 1_500)
     slow = shapely_distances(DRAGON, LAP, post, times).min(axis=1)
-    assert found.nearest.distance <= slow.min() + SAME_DISTANCE
+    assert found.nearest.at_least is not None
+    assert found.nearest.at_least <= slow.min() + SAME_DISTANCE
+    assert found.nearest.distance <= slow.min() + PROVEN
     if found.outcome is Outcome.CLEAR:
         assert slow.min() > margin
         assert found.nearest.distance > margin
@@ -263,6 +265,14 @@ def test_a_spiral_keeps_its_place_in_the_world() -> None:
     assert found.stray is None
     assert nearest.distance <= known.min() + SAME_DISTANCE
     assert nearest.distance == pytest.approx(known.min(), abs=1e-3)  # the samples are 0.27 s apart
+
+
+@pytest.mark.parametrize(("start", "stop"), [(-60.0, -20.0), (-5.0, 0.0), (0.0, 1e-3)])
+def test_a_spiral_has_its_place_also_before_its_start(start: float, stop: float) -> None:
+    found = venue_clearance(Dragon(benches=9), Spiral(), VENUE_ROUND, start=start, stop=stop).areas[0].nearest
+    known = shapely_distances(Dragon(benches=9), Spiral(), VENUE_ROUND.square, np.linspace(start, stop, 400))
+    assert found.distance <= known.min() + PROVEN
+    assert found.distance == pytest.approx(known.min(), abs=1e-3)
 
 
 def test_a_spiral_too_tight_for_the_head_by_the_stop_is_refused() -> None:
