@@ -1,0 +1,117 @@
+"""The commands check, turn and maximum-head-speed, run as a user runs them."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import httpx
+import pytest
+
+from tests.app.test_cli import answer_of, run, served
+
+DANCE = """
+margin = 0.9
+speed_limit = 0.5
+start = 15
+venue = "yard.geojson"
+
+[dragon]
+benches = 4
+
+[path]
+kind = "route"
+
+[[path.pieces]]
+kind = "line"
+start = [0, 0]
+end = [60, 0]
+"""
+YARD = {"type": "Polygon", "coordinates": [[[-2, -3], [62, -3], [62, 1], [-2, 1], [-2, -3]]]}
+BODY: dict[str, Any] = {
+    "dragon": {"benches": 4},
+    "path": {"kind": "route", "pieces": [{"kind": "line", "start": [0, 0], "end": [60, 0]}]},
+    "venue": YARD,
+    "margin": 0.9,
+    "speed_limit": 0.5,
+    "start": 15,
+}
+
+
+@pytest.fixture
+def dance(tmp_path: Path) -> Path:
+    """A dance in a TOML file, and its venue beside it."""
+    (tmp_path / "yard.geojson").write_text(json.dumps(YARD))
+    file = tmp_path / "dance.toml"
+    file.write_text(DANCE)
+    return file
+
+
+@pytest.mark.parametrize(
+    ("arguments", "target"),
+    [
+        (["turn"], "/turn"),
+        (["turn", "--pitch", "1.5", "--ratio", "1"], "/turn?pitch=1.5&ratio=1"),
+        (["maximum-head-speed", "--benches", "20"], "/maximum-head-speed?benches=20"),
+        (
+            ["maximum-head-speed", "--benches", "20", "--speed-limit", "3"],
+            "/maximum-head-speed?benches=20&speed_limit=3",
+        ),
+    ],
+    ids=lambda value: " ".join(value) if isinstance(value, list) else None,
+)
+def test_json_is_the_answer_of_the_service(client: httpx.Client, arguments: list[str], target: str) -> None:
+    assert json.loads(answer_of(*arguments, "--json")) == served(client, "GET", target)
+
+
+def test_check_reads_toml_and_json_and_answers_like_the_service(client: httpx.Client, dance: Path) -> None:
+    told = served(client, "POST", "/check", BODY)
+    assert not told["passed"]
+    assert json.loads(answer_of("check", str(dance), "--json")) == told
+    dance.with_suffix(".json").write_text(json.dumps(BODY))
+    assert json.loads(answer_of("check", str(dance.with_suffix(".json")), "--json")) == told
+
+
+def test_a_failed_check_is_an_answer_that_says_what_fails(dance: Path) -> None:
+    said = answer_of("check", str(dance))
+    for word in ("What fails", "'square'", "above 0.5 m/s", "nearest to square", "proven: at least", "highest speed"):
+        assert word in said
+
+
+def test_a_dance_that_passes_says_so(dance: Path) -> None:
+    dance.write_text(DANCE.replace("0.9", "0.1").replace("0.5", "2.0"))
+    assert "Nothing fails." in answer_of("check", str(dance))
+
+
+def test_the_dance_is_drawn_in_its_venue(dance: Path) -> None:
+    figure = dance.with_name("dance.svg")
+    done = run("check", str(dance), "--figure", str(figure), "--time", "20", "--json")
+    assert (done.returncode, done.stderr) == (0, f"{figure}\n")
+    assert "<!-- square -->" in figure.read_text()
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "words"),
+    [
+        ("margin = 0.9", "margin = 9", ["margin must be at most 2 m"]),
+        ("end = [60, 0]", "end = [0, 0]", ["path.pieces.0", "got 0 m"]),
+        ("end = [60, 0]", "end = [60]", ["path.pieces.0.end", "at least 2 entries"]),
+        ('"line"', '"maze"', ["path.pieces.0", "'line'", "maze"]),
+        ("yard.geojson", "garden.geojson", ["garden.geojson", "No such file"]),
+        ("margin =", "margin", ["not TOML"]),
+        ("start = 15", "start = 1", ["start must be at least 7.81", "got 1 s"]),
+    ],
+)
+def test_a_dance_that_is_none_is_one_line_and_exit_code_2(dance: Path, old: str, new: str, words: list[str]) -> None:
+    dance.write_text(DANCE.replace(old, new))
+    done = run("check", str(dance))
+    assert (done.returncode, done.stdout) == (2, "")
+    assert len(done.stderr.splitlines()) == 1
+    assert [word for word in words if word not in done.stderr] == []
+
+
+def test_a_figure_of_another_format_is_refused(dance: Path) -> None:
+    done = run("check", str(dance), "--figure", str(dance.with_name("dance.gif")))
+    assert (done.returncode, done.stdout) == (2, "")
+    assert ".svg or .png" in done.stderr
