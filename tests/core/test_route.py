@@ -345,10 +345,10 @@ def slow_clearance(route: Route, times: np.ndarray) -> np.ndarray:
     return shapely.distance(shapes[:, a], shapes[:, b]).min(axis=1)
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=40, deadline=None)
 @given(routes())
 def test_first_contact_on_any_route_is_that_of_a_slow_search(route: Route) -> None:
-    times = np.linspace(float(instants(route, 2)[0]), route.end, 3_000)
+    times = np.linspace(float(instants(route, 2)[0]), route.end, 2_000)
     slow = slow_clearance(route, times)
     found = first_contact(DRAGON, route, start=float(times[0]))
     if found.outcome is Outcome.CLEAR:
