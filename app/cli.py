@@ -305,12 +305,16 @@ def paper(json: Json = False) -> None:
 def serve(
     host: Annotated[str, typer.Option(help="Address to listen on.")] = "127.0.0.1",
     port: Annotated[int, typer.Option(min=0, max=65535, help="Port to listen on.")] = 8000,
+    workers: Annotated[int, typer.Option(min=1, max=64, help="Processes that share the port.")] = 1,
 ) -> None:
     """The HTTP service."""
-    import uvicorn
+    from app.workers import serve as serve_in_processes
 
     try:
-        uvicorn.run("app.main:create_app", factory=True, host=host, port=port)
+        serve_in_processes(host, port, workers)
+    except OSError as taken:
+        print(f"Error: cannot listen on {host}:{port}: {taken.strerror}", file=sys.stderr)
+        raise typer.Exit(2) from taken
     except SystemExit as stop:  # The port is taken, or the address is not ours; uvicorn has said so.
         raise typer.Exit(2 if stop.code else 0) from stop
 

@@ -30,7 +30,8 @@ class LeastClearance:
     """The least clearance over a stretch of the dance.
 
     distance: the least found [m], met at `time` [s] by `benches`; 0 at the first touch if benches touch
-    at_least: proven [m]: nothing comes nearer than this, which is PROOF_WIDTHS[0] below the distance or, where steps
+    at_least: proven [m]: nothing comes nearer than this, which is PROOF_WIDTHS[0] below the distance or, where
+        steps
         run short, PROOF_WIDTHS[1]; None where the search gave up first
     """
 

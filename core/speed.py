@@ -15,7 +15,7 @@ from core.route import Route
 from core.search import Search
 
 # No handle is proven to stay below less than this above the highest rate found [1]; the rate itself is good to 1e-12.
-RATE_TOLERANCE = 1e-5
+RATE_TOLERANCE = 3e-5
 # Rates are first sampled in steps of this part of the shortest chord [1].
 SAMPLE_STEP = 0.2
 INTERVAL_BUDGET = 400_000

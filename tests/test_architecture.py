@@ -63,6 +63,7 @@ ORDER = (
     "app.show",
     "app.files",
     "app.options",
+    "app.workers",
     "app.cli",
 )
 OUTSIDE_CORE = {"app", "fastapi", "http", "json", "orjson", "pathlib", "pydantic", "starlette", "time"}

@@ -285,15 +285,6 @@ def test_a_larger_margin_is_never_met_later(one: float, other: float) -> None:
 # -- laws ----------------------------------------------------------------------------------------------
 
 
-def outcome_before_fold(found: FirstContact) -> Outcome:
-    """Clear too where rounding leaves only the last of the way to the fold undecided."""
-    if found.outcome is Outcome.UNDECIDED:
-        proven, end = found.time_bracket
-        assert end - proven < FOLD
-        return Outcome.CLEAR
-    return found.outcome
-
-
 DANCES = st.integers(0, 10_000).map(lambda seed: random_dance(seed, seed % 3 == 0))
 
 
@@ -316,7 +307,7 @@ def test_scaling_every_length_scales_the_answer(dance: tuple[Dragon, Spiral], k:
     found = first_contact(dragon, spiral)
     large = Dragon.of(k * dragon.lengths, k * dragon.widths, k * dragon.overhangs)
     scaled = first_contact(large, Spiral(k * spiral.pitch, spiral.start_turns))
-    assert outcome_before_fold(scaled) == outcome_before_fold(found)
+    assert scaled.outcome is found.outcome
     if found.outcome is Outcome.CONTACT:
         assert scaled.time == pytest.approx(k * found.time, rel=1e-9, abs=ACCURACY)
         np.testing.assert_allclose(scaled.point, k * np.array(found.point), atol=1e-8 * max(1.0, k))
@@ -326,7 +317,7 @@ def test_scaling_every_length_scales_the_answer(dance: tuple[Dragon, Spiral], k:
 @given(DANCES, st.floats(0.1, 10.0))
 def test_a_faster_head_meets_the_same_contact_sooner(dance: tuple[Dragon, Spiral], head_speed: float) -> None:
     found, faster = (first_contact(*dance, head_speed=speed) for speed in (1.0, head_speed))
-    assert outcome_before_fold(faster) == outcome_before_fold(found)
+    assert faster.outcome is found.outcome
     if found.time is not None:
         assert faster.time * head_speed == pytest.approx(found.time, rel=0, abs=ACCURACY * max(1.0, head_speed))
         assert faster.head.radius == pytest.approx(found.head.radius, abs=ACCURACY * max(1.0, head_speed))
