@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+import base64
+import io
 import json
 import shutil
 from collections.abc import Callable, Iterator
 from typing import Any
 from urllib.parse import urlsplit
 
+import numpy as np
 import pytest
+from matplotlib.image import imread
 from playwright.sync_api import Browser, BrowserContext, Page, expect, sync_playwright
 
 CHROMIUM = shutil.which("chromium")
@@ -23,6 +27,9 @@ ARGUMENTS = [
 ]
 WIDE = {"width": 1440, "height": 900}
 TIMEOUT = 30_000  # [ms]; no test waits this long for what is coming
+
+# Chromium smooths the same edge now this way, now that: so many pixels of two equal pictures may differ [1].
+PIXELS_UNLIKE = 1e-3
 
 # What Chromium itself writes when a request fails; only tests that make one fail may see it.
 FAILED_REQUEST = "Failed to load resource"
@@ -87,3 +94,24 @@ def settled() -> Callable[[Page], None]:
         page.evaluate("new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve)))")
 
     return until_settled
+
+
+@pytest.fixture
+def picture() -> Callable[[Page], np.ndarray]:
+    """picture(page): the pixels of the dance (height, width, 4)."""
+
+    def pixels(page: Page) -> np.ndarray:
+        address = page.locator("#canvas").evaluate("canvas => canvas.toDataURL()")
+        return imread(io.BytesIO(base64.b64decode(address.partition(",")[2])))
+
+    return pixels
+
+
+@pytest.fixture
+def alike() -> Callable[[np.ndarray, np.ndarray], bool]:
+    """alike(a, b): two pictures show the same."""
+
+    def pictures_alike(a: np.ndarray, b: np.ndarray) -> bool:
+        return a.shape == b.shape and float((a != b).any(axis=-1).mean()) < PIXELS_UNLIKE
+
+    return pictures_alike

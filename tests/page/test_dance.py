@@ -190,7 +190,7 @@ def test_two_thousand_benches_are_drawn_and_listed(open_page: Any, server: str) 
     text_of(page, "#rows tr[data-handle='2000']", f"{last:.6f}")
 
 
-def test_a_shared_link_opens_the_same_state(open_page: Any, settled: Any) -> None:
+def test_a_shared_link_opens_the_same_state(open_page: Any, settled: Any, picture: Any, alike: Any) -> None:
     page = open_page("?pitch=0.5&margin=0.01&time=120.5&rate=5&handle=7&lang=zh&view=1,2,35")
     settled(page)
     page.locator("#width").fill("0.25")
@@ -202,8 +202,7 @@ def test_a_shared_link_opens_the_same_state(open_page: Any, settled: Any) -> Non
     for shown in ("#first-contact", "#clock", "#table-time", "tr.chosen", "#minimum-pitch", "#curl"):
         assert other.locator(shown).inner_text() == page.locator(shown).inner_text()
     assert other.url.split("?")[1] == page.url.split("?")[1]
-    picture = "c => c.toDataURL()"
-    assert other.locator("#canvas").evaluate(picture) == page.locator("#canvas").evaluate(picture)
+    assert alike(picture(other), picture(page))
 
 
 def test_the_files_hold_what_the_service_answers(open_page: Any, settled: Any, server: str) -> None:

@@ -45,19 +45,19 @@ def stopped(process: subprocess.Popen[bytes]) -> None:
 
 
 def test_a_lost_service_is_said_and_the_page_stays_and_recovers_by_itself(
-    open_page: Any, settled: Any, port: int
+    open_page: Any, settled: Any, picture: Any, alike: Any, port: int
 ) -> None:
     process = started(port)
     try:
         page = open_page(base=f"http://127.0.0.1:{port}", failing=True)
         settled(page)
         answer = page.locator("#first-contact").inner_text()
-        picture = page.locator("#canvas").evaluate("c => c.toDataURL()")
+        before = picture(page)
         stopped(process)
         page.locator("#pitch").fill("0.5")
         page.locator("#lost", has_text="does not answer").wait_for()
         assert page.locator("#first-contact").inner_text() == answer
-        assert page.locator("#canvas").evaluate("c => c.toDataURL()") == picture
+        assert alike(picture(page), before)
         process = started(port)
         page.locator("#lost").wait_for(state="hidden")
         wanted = httpx.get(f"http://127.0.0.1:{port}/collision-time?pitch=0.5").json()["time"]
