@@ -11,8 +11,8 @@ from uvicorn.supervisors import Multiprocess
 def listen(host: str, port: int) -> socket.socket:
     """A listening socket whose connections send at once.
 
-    asyncio switches off Nagle's delay (TCP_NODELAY) only for sockets that name TCP as their protocol; with uvicorn's own
-    shared socket every second packet of an answer waited for the client's delayed acknowledgement, 40 ms.
+    asyncio switches off Nagle's delay (TCP_NODELAY) only for sockets that name TCP as their protocol; with uvicorn's
+    own shared socket the second packet of an answer waited for the client's delayed acknowledgement, 40 ms.
     raises: OSError when the port is taken or the address is not ours
     """
     family = socket.AF_INET6 if ":" in host else socket.AF_INET

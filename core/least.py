@@ -31,8 +31,7 @@ class LeastClearance:
 
     distance: the least found [m], met at `time` [s] by `benches`; 0 at the first touch if benches touch
     at_least: proven [m]: nothing comes nearer than this, which is PROOF_WIDTHS[0] below the distance or, where
-        steps
-        run short, PROOF_WIDTHS[1]; None where the search gave up first
+        steps run short, PROOF_WIDTHS[1]; None where the search gave up first
     """
 
     distance: float

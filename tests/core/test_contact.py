@@ -14,7 +14,6 @@ from hypothesis import strategies as st
 from core import (
     Dragon,
     EndReason,
-    FirstContact,
     InvalidValue,
     Outcome,
     OutsideRun,
