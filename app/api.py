@@ -199,7 +199,7 @@ def path_clearance(
     """Smallest separation of two benches that are no neighbours, and whose, at every instant, on any path."""
 
     def compute() -> bytes:
-        dragon = wanted.dragon.to_dragon(reply.settings.benches_max)
+        dragon = wanted.dragon.to_dragon(reply.settings.checked_benches_max)
         times = wanted.to_times(dragon.benches + 1, reply.settings.cells_max)
         path = wanted.path.to_path()
         return _clearance_json(core.clearance_profile(dragon, path, times, head_speed=wanted.head_speed))

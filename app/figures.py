@@ -52,6 +52,8 @@ ENLARGED_WIDTHS = 1.5
 # A route is drawn this far around its start [m], as a line of so many points.
 ROUTE_DRAWN = 2_000.0
 PATH_POINTS = 20_000
+# A venue is drawn as far around the dragon as this part of its extent [1].
+AROUND = 0.6
 # One drawing at a time: matplotlib does not promise that its font caches bear more.
 _DRAWING = threading.Lock()
 
@@ -109,17 +111,17 @@ def _draw_venue(axes: Axes, venue: Venue | None) -> None:
                 zorder=1.5,
             )
         )
-        x, y = np.array(area.rings[0])[:-1].T
-        centre = (float(x.mean()), float(y.mean()))
-        place = centre if obstacle else (float(x.min()), float(y.max()))
-        side, height = ("center", "center") if obstacle else ("left", "bottom")
-        axes.text(*place, area.name, fontsize=8, zorder=6, ha=side, va=height)
+        x, y = max(area.rings[0], key=lambda point: point[0] + point[1])
+        axes.text(x, y, f" {area.name}", fontsize=8, zorder=6, ha="left", va="bottom", clip_on=True)
     axes.autoscale_view()
 
 
-def _fit_height(figure: Figure, axes: Axes) -> None:
-    """A venue may be long and low: no empty paper above and below it."""
-    (left, right), (low, high) = axes.get_xlim(), axes.get_ylim()
+def _look_around(figure: Figure, axes: Axes, handles: Floats) -> None:
+    """The dragon and what is near it in a venue, on paper of that shape."""
+    low_corner, high_corner = handles.min(axis=0), handles.max(axis=0)
+    around = AROUND * float((high_corner - low_corner).max())
+    (left, low), (right, high) = (low_corner - around).tolist(), (high_corner + around).tolist()
+    axes.set(xlim=(left, right), ylim=(low, high))
     width = figure.get_figwidth()
     figure.set_figheight(float(np.clip(0.75 * width * (high - low) / (right - left) + 1.0, 0.4 * width, 1.2 * width)))
 
@@ -168,7 +170,7 @@ def trajectory_figure(
         bar = figure.colorbar(dots, ax=axes, label="speed of the handle [m/s]", shrink=0.85)
         bar.ax.ticklabel_format(useOffset=False)
         if venue:
-            _fit_height(figure, axes)
+            _look_around(figure, axes, handles)
         axes.set_title(f"Handles and their speeds at {time:g} s{_pitch_words(path)}", fontsize=11)
         return _bytes(figure, format)
 
