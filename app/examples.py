@@ -268,7 +268,7 @@ EXAMPLES = {
         query={"pitch": 1.7, "turning_diameter": 9, "ratio": 2, "speed_limit": 2},
         answer={
             "head_speed": 1.2462663581574853,
-            "head_speed_bracket": [1.2462585933398662, 1.2462663581574853],
+            "head_speed_bracket": [1.2462430630737953, 1.2462663581574853],
             "speed_ratio": 1.6047933789666402,
             "handles": [3, 4, 5, 6, 7],
             "time": 11.618679669023782,
@@ -395,7 +395,7 @@ EXAMPLES = {
             },
             "highest_speed": {
                 "speed": 1.0253742302121582,
-                "speed_bracket": [1.0253742302121582, 1.025384222028984],
+                "speed_bracket": [1.0253742302121582, 1.025404225834663],
                 "time": 46.65053743846384,
                 "handles": [1, 2, 3, 4, 5, 6, 7, 8, 9],
             },
