@@ -1,0 +1,39 @@
+"""The scan of pitches: its pieces are continuous, its jumps are jumps, and pitches without contact are left out."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from core import Dragon, minimum_pitch
+from core.scan import JUMP, JUMP_WIDTH, pitch_scan
+
+SMALL = Dragon(benches=30)
+BRACKET = 1e-9  # [m]: how well the minimum pitch is known
+
+
+def test_scan_finds_the_jump_at_the_minimum_pitch() -> None:
+    """The head stops at 4.573 m just below 0.4503374 m and at 4.406 m just above; nothing in between."""
+    scan = pitch_scan(Dragon(), np.array([0.449, 0.4515]))
+    edges = [(scan.pitch[start - 1], scan.pitch[start]) for start, _ in scan.pieces[1:]]
+    least = minimum_pitch(Dragon()).pitch
+    [(low, high)] = [(low, high) for low, high in edges if low - BRACKET <= least <= high + BRACKET]
+    assert high - low <= JUMP_WIDTH
+    before, after = (scan.radius[scan.pitch == pitch].item() for pitch in (low, high))
+    assert before > 4.5 > after
+    assert before - after == pytest.approx(4.573 - 4.406, abs=1e-3)  # [m]: the digits given above
+
+
+def test_scan_pieces_are_continuous_and_cover_every_sample() -> None:
+    scan = pitch_scan(Dragon(), np.linspace(0.44, 0.46, 5))
+    assert [end for _, end in scan.pieces[:-1]] == [start for start, _ in scan.pieces[1:]]
+    assert (scan.pieces[0][0], scan.pieces[-1][1]) == (0, len(scan.pitch))
+    for start, end in scan.pieces:
+        assert np.abs(np.diff(scan.radius[start:end])).max(initial=0.0) <= JUMP
+
+
+def test_scan_leaves_out_pitches_without_contact_and_reports_progress() -> None:
+    shares: list[float] = []
+    scan = pitch_scan(SMALL, np.array([0.55, 0.8]), progress=shares.append)
+    assert shares == [0.5, 1.0]
+    assert scan.pitch.max() < 0.8
