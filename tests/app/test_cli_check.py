@@ -86,9 +86,9 @@ def test_a_dance_that_passes_says_so(dance: Path) -> None:
 
 def test_the_dance_is_drawn_in_its_venue(dance: Path) -> None:
     figure = dance.with_name("dance.svg")
-    done = run("check", str(dance), "--figure", str(figure), "--time", "20", "--json")
+    done = run("check", str(dance), "--figure", str(figure), "--time", "59", "--json")
     assert (done.returncode, done.stderr) == (0, f"{figure}\n")
-    assert "<!-- square -->" in figure.read_text()
+    assert " square -->" in figure.read_text()
 
 
 @pytest.mark.parametrize(
