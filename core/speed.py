@@ -18,7 +18,7 @@ from core.search import Search
 RATE_TOLERANCE = 3e-5
 # Rates are first sampled in steps of this part of the shortest chord [1].
 SAMPLE_STEP = 0.2
-INTERVAL_BUDGET = 400_000
+INTERVAL_BUDGET = 60_000
 # Handles whose rates differ by less share the highest one [1].
 TIED = 1e-9
 
