@@ -5,12 +5,21 @@ from __future__ import annotations
 import http.client
 import itertools
 import json
+import socket
+import subprocess
+import sys
+from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import contextmanager
+from pathlib import Path
 
 import pytest
 from pytest_benchmark.fixture import BenchmarkFixture
 
-REQUESTS = 100  # in one round of the throughput rows
+from tests.conftest import wait_until_live
+
+REQUESTS = 200  # in one round of the throughput rows
+CLIENTS = 8
 # No two requests of a run share a pitch, so nothing can answer from a cache.
 PITCHES = (0.55 + k * 1e-9 for k in itertools.count())
 
@@ -46,21 +55,37 @@ def test_post_trajectory(benchmark: BenchmarkFixture, server: str) -> None:
     benchmark.pedantic(post, rounds=200, warmup_rounds=10)
 
 
-@pytest.mark.parametrize("threads", [1, 2])
-def test_throughput(benchmark: BenchmarkFixture, server: str, threads: int) -> None:
-    """Requests per second of /collision-time with one client thread and with two."""
+@contextmanager
+def serving(workers: int, log: Path) -> Iterator[str]:
+    """Base URL of `bench-dragon serve` with so many processes."""
+    with socket.socket() as free:
+        free.bind(("127.0.0.1", 0))
+        port = free.getsockname()[1]
+    command = [Path(sys.executable).with_name("bench-dragon"), "serve", "--port", str(port), "--workers", str(workers)]
+    with log.open("wb") as output, subprocess.Popen(command, stdout=output, stderr=output) as process:
+        try:
+            wait_until_live(process, port, log)
+            yield f"http://127.0.0.1:{port}"
+        finally:
+            process.terminate()
+
+
+@pytest.mark.parametrize("workers", [1, 2])
+def test_throughput(benchmark: BenchmarkFixture, workers: int, tmp_path: Path) -> None:
+    """Requests per second of /collision-time from eight clients, with one process and with two."""
     benchmark.group = "throughput"
     benchmark.extra_info["requests"] = REQUESTS
-    pool = ThreadPoolExecutor(threads)
-    connections = [connect(server) for _ in range(threads)]
 
     def client(connection: http.client.HTTPConnection, paths: list[str]) -> None:
         for path in paths:
             call(connection, "GET", path)
 
     def paths() -> tuple[tuple[list[list[str]]], dict[str, object]]:
-        each = [[f"/collision-time?pitch={next(PITCHES):.9f}" for _ in range(REQUESTS // threads)] for _ in connections]
+        each = [[f"/collision-time?pitch={next(PITCHES):.9f}" for _ in range(REQUESTS // CLIENTS)] for _ in connections]
         return (each,), {}
 
-    benchmark.pedantic(lambda each: list(pool.map(client, connections, each)), setup=paths, rounds=7, warmup_rounds=1)
-    pool.shutdown()
+    with serving(workers, tmp_path / "server.log") as server, ThreadPoolExecutor(CLIENTS) as pool:
+        connections = [connect(server) for _ in range(CLIENTS)]
+        benchmark.pedantic(
+            lambda each: list(pool.map(client, connections, each)), setup=paths, rounds=7, warmup_rounds=2
+        )

@@ -8,7 +8,6 @@ import doctest
 import json
 import os
 import pty
-import re
 import signal
 import socket
 import subprocess
@@ -230,20 +229,23 @@ def test_a_long_wait_shows_a_bar_and_ctrl_c_ends_it_cleanly(tmp_path: Path) -> N
     assert list(tmp_path.iterdir()) == []
 
 
-def test_serve_answers_and_ctrl_c_ends_it() -> None:
+@pytest.mark.parametrize("workers", [1, 2])
+def test_serve_answers_and_ctrl_c_ends_it(workers: int) -> None:
     with socket.socket() as free:
         free.bind(("127.0.0.1", 0))
         port = free.getsockname()[1]
     process = subprocess.Popen(
-        [COMMAND, "serve", "--port", str(port)],
+        [COMMAND, "serve", "--port", str(port), "--workers", str(workers)],
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
         text=True,
         env=ENVIRONMENT,
     )
     assert process.stderr is not None
+    started = 0
     for line in process.stderr:
-        if re.search(rf"running on http://127\.0\.0\.1:{port}", line):
+        started += "Application startup complete" in line
+        if started == workers and (workers > 1 or "running on" in line):
             break
     assert httpx.get(f"http://127.0.0.1:{port}/healthz").json()["status"] == "ok"
     process.send_signal(signal.SIGINT)
