@@ -83,7 +83,7 @@ def throughput(results: Results) -> str:
     return (
         f"`GET /collision-time`, each request at a pitch of its own: {one:,.0f} requests/s from eight clients, "
         f"{two:,.0f} with `serve --workers 2` ({two / one:.2f}x). In one process threads do not help: an answer is\n"
-        f"four fifths Python (the cross-check, the framework), which one thread at a time can run."
+        "four fifths Python (the cross-check, the framework), which one thread at a time can run."
     )
 
 

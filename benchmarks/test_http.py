@@ -10,7 +10,7 @@ import subprocess
 import sys
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
-from contextlib import contextmanager
+from contextlib import closing, contextmanager
 from pathlib import Path
 
 import pytest
@@ -76,16 +76,16 @@ def test_throughput(benchmark: BenchmarkFixture, workers: int, tmp_path: Path) -
     benchmark.group = "throughput"
     benchmark.extra_info["requests"] = REQUESTS
 
-    def client(connection: http.client.HTTPConnection, paths: list[str]) -> None:
-        for path in paths:
-            call(connection, "GET", path)
+    def client(paths: list[str]) -> None:
+        for path in paths:  # a connection each, as a kept one would stay with one process
+            with closing(connect(server)) as connection:
+                call(connection, "GET", path)
 
     def paths() -> tuple[tuple[list[list[str]]], dict[str, object]]:
-        each = [[f"/collision-time?pitch={next(PITCHES):.9f}" for _ in range(REQUESTS // CLIENTS)] for _ in connections]
+        each = [
+            [f"/collision-time?pitch={next(PITCHES):.9f}" for _ in range(REQUESTS // CLIENTS)] for _ in range(CLIENTS)
+        ]
         return (each,), {}
 
     with serving(workers, tmp_path / "server.log") as server, ThreadPoolExecutor(CLIENTS) as pool:
-        connections = [connect(server) for _ in range(CLIENTS)]
-        benchmark.pedantic(
-            lambda each: list(pool.map(client, connections, each)), setup=paths, rounds=7, warmup_rounds=2
-        )
+        benchmark.pedantic(lambda each: list(pool.map(client, each)), setup=paths, rounds=7, warmup_rounds=2)
