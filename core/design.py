@@ -55,9 +55,8 @@ class MinimumPitch:
     """The smallest pitch such that every larger one is free of contact down to the turning circle.
 
     pitch: [m]; pitch_bracket: (infeasible, feasible) [m]
-    limited_by: a graze on the way, contact exactly on the circle, or the start: the dance would touch there, or,
-        without
-        benches, begin inside the circle
+    limited_by: a graze on the way, contact exactly on the circle, or the start: the dance would touch
+        there, or, without benches, begin inside the circle
     benches: the pair that touches just below; head_radius: of the head then [m]
     other_feasible_intervals: [m], islands below pitch, found on a grid of ISLAND_SAMPLES pitches
     justified_by: how every larger pitch up to proven_up_to [m] is known to be feasible: 'bound' or 'scan', in steps of
@@ -95,7 +94,7 @@ class MinimumPitch:
 def _sensitivity(search: Search, radius: float, low: float, high: float) -> float:
     """Bound on |d separation / d pitch| at every head radius >= radius, pitches in [low, high].
 
-    Inf where none holds [1].
+    Dimensionless; inf where no bound holds.
     """
     chord, shortest, overhang, half_width, *_ = (float(extreme) for extreme in search.extremes)
     b_low, b_high = low / (2.0 * math.pi), high / (2.0 * math.pi)
@@ -297,9 +296,9 @@ class _PitchSearch:
         return ((self.lowest, end), *found) if end else tuple(found)
 
     def still_touches(self, pitch: float, radius: float, a: int, b: int) -> bool:
-        """Are benches a and b within the margin too with this pitch and the head at this radius.
+        """Are benches a and b within the margin with this pitch too, the head at this radius?
 
-        If that is on the way?.
+        False where that radius is not on the way.
         """
         growth, search = pitch / (2.0 * math.pi), self.search
         if radius > pitch * self.start_turns:

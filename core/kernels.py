@@ -1663,7 +1663,7 @@ def extend_route(
 ) -> cython.Py_ssize_t:
     """Handles after `first` to the `last`, each the first point behind its leader at the bench's chord.
 
-    Returns last.
+    returns: last
     """
     k: cython.Py_ssize_t
     p: cython.Py_ssize_t
@@ -2320,7 +2320,7 @@ def row_clearance(
 ) -> cython.double:
     """Least separation among the pairs led by the first `active` benches, and that pair [m]; FREE without pairs.
 
-    Growth: 0 on a route.
+    growth: 0 on a route
     """
     edges: cython.Py_ssize_t = statics if statics >= 0 else -statics
     i: cython.Py_ssize_t
@@ -2567,8 +2567,8 @@ def march(
     place: at travel 0, see above [m]; leaders: benches whose pairs must be followed; at_start: follow all pairs
     until every bench has passed the start of the one before it; tolerance: half width of the bracket around a
     contact [m], 0 for none: to end at any instant found to be within the margin; rounding: what a computed gap may
-    be off by [m]; budget: steps; benches: n; statics: edges at rest in the rows after
-    the last handle's, on a route only; negative: these alone, without pairs of benches
+    be off by [m]; budget: steps; benches: n; statics: edges at rest in the rows after the last handle's, on a route
+    only; negative: these alone, without pairs of benches
     sizes: (R - 1, SIZE_COLUMNS) at least; rows: (4, R, CHAIN_COLUMNS), motion: (R, MOTION_COLUMNS) scratch; out:
         (MARCH_ENTRIES,)
     returns: REACHED, TOUCHED, TOUCHED_AT_START, STUCK (budget spent or interval at rounding) or CAPACITY (R too small)

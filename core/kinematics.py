@@ -109,9 +109,9 @@ def follows(dragon: Dragon, path: Route) -> bool:
 
 
 def _check_bends(dragon: Dragon, path: Route) -> None:
-    """.
+    """Refuse a bend that a bench cannot follow.
 
-    An every bench follow? With |curvature| chord / 2 below the limit the next handle is unique and never turns back.
+    With |curvature| chord / 2 below the limit the next handle is unique and never turns back.
     """
     curvature, s = path.sharpest
     bench = int(dragon.chords[: dragon.uniform_from + 1].argmax())
@@ -131,8 +131,7 @@ def trajectory(
     """Position and velocity of every handle at every time.
 
     times: (T,) [s], 0 at the start; at negative times the head is on the outward extension of the spiral, or on the
-        part
-        of a route before its s = 0
+        part of a route before its s = 0
     head_speed: [m/s], constant
     returns: see Trajectory; positions good to 1e-12 m, speeds from the rigid links, never from differences
     raises: OutsideRun (times) after the end of the run, or where the tail would stand before the beginning of a route

@@ -63,7 +63,7 @@ class Line:
 class Arc:
     """Part of a circle: centre (x, y) [m], radius [m], start_angle [rad], sweep [rad].
 
-    Counter-clockwise if positive.
+    A positive sweep goes counter-clockwise.
     """
 
     centre: Point

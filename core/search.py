@@ -46,11 +46,9 @@ class Search:
     """The arrays that the kernels need for one dragon, and the path and margin they are used for now.
 
     extremes: longest and shortest chord, longest overhang, half width of all benches, chord and half width of those
-        that
-        can be the outer of a pair [m]; ring: the same for the kernels, see RING_... there
+        that can be the outer of a pair [m]; ring: the same for the kernels, see RING_... there
     sizes: (rows, 4) of the leading benches; edges: (E, 4) x, y, x, y of edges at rest [m], on routes only; with
-        edges, the pairs are bench and edge
-        alone: edge e is bench number room + 1 + e of a pair
+        edges, the pairs are bench and edge alone: edge e is bench number room + 1 + e of a pair
     clear_radius: on a spiral, no pair whose inner bench leads at this radius or further out comes within the margin [m]
     place: what the kernels count places from, at time 0: arc length from the centre of a spiral, minus s on a route [m]
     """
