@@ -13,9 +13,25 @@ from pathlib import Path
 
 import pytest
 
+from core import kernels
+
 ROOT = Path(__file__).parent.parent
 START_TIMEOUT = 60.0  # [s] to the first answer; a cold start takes about one
 STOP_TIMEOUT = 30.0  # [s] from the signal to the end; uvicorn lets running computations finish
+# What takes seconds where there is no C compiler. The rest would take hours, as each search does: it needs the loops.
+UNCOMPILED = ("test_architecture", "test_dragon", "test_kinematics", "test_paths", "test_problems", "test_rectangles")
+UNCOMPILED += ("test_tables", "reference")
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Without compiled loops, run what they are not needed for and the reference cases of first contact."""
+    if kernels.COMPILED:
+        return
+    slow = pytest.mark.skip(reason="needs the compiled loops; without a C compiler this suite would take hours")
+    for item in items:
+        quick = any(name in item.nodeid for name in UNCOMPILED)
+        if not quick or "test_design" in item.nodeid or "test_api" in item.nodeid:
+            item.add_marker(slow)
 
 
 @pytest.fixture(scope="session")
