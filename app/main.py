@@ -127,8 +127,23 @@ def _openapi(app: FastAPI) -> dict[str, Any]:
             method, path = name.split()
             call = schema["paths"][path][method.lower()]
             call["responses"]["200"]["content"]["application/json"]["example"] = example.answer
+        _state_benches(schema, app.state.settings.benches_max)
         app.openapi_schema = schema
     return app.openapi_schema
+
+
+def _state_benches(part: Any, most: int) -> None:
+    """The number of benches that this service takes, in place of what a dragon may have in core."""
+    if isinstance(part, dict):
+        for name, inner in part.items():
+            if name == "benches" and isinstance(inner, dict) and "maximum" in inner:
+                inner["maximum"] = most
+            _state_benches(inner, most)
+        if part.get("name") == "benches" and "maximum" in part.get("schema", {}):
+            part["schema"]["maximum"] = most
+    elif isinstance(part, list):
+        for inner in part:
+            _state_benches(inner, most)
 
 
 def _add_health(app: FastAPI) -> None:
