@@ -76,6 +76,16 @@ def test_every_field_is_described_and_every_measure_has_its_unit(document: Any) 
     assert set(bare) <= free
 
 
+def test_the_most_benches_stated_are_the_most_taken() -> None:
+    document = create_app(Settings(benches_max=321)).openapi()
+    parameters = document["paths"]["/collision-time"]["get"]["parameters"]
+    stated = next(parameter["schema"]["maximum"] for parameter in parameters if parameter["name"] == "benches")
+    wires = document["components"]["schemas"].values()
+    in_bodies = [wire["properties"]["benches"] for wire in wires if "benches" in wire.get("properties", {})]
+    assert stated == 321
+    assert {field["maximum"] for field in in_bodies if "maximum" in field} == {321}
+
+
 @pytest.mark.parametrize("call", EXAMPLES)
 def test_the_example_of_every_call_is_true(client: httpx.Client, document: Any, call: str) -> None:
     example = EXAMPLES[call]
