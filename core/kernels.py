@@ -937,6 +937,9 @@ def rows_gap(
 #   angles            alpha_a' = k_a a' - omega, alpha_b' = omega - k_b b' so |alpha'| <= k_high a' - k_low b'_low
 #   link, again       b'' cos alpha_b = a'' cos alpha_a - a' alpha_a' sin alpha_a + b' alpha_b' sin alpha_b
 #   turning, again    omega' c = a'' sin alpha_a + a' alpha_a' cos alpha_a + b'' sin alpha_b + b' alpha_b' cos alpha_b
+#   link, once more   b''' cos alpha_b = a''' cos alpha_a - 2 a'' alpha_a' sin alpha_a + 2 b'' alpha_b' sin alpha_b
+#                       - a' (alpha_a'^2 cos alpha_a + alpha_a'' sin alpha_a) + b' (the same of b),
+#                     alpha_a'' = k_a' a'^2 + k_a a'' - omega', alpha_b'' = omega' - k_b' b'^2 - k_b b'', k' = dk / ds
 # On an inward spiral curvature grows in the direction of travel, so alpha_a >= alpha_b (Vogt) and |b'| <= |a'|.
 #
 # Where k_high c >= 2 (near the centre) the angles are followed from the nearer end of the interval instead: with a
@@ -977,7 +980,8 @@ UY = cython.declare(cython.int, 9)
 CURVATURE = cython.declare(cython.int, 10)
 PIECE = cython.declare(cython.int, 11)
 PIECE_THETA = cython.declare(cython.int, 12)
-CHAIN_COLUMNS = 13
+CLIMB = cython.declare(cython.int, 13)  # d rate / d sigma [1/m], where climbs() filled it in
+CHAIN_COLUMNS = 14
 
 # Columns of a motion row, one for each bench: bounds over an interval.
 CENTRE_SPEED = cython.declare(cython.int, 0)
@@ -995,7 +999,8 @@ RATE_LOW = cython.declare(cython.int, 10)
 RATE_RATE = cython.declare(cython.int, 11)  # |s''|
 THETA_HIGH = cython.declare(cython.int, 12)
 THETA_LOW = cython.declare(cython.int, 13)
-MOTION_COLUMNS = 14
+RATE_JERK = cython.declare(cython.int, 14)  # |s'''| on a route, where no handle up to it crosses a joint
+MOTION_COLUMNS = 15
 
 # Columns of a size row, one for each bench.
 CHORD = cython.declare(cython.int, 0)
@@ -1482,7 +1487,8 @@ S_START = cython.declare(cython.int, 1)
 S_END = cython.declare(cython.int, 2)
 K_START = cython.declare(cython.int, 3)
 K_END = cython.declare(cython.int, 4)
-PIECE_COLUMNS = 14
+K_SLOPE = cython.declare(cython.int, 14)  # bound on |d curvature / d s| [1/m^2], but for a cubic
+PIECE_COLUMNS = 15
 LINE = cython.declare(cython.int, 0)
 ARC = cython.declare(cython.int, 1)
 SPIRAL = cython.declare(cython.int, 2)
@@ -1802,6 +1808,23 @@ def stretch_curvature(
 
 
 @cython.cfunc
+@cython.inline
+@cython.nogil
+@cython.exceptval(check=False)
+def stretch_slope(
+    pieces: cython.const[cython.double][:, ::1], rear: cython.Py_ssize_t, front: cython.Py_ssize_t
+) -> cython.double:
+    """Bound on |d curvature / d s| from piece `rear` to piece `front`, joints left out; FREE with a cubic [1/m^2]."""
+    p: cython.Py_ssize_t
+    slope: cython.double = 0.0
+    for p in range(rear, front + 1):
+        if pieces[p, PIECE_KIND] == CUBIC:
+            return FREE
+        slope = max(slope, pieces[p, K_SLOPE])
+    return slope
+
+
+@cython.cfunc
 @cython.nogil
 @cython.exceptval(check=False)
 def route_bounds(
@@ -1838,6 +1861,8 @@ def route_bounds(
     rate_low: cython.double = 1.0
     second_a: cython.double = 0.0
     second_b: cython.double
+    third_a: cython.double = 0.0
+    third_b: cython.double
     for k in range(benches):
         chord = sizes[k, CHORD]
         low, high = stretch_curvature(
@@ -1893,16 +1918,44 @@ def route_bounds(
         motion[k, TURN_PULL] = spin
         motion[k, TURN_LOW] = motion[k, RATE_LOW] = 0.0
         motion[k, HANDLE_SPEED] = rate_a if rate_a > rate_b else rate_b
+        third_b = stretch_slope(
+            pieces,
+            cython.cast(cython.Py_ssize_t, before[k + 1, PIECE]),
+            cython.cast(cython.Py_ssize_t, after[k, PIECE]),
+        )
+        third_b = third_b * (rate_a * rate_a * rate_a + rate_b * rate_b * rate_b)
+        third_b += high * (rate_a * second_a + rate_b * second_b) + (spin - omega * omega) * (rate_a + rate_b)
+        third_b = sin_high * (third_b + 2.0 * swing * (second_a + second_b))
+        third_b = (cos_high * (third_a + swing * swing * (rate_a + rate_b)) + third_b) / cos_low
         motion[k + 1, RATE_HIGH] = rate_b
         motion[k + 1, RATE_RATE] = second_b
+        motion[k + 1, RATE_JERK] = third_b
         rate_a = rate_b
         second_a = second_b
+        third_a = third_b
     return True
 
 
 # -- either kind of path ----------------------------------------------------------------------------
 # `place` falls in the direction of travel: the arc length from the centre of a spiral, minus s on a route. A path
 # without pieces is the spiral of that growth.
+
+
+@cython.cfunc
+@cython.nogil
+@cython.exceptval(check=False)
+def extend(
+    growth: cython.double,
+    pieces: cython.const[cython.double][:, ::1],
+    first: cython.Py_ssize_t,
+    last: cython.Py_ssize_t,
+    sizes: cython.double[:, ::1],
+    chain: cython.double[:, ::1],
+) -> cython.Py_ssize_t:
+    """Handles after `first` to the `last`; returns last, -1 at a fold."""
+    if pieces.shape[0] == 0:
+        return extend_chain(growth, first, last, FREE, sizes, chain)
+    return extend_route(pieces, first, last, sizes, chain)
 
 
 @cython.cfunc
@@ -1919,9 +1972,9 @@ def place_chain(
     """The chain with its head at a place, up to handle `last`; returns last, -1 at a fold."""
     if pieces.shape[0] == 0:
         start_chain(spiral_theta(place / growth), chain)
-        return extend_chain(growth, 0, last, FREE, sizes, chain)
-    start_route(pieces, -place, chain)
-    return extend_route(pieces, 0, last, sizes, chain)
+    else:
+        start_route(pieces, -place, chain)
+    return extend(growth, pieces, 0, last, sizes, chain)
 
 
 @cython.ccall
@@ -2283,6 +2336,7 @@ def interval_least(
 
 
 @cython.cfunc
+@cython.inline
 @cython.nogil
 @cython.exceptval(check=False)
 def row_gap(
@@ -2305,52 +2359,112 @@ def row_gap(
     )
 
 
+# Benches this many in a row share one upright box, so that most of what is far apart is passed over together.
+BLOCK = cython.declare(cython.Py_ssize_t, 8)
+
+
+@cython.cfunc
+@cython.inline
+@cython.nogil
+@cython.exceptval(check=False)
+def block_boxes(
+    benches: cython.Py_ssize_t,
+    sizes: cython.double[:, ::1],
+    chain: cython.double[:, ::1],
+    boxes: cython.double[:, ::1],
+) -> cython.Py_ssize_t:
+    """Box around every block of benches: x from, x to, y from, y to [m]; returns how many there are."""
+    block: cython.Py_ssize_t
+    k: cython.Py_ssize_t
+    blocks: cython.Py_ssize_t = (benches + BLOCK - 1) // BLOCK
+    for block in range(blocks):
+        boxes[block, 0] = boxes[block, 2] = FREE
+        boxes[block, 1] = boxes[block, 3] = -FREE
+        for k in range(block * BLOCK, block * BLOCK + BLOCK if block + 1 < blocks else benches):
+            boxes[block, 0] = min(boxes[block, 0], chain[k, MX] - sizes[k, RADIUS])
+            boxes[block, 1] = max(boxes[block, 1], chain[k, MX] + sizes[k, RADIUS])
+            boxes[block, 2] = min(boxes[block, 2], chain[k, MY] - sizes[k, RADIUS])
+            boxes[block, 3] = max(boxes[block, 3], chain[k, MY] + sizes[k, RADIUS])
+    return blocks
+
+
+@cython.cfunc
+@cython.inline
+@cython.nogil
+@cython.exceptval(check=False)
+def least_with(
+    i: cython.Py_ssize_t,
+    first: cython.Py_ssize_t,
+    end: cython.Py_ssize_t,
+    best: cython.double,
+    sizes: cython.double[:, ::1],
+    chain: cython.double[:, ::1],
+    pair: cython.Py_ssize_t[::1],
+) -> cython.double:
+    """The lesser of best and the separations of row i from rows first to end - 1 [m]; the pair, where that is less."""
+    j: cython.Py_ssize_t
+    dx: cython.double
+    dy: cython.double
+    far: cython.double
+    for j in range(first, end):
+        dx = chain[j, MX] - chain[i, MX]
+        dy = chain[j, MY] - chain[i, MY]
+        far = sizes[i, RADIUS] + sizes[j, RADIUS] + max(best, 0.0)
+        if dx * dx + dy * dy <= far * far:
+            far = row_gap(i, j, sizes, chain)
+            if far < best:
+                best = far
+                pair[1] = i
+                pair[2] = j
+    return best
+
+
 @cython.cfunc
 @cython.nogil
 @cython.exceptval(check=False)
 def row_clearance(
-    growth: cython.double,
-    ring: cython.double[::1],
     active: cython.Py_ssize_t,
     handles: cython.Py_ssize_t,
     statics: cython.Py_ssize_t,
     sizes: cython.double[:, ::1],
     chain: cython.double[:, ::1],
+    boxes: cython.double[:, ::1],
     pair: cython.Py_ssize_t[::1],
 ) -> cython.double:
     """Least separation among the pairs led by the first `active` benches, and that pair [m]; FREE without pairs.
 
-    growth: 0 on a route
+    boxes: (handles / BLOCK, 4) at least, scratch
     """
-    edges: cython.Py_ssize_t = statics if statics >= 0 else -statics
     i: cython.Py_ssize_t
-    j: cython.Py_ssize_t
+    a: cython.Py_ssize_t
+    b: cython.Py_ssize_t
+    blocks: cython.Py_ssize_t
+    first: cython.Py_ssize_t
     dx: cython.double
     dy: cython.double
     far: cython.double
-    gap: cython.double
     best: cython.double = FREE
-    beyond: cython.double
-    for i in range(active):
-        beyond = FREE
-        if growth > 0.0 and best < FREE:
-            beyond = leaders_reach(growth, growth * chain[i, THETA], growth * chain[i + 1, THETA], ring)
-            beyond = radius_beyond(growth, beyond + (best if best > 0.0 else 0.0), ring)
-        for j in range(i + 2 if statics >= 0 else handles + 1, handles + 1 + edges):
-            if j == handles:
+    b = handles + 1 + (statics if statics >= 0 else -statics)
+    for i in range(active):  # the last handle's row holds no bench; after it stand the edges at rest
+        best = least_with(i, handles + 1, b, best, sizes, chain, pair)
+    if statics < 0:
+        return best
+    if active > 0:  # a first value to compare with
+        best = least_with(0, 2, handles, best, sizes, chain, pair)
+    blocks = block_boxes(handles, sizes, chain, boxes)
+    for a in range((active + BLOCK - 1) // BLOCK):
+        for b in range(a, blocks):
+            dx = max(boxes[b, 0] - boxes[a, 1], boxes[a, 0] - boxes[b, 1], 0.0)
+            dy = max(boxes[b, 2] - boxes[a, 3], boxes[a, 2] - boxes[b, 3], 0.0)
+            if dx * dx + dy * dy > max(best, 0.0) * max(best, 0.0):
                 continue
-            if beyond < FREE and growth * chain[j, THETA] > beyond:
-                break
-            dx = chain[j, MX] - chain[i, MX]
-            dy = chain[j, MY] - chain[i, MY]
-            far = sizes[i, RADIUS] + sizes[j, RADIUS] + (best if best > 0.0 else 0.0)
-            if dx * dx + dy * dy > far * far:
-                continue
-            gap = row_gap(i, j, sizes, chain)
-            if gap < best:
-                best = gap
-                pair[1] = i
-                pair[2] = j
+            for i in range(a * BLOCK, min(a * BLOCK + BLOCK, active)):
+                far = sizes[i, RADIUS] + max(best, 0.0)
+                dx = max(boxes[b, 0] - chain[i, MX], chain[i, MX] - boxes[b, 1], 0.0)
+                dy = max(boxes[b, 2] - chain[i, MY], chain[i, MY] - boxes[b, 3], 0.0)
+                if dx * dx + dy * dy <= far * far:
+                    first = max(i + 2, b * BLOCK)
+                    best = least_with(i, first, min(b * BLOCK + BLOCK, handles), best, sizes, chain, pair)
     return best
 
 
@@ -2364,20 +2478,20 @@ def clearance_at(
     benches: cython.Py_ssize_t,
     leaders: cython.Py_ssize_t,
     statics: cython.Py_ssize_t,
-    ring: cython.double[::1],
     sizes: cython.double[:, ::1],
     chain: cython.double[:, ::1],
+    boxes: cython.double[:, ::1],
     pair: cython.Py_ssize_t[::1],
 ) -> cython.double:
     """Clearance with the head at a place over all pairs led by the first `leaders` benches [m]; the pair in pair[1],
     pair[2]; FREE without pairs.
 
-    chain: (n + 1, CHAIN_COLUMNS) scratch; pair[0]: the last handle placed, -1 if the chain folds
+    chain: (n + 1, CHAIN_COLUMNS), boxes: (n / BLOCK, 4) scratch; pair[0]: the last handle placed, -1 if the chain folds
     """
     pair[0] = place_chain(growth, pieces, place, benches, sizes, chain)
     if pair[0] < 0:
         return FREE
-    return row_clearance(growth if pieces.shape[0] == 0 else 0.0, ring, leaders, benches, statics, sizes, chain, pair)
+    return row_clearance(leaders, benches, statics, sizes, chain, boxes, pair)
 
 
 @cython.ccall
@@ -2566,9 +2680,9 @@ def march(
 
     place: at travel 0, see above [m]; leaders: benches whose pairs must be followed; at_start: follow all pairs
     until every bench has passed the start of the one before it; tolerance: half width of the bracket around a
-    contact [m], 0 for none: to end at any instant found to be within the margin; rounding: what a computed gap may
-    be off by [m]; budget: steps; benches: n; statics: edges at rest in the rows after the last handle's, on a route
-    only; negative: these alone, without pairs of benches
+    contact [m], 0 or less for none: to end at any instant found to be within the margin, and with 0 without looking
+    for grazes; rounding: what a computed gap may be off by [m]; budget: steps; benches: n; statics: edges at rest in
+    the rows after the last handle's, on a route only; negative: these alone, without pairs of benches
     sizes: (R - 1, SIZE_COLUMNS) at least; rows: (4, R, CHAIN_COLUMNS), motion: (R, MOTION_COLUMNS) scratch; out:
         (MARCH_ENTRIES,)
     returns: REACHED, TOUCHED, TOUCHED_AT_START, STUCK (budget spent or interval at rounding) or CAPACITY (R too small)
@@ -2584,7 +2698,6 @@ def march(
     first: cython.Py_ssize_t = leaders
     followers: cython.Py_ssize_t = benches if at_start else leaders
     placed: cython.Py_ssize_t
-    solo: cython.double = growth if pieces.shape[0] == 0 else 0.0
     opened: cython.Py_ssize_t
     handles: cython.Py_ssize_t
     active: cython.Py_ssize_t
@@ -2619,7 +2732,7 @@ def march(
             return STUCK
         opened = pair[0] if pair[0] < benches else benches - 1
         opening[: placed + 1] = before[: placed + 1]
-        last_clearance = row_clearance(solo, ring, pair[0], placed, statics, sizes, before, pair)
+        last_clearance = row_clearance(pair[0], placed, statics, sizes, before, motion, pair)
         if last_clearance <= margin:
             out[PROVEN] = out[TOUCHING] = start
             out[FIRST] = pair[1]
@@ -2656,7 +2769,7 @@ def march(
             least = FREE
             if active > 0:
                 if placed < handles:
-                    placed = extend_chain(growth, placed, handles, FREE, sizes, before)
+                    placed = extend(growth, pieces, placed, handles, sizes, before)
                 least = interval_least(
                     growth,
                     pieces,
@@ -2745,8 +2858,8 @@ def march(
                 return TOUCHED
             target = -1.0
             clearance = FREE
-            if tolerance > 0.0:
-                clearance = row_clearance(solo, ring, active, handles, statics, sizes, before, pair)
+            if tolerance != 0.0:
+                clearance = row_clearance(active, handles, statics, sizes, before, motion, pair)
             lowest = least if least < floor else floor
             floor = least
             if older_clearance > last_clearance <= clearance and lowest < out[GRAZE_GAP]:
@@ -2790,6 +2903,37 @@ def march(
 # -- the highest speed ------------------------------------------------------------------------------
 # Rates are Lipschitz: |d rate / d sigma| = |s''| is bounded over an interval as above, so between two ends a rate is
 # at most (start + end + bound h) / 2, and never above its own bound over the interval.
+#
+# Calm handles. Where curvature does not fall in the direction of travel and the lemma holds, |b'| <= |a'| (Vogt,
+# above): on an inward spiral, a line, an arc. On a route handles only go forward, so if handle n stands on such a first
+# piece at the end of an interval it did so all along, and no handle behind it is faster than it. On a spiral that holds
+# from a radius outwards; the chain is laid out to twice that radius, so that handle n may drift by half of its own.
+
+
+@cython.cfunc
+@cython.nogil
+@cython.exceptval(check=False)
+def lively_chain(
+    growth: cython.double,
+    pieces: cython.const[cython.double][:, ::1],
+    place: cython.double,
+    last: cython.Py_ssize_t,
+    calm: cython.double,
+    sizes: cython.double[:, ::1],
+    chain: cython.double[:, ::1],
+) -> cython.Py_ssize_t:
+    """The chain with its head at a place up to the first calm handle, or the last; returns that one, -1 at a fold.
+
+    calm: on a spiral the radius from which handles are calm [m]; on a route > 0 if its first piece is calm
+    """
+    k: cython.Py_ssize_t = 0
+    if pieces.shape[0] == 0:
+        start_chain(spiral_theta(place / growth), chain)
+        return extend_chain(growth, 0, last, 2.0 * calm, sizes, chain)
+    start_route(pieces, -place, chain)
+    while k < last and (chain[k, PIECE] > 0.0 or calm <= 0.0):
+        k = extend_route(pieces, k, k + 1, sizes, chain)
+    return k
 
 
 @cython.cfunc
@@ -2813,20 +2957,23 @@ def top_rate(
     pieces: cython.const[cython.double][:, ::1],
     place: cython.double,
     benches: cython.Py_ssize_t,
+    calm: cython.double,
     sizes: cython.double[:, ::1],
     chain: cython.double[:, ::1],
-) -> cython.double:
-    """The largest |rate| with the head at a place; 0 if the chain folds."""
-    if place_chain(growth, pieces, place, benches, sizes, chain) < 0:
-        return 0.0
-    return fabs(chain[fastest(benches, chain), RATE])
+) -> tuple[cython.double, cython.Py_ssize_t]:
+    """The largest |rate| with the head at a place, and the first handle that has it; 0 if the chain folds."""
+    k: cython.Py_ssize_t = lively_chain(growth, pieces, place, benches, calm, sizes, chain)
+    if k < 0:
+        return 0.0, 0
+    k = fastest(k, chain)
+    return fabs(chain[k, RATE]), k
 
 
 @cython.cfunc
 @cython.nogil
 @cython.exceptval(check=False)
-def route_climb(k: cython.Py_ssize_t, sizes: cython.double[:, ::1], chain: cython.double[:, ::1]) -> cython.double:
-    """d |rate of handle k| / d sigma of a chain on a route [1/m].
+def climbs(last: cython.Py_ssize_t, sizes: cython.double[:, ::1], chain: cython.double[:, ::1]) -> cython.void:
+    """Fills in d rate / d sigma of the handles of a chain on a route [1/m].
 
     With D = P_a - P_b twice differentiated, |D| constant, N to the left of T and signed curvature:
     b'' (D . T_b) = |D'|^2 + D . (a'' T_a + k_a a'^2 N_a - k_b b'^2 N_b),  D' = a' T_a - b' T_b.
@@ -2837,7 +2984,8 @@ def route_climb(k: cython.Py_ssize_t, sizes: cython.double[:, ::1], chain: cytho
     b: cython.double
     x: cython.double
     y: cython.double
-    for i in range(k):
+    chain[0, CLIMB] = 0.0
+    for i in range(last):
         a = chain[i, RATE]
         b = chain[i + 1, RATE]
         x = a * chain[i, TX] - b * chain[i + 1, TX]
@@ -2848,7 +2996,7 @@ def route_climb(k: cython.Py_ssize_t, sizes: cython.double[:, ::1], chain: cytho
             + chain[i, UY] * (second * chain[i, TY] + chain[i, CURVATURE] * a * a * chain[i, TX])
             + chain[i + 1, CURVATURE] * b * b * (chain[i, UX] * chain[i + 1, TY] - chain[i, UY] * chain[i + 1, TX])
         ) / (chain[i, UX] * chain[i + 1, TX] + chain[i, UY] * chain[i + 1, TY])
-    return second if chain[k, RATE] >= 0.0 else -second
+        chain[i + 1, CLIMB] = second
 
 
 @cython.cfunc
@@ -2861,6 +3009,7 @@ def refined_peak(
     low: cython.double,
     high: cython.double,
     benches: cython.Py_ssize_t,
+    calm: cython.double,
     sizes: cython.double[:, ::1],
     chain: cython.double[:, ::1],
 ) -> cython.double:
@@ -2870,16 +3019,126 @@ def refined_peak(
     where rates only grow towards the centre, the better end.
     """
     middle: cython.double
+    k: cython.Py_ssize_t
     if pieces.shape[0] == 0:
         return high
     while high - low > PEAK_WIDTH:
         middle = 0.5 * (low + high)
-        top_rate(growth, pieces, place - middle, benches, sizes, chain)
-        if route_climb(fastest(benches, chain), sizes, chain) > 0.0:
+        _, k = top_rate(growth, pieces, place - middle, benches, calm, sizes, chain)
+        climbs(k, sizes, chain)
+        if chain[k, CLIMB] > 0.0:
             low = middle
         else:
             high = middle
     return high
+
+
+# Between joints rates are smooth: with |r''| <= J a rate stays below its chord plus J h^2 / 8. Where one handle crosses
+# one joint at x = y in [0, h], r stays below p = r_0 + s_0 x + J h^2 / 2 for x <= y and below q = r_h + s_h (x - h) +
+# J h^2 / 2 for x >= y. If s_0 >= J h and s_h <= -J h it rises up to y and falls from there, so that its largest value
+# r(y) <= min(p(y), q(y)), which is largest where p and q cross.
+
+
+@cython.cfunc
+@cython.inline
+@cython.nogil
+@cython.exceptval(check=False)
+def smooth_bound(
+    start: cython.double,
+    start_slope: cython.double,
+    end: cython.double,
+    end_slope: cython.double,
+    jerk: cython.double,
+    h: cython.double,
+    kink: cython.bint,
+) -> cython.double:
+    """No rate with these ends, |second derivative| <= jerk and at most this one kink exceeds this between them."""
+    x: cython.double
+    most: cython.double = max(start, end)
+    if not kink:
+        return most + 0.125 * jerk * h * h
+    if start_slope >= jerk * h and end_slope <= -jerk * h and start_slope > end_slope:
+        x = min(max((end - start - end_slope * h) / (start_slope - end_slope), 0.0), h)
+        most = max(most, min(start + start_slope * x, end + end_slope * (x - h)))
+    else:
+        most = max(start + max(start_slope, 0.0) * h, end + max(-end_slope, 0.0) * h)
+    return most + 0.5 * jerk * h * h
+
+
+@cython.cfunc
+@cython.nogil
+@cython.exceptval(check=False)
+def rate_bound(
+    growth: cython.double,
+    pieces: cython.const[cython.double][:, ::1],
+    h: cython.double,
+    handles: cython.Py_ssize_t,
+    benches: cython.Py_ssize_t,
+    calm: cython.double,
+    sizes: cython.double[:, ::1],
+    before: cython.double[:, ::1],
+    after: cython.double[:, ::1],
+    motion: cython.double[:, ::1],
+) -> cython.double:
+    """No |rate| exceeds this over an interval, between two chains placed up to `handles`; FREE when it is too wide."""
+    k: cython.Py_ssize_t
+    bound: cython.double
+    upper: cython.double = 1.0
+    crossed: cython.double = 0.0
+    if handles == 0:
+        return upper
+    if pieces.shape[0] > 0:
+        if not route_bounds(pieces, h, handles, sizes, before, after, motion):
+            return FREE
+        climbs(handles, sizes, before)
+        climbs(handles, sizes, after)
+        crossed = after[0, PIECE] - before[0, PIECE]
+    elif not motion_bounds(growth, h, handles, sizes, before, after, motion):
+        return FREE
+    elif handles < benches:
+        bound = before[handles, THETA] if before[handles, THETA] < after[handles, THETA] else after[handles, THETA]
+        bound *= growth
+        if bound - drift(motion[handles - 1, HANDLE_SPEED], h, growth, bound) < calm:
+            return FREE
+    for k in range(1, handles + 1):
+        bound = 0.5 * (fabs(before[k, RATE]) + fabs(after[k, RATE]) + motion[k, RATE_RATE] * h)
+        if motion[k, RATE_HIGH] < bound:
+            bound = motion[k, RATE_HIGH]
+        if pieces.shape[0] > 0:
+            crossed += after[k, PIECE] - before[k, PIECE]
+            if bound > upper and crossed <= 1.0 and motion[k, RATE_JERK] < FREE:
+                bound = min(
+                    bound,
+                    smooth_bound(
+                        before[k, RATE],
+                        before[k, CLIMB],
+                        after[k, RATE],
+                        after[k, CLIMB],
+                        motion[k, RATE_JERK],
+                        h,
+                        crossed > 0.0,
+                    ),
+                )
+        if bound > upper:
+            upper = bound
+    return upper
+
+
+@cython.cfunc
+@cython.inline
+@cython.nogil
+@cython.exceptval(check=False)
+def peaks_between(
+    placed: cython.Py_ssize_t,
+    handles: cython.Py_ssize_t,
+    pieces: cython.const[cython.double][:, ::1],
+    before: cython.double[:, ::1],
+    after: cython.double[:, ::1],
+) -> cython.bint:
+    """Does the fastest handle of a route climb at the first of two chains, and not at the second?"""
+    if pieces.shape[0] == 0 or placed < 0 or handles < 0:
+        return False
+    return before[fastest(placed, before), CLIMB] > 0.0 >= after[fastest(handles, after), CLIMB]
 
 
 @cython.ccall
@@ -2894,6 +3153,7 @@ def peak_rate(
     tolerance: cython.double,
     budget: cython.Py_ssize_t,
     benches: cython.Py_ssize_t,
+    calm: cython.double,
     sizes: cython.double[:, ::1],
     rows: cython.double[:, :, ::1],
     motion: cython.double[:, ::1],
@@ -2902,30 +3162,33 @@ def peak_rate(
     """The largest |rate| of any handle while the head travels from start to stop [m], and a proven upper bound.
 
     Samples every `step`, refines around the best, then proves interval after interval that no rate exceeds the best by
-    more than the tolerance; a rate found above it becomes the best. out: (4,) rate, upper bound, travel, intervals
+    more than the tolerance, which doubles after every `budget` intervals, so that the proof always ends; a rate found
+    above it becomes the best. out: (4,) rate, upper bound, travel, intervals; calm: as in lively_chain()
     """
     before: cython.double[:, ::1] = rows[0]
     after: cython.double[:, ::1] = rows[1]
     spare: cython.double[:, ::1] = rows[2]
-    k: cython.Py_ssize_t
+    placed: cython.Py_ssize_t
+    handles: cython.Py_ssize_t
     travel: cython.double = start
     best: cython.double = 0.0
     at: cython.double = start
     rate: cython.double
     upper: cython.double
-    bound: cython.double
-    bounded: cython.bint
     h: cython.double
+    peak: cython.double
+    spent: cython.double = budget
     with cython.nogil:
         while travel <= stop:
-            rate = top_rate(growth, pieces, place - travel, benches, sizes, spare)
+            rate, _ = top_rate(growth, pieces, place - travel, benches, calm, sizes, spare)
             if rate > best:
                 best = rate
                 at = travel
             travel += step
         h = at - step if at - step > start else start
-        travel = refined_peak(growth, pieces, place, h, at + step if at + step < stop else stop, benches, sizes, spare)
-        rate = top_rate(growth, pieces, place - travel, benches, sizes, spare)
+        travel = at + step if at + step < stop else stop
+        travel = refined_peak(growth, pieces, place, h, travel, benches, calm, sizes, spare)
+        rate, _ = top_rate(growth, pieces, place - travel, benches, calm, sizes, spare)
         if rate > best:
             best = rate
             at = travel
@@ -2933,35 +3196,38 @@ def peak_rate(
         out[3] = 0.0
         travel = start
         h = step
-        place_chain(growth, pieces, place - start, benches, sizes, before)
+        placed = lively_chain(growth, pieces, place - start, benches, calm, sizes, before)
         while travel < stop:
             out[3] += 1.0
             if h > stop - travel:
                 h = stop - travel
             upper = FREE
-            if place_chain(growth, pieces, place - travel - h, benches, sizes, after) >= 0:
-                rate = fabs(after[fastest(benches, after), RATE])
+            handles = lively_chain(growth, pieces, place - travel - h, benches, calm, sizes, after)
+            if handles >= 0:
+                if 0 <= placed < handles:
+                    placed = extend(growth, pieces, placed, handles, sizes, before)
+                if placed >= 0:
+                    upper = rate_bound(growth, pieces, h, handles, benches, calm, sizes, before, after, motion)
+                rate = fabs(after[fastest(handles, after), RATE])
                 if rate > best * (1.0 + NOISE):
                     best = rate
                     at = travel + h
-                if pieces.shape[0] > 0:
-                    bounded = route_bounds(pieces, h, benches, sizes, before, after, motion)
-                else:
-                    bounded = motion_bounds(growth, h, benches, sizes, before, after, motion)
-                if bounded:
-                    upper = 1.0
-                    for k in range(1, benches + 1):
-                        bound = 0.5 * (fabs(before[k, RATE]) + fabs(after[k, RATE]) + motion[k, RATE_RATE] * h)
-                        if motion[k, RATE_HIGH] < bound:
-                            bound = motion[k, RATE_HIGH]
-                        if bound > upper:
-                            upper = bound
-            if upper > best + tolerance and out[3] < budget and h > PEAK_WIDTH:
+            if out[3] >= spent:
+                spent += budget
+                tolerance *= 2.0
+            if upper > best + tolerance and h > PEAK_WIDTH:
                 h *= 0.5
                 continue
             if upper > out[1]:
                 out[1] = upper
+            if upper > best * (1.0 + NOISE) and peaks_between(placed, handles, pieces, before, after):
+                peak = refined_peak(growth, pieces, place, travel, travel + h, benches, calm, sizes, spare)
+                rate, _ = top_rate(growth, pieces, place - peak, benches, calm, sizes, spare)
+                if rate > best * (1.0 + NOISE):
+                    best = rate
+                    at = peak
             travel += h
+            placed = handles
             before, after = after, before
             h *= 1.5
         out[0] = best

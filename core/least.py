@@ -17,6 +17,8 @@ from core.search import Search
 PROOF_WIDTHS = (1e-5, 1e-3)
 # So many of the lowest samples are refined before the proof begins.
 DIPS_REFINED = 5
+# No bracket around a contact, but every dip that the march crosses is refined: a "tolerance" of Search.march [m].
+DIPS_ONLY = -1.0
 # So often the proof may come upon something nearer; each time the distance falls by PROOF_WIDTHS[0] or more.
 ROUNDS = 100
 
@@ -74,7 +76,8 @@ def first_pair(found: dict[str, float]) -> Pair:
 
 # A sampled and refined gap is an upper bound of the least one, as it is met. A march whose margin is that gap less a
 # width either ends, and so proves that nothing comes nearer, or meets a lower gap: then that one is refined, and the
-# march goes on from there with the lower margin, since what was passed is clear of the higher one.
+# march goes on from there with the lower margin, since what was passed is clear of the higher one. A dip that ends
+# between that margin and the gap is crossed in steps far shorter than it is wide, so the march refines it.
 def least_over(search: Search, begin: float, until: float, head_speed: float) -> tuple[Dip, float | None]:
     """The least gap of the search's pairs between two travels of the head, and what is proven of it [m].
 
@@ -88,7 +91,10 @@ def least_over(search: Search, begin: float, until: float, head_speed: float) ->
                 return _first_touch(search, proven_to, until, head_speed, best)
             search.use(search.path, max(best[0] - width, 0.0))
             margin = search.margin
-            state, found = search.march(until, 0.0, start=proven_to)
+            state, found = search.march(until, DIPS_ONLY, start=proven_to)
+            graze = found["graze_gap"]
+            if graze < best[0]:
+                best = (graze, found["graze_travel"], (int(found["graze_first"]), int(found["graze_second"])))
             if state == "reached":
                 return best, margin
             if state == "stuck":

@@ -15,6 +15,8 @@ from core import kernels
 from core.dragon import Floats, checked_number, checked_size
 
 START_TURNS_MAX = 1e5
+# Width to which gentle_theta() is bisected, relative [1].
+GENTLE_WIDTH = 1e-9
 
 
 @dataclass(frozen=True)
@@ -59,6 +61,18 @@ class Spiral:
         theta: Floats = np.empty(from_centre.size)
         kernels.spiral_thetas(from_centre.reshape(-1), theta)
         return theta.reshape(from_centre.shape)
+
+    def gentle_theta(self, curvature: float) -> float:
+        """Polar angle from which outwards the spiral bends no more than this [1/m], from above [rad].
+
+        Curvature growth is (2 + theta^2) / (1 + theta^2)^(3/2), which falls and is at most 2 / theta.
+        """
+        low, high = 0.0, 2.0 / (self.growth * curvature)
+        while high - low > GENTLE_WIDTH * high:
+            middle = 0.5 * (low + high)
+            bends = kernels.spiral_curvature(middle) > curvature * self.growth
+            low, high = (middle, high) if bends else (low, middle)
+        return high
 
     def position(self, s: Floats | float) -> Floats:
         """Points at arc length s. s: (...) [m]; returns (..., 2) x, y [m]."""

@@ -38,9 +38,9 @@ def _checked_point(name: str, value: Any) -> Point:
     return (checked_number(f"{name}.0", x, "m", *limits), checked_number(f"{name}.1", y, "m", *limits))
 
 
-def _row(kind: str, start: float, end: float, curvature: Point, *parameters: float) -> list[float]:
+def _row(kind: str, start: float, end: float, curvature: Point, *parameters: float, slope: float = 0.0) -> list[float]:
     row = [_KINDS[kind], start, end, *curvature, *parameters]
-    return row + [0.0] * (kernels.PIECE_COLUMNS - len(row))
+    return row + [0.0] * (kernels.PIECE_COLUMNS - 1 - len(row)) + [slope]
 
 
 @dataclass(frozen=True)
@@ -108,7 +108,8 @@ class Coil:
         _check_length(name, abs(end_arc - arc))
         sign = 1.0 if end > start else -1.0
         bends = (sign * kernels.spiral_curvature(start) / growth, sign * kernels.spiral_curvature(end) / growth)
-        return [_row("spiral", s, s + abs(end_arc - arc), bends, x, y, growth, rotation, sign, arc)]
+        slope = _steepest_bend(min(start, end)) / growth**2
+        return [_row("spiral", s, s + abs(end_arc - arc), bends, x, y, growth, rotation, sign, arc, slope=slope)]
 
 
 @dataclass(frozen=True)
@@ -153,6 +154,14 @@ class Waypoints:
 
 
 Piece = Line | Arc | Coil | Waypoints
+
+
+def _steepest_bend(theta: float) -> float:
+    """No |d curvature / d s| of a spiral from this polar angle outwards exceeds this over growth^2 [1/m^2].
+
+    It is theta (4 + theta^2) / (1 + theta^2)^3, which is at most 1.09, near 0.45, and falls from there.
+    """
+    return 1.09 if theta < 0.5 else theta * (4.0 + theta * theta) / (1.0 + theta * theta) ** 3
 
 
 def _check_length(name: str, length: float) -> None:
@@ -206,6 +215,7 @@ class Route:
     pieces: in the order they are danced; joints must agree within JOINT_GAP and JOINT_KINK
     table: rows for the kernels; joints: s of every joint [m]; begin, end: s of both ends [m]. A first piece that coils
     inwards goes on outwards behind `begin`, so that the tail has a place: then tail_begin is None, else begin.
+    calm_beginning: along the first piece curvature does not fall, so that no handle there is faster than its leader
     raises: InvalidValue naming the piece or the joint and its gap
     """
 
@@ -226,6 +236,7 @@ class Route:
         first = self.pieces[0]
         inwards = isinstance(first, Coil) and first.start_turns > first.end_turns
         self.tail_begin = None if inwards else self.begin
+        self.calm_beginning = inwards or isinstance(first, Line | Arc)
         self.table.flags.writeable = False
         for k, (s, row) in enumerate(joints[1:], start=1):
             self._check_joint(k, s, row)

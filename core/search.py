@@ -202,8 +202,11 @@ class Search:
 
     def clearance(self, travel: float, leaders: int | None = None) -> tuple[float, tuple[int, int]]:
         """Clearance after a travel [m], and its pair; among pairs led by the first `leaders` benches only."""
-        benches = self.room if leaders is None else min(self.room, leaders + self._followed(travel, leaders))
-        leaders = benches if leaders is None else leaders
+        benches = self.room
+        if leaders is None:
+            leaders = benches
+        elif isinstance(self.path, Spiral):
+            benches = min(benches, leaders + self._followed(travel, leaders))
         gap = kernels.clearance_at(
             self.growth,
             self.pieces,
@@ -211,9 +214,9 @@ class Search:
             benches,
             leaders,
             self.statics,
-            self.ring,
             self.sizes,
             self.rows[0],
+            self.motion,
             self.pair,
         )
         return gap, (int(self.pair[1]), int(self.pair[2]))

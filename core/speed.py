@@ -14,11 +14,13 @@ from core.paths import Spiral
 from core.route import Route
 from core.search import Search
 
-# No handle is proven to stay below less than this above the highest rate found [1]; the rate itself is good to 1e-12.
-RATE_TOLERANCE = 3e-5
-# Rates are first sampled in steps of this part of the shortest chord [1].
-SAMPLE_STEP = 0.2
-INTERVAL_BUDGET = 60_000
+# Every handle is proven to stay below this much above the highest rate found [1]; the rate itself is good to 1e-12.
+RATE_TOLERANCE = 1e-9
+# Rates are first sampled in steps of this part of the longest chord [1].
+SAMPLE_STEP = 0.5
+# The tolerance doubles after so many intervals, so that nearly equal peaks of many handles end in a wider bracket
+# instead of a long search; the turn of the contest takes about 1,000 intervals over 200 s.
+INTERVAL_BUDGET = 5_000
 # Handles whose rates differ by less share the highest one [1].
 TIED = 1e-9
 
@@ -60,9 +62,9 @@ def highest_speed(
 
     start, stop: [s]; the defaults are 0 (on a route: when it begins, or the whole dragon is on it) and the end of
         the run
-    Sampled, refined by bisection on the exact derivative (at a joint the speed is continuous and its derivative
-    jumps, so
-    the peak may be a kink), then every interval of time is proven not to exceed it by more than RATE_TOLERANCE.
+    Sampled, then every interval of time is proven not to exceed the highest rate by more than RATE_TOLERANCE, and
+    every peak met on the way is refined on the exact derivative. At a joint the speed is continuous and its
+    derivative jumps, so a peak may be a kink. See core/kernels.py, "the highest speed".
     raises: InvalidValue (stop) for a spiral danced to its fold, where speeds grow without bound
     """
     head_speed = checked_head_speed(head_speed)
@@ -84,10 +86,11 @@ def highest_speed(
         search.place,
         begin * head_speed,
         until * head_speed,
-        SAMPLE_STEP * float(search.extremes[1]),
+        SAMPLE_STEP * float(search.extremes[0]),
         RATE_TOLERANCE,
         INTERVAL_BUDGET,
         dragon.benches,
+        _calm(search),
         search.sizes,
         search.rows,
         search.motion,
@@ -97,6 +100,13 @@ def highest_speed(
     rates = np.abs(search.rates(travel))
     tied = tuple(int(k) for k in np.flatnonzero(rates >= rate * (1.0 - TIED)))
     return HighestSpeed(rate * head_speed, (rate * head_speed, upper * head_speed), travel / head_speed, tied)
+
+
+def _calm(search: Search) -> float:
+    """What kernels.peak_rate needs to leave out handles that are no faster than those before them."""
+    if isinstance(search.path, Route):
+        return 1.0 if search.path.calm_beginning else 0.0
+    return search.growth * search.path.gentle_theta(2.0 * kernels.BEND_LIMIT / search.extremes[0])
 
 
 def maximum_head_speed(

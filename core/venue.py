@@ -27,8 +27,6 @@ Ring = tuple[Point, ...]
 EDGES_MAX = 2_000
 # A collection of features of collections of polygons, and some more.
 DEPTH_MAX = 8
-# The place where a spiral bends too tightly is bisected to this [1].
-BEND_WIDTH = 1e-9
 # A spiral is danced a little past the last instant, so that rounding does not leave it outside [m].
 SPARE = 1e-3
 
@@ -206,12 +204,8 @@ def venue_end(dragon: Dragon, path: Spiral | Route, *, head_speed: float = 1.0) 
     end = run_end(dragon, path, head_speed=head_speed).time
     if isinstance(path, Route):
         return end
-    bend = 2.0 * kernels.BEND_LIMIT * path.growth / float(dragon.chords.max())
-    low, high = 0.0, path.start_theta
-    while high - low > BEND_WIDTH * high:
-        middle = 0.5 * (low + high)
-        low, high = (middle, high) if kernels.spiral_curvature(middle) > bend else (low, middle)
-    travel = path.length - path.growth * float(kernels.spiral_arc(high)) - 2.0 * SPARE
+    theta = min(path.gentle_theta(2.0 * kernels.BEND_LIMIT / float(dragon.chords.max())), path.start_theta)
+    travel = path.length - path.growth * float(kernels.spiral_arc(theta)) - 2.0 * SPARE
     return min(end, travel / head_speed)
 
 

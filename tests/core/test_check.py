@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from core import (
@@ -325,6 +325,7 @@ def test_no_dense_sample_bends_more_sharply(dragon: Dragon, path: Spiral | Route
 
 @settings(max_examples=15, deadline=None)
 @given(st.lists(st.tuples(st.floats(2.0, 6.0), st.floats(-2.5, 2.5)), min_size=2, max_size=4), st.floats(0.1, 3.0))
+@example([(3.25, 1.875), (5.5, 0.0)], 0.5)  # the nearest dip was not among the lowest samples
 def test_scaling_every_length_scales_the_verdict(bends: list[tuple[float, float]], scale: float) -> None:
     def made(size: float) -> tuple[Dragon, Route]:
         place, heading, pieces = 0j, 0.0, [Line((-40 * size, 0), (0, 0))]

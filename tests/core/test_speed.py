@@ -1,0 +1,124 @@
+"""The highest speed and the largest head speed: reference, dense samples, nearly equal peaks, and what is left out."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from core import (
+    Arc,
+    Coil,
+    Dragon,
+    InvalidValue,
+    Line,
+    Route,
+    Spiral,
+    Waypoints,
+    highest_speed,
+    maximum_head_speed,
+    run_end,
+    trajectory,
+    turn,
+)
+from core.speed import RATE_TOLERANCE
+
+SPEED = json.loads((Path(__file__).parent.parent / "reference" / "maximum_head_speed.json").read_text())
+REFERENCE_ERROR = 1e-9  # [m/s] and [s]
+ROUNDING = 1e-12  # of a speed ratio, relative [1]
+TURN = turn(1.7).path
+
+
+def sampled(dragon: Dragon, path: Spiral | Route, start: float, stop: float, samples: int = 4_001) -> float:
+    """The highest speed seen at equal steps of time, the head at 1 m/s."""
+    return float(trajectory(dragon, path, np.linspace(start, stop, samples)).speed.max())
+
+
+def test_the_turn_has_the_reference_speed_proven_from_both_sides() -> None:
+    found = maximum_head_speed(Dragon(), TURN, SPEED["speed_limit"], start=-100.0, stop=100.0)
+    assert found.head_speed == pytest.approx(SPEED["head_speed"], abs=REFERENCE_ERROR)
+    assert found.speed_ratio == pytest.approx(SPEED["speed_ratio"], abs=REFERENCE_ERROR)
+    assert found.time_at_unit_head_speed == pytest.approx(SPEED["time_at_unit_head_speed"], abs=REFERENCE_ERROR)
+    assert set(found.handles) == set(SPEED["handles_exactly_tied"])
+    low, high = found.head_speed_bracket
+    assert low <= found.head_speed <= high
+    assert high - low <= 2.0 * RATE_TOLERANCE
+
+
+@settings(max_examples=25, deadline=None)
+@given(
+    st.floats(0.6, 3.0),
+    st.floats(0.6, 3.0),
+    st.floats(1.0, 2.5),
+    st.floats(3.0, 6.0),
+    st.floats(0.5, 3.0),
+    st.integers(2, 40),
+)
+def test_no_dense_sample_is_faster(
+    head: float, body: float, pitch: float, radius: float, ratio: float, benches: int
+) -> None:
+    dragon = Dragon(benches, head_length=head, body_length=body, overhang=0.0)
+    try:
+        path = turn(pitch, radius, ratio).path
+        found = highest_speed(dragon, path, start=-40.0, stop=60.0)
+    except InvalidValue:
+        return  # the smaller arc is too tight for a chord
+    speed, proven = found.speed_bracket
+    assert found.speed == speed
+    assert sampled(dragon, path, -40.0, 60.0) <= proven * (1.0 + ROUNDING)
+    at_peak = trajectory(dragon, path, [found.time]).speed[0]
+    assert at_peak.max() == pytest.approx(speed, rel=ROUNDING)
+    assert at_peak[list(found.handles)] == pytest.approx(speed, rel=ROUNDING)
+
+
+# 200 handles pass the same kink one after the other, each peak a little higher than the one before it.
+def test_of_many_nearly_equal_peaks_the_highest_is_found() -> None:
+    dragon = Dragon(head_length=0.125, overhang=0.0)
+    found = highest_speed(dragon, TURN)
+    near = found.time + np.linspace(-6.0, 6.0, 24_001)
+    assert trajectory(dragon, TURN, near).speed.max() <= found.speed_bracket[1] * (1.0 + ROUNDING)
+    assert found.handles == (223,)
+    before = sampled(dragon, TURN, found.time - 30.0, found.time - 3.0)
+    assert found.speed - 1e-3 < before < found.speed
+
+
+def test_benches_that_follow_calmly_change_nothing() -> None:
+    few, many = (
+        highest_speed(Dragon(benches), turn(1.7, start_turns=40.0).path, start=-60.0, stop=80.0)
+        for benches in (60, 2_000)
+    )
+    assert few.speed == many.speed
+    assert few.handles == many.handles
+
+
+@pytest.mark.parametrize(
+    ("path", "start", "stop"),
+    [
+        (Route([Line((-60, 0), (0, 0)), Arc((0, 4), 4.0, -np.pi / 2, 2.0)], start=60.0), 0.0, 8.0),
+        (Route([Arc((0, -5), 5.0, 4.0, np.pi / 2 - 4.0), Line((0, 0), (30, 0))], start=10.0), 5.0, 25.0),
+        (Route([Coil(1.5, 3.0, 9.0)]), 60.0, 200.0),
+        (Route([Coil(1.5, 9.0, 3.0)]), 10.0, 200.0),
+        (Route([Waypoints(((0, 0), (15, 0), (25, 8), (35, 0), (50, 0)))]), 25.0, 45.0),
+    ],
+    ids=["line, arc", "arc, line", "coil outwards", "coil inwards", "waypoints"],
+)
+def test_on_every_kind_of_piece_dense_samples_come_up_to_the_highest(path: Route, start: float, stop: float) -> None:
+    dragon = Dragon(8)
+    found = highest_speed(dragon, path, start=start, stop=stop)
+    seen = sampled(dragon, path, start, stop, 20_001)
+    assert seen <= found.speed_bracket[1] * (1.0 + ROUNDING)
+    assert found.speed - seen < 1e-3
+    assert found.speed_bracket[1] - found.speed < 1e-6
+
+
+@pytest.mark.parametrize("gap", [10.0, 0.1, 1e-3])
+def test_towards_the_fold_of_a_spiral_the_last_instant_is_the_fastest(gap: float) -> None:
+    stop = run_end(Dragon(), Spiral()).time - gap
+    found = highest_speed(Dragon(), Spiral(), stop=stop)
+    fastest = trajectory(Dragon(), Spiral(), [stop]).speed.max()
+    assert found.speed == pytest.approx(fastest, rel=ROUNDING)
+    assert found.speed_bracket[1] <= found.speed * (1.0 + 1e-7)
