@@ -14,7 +14,7 @@ PI = cython.declare(cython.double, 3.141592653589793)
 TWO_PI = cython.declare(cython.double, 6.283185307179586)
 # Halley's error after a step e is about e^3 / delta^2, so a relative step of 1e-5 leaves 1e-15 [1].
 HALLEY_STEP = cython.declare(cython.double, 1e-5)
-# Below this half angle the Taylor sums of half_angle() are exact to 1e-17 [rad].
+# Up to this half angle the Taylor sums of half_sine() and half_cosine() leave out less than 3e-17 [rad].
 SERIES_LIMIT = cython.declare(cython.double, 0.5)
 # The fold is searched in this many steps of delta from pi to 2 pi, then bisected.
 FOLD_SAMPLES = cython.declare(cython.int, 256)
@@ -80,18 +80,22 @@ def spiral_thetas(arcs: cython.double[::1], thetas: cython.double[::1]) -> cytho
 @cython.inline
 @cython.nogil
 @cython.exceptval(check=False)
-def half_angle(half: cython.double) -> tuple[cython.double, cython.double]:
-    """sin and cos of a half angle, by their series where that is exact."""
-    if fabs(half) > SERIES_LIMIT:
-        return sin(half), cos(half)
+def half_sine(half: cython.double) -> cython.double:
+    """sin of a half angle up to SERIES_LIMIT, by its series."""
     z: cython.double = half * half
-    s: cython.double = 1.0 - z / 6.0 * (
-        1.0 - z / 20.0 * (1.0 - z / 42.0 * (1.0 - z / 72.0 * (1.0 - z / 110.0 * (1.0 - z / 156.0))))
-    )
-    c: cython.double = 1.0 - z / 2.0 * (
-        1.0 - z / 12.0 * (1.0 - z / 30.0 * (1.0 - z / 56.0 * (1.0 - z / 90.0 * (1.0 - z / 132.0 * (1.0 - z / 182.0)))))
-    )
-    return half * s, c
+    tail: cython.double = 1.0 / 362880.0 + z * (-1.0 / 39916800.0 + z * (1.0 / 6227020800.0))
+    return half + half * z * (-1.0 / 6.0 + z * (1.0 / 120.0 + z * (-1.0 / 5040.0 + z * tail)))
+
+
+@cython.cfunc
+@cython.inline
+@cython.nogil
+@cython.exceptval(check=False)
+def half_cosine(half: cython.double) -> cython.double:
+    """cos of a half angle up to SERIES_LIMIT, by its series."""
+    z: cython.double = half * half
+    tail: cython.double = -1.0 / 3628800.0 + z * (1.0 / 479001600.0 + z * (-1.0 / 87178291200.0))
+    return 1.0 + z * (-1.0 / 2.0 + z * (1.0 / 24.0 + z * (-1.0 / 720.0 + z * (1.0 / 40320.0 + z * tail))))
 
 
 @cython.cfunc
@@ -167,6 +171,21 @@ def first_root(theta: cython.double, chord2: cython.double) -> cython.double:
 @cython.inline
 @cython.nogil
 @cython.exceptval(check=False)
+def halley_step(
+    theta: cython.double, chord2: cython.double, delta: cython.double, s: cython.double, c: cython.double
+) -> tuple[cython.double, cython.double]:
+    """What Halley's iteration takes off delta, and f_delta there; s, c: sin and cos of delta / 2."""
+    product: cython.double = 2.0 * theta * (theta + delta)
+    value: cython.double = delta * delta + 2.0 * product * s * s - chord2
+    slope: cython.double = 2.0 * (delta + 2.0 * theta * s * s + product * s * c)
+    curve: cython.double = 2.0 + 8.0 * theta * s * c + product * (1.0 - 2.0 * s * s)
+    return 2.0 * value * slope / (2.0 * slope * slope - value * curve), slope
+
+
+@cython.cfunc
+@cython.inline
+@cython.nogil
+@cython.exceptval(check=False)
 def next_handle(
     theta: cython.double, chord2: cython.double, guess: cython.double
 ) -> tuple[cython.double, cython.double, cython.double]:
@@ -175,21 +194,21 @@ def next_handle(
     Halley's iteration from the guess; whatever leaves (0, pi] goes to the safe root.
     """
     delta: cython.double = guess
+    half: cython.double
     s: cython.double
     c: cython.double
-    value: cython.double
     slope: cython.double
-    curve: cython.double
     step: cython.double
-    product: cython.double
     i: cython.int
     for i in range(12):
-        s, c = half_angle(0.5 * delta)
-        product = 2.0 * theta * (theta + delta)
-        value = delta * delta + 2.0 * product * s * s - chord2
-        slope = 2.0 * (delta + 2.0 * theta * s * s + product * s * c)
-        curve = 2.0 + 8.0 * theta * s * c + product * (1.0 - 2.0 * s * s)
-        step = 2.0 * value * slope / (2.0 * slope * slope - value * curve)
+        half = 0.5 * delta
+        if half <= SERIES_LIMIT:
+            s = half_sine(half)
+            c = half_cosine(half)
+        else:
+            s = sin(half)
+            c = cos(half)
+        step, slope = halley_step(theta, chord2, delta, s, c)
         delta -= step
         if not (0.0 < delta <= PI) or slope <= 0.0:
             break
@@ -217,12 +236,110 @@ def theta_ratio(theta: cython.double, delta: cython.double, s: cython.double, c:
 @cython.nogil
 @cython.exceptval(check=False)
 def first_guess(theta: cython.double, chord2: cython.double) -> cython.double:
-    """A start for next_handle without history: the chord as an arc of the circle through theta + half a step."""
+    """A start for next_handle without history: f = chord^2 with 4 sin^2(delta / 2) = delta^2 (1 - delta^2 / 12)."""
     delta: cython.double = sqrt(chord2 / (1.0 + theta * theta))
-    delta = sqrt(chord2 / (1.0 + theta * (theta + delta)))
-    if delta > 3.0:
-        return 3.0
-    return delta
+    delta = delta if delta < 3.0 else 3.0
+    delta = sqrt(chord2 / (1.0 + theta * (theta + delta) * (1.0 - delta * delta / 12.0)))
+    return delta if delta < 3.0 else 3.0
+
+
+# Time lanes. A handle needs the handle before it, an instant needs no other: a block of LANES instants advances handle
+# by handle together. The loops over lanes that compute have no branch, and gcc -O3 makes SIMD code of each
+# (-fopt-info-vec). A lane that one Halley step leaves open, or that the series do not cover, is done by next_handle,
+# whose first step is the same to the last bit: no lane's digits depend on its neighbours or on its place in the block.
+# The number of lanes stays a variable, because gcc unrolls a fixed one before it can vectorise it (0.85 ms for 0.6 ms
+# below), and so that one instant costs one.
+# Measured on 301 x 224 with SSE2, 2026-11-21: 1.25 ms (3.2 ms one instant after the other). Of it 0.6 ms is this loop
+# (perf: the Halley step 70 %, positions and velocities 13 %, ratio and rotation 11 %) and 0.5 ms the operating system,
+# which gives the tables 2.7 MB of fresh memory. AVX2 would save 0.2 ms; 4 lanes cost 0.07 ms more, 16 gain nothing.
+LANES_PER_BLOCK = 8
+LANES = cython.declare(cython.Py_ssize_t, LANES_PER_BLOCK)
+Lanes = cython.typedef(cython.double[8])  # LANES_PER_BLOCK, which the C compiler wants as a literal
+
+
+@cython.cfunc
+@cython.inline
+@cython.nogil
+@cython.exceptval(check=False)
+def next_handles(
+    lanes: cython.Py_ssize_t,
+    chord2: cython.double,
+    theta: Lanes,
+    guess: Lanes,
+    delta: Lanes,
+    sine: Lanes,
+    cosine: Lanes,
+) -> cython.Py_ssize_t:
+    """next_handle() in every lane; returns how many lanes stand before the first that folds."""
+    lane: cython.Py_ssize_t
+    half: cython.double
+    s: cython.double
+    c: cython.double
+    step: cython.double
+    slope: cython.double
+    reached: cython.double
+    for lane in range(lanes):
+        half = 0.5 * guess[lane]
+        s = half_sine(half)
+        c = half_cosine(half)
+        step, slope = halley_step(theta[lane], chord2, guess[lane], s, c)
+        reached = guess[lane] - step
+        delta[lane] = (
+            reached
+            if (half <= SERIES_LIMIT)
+            & (slope > 0.0)
+            & (reached > 0.0)
+            & (reached <= PI)
+            & (fabs(step) <= HALLEY_STEP * reached)
+            else -1.0
+        )
+        step *= -0.5
+        sine[lane] = s + step * (c - 0.5 * step * s)
+        cosine[lane] = c - step * (s + 0.5 * step * c)
+    for lane in range(lanes):
+        if delta[lane] < 0.0:
+            delta[lane], sine[lane], cosine[lane] = next_handle(theta[lane], chord2, guess[lane])
+            if delta[lane] < 0.0:
+                return lane
+    return lanes
+
+
+@cython.cfunc
+@cython.inline
+@cython.nogil
+@cython.exceptval(check=False)
+def write_handles(
+    lanes: cython.Py_ssize_t,
+    row: cython.Py_ssize_t,
+    k: cython.Py_ssize_t,
+    growth: cython.double,
+    theta: Lanes,
+    x: Lanes,
+    y: Lanes,
+    rate: Lanes,
+    position: cython.double[:, :, ::1],
+    velocity: cython.double[:, :, ::1],
+    speed: cython.double[:, ::1],
+) -> cython.void:
+    """Handle k of every lane into the tables, from `row` on; x, y: the unit vector at theta, rate: d theta / d time."""
+    lane: cython.Py_ssize_t
+    px = cython.declare(Lanes)
+    py = cython.declare(Lanes)
+    vx = cython.declare(Lanes)
+    vy = cython.declare(Lanes)
+    pace = cython.declare(Lanes)
+    for lane in range(lanes):
+        px[lane] = growth * theta[lane] * x[lane]
+        py[lane] = growth * theta[lane] * y[lane]
+        vx[lane] = rate[lane] * (x[lane] - theta[lane] * y[lane])
+        vy[lane] = rate[lane] * (y[lane] + theta[lane] * x[lane])
+        pace[lane] = fabs(rate[lane]) * sqrt(1.0 + theta[lane] * theta[lane])
+    for lane in range(lanes):
+        position[row + lane, k, 0] = px[lane]
+        position[row + lane, k, 1] = py[lane]
+        velocity[row + lane, k, 0] = vx[lane]
+        velocity[row + lane, k, 1] = vy[lane]
+        speed[row + lane, k] = pace[lane]
 
 
 @cython.ccall
@@ -240,65 +357,66 @@ def spiral_trajectory(
 
     thetas: (T,) head angles; chords: (n,) [m]; position, velocity: (T, n + 1, 2); speed: (T, n + 1)
     """
-    row: cython.Py_ssize_t
+    row: cython.Py_ssize_t = 0
     k: cython.Py_ssize_t
-    theta: cython.double
-    delta: cython.double
-    s: cython.double
-    c: cython.double
-    x: cython.double
-    y: cython.double
+    lane: cython.Py_ssize_t
+    lanes: cython.Py_ssize_t
+    standing: cython.Py_ssize_t
+    alike: cython.Py_ssize_t
+    theta = cython.declare(Lanes)
+    x = cython.declare(Lanes)
+    y = cython.declare(Lanes)
+    rate = cython.declare(Lanes)
+    guess = cython.declare(Lanes)
+    d1 = cython.declare(Lanes)
+    d2 = cython.declare(Lanes)
+    d3 = cython.declare(Lanes)
+    delta = cython.declare(Lanes)
+    sine = cython.declare(Lanes)
+    cosine = cython.declare(Lanes)
     turn: cython.double
-    rate: cython.double
-    chord: cython.double
-    chord2: cython.double
-    d1: cython.double
-    d2: cython.double
-    d3: cython.double
-    guess: cython.double
-    alike: cython.int
+    rise: cython.double
+    across: cython.double
     with cython.nogil:
-        for row in range(thetas.shape[0]):
-            theta = thetas[row]
-            x = cos(theta)
-            y = sin(theta)
-            rate = -head_speed / sqrt(1.0 + theta * theta)
-            chord = -1.0
-            chord2 = d1 = d2 = d3 = guess = 0.0
+        while row < thetas.shape[0]:
+            lanes = thetas.shape[0] - row
+            if lanes > LANES:
+                lanes = LANES
+            standing = lanes
+            for lane in range(lanes):
+                theta[lane] = thetas[row + lane]
+                x[lane] = cos(theta[lane])
+                y[lane] = sin(theta[lane])
+                rate[lane] = -head_speed / sqrt(1.0 + theta[lane] * theta[lane])
+                d1[lane] = d2[lane] = d3[lane] = 0.0
             alike = 0
-            for k in range(chords.shape[0] + 1):
-                position[row, k, 0] = growth * theta * x
-                position[row, k, 1] = growth * theta * y
-                velocity[row, k, 0] = rate * (x - theta * y)
-                velocity[row, k, 1] = rate * (y + theta * x)
-                speed[row, k] = fabs(rate) * sqrt(1.0 + theta * theta)
-                if k == chords.shape[0]:
-                    break
-                if chords[k] != chord:
-                    chord = chords[k]
-                    chord2 = (chord / growth) * (chord / growth)
-                    alike = 0
-                    guess = first_guess(theta, chord2)
-                elif alike == 1:
-                    guess = d1
-                elif alike == 2:
-                    guess = 2.0 * d1 - d2
+            for k in range(chords.shape[0]):
+                write_handles(standing, row, k, growth, theta, x, y, rate, position, velocity, speed)
+                alike = alike + 1 if k > 0 and chords[k] == chords[k - 1] else 0
+                if alike > 2:
+                    for lane in range(standing):
+                        guess[lane] = 3.0 * (d1[lane] - d2[lane]) + d3[lane]
                 else:
-                    guess = 3.0 * (d1 - d2) + d3
-                alike += 1
-                delta, s, c = next_handle(theta, chord2, guess)
-                if delta < 0.0:
-                    return row
-                rate *= theta_ratio(theta, delta, s, c)
-                turn = 2.0 * s * c
-                s = 2.0 * s * s
-                c = x - (x * s + y * turn)
-                y = y - (y * s - x * turn)
-                x = c
-                theta += delta
-                d3 = d2
-                d2 = d1
-                d1 = delta
+                    for lane in range(standing):
+                        guess[lane] = first_guess(theta[lane], (chords[k] / growth) * (chords[k] / growth))
+                standing = next_handles(
+                    standing, (chords[k] / growth) * (chords[k] / growth), theta, guess, delta, sine, cosine
+                )
+                for lane in range(standing):
+                    rate[lane] *= theta_ratio(theta[lane], delta[lane], sine[lane], cosine[lane])
+                    turn = 2.0 * sine[lane] * cosine[lane]
+                    rise = 2.0 * sine[lane] * sine[lane]
+                    across = x[lane] - (x[lane] * rise + y[lane] * turn)
+                    y[lane] = y[lane] - (y[lane] * rise - x[lane] * turn)
+                    x[lane] = across
+                    theta[lane] += delta[lane]
+                    d3[lane] = d2[lane]
+                    d2[lane] = d1[lane]
+                    d1[lane] = delta[lane]
+            write_handles(standing, row, chords.shape[0], growth, theta, x, y, rate, position, velocity, speed)
+            if standing < lanes:
+                return row + standing
+            row += lanes
     return -1
 
 

@@ -36,6 +36,8 @@ with np.printoptions(floatmode="unique", threshold=sys.maxsize, legacy="1.25"):
 EXPRESSIONS = {
     "trajectory": "core.trajectory(core.Dragon(40), core.Spiral(), [-5.0, 0.0, 300.0, 432.0])",
     "trajectory bench by bench": "core.trajectory(core.Dragon.of([3, 2, 4], [0.3] * 3, [0.2] * 3), core.Spiral(), [9])",
+    "trajectory in blocks": "core.trajectory("
+    "core.Dragon.of([3, 1, 2, 2, 2, 2, 2, 4, 2], [0.3] * 9, [0.2] * 9), core.Spiral(), np.linspace(-50, 430, 19))",
     "run to the fold": "core.run_end(core.Dragon(), core.Spiral())",
     "run to the centre": "core.run_end(core.Dragon(5), core.Spiral(9.0, 3.0))",
     "separation": "core.separation([[0, 0, 0.1]] * 3, [2, 1], [[1, 1, 2], [3, 1, 2], [2, 0, 0.1]], [2, 0.5])",

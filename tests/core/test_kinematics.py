@@ -12,7 +12,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from core import Dragon, EndReason, InvalidValue, OutsideRun, Spiral, bench_poses, run_end, trajectory
+from core import Dragon, EndReason, InvalidValue, OutsideRun, Spiral, bench_poses, kernels, run_end, trajectory
+from core.kernels import LANES_PER_BLOCK
 from core.kinematics import HEAD_SPEED_MAX, HEAD_SPEED_MIN
 from tests.core.slow_search import SlowDance
 
@@ -123,13 +124,53 @@ def test_velocities_are_the_difference_quotients_of_positions(
 @given(DANCES, st.lists(st.floats(-0.2, 1.0), max_size=5))
 def test_a_batch_equals_a_loop_to_the_last_bit(dance: tuple[Dragon, Spiral], shares: list[float]) -> None:
     dragon, spiral = dance
-    times = [instant(dragon, spiral, share) for share in shares]
+    assert_a_batch_equals_a_loop(dragon, spiral, [instant(dragon, spiral, share) for share in shares])
+
+
+@pytest.mark.parametrize("instants", range(1, 2 * LANES_PER_BLOCK + 2))
+@pytest.mark.parametrize(
+    "dragon",
+    [Dragon(12), Dragon(1), Dragon.of([1.0, 3.0, 2.0, 2.0, 2.0, 2.0, 2.0, 0.6, 2.0, 1.5], [0.2] * 10, [0.1] * 10)],
+    ids=["uniform", "lone bench", "bench by bench"],
+)
+def test_a_batch_equals_a_loop_whatever_its_place_in_a_block(dragon: Dragon, instants: int) -> None:
+    shares = np.random.default_rng(instants).permutation(np.linspace(-0.1, 1.0, instants))
+    assert_a_batch_equals_a_loop(dragon, Spiral(), [instant(dragon, Spiral(), share) for share in shares])
+
+
+def assert_a_batch_equals_a_loop(dragon: Dragon, spiral: Spiral, times: list[float]) -> None:
     batch = trajectory(dragon, spiral, times)
     assert batch.position.shape == (len(times), dragon.benches + 1, 2)
     for k, time in enumerate(times):
         one = trajectory(dragon, spiral, [time])
         assert np.array_equal(batch.position[k], one.position[0])
         assert np.array_equal(batch.velocity[k], one.velocity[0])
+        assert np.array_equal(batch.speed[k], one.speed[0])
+
+
+# In units of growth: a head at HALF_FOLDED takes the first chord but not the second, at FOLDED not even the first.
+FOLDING_CHORDS, STANDING, HALF_FOLDED, FOLDED = [6.0, 20.0, 1.0], 30.0, 2.0, 1.0
+
+
+def first_folded_row(heads: list[float], chords: list[float]) -> tuple[int, np.ndarray]:
+    position, velocity = np.zeros((2, len(heads), len(chords) + 1, 2))
+    speed = np.zeros(position.shape[:2])
+    row = kernels.spiral_trajectory(1.0, np.array(heads), np.array(chords), 1.0, position, velocity, speed)
+    return row, position
+
+
+@pytest.mark.parametrize("row", range(2 * LANES_PER_BLOCK + 1))
+def test_the_first_row_that_folds_is_found_wherever_it_stands_in_its_block(row: int) -> None:
+    assert first_folded_row([HALF_FOLDED], FOLDING_CHORDS[:1])[0] == -1
+    assert first_folded_row([HALF_FOLDED], FOLDING_CHORDS)[0] == 0
+    assert first_folded_row([FOLDED], FOLDING_CHORDS[:1])[0] == 0
+    standing, whole = first_folded_row([STANDING], FOLDING_CHORDS)
+    assert standing == -1
+    for first, later in ((HALF_FOLDED, FOLDED), (FOLDED, HALF_FOLDED), (FOLDED, STANDING), (HALF_FOLDED, STANDING)):
+        heads = [STANDING] * row + [first] + [later] * (2 * LANES_PER_BLOCK - row)
+        found, position = first_folded_row(heads, FOLDING_CHORDS)
+        assert found == row
+        assert (position[:row] == whole[0]).all()
 
 
 @settings(max_examples=40, deadline=None)
