@@ -83,8 +83,10 @@ def spiral_thetas(arcs: cython.double[::1], thetas: cython.double[::1]) -> cytho
 def half_sine(half: cython.double) -> cython.double:
     """sin of a half angle up to SERIES_LIMIT, by its series."""
     z: cython.double = half * half
-    tail: cython.double = 1.0 / 362880.0 + z * (-1.0 / 39916800.0 + z * (1.0 / 6227020800.0))
-    return half + half * z * (-1.0 / 6.0 + z * (1.0 / 120.0 + z * (-1.0 / 5040.0 + z * tail)))
+    z2: cython.double = z * z
+    head: cython.double = -1.0 / 6.0 + z * (1.0 / 120.0)
+    tail: cython.double = -1.0 / 5040.0 + z * (1.0 / 362880.0) + z2 * (-1.0 / 39916800.0 + z * (1.0 / 6227020800.0))
+    return half + half * z * (head + z2 * tail)
 
 
 @cython.cfunc
@@ -94,8 +96,10 @@ def half_sine(half: cython.double) -> cython.double:
 def half_cosine(half: cython.double) -> cython.double:
     """cos of a half angle up to SERIES_LIMIT, by its series."""
     z: cython.double = half * half
-    tail: cython.double = -1.0 / 3628800.0 + z * (1.0 / 479001600.0 + z * (-1.0 / 87178291200.0))
-    return 1.0 + z * (-1.0 / 2.0 + z * (1.0 / 24.0 + z * (-1.0 / 720.0 + z * (1.0 / 40320.0 + z * tail))))
+    z2: cython.double = z * z
+    head: cython.double = -1.0 / 2.0 + z * (1.0 / 24.0) + z2 * (-1.0 / 720.0 + z * (1.0 / 40320.0))
+    tail: cython.double = -1.0 / 3628800.0 + z * (1.0 / 479001600.0) + z2 * (-1.0 / 87178291200.0)
+    return 1.0 + z * (head + z2 * z2 * tail)
 
 
 @cython.cfunc
