@@ -1195,10 +1195,9 @@ def extend_chain(
         theta = chain[k, THETA]
         chord = sizes[k, CHORD]
         reach = (chord / growth) * (chord / growth)
-        if k > 1 and sizes[k - 1, CHORD] == chord and sizes[k - 2, CHORD] == chord:
-            delta = 2.0 * (theta - chain[k - 1, THETA]) - (chain[k - 1, THETA] - chain[k - 2, THETA])
-        elif k > 0 and sizes[k - 1, CHORD] == chord:
-            delta = theta - chain[k - 1, THETA]
+        if k > 2 and sizes[k - 1, CHORD] == chord and sizes[k - 2, CHORD] == chord and sizes[k - 3, CHORD] == chord:
+            delta = 3.0 * (theta - chain[k - 1, THETA] - chain[k - 1, THETA] + chain[k - 2, THETA])
+            delta += chain[k - 2, THETA] - chain[k - 3, THETA]
         else:
             delta = first_guess(theta, reach)
         delta, s, c = next_handle(theta, reach, delta)
