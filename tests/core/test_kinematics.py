@@ -148,6 +148,20 @@ def assert_a_batch_equals_a_loop(dragon: Dragon, spiral: Spiral, times: list[flo
         assert np.array_equal(batch.speed[k], one.speed[0])
 
 
+# Near the crest a root is as uncertain as rounding of theta makes it; 2e-15 theta was met, 2026-11-21 [1].
+CREST_ROUNDING = 1e-14
+
+
+@pytest.mark.parametrize("delta", [1.0, 2.0, 3.0, 3.1, 3.14, 3.1415])
+def test_a_chord_across_the_whole_coil_ends_where_bisection_says(delta: float) -> None:
+    for theta in np.geomspace(3.0, 1000.0, 300):
+        chord = math.sqrt(delta**2 + 4.0 * theta * (theta + delta) * math.sin(0.5 * delta) ** 2)
+        row, position = first_folded_row([theta], [chord])
+        assert row == -1
+        root = theta + kernels.first_root(theta, chord**2)
+        assert np.hypot(*position[0, 1]) == pytest.approx(root, rel=0, abs=CREST_ROUNDING * theta)
+
+
 # In units of growth: a head at HALF_FOLDED takes the first chord but not the second, at FOLDED not even the first.
 FOLDING_CHORDS, STANDING, HALF_FOLDED, FOLDED = [6.0, 20.0, 1.0], 30.0, 2.0, 1.0
 
