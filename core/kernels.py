@@ -1594,11 +1594,12 @@ def pair_least(
 
 # -- routes -----------------------------------------------------------------------------------------
 # A route is a table of pieces joined by arc length s. One row a piece, curvature counter-clockwise positive:
-#   KIND, S_START, S_END, curvature at both ends (for a cubic its bounds), then
+#   KIND, S_START, S_END, curvature at both ends, then
 #   line   x, y, dx, dy                     at S_START, unit direction
 #   arc    centre x, y, radius, angle, sign  angle at S_START, sign + counter-clockwise
 #   spiral centre x, y, growth, rotation, sign, arc   sign + outwards, arc length from its centre at S_START
-#   cubic  x0..x3, y0..y3, end              r(t) = sum of c_k t^k for t in [0, end]
+#   cubic  x0..x3, y0..y3, end              r(t) = sum of c_k t^k for t in [0, end], its curvature monotonic
+#   crest  the same for a cubic with a crest of curvature in it: in place of both ends lower and upper bounds
 # The first piece also serves before S_START and the last one after S_END.
 #
 # Next handle. Let |curvature| <= k with k chord < 2 (routes are refused otherwise). As long as k l <= pi the
@@ -1617,8 +1618,8 @@ PIECE_COLUMNS = 15
 LINE = cython.declare(cython.int, 0)
 ARC = cython.declare(cython.int, 1)
 SPIRAL = cython.declare(cython.int, 2)
-CUBIC = cython.declare(cython.int, 3)
-PIECE_KINDS = ("line", "arc", "spiral", "cubic")
+CREST = cython.declare(cython.int, 4)
+PIECE_KINDS = ("line", "arc", "spiral", "cubic", "crest")
 
 
 @cython.cfunc
@@ -1631,7 +1632,7 @@ def cubic_speed(pieces: cython.const[cython.double][:, ::1], p: cython.Py_ssize_
     return sqrt(x * x + y * y)
 
 
-@cython.ccall
+@cython.cfunc
 @cython.nogil
 @cython.exceptval(check=False)
 def cubic_arc(pieces: cython.const[cython.double][:, ::1], p: cython.Py_ssize_t, t: cython.double) -> cython.double:
@@ -1648,19 +1649,42 @@ def cubic_arc(pieces: cython.const[cython.double][:, ::1], p: cython.Py_ssize_t,
     )
 
 
+@cython.ccall
+@cython.nogil
+@cython.exceptval(check=False)
+def cubic_arcs(pieces: cython.const[cython.double][:, ::1], out: cython.double[::1]) -> cython.void:
+    """Arc length of every row's cubic from 0 to its end [m]. out: (rows,)"""
+    p: cython.Py_ssize_t
+    for p in range(pieces.shape[0]):
+        out[p] = cubic_arc(pieces, p, pieces[p, 13])
+
+
 @cython.cfunc
 @cython.nogil
 @cython.exceptval(check=False)
 def piece_of(
     pieces: cython.const[cython.double][:, ::1], s: cython.double, near: cython.Py_ssize_t
 ) -> cython.Py_ssize_t:
-    """The piece that holds s, searched from a near one; a joint belongs to the piece behind it."""
-    p: cython.Py_ssize_t = near
-    while p > 0 and s <= pieces[p, S_START]:
-        p -= 1
-    while p < pieces.shape[0] - 1 and s > pieces[p, S_END]:
-        p += 1
-    return p
+    """The piece that holds s, a joint the piece behind it: by steps that double from a near one, then halve."""
+    low: cython.Py_ssize_t = near
+    high: cython.Py_ssize_t = near
+    middle: cython.Py_ssize_t
+    step: cython.Py_ssize_t = 1
+    while low > 0 and s <= pieces[low, S_START]:
+        high = low - 1
+        low = low - step if low > step else 0
+        step *= 2
+    while high < pieces.shape[0] - 1 and s > pieces[high, S_END]:
+        low = high + 1
+        high = high + step if high + step < pieces.shape[0] else pieces.shape[0] - 1
+        step *= 2
+    while low < high:
+        middle = (low + high) // 2
+        if s > pieces[middle, S_END]:
+            low = middle + 1
+        else:
+            high = middle
+    return low
 
 
 @cython.cfunc
@@ -1910,7 +1934,7 @@ def stretch_curvature(
 ) -> tuple[cython.double, cython.double]:
     """Lowest and highest curvature from a place on piece `rear` to one on piece `front` [1/m].
 
-    Within a line, an arc or a spiral it lies between its ends; for a cubic the row holds bounds.
+    Within a piece it lies between its ends; for a crest the row holds bounds.
     """
     p: cython.Py_ssize_t
     start: cython.double
@@ -1920,7 +1944,7 @@ def stretch_curvature(
     for p in range(rear, front + 1):
         start = pieces[p, K_START]
         end = pieces[p, K_END]
-        if pieces[p, PIECE_KIND] != CUBIC:
+        if pieces[p, PIECE_KIND] != CREST:
             if p == rear:
                 start = k_rear
             if p == front:

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from core import kernels
+from core.cubics import cut
 from core.dragon import Floats, checked_number, checked_size
 from core.errors import InvalidValue
 
@@ -19,11 +20,6 @@ COORDINATE_MAX = 1e5
 # Pieces that meet within this are joined [m], [rad]: rounding of coordinates up to 1 km.
 JOINT_GAP = 1e-9
 JOINT_KINK = 1e-9
-# A cubic is cut until halving it changes its quadrature by less than this [1] ...
-CUBIC_ARC = 1e-13
-# ... and its bounds on the curvature differ by less than this [1/m], or it is this short [m].
-CUBIC_CURVATURE = 0.01
-CUBIC_SHORT = 0.02
 
 Point = tuple[float, float]
 _KINDS = {name: float(code) for code, name in enumerate(kernels.PIECE_KINDS)}
@@ -38,9 +34,9 @@ def _checked_point(name: str, value: Any) -> Point:
     return (checked_number(f"{name}.0", x, "m", *limits), checked_number(f"{name}.1", y, "m", *limits))
 
 
-def _row(kind: str, start: float, end: float, curvature: Point, *parameters: float, slope: float = 0.0) -> list[float]:
-    row = [_KINDS[kind], start, end, *curvature, *parameters]
-    return row + [0.0] * (kernels.PIECE_COLUMNS - 1 - len(row)) + [slope]
+def _row(kind: str, start: float, end: float, curvature: Point, *parameters: float, slope: float = 0.0) -> Floats:
+    row = (_KINDS[kind], start, end, *curvature, *parameters)
+    return np.array([row + (0.0,) * (kernels.PIECE_COLUMNS - 1 - len(row)) + (slope,)])
 
 
 @dataclass(frozen=True)
@@ -50,13 +46,13 @@ class Line:
     start: Point
     end: Point
 
-    def rows(self, name: str, s: float) -> list[list[float]]:
+    def rows(self, name: str, s: float) -> Floats:
         """Rows of the kernels' table from arc length s on."""
         (x, y), end = _checked_point(f"{name}.start", self.start), _checked_point(f"{name}.end", self.end)
         length = math.hypot(end[0] - x, end[1] - y)
         _check_length(name, length)
         dx, dy = (end[0] - x) / length, (end[1] - y) / length
-        return [_row("line", s, s + length, (0.0, 0.0), x, y, dx, dy)]
+        return _row("line", s, s + length, (0.0, 0.0), x, y, dx, dy)
 
 
 @dataclass(frozen=True)
@@ -71,7 +67,7 @@ class Arc:
     start_angle: float
     sweep: float
 
-    def rows(self, name: str, s: float) -> list[list[float]]:
+    def rows(self, name: str, s: float) -> Floats:
         """Rows of the kernels' table from arc length s on."""
         x, y = _checked_point(f"{name}.centre", self.centre)
         radius = checked_size(f"{name}.radius", self.radius)
@@ -80,7 +76,7 @@ class Arc:
         _check_length(name, radius * abs(sweep))
         sign = math.copysign(1.0, sweep)
         bend = sign / radius
-        return [_row("arc", s, s + radius * abs(sweep), (bend, bend), x, y, radius, angle, sign)]
+        return _row("arc", s, s + radius * abs(sweep), (bend, bend), x, y, radius, angle, sign)
 
 
 @dataclass(frozen=True)
@@ -97,7 +93,7 @@ class Coil:
     centre: Point = (0.0, 0.0)
     rotation: float = 0.0
 
-    def rows(self, name: str, s: float) -> list[list[float]]:
+    def rows(self, name: str, s: float) -> Floats:
         """Rows of the kernels' table from arc length s on."""
         growth = checked_size(f"{name}.pitch", self.pitch) / (2.0 * math.pi)
         start = 2.0 * math.pi * checked_number(f"{name}.start_turns", self.start_turns, "turns", 0.0, 1e5)
@@ -109,7 +105,7 @@ class Coil:
         sign = 1.0 if end > start else -1.0
         bends = (sign * kernels.spiral_curvature(start) / growth, sign * kernels.spiral_curvature(end) / growth)
         slope = _steepest_bend(min(start, end)) / growth**2
-        return [_row("spiral", s, s + abs(end_arc - arc), bends, x, y, growth, rotation, sign, arc, slope=slope)]
+        return _row("spiral", s, s + abs(end_arc - arc), bends, x, y, growth, rotation, sign, arc, slope=slope)
 
 
 @dataclass(frozen=True)
@@ -123,8 +119,8 @@ class Waypoints:
     start_heading: float | None = None
     end_heading: float | None = None
 
-    def rows(self, name: str, s: float) -> list[list[float]]:
-        """Rows of the kernels' table from arc length s on: cubics short enough for exact arc lengths."""
+    def rows(self, name: str, s: float) -> Floats:
+        """Rows of the kernels' table from arc length s on: as many cubics as exact arc lengths take."""
         from scipy.interpolate import CubicSpline  # type: ignore[import-untyped]
 
         if len(self.points) < 2:
@@ -139,11 +135,9 @@ class Waypoints:
             )
         knots = np.concatenate([[0.0], np.cumsum(steps)])
         spline = CubicSpline(knots, points, bc_type=(self._end(self.start_heading), self._end(self.end_heading)))
-        rows: list[list[float]] = []
-        for k in range(len(knots) - 1):
-            for row in _cut(spline.c[::-1, k], float(knots[k + 1] - knots[k])):
-                rows.append([row[0], s, s + row[2], *row[3:]])
-                s += row[2]
+        rows = cut(f"{name}.points", np.moveaxis(spline.c[::-1], 1, 0), np.diff(knots))
+        ends = np.cumsum([s, *rows[:, 2]])
+        rows[:, 1], rows[:, 2] = ends[:-1], ends[1:]
         return rows
 
     @staticmethod
@@ -169,46 +163,6 @@ def _check_length(name: str, length: float) -> None:
         raise InvalidValue(name, f"{name} must be at least 1e-06 m long, got {length:g} m")
 
 
-def _cut(coefficients: Floats, end: float) -> list[list[float]]:
-    """A cubic r(t) = sum c_k t^k on [0, end] as one row, or cut in two where that is not exact enough.
-
-    Bounds on the curvature (x' y'' - y' x'') / |r'|^3: numerator and |r'|^2 are polynomials, and a polynomial lies
-    between the least and the largest of its Bernstein coefficients.
-    """
-    x, y = np.polynomial.Polynomial(coefficients[:, 0]), np.polynomial.Polynomial(coefficients[:, 1])
-    row = _row("cubic", 0.0, 0.0, (0.0, 0.0), *coefficients[:, 0], *coefficients[:, 1], end)
-    table = np.array([row])
-    length = kernels.cubic_arc(table, 0, end)
-    half = _shifted(coefficients, 0.5 * end)
-    halves = kernels.cubic_arc(table, 0, 0.5 * end) + kernels.cubic_arc(
-        np.array([_row("cubic", 0.0, 0.0, (0.0, 0.0), *half[:, 0], *half[:, 1], 0.5 * end)]), 0, 0.5 * end
-    )
-    turn_low, turn_high = _bernstein(x.deriv() * y.deriv(2) - y.deriv() * x.deriv(2), end)
-    fast_low, fast_high = _bernstein(x.deriv() ** 2 + y.deriv() ** 2, end)
-    if fast_low > 0.0:
-        low = turn_low / (fast_low if turn_low < 0.0 else fast_high) ** 1.5
-        high = turn_high / (fast_low if turn_high > 0.0 else fast_high) ** 1.5
-        exact = abs(length - halves) <= CUBIC_ARC * length
-        if exact and (high - low <= CUBIC_CURVATURE or length < CUBIC_SHORT):
-            return [[row[0], 0.0, length, low, high, *row[5:]]]
-    if end < 1e-6:
-        raise InvalidValue("path.points", "path.points must not make the curve stop or turn on the spot")
-    return _cut(coefficients, 0.5 * end) + _cut(half, 0.5 * end)
-
-
-def _shifted(coefficients: Floats, t: float) -> Floats:
-    """Coefficients of r(t + u) in u."""
-    c0, c1, c2, c3 = coefficients
-    return np.array([c0 + t * (c1 + t * (c2 + t * c3)), c1 + t * (2 * c2 + 3 * t * c3), c2 + 3 * t * c3, c3])
-
-
-def _bernstein(polynomial: np.polynomial.Polynomial, end: float) -> tuple[float, float]:
-    power: Floats = np.asarray(polynomial.coef, dtype=np.float64) * end ** np.arange(polynomial.coef.size)
-    n = power.size - 1
-    values = [sum(math.comb(k, i) / math.comb(n, i) * power[i] for i in range(k + 1)) for k in range(n + 1)]
-    return float(min(values)), float(max(values))
-
-
 class Route:
     """Pieces joined into one path, s = 0 at `start` metres from the beginning of the first one.
 
@@ -224,15 +178,15 @@ class Route:
             raise InvalidValue("path.pieces", "path.pieces must hold at least one piece")
         self.pieces = tuple(pieces)
         self.start = checked_number("path.start", start, "m", -1e9, 1e9)
-        rows: list[list[float]] = []
-        joints = []
+        rows: list[Floats] = []
+        joints, count, s = [], 0, -self.start
         for k, piece in enumerate(self.pieces):
-            begin = rows[-1][2] if rows else -self.start
-            joints.append((begin, len(rows)))
-            rows += piece.rows(f"path.pieces.{k}", begin)
-        self.table = np.array(rows)
+            joints.append((s, count))
+            rows.append(piece.rows(f"path.pieces.{k}", s))
+            count, s = count + len(rows[-1]), float(rows[-1][-1, 2])
+        self.table = np.concatenate(rows)
         self.joints = tuple(s for s, _ in joints[1:])
-        self.begin, self.end = float(rows[0][1]), float(rows[-1][2])
+        self.begin, self.end = float(self.table[0, 1]), s
         first = self.pieces[0]
         inwards = isinstance(first, Coil) and first.start_turns > first.end_turns
         self.tail_begin = None if inwards else self.begin

@@ -19,6 +19,7 @@ ORDER = (
     "core.errors",
     "core.dragon",
     "core.paths",
+    "core.cubics",
     "core.route",
     "core.kinematics",
     "core.rectangles",

@@ -147,7 +147,7 @@ BAD_PATHS = {
     "no_radius": (route(BEND | {"radius": 0}), "/path/pieces/0/radius", ("at least 0.001 m", "got 0 m")),
     "tight_bend": (route(BEND | {"radius": 1}), "/path", ("bench 0", "got 1 m", "near (")),
     "no_pieces": (route(), "/path/pieces", ("at least 1 entry",)),
-    "many_pieces": (route(*[LANE] * 201), "/path/pieces", ("at most 200",)),
+    "many_pieces": (route(*[LANE] * 1001), "/path/pieces", ("at most 1000",)),
     "piece_without_kind": (route({"start": [0, 0], "end": [1, 0]}), "/path/pieces/0/kind", ("missing",)),
     "unknown_piece": (route({"kind": "loop"}), "/path/pieces/0/kind", ("'line'", "'coil'", '"loop"')),
     "piece_as_number": (route(3), "/path/pieces/0", ("JSON object",)),  # type: ignore[arg-type]
@@ -155,9 +155,18 @@ BAD_PATHS = {
     "point_of_three": (route(LANE | {"start": [0, 0, 0]}), "/path/pieces/0/start", ("at most 2 entries",)),
     "text_in_a_point": (route(LANE | {"start": [0, "a"]}), "/path/pieces/0/start/1", ("start[1]", "[m]")),
     "one_waypoint": ({"kind": "waypoints", "points": [[0, 0]]}, "/path/points", ("at least 2 entries",)),
-    "many_waypoints": ({"kind": "waypoints", "points": [[k, 0] for k in range(61)]}, "/path/points", ("at most 60",)),
+    "way_there_and_back": (
+        {"kind": "waypoints", "points": [[k % 2, 0] for k in range(1000)]}, "/path/points", ("turn on the spot",),
+    ),
+    "way_there_and_back_in_a_route": (
+        route(LANE, {"kind": "waypoints", "points": [[60, 0], [99, 0], [60, 0]]}),
+        "/path/pieces/1/points", ("path.pieces.1.points", "between points 0 and 1"),
+    ),
+    "many_waypoints": (
+        {"kind": "waypoints", "points": [[k, 0] for k in range(1001)]}, "/path/points", ("at most 1000",),
+    ),
     "many_waypoints_in_pieces": (
-        route(*[{"kind": "waypoints", "points": [[k, 0] for k in range(40)]}] * 2), "/path/pieces", ("at most 60",),
+        route(*[{"kind": "waypoints", "points": [[k, 0] for k in range(600)]}] * 2), "/path/pieces", ("at most 1000",),
     ),
     "same_waypoint_twice": (
         {"kind": "waypoints", "points": [[0, 0], [1, 0], [1, 0]]}, "/path/points/2", ("path.points[2]", "0.001 m"),

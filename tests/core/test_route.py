@@ -98,7 +98,7 @@ def test_waypoints_upon_each_other_are_refused() -> None:
 def test_waypoints_that_stop_on_the_spot_are_refused() -> None:
     with pytest.raises(InvalidValue, match="must not make the curve stop") as e:
         Route([Waypoints(((0, 0), (1, 0), (0, 0)))])
-    assert e.value.field == "path.points"
+    assert e.value.field == "path.pieces.0.points"
 
 
 def test_no_pieces_are_refused() -> None:
