@@ -23,7 +23,7 @@ from app.answers import (
 from app.examples import EXAMPLES
 from app.problems import PROBLEM_TYPE
 from app.reply import JSON, BodyReply, QueryReply
-from app.report import MaximumHeadSpeed, Report, Turn
+from app.report import MaximumHeadSpeed, Report, ShortestTurn, Turn
 from app.schemas import (
     CheckRequest,
     ClearanceQuery,
@@ -35,6 +35,7 @@ from app.schemas import (
     Nothing,
     OverlapsRequest,
     PitchScanQuery,
+    ShortestTurnQuery,
     TrajectoryFigureQuery,
     TrajectoryFigureRequest,
     TrajectoryRequest,
@@ -211,6 +212,16 @@ def path_clearance(
 def turn(reply: QueryReply, wanted: Annotated[TurnQuery, Query()]) -> Response:
     """Two tangent arcs that lead from a spiral inwards to the same one outwards."""
     return reply(wanted, lambda: Turn.of(wanted.to_turn()).to_json())
+
+
+@router.get(**documented("GET /shortest-turn", ShortestTurn, QUERY_STATUSES))
+def shortest_turn(reply: QueryReply, wanted: Annotated[ShortestTurnQuery, Query()]) -> Response:
+    """The turn that begins as deep inside its circle as the dragon can dance, and what keeps it from going deeper."""
+
+    def compute() -> bytes:
+        return ShortestTurn.of_shortest(wanted.to_shortest_turn(reply.settings.checked_benches_max)).to_json()
+
+    return reply(wanted, compute)
 
 
 @router.get(**documented("GET /maximum-head-speed", MaximumHeadSpeed, QUERY_STATUSES))

@@ -164,6 +164,15 @@ def turn(asked: schemas.TurnQuery, json: Json = False) -> None:
 
 
 @app.command()
+@asks(schemas.ShortestTurnQuery)
+def shortest_turn(asked: schemas.ShortestTurnQuery, json: Json = False) -> None:
+    """The turn that begins as deep inside its circle as the dragon can dance, and what limits it."""
+    with _waiting("shortest turn"):
+        found = asked.to_shortest_turn(Settings().checked_benches_max)
+    show.print_answer("Shortest turn", report.ShortestTurn.of_shortest(found), json)
+
+
+@app.command()
 @asks(schemas.MaximumHeadSpeedQuery)
 def maximum_head_speed(asked: schemas.MaximumHeadSpeedQuery, json: Json = False) -> None:
     """The largest constant head speed at which no handle exceeds the limit on the way through a turn."""

@@ -264,6 +264,28 @@ EXAMPLES = {
             "length": 13.621244906821124,
         },
     ),
+    "GET /shortest-turn": Example(
+        query={"pitch": 1.7, "turning_diameter": 9, "ratio": 1, "margin": 0.2},
+        answer={
+            "pitch": 1.7,
+            "turning_diameter": 9.0,
+            "ratio": 1.0,
+            "entry_radius": 3.6560271231830135,
+            "radii": [1.8330124713590636, 1.8330124713590636],
+            "centres": [[0.959111179033588, 1.5620628881100351], [-0.959111179033588, -1.5620628881100351]],
+            "angles": [2.9938524541912224, 2.993852454191222],
+            "entry": [2.1377148985070997, 2.9659247020365576],
+            "tangent_point": [0.0, 0.0],
+            "exit": [-2.1377148985070997, -2.9659247020365576],
+            "length": 10.9755377718829,
+            "entry_bracket": [3.6560271225124614, 3.6560271231830135],
+            "limited_by": "contact",
+            "benches": [0, 13],
+            "time": 25.054604428503456,
+            "scan_step": 0.045,
+            "evaluations": 46,
+        },
+    ),
     "GET /maximum-head-speed": Example(
         query={"pitch": 1.7, "turning_diameter": 9, "ratio": 2, "speed_limit": 2},
         answer={

@@ -32,6 +32,27 @@ class Turn(Answer):
         return cls(**known, turning_diameter=2 * found.turning_radius)
 
 
+class ShortestTurn(Turn):
+    """The turn whose entry lies as deep inside the circle as this dragon can dance."""
+
+    entry_bracket: Point = Field(description="Entry radii: infeasible, feasible [m]")
+    limited_by: core.TurnLimit = Field(
+        description="A chord cannot follow the bend, benches come within the margin, or nothing down to the centre"
+    )
+    benches: Pair | None = Field(description="The pair that comes within the margin just below; null if none does")
+    time: float | None = Field(description="When, at a head speed of 1 m/s; 0 is the entry into the turn [s]")
+    scan_step: float = Field(
+        description="Entries down from the circle were tried this far apart, each one proven: a narrower range of "
+        "infeasible ones is not excluded [m]"
+    )
+    evaluations: int = Field(description="Entries tried")
+
+    @classmethod
+    def of_shortest(cls, found: core.ShortestTurn) -> Self:
+        turn = Turn.of(found.turn).model_dump()
+        return cls(**turn, **{name: getattr(found, name) for name in cls.model_fields if name not in turn})
+
+
 class MaximumHeadSpeed(Answer):
     """The largest constant head speed at which no handle ever exceeds the limit."""
 

@@ -16,8 +16,8 @@ from pydantic_core import PydanticCustomError
 
 from app.settings import check_limit
 from app.wire import Coordinate, Instant, Length, Margin, Overhang, SpeedLimit, StartTurns, TurningDiameter, Width, Wire
-from app.wire_paths import KINDS, AnyPath, SpiralFields, SpiralPath, TurnFields
-from core import Dragon, InvalidValue, Report, Route, Spiral, Venue, check
+from app.wire_paths import KINDS, AnyPath, SpiralFields, SpiralPath, TurnCircle, TurnFields
+from core import Dragon, InvalidValue, Report, Route, ShortestTurn, Spiral, Venue, check, shortest_turn
 from core.dragon import BENCHES_MAX, Floats
 
 # The last instant of a range may miss `stop` by this share of a step, so that 0 to 0.3 by 0.1 has four instants.
@@ -254,6 +254,23 @@ class PitchScanQuery(MinimumPitchQuery):
 
 class TurnQuery(TurnFields):
     """Two tangent arcs between two coils."""
+
+
+class ShortestTurnQuery(TurnCircle, UniformDragon):
+    """How deep inside its circle may a turn begin?"""
+
+    margin: Margin = 0.0
+
+    def to_shortest_turn(self, benches_max: int) -> ShortestTurn:
+        """raises: TooLarge, InvalidValue"""
+        return shortest_turn(
+            self.to_dragon(benches_max),
+            self.pitch,
+            self.turning_diameter / 2,
+            self.ratio,
+            start_turns=self.start_turns,
+            margin=self.margin,
+        )
 
 
 class MaximumHeadSpeedQuery(TurnFields, UniformDragon):

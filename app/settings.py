@@ -20,7 +20,9 @@ class Settings(BaseSettings):
     benches_max: int = Field(100_000, ge=1, description="Longest dragon [benches]")
     scanned_benches_max: int = Field(10_000, ge=1, description="Longest dragon whose pitches are scanned [benches]")
     checked_benches_max: int = Field(
-        2_000, ge=1, description="Longest dragon on any path in /check, POST /clearance, /maximum-head-speed [benches]"
+        2_000,
+        ge=1,
+        description="Longest dragon in /check, POST /clearance, /maximum-head-speed and /shortest-turn [benches]",
     )
     drawn_benches_max: int = Field(5_000, ge=1, description="Longest dragon in a figure [benches]")
     cells_max: int = Field(1_000_000, ge=1, description="Largest table: instants x handles")

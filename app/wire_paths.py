@@ -49,13 +49,18 @@ class SpiralFields(Wire):
         return Spiral(self.pitch, self.start_turns)
 
 
-class TurnFields(Wire):
-    """A coil inwards, two tangent arcs and the same coil outwards; time 0 is when the head enters the first arc."""
+class TurnCircle(Wire):
+    """Two coils, and the circle in which the dance turns from the one to the other."""
 
     pitch: Pitch = 1.7
     turning_diameter: TurningDiameter = Field(9.0, description="Diameter of the circle in which the turn lies [m]")
     ratio: float = Field(2.0, ge=0.01, le=100, description="Radius of the first arc over that of the second")
     start_turns: StartTurns = 16.0
+
+
+class TurnFields(TurnCircle):
+    """A coil inwards, two tangent arcs and the same coil outwards; time 0 is when the head enters the first arc."""
+
     entry_radius: EntryRadius = None
 
     def to_turn(self) -> core.Turn:

@@ -22,8 +22,9 @@ from core.overlaps import CrossCheck, Engine, Overlaps, Verdict, cross_check, ov
 from core.paths import Spiral
 from core.rectangles import Separation, separation
 from core.route import Arc, Coil, Line, Piece, Route, Waypoints
+from core.shortest import ShortestTurn, TurnLimit, shortest_turn
 from core.speed import HighestSpeed, MaximumHeadSpeed, highest_speed, maximum_head_speed
-from core.turn import ShortestTurn, Turn, shortest_turn, turn
+from core.turn import Turn, turn
 from core.venue import Area, AreaClearance, Nearest, Stray, Venue, VenueClearance, venue_clearance
 
 __all__ = [
@@ -67,6 +68,7 @@ __all__ = [
     "TooLarge",
     "Trajectory",
     "Turn",
+    "TurnLimit",
     "Venue",
     "VenueClearance",
     "Verdict",

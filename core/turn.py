@@ -7,17 +7,12 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from core.contact import Outcome, first_contact
-from core.dragon import Dragon, Floats, checked_number, checked_size
+from core.dragon import Floats, checked_number, checked_size
 from core.errors import InvalidValue
-from core.kinematics import follows
 from core.route import Arc, Coil, Point, Route
 
 RATIO_MIN = 0.01
 RATIO_MAX = 100.0
-# Entry radii are tried in steps of this part of the turning radius [1], then bisected to this width [m].
-ENTRY_STEP = 0.01
-ENTRY_WIDTH = 1e-9
 
 
 @dataclass(frozen=True, slots=True)
@@ -121,63 +116,3 @@ def _angle(vector: Floats) -> float:
 
 def _point(vector: Floats) -> Point:
     return (float(vector[0]), float(vector[1]))
-
-
-@dataclass(frozen=True, slots=True)
-class ShortestTurn:
-    """The turn with the smallest entry radius that the dragon can dance.
-
-    turn: at the feasible end of entry_bracket (infeasible, feasible) [m]; limited_by: 'bend' (a chord cannot follow the
-    smaller arc), 'contact' or 'circle' (nothing limits it down to the smallest entry tried)
-    benches: the pair that would touch, time: when [s at 1 m/s]; found by: a scan of entries in steps of ENTRY_STEP
-    """
-
-    turn: Turn
-    entry_bracket: tuple[float, float]
-    limited_by: str
-    benches: tuple[int, int] | None
-    time: float | None
-
-
-def shortest_turn(
-    dragon: Dragon,
-    pitch: float,
-    turning_radius: float = 4.5,
-    ratio: float = 2.0,
-    *,
-    start_turns: float = 16.0,
-    margin: float = 0.0,
-) -> ShortestTurn:
-    """The smallest entry radius, coming from the turning circle, at which nothing touches and every handle can follow.
-
-    Entries are tried in steps of ENTRY_STEP of the turning radius and the first border is bisected; each try is a
-    certified first_contact() from one dragon's length before the turn until the whole dragon is past it.
-    raises: InvalidValue (turning_radius) when even the turn at the circle fails
-    """
-    radius = checked_size("turning_radius", turning_radius)
-
-    def fault(entry: float) -> tuple[str, tuple[int, int] | None, float | None] | None:
-        path = turn(pitch, radius, ratio, start_turns=start_turns, entry_radius=entry).path
-        if not follows(dragon, path):
-            return "bend", None, None
-        span = 0.5 * math.pi * float(dragon.chords.sum())
-        start, stop = max(path.begin, -span), min(path.end, path.joints[-1] + span)
-        found = first_contact(dragon, path, margin=margin, start=start, stop=stop)
-        return None if found.outcome is Outcome.CLEAR else ("contact", found.benches, found.time)
-
-    if fault(radius) is not None:
-        raise InvalidValue(
-            "turning_radius",
-            f"turning_radius must be larger: the dragon cannot dance this turn even at {radius:g} m ({fault(radius)})",
-        )
-    feasible, infeasible = radius, radius
-    limit: tuple[str, tuple[int, int] | None, float | None] | None = None
-    while limit is None and infeasible > 2.0 * ENTRY_STEP * radius:
-        feasible, infeasible = infeasible, infeasible - ENTRY_STEP * radius
-        limit = fault(infeasible)
-    while limit is not None and feasible - infeasible > ENTRY_WIDTH:
-        middle = 0.5 * (feasible + infeasible)
-        found = fault(middle)
-        feasible, infeasible, limit = (middle, infeasible, limit) if found is None else (feasible, middle, found)
-    best = turn(pitch, radius, ratio, start_turns=start_turns, entry_radius=feasible)
-    return ShortestTurn(best, (infeasible, feasible), *(limit or ("circle", None, None)))

@@ -32,6 +32,7 @@ ORDER = (
     "core.scan",
     "core.scan",
     "core.turn",
+    "core.shortest",
     "core.speed",
     "core.least",
     "core.bend",

@@ -64,6 +64,15 @@ def test_trajectory_through_the_turn_has_the_known_handles(client: httpx.Client,
             assert value == pytest.approx(handle[name], rel=0, abs=REFERENCE_TOLERANCE), (name, handle["handle"])
 
 
+def test_the_shortest_turn_is_a_turn_and_what_limits_it(client: httpx.Client) -> None:
+    got = client.get("/shortest-turn?pitch=1.7&turning_diameter=9&ratio=1&margin=0.2").raise_for_status().json()
+    query = f"pitch=1.7&turning_diameter=9&ratio=1&entry_radius={got['entry_radius']!r}"
+    turn = client.get(f"/turn?{query}").raise_for_status().json()
+    assert {name: got[name] for name in turn} == turn
+    assert got["entry_bracket"][1] == got["entry_radius"]
+    assert (got["limited_by"], got["benches"], got["scan_step"]) == ("contact", [0, 13], 0.045)
+
+
 def test_the_maximum_head_speed_is_the_known_one(client: httpx.Client) -> None:
     known = reference("maximum_head_speed")
     got = client.get(f"/maximum-head-speed?{TURN_QUERY}&speed_limit=2").raise_for_status().json()
@@ -235,6 +244,13 @@ def test_a_dance_that_is_none_is_a_problem_that_names_the_place(
         ("/turn?ratio=0", "ratio", ("at least 0.01",)),
         ("/turn?start_turns=1", "start_turns", ("2.64706 turns",)),
         ("/turn?entry_radius=9", "entry_radius", ("at most 4.5 m",)),
+        ("/shortest-turn?ratio=0", "ratio", ("at least 0.01",)),
+        ("/shortest-turn?start_turns=1", "start_turns", ("2.64706 turns",)),
+        ("/shortest-turn?entry_radius=4", "entry_radius", ("unknown",)),
+        ("/shortest-turn?margin=3", "margin", ("at most 2 m",)),
+        ("/shortest-turn?turning_diameter=8", "turning_diameter", ("too tight", "2.86 m")),
+        ("/shortest-turn?pitch=0.8", "turning_diameter", ("benches 0 and 15 touch", "13.286258 s after")),
+        ("/shortest-turn?benches=501", "benches", ("at most 500",)),
         ("/maximum-head-speed?speed_limit=0", "speed_limit", ("at least 0.001 m/s",)),
         ("/maximum-head-speed?turning_diameter=2", "turning_diameter", ("radius", "bench 0")),
         ("/maximum-head-speed?benches=2001", "benches", ("at most 2000",)),

@@ -1,4 +1,4 @@
-"""The commands check, turn and maximum-head-speed, run as a user runs them."""
+"""The commands check, turn, shortest-turn and maximum-head-speed, run as a user runs them."""
 
 from __future__ import annotations
 
@@ -53,6 +53,11 @@ def dance(tmp_path: Path) -> Path:
     [
         (["turn"], "/turn"),
         (["turn", "--pitch", "1.5", "--ratio", "1"], "/turn?pitch=1.5&ratio=1"),
+        (["shortest-turn", "--benches", "20"], "/shortest-turn?benches=20"),
+        (
+            ["shortest-turn", "--ratio", "1", "--margin", "0.2", "--benches", "40"],
+            "/shortest-turn?ratio=1&margin=0.2&benches=40",
+        ),
         (["maximum-head-speed", "--benches", "20"], "/maximum-head-speed?benches=20"),
         (
             ["maximum-head-speed", "--benches", "20", "--speed-limit", "3"],

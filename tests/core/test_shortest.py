@@ -1,0 +1,205 @@
+"""The shortest turn: just deeper something touches or a bench cannot follow, at it and above nothing does."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+import pytest
+import shapely
+
+import core.shortest
+from core import (
+    Dragon,
+    InvalidValue,
+    Outcome,
+    ShortestTurn,
+    Spiral,
+    TurnLimit,
+    bench_poses,
+    first_contact,
+    shortest_turn,
+    trajectory,
+    turn,
+)
+from core.rectangles import corners
+
+ENTRY_ERROR = 1e-9  # [m]
+STEP = 0.1  # [s], between the instants that shapely sees
+FINE_STEP = 5e-4  # [s], the same around the instant of least clearance
+NEAR = 0.9  # [m], farther pairs are not measured
+DEEPER = 1e-5  # [m], an entry clearly on the other side of the border
+
+# A long head reaches the bend first; as short a head as the body lets benches touch first.
+EVEN = {"benches": 40, "head_length": 2.2}
+CONTACT: dict[str, tuple[dict[str, Any], dict[str, Any]]] = {
+    "margin": ({"benches": 60}, {"pitch": 1.7, "ratio": 1.0, "margin": 0.2}),
+    "tight pitch": ({"benches": 60}, {"pitch": 1.25, "ratio": 0.7}),
+    "wide benches": ({**EVEN, "width": 0.45}, {"pitch": 1.4, "ratio": 1.0}),
+    "small dragon": (
+        {"benches": 40, "head_length": 1.5, "body_length": 1.5, "width": 0.4, "overhang": 0.2},
+        {"pitch": 1.1, "ratio": 1.3},
+    ),
+}
+BEND: dict[str, tuple[dict[str, Any], dict[str, Any]]] = {
+    "contest": ({"benches": 60}, {"pitch": 1.7}),
+    "equal arcs": ({"benches": 60}, {"pitch": 1.7, "ratio": 1.0}),
+    "even": (EVEN, {"pitch": 1.2}),
+}
+
+
+def slow_clearance(dragon: Dragon, found: ShortestTurn, entry: float, start: float, stop: float, step: float) -> float:
+    """Least distance of benches that share no handle on the turn with that entry, by shapely; at most NEAR."""
+    danced = turn(found.turn.pitch, found.turn.turning_radius, found.turn.ratio, entry_radius=entry)
+    sizes = np.stack([dragon.lengths, dragon.widths], axis=-1)
+    least = NEAR
+    for time in np.arange(start, stop, step):
+        handles = trajectory(dragon, danced.path, [time]).position[0]
+        benches = shapely.polygons(corners(bench_poses(handles), sizes))
+        a, b = shapely.STRtree(benches).query(benches, predicate="dwithin", distance=least)
+        apart = b > a + 1
+        least = min(least, shapely.distance(benches[a[apart]], benches[b[apart]]).min(initial=least))
+    return float(least)
+
+
+def whole(dragon: Dragon, found: ShortestTurn) -> tuple[float, float]:
+    """From before any bench is in the turn until all are past it [s]."""
+    length = float(dragon.chords.sum()) + 15.0
+    return -15.0, found.turn.length + length
+
+
+@pytest.mark.parametrize(("sizes", "asked"), CONTACT.values(), ids=CONTACT)
+def test_just_deeper_two_benches_come_within_the_margin_and_above_none_do(sizes: Any, asked: Any) -> None:
+    dragon, margin = Dragon(**sizes), asked.get("margin", 0.0)
+    found = shortest_turn(dragon, **asked)
+    infeasible, feasible = found.entry_bracket
+    assert found.limited_by is TurnLimit.CONTACT
+    assert 0.0 < feasible - infeasible <= ENTRY_ERROR
+    assert found.turn.entry_radius == feasible
+    assert found.benches is not None
+    assert found.time is not None
+    around = (found.time - 0.3, found.time + 0.3, FINE_STEP)
+    assert slow_clearance(dragon, found, infeasible - DEEPER, *around) <= margin
+    assert slow_clearance(dragon, found, feasible + DEEPER, *around) > margin
+    for entry in (feasible, 0.5 * (feasible + found.turn.turning_radius), found.turn.turning_radius):
+        assert slow_clearance(dragon, found, entry, *whole(dragon, found), STEP) > margin
+
+
+@pytest.mark.parametrize(("sizes", "asked"), BEND.values(), ids=BEND)
+def test_just_deeper_a_bench_cannot_follow_and_above_all_do_without_contact(sizes: Any, asked: Any) -> None:
+    dragon = Dragon(**sizes)
+    found = shortest_turn(dragon, **asked)
+    infeasible, feasible = found.entry_bracket
+    assert (found.limited_by, found.benches, found.time) == (TurnLimit.BEND, None, None)
+    assert 0.0 < feasible - infeasible <= ENTRY_ERROR
+    with pytest.raises(InvalidValue, match="must not bend tighter"):
+        slow_clearance(dragon, found, infeasible - ENTRY_ERROR, 0.0, STEP, STEP)
+    assert slow_clearance(dragon, found, feasible, *whole(dragon, found), STEP) > 0.0
+    # the sum of both radii is sqrt(entry^2 + growth^2), and the smaller one just fits the longest chord
+    smaller = 0.5 * float(dragon.chords.max()) / core.kernels.BEND_LIMIT
+    total = smaller * (1.0 + asked.get("ratio", 2.0)) / min(1.0, asked.get("ratio", 2.0))
+    assert feasible == pytest.approx(math.sqrt(total**2 - (asked["pitch"] / (2.0 * math.pi)) ** 2), abs=2 * ENTRY_ERROR)
+
+
+@pytest.mark.parametrize(("sizes", "asked"), [*CONTACT.values(), *BEND.values()], ids=[*CONTACT, *BEND])
+def test_the_part_that_is_followed_has_the_contacts_of_the_whole_dance(sizes: Any, asked: Any) -> None:
+    dragon, margin = Dragon(**{**sizes, "benches": 150}), asked.get("margin", 0.0)
+    found = shortest_turn(dragon, **asked)
+    for entry in (found.turn.entry_radius, found.turn.turning_radius):
+        danced = turn(found.turn.pitch, found.turn.turning_radius, found.turn.ratio, start_turns=30, entry_radius=entry)
+        way, front = core.shortest._way(dragon, danced, margin)
+        assert front.benches < dragon.benches
+        span = 1.6 * float(dragon.chords.sum())
+        assert way < span
+        in_all = first_contact(dragon, danced.path, margin=margin, start=-span, stop=danced.length + span)
+        assert in_all.outcome is Outcome.CLEAR
+
+
+def test_the_answer_does_not_depend_on_how_long_the_dragon_or_the_coil_is() -> None:
+    asked: dict[str, Any] = {"pitch": 1.7, "ratio": 1.0, "margin": 0.2}
+    known = shortest_turn(Dragon(benches=60), **asked)
+    for dragon, start_turns in ((Dragon(benches=60), 3.0), (Dragon(benches=60), 80.0), (Dragon(benches=1_000), 3.0)):
+        other = shortest_turn(dragon, **asked, start_turns=start_turns)
+        assert other.turn.entry_radius == pytest.approx(known.turn.entry_radius, abs=ENTRY_ERROR)
+        assert other.benches == known.benches
+
+
+def test_a_dragon_given_bench_by_bench_has_the_answer_of_the_uniform_one() -> None:
+    uniform = Dragon(benches=30)
+    widths = uniform.widths.copy()
+    widths[-1] -= 1e-9
+    listed = Dragon.of(uniform.lengths, widths, uniform.overhangs)
+    assert listed.uniform_from > uniform.uniform_from
+    a, b = (shortest_turn(dragon, 1.7, ratio=1.0, margin=0.2) for dragon in (uniform, listed))
+    assert a.turn.entry_radius == pytest.approx(b.turn.entry_radius, abs=ENTRY_ERROR)
+    assert (a.limited_by, a.benches) == (b.limited_by, b.benches)
+
+
+def test_nothing_limits_a_tiny_dragon_down_to_the_centre() -> None:
+    found = shortest_turn(Dragon(5, 0.1, 0.1, 0.01, 0.01), 1.7)
+    step = core.shortest.ENTRY_STEP * 4.5
+    assert (found.limited_by, found.entry_bracket) == (TurnLimit.CENTRE, (0.0, step))
+    assert found.scan_step == step
+
+
+def test_one_bench_is_limited_by_the_bend_alone() -> None:
+    found = shortest_turn(Dragon(benches=1), 1.7, margin=1.0)
+    assert found.limited_by is TurnLimit.BEND
+
+
+@pytest.mark.parametrize(
+    ("sizes", "asked", "words"),
+    [
+        (
+            {},
+            {"turning_radius": 4.0},
+            r"with the entry at 4 m it bends to a radius of 1\.336 m, too tight .* \(2\.86 m\)",
+        ),
+        ({}, {"pitch": 0.8}, r"benches 0 and 15 touch 13\.286258 s after the entry"),
+        ({}, {"pitch": 0.5, "start_turns": 30, "turning_radius": 4.3}, r"bends to a radius"),
+        ({}, {"margin": 0.4}, r"come within the margin of 0\.4 m .* s after the entry"),
+        ({"width": 1.8}, {"start_turns": 30}, r"touch .* s before the entry at 1 m/s"),
+    ],
+    ids=["bend", "contact", "bend first", "margin", "on the coil"],
+)
+def test_a_turn_that_cannot_be_danced_even_at_the_circle_is_refused(sizes: Any, asked: Any, words: str) -> None:
+    with pytest.raises(InvalidValue, match=words) as e:
+        shortest_turn(Dragon(**sizes), **{"pitch": 1.7, **asked})
+    assert e.value.field == "turning_radius"
+
+
+@pytest.mark.parametrize("margin", [-0.1, math.nan, "1"])
+def test_a_margin_that_is_none_is_refused(margin: Any) -> None:
+    with pytest.raises(InvalidValue) as e:
+        shortest_turn(Dragon(), 1.7, margin=margin)
+    assert e.value.field == "margin"
+
+
+def poses_on(coil: Spiral, turned: float, count: int, radius: float) -> np.ndarray:
+    """Boxes of benches on a coil from a radius outwards, the coil turned about the centre."""
+    dragon = Dragon(benches=count, head_length=2.2)
+    theta = radius / coil.growth
+    tail = Spiral(coil.pitch, theta / (2.0 * math.pi))
+    poses = bench_poses(trajectory(dragon, tail, [0.0]).position[0])
+    cos, sin = math.cos(turned), math.sin(turned)
+    poses[:, :2] = poses[:, :2] @ np.array([[cos, sin], [-sin, cos]])
+    poses[:, 2] += turned
+    return shapely.polygons(corners(poses, np.stack([dragon.lengths, dragon.widths], axis=-1)))
+
+
+@pytest.mark.parametrize("pitch", [0.9, 1.2, 1.7, 3.0])
+def test_two_coils_are_apart_by_more_than_the_margin_where_they_are_said_to_be(pitch: float) -> None:
+    danced, dragon = turn(pitch), Dragon(benches=60, head_length=2.2)
+    radii = []
+    # along a coil, with one between them, two benches are known to be 0.6 m apart
+    for margin in np.linspace(0.0, min(0.5 * pitch - 0.35, 0.55), 5):
+        clear = core.shortest._clear_rings(dragon, danced, margin)
+        assert clear is not None
+        radii.append(clear)
+        for shift in np.linspace(0.0, 2.0, 9):
+            one = poses_on(Spiral(pitch, 16), 0.0, 60, clear)
+            other = poses_on(Spiral(pitch, 16), math.pi, 60, clear + shift)
+            assert shapely.distance(shapely.union_all(one), shapely.union_all(other)) > margin
+    assert radii == sorted(radii)
+    assert core.shortest._clear_rings(dragon, danced, 0.5 * pitch - 0.3) is None
