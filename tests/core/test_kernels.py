@@ -44,6 +44,9 @@ EXPRESSIONS = {
     "overlaps": "core.overlaps(core.bench_poses(np.random.default_rng(1).random((30, 2)) * 9), [1.0] * 29, [0.3] * 29)",
     "first contact": "core.first_contact(core.Dragon(30), core.Spiral())",
     "first contact with a margin": "core.first_contact(core.Dragon(30), core.Spiral(), margin=0.05)",
+    "route": "core.Route([core.Waypoints(((0, 0), (6, 1), (11, 6), (9, 13), (2, 14)))]).table",
+    "places on a route": "core.Route([core.Waypoints(((0, 0), (6, 1), (11, 6), (9, 13)))]).position([21.0, 3.0, 14.0])",
+    "trajectory on a turn": "core.trajectory(core.Dragon(20), core.turn(1.7).path, [0.0, 14.0, 30.0])",
     "clearance profile": "core.clearance_profile(core.Dragon(30), core.Spiral(), [400.0, 405.0, 410.0])",
 }
 
