@@ -2,7 +2,7 @@
 
 The curvature of r(t) = (x, y) on [0, e] is k = T / F^(3/2) with T = x' y'' - y' x'' (of degree 2, as its cubes cancel)
 and F = x'^2 + y'^2 (of degree 4), so
-    k' = D / F^(5/2),   D = T' F - 3/2 T F'   (of degree 5).
+    k' = D / F^(5/2),   D = T' F - 3/2 T F'   (of degree 5),   and   dk / ds = k' / F^(1/2).
 A polynomial lies between the least and the largest of its Bernstein coefficients. If those of D do not change sign,
 the curvature is monotonic and lies between its ends, as on a spiral. Else k' lies in [a, b], a < 0 < b, and k below
 both k0 + b t and k1 - a (e - t), which meet at the height (b k1 - a k0 - a b e) / (b - a); from below likewise. Near a
@@ -48,10 +48,10 @@ def cut(name: str, coefficients: Floats, ends: Floats) -> Floats:
         half = 0.5 * ends
         halves = np.stack([coefficients, _shifted(coefficients, half)], axis=1)
         arcs = _arcs(halves.reshape(-1, 4, 2), np.repeat(half, 2)).reshape(-1, 2)
-        kinds, bounds = _curvatures(coefficients, ends)
+        kinds, bounds, slopes = _curvatures(coefficients, ends)
         whole = (np.abs(lengths - arcs.sum(axis=1)) <= CUBIC_ARC * lengths) & (kinds >= 0.0)
         rows = _rows(coefficients[whole], ends[whole])
-        rows[:, 0], rows[:, 2], rows[:, 3:5] = kinds[whole], lengths[whole], bounds[whole]
+        rows[:, 0], rows[:, 2], rows[:, 3:5], rows[:, 14] = kinds[whole], lengths[whole], bounds[whole], slopes[whole]
         done.append(rows)
         order.append((piece[whole], place[whole]))
         left = ~whole
@@ -93,8 +93,8 @@ def _shifted(coefficients: Floats, t: Floats) -> Floats:
     return shifted
 
 
-def _curvatures(coefficients: Floats, ends: Floats) -> tuple[Floats, Floats]:
-    """Kind of every cubic, -1 where it is to be cut, and two curvatures (N, 2) [1/m].
+def _curvatures(coefficients: Floats, ends: Floats) -> tuple[Floats, Floats, Floats]:
+    """Kind of every cubic, -1 where it is to be cut; two curvatures (N, 2) [1/m]; bound on |dk / ds| [1/m^2].
 
     A 'cubic' has a monotonic curvature: its ends; a 'crest' has not: its bounds.
     """
@@ -117,7 +117,8 @@ def _curvatures(coefficients: Floats, ends: Floats) -> tuple[Floats, Floats]:
     excess = np.maximum(high - np.maximum(k0, k1), np.minimum(k0, k1) - low)
     near = monotonic | (excess <= CREST_EXCESS * np.maximum(1.0, np.maximum(np.abs(k0), np.abs(k1))))
     kinds = np.where(monotonic, CUBIC, CREST)
-    return np.where(moves & near, kinds, -1.0), np.stack([low, high], axis=1)
+    slopes = np.maximum(most, -least) / np.sqrt(slowest)
+    return np.where(moves & near, kinds, -1.0), np.stack([low, high], axis=1), slopes
 
 
 def _product(a: Floats, b: Floats) -> Floats:

@@ -1125,7 +1125,7 @@ RATE_LOW = cython.declare(cython.int, 10)
 RATE_RATE = cython.declare(cython.int, 11)  # |s''|
 THETA_HIGH = cython.declare(cython.int, 12)
 THETA_LOW = cython.declare(cython.int, 13)
-RATE_JERK = cython.declare(cython.int, 14)  # |s'''| on a route, where no handle up to it crosses a joint
+RATE_JERK = cython.declare(cython.int, 14)  # |s'''| on a route, where no handle up to it crosses into another part
 MOTION_COLUMNS = 15
 
 # Columns of a size row, one for each bench.
@@ -1613,8 +1613,9 @@ S_START = cython.declare(cython.int, 1)
 S_END = cython.declare(cython.int, 2)
 K_START = cython.declare(cython.int, 3)
 K_END = cython.declare(cython.int, 4)
-K_SLOPE = cython.declare(cython.int, 14)  # bound on |d curvature / d s| [1/m^2], but for a cubic
-PIECE_COLUMNS = 15
+K_SLOPE = cython.declare(cython.int, 14)  # bound on |d curvature / d s| [1/m^2]
+PART = cython.declare(cython.int, 15)  # within a part of the route curvature has no jump
+PIECE_COLUMNS = 16
 LINE = cython.declare(cython.int, 0)
 ARC = cython.declare(cython.int, 1)
 SPIRAL = cython.declare(cython.int, 2)
@@ -1963,12 +1964,10 @@ def stretch_curvature(
 def stretch_slope(
     pieces: cython.const[cython.double][:, ::1], rear: cython.Py_ssize_t, front: cython.Py_ssize_t
 ) -> cython.double:
-    """Bound on |d curvature / d s| from piece `rear` to piece `front`, joints left out; FREE with a cubic [1/m^2]."""
+    """Bound on |d curvature / d s| from piece `rear` to piece `front`, where it does not jump [1/m^2]."""
     p: cython.Py_ssize_t
     slope: cython.double = 0.0
     for p in range(rear, front + 1):
-        if pieces[p, PIECE_KIND] == CUBIC:
-            return FREE
         slope = max(slope, pieces[p, K_SLOPE])
     return slope
 
@@ -3182,7 +3181,7 @@ def refined_peak(
     return high
 
 
-# Between joints rates are smooth: with |r''| <= J a rate stays below its chord plus J h^2 / 8. Where one handle crosses
+# Within a part rates are smooth: with |r''| <= J a rate stays below its chord plus J h^2 / 8. Where one handle crosses
 # one joint at x = y in [0, h], r stays below p = r_0 + s_0 x + J h^2 / 2 for x <= y and below q = r_h + s_h (x - h) +
 # J h^2 / 2 for x >= y. If s_0 >= J h and s_h <= -J h it rises up to y and falls from there, so that its largest value
 # r(y) <= min(p(y), q(y)), which is largest where p and q cross.
@@ -3215,6 +3214,22 @@ def smooth_bound(
 
 
 @cython.cfunc
+@cython.inline
+@cython.nogil
+@cython.exceptval(check=False)
+def parts_between(
+    pieces: cython.const[cython.double][:, ::1],
+    k: cython.Py_ssize_t,
+    before: cython.double[:, ::1],
+    after: cython.double[:, ::1],
+) -> cython.double:
+    """How many parts further on handle k stands in the second of two chains."""
+    rear: cython.Py_ssize_t = cython.cast(cython.Py_ssize_t, before[k, PIECE])
+    front: cython.Py_ssize_t = cython.cast(cython.Py_ssize_t, after[k, PIECE])
+    return pieces[front, PART] - pieces[rear, PART]
+
+
+@cython.cfunc
 @cython.nogil
 @cython.exceptval(check=False)
 def rate_bound(
@@ -3241,7 +3256,7 @@ def rate_bound(
             return FREE
         climbs(handles, sizes, before)
         climbs(handles, sizes, after)
-        crossed = after[0, PIECE] - before[0, PIECE]
+        crossed = parts_between(pieces, 0, before, after)
     elif not motion_bounds(growth, h, handles, sizes, before, after, motion):
         return FREE
     elif handles < benches:
@@ -3254,8 +3269,8 @@ def rate_bound(
         if motion[k, RATE_HIGH] < bound:
             bound = motion[k, RATE_HIGH]
         if pieces.shape[0] > 0:
-            crossed += after[k, PIECE] - before[k, PIECE]
-            if bound > upper and crossed <= 1.0 and motion[k, RATE_JERK] < FREE:
+            crossed += parts_between(pieces, k, before, after)
+            if bound > upper and crossed <= 1.0:
                 bound = min(
                     bound,
                     smooth_bound(

@@ -36,7 +36,7 @@ def _checked_point(name: str, value: Any) -> Point:
 
 def _row(kind: str, start: float, end: float, curvature: Point, *parameters: float, slope: float = 0.0) -> Floats:
     row = (_KINDS[kind], start, end, *curvature, *parameters)
-    return np.array([row + (0.0,) * (kernels.PIECE_COLUMNS - 1 - len(row)) + (slope,)])
+    return np.array([row + (0.0,) * (kernels.PIECE_COLUMNS - 2 - len(row)) + (slope, 0.0)])
 
 
 @dataclass(frozen=True)
@@ -153,9 +153,9 @@ Piece = Line | Arc | Coil | Waypoints
 def _steepest_bend(theta: float) -> float:
     """No |d curvature / d s| of a spiral from this polar angle outwards exceeds this over growth^2 [1/m^2].
 
-    It is theta (4 + theta^2) / (1 + theta^2)^3, which is at most 1.09, near 0.45, and falls from there.
+    It is theta (4 + theta^2) / (1 + theta^2)^3, which is at most 1.09022, near 0.476, and falls from there.
     """
-    return 1.09 if theta < 0.5 else theta * (4.0 + theta * theta) / (1.0 + theta * theta) ** 3
+    return 1.0903 if theta < 0.5 else theta * (4.0 + theta * theta) / (1.0 + theta * theta) ** 3
 
 
 def _check_length(name: str, length: float) -> None:
@@ -183,6 +183,7 @@ class Route:
         for k, piece in enumerate(self.pieces):
             joints.append((s, count))
             rows.append(piece.rows(f"path.pieces.{k}", s))
+            rows[-1][:, -1] = k
             count, s = count + len(rows[-1]), float(rows[-1][-1, 2])
         self.table = np.concatenate(rows)
         self.joints = tuple(s for s, _ in joints[1:])

@@ -64,12 +64,14 @@ def assert_bounded(route: Route) -> None:
     """Between its two bounds on every row, and monotonic where they are said to be ends."""
     checked = 0
     for row in route.table:
-        bends = route.curvature(np.linspace(row[1], row[2], 34)[1:])
+        places = np.linspace(row[1], row[2], 34)[1:]
+        bends = route.curvature(places)
         error = CURVATURE_ERROR * (1.0 + np.abs(bends).max())
         if np.abs(row[3:5]).max() > SHARPEST:
             continue
         checked += 1
         assert min(row[3:5]) - error <= bends.min() <= bends.max() <= max(row[3:5]) + error
+        assert (np.abs(np.diff(bends)) <= row[14] * np.diff(places) + 2.0 * error).all()
         if row[0] != CREST:
             assert bends[-1] == pytest.approx(row[4], rel=0, abs=error)
             assert (np.diff(bends) * math.copysign(1.0, row[4] - row[3]) >= -error).all()

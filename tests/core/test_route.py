@@ -451,3 +451,15 @@ def test_a_batch_of_places_is_a_loop_over_its_items() -> None:
     for name in ("position", "tangent", "curvature"):
         batch = getattr(TURN.path, name)(s)
         assert (batch == [[getattr(TURN.path, name)(x) for x in row] for row in s]).all(), name
+
+
+@settings(deadline=None)
+@given(st.floats(0.3, 3.0), st.floats(0.0, 12.0), st.floats(0.0, 12.0))
+def test_a_coil_bends_no_faster_than_its_row_says(pitch: float, start: float, end: float) -> None:
+    assume(abs(start - end) > 0.1)
+    route = Route([Coil(pitch, start, end)])
+    places = np.linspace(route.begin, route.end, 400)
+    steepest = np.abs(np.diff(route.curvature(places)) / np.diff(places)).max()
+    row = route.table[0]
+    assert steepest <= row[14] * (1.0 + 1e-9) + 1e-9
+    assert min(start, end) < 0.5 or steepest >= 0.4 * row[14]
