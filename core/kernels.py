@@ -1140,9 +1140,9 @@ LEMMA_LIMIT = cython.declare(cython.double, 0.97)
 BEND_LIMIT = 0.97
 # Trial bound on a followed handle's rate, as a multiple of what the ends show [1]; any value > 1 is sound.
 TRIAL = cython.declare(cython.double, 1.5)
-# On a route the ratio of a link's rates is followed from the ends of the interval where the lemma leaves more than
-# this [1].
-RATIO_FOLLOWED = cython.declare(cython.double, 1.05)
+# On a route the cosines of a link's angles are followed from the ends of the interval where the lemma leaves its rates a
+# ratio of more than this [1]: what it leaves multiplies from link to link, on curves that wind 1.02 to the power of 100.
+RATIO_FOLLOWED = cython.declare(cython.double, 1.001)
 # Larger than any step or distance, and so is its square no overflow [m].
 FREE = cython.declare(cython.double, 1e150)
 
@@ -1154,6 +1154,18 @@ def spiral_curvature(theta: cython.double) -> cython.double:
     """Curvature of the spiral times its growth, falling with theta."""
     square: cython.double = 1.0 + theta * theta
     return (1.0 + square) / (square * sqrt(square))
+
+
+@cython.ccall
+@cython.nogil
+@cython.exceptval(check=False)
+def steepest_bend(theta: cython.double) -> cython.double:
+    """No |d curvature / d s| of the spiral from theta outwards exceeds this over the square of its growth.
+
+    It is theta (4 + theta^2) / (1 + theta^2)^3, which is at most 1.09022, near 0.476, and falls from there.
+    """
+    square: cython.double = 1.0 + theta * theta
+    return 1.0903 if theta < 0.5 else theta * (3.0 + square) / (square * square * square)
 
 
 @cython.cfunc
@@ -1962,14 +1974,73 @@ def stretch_curvature(
 @cython.nogil
 @cython.exceptval(check=False)
 def stretch_slope(
-    pieces: cython.const[cython.double][:, ::1], rear: cython.Py_ssize_t, front: cython.Py_ssize_t
+    pieces: cython.const[cython.double][:, ::1],
+    k: cython.Py_ssize_t,
+    before: cython.double[:, ::1],
+    after: cython.double[:, ::1],
 ) -> cython.double:
-    """Bound on |d curvature / d s| from piece `rear` to piece `front`, where it does not jump [1/m^2]."""
+    """Bound on |d curvature / d s| from the rear of bench k to its front over an interval, jumps left out [1/m^2].
+
+    On a spiral it falls with theta, so that the innermost handle's serves (see steepest_bend()).
+    """
+    rear: cython.Py_ssize_t = cython.cast(cython.Py_ssize_t, before[k + 1, PIECE])
+    front: cython.Py_ssize_t = cython.cast(cython.Py_ssize_t, after[k, PIECE])
     p: cython.Py_ssize_t
+    theta: cython.double
     slope: cython.double = 0.0
+    if rear == front and pieces[rear, PIECE_KIND] == SPIRAL:
+        theta = min(before[k + 1, PIECE_THETA], after[k, PIECE_THETA])
+        if theta >= 0.5:
+            return steepest_bend(theta) / (pieces[rear, 7] * pieces[rear, 7])
     for p in range(rear, front + 1):
         slope = max(slope, pieces[p, K_SLOPE])
     return slope
+
+
+@cython.cfunc
+@cython.inline
+@cython.nogil
+@cython.exceptval(check=False)
+def link_cosines(k: cython.Py_ssize_t, chain: cython.double[:, ::1]) -> tuple[cython.double, cython.double]:
+    """Cosines of the angles between bench k and the tangents at its front and its rear handle."""
+    return (
+        chain[k, TX] * chain[k, UX] + chain[k, TY] * chain[k, UY],
+        chain[k + 1, TX] * chain[k, UX] + chain[k + 1, TY] * chain[k, UY],
+    )
+
+
+@cython.cfunc
+@cython.inline
+@cython.nogil
+@cython.exceptval(check=False)
+def swing_bound(
+    low: cython.double,
+    high: cython.double,
+    rate: cython.double,
+    rate_low: cython.double,
+    ratio: cython.double,
+    ratio_low: cython.double,
+) -> cython.double:
+    """Bound on |alpha'| of both angles of a link with curvatures in [low, high], from the rates of its leader and the
+    follower's ratio to them."""
+    fastest: cython.double = rate * max(1.0, ratio)
+    return high * fastest - low * (rate_low * min(1.0, ratio_low) if low > 0.0 else fastest)
+
+
+@cython.cfunc
+@cython.inline
+@cython.nogil
+@cython.exceptval(check=False)
+def parts_between(
+    pieces: cython.const[cython.double][:, ::1],
+    k: cython.Py_ssize_t,
+    before: cython.double[:, ::1],
+    after: cython.double[:, ::1],
+) -> cython.double:
+    """How many parts further on handle k stands in the second of two chains."""
+    rear: cython.Py_ssize_t = cython.cast(cython.Py_ssize_t, before[k, PIECE])
+    front: cython.Py_ssize_t = cython.cast(cython.Py_ssize_t, after[k, PIECE])
+    return pieces[front, PART] - pieces[rear, PART]
 
 
 @cython.cfunc
@@ -1982,35 +2053,44 @@ def route_bounds(
     sizes: cython.double[:, ::1],
     before: cython.double[:, ::1],
     after: cython.double[:, ::1],
+    climbing: cython.bint,
     motion: cython.double[:, ::1],
 ) -> cython.bint:
     """motion_bounds() on a route. The chord lemma serves throughout, as no handle turns back where k chord < 2.
 
-    Where the curvature changes sign between two handles the angles lie in [-k l / 2, k l / 2] for the larger |k|,
-    and the ratio of the rates is also followed from both ends of the interval, as near the centre of a spiral.
+    Where the curvature changes sign between two handles the angles lie in [-k l / 2, k l / 2] for the larger |k|. The
+    cosines of the angles are also followed from both ends of the interval, as near the centre of a spiral: |cos alpha|'
+    <= sin alpha |alpha'|, and half an interval is the most that lies between an instant and the nearer end.
+    climbing: the chains hold s'' too, which with |s'''| bounds it from both ends, until a handle crosses into another
+    part, and with it the rate: so no bound grows from link to link
     """
     k: cython.Py_ssize_t
     chord: cython.double
     low: cython.double
     high: cython.double
     sin_high: cython.double
-    cos_high: cython.double
-    cos_low: cython.double
-    end_high: cython.double
-    end_low: cython.double
-    value: cython.double
+    front: cython.double
+    front_end: cython.double
+    front_low: cython.double
+    front_high: cython.double
+    rear: cython.double
+    rear_end: cython.double
+    rear_low: cython.double
+    rear_high: cython.double
+    turned: cython.double
     omega: cython.double
     swing: cython.double
     spin: cython.double
     pull: cython.double
-    side: cython.int
     rate_a: cython.double = 1.0
     rate_b: cython.double
     rate_low: cython.double = 1.0
+    low_b: cython.double
     second_a: cython.double = 0.0
     second_b: cython.double
     third_a: cython.double = 0.0
     third_b: cython.double
+    crossed: cython.double = parts_between(pieces, 0, before, after)
     for k in range(benches):
         chord = sizes[k, CHORD]
         low, high = stretch_curvature(
@@ -2028,35 +2108,23 @@ def route_bounds(
         sin_high = 0.5 * high * chord
         if sin_high > LEMMA_LIMIT:
             return False
-        cos_low = sqrt(1.0 - sin_high * sin_high)
-        cos_high = sqrt(1.0 - 0.25 * low * low * chord * chord) if low > 0.0 else 1.0
-        rate_b = rate_a * cos_high / cos_low
-        omega = high * (rate_a if rate_a > rate_b else rate_b)
-        swing = omega - low * (rate_low * cos_low / cos_high if low > 0.0 else rate_a if rate_a > rate_b else rate_b)
-        if rate_b > RATIO_FOLLOWED * rate_a:
-            end_high = 0.0
-            end_low = 1.0
-            for side in range(2):
-                value = (
-                    after[k, TX] * after[k, UX] + after[k, TY] * after[k, UY]
-                    if side
-                    else before[k, TX] * before[k, UX] + before[k, TY] * before[k, UY]
-                )
-                end_high = value if value > end_high else end_high
-                value = (
-                    after[k + 1, TX] * after[k, UX] + after[k + 1, TY] * after[k, UY]
-                    if side
-                    else before[k + 1, TX] * before[k, UX] + before[k + 1, TY] * before[k, UY]
-                )
-                end_low = value if value < end_low else end_low
-            end_high += 0.5 * h * swing * sin_high
-            end_low -= 0.5 * h * swing * sin_high
-            if end_low > 0.0 and end_high < cos_high * end_low / cos_low:
-                rate_b = rate_a * (end_high if end_high < 1.0 else 1.0) / end_low
-                cos_low = end_low if end_low > cos_low else cos_low
-        rate_low *= sqrt(1.0 - sin_high * sin_high) / cos_high
-        second_b = (cos_high * second_a + sin_high * swing * (rate_a + rate_b)) / cos_low
-        spin = omega * omega + (cos_high * swing * (rate_a + rate_b) + sin_high * (second_a + second_b)) / chord
+        front_low = rear_low = sqrt(1.0 - sin_high * sin_high)
+        front_high = rear_high = sqrt(1.0 - 0.25 * low * low * chord * chord) if low > 0.0 else 1.0
+        if front_high > RATIO_FOLLOWED * rear_low:
+            turned = swing_bound(low, high, rate_a, rate_low, front_high / rear_low, front_low / rear_high)
+            turned *= 0.5 * h * sin_high
+            front, rear = link_cosines(k, before)
+            front_end, rear_end = link_cosines(k, after)
+            front_low = max(front_low, min(front, front_end) - turned)
+            front_high = min(front_high, max(front, front_end) + turned)
+            rear_low = max(rear_low, min(rear, rear_end) - turned)
+            rear_high = min(rear_high, max(rear, rear_end) + turned)
+        rate_b = rate_a * front_high / rear_low
+        low_b = rate_low * front_low / rear_high
+        omega = high * max(rate_a, rate_b)
+        swing = swing_bound(low, high, rate_a, rate_low, front_high / rear_low, front_low / rear_high)
+        second_b = (front_high * second_a + sin_high * swing * (rate_a + rate_b)) / rear_low
+        spin = omega * omega + (front_high * swing * (rate_a + rate_b) + sin_high * (second_a + second_b)) / chord
         pull = 0.5 * (second_a + second_b + high * (rate_a * rate_a + rate_b * rate_b))
         motion[k, CENTRE_SPEED] = 0.5 * (rate_a + rate_b)
         motion[k, CORNER_SPEED] = 0.5 * (rate_a + rate_b) + omega * sizes[k, RADIUS]
@@ -2066,19 +2134,21 @@ def route_bounds(
         motion[k, TURN_PULL] = spin
         motion[k, TURN_LOW] = motion[k, RATE_LOW] = 0.0
         motion[k, HANDLE_SPEED] = rate_a if rate_a > rate_b else rate_b
-        third_b = stretch_slope(
-            pieces,
-            cython.cast(cython.Py_ssize_t, before[k + 1, PIECE]),
-            cython.cast(cython.Py_ssize_t, after[k, PIECE]),
-        )
-        third_b = third_b * (rate_a * rate_a * rate_a + rate_b * rate_b * rate_b)
+        third_b = stretch_slope(pieces, k, before, after) * (rate_a * rate_a * rate_a + rate_b * rate_b * rate_b)
         third_b += high * (rate_a * second_a + rate_b * second_b) + (spin - omega * omega) * (rate_a + rate_b)
         third_b = sin_high * (third_b + 2.0 * swing * (second_a + second_b))
-        third_b = (cos_high * (third_a + swing * swing * (rate_a + rate_b)) + third_b) / cos_low
+        third_b = (front_high * (third_a + swing * swing * (rate_a + rate_b)) + third_b) / rear_low
+        if climbing:
+            crossed += parts_between(pieces, k + 1, before, after)
+            if crossed == 0.0:
+                turned = max(fabs(before[k + 1, CLIMB]), fabs(after[k + 1, CLIMB]))
+                second_b = min(second_b, turned + 0.5 * h * third_b)
+            rate_b = min(rate_b, 0.5 * (before[k + 1, RATE] + after[k + 1, RATE] + h * second_b))
         motion[k + 1, RATE_HIGH] = rate_b
         motion[k + 1, RATE_RATE] = second_b
         motion[k + 1, RATE_JERK] = third_b
         rate_a = rate_b
+        rate_low = low_b
         second_a = second_b
         third_a = third_b
     return True
@@ -2435,7 +2505,7 @@ def interval_least(
     a: cython.Py_ssize_t = 0
     b: cython.Py_ssize_t = 0
     if pieces.shape[0] > 0:
-        if not route_bounds(pieces, h, handles, sizes, before, after, motion):
+        if not route_bounds(pieces, h, handles, sizes, before, after, False, motion):
             return -FREE
     elif not motion_bounds(growth, h, handles, sizes, before, after, motion):
         return -FREE
@@ -3214,22 +3284,6 @@ def smooth_bound(
 
 
 @cython.cfunc
-@cython.inline
-@cython.nogil
-@cython.exceptval(check=False)
-def parts_between(
-    pieces: cython.const[cython.double][:, ::1],
-    k: cython.Py_ssize_t,
-    before: cython.double[:, ::1],
-    after: cython.double[:, ::1],
-) -> cython.double:
-    """How many parts further on handle k stands in the second of two chains."""
-    rear: cython.Py_ssize_t = cython.cast(cython.Py_ssize_t, before[k, PIECE])
-    front: cython.Py_ssize_t = cython.cast(cython.Py_ssize_t, after[k, PIECE])
-    return pieces[front, PART] - pieces[rear, PART]
-
-
-@cython.cfunc
 @cython.nogil
 @cython.exceptval(check=False)
 def rate_bound(
@@ -3252,10 +3306,10 @@ def rate_bound(
     if handles == 0:
         return upper
     if pieces.shape[0] > 0:
-        if not route_bounds(pieces, h, handles, sizes, before, after, motion):
-            return FREE
         climbs(handles, sizes, before)
         climbs(handles, sizes, after)
+        if not route_bounds(pieces, h, handles, sizes, before, after, True, motion):
+            return FREE
         crossed = parts_between(pieces, 0, before, after)
     elif not motion_bounds(growth, h, handles, sizes, before, after, motion):
         return FREE
@@ -3326,8 +3380,8 @@ def peak_rate(
     """The largest |rate| of any handle while the head travels from start to stop [m], and a proven upper bound.
 
     Samples every `step`, refines around the best, then proves interval after interval that no rate exceeds the best by
-    more than the tolerance, which doubles after every `budget` intervals, so that the proof always ends; a rate found
-    above it becomes the best. out: (4,) rate, upper bound, travel, intervals; calm: as in lively_chain()
+    more than the tolerance, which doubles after every `budget` links followed, so that the proof always ends; a rate
+    found above it becomes the best. out: (4,) rate, upper bound, travel, intervals; calm: as in lively_chain()
     """
     before: cython.double[:, ::1] = rows[0]
     after: cython.double[:, ::1] = rows[1]
@@ -3341,7 +3395,7 @@ def peak_rate(
     upper: cython.double
     h: cython.double
     peak: cython.double
-    spent: cython.double = budget
+    links: cython.Py_ssize_t = 0
     with cython.nogil:
         while travel <= stop:
             rate, _ = top_rate(growth, pieces, place - travel, benches, calm, sizes, spare)
@@ -3376,8 +3430,9 @@ def peak_rate(
                 if rate > best * (1.0 + NOISE):
                     best = rate
                     at = travel + h
-            if out[3] >= spent:
-                spent += budget
+            links += handles
+            if links > budget:
+                links = 0
                 tolerance *= 2.0
             if upper > best + tolerance and h > PEAK_WIDTH:
                 h *= 0.5

@@ -104,7 +104,7 @@ class Coil:
         _check_length(name, abs(end_arc - arc))
         sign = 1.0 if end > start else -1.0
         bends = (sign * kernels.spiral_curvature(start) / growth, sign * kernels.spiral_curvature(end) / growth)
-        slope = _steepest_bend(min(start, end)) / growth**2
+        slope = kernels.steepest_bend(min(start, end)) / growth**2
         return _row("spiral", s, s + abs(end_arc - arc), bends, x, y, growth, rotation, sign, arc, slope=slope)
 
 
@@ -148,14 +148,6 @@ class Waypoints:
 
 
 Piece = Line | Arc | Coil | Waypoints
-
-
-def _steepest_bend(theta: float) -> float:
-    """No |d curvature / d s| of a spiral from this polar angle outwards exceeds this over growth^2 [1/m^2].
-
-    It is theta (4 + theta^2) / (1 + theta^2)^3, which is at most 1.09022, near 0.476, and falls from there.
-    """
-    return 1.0903 if theta < 0.5 else theta * (4.0 + theta * theta) / (1.0 + theta * theta) ** 3
 
 
 def _check_length(name: str, length: float) -> None:

@@ -18,9 +18,9 @@ from core.search import Search
 RATE_TOLERANCE = 1e-9
 # Rates are first sampled in steps of this part of the longest chord [1].
 SAMPLE_STEP = 0.5
-# The tolerance doubles after so many intervals, so that nearly equal peaks of many handles end in a wider bracket
-# instead of a long search; the turn of the contest takes about 1,000 intervals over 200 s.
-INTERVAL_BUDGET = 5_000
+# The tolerance doubles after so many links of chains, about 30 ms, so that nearly equal peaks of many handles end in a
+# wider bracket instead of a long search; the turn of the contest takes about 30,000 over 200 s.
+LINKS_BUDGET = 400_000
 # Handles whose rates differ by less share the highest one [1].
 TIED = 1e-9
 
@@ -88,7 +88,7 @@ def highest_speed(
         until * head_speed,
         SAMPLE_STEP * float(search.extremes[0]),
         RATE_TOLERANCE,
-        INTERVAL_BUDGET,
+        LINKS_BUDGET,
         dragon.benches,
         _calm(search),
         search.sizes,
