@@ -14,32 +14,26 @@ from core.errors import InvalidValue
 from core.kinematics import end_theta
 from core.paths import START_TURNS_MAX, Spiral
 from core.search import MARGIN_MAX, NO_PIECES, Search
+from core.strips import BORDER_WIDTH, Strips
 
 # Half width of the bracket around a contact [m of head travel].
 CONTACT_WIDTH = 2e-11
-# The descent ends when the clearance left above the margin is below this [m]; a bisection closes the bracket.
-GAIN_MIN = 2e-10
+# Just below what the strips prove, an infeasible pitch is looked for this far down [m of pitch]: an error below 1e-9 m.
+PASSED_OVER = 1e-9
 # The pitch is bisected to this width [m]; rounding of a clearance is near 1e-14 m.
 PITCH_WIDTH = 2e-13
 # Where no bound on the change of a clearance with the pitch is at hand, so many pitches are tried, evenly spaced.
 SCAN_SAMPLES = 1000
 # Islands below the minimum pitch are looked for at so many pitches, evenly spaced.
 ISLAND_SAMPLES = 400
+# What limits the pitch is looked at this far below it, where a graze has become a contact of some length [m of pitch].
+BELOW = 1e-11
+# At both ends of a way the pairs led by so many benches are looked at before it is marched.
+LOOKED_AT = 2
 # A contact this close to the circle or the start, with the pair still approaching, is on it [m of head travel].
 ON_CIRCLE = 1e-4
 # From the instant found just below the minimum pitch, the bottom of the graze is within this [m of head travel].
 BOTTOM_WITHIN = 0.01
-
-
-# The descent begins with this clearance above the margin [m]; the windows narrow when it has fallen by this factor [1].
-GAIN_FIRST = 0.02
-GAIN_FACTOR = 0.25
-# The far side of a window of little clearance is looked for in steps of this at the first gain [m of head radius].
-WINDOW_STEP = 2e-3
-
-# Head radii from an inner to an outer one [m].
-Window = tuple[float, float]
-ALL: Window = (0.0, math.inf)
 
 
 class LimitedBy(StrEnum):
@@ -61,7 +55,7 @@ class MinimumPitch:
     other_feasible_intervals: [m], islands below pitch, found on a grid of ISLAND_SAMPLES pitches
     justified_by: how every larger pitch up to proven_up_to [m] is known to be feasible: 'bound' or 'scan', in steps of
         scan_step [m]
-    evaluations: ways from the start to the circle that were marched
+    evaluations: ways from the start to the circle that were marched, and strips of pitches, see `core/strips.py`
     """
 
     pitch: float
@@ -76,46 +70,6 @@ class MinimumPitch:
     evaluations: int
 
 
-# Change of a clearance with the growth b, at a fixed head radius r_0, in the frame in which the head stands at angle 0:
-# handle k stands at radius rho_k = r_0 + b psi_k and angle psi_k. With f = b^2 delta^2 + 2 rho (rho + b delta) (1 -
-# cos delta),
-#     a_{k+1} = a_k (1 - b f_rho / f_delta) + 2 rho (rho + b delta) delta sin delta / f_delta,   a = d rho / db,
-#     d delta / db = -(f_rho a_k + f_b) / f_delta <= 0.
-# 1 - b f_rho / f_delta is the rate of a link, in [0, 1] while no handle turns back, and the last term is in [0,
-# delta], so 0 <= a_k <= psi_k: radii grow and angles fall with b. With f_delta >= 2 rho (rho + b delta) sin delta,
-#     f_rho / f_delta <= (2 / rho) tan(delta / 2),  f_b / f_delta <= (delta / rho) tan(delta / 2) + b delta^2 /
-# (rho^2 sin delta),
-# and as sum(delta_l psi_l + delta_l^2 / 2) = psi^2 / 2, with t = tan(delta / 2) / (delta / 2) for the largest delta,
-#     |d psi_k / db| <= t psi_k^2 / (2 r_0) + (b / r_0^2) (delta / sin delta) psi_k.
-# A point of a bench moves at most 1 + (2 o + w) / c times its handles. Only benches inside the leaders' reach count,
-# and radii grow with b, so the reach at the largest b and the angles at the smallest b serve; all falls with r_0.
-
-
-def _sensitivity(search: Search, radius: float, low: float, high: float) -> float:
-    """Bound on |d separation / d pitch| at every head radius >= radius, pitches in [low, high].
-
-    Dimensionless; inf where no bound holds.
-    """
-    chord, shortest, overhang, half_width, *_ = (float(extreme) for extreme in search.extremes)
-    b_low, b_high = low / (2.0 * math.pi), high / (2.0 * math.pi)
-    curvature = max(kernels.spiral_curvature(radius / b) / b for b in (b_low, b_high))
-    if 0.5 * curvature * chord > 0.97:
-        return math.inf
-    delta = 2.0 * math.asin(0.5 * chord / radius)
-    leaders = search.dragon.uniform_from + 1
-    rear = radius + b_high * (leaders + 1) * delta
-    reach = kernels.leaders_reach(b_high, radius, rear, search.ring) + search.margin
-    reach = kernels.radius_beyond(b_high, reach, search.ring)
-
-    def moved(psi: float) -> float:
-        angle = math.tan(0.5 * delta) / delta * psi * psi / radius
-        angle += b_high / radius**2 * delta / math.sin(delta) * psi
-        return math.hypot(psi, (reach + b_high * delta) * angle)
-
-    share = 1.0 + 2.0 * (overhang + half_width) / shortest
-    return share * (moved((reach - radius) / b_low + delta) + moved((leaders + 1) * delta)) / (2.0 * math.pi)
-
-
 class _PitchSearch:
     """Ways from the start to the circle for one dragon: which pitches are free of contact."""
 
@@ -123,48 +77,29 @@ class _PitchSearch:
         self.radius, self.start_turns, self.margin = radius, start_turns, margin
         self.lowest = radius / start_turns
         self.search = Search(dragon, Spiral(max(self.lowest, SIZE_MIN), start_turns), margin)
-        self.evaluations = 0
+        self.strips = Strips(self.search, radius, start_turns, margin)
+        self.ways = 0
         self.scan_step: float | None = None
 
-    def way(
-        self, pitch: float, extra: float = 0.0, window: Window = ALL, width: float = 0.0
-    ) -> tuple[str, dict[str, float]]:
-        """March from the start to the circle, or through a window: 'reached' proves clearances > margin + extra [m].
+    def way(self, pitch: float, width: float = 0.0) -> tuple[str, dict[str, float]]:
+        """March from the start to the circle: 'reached' proves every clearance on the way larger than the margin.
 
         width: half width of the bracket around a contact, 0 if any instant of it will do [m of travel]
         """
         search = self.search
         path = Spiral(pitch, self.start_turns)
-        search.use(path, self.margin + extra)
-        self.evaluations += 1
-        inner, outer = window
-        if window is ALL and end_theta(search.dragon, path)[0] > self.radius / path.growth:
+        search.use(path, self.margin)
+        self.ways += 1
+        circle = self.radius / path.growth
+        if not self.strips.bent_little and end_theta(search.dragon, path)[0] > circle:
             return "folded", dict.fromkeys(kernels.MARCH_FIELDS, 0.0)
-        inside = outer < path.growth * path.start_theta
-        start = search.travel_at(outer / path.growth) if inside else 0.0
-        stop = search.travel_at(max(inner, self.radius) / path.growth)
-        return search.march(max(stop, 0.0), width, start=start, opening=not inside)
-
-    def weak_windows(self, pitch: float, gain: float, windows: list[Window]) -> list[Window]:
-        """Parts of the windows outside which every clearance is proven to exceed margin + gain [m of head radius]."""
-        weak = []
-        leaders = self.search.dragon.uniform_from + 1
-        for inner, outer in windows:
-            while outer > inner:
-                state, found = self.way(pitch, gain, (inner, outer))
-                if state == "reached":
-                    break
-                search, growth = self.search, self.search.growth
-                step = WINDOW_STEP * math.sqrt(gain / GAIN_FIRST)
-                begin = search.theta_at(found["proven"]) * growth
-                outer = search.theta_at(max(found["touching"], found["proven"])) * growth
-                while outer > inner:
-                    outer = max(inner, outer - step)
-                    travel = search.travel_at(outer / growth)
-                    if outer > self.radius and search.clearance(travel, leaders)[0] > self.margin + 2 * gain:
-                        break
-                weak.append((outer, begin))
-        return weak
+        stop = max(search.travel_at(circle), 0.0)
+        for state, travel in () if width else (("touched_at_start", 0.0), ("touched", stop)):
+            # a look at both ends decides most ways that are not clear, without laying out a long dragon
+            gap, pair = search.clearance(travel, min(LOOKED_AT, search.room))
+            if gap <= self.margin:
+                return state, {"touching": travel, "first": pair[0], "second": pair[1]}
+        return search.march(stop, width)
 
     def is_clear(self, pitch: float) -> bool:
         """Is the whole way proven free of contact?"""
@@ -178,18 +113,18 @@ class _PitchSearch:
         and no larger than the circle's radius.
         """
         chord, shortest, *_ = (float(extreme) for extreme in self.search.extremes)
-        foot2 = self.radius**2 - 0.25 * chord**2
+        foot2, lowest = self.radius**2 - 0.25 * chord**2, self.lowest / (2.0 * math.pi)
         limits = [shortest / 1.67, self.radius**2 / (1.5708 * chord)] + (
             [0.5 * math.sqrt(foot2)] if foot2 > 0.0 else []
         )
         growths = [0.999 * min(limits) * 0.95**k for k in range(200)]
         for growth in growths:
-            if self._ring_clears(0.95 * growth, growth):
+            if self.strips.ring_clears(0.95 * growth, growth, self.radius):
                 low = growth
                 for factor in (0.95, 0.99):
-                    while self._ring_clears(factor * low, low):
+                    while low > lowest and self.strips.ring_clears(factor * low, low, self.radius):
                         low *= factor
-                return 2.0 * math.pi * low, 2.0 * math.pi * growth
+                return 2.0 * math.pi * max(low, lowest), 2.0 * math.pi * growth
         for growth in growths:
             if max(self.lowest, SIZE_MIN) < 2.0 * math.pi * growth < self.radius and self.is_clear(
                 2.0 * math.pi * growth
@@ -197,51 +132,21 @@ class _PitchSearch:
                 return (2.0 * math.pi * growth,) * 2
         return (self.lowest,) * 2
 
-    def _ring_clears(self, low: float, high: float) -> bool:
-        """Does the ring bound clear the circle and all outside it for all growths in [low, high]?"""
-        return float(kernels.ring_least(low, high, self.radius, *self.search.extremes)) > self.margin
-
-    def next_below(self, pitch: float, gain: float) -> float:
-        """A pitch down to which all are feasible, given a clearance of margin + gain all the way at `pitch` [m]."""
-        search = self.search
-        if search.dragon.uniform_from > 1:
-            return pitch
-        search.margin = self.margin + gain
-        below = pitch
-        for low in (0.9 * pitch, 0.99 * pitch, 0.999 * pitch):
-            carried = pitch - gain / _sensitivity(search, self.radius, low, pitch)
-            below = carried if carried >= low else below
-        search.use(Spiral(below, self.start_turns), self.margin)
-        # the body repeats in place only what its first bench met after the start
-        return below if search.clear_radius < below * self.start_turns else pitch
-
     def descend(self, top: float) -> tuple[float, float, str]:
-        """From a feasible pitch down to (infeasible, feasible), close together, and how the way down is justified [m].
-
-        A proven clearance of margin + gain carries down to next_below(gain). Whenever the gain has fallen to
-        GAIN_FACTOR of what it was, the parts of the way with a clearance that large that it would carry further down
-        than the answer is likely to be (the floor) are left out until then, so that only narrow windows remain.
-        """
-        pitch, gain = top, GAIN_FIRST
-        windows, floor, narrowed = [ALL], -math.inf, gain
-        pace = 2.0
-        while gain > GAIN_MIN:
-            below = self.next_below(pitch, gain)
-            if below >= pitch:
-                return *self.scan(pitch), "scan"
-            if not all(self.way(pitch, gain, window)[0] == "reached" for window in windows):
-                gain, pace = 0.6 * gain, 1.1
-                if gain < GAIN_FACTOR * narrowed:
-                    wide = 4.0 * gain * gain / (pitch - below)
-                    windows, narrowed = self.weak_windows(pitch, wide, windows), gain
-                    floor = max(floor, self.next_below(pitch, wide))
-                continue
-            pitch, gain = max(below, floor), pace * gain
-            if pitch <= self.lowest:
-                return self.lowest, self.lowest, "bound"
-            if pitch <= floor:
-                windows, floor, narrowed = [ALL], -math.inf, gain
-        return *self.infeasible_below(pitch), "bound"
+        """From a feasible pitch down to (infeasible, feasible) [m], close together, and what justifies the way down."""
+        if not self.strips.bent_little:
+            return *self.scan(top), "scan"
+        pitch, stopped = self.strips.descend(top, self.lowest)
+        if stopped == "lowest":
+            return pitch, pitch, "bound"
+        if stopped != "unbounded":
+            step = BORDER_WIDTH
+            while step <= PASSED_OVER and pitch - step > self.lowest:
+                if not self.is_clear(pitch - step):
+                    return *self.bisect(pitch - step, pitch), "bound"
+                step *= 2.0
+        # strips are proven however far outside a way starts; this one may begin inside what stops them
+        return *self.scan(pitch), "scan"
 
     def scan(self, pitch: float) -> tuple[float, float]:
         """(infeasible, feasible) by trying SCAN_SAMPLES pitches down to the lowest, then by bisection [m]."""
@@ -253,23 +158,12 @@ class _PitchSearch:
             pitch = below
         return self.lowest, self.lowest
 
-    def infeasible_below(self, pitch: float) -> tuple[float, float]:
-        """(infeasible, feasible) around the border just below a pitch with less than GAIN_MIN above the margin.
-
-        On these last steps of 4 GAIN_MIN and more [m] the ways are proven at each pitch tried, not in between: an
-        infeasible strip narrower than such a step would be passed over, an error below 1e-9 m.
-        """
-        step = 4.0 * GAIN_MIN
-        while pitch - step > self.lowest and self.is_clear(pitch - step):
-            pitch, step = pitch - step, 2.0 * step
-        return self.bisect(max(pitch - step, self.lowest), pitch)
-
     def bisect(self, infeasible: float, feasible: float) -> tuple[float, float]:
         """The same with a bracket of PITCH_WIDTH [m]."""
         while feasible - infeasible > PITCH_WIDTH:
             middle = 0.5 * (infeasible + feasible)
             state, found = self.way(middle)
-            if state == "stuck" and found["touching"] < 0.0:
+            if middle in (infeasible, feasible) or (state == "stuck" and found["touching"] < 0.0):
                 break
             infeasible, feasible = (infeasible, middle) if state == "reached" else (middle, feasible)
         return infeasible, feasible
@@ -315,16 +209,27 @@ class _PitchSearch:
 
     def limit(self, infeasible: float) -> tuple[LimitedBy, tuple[int, int] | None, float | None]:
         """What meets just below the minimum pitch, and where."""
-        state, found = self.way(infeasible, width=CONTACT_WIDTH)
-        search, growth = self.search, self.search.growth
-        stop = search.travel_at(self.radius / growth)
+        graze = self.strips.graze
+        if self.scan_step is None and graze and graze[1] < infeasible * self.start_turns:
+            self.search.use(Spiral(infeasible, self.start_turns), self.margin)
+            travel = self.search.travel_at(graze[1] / self.search.growth)
+            return self._met(travel, travel, graze[0])
+        state, found = self.way(infeasible - BELOW, width=CONTACT_WIDTH)
+        if state == "reached":
+            state, found = self.way(infeasible, width=CONTACT_WIDTH)
         pair = (int(found["first"]), int(found["second"]))
-        travel = found["touching"] - (CONTACT_WIDTH if state == "touched" else 0.0)
         if state == "touched_at_start":
-            return LimitedBy.START, pair, growth * 2.0 * math.pi * self.start_turns
+            return LimitedBy.START, pair, self.search.growth * 2.0 * math.pi * self.start_turns
         if state == "folded":
             return LimitedBy.START, None, None
-        end = min(travel + BOTTOM_WITHIN, stop)
+        travel = found["touching"] - (CONTACT_WIDTH if state == "touched" else 0.0)
+        return self._met(travel, travel + BOTTOM_WITHIN, pair)
+
+    def _met(self, travel: float, end: float, pair: tuple[int, int]) -> tuple[LimitedBy, tuple[int, int], float]:
+        """Whether a pair that meets after a travel meets on the circle, or else where its dip, before `end`, is [m]."""
+        search, growth = self.search, self.search.growth
+        stop = search.travel_at(self.radius / growth)
+        end = min(end, stop)
         if stop - travel < ON_CIRCLE and search.gap_rate(end, pair) < 0.0:
             return LimitedBy.CIRCLE, pair, self.radius
         return LimitedBy.GRAZE, pair, growth * search.theta_at(search.bottom(travel, end, pair, 1e-12))
@@ -336,10 +241,10 @@ def minimum_pitch(
     """The smallest pitch such that every larger one lets the head reach the turning circle without contact.
 
     turning_radius: [m]; start_turns: turns from the centre to the start; margin: [m], clearance required
-    The least clearance on the way, as a function of the pitch, is brought down to the margin: from a pitch at which the
-    ring bound of `core/kernels.py` clears everything, each proven clearance clears all pitches within clearance /
-    sensitivity below it, so no feasible-looking gap is stepped over. Where that sensitivity has no bound (handles that
-    turn back, bench-by-bench dragons, a start inside the region where benches can touch) a stated scan takes its place.
+    From a pitch at which the ring bound of `core/kernels.py` clears everything, strips of pitches are proven clear
+    downwards, each for all its pitches at once (`core/strips.py`), to where a pair of benches grazes: no infeasible
+    pitch is stepped over. Where strips have no bound (benches so long that they stand far across the circle, or a start
+    inside the region where benches can touch while ways from further out do touch) a stated scan takes their place.
     raises: InvalidValue; also when the dragon cannot reach the circle at any pitch
     source: the model of Yang et al., section 2.5; their bisection of the contact radius cannot converge, because that
         radius jumps over the circle
@@ -381,5 +286,5 @@ def minimum_pitch(
         justified_by,
         max(proven_up_to, search.lowest),
         search.scan_step,
-        search.evaluations,
+        search.ways + search.strips.marches,
     )

@@ -2354,12 +2354,13 @@ def leaders_reach(
 # the handles e >= -q c^2 / 8 and on an overhang o e <= q o (o + c) / 2. Sideways |dE / dy| <= sqrt(1 + (growth /
 # rho)^2).
 # Hence -I <= E <= O with the bows O and I below, both falling as 1 / r. Points X, Y of two benches whose polar angles
-# differ by 2 pi m + x, m >= 1, |x| <= pi, are apart radially by at least G + growth x, G = pitch - O - I, and
-# sideways by
-# at least 2 rho |x| / pi: together G / sqrt(1 + (pi growth / 2 rho)^2). With m = 0 at least one bench lies between
-# them:
-# its angle less the two overhangs' angles remains, each at most (o + x_b w / 2 d) / (d - w / 2), and a chord spans at
-# least c / sqrt(growth^2 + r_b^2). Every term grows with r, so the bound holds from r outwards.
+# differ by 2 pi m + x, m >= 1, |x| <= pi, are apart radially by at least G + growth x, G = pitch - O - I, and sideways
+# by at least 2 rho |x| / pi: together G / sqrt(1 + (pi growth / 2 rho)^2). With m = 0 at least one bench lies between
+# them: its angle less the two overhangs' angles remains, each at most (o + x_b w / 2 d) / (d - w / 2), and a chord
+# spans at least c / sqrt(growth^2 + r_b^2); at an angle x they are at least 2 rho sin(x / 2) apart. No angle is larger
+# than that of the whole dragon, overhangs included, where a chord spans at most 2 asin(c / 2 r): while that is less
+# than 2 pi, 2 rho sin(x / 2) at that angle takes the place of the bound with m >= 1. Every term grows with r, so the
+# bound holds from r outwards.
 
 
 # For a range of growths: G is concave in growth (its only curved terms are -growth^2 and -sqrt(1 + growth^2 /
@@ -2379,11 +2380,13 @@ def ring_least(
     half_width: cython.double,
     outer_chord: cython.double,
     outer_half_width: cython.double,
+    total: cython.double = 1e150,
 ) -> cython.double:
     """Lower bound of the separation of any two non-neighbours whose inner bench leads at `radius` or further out [m].
 
     It holds for every growth in [growth_low, growth] [m/rad]. chord, shortest, overhang, half_width: the extremes over
-    all benches; outer_...: over those that can be the outer one; -1e150 where the bound says nothing.
+    all benches; outer_...: over those that can be the outer one; total: at least the sum of all chords, where that may
+    help; -1e150 where the bound says nothing.
     """
     d2: cython.double = radius * radius - 0.25 * chord * chord
     d: cython.double
@@ -2394,6 +2397,7 @@ def ring_least(
     bows: cython.double
     at: cython.double = growth_low
     same_turn: cython.double
+    spread: cython.double
     end: cython.int
     if d2 <= 0.0 or shortest < 1.67 * growth or radius * radius < 1.5708 * chord * growth:
         return -FREE
@@ -2409,15 +2413,22 @@ def ring_least(
         if TWO_PI * at - bows < gap:
             gap = TWO_PI * at - bows
         at = growth
-    if gap <= 0.0:
-        return -FREE
     gap /= sqrt(1.0 + PI * PI * growth * growth / (4.0 * rho * rho))
     x_rear = 0.5 * chord + 1.67 * growth
     same_turn = radius + PI * growth * chord / radius
     same_turn = shortest * rho / sqrt(growth * growth + same_turn * same_turn)
-    same_turn = (same_turn - 2.0 * (overhang + x_rear * half_width / d)) * 2.0 / PI
-    if rho < same_turn:
-        same_turn = rho
+    spread = 2.0 * (overhang + x_rear * half_width / d) / rho
+    same_turn = same_turn / rho - spread
+    if same_turn <= 0.0:
+        return -FREE
+    same_turn = 2.0 * rho * sin(0.5 * same_turn) if same_turn < PI else 2.0 * rho
+    spread += total * asin(0.5 * chord / radius) / (0.5 * chord)
+    if spread < TWO_PI:
+        spread = 2.0 * rho * sin(0.5 * spread) if spread > PI else 2.0 * rho
+        if spread > gap:
+            gap = spread
+    if gap <= 0.0:
+        return -FREE
     return gap if gap < same_turn else same_turn
 
 
@@ -3115,6 +3126,386 @@ def march(
                 followers = leaders if leaders < cap else cap
             h = room if room < 2.0 * h else 2.0 * h
         out[PROVEN] = travel
+        return REACHED
+
+
+# -- marching all pitches between two at once -------------------------------------------------------
+# The separation of two benches is now a function of the head's radius r_0 and of the growth b. Below, ' is d / db at a
+# fixed r_0, seen in the frame in which the head stands at angle 0: handle k stands at rho = r_0 + b psi, angle psi,
+# P = rho R(psi), with unit vectors R outwards and T = R turned left, delta = psi_b - psi_a for a link whose front
+# handle is a and rear handle b, u the unit vector from b to a, c its chord.
+#
+# First derivatives. With f(rho_a, delta, b) = b^2 delta^2 + 2 rho_a (rho_a + b delta) (1 - cos delta) = c^2 and
+# a = rho',
+#     a_b = a_a (1 - b f_rho / f_delta) + 2 rho_a rho_b delta sin delta / f_delta,
+#     delta' = -(f_rho a_a + f_b) / f_delta.
+# While no handle turns back (k c / 2 < 1, k the curvature) 1 - b f_rho / f_delta is the rate of a link, in [0, 1], and
+# the last term is in [0, delta], so 0 <= a_k <= psi_k and delta' <= 0: radii grow with b, angles fall. With
+# f_delta >= 2 rho_a rho_b sin delta and t = tan(delta / 2),
+#     |delta'| <= ((2 psi_a + delta) t + (b / rho_a) delta^2 / sin delta) / rho_a  =: D,   |psi_b'| <= Q_b = Q_a + D.
+# Radii also grow with r_0, and angles fall, so over r_0 in [r_L, r_R] and b in [b_L, b_R] the angles, and the least
+# radii, are those at (r_L, b_L) and the largest radii those at (r_R, b_R).
+#
+# Turning. In the frame that turns with handle a, P_a' = a_a R_a and P_b' = a_b R_b + rho_b delta' T_b, so u turns at
+# psi_a' + w / c with, as T_a . u = -rho_b sin delta / c, T_b . u = -rho_a sin delta / c, rho_a sin delta <= c,
+#     |w| <= |a_b - a_a| + a_a b delta / rho_a + rho_b |delta'| q,   |a_b - a_a| <= max(delta, 2 a_a b t / rho_a),
+#     q = |R_b . u| = (b delta + rho_a (1 - cos delta)) / c.
+#
+# Second derivatives. P'' = psi'' S + B, S = b R + rho T, B = (2 psi' - rho psi'^2) R + 2 a psi' T. From |P_a - P_b| = c
+#     psi_b'' S_b . u = psi_a'' S_a . u + (B_a - B_b) . u + |P_a' - P_b'|^2 / c,
+# in which, written out with psi_b' = psi_a' + delta', all that a common rotation psi_a' contributes cancels:
+#     E = 2 psi_a' (R_a - R_b) . u + w^2 / c + (rho_b delta'^2 - 2 delta') R_b . u - 2 a_b delta' T_b . u,
+#     |E| <= 2 Q_a delta + w^2 / c + (rho_b D + 2) D q + 2 psi_b D.
+# S points along the path, |S_a| <= |S_b|, and S . u = -|S| cos alpha with cos alpha_a <= cos alpha_b (above), so for
+# y = |psi''| |S|:  y_b <= y_a + |E| / cos alpha_b,  sin alpha_b <= k c / 2, and k = (rho^2 + 2 b^2) / (rho^2 +
+# b^2)^(3/2) is at most 2 / (1.5^(3/2) rho) < 1.0887 / rho for every b. Then
+#     |P'| <= sqrt(psi^2 + rho^2 Q^2),   |P''| <= y + sqrt((2 Q + rho Q^2)^2 + 4 psi^2 Q^2).
+# A corner is (1/2 + x / c) P_a + (1/2 - x / c) P_b, |x| = half length, plus half a width across u, and |u''| is at most
+# 2 |P''| / c: it accelerates by at most (length + width) / c times its handles.
+#
+# The gap along an axis e. At each r_0 let e turn evenly from a normal of bench m at b_L to the same normal at b_R, at a
+# rate kappa <= |u_m'| then. For corners X of i and Y of j, p = Y - X,
+#     |(e . p)''| <= |X''| + |Y''| + 2 kappa (|X'| + |Y'|) + kappa^2 |p|  =: K,
+# so the gap is at least what least_between() makes of its least values on b = b_L and on b = b_R, K and b_R - b_L;
+# these come from both ends of the step in r_0 by "certified motion". Four gaps prove a whole rectangle of (r_0, b).
+
+# Columns of a shift row, one for each bench: bounds per growth.
+SHIFT_CENTRE = cython.declare(cython.int, 0)  # |M'|
+SHIFT_CORNER = cython.declare(cython.int, 1)  # |X'|
+SHIFT_PULL = cython.declare(cython.int, 2)  # |X''| [rad/m]
+SHIFT_TURN = cython.declare(cython.int, 3)  # |u'| [rad/m]
+SHIFT_COLUMNS = 4
+# Above the largest curvature of any spiral at a radius, times that radius: 2 / 1.5^(3/2) = 1.08866 [1].
+CURVATURE_MOST = cython.declare(cython.double, 1.0887)
+SPIRAL_CURVATURE_MOST = 1.0887
+
+
+@cython.cfunc
+@cython.nogil
+@cython.exceptval(check=False)
+def shift_bounds(
+    low: cython.double,
+    high: cython.double,
+    benches: cython.Py_ssize_t,
+    sizes: cython.double[:, ::1],
+    inner: cython.double[:, ::1],
+    outer: cython.double[:, ::1],
+    shifts: cython.double[:, ::1],
+) -> cython.void:
+    """Bounds on how the first benches shift with the growth; inner: the chain at (r_L, b_L), outer: at (r_R, b_R)."""
+    k: cython.Py_ssize_t
+    chord: cython.double
+    psi: cython.double = 0.0
+    delta: cython.double
+    s: cython.double
+    c: cython.double
+    rho: cython.double
+    rho_b: cython.double
+    lean: cython.double
+    swing: cython.double
+    slide: cython.double
+    slides: cython.double = 0.0
+    path_pull: cython.double = 0.0
+    speed: cython.double = 0.0
+    speed_b: cython.double
+    for k in range(benches):
+        chord = sizes[k, CHORD]
+        delta = inner[k + 1, THETA] - inner[k, THETA]
+        s = sin(0.5 * delta)
+        c = cos(0.5 * delta)
+        rho = low * inner[k, THETA]
+        rho_b = high * outer[k + 1, THETA]
+        lean = (high * delta + 2.0 * high * outer[k, THETA] * s * s) / chord
+        slide = ((2.0 * psi + delta) * s / c + high * delta * delta / (2.0 * s * c * rho)) / rho
+        swing = 2.0 * psi * high * s / (c * rho)
+        swing = (delta if delta > swing else swing) + psi * high * delta / rho + rho_b * slide * lean
+        shifts[k, SHIFT_TURN] = slides + swing / chord
+        c = 0.5 * CURVATURE_MOST * chord / rho
+        path_pull += (
+            2.0 * slides * delta
+            + swing * swing / chord
+            + (rho_b * slide + 2.0) * slide * lean
+            + 2.0 * (psi + delta) * slide
+        ) / sqrt(1.0 - c * c)
+        slides += slide
+        psi += delta
+        speed_b = sqrt(psi * psi + rho_b * rho_b * slides * slides)
+        shifts[k, SHIFT_CENTRE] = 0.5 * (speed + speed_b)
+        shifts[k, SHIFT_CORNER] = 0.5 * (speed + speed_b) + shifts[k, SHIFT_TURN] * sizes[k, RADIUS]
+        s = slides * (2.0 + rho_b * slides)
+        c = 2.0 * psi * slides
+        shifts[k, SHIFT_PULL] = (
+            2.0 * (path_pull + sqrt(s * s + c * c)) * (sizes[k, HALF_LENGTH] + sizes[k, HALF_WIDTH]) / chord
+        )
+        speed = speed_b
+
+
+@cython.cfunc
+@cython.nogil
+@cython.exceptval(check=False)
+def strip_along(
+    i: cython.Py_ssize_t,
+    j: cython.Py_ssize_t,
+    along: cython.double,
+    left: cython.double,
+    bends: tuple[cython.double, cython.double, cython.double],
+    widths: tuple[cython.double, cython.double, cython.double],
+    sizes: cython.double[:, ::1],
+    before: cython.double[:, ::1],
+    after: cython.double[:, ::1],
+    before_high: cython.double[:, ::1],
+    after_high: cython.double[:, ::1],
+) -> cython.double:
+    """Proven least gap along an axis of bench i over a rectangle of (r_0, b) [m]."""
+    low: cython.double = least_between(
+        gap_along(i, j, along, left, sizes, before),
+        gap_along(i, j, along, left, sizes, after),
+        bends[0],
+        widths[0],
+    )
+    high: cython.double = least_between(
+        gap_along(i, j, along, left, sizes, before_high),
+        gap_along(i, j, along, left, sizes, after_high),
+        bends[1],
+        widths[1],
+    )
+    return least_between(low, high, bends[2], widths[2])
+
+
+@cython.cfunc
+@cython.nogil
+@cython.exceptval(check=False)
+def strip_pair(
+    low: cython.double,
+    high: cython.double,
+    i: cython.Py_ssize_t,
+    j: cython.Py_ssize_t,
+    margin: cython.double,
+    h_low: cython.double,
+    h_high: cython.double,
+    sizes: cython.double[:, ::1],
+    before: cython.double[:, ::1],
+    after: cython.double[:, ::1],
+    before_high: cython.double[:, ::1],
+    after_high: cython.double[:, ::1],
+    motion: cython.double[:, ::1],
+    motion_high: cython.double[:, ::1],
+    shifts: cython.double[:, ::1],
+    out: cython.double[::1],
+) -> cython.double:
+    """A proven lower bound of the separation of benches i and j over a rectangle of (r_0, b) [m]; FREE: far apart.
+
+    out[0]: the bend along the path of the last axis tried
+    """
+    best: cython.double = -FREE
+    least: cython.double
+    along: cython.double
+    left: cython.double
+    a: cython.Py_ssize_t
+    b: cython.Py_ssize_t
+    trial: cython.int
+    bends: tuple[cython.double, cython.double, cython.double]
+    widths: tuple[cython.double, cython.double, cython.double] = (h_low, h_high, high - low)
+    dx: cython.double = after[j, MX] - after[i, MX]
+    dy: cython.double = after[j, MY] - after[i, MY]
+    distance: cython.double = sqrt(dx * dx + dy * dy)
+    slack: cython.double = (motion[i, CENTRE_SPEED] + motion[j, CENTRE_SPEED]) * h_low
+    slack += (shifts[i, SHIFT_CENTRE] + shifts[j, SHIFT_CENTRE]) * (high - low)
+    if distance - slack > sizes[i, RADIUS] + sizes[j, RADIUS] + margin:
+        return FREE
+    distance += slack
+    for trial in range(4):
+        a = j if trial < 2 else i
+        b = i if trial < 2 else j
+        least = shifts[a, SHIFT_TURN]
+        least = (
+            shifts[a, SHIFT_PULL]
+            + shifts[b, SHIFT_PULL]
+            + 2.0 * least * (shifts[a, SHIFT_CORNER] + shifts[b, SHIFT_CORNER])
+            + least * least * (distance + sizes[a, RADIUS] + sizes[b, RADIUS])
+        )
+        bends = (
+            axis_bend(low, a, b, distance, sizes, motion),
+            axis_bend(high, a, b, distance, sizes, motion_high),
+            least,
+        )
+        out[0] = bends[0]
+        least, along, left = best_axis(a, b, sizes, after if trial % 2 == 0 else after_high)
+        least = strip_along(a, b, along, left, bends, widths, sizes, before, after, before_high, after_high)
+        if least > best:
+            best = least
+        if best > margin:
+            return best
+    if margin <= 0.0:
+        return best
+    # two corners nearest each other: the direction between them, fixed in bench i
+    pair_separation(
+        after[i, MX],
+        after[i, MY],
+        after[i, UX],
+        after[i, UY],
+        sizes[i, HALF_LENGTH],
+        sizes[i, HALF_WIDTH],
+        after[j, MX],
+        after[j, MY],
+        after[j, UX],
+        after[j, UY],
+        sizes[j, HALF_LENGTH],
+        sizes[j, HALF_WIDTH],
+        out[1:],
+    )
+    along = out[6] * after[i, UX] + out[7] * after[i, UY]
+    left = out[7] * after[i, UX] - out[6] * after[i, UY]
+    least = strip_along(i, j, along, left, bends, widths, sizes, before, after, before_high, after_high)
+    return least if least > best else best
+
+
+@cython.ccall
+@cython.exceptval(check=False)
+def strip(
+    low: cython.double,
+    high: cython.double,
+    outer: cython.double,
+    inner: cython.double,
+    leaders: cython.Py_ssize_t,
+    margin: cython.double,
+    rounding: cython.double,
+    least_step: cython.double,
+    budget: cython.Py_ssize_t,
+    benches: cython.Py_ssize_t,
+    ring: cython.double[::1],
+    sizes: cython.double[:, ::1],
+    rows: cython.double[:, :, ::1],
+    motions: cython.double[:, :, ::1],
+    shifts: cython.double[:, ::1],
+    out: cython.double[::1],
+) -> cython.int:
+    """Prove, for all growths in [low, high] at once, that nothing touches while the head goes from `outer` to `inner`.
+
+    Of pairs led by the first `leaders` benches; outer, inner: head radii [m]. No chord may be so long that
+    CURVATURE_MOST chord / (2 inner) reaches 1.
+    least_step: head travel below which it gives up [m]; budget: steps; others as for march(), motions: (2, R,
+    MOTION_COLUMNS), shifts: (R, SHIFT_COLUMNS) scratch; out: (MARCH_ENTRIES,) and scratch, PROVEN and TOUCHING as head
+    radii [m]
+    returns: REACHED; TOUCHED with growth `low`; STUCK: not provable in one strip; CAPACITY
+    """
+    before: cython.double[:, ::1] = rows[0]
+    after: cython.double[:, ::1] = rows[1]
+    before_high: cython.double[:, ::1] = rows[2]
+    after_high: cython.double[:, ::1] = rows[3]
+    motion: cython.double[:, ::1] = motions[0]
+    motion_high: cython.double[:, ::1] = motions[1]
+    scratch: cython.double[::1] = out[MARCH_ENTRIES:]
+    cap: cython.Py_ssize_t = rows.shape[1] - 1
+    placed: cython.Py_ssize_t = leaders
+    handles: cython.Py_ssize_t
+    i: cython.Py_ssize_t
+    j: cython.Py_ssize_t
+    a: cython.Py_ssize_t = 0
+    b: cython.Py_ssize_t = 0
+    radius: cython.double = outer
+    next_radius: cython.double
+    place: cython.double = low * spiral_arc(outer / low)
+    h: cython.double = ring[RING_SHORT]
+    h_high: cython.double
+    beyond: cython.double
+    least: cython.double
+    best: cython.double
+    room: cython.double
+    if cap > benches:
+        cap = benches
+    if leaders > cap:
+        return CAPACITY
+    out[STEPS] = 0.0
+    out[TOUCHING] = -1.0
+    with cython.nogil:
+        start_chain(outer / low, before)
+        start_chain(outer / high, before_high)
+        extend_chain(low, 0, leaders, FREE, sizes, before)
+        extend_chain(high, 0, leaders, FREE, sizes, before_high)
+        while radius > inner:
+            out[PROVEN] = radius
+            if h < least_step or out[STEPS] >= budget:
+                return STUCK
+            out[STEPS] += 1.0
+            next_radius = low * spiral_theta((place - h) / low)
+            if next_radius <= inner:
+                next_radius = inner
+                h = place - low * spiral_arc(inner / low)
+            h_high = high * (spiral_arc(radius / high) - spiral_arc(next_radius / high))
+            start_chain(next_radius / low, after)
+            start_chain(next_radius / high, after_high)
+            extend_chain(low, 0, leaders, FREE, sizes, after)
+            beyond = leaders_reach(high, next_radius, high * before_high[leaders, THETA], ring) + margin
+            beyond = radius_beyond(high, beyond, ring)
+            handles = extend_chain(low, leaders, cap, beyond, sizes, after)
+            if handles < 0:
+                return STUCK
+            if handles == cap and cap < benches:
+                return CAPACITY
+            extend_chain(high, 0, handles, FREE, sizes, after_high)
+            if placed < handles:
+                extend_chain(low, placed, handles, FREE, sizes, before)
+                extend_chain(high, placed, handles, FREE, sizes, before_high)
+                placed = handles
+            if not (
+                motion_bounds(low, h, handles, sizes, before, after, motion)
+                and motion_bounds(high, h_high, handles, sizes, before_high, after_high, motion_high)
+            ):
+                h *= 0.5
+                continue
+            shift_bounds(low, high, handles, sizes, after, before_high, shifts)
+            best = room = FREE
+            for i in range(leaders):
+                beyond = leaders_reach(high, low * after[i, THETA], high * before_high[i + 1, THETA], ring)
+                beyond = radius_beyond(high, beyond + margin, ring)
+                for j in range(i + 2, handles):
+                    if low * after[j, THETA] > beyond:
+                        break  # handles stand in order, so all further ones lie outside too
+                    least = strip_pair(
+                        low,
+                        high,
+                        i,
+                        j,
+                        margin,
+                        h,
+                        h_high,
+                        sizes,
+                        before,
+                        after,
+                        before_high,
+                        after_high,
+                        motion,
+                        motion_high,
+                        shifts,
+                        scratch,
+                    )
+                    if least >= FREE:
+                        continue
+                    if least < best:
+                        best = least
+                        a = i
+                        b = j
+                    least = 8.0 * (least - margin) / scratch[0] + h * h
+                    least = sqrt(least) if least > 0.0 else 0.0
+                    if least < room:
+                        room = least
+            room *= 0.95
+            if best <= margin + rounding:
+                if row_gap(a, b, sizes, after) <= margin:
+                    out[TOUCHING] = next_radius
+                    out[FIRST] = a
+                    out[SECOND] = b
+                    return TOUCHED
+                h *= 0.5 if room < 0.5 * h or room >= h else room / h
+                continue
+            radius = next_radius
+            place -= h
+            placed = handles
+            before, after = after, before
+            before_high, after_high = after_high, before_high
+            h = room if room < 2.0 * h else 2.0 * h
+        out[PROVEN] = radius
         return REACHED
 
 

@@ -28,6 +28,7 @@ ORDER = (
     "core.search",
     "core.search",
     "core.contact",
+    "core.strips",
     "core.design",
     "core.scan",
     "core.scan",

@@ -130,14 +130,39 @@ def test_benches_out_of_reach_change_nothing(benches: int) -> None:
     assert minimum_pitch(Dragon(benches)).pitch == pytest.approx(minimum_pitch(Dragon(80)).pitch, rel=0, abs=1e-12)
 
 
-def test_a_dragon_given_bench_by_bench_has_the_answer_of_the_uniform_one() -> None:
+@pytest.mark.parametrize("changed", [2, -1])
+def test_a_dragon_given_bench_by_bench_has_the_answer_of_the_uniform_one(changed: int) -> None:
     uniform = Dragon(14)
     lengths = np.array(uniform.lengths)
-    lengths[-1] += 1e-9
+    lengths[changed] += 1e-9
     listed = Dragon.of(lengths, uniform.widths, uniform.overhangs)
     one, other = (minimum_pitch(dragon, turning_radius=3.0, start_turns=7.0) for dragon in (uniform, listed))
     assert other.pitch == pytest.approx(one.pitch, rel=0, abs=ACCURACY)
-    assert other.justified_by == "scan"
+    assert (one.justified_by, other.justified_by) == ("bound", "bound")
+
+
+def test_where_benches_are_bent_too_much_for_a_bound_a_scan_is_said() -> None:
+    found = minimum_pitch(Dragon(20), turning_radius=1.5, start_turns=12.0)
+    assert (found.justified_by, found.limited_by) == ("scan", LimitedBy.CIRCLE)
+    assert found.scan_step is not None
+    assert is_feasible(Dragon(20), found.pitch + BESIDE, 1.5, 12.0, 0.0)
+    assert not is_feasible(Dragon(20), found.pitch - BESIDE, 1.5, 12.0, 0.0)
+
+
+def test_a_start_inside_a_graze_passes_it_and_names_the_pair_that_repeats_it() -> None:
+    """All benches alike: what 0 and 9 would meet before the start, 1 and 10 meet after it, at the same pitch."""
+    dragon, margin = Dragon(50, 2.4, 2.4, 0.13, 0.042), 0.343
+    inside, before = (
+        minimum_pitch(dragon, turning_radius=2.64, start_turns=turns, margin=margin) for turns in (4.06, 12.0)
+    )
+    assert (before.benches, inside.benches) == ((0, 9), (1, 10))
+    assert inside.pitch == pytest.approx(before.pitch, rel=0, abs=ACCURACY)
+    assert inside.head_radius < inside.pitch * 4.06 < before.head_radius
+    for found, turns in ((inside, 4.06), (before, 12.0)):
+        dance = SlowDance.of(dragon, Spiral(found.pitch, turns))
+        theta = found.head_radius / dance.growth
+        there = float(dance.way - dance.growth * 0.5 * (theta * np.sqrt(1 + theta**2) + np.arcsinh(theta)))
+        assert dance.pair_gap(there, found.benches) == pytest.approx(margin, rel=0, abs=ACCURACY)
 
 
 @pytest.mark.parametrize("radius", [6.8, 7.0, 50.0])

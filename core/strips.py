@@ -1,0 +1,206 @@
+"""Strips: which pitches between two are free of contact, all of them at once.
+
+The proof of one strip is written above the loop that carries it out: `core/kernels.py`, "marching all pitches between
+two at once".
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from core import kernels
+from core.paths import Spiral
+from core.search import GAP_ROUNDING, NO_BOUND, NO_PIECES, Search
+
+# Half width of the bracket around the border of what is feasible [m of pitch]; rounding of a clearance is near 1e-14 m.
+BORDER_WIDTH = 1e-13
+# A strip narrower than this that is neither proven nor touched ends the descent [m of pitch].
+STRIP_MIN = 1e-11
+# A strip is not cut into steps finer than this part of its width, for it is too wide rather than its steps too long
+# [m of travel per m of pitch]; nor finer than STEP_MIN, as a march without a bracket to reach [m of travel].
+STEP_PER_WIDTH = 0.2
+STEP_MIN = 1e-7
+# The border is looked for along one graze only in strips up to this part of their pitch; wider ones are halved [1].
+WIDTH_FOLLOWED = 0.1
+# Where no bound holds a strip is halved down to this part of its pitch [1].
+UNBOUNDED_WITHIN = 1e-3
+# All strips of a descent together take at most so many steps; the default case takes about 500.
+STRIP_BUDGET = 40_000
+# Where the ring bound begins to hold only beyond so many turning radii and starts, nothing is marched [1].
+FAR = 2.0
+# First stride along the way in search of the bottom of a dip [m of travel], and how often it doubles at most.
+STRIDE, STRIDES = 2e-3, 10
+# Width to which the bottom of a dip is found [m of travel].
+BOTTOM_WIDTH = 1e-12
+# Looks in search of the pitch at which a dip reaches the margin.
+LOOKS = 40
+
+
+class Strips:
+    """Proofs for one dragon and turning circle, each for an interval of pitches.
+
+    A proven strip holds for all ways to the circle, however far outside they start: by the ring bound from where it
+    holds outwards, and from there inwards by the march for the leading benches, whose every pose the body repeats.
+    steps: that all strips took; marches: strips tried; graze: the pair that ends the last descent and where the head
+        then is [m], if that was found
+    """
+
+    def __init__(self, search: Search, radius: float, start_turns: float, margin: float) -> None:
+        self.search, self.radius, self.start_turns, self.margin = search, radius, start_turns, margin
+        self.steps = self.marches = 0
+        self.graze: tuple[tuple[int, int], float] | None = None
+        # the benches are bent little enough everywhere outside the circle: none turns back, none folds
+        most = 0.5 * kernels.SPIRAL_CURVATURE_MOST * float(search.extremes[0]) / radius
+        self.bent_little = most <= kernels.BEND_LIMIT
+        self.total = float(search.dragon.chords.sum())
+        self._make_room(search.room)
+
+    def ring_clears(self, low: float, high: float, radius: float) -> bool:
+        """Does the ring bound clear all from a head radius outwards for all growths in [low, high]?"""
+        return float(kernels.ring_least(low, high, radius, *self.search.extremes, self.total)) > self.margin
+
+    def _make_room(self, benches: int) -> None:
+        self.rows = np.zeros((4, benches + 1, kernels.CHAIN_COLUMNS))
+        self.motions = np.zeros((2, benches + 1, kernels.MOTION_COLUMNS))
+        self.shifts = np.zeros((benches + 1, kernels.SHIFT_COLUMNS))
+
+    def prove(self, low: float, high: float, outer: float) -> tuple[str, dict[str, float]]:
+        """Are all pitches in [low, high] clear while the head's radius falls from outer to the circle [m]?
+
+        'reached': yes; 'touched': not the lowest one; 'stuck': not provable in one strip; 'unbounded': nor by splitting
+        it. Result by name: 'proven' down to that radius, 'touching' at one, by the benches 'first' and 'second'.
+        """
+        search, turn = self.search, 2.0 * math.pi
+        search.use(Spiral(low, self.start_turns), self.margin)
+        clear = self._clear_radius(low / turn, high / turn)
+        if clear >= NO_BOUND:
+            return "unbounded", {"proven": outer}
+        outer = min(outer, max(clear, self.radius))
+        self.marches += 1
+        while True:
+            out = np.empty(32)
+            code = kernels.strip(
+                low / turn,
+                high / turn,
+                outer,
+                self.radius,
+                min(search.dragon.uniform_from + 1, search.dragon.benches),
+                self.margin,
+                GAP_ROUNDING * (outer + 2.0 * search.longest),
+                max(STEP_MIN, STEP_PER_WIDTH * (high - low)),
+                STRIP_BUDGET - self.steps,
+                search.dragon.benches,
+                search.ring,
+                search.sizes,
+                self.rows,
+                self.motions,
+                self.shifts,
+                out,
+            )
+            found = dict(zip(kernels.MARCH_FIELDS, out.tolist(), strict=False))
+            self.steps += int(found["steps"])
+            if kernels.MARCH_STATES[code] != "capacity":
+                return kernels.MARCH_STATES[code], found
+            search.resize(min(4 * search.room, search.dragon.benches))
+            self._make_room(search.room)
+
+    def _clear_radius(self, low: float, high: float) -> float:
+        """A radius from which the ring bound exceeds the margin for all growths in [low, high]; 1e150 if too far."""
+        clear, far = self.radius, FAR * max(self.radius, 2.0 * math.pi * high * self.start_turns)
+        while not self.ring_clears(low, high, clear):
+            clear *= 1.05
+            if clear > far:
+                return NO_BOUND
+        return clear
+
+    def descend(self, top: float, lowest: float) -> tuple[float, str]:
+        """The pitch down to which, from `top`, all are proven clear [m], and what stopped there.
+
+        'lowest': nothing, all is clear; 'border': a contact that becomes a graze less than 2 BORDER_WIDTH below, by the
+        doubles; 'stuck': nothing was proven of the next STRIP_MIN; 'unbounded': no bound holds below, or STRIP_BUDGET is
+        spent.
+        A strip that is not proven is halved, the upper half first. Where its lowest pitch touches, the pitch at
+        which that contact becomes a graze is looked for, and the strip ends there instead.
+        """
+        proven, stopped = top, "lowest"
+        strips = [(lowest, top, math.inf)]
+        while strips:
+            low, high, outer = strips.pop()
+            state, found = self.prove(low, high, outer)
+            if state == "reached":
+                proven = low
+                continue
+            outer = found["proven"]
+            middle = math.sqrt(low * high)
+            if self.steps >= STRIP_BUDGET:
+                return proven, "unbounded"
+            if high - low < STRIP_MIN:
+                self.graze = None
+                return proven, "stuck"
+            if state == "unbounded" and high - low < UNBOUNDED_WITHIN * high:
+                return proven, "unbounded"
+            border = None
+            if state == "touched":
+                strips, stopped, self.graze = [], "border", None
+                if high - low <= WIDTH_FOLLOWED * high:
+                    border = self.border(low, high, found)
+            if border is None or border <= low:
+                strips += [(low, middle, outer), (middle, high, outer)]
+            else:
+                strips.append((border, high, outer))
+        return proven, stopped
+
+    def border(self, low: float, high: float, found: dict[str, float]) -> float | None:
+        """A pitch in (low, high) just above that at which a contact found at `low` becomes a graze [m]; None if lost.
+
+        The dip is followed from pitch to pitch; the Illinois form of the false position finds where it reaches the
+        margin.
+        """
+        pair, radius = (int(found["first"]), int(found["second"])), found["touching"]
+        below, radius = self.dip(low, radius, pair)
+        if below > self.margin:
+            return None
+        below -= self.margin
+        above, end, last = 0.0, 0.0, 0
+        pitch = low - below
+        for _ in range(LOOKS):
+            if not low < pitch < high:
+                return None
+            gap, radius = self.dip(pitch, radius, pair)
+            gap -= self.margin
+            if gap > 0.0:
+                end, above, below = pitch, gap, 0.5 * below if last > 0 else below
+                last = 1
+            else:
+                low, below, above = pitch, gap, 0.5 * above if last < 0 else above
+                last = -1
+            if end and end - low <= BORDER_WIDTH:
+                break
+            pitch = low + (end - low) * below / (below - above) if end else low - 1.5 * below + BORDER_WIDTH
+            if end:
+                pitch = min(max(pitch, low + 0.4 * BORDER_WIDTH), end - 0.4 * BORDER_WIDTH)
+        if not end or end + BORDER_WIDTH >= high:
+            return None
+        self.graze = pair, radius
+        return end + BORDER_WIDTH
+
+    def dip(self, pitch: float, radius: float, pair: tuple[int, int]) -> tuple[float, float]:
+        """Least separation of a pair in its dip around a head radius, no further in than the circle, and where [m]."""
+        search = self.search
+        search.use(Spiral(pitch, self.start_turns), self.margin)
+        growth = search.growth
+        stop = search.travel_at(self.radius / growth)
+        travel = min(search.travel_at(radius / growth), stop)
+        stride = STRIDE if search.gap_rate(travel, pair) < 0.0 else -STRIDE
+        for _ in range(STRIDES):
+            ahead = min(travel + stride, stop)
+            if ahead == travel:
+                break
+            if (search.gap_rate(ahead, pair) < 0.0) != (stride > 0.0):
+                travel = search.bottom(min(travel, ahead), max(travel, ahead), pair, BOTTOM_WIDTH)
+                break
+            travel, stride = ahead, 2.0 * stride
+        gap = kernels.gap_at(growth, NO_PIECES, search.place - travel, search.room, *pair, search.sizes, search.rows[1])
+        return float(gap), growth * search.theta_at(travel)

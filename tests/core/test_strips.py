@@ -1,0 +1,176 @@
+"""Strips: bounds on the shift with the pitch against difference quotients, proofs against samples and the reference."""
+
+from __future__ import annotations
+
+import json
+import math
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from core import Dragon, Spiral, kernels
+from core.dragon import Floats
+from core.search import Search
+from core.strips import Strips
+
+CASES = json.loads((Path(__file__).parents[1] / "reference" / "minimum_pitch.json").read_text())["cases"]
+GRAZES = [case for case in CASES if case["limited_by"] != "start"]
+# Pitches are promised to this [m].
+ACCURACY = 1e-9
+NO_PIECES = np.empty((0, kernels.PIECE_COLUMNS))
+# Rounding of a corner's place [m], of which a second difference quotient sees four times as much over the square step.
+ROUNDING = 1e-13
+# Difference quotients take steps of this part of the growth; what they leave out is the square of it [1].
+STEP = 1e-3
+
+
+def chain(search: Search, growth: float, radius: float, benches: int) -> tuple[float, Floats]:
+    """Clearance with the head at a radius, and the rows of the chain, in the frame in which the head is at angle 0."""
+    rows = np.zeros((search.room + 1, kernels.CHAIN_COLUMNS))
+    leaders = min(search.dragon.uniform_from + 1, benches)
+    place = growth * kernels.spiral_arc(radius / growth)
+    sizes, ring = search.sizes, search.ring
+    gap = kernels.clearance_at(growth, NO_PIECES, place, benches, leaders, 0, ring, sizes, rows, search.pair)
+    return gap, rows[:benches]
+
+
+def corners(dragon: Dragon, rows: Floats) -> Floats:
+    """(n, 4, 2) [m]"""
+    along = rows[:, 8:10]
+    left = np.stack([-along[:, 1], along[:, 0]], axis=-1)
+    half = 0.5 * np.stack([dragon.lengths[: len(rows)], dragon.widths[: len(rows)]], axis=-1)
+    signs = ((1, 1), (1, -1), (-1, -1), (-1, 1))
+    return np.stack(
+        [rows[:, 6:8] + f * half[:, :1] * along + s * half[:, 1:] * left for f, s in signs],
+        axis=1,
+    )
+
+
+def random_strips(seed: int) -> tuple[Strips, float, float]:
+    """A random dragon and circle, and two pitches at which there may or may not be room."""
+    rng = np.random.default_rng(seed)
+    chord = 10 ** rng.uniform(-0.3, 0.5)
+    chords = chord * np.array([10 ** rng.uniform(-0.4, 0.3), *rng.uniform(0.8, 1.2, int(rng.integers(0, 4))), 1.0])
+    overhang, width = chord * rng.uniform(0.0, 0.3), chord * 10 ** rng.uniform(-1.5, -0.4)
+    lengths = np.append(chords, np.full(int(rng.integers(5, 60)), chord)) + 2 * overhang
+    dragon = Dragon.of(lengths, np.full(lengths.size, width), np.full(lengths.size, overhang))
+    radius, turns = chords.max() * rng.uniform(0.7, 4.0), rng.uniform(5.0, 20.0)
+    margin = rng.choice([0.0, 0.2 * chord])
+    high = min(10 ** rng.uniform(0.1, 0.9) * (width + margin), 3.0 * chords.min())
+    strips = Strips(Search(dragon, Spiral(high, turns), margin), radius, turns, margin)
+    return strips, high / (1.0 + 10 ** rng.uniform(-3.5, -0.5)), high
+
+
+@pytest.mark.parametrize("seed", range(40))
+def test_no_bench_shifts_faster_with_the_growth_than_its_bounds(seed: int) -> None:
+    """At random growths within a strip, in one short step at a random radius."""
+    strips, low, high = random_strips(seed)
+    search, rng = strips.search, np.random.default_rng(seed)
+    if not strips.bent_little:
+        pytest.skip("no bound is claimed")
+    low, high = low / (2 * math.pi), high / (2 * math.pi)
+    inner = strips.radius * rng.uniform(1.0, 2.0)
+    outer = inner * (1.0 + 1e-6)
+    leaders, benches = min(search.dragon.uniform_from + 1, search.dragon.benches), search.dragon.benches
+    out = np.empty(32)
+    # no pair is within such a margin, so the step is taken at once
+    state = kernels.strip(
+        low,
+        high,
+        outer,
+        inner,
+        leaders,
+        -1e3,
+        0.0,
+        0.0,
+        9,
+        benches,
+        search.ring,
+        search.sizes,
+        strips.rows,
+        strips.motions,
+        strips.shifts,
+        out,
+    )
+    assert kernels.MARCH_STATES[state] == "reached"
+    assert out[4] == 1.0  # one step, whose bounds are there still
+    moved = int(np.count_nonzero(strips.shifts[:, 0]))
+    assert moved > 2
+    for growth in rng.uniform(low, high, 8):
+        step = STEP * growth
+        radius = rng.uniform(inner, outer)
+        rows = np.stack([chain(search, growth + k * step, radius, moved)[1] for k in (-1, 0, 1)])
+        places = np.stack([corners(search.dragon, row) for row in rows])
+        slack = 1.0 + 10.0 * STEP**2
+        within = np.abs(growth - low) > step and np.abs(growth - high) > step
+        if not within:
+            continue
+        centre = np.linalg.norm(rows[2, :, 6:8] - rows[0, :, 6:8], axis=-1) / (2 * step)
+        corner = np.linalg.norm(places[2] - places[0], axis=-1).max(-1) / (2 * step)
+        pull = np.linalg.norm(places[2] - 2 * places[1] + places[0], axis=-1).max(-1) / step**2
+        heading = np.unwrap(np.arctan2(rows[:, :, 9], rows[:, :, 8]), axis=0)
+        turn = np.abs(heading[2] - heading[0]) / (2 * step)
+        bounds = strips.shifts[:moved]
+        rounding = ROUNDING / step
+        assert (centre <= bounds[:, 0] * slack + rounding).all()
+        assert (corner <= bounds[:, 1] * slack + rounding).all()
+        assert (pull <= bounds[:, 2] * slack + 4 * rounding / step).all()
+        assert (turn <= bounds[:, 3] * slack + rounding / search.dragon.chords.min()).all()
+
+
+@pytest.mark.parametrize("seed", range(60))
+def test_nothing_touches_at_any_pitch_of_what_a_strip_proves(seed: int) -> None:
+    """At 9 x 30 samples between the two pitches, down to the radius that is reached, often not the circle."""
+    strips, low, high = random_strips(seed)
+    if not strips.bent_little:
+        pytest.skip("no bound is claimed")
+    state, found = strips.prove(low, high, 3.0 * strips.radius)
+    if state == "unbounded":
+        return
+    outer = max(3.0 * strips.radius, found["proven"])
+    benches = min(strips.search.dragon.benches, strips.search.room)
+    for growth in np.linspace(low, high, 9) / (2 * math.pi):
+        for radius in np.linspace(found["proven"], outer, 30):
+            assert chain(strips.search, growth, radius, benches)[0] > strips.margin
+    if state == "touched":
+        growth = low / (2 * math.pi)
+        gap = chain(strips.search, growth, found["touching"], benches)[0]
+        assert gap <= strips.margin
+
+
+def strips_of(case: dict[str, Any]) -> Strips:
+    dragon, radius = Dragon(**case["dragon"]), case["turning_diameter"] / 2
+    return Strips(Search(dragon, Spiral(1.0, case["start_turns"]), 0.0), radius, case["start_turns"], 0.0)
+
+
+@pytest.mark.parametrize("case", GRAZES, ids=[case["name"] for case in GRAZES])
+def test_a_strip_is_proven_just_above_a_minimum_and_not_across_it(case: dict[str, Any]) -> None:
+    strips, pitch = strips_of(case), case["pitch"]
+    assert strips.prove(pitch + ACCURACY, pitch + 1e-6, math.inf)[0] == "reached"
+    for below, above in ((ACCURACY, ACCURACY), (ACCURACY, 1e-4), (1e-4, 1e-3)):
+        assert strips.prove(pitch - below, pitch + above, math.inf)[0] in ("stuck", "touched")
+
+
+def test_a_strip_from_an_island_to_the_minimum_is_not_proven() -> None:
+    """Ways with 16 turns are clear at both of its ends, not between them."""
+    [case] = [case for case in CASES if case["other_feasible_intervals"]]
+    strips, [[start, end]] = strips_of(case), case["other_feasible_intervals"]
+    for low in np.linspace(start, end - ACCURACY, 5):
+        assert strips.prove(low, case["pitch"] + ACCURACY, case["pitch"] * case["start_turns"])[0] != "reached"
+
+
+@pytest.mark.parametrize("seed", range(30))
+def test_benches_of_a_short_dragon_are_no_closer_than_the_ring_bound(seed: int) -> None:
+    """Of dragons that go around less than once, also at pitches below the width of a bench."""
+    rng = np.random.default_rng(seed)
+    dragon = Dragon(int(rng.integers(3, 12)), 2.2, rng.uniform(1.4, 2.2), rng.uniform(0.1, 0.5), rng.uniform(0.0, 0.3))
+    strips = Strips(Search(dragon, Spiral(0.3, 16.0), 0.0), 3.0, 16.0, 0.0)
+    search, bounds = strips.search, 0
+    for growth in np.geomspace(0.01, 0.2, 8):
+        for radius in np.linspace(1.5, 8.0, 12):
+            bound = kernels.ring_least(growth, growth, radius, *search.extremes, strips.total)
+            bounds += bound > 0.0
+            assert chain(search, growth, radius, dragon.benches)[0] >= bound
+    assert bounds
