@@ -2348,11 +2348,12 @@ def leaders_reach(
     return rear + overhang + ring[ALL_HALF_WIDTH]
 
 
-# Rings. Let E = |X| - growth psi for a point X of a bench at unwrapped polar angle psi: how far it lies outside the
-# curve itself. Along the centre line e(x) = sqrt(d^2 + x^2) - growth (psi_foot + atan(x / d)) vanishes at both handles
-# and 0 <= e'' = d^2 / rho^3 + 2 growth d x / rho^4 <= q = 1 / d + 2 growth x_max / d^3 (for d > 2 growth), so between
-# the handles e >= -q c^2 / 8 and on an overhang o e <= q o (o + c) / 2. Sideways |dE / dy| <= sqrt(1 + (growth /
-# rho)^2).
+# Rings. A foot is at most max(c / 2, 1.67 growth) from the front handle of its chord, so d^2 >= r_a^2 - max(...)^2 also
+# where it lies beyond that handle. Let E = |X| - growth psi for a point X of a bench at unwrapped polar angle psi: how
+# far it lies outside the curve itself. Along the centre line e(x) = sqrt(d^2 + x^2) - growth (psi_foot + atan(x / d))
+# vanishes at both handles and 0 <= e'' = d^2 / rho^3 + 2 growth d x / rho^4 <= q = 1 / d + 2 growth x_max / d^3 (for
+# d > 2 growth), so between the handles e >= -q c^2 / 8 and on an overhang o e <= q o (o + c) / 2. Sideways
+# |dE / dy| <= sqrt(1 + (growth / rho)^2).
 # Hence -I <= E <= O with the bows O and I below, both falling as 1 / r. Points X, Y of two benches whose polar angles
 # differ by 2 pi m + x, m >= 1, |x| <= pi, are apart radially by at least G + growth x, G = pitch - O - I, and sideways
 # by at least 2 rho |x| / pi: together G / sqrt(1 + (pi growth / 2 rho)^2). With m = 0 at least one bench lies between
@@ -2384,11 +2385,12 @@ def ring_least(
 ) -> cython.double:
     """Lower bound of the separation of any two non-neighbours whose inner bench leads at `radius` or further out [m].
 
-    It holds for every growth in [growth_low, growth] [m/rad]. chord, shortest, overhang, half_width: the extremes over
-    all benches; outer_...: over those that can be the outer one; total: at least the sum of all chords, where that may
-    help; -1e150 where the bound says nothing.
+    It holds for every growth in [growth_low, growth] [m/rad]. chord, overhang, half_width: the largest of all benches;
+    shortest: chord of those that can lie between two others; outer_...: over those that can be the outer one; total: at
+    least the sum of all chords, where that may help; -1e150 where the bound says nothing.
     """
-    d2: cython.double = radius * radius - 0.25 * chord * chord
+    foot: cython.double = 0.5 * chord if 0.5 * chord > 1.67 * growth else 1.67 * growth
+    d2: cython.double = radius * radius - foot * foot
     d: cython.double
     rho: cython.double
     q: cython.double
@@ -2399,7 +2401,7 @@ def ring_least(
     same_turn: cython.double
     spread: cython.double
     end: cython.int
-    if d2 <= 0.0 or shortest < 1.67 * growth or radius * radius < 1.5708 * chord * growth:
+    if d2 <= 0.0 or radius * radius < 1.5708 * chord * growth:
         return -FREE
     d = sqrt(d2)
     rho = d - (half_width if half_width > outer_half_width else outer_half_width)

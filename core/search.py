@@ -6,6 +6,7 @@ The proof of a march is written above the loops that carry it out: `core/kernels
 from __future__ import annotations
 
 import math
+from functools import cached_property
 
 import numpy as np
 
@@ -118,7 +119,14 @@ class Search:
 
     def ring_least(self, radius: float) -> float:
         """Lower bound of the separation of pairs whose inner bench leads at this radius or further out [m]."""
-        return float(kernels.ring_least(self.growth, self.growth, radius, *self.extremes))
+        return float(kernels.ring_least(self.growth, self.growth, radius, *self.ring_extremes))
+
+    @cached_property
+    def ring_extremes(self) -> tuple[float, ...]:
+        """The extremes, but the shortest chord only of those benches that can lie between two others [m]."""
+        longest, _, *others = (float(extreme) for extreme in self.extremes)
+        alike = self.dragon.uniform_from
+        return longest, float(self.dragon.chords[min(1, alike) : alike + 1].min()), *others
 
     def _clear_radius(self) -> float:
         """The least radius, within 1e-3, from which the ring bound exceeds the margin; 1e150 if none."""

@@ -59,7 +59,7 @@ class Strips:
 
     def ring_clears(self, low: float, high: float, radius: float) -> bool:
         """Does the ring bound clear all from a head radius outwards for all growths in [low, high]?"""
-        return float(kernels.ring_least(low, high, radius, *self.search.extremes, self.total)) > self.margin
+        return float(kernels.ring_least(low, high, radius, *self.search.ring_extremes, self.total)) > self.margin
 
     def _make_room(self, benches: int) -> None:
         self.rows = np.zeros((4, benches + 1, kernels.CHAIN_COLUMNS))
@@ -118,9 +118,8 @@ class Strips:
     def descend(self, top: float, lowest: float) -> tuple[float, str]:
         """The pitch down to which, from `top`, all are proven clear [m], and what stopped there.
 
-        'lowest': nothing, all is clear; 'border': a contact that becomes a graze less than 2 BORDER_WIDTH below, by the
-        doubles; 'stuck': nothing was proven of the next STRIP_MIN; 'unbounded': no bound holds below, or STRIP_BUDGET is
-        spent.
+        'lowest': nothing, all is clear; 'border': a contact that, by the doubles, is a graze less than 2 BORDER_WIDTH
+        below; 'stuck': nothing was proven of the next STRIP_MIN; 'unbounded': no bound holds, or STRIP_BUDGET is spent.
         A strip that is not proven is halved, the upper half first. Where its lowest pitch touches, the pitch at
         which that contact becomes a graze is looked for, and the strip ends there instead.
         """
