@@ -180,7 +180,7 @@ class MinimumPitch(Answer):
     head_radius: float | None = Field(description="Where the head is then [m]")
     other_feasible_intervals: list[Point] = Field(description="Feasible islands below [m]")
     justified_by: str = Field(description="How it is known that every larger pitch is feasible: bound or scan")
-    evaluations: int = Field(description="Poses examined")
+    evaluations: int = Field(description="Ways to the circle, and strips of pitches at once, that were marched")
     cross_check: PairCheck | None = Field(description="Engines on the pair at a pitch 1e-6 m larger and smaller")
 
     @classmethod

@@ -26,6 +26,8 @@ PITCH_WIDTH = 2e-13
 SCAN_SAMPLES = 1000
 # Islands below the minimum pitch are looked for at so many pitches, evenly spaced.
 ISLAND_SAMPLES = 400
+# The ring bound wants d > 2 growth, where d^2 >= radius^2 - (1.67 growth)^2: growths below radius / this [1].
+FOOT_LIMIT = 2.61
 # What limits the pitch is looked at this far below it, where a graze has become a contact of some length [m of pitch].
 BELOW = 1e-11
 # At both ends of a way the pairs led by so many benches are looked at before it is marched.
@@ -112,12 +114,11 @@ class _PitchSearch:
         clears nothing (a circle hardly wider than a bench is long), the two are the same pitch, cleared by a march
         and no larger than the circle's radius.
         """
-        chord, shortest, *_ = (float(extreme) for extreme in self.search.extremes)
+        chord = float(self.search.extremes[0])
         foot2, lowest = self.radius**2 - 0.25 * chord**2, self.lowest / (2.0 * math.pi)
-        limits = [shortest / 1.67, self.radius**2 / (1.5708 * chord)] + (
-            [0.5 * math.sqrt(foot2)] if foot2 > 0.0 else []
-        )
-        growths = [0.999 * min(limits) * 0.95**k for k in range(200)]
+        limits = [self.radius**2 / (1.5708 * chord), self.radius / FOOT_LIMIT]
+        limits += [0.5 * math.sqrt(foot2)] if foot2 > 0.0 else []
+        growths = [growth for growth in (0.999 * min(limits) * 0.95**k for k in range(200)) if growth > lowest]
         for growth in growths:
             if self.strips.ring_clears(0.95 * growth, growth, self.radius):
                 low = growth

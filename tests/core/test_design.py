@@ -141,6 +141,17 @@ def test_a_dragon_given_bench_by_bench_has_the_answer_of_the_uniform_one(changed
     assert (one.justified_by, other.justified_by) == ("bound", "bound")
 
 
+def test_a_short_dragon_is_proven_up_from_its_start_whatever_bounds_hold_at_lower_pitches() -> None:
+    """At once around less than a turn, with benches nearly as wide as the circle, so that no ring bound holds."""
+    dragon = Dragon(6, 1.21, 0.93, 0.61, 0.0)
+    found = minimum_pitch(dragon, turning_radius=1.32, start_turns=10.0, margin=0.29)
+    assert found.pitch == 1.32 / 10.0
+    assert (found.limited_by, found.justified_by) == (LimitedBy.START, "bound")
+    assert found.proven_up_to > 1.0
+    for pitch in np.linspace(found.pitch + BESIDE, found.proven_up_to, 20):
+        assert is_feasible(dragon, pitch, 1.32, 10.0, 0.29)
+
+
 def test_where_benches_are_bent_too_much_for_a_bound_a_scan_is_said() -> None:
     found = minimum_pitch(Dragon(20), turning_radius=1.5, start_turns=12.0)
     assert (found.justified_by, found.limited_by) == ("scan", LimitedBy.CIRCLE)
