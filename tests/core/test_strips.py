@@ -31,8 +31,8 @@ def chain(search: Search, growth: float, radius: float, benches: int) -> tuple[f
     rows = np.zeros((search.room + 1, kernels.CHAIN_COLUMNS))
     leaders = min(search.dragon.uniform_from + 1, benches)
     place = growth * kernels.spiral_arc(radius / growth)
-    sizes, ring = search.sizes, search.ring
-    gap = kernels.clearance_at(growth, NO_PIECES, place, benches, leaders, 0, ring, sizes, rows, search.pair)
+    sizes, scratch = search.sizes, search.motion
+    gap = kernels.clearance_at(growth, NO_PIECES, place, benches, leaders, 0, sizes, rows, scratch, search.pair)
     return gap, rows[:benches]
 
 
