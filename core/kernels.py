@@ -1140,8 +1140,8 @@ LEMMA_LIMIT = cython.declare(cython.double, 0.97)
 BEND_LIMIT = 0.97
 # Trial bound on a followed handle's rate, as a multiple of what the ends show [1]; any value > 1 is sound.
 TRIAL = cython.declare(cython.double, 1.5)
-# On a route the cosines of a link's angles are followed from the ends of the interval where the lemma leaves its rates a
-# ratio of more than this [1]: what it leaves multiplies from link to link, on curves that wind 1.02 to the power of 100.
+# On a route the cosines of a link's angles are followed from the ends of the interval where the lemma leaves its rates
+# a ratio of more than this [1]: what it leaves multiplies from link to link.
 RATIO_FOLLOWED = cython.declare(cython.double, 1.001)
 # Larger than any step or distance, and so is its square no overflow [m].
 FREE = cython.declare(cython.double, 1e150)
