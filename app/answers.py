@@ -5,6 +5,7 @@ A trajectory has 200,000 numbers, so tables leave as columns of numpy through or
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any, Self
 
 import numpy as np
@@ -132,14 +133,15 @@ class PairCheck(Answer):
         return cls(agree=len(words) == 1, engines=found)
 
 
-def _pair_poses(dragon: Dragon, path: Spiral | Route, time: float, head_speed: float, benches: Pair) -> Floats:
-    """Poses (2, 3) of two benches at one instant, or at the nearest one that the run has."""
-    until = benches[1] + 1  # No bench moves one in front of it.
-    front = Dragon.of(dragon.lengths[:until], dragon.widths[:until], dragon.overhangs[:until])
-    time = max(time, earliest_time(front, path, head_speed))
-    time = min(time, core.run_end(front, path, head_speed=head_speed).time)
-    position = core.trajectory(front, path, [time], head_speed=head_speed).position[0]
-    return core.bench_poses(position)[list(benches)]
+def _pair_poses(
+    dragon: Dragon, path: Spiral | Route, times: Sequence[float], head_speed: float, benches: Pair
+) -> Floats:
+    """Poses (T, 2, 3) of two benches at some instants, or at the nearest ones that the run has."""
+    front = dragon.leading(benches[1] + 1)  # No bench moves one in front of it.
+    first, last = earliest_time(front, path, head_speed), core.run_end(front, path, head_speed=head_speed).time
+    held = [min(max(time, first), last) for time in times]
+    position = core.trajectory(front, path, held, head_speed=head_speed).position
+    return core.bench_poses(position)[:, list(benches)]
 
 
 class CollisionTime(Answer):
@@ -163,8 +165,8 @@ class CollisionTime(Answer):
     ) -> Self:
         check = None
         if contact.time is not None and contact.benches is not None:
-            times = (contact.time + travel / head_speed for travel in (-CHECK_TRAVEL, CHECK_TRAVEL))
-            before, after = (_pair_poses(dragon, path, time, head_speed, contact.benches) for time in times)
+            times = [contact.time + travel / head_speed for travel in (-CHECK_TRAVEL, CHECK_TRAVEL)]
+            before, after = _pair_poses(dragon, path, times, head_speed, contact.benches)
             check = PairCheck.of(before, after, dragon, contact.benches, margin)
         known = {name: getattr(contact, name) for name in cls.model_fields if name != "cross_check"}
         return cls(**known, cross_check=check)
@@ -190,7 +192,7 @@ class MinimumPitch(Answer):
             # A spiral that starts at that radius has its head there at time 0.
             pitches = (found.pitch + CHECK_PITCH, found.pitch - CHECK_PITCH)
             spirals = (Spiral(pitch, found.head_radius / pitch) for pitch in pitches)
-            before, after = (_pair_poses(dragon, spiral, 0.0, 1.0, found.benches) for spiral in spirals)
+            before, after = (_pair_poses(dragon, spiral, [0.0], 1.0, found.benches)[0] for spiral in spirals)
             check = PairCheck.of(before, after, dragon, found.benches, margin)
         known = {name: getattr(found, name) for name in cls.model_fields if name != "cross_check"}
         return cls(**known, cross_check=check)

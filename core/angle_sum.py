@@ -42,10 +42,12 @@ def literal_corners(poses: Floats, sizes: Floats) -> Floats:
 
 
 def _turned(poses: Floats, sizes: Floats, last: float) -> Floats:
-    cos, sin = np.cos(poses[..., 2]), np.sin(poses[..., 2])
-    matrix = np.stack([np.stack([cos, -sin], axis=-1), np.stack([sin, last * cos], axis=-1)], axis=-2)
-    offsets = 0.5 * PAPER_SIDES * sizes[..., None, :]
-    return np.asarray(poses[..., None, :2] + np.einsum("...ij,...kj->...ki", matrix, offsets))
+    half = 0.5 * PAPER_SIDES * sizes[..., None, :]
+    heading, along, across = poses[..., 2, None], half[..., 0], half[..., 1]
+    cos, sin = np.cos(heading), np.sin(heading)
+    x = poses[..., 0, None] + (cos * along - sin * across)
+    y = poses[..., 1, None] + (sin * along + last * cos * across)
+    return np.stack([x, y], axis=-1)
 
 
 def angle_sums(points: Floats, polygon: Floats) -> Floats:
@@ -57,7 +59,7 @@ def angle_sums(points: Floats, polygon: Floats) -> Floats:
     source: Yang et al., eq. 13
     """
     to = polygon[..., None, :, :] - points[..., :, None, :]
-    to_next = np.roll(to, -1, axis=-2)
+    to_next = np.concatenate([to[..., 1:, :], to[..., :1, :]], axis=-2)
     cross = to[..., 0] * to_next[..., 1] - to[..., 1] * to_next[..., 0]
     sums = np.arctan2(np.abs(cross), (to * to_next).sum(axis=-1)).sum(axis=-1)
     return np.where((to == 0.0).all(axis=-1).any(axis=-1), 2.0 * np.pi, sums)

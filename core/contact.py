@@ -213,7 +213,7 @@ def _touching_features(
     search: Search, travel: float, pair: tuple[int, int]
 ) -> tuple[Feature | None, Feature | None, tuple[float, float]]:
     """The corner and the edge that meet, and the corner's place in the world frame [m]."""
-    search.clearance(travel)
+    search.place_leaders(travel, pair[1] + 1)
     a, b = (search.rows[0, bench, 6:10] for bench in pair)
     out = np.empty(8)
     kernels.pair_separation(*a, *search.sizes[pair[0], 1:3], *b, *search.sizes[pair[1], 1:3], out)

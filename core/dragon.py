@@ -149,6 +149,12 @@ class Dragon:
             object.__setattr__(self, name, column)
         object.__setattr__(self, "uniform_from", int(different[-1]) + 1 if different.size else 0)
 
+    def leading(self, benches: int) -> Dragon:
+        """The dragon of the first so many benches, 1 to all."""
+        dragon = Dragon.__new__(Dragon)
+        dragon._freeze(self.lengths[:benches], self.widths[:benches], self.overhangs[:benches])
+        return dragon
+
     @property
     def benches(self) -> int:
         """Number of benches; there is one handle more."""

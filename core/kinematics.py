@@ -67,11 +67,11 @@ def end_theta(dragon: Dragon, path: Spiral) -> tuple[float, int | None]:
     stands one chord further in. So from the tail forwards: the limit of handle k is the larger of its own fold
     and the place from which handle k + 1 reaches its limit. In a uniform tail the own fold always wins.
     """
-    chords2 = (dragon.chords[: dragon.uniform_from + 1] / path.growth) ** 2
-    fold = {float(c): float(kernels.fold_theta(float(c))) for c in np.unique(chords2)}
+    chords2 = ((dragon.chords[: dragon.uniform_from + 1] / path.growth) ** 2).tolist()
+    fold = {chord2: float(kernels.fold_theta(chord2)) for chord2 in set(chords2)}
     limit, bench = 0.0, None
     for k in range(dragon.uniform_from, -1, -1):
-        chord2 = float(chords2[k])
+        chord2 = chords2[k]
         inherited = kernels.previous_theta(limit, chord2) if limit > fold[chord2] else -1.0
         if fold[chord2] >= inherited:
             limit, bench = fold[chord2], k

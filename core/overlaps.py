@@ -5,6 +5,7 @@ The only file that knows FCL and shapely, and it imports them only when they are
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
@@ -13,7 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from core import kernels
-from core.angle_sum import angle_sum_overlap, paper_corners
+from core.angle_sum import ANGLE_TOLERANCE, angle_sum_overlap, angle_sums, paper_corners
 from core.dragon import SIZE_MAX, Floats, checked_number
 from core.errors import InvalidValue, TooLarge
 from core.rectangles import (
@@ -140,17 +141,19 @@ def verdicts(
     """Each engine's word on one pair just before and just after contact (no angle sum if the margin is not 0).
 
     before, after: (2, 3) poses of the two benches; lengths, widths: (2,) [m]
-    raises: InvalidValue as overlaps()
+    raises: InvalidValue as overlaps(), and with the field benches when they are not two
+
+    >>> verdicts([[0, 0, 0], [0, 0.4, 0]], [[0, 0, 0], [0, 0.2, 0]], [2.2] * 2, [0.3] * 2)[Engine.FCL]
+    Verdict(before=False, after=True)
     """
     pose_before, size, margin = _checked(before, lengths, widths, margin)
-    pose_after, _, _ = _checked(after, lengths, widths, margin)
-    return {
-        engine: Verdict(
-            before=_find(engine, pose_before, size, margin, False).size > 0,
-            after=_find(engine, pose_after, size, margin, False).size > 0,
-        )
-        for engine in _able(margin)
-    }
+    pose_after = checked_array("benches", after, "(2, 3): x, y, heading", 3)
+    for pose in (pose_before, pose_after):
+        if pose.shape != (2, 3):
+            raise InvalidValue("benches", f"benches must have shape (2, 3): x, y, heading, got {pose.shape}")
+    checked_columns("benches", pose_after, POSE)
+    poses = np.array([pose_before, pose_after])
+    return {engine: Verdict(*JUDGES[engine](poses, size, margin)) for engine in _able(margin)}
 
 
 def broad_phase(
@@ -277,9 +280,10 @@ def _fcl(poses: Floats, sizes: Floats, margin: float, chained: bool) -> Pairs:
 def _fcl_body(shape: object, pose: Floats) -> object:
     import fcl
 
-    cos, sin = np.cos(pose[2]), np.sin(pose[2])
+    x, y, heading = pose.tolist()
+    cos, sin = math.cos(heading), math.sin(heading)
     turn = np.array([[cos, -sin, 0.0], [sin, cos, 0.0], [0.0, 0.0, 1.0]])
-    return fcl.CollisionObject(shape, fcl.Transform(turn, np.array([pose[0], pose[1], 0.0])))
+    return fcl.CollisionObject(shape, fcl.Transform(turn, np.array([x, y, 0.0])))
 
 
 # Of two rectangles, neither penetrates deeper than half of (own width + other's length + other's width), so not
@@ -294,12 +298,11 @@ def _fcl_box(pose: Floats, length: float, width: float) -> tuple[object, object]
 def _fcl_within(poses: Floats, sizes: Floats, margin: float) -> bool:
     import fcl
 
-    (length, width), other = sizes[0], _fcl_box(poses[1], *sizes[1])[1]
-    bodies = [
-        _fcl_box(poses[0], length + 2.0 * margin, width)[1],
-        _fcl_box(poses[0], length, width + 2.0 * margin)[1],
-    ]
-    bodies += [_fcl_body(fcl.Sphere(margin), np.array([x, y, 0.0])) for x, y in corners(poses[0], sizes[0])]
+    (length, width), other = sizes[0].tolist(), _fcl_box(poses[1], *sizes[1].tolist())[1]
+    bodies = [_fcl_box(poses[0], length + 2.0 * margin, width)[1]]
+    if margin > 0.0:
+        bodies.append(_fcl_box(poses[0], length, width + 2.0 * margin)[1])
+        bodies += [_fcl_body(fcl.Sphere(margin), np.array([x, y, 0.0])) for x, y in corners(poses[0], sizes[0])]
     return any(fcl.collide(body, other, fcl.CollisionRequest(), fcl.CollisionResult()) for body in bodies)
 
 
@@ -363,4 +366,40 @@ FINDERS: dict[Engine, Callable[[Floats, Floats, float, bool], Pairs]] = {
     Engine.FCL: _fcl,
     Engine.SHAPELY: _shapely,
     Engine.ANGLE_SUM: _angle_sum,
+}
+
+
+# -- one pair at several instants -----------------------------------------------------------------------------
+
+
+# One pair needs no search. poses: (T, 2, 3); sizes: (2, 2); each judge says for each of the T instants whether the pair
+# is within the margin, by the means of its engine above.
+def _judged_by_separating_axis(poses: Floats, sizes: Floats, margin: float) -> list[bool]:
+    return [kernels.pair_gap(*a, *b) <= margin for a, b in frames(poses, sizes).tolist()]
+
+
+def _judged_by_fcl(poses: Floats, sizes: Floats, margin: float) -> list[bool]:
+    return [_fcl_within(pair, sizes, margin) for pair in poses]
+
+
+def _judged_by_shapely(poses: Floats, sizes: Floats, margin: float) -> list[bool]:
+    import shapely
+
+    a, b = shapely.polygons(corners(poses, sizes)).T
+    within: list[bool] = (shapely.dwithin(a, b, margin) if margin > 0.0 else shapely.intersects(a, b)).tolist()
+    return within
+
+
+def _judged_by_angle_sum(poses: Floats, sizes: Floats, margin: float) -> list[bool]:
+    corner = paper_corners(poses, sizes)
+    sums = angle_sums(corner, corner[:, ::-1])  # each bench's corners in the other
+    overlap: list[bool] = (sums >= 2.0 * np.pi - ANGLE_TOLERANCE).any(axis=(1, 2)).tolist()
+    return overlap
+
+
+JUDGES: dict[Engine, Callable[[Floats, Floats, float], list[bool]]] = {
+    Engine.SEPARATING_AXIS: _judged_by_separating_axis,
+    Engine.FCL: _judged_by_fcl,
+    Engine.SHAPELY: _judged_by_shapely,
+    Engine.ANGLE_SUM: _judged_by_angle_sum,
 }

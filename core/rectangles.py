@@ -120,6 +120,9 @@ def checked_columns(subject: str, columns: Floats, names: tuple[str, ...]) -> No
 
     raises: InvalidValue with the field subject.row.name, the value, its unit and the limit
     """
+    lows, highs = np.array([LIMITS[name][:2] for name in names]).T
+    if (np.isfinite(columns) & (columns >= lows) & (columns <= highs)).all():
+        return
     for name, column in zip(names, columns.T, strict=True):
         low, high, unit = LIMITS[name]
         wrong = np.flatnonzero(~(np.isfinite(column) & (column >= low) & (column <= high)))

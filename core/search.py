@@ -63,21 +63,16 @@ class Search:
         self.edges = np.empty((0, 4)) if edges is None else edges
         self.statics = -len(self.edges)
         alike = dragon.uniform_from
-        chords, half_widths = dragon.chords[: alike + 1], 0.5 * dragon.widths[: alike + 1]
-        overhangs = dragon.overhangs[: alike + 1]
-        outer = slice(min(2, alike), None)
-        self.extremes = (
-            chords.max(),
-            chords.min(),
-            overhangs.max(),
-            half_widths.max(),
-            chords[outer].max(),
-            half_widths[outer].max(),
-        )
-        longest, _, overhang, half_width, outer_chord, outer_half_width = self.extremes
-        ring = (0.0, outer_chord, chords[outer].min(), overhangs[outer].max(), outer_half_width)
+        # The constructor's share of a first contact: a few reductions of all columns, not many of one each.
+        sizes = (dragon.chords, dragon.overhangs, 0.5 * dragon.widths, dragon.lengths)
+        columns = np.array([column[: alike + 1] for column in sizes])
+        outer = columns[:, min(2, alike) :]
+        longest, overhang, half_width, self.longest = columns.max(axis=1).tolist()
+        outer_chord, outer_overhang, outer_half_width, _ = outer.max(axis=1).tolist()
+        shortest, outer_shortest = columns[0].min(), outer[0].min()
+        self.extremes = (longest, shortest, overhang, half_width, outer_chord, outer_half_width)
+        ring = (0.0, outer_chord, outer_shortest, outer_overhang, outer_half_width)
         self.ring = np.array([*ring, longest, overhang, half_width])
-        self.longest = float(dragon.lengths[: alike + 1].max())
         self.resize(dragon.benches if isinstance(path, Route) else min(dragon.benches, 255))
         self.use(path, margin)
 
@@ -106,11 +101,12 @@ class Search:
         self.rows = np.zeros((4, benches + 1 + len(edges), kernels.CHAIN_COLUMNS))
         self.motion = np.zeros((benches + 1 + len(edges), kernels.MOTION_COLUMNS))
         self.pair = np.zeros(3, dtype=np.intp)
-        along = edges[:, 2:4] - edges[:, 0:2]
-        half = 0.5 * np.hypot(along[:, 0], along[:, 1])
-        self.sizes[benches + 1 :, 1] = self.sizes[benches + 1 :, 3] = half
-        self.rows[:, benches + 1 :, 6:8] = 0.5 * (edges[:, 0:2] + edges[:, 2:4])
-        self.rows[:, benches + 1 :, 8:10] = along / (2.0 * half)[:, None]
+        if len(edges):
+            along = edges[:, 2:4] - edges[:, 0:2]
+            half = 0.5 * np.hypot(along[:, 0], along[:, 1])
+            self.sizes[benches + 1 :, 1] = self.sizes[benches + 1 :, 3] = half
+            self.rows[:, benches + 1 :, 6:8] = 0.5 * (edges[:, 0:2] + edges[:, 2:4])
+            self.rows[:, benches + 1 :, 8:10] = along / (2.0 * half)[:, None]
 
     @property
     def room(self) -> int:
@@ -208,6 +204,10 @@ class Search:
             state, found = self.march(until, tolerance, start=begin)
         return state, found, tolerance
 
+    def place_leaders(self, travel: float, leaders: int) -> None:
+        """Put so many leading benches, and no pair of them, into rows[0] as they are after a travel [m]."""
+        self._clearance(travel, leaders, 0)
+
     def clearance(self, travel: float, leaders: int | None = None) -> tuple[float, tuple[int, int]]:
         """Clearance after a travel [m], and its pair; among pairs led by the first `leaders` benches only."""
         benches = self.room
@@ -215,7 +215,11 @@ class Search:
             leaders = benches
         elif isinstance(self.path, Spiral):
             benches = min(benches, leaders + self._followed(travel, leaders))
-        gap = kernels.clearance_at(
+        gap = self._clearance(travel, benches, leaders)
+        return gap, (int(self.pair[1]), int(self.pair[2]))
+
+    def _clearance(self, travel: float, benches: int, leaders: int) -> float:
+        gap: float = kernels.clearance_at(
             self.growth,
             self.pieces,
             self.place - travel,
@@ -227,7 +231,7 @@ class Search:
             self.motion,
             self.pair,
         )
-        return gap, (int(self.pair[1]), int(self.pair[2]))
+        return gap
 
     def _followed(self, travel: float, leaders: int) -> int:
         """How many benches behind the leaders of a spiral can be as near to them as the leaders' own sizes."""

@@ -221,6 +221,24 @@ def test_verdicts_of_a_margin_come_from_the_engines_that_know_one() -> None:
     assert seen == dict.fromkeys(EXACT, Verdict(before=False, after=True))
 
 
+@settings(deadline=None, max_examples=100)
+@given(st.integers(0, 2**32), st.sampled_from([0.0, 0.05, 1.0]))
+def test_verdicts_on_one_pair_are_what_the_searches_find(seed: int, margin: float) -> None:
+    (pose, length, width), (other, _, _) = crowd(2, seed, side=3.0), crowd(2, seed + 1, side=3.0)
+    seen = verdicts(pose, other, length, width, margin=margin)
+    found = [cross_check(poses, length, width, margin=margin, chained=False) for poses in (pose, other)]
+    assert list(seen) == list(found[0].pairs)
+    for engine, verdict in seen.items():
+        assert (verdict.before, verdict.after) == tuple(check.pairs[engine].size > 0 for check in found)
+
+
+@pytest.mark.parametrize(("before", "after"), [(1, 2), (2, 1), (3, 3)])
+def test_verdicts_are_of_two_benches(before: int, after: int) -> None:
+    with pytest.raises(InvalidValue, match=r"benches must have shape \(2, 3\)|lengths must have") as refused:
+        verdicts(np.zeros((before, 3)), np.zeros((after, 3)), [LENGTH] * before, [WIDTH] * before)
+    assert refused.value.field == "benches"
+
+
 # -- the broad phase ------------------------------------------------------------------------------------------
 
 
