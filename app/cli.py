@@ -30,6 +30,8 @@ from core import BenchDragonError, Dragon, InvalidValue, Route, Spiral
 
 # A wait longer than this is shown [s].
 SHOWN_WAIT = 1.0
+# Processes of the service, about 100 MB each.
+WORKERS_MAX = 64
 Json = Annotated[bool, typer.Option("--json", help="The service's JSON instead of a table.")]
 
 
@@ -314,13 +316,15 @@ def paper(json: Json = False) -> None:
 def serve(
     host: Annotated[str, typer.Option(help="Address to listen on.")] = "127.0.0.1",
     port: Annotated[int, typer.Option(min=0, max=65535, help="Port to listen on.")] = 8000,
-    workers: Annotated[int, typer.Option(min=1, max=64, help="Processes that share the port.")] = 1,
+    workers: Annotated[
+        int | None, typer.Option(min=1, max=WORKERS_MAX, help="Processes that share the port; else one for each core.")
+    ] = None,
 ) -> None:
     """The HTTP service."""
-    from app.workers import serve as serve_in_processes
+    from app import workers as processes
 
     try:
-        serve_in_processes(host, port, workers)
+        processes.serve(host, port, workers or min(processes.usable_cores(), WORKERS_MAX))
     except OSError as taken:
         print(f"Error: cannot listen on {host}:{port}: {taken.strerror}", file=sys.stderr)
         raise typer.Exit(2) from taken

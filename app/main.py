@@ -6,6 +6,7 @@ uvicorn --factory app.main:create_app
 from __future__ import annotations
 
 import logging
+import os
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
 from pathlib import Path
@@ -17,6 +18,7 @@ from fastapi.openapi.utils import get_openapi
 from fastapi.responses import FileResponse, HTMLResponse
 from prometheus_client import CollectorRegistry, Gauge, generate_latest
 from prometheus_client.exposition import CONTENT_TYPE_LATEST
+from prometheus_client.multiprocess import MultiProcessCollector
 from starlette.middleware import Middleware
 from starlette.staticfiles import StaticFiles
 
@@ -25,7 +27,7 @@ from app.answers import State
 from app.examples import EXAMPLES
 from app.middleware import BodyLimit, HeadAsGet, Metrics, Mistakes, SafetyHeaders
 from app.reply import VERSION, refuse_query
-from app.settings import Settings
+from app.settings import SHARED_COUNTS, Settings
 from core import Dragon, Spiral, first_contact, trajectory
 
 logger = logging.getLogger("uvicorn.error")
@@ -108,7 +110,9 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     app.state.settings = settings
     app.state.fault = "it has not run"
     app.state.free = BoundedSemaphore(settings.concurrent_max)
-    app.state.busy = Gauge("bench_dragon_computations", "Computations running", registry=registry)
+    app.state.busy = Gauge(
+        "bench_dragon_computations", "Computations running", registry=registry, multiprocess_mode="livesum"
+    )
     app.state.registry = registry
     app.openapi = lambda: _openapi(app)  # type: ignore[method-assign]
     problems.install(app)
@@ -165,7 +169,11 @@ def _add_health(app: FastAPI) -> None:
 
     @app.get("/metrics", include_in_schema=False)
     async def metrics(request: Request) -> Response:
-        return Response(generate_latest(request.app.state.registry), media_type=CONTENT_TYPE_LATEST)
+        registry = request.app.state.registry
+        if SHARED_COUNTS in os.environ:  # of all processes that serve this port
+            registry = CollectorRegistry()
+            MultiProcessCollector(registry)  # type: ignore[no-untyped-call]
+        return Response(generate_latest(registry), media_type=CONTENT_TYPE_LATEST)
 
 
 def _add_pages(app: FastAPI) -> None:

@@ -7,6 +7,9 @@ from pydantic_settings import BaseSettings, SettingsConfigDict
 
 from core import TooLarge
 
+# Where prometheus_client keeps the counts of several processes; app/workers.py sets it for those that it starts.
+SHARED_COUNTS = "PROMETHEUS_MULTIPROC_DIR"
+
 
 class Settings(BaseSettings):
     """What one process is willing to do for one request, and for how many at once.
@@ -29,7 +32,7 @@ class Settings(BaseSettings):
     workbook_cells_max: int = Field(200_000, ge=1, description="The same for xlsx, which is slow to write")
     poses_max: int = Field(20_000, ge=1, description="Most benches in one /overlaps request")
     pairs_max: int = Field(20_000, ge=1, description="Most overlapping pairs in one /overlaps answer")
-    concurrent_max: int = Field(8, ge=1, description="Computations at once; one more is answered with 503")
+    concurrent_max: int = Field(8, ge=1, description="Computations at once in one process; one more gets a 503")
     retry_after: int = Field(1, ge=1, description="Wait that a 503 asks for [s]")
     cache_seconds: int = Field(86_400, ge=0, description="Cache-Control max-age of an answer [s]")
 

@@ -393,7 +393,7 @@ def _judged_by_shapely(poses: Floats, sizes: Floats, margin: float) -> list[bool
 def _judged_by_angle_sum(poses: Floats, sizes: Floats, margin: float) -> list[bool]:
     corner = paper_corners(poses, sizes)
     sums = angle_sums(corner, corner[:, ::-1])  # each bench's corners in the other
-    overlap: list[bool] = (sums >= 2.0 * np.pi - ANGLE_TOLERANCE).any(axis=(1, 2)).tolist()
+    overlap: list[bool] = np.any(sums >= 2.0 * np.pi - ANGLE_TOLERANCE, axis=(1, 2)).tolist()
     return overlap
 
 

@@ -8,10 +8,14 @@ import doctest
 import json
 import os
 import pty
+import re
 import signal
 import socket
 import subprocess
 import sys
+import tempfile
+import time
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -24,6 +28,7 @@ ENVIRONMENT = {
     name: value for name, value in os.environ.items() if not name.startswith(("BENCH_DRAGON_", "FORCE_COLOR"))
 }
 PATIENCE = 120.0  # [s]: only against a test that would hang
+HEALTH_COUNT = 'bench_dragon_requests_total{path="/healthz"'
 CROSSED = {
     "benches": [
         {"x": 0.0, "y": 0.0, "heading": 0.0, "length": 2.2, "width": 0.3},
@@ -229,34 +234,87 @@ def test_a_long_wait_shows_a_bar_and_ctrl_c_ends_it_cleanly(tmp_path: Path) -> N
     assert list(tmp_path.iterdir()) == []
 
 
-@pytest.mark.parametrize("workers", [1, 2])
-def test_serve_answers_and_ctrl_c_ends_it(workers: int) -> None:
+@contextlib.contextmanager
+def serving(*options: str) -> Iterator[tuple[subprocess.Popen[str], str, list[str]]]:
+    """`bench-dragon serve`, its base URL, and the lines that it wrote up to when all its processes answer."""
     with socket.socket() as free:
         free.bind(("127.0.0.1", 0))
         port = free.getsockname()[1]
+    command = [COMMAND, "serve", "--port", str(port), *options]
+    scratch = tempfile.TemporaryDirectory()  # what a killed service leaves behind goes with it
+    environment = ENVIRONMENT | {"TMPDIR": scratch.name}
     process = subprocess.Popen(
-        [COMMAND, "serve", "--port", str(port), "--workers", str(workers)],
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-        text=True,
-        env=ENVIRONMENT,
+        command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, env=environment, start_new_session=True
     )
     assert process.stderr is not None
-    started = 0
+    lines: list[str] = []
+    expected, running = 1, False
     for line in process.stderr:
-        started += "Application startup complete" in line
-        if started == workers and (workers > 1 or "running on" in line):
+        lines.append(line)
+        running |= f"running on http://127.0.0.1:{port}" in line
+        expected = int(found[1]) if (found := re.search(r"in (\d+) processes", line)) else expected
+        if running and sum("Application startup complete" in line for line in lines) == expected:
             break
-    assert httpx.get(f"http://127.0.0.1:{port}/healthz").json()["status"] == "ok"
-    process.send_signal(signal.SIGINT)
-    _, rest = process.communicate(timeout=PATIENCE)
-    assert "Traceback" not in rest
+    try:
+        yield process, f"http://127.0.0.1:{port}", lines
+    finally:
+        with contextlib.suppress(ProcessLookupError):
+            os.killpg(process.pid, signal.SIGKILL)
+        process.communicate()
+        scratch.cleanup()
 
 
-def test_serve_on_a_port_that_is_taken_gets_exit_code_2(server: str) -> None:
-    done = run("serve", "--port", server.rpartition(":")[2])
+def becomes(url: str, name: str, expected: float) -> bool:
+    """Does a metric, summed over its labels, get to a value? A request is counted just after its answer has left."""
+    end = time.monotonic() + PATIENCE
+    while time.monotonic() < end:
+        lines = httpx.get(f"{url}/metrics").text.splitlines()
+        if sum(float(line.rpartition(" ")[2]) for line in lines if line.startswith(name)) == expected:
+            return True
+    return False
+
+
+@pytest.mark.parametrize("options", [["--workers", "1"], ["--workers", "3"], []], ids=["one", "three", "default"])
+def test_serve_answers_and_ctrl_c_ends_it(options: list[str]) -> None:
+    workers = int(options[1]) if options else len(os.sched_getaffinity(0))
+    with serving(*options) as (process, url, lines):
+        assert sum("Started server process" in line for line in lines) == workers
+        for k in range(1, 4):
+            assert httpx.get(f"{url}/healthz").json()["status"] == "ok"
+            assert becomes(url, HEALTH_COUNT, k)
+        os.killpg(process.pid, signal.SIGINT)  # as a terminal does
+        _, rest = process.communicate(timeout=PATIENCE)
+        assert process.returncode == 0
+        assert "Traceback" not in rest
+
+
+def test_serve_replaces_a_process_that_dies_and_keeps_its_counts() -> None:
+    with serving("--workers", "2") as (process, url, lines):
+        for k in range(1, 5):
+            httpx.get(f"{url}/healthz")
+            assert becomes(url, HEALTH_COUNT, k)
+        first = next(int(found[1]) for line in lines if (found := re.search(r"Started server process \[(\d+)\]", line)))
+        os.kill(first, signal.SIGKILL)
+        assert process.stderr is not None
+        assert any("Application startup complete" in line for line in process.stderr)
+        assert becomes(url, HEALTH_COUNT, 4)
+
+
+def test_no_process_outlives_a_service_that_is_killed() -> None:
+    with serving("--workers", "2") as (process, url, _):
+        process.kill()
+        end = time.monotonic() + PATIENCE
+        with contextlib.suppress(httpx.ConnectError):
+            while time.monotonic() < end:
+                httpx.get(f"{url}/healthz")
+        assert time.monotonic() < end
+
+
+@pytest.mark.parametrize("workers", ["1", "2"])
+def test_serve_on_a_port_that_is_taken_gets_exit_code_2(server: str, workers: str) -> None:
+    done = run("serve", "--port", server.rpartition(":")[2], "--workers", workers)
     assert done.returncode == 2
-    assert "address already in use" in done.stderr
+    assert "address already in use" in done.stderr.lower()
     assert "Traceback" not in done.stderr
 
 
