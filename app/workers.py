@@ -2,8 +2,9 @@
 
 Threads of one process do not get there: only the search itself runs without Python's lock, a third of an answer, and
 handing the lock to and fro costs what the second core gains. Against one process on one core, two cores give 1.0x the
-requests per second to one process, and 1.8x to two (2026-11-21; nor did sys.setswitchinterval from 0.05 to 100 ms or
-1, 2, 3 or 40 threads change that). `make bench` measures it again.
+requests per second to one process and 1.7x to two, with the client on the same cores (2026-11-21; in one process
+sys.setswitchinterval from 0.05 to 100 ms, 2, 3 or 40 threads, asyncio's loop or uvloop change nothing for the better).
+`make bench` measures it again.
 """
 
 from __future__ import annotations
@@ -15,6 +16,7 @@ import signal
 import socket
 from tempfile import TemporaryDirectory
 from threading import Thread
+from typing import Literal
 
 import uvicorn
 from fastapi import FastAPI
@@ -25,6 +27,9 @@ from app.settings import SHARED_COUNTS
 
 logger = logging.getLogger("uvicorn.error")
 
+# Not httptools, though it saves a fifteenth of the time: it answers an unknown method before the service can, with 400
+# and no problem details.
+PARSER: Literal["h11"] = "h11"
 BACKLOG = 2048  # connections that wait to be taken, uvicorn's own number
 
 
@@ -98,9 +103,11 @@ def serve(host: str, port: int, workers: int) -> None:
     raises: OSError when the port is taken or the address is not ours; with one process uvicorn says so and exits
     """
     if workers == 1:
-        uvicorn.run("app.main:create_app", factory=True, host=host, port=port)
+        uvicorn.run("app.main:create_app", factory=True, host=host, port=port, http=PARSER)
         return
-    config = uvicorn.Config("app.workers:create_child_app", factory=True, host=host, port=port, workers=workers)
+    config = uvicorn.Config(
+        "app.workers:create_child_app", factory=True, host=host, port=port, http=PARSER, workers=workers
+    )
     with listen(host, port) as shared, TemporaryDirectory(prefix="bench-dragon-") as counts:
         # Where the processes add up what /metrics shows; prometheus_client reads it when they import it.
         os.environ[SHARED_COUNTS] = counts
