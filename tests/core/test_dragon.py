@@ -139,3 +139,13 @@ def test_a_dragon_keeps_no_hold_of_the_lists_it_was_made_from() -> None:
 def test_dragons_of_another_width_differ() -> None:
     assert Dragon(width=0.3) != Dragon(width=0.31)
     assert Dragon() != "a dragon"
+
+
+@pytest.mark.parametrize("benches", [1, 2, 3, 5])
+def test_leading_benches_are_those_of_the_dragon(benches: int) -> None:
+    lengths, widths, overhangs = [3.0, 2.0, 4.0, 2.0, 2.0], [0.3, 0.2, 0.3, 0.3, 0.3], [0.2, 0.1, 0.2, 0.2, 0.2]
+    front = Dragon.of(lengths, widths, overhangs).leading(benches)
+    expected = Dragon.of(lengths[:benches], widths[:benches], overhangs[:benches])
+    assert front == expected
+    assert front.uniform_from == expected.uniform_from
+    np.testing.assert_array_equal(front.chords, expected.chords)
