@@ -250,7 +250,7 @@ def test_a_dance_that_is_none_is_a_problem_that_names_the_place(
         ("/shortest-turn?margin=3", "margin", ("at most 2 m",)),
         ("/shortest-turn?turning_diameter=8", "turning_diameter", ("too tight", "2.86 m")),
         ("/shortest-turn?pitch=0.8", "turning_diameter", ("benches 0 and 15 touch", "13.286258 s after")),
-        ("/shortest-turn?benches=501", "benches", ("at most 500",)),
+        ("/shortest-turn?benches=2001", "benches", ("at most 2000",)),
         ("/maximum-head-speed?speed_limit=0", "speed_limit", ("at least 0.001 m/s",)),
         ("/maximum-head-speed?turning_diameter=2", "turning_diameter", ("radius", "bench 0")),
         ("/maximum-head-speed?benches=2001", "benches", ("at most 2000",)),
