@@ -24,8 +24,9 @@ from core.dragon import Dragon, Floats, checked_number
 from core.errors import InvalidValue
 from core.kinematics import EndReason, RunEnd, checked_head_speed, checked_span, checked_times, run_end
 from core.paths import Spiral
+from core.precise import narrowed
 from core.route import Route
-from core.search import MARGIN_MAX, NO_GRAZE, Search
+from core.search import BRACKETS_GRAZING, MARGIN_MAX, NO_GRAZE, Search
 
 # Grazes of a profile are looked for in steps of at most this fraction of the shortest chord [1] ...
 PROFILE_STEP = 0.2
@@ -148,7 +149,8 @@ def first_contact(
     head_speed: [m/s]; margin: [m], the clearance required; contact means separation <= margin
     start, stop: the times between which to look [s]; None for the end of the run
     returns: see FirstContact; times good to 1e-10 s at 1 m/s, bracketed by [proven clear up to, overlapping at], no
-        wider than 1e-9 s unless the benches meet within about 1e-8 m of a graze
+        wider than 1e-9 s but where an arc length itself is not that good (beyond 1e6 m), and within about 1e-6 m of a
+        graze along waypoints or where a second pair meets at once
     raises: InvalidValue; OutsideRun for a stop after the end of the run
     source: the model of Yang et al., sections 2.4 and 2.5, whose times differ: see app/paper.py
 
@@ -164,6 +166,9 @@ def first_contact(
     to_fold = until >= end.time and end.reason is EndReason.FOLD
     last = search.last_travel(until * head_speed, to_fold)
     state, found, tolerance = search.approach(begin * head_speed, last, head_speed)
+    narrow = BRACKETS_GRAZING[0] * min(1.0, head_speed)
+    if state == "touched" and tolerance > narrow and (narrower := narrowed(search, found, narrow)):
+        found, tolerance = narrower, narrow
     if to_fold and (state == "reached" or (state == "stuck" and found["touching"] < 0.0)):
         state = "reached" if search.clear_to_fold(min(found["proven"], last), end) else "stuck"
     if stop is not None and state == "reached":

@@ -2259,7 +2259,10 @@ RING_HALF_WIDTH = cython.declare(cython.int, 4)
 ALL_CHORD = cython.declare(cython.int, 5)
 ALL_OVERHANG = cython.declare(cython.int, 6)
 ALL_HALF_WIDTH = cython.declare(cython.int, 7)
-RING_ENTRIES = 8
+# and a pair that a march leaves out, -1 for none
+LEFT_OUT = cython.declare(cython.int, 8)
+LEFT_OUT_TOO = cython.declare(cython.int, 9)
+RING_ENTRIES = 10
 
 # Entries of march()'s result.
 PROVEN = cython.declare(cython.int, 0)  # nothing touches up to here [m of head travel]
@@ -2548,7 +2551,7 @@ def interval_least(
                 if growth * low - drift(motion[j, HANDLE_SPEED], h, growth, growth * low) > far:
                     break  # handles stand in order, so all further ones lie outside too
             least = pair_least(growth, i, j, margin, h, sizes, before, after, motion, out)
-            if least >= FREE:
+            if least >= FREE or (i == ring[LEFT_OUT] and j == ring[LEFT_OUT_TOO]):
                 continue
             width = 8.0 * (least - margin) / out[0] + h * h
             width = sqrt(width) if width > 0.0 else 0.0
@@ -2860,6 +2863,46 @@ def crossing(
                 above *= 0.5
             last = -1
     return high
+
+
+@cython.ccall
+@cython.nogil
+@cython.exceptval(check=False)
+def pair_bends(
+    growth: cython.double,
+    pieces: cython.const[cython.double][:, ::1],
+    place: cython.double,
+    h: cython.double,
+    a: cython.Py_ssize_t,
+    b: cython.Py_ssize_t,
+    sizes: cython.double[:, ::1],
+    rows: cython.double[:, :, ::1],
+    motion: cython.double[:, ::1],
+    out: cython.double[::1],
+) -> cython.bint:
+    """Bounds on the second derivative of gaps of two benches while the head travels h from a place [1/m].
+
+    out: (2,) along axes fixed in bench a, and in bench b; False where no bound is known
+    """
+    before: cython.double[:, ::1] = rows[0]
+    after: cython.double[:, ::1] = rows[1]
+    dx: cython.double
+    dy: cython.double
+    if place_chain(growth, pieces, place, b + 1, sizes, before) < 0:
+        return False
+    if place_chain(growth, pieces, place - h, b + 1, sizes, after) < 0:
+        return False
+    if pieces.shape[0] > 0:
+        if not route_bounds(pieces, h, b + 1, sizes, before, after, False, motion):
+            return False
+    elif not motion_bounds(growth, h, b + 1, sizes, before, after, motion):
+        return False
+    dx = before[b, MX] - before[a, MX]
+    dy = before[b, MY] - before[a, MY]
+    dx = sqrt(dx * dx + dy * dy) + (motion[a, CENTRE_SPEED] + motion[b, CENTRE_SPEED]) * h
+    out[0] = axis_bend(growth, a, b, dx, sizes, motion)
+    out[1] = axis_bend(growth, b, a, dx, sizes, motion)
+    return True
 
 
 @cython.cfunc

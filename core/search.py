@@ -23,9 +23,9 @@ STEP_BUDGET = 200_000
 # rounding of the travel allows at lower ones.
 BRACKET = 1e-10
 BRACKET_MIN = 2e-11
-# The same where benches meet so slowly that rounding hides the gap that near: 1e-9 s in all at 1 m/s, and beyond, for
-# contacts within about 1e-8 m of a graze, wider ones that still hold what they say [m of head travel].
-BRACKETS_GRAZING = (4.9e-10, 5e-9, 5e-8, 5e-7)
+# The same where benches meet so slowly that rounding hides the gap that near, for contacts within about 1e-6 m of a
+# graze: the first one is 1e-9 s in all at 1 m/s, and core/precise.py narrows the wider ones to it [m of head travel].
+BRACKETS_GRAZING = (4.9e-10, 5e-9, 5e-8, 5e-7, 5e-6, 5e-5)
 # Travels are doubles: steps and brackets cannot be finer than this part of them [1].
 TRAVEL_ROUNDING = 1e-15
 # The last stretch before a fold, where handle speeds grow without bound: dismissed by a bound on the motion left [m].
@@ -36,9 +36,11 @@ NO_BOUND = 1e150
 NO_PIECES = np.empty((0, kernels.PIECE_COLUMNS))
 # The kernels' word for a run without a graze [m].
 NO_GRAZE = 1e150
-# Rounding of a gap, relative to the largest coordinate [1]: four times the largest error, 3.4e-15 m at 12 m, of 60 gaps
-# after chains of 6 to 21 benches against 40-digit arithmetic, 2026-11-21.
-GAP_ROUNDING = 1e-15
+# A march leaves out no pair.
+NO_PAIR = (-1.0, -1.0)
+# Rounding of a gap, relative to the largest coordinate and two bench lengths [1]: more than twice the largest of 1,187
+# gaps after chains of up to 38 benches of 400 dragons against 48-digit arithmetic, 1.13e-15, 2026-11-21.
+GAP_ROUNDING = 2.5e-15
 # Places on a route are rounded as arc lengths are; in units of the coordinates' rounding [1].
 ARC_ROUNDING = 0.1
 
@@ -72,7 +74,7 @@ class Search:
         shortest, outer_shortest = columns[0].min(), outer[0].min()
         self.extremes = (longest, shortest, overhang, half_width, outer_chord, outer_half_width)
         ring = (0.0, outer_chord, outer_shortest, outer_overhang, outer_half_width)
-        self.ring = np.array([*ring, longest, overhang, half_width])
+        self.ring = np.array([*ring, longest, overhang, half_width, *NO_PAIR])
         self.resize(dragon.benches if isinstance(path, Route) else min(dragon.benches, 255))
         self.use(path, margin)
 
@@ -187,6 +189,13 @@ class Search:
             if state != "capacity":
                 return state, dict(zip(kernels.MARCH_FIELDS, out.tolist(), strict=False))
             self.resize(min(4 * self.room, self.dragon.benches))
+
+    def others_clear(self, pair: tuple[int, int], start: float, stop: float) -> bool:
+        """Are all pairs but one proven to be clear between two travels [m]?"""
+        self.ring[-2:] = pair
+        state, _ = self.march(stop, 0.0, start=start)
+        self.ring[-2:] = NO_PAIR
+        return state == "reached"
 
     @staticmethod
     def last_travel(until: float, to_fold: bool) -> float:

@@ -229,6 +229,7 @@ def test_a_graze_is_met_just_below_a_jump_and_passed_just_above(
     tight, wide = Spiral(pitch - BESIDE, turns), Spiral(pitch + BESIDE, turns)
     met, passed = (first_contact(dragon, spiral, margin=margin) for spiral in (tight, wide))
     assert met.outcome is Outcome.CONTACT
+    assert met.time_bracket[1] - met.time_bracket[0] <= ACCURACY
     later = passed.time if passed.time is not None else passed.end.time
     assert later - met.time > JUMP
     for spiral, reaches in ((tight, True), (wide, False)):

@@ -1,0 +1,231 @@
+"""Two benches to 30 digits, for contacts so near a graze that the rounding of doubles hides when they begin.
+
+The same model as the kernels': their doubles (growth, chords, the table of a route) are taken as exact, and the chain
+is solved again in decimal arithmetic, starting from the kernels' own. Not for curves through waypoints, whose arc
+length is itself a quadrature.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from decimal import Decimal, localcontext
+from typing import NamedTuple
+
+import numpy as np
+
+from core import kernels
+from core.search import Search
+
+DIGITS = 40
+# Series end with terms below this [1], and a chord is met within it [m].
+NEGLIGIBLE = Decimal("1e-34")
+# Intervals shorter than this prove nothing [m].
+SHORTEST = 1e-13
+TWO_PI = Decimal("6.2831853071795864769252867665590057683943387987502")
+# Columns of a chain row of the kernels.
+TANGENT, PLACE, LINK, PIECE = slice(2, 4), 4, slice(8, 10), 11
+
+Vector = tuple[Decimal, Decimal]
+
+
+class Bench(NamedTuple):
+    """Centre [m], unit vector towards the front, half length and half width [m]."""
+
+    centre: Vector
+    along: Vector
+    half_length: Decimal
+    half_width: Decimal
+
+
+class Axis(NamedTuple):
+    """A unit vector fixed in the first (0) or the second (1) bench of a pair, by its parts along it and to its left."""
+
+    owner: int
+    along: Decimal
+    left: Decimal
+
+
+class Pair:
+    """Two benches of a search: where they are, and how far apart.
+
+    can_follow: the path has no curve through waypoints
+    """
+
+    def __init__(self, search: Search, pair: tuple[int, int]) -> None:
+        self.search, self.pair = search, pair
+        spiral = [2, 0, 0, 0, 0, 0, 0, search.growth, 0, -1, search.place]  # one coil inwards, s = travel
+        self.pieces: list[list[Decimal]] = [
+            [Decimal(number) for number in row] for row in (search.pieces.tolist() or [spiral])
+        ]
+        names = {kernels.PIECE_KINDS[int(row[0])] for row in self.pieces}
+        self.can_follow = not names & {"cubic", "crest"}
+
+    def benches(self, travel: Decimal) -> tuple[Bench, Bench]:
+        """The two benches with the head at a travel [m]."""
+        search = self.search
+        search.place_leaders(float(travel), self.pair[1] + 1)
+        rows, spiral = search.rows[0], not len(search.pieces)
+        s, points = travel, [self._point(0 if spiral else int(rows[0, PIECE]), travel)]
+        for k in range(self.pair[1] + 1):
+            chord, piece = Decimal(float(search.sizes[k, 0])), 0 if spiral else int(rows[k + 1, PIECE])
+            place = float(rows[k + 1, PLACE])
+            s = Decimal(search.place - search.growth * kernels.spiral_arc(place) if spiral else -place)
+            slope = Decimal(float(rows[k + 1, TANGENT] @ rows[k, LINK]))
+            for _ in range(DIGITS):
+                point = self._point(piece, s)
+                excess = _distance(points[-1], point) - chord
+                if abs(excess) < NEGLIGIBLE:
+                    break
+                s += excess / slope
+            points.append(point)
+        first, second = (self._bench(k, points[k], points[k + 1]) for k in self.pair)
+        return first, second
+
+    def gap(self, travel: Decimal) -> Decimal:
+        """By how much the two are further apart than the margin [m]."""
+        return separation(*self.benches(travel))[0] - Decimal(self.search.margin)
+
+    def stays_apart(self, start: float, stop: float) -> bool:
+        """Are the two proven to be further apart than the margin from one travel to another [m]?"""
+        search, bends, margin = self.search, np.empty(2), Decimal(self.search.margin)
+        a, b = self.pair
+        while start < stop:
+            here = self.benches(Decimal(start))
+            h = stop - start
+            while True:
+                place = (search.growth, search.pieces, search.place - start, h, a, b)
+                if not kernels.pair_bends(*place, search.sizes, search.rows, search.motion, bends):
+                    return False
+                there = self.benches(Decimal(start + h))
+                axis = separation(*there)[1]
+                least = min(gap_along(*here, axis), gap_along(*there, axis)) - margin
+                if least > Decimal(bends[axis.owner] * h * h / 8.0):
+                    break
+                h *= 0.5
+                if h < SHORTEST:
+                    return False
+            start = start + h if start + h < stop else stop
+        return True
+
+    def _bench(self, k: int, front: Vector, rear: Vector) -> Bench:
+        chord, half_length, half_width = (Decimal(number) for number in self.search.sizes[k, :3].tolist())
+        centre = ((front[0] + rear[0]) / 2, (front[1] + rear[1]) / 2)
+        return Bench(centre, ((front[0] - rear[0]) / chord, (front[1] - rear[1]) / chord), half_length, half_width)
+
+    def _point(self, piece: int, s: Decimal) -> Vector:
+        """Point at arc length s of a row of the table, see core/kernels.py, "routes"."""
+        row = self.pieces[piece]
+        kind, u = kernels.PIECE_KINDS[int(row[0])], s - row[1]
+        if kind == "line":
+            return row[5] + u * row[7], row[6] + u * row[8]
+        if kind == "arc":
+            radius, angle = row[7], row[8] + row[9] * u / row[7]
+        else:
+            theta = _theta((row[10] + row[9] * u) / row[7])
+            radius, angle = row[7] * theta, theta + row[8]
+        cos, sin = _cos_sin(angle)
+        return row[5] + radius * cos, row[6] + radius * sin
+
+
+def separation(first: Bench, second: Bench) -> tuple[Decimal, Axis]:
+    """Signed distance of two rectangles [m], as core.separation(), and the axis along which they are that far apart."""
+    faces = [(gap_along(first, second, axis), axis) for axis in _FACES]
+    gap, axis = max(faces)
+    if gap <= 0:
+        return gap, axis
+    return min(_nearest_corner(0, first, second), _nearest_corner(1, second, first))
+
+
+def gap_along(first: Bench, second: Bench, axis: Axis) -> Decimal:
+    """Gap of two rectangles along an axis, in whichever direction the other one lies [m]; at most their distance."""
+    own, other = (first, second) if axis.owner == 0 else (second, first)
+    (x, y), (ux, uy) = _local(own, other.centre), other.along
+    along, left = _dot(own.along, (ux, uy)), own.along[0] * uy - own.along[1] * ux
+    reach = abs(axis.along) * own.half_length + abs(axis.left) * own.half_width
+    reach += abs(axis.along * along + axis.left * left) * other.half_length
+    reach += abs(axis.left * along - axis.along * left) * other.half_width
+    return abs(axis.along * x + axis.left * y) - reach
+
+
+_ONE, _NONE = Decimal(1), Decimal(0)
+_FACES = [Axis(owner, *parts) for owner in (0, 1) for parts in ((_ONE, _NONE), (_NONE, _ONE))]
+
+
+def _nearest_corner(owner: int, own: Bench, other: Bench) -> tuple[Decimal, Axis]:
+    """Least distance from a corner of the other bench to this one [m], and its direction."""
+    found = []
+    for a in (-1, 1):
+        for b in (-1, 1):
+            ux, uy = other.along
+            length, width = a * other.half_length, b * other.half_width
+            x, y = _local(own, (other.centre[0] + length * ux - width * uy, other.centre[1] + length * uy + width * ux))
+            dx = (abs(x) - own.half_length).max(_NONE).copy_sign(x)
+            dy = (abs(y) - own.half_width).max(_NONE).copy_sign(y)
+            gap = (dx * dx + dy * dy).sqrt()
+            found.append((gap, Axis(owner, dx / gap, dy / gap) if gap else _FACES[0]))
+    return min(found)
+
+
+def _local(bench: Bench, point: Vector) -> Vector:
+    dx, dy = point[0] - bench.centre[0], point[1] - bench.centre[1]
+    return dx * bench.along[0] + dy * bench.along[1], dy * bench.along[0] - dx * bench.along[1]
+
+
+def _dot(a: Sequence[Decimal], b: Sequence[Decimal]) -> Decimal:
+    return a[0] * b[0] + a[1] * b[1]
+
+
+def _distance(a: Vector, b: Vector) -> Decimal:
+    return ((a[0] - b[0]) ** 2 + (a[1] - b[1]) ** 2).sqrt()
+
+
+def _theta(arc: Decimal) -> Decimal:
+    """Polar angle of a spiral at an arc length from its centre, in units of growth: kernels.spiral_theta()."""
+    theta = Decimal(kernels.spiral_theta(float(arc)))
+    for _ in range(2):
+        root = (1 + theta * theta).sqrt()
+        theta -= ((theta * root + (theta + root).ln()) / 2 - arc) / root
+    return theta
+
+
+def _cos_sin(angle: Decimal) -> Vector:
+    """By the series of the exponential, on the angle reduced to [-pi, pi] and halved five times."""
+    x = angle.remainder_near(TWO_PI) / 32
+    cos, sin, term, k = Decimal(1), Decimal(0), Decimal(1), 0
+    while abs(term) > NEGLIGIBLE * NEGLIGIBLE.sqrt():
+        k += 1
+        term = term * x / k
+        if k % 2:
+            sin += term if k % 4 == 1 else -term
+        else:
+            cos += term if k % 4 == 0 else -term
+    for _ in range(5):
+        cos, sin = cos * cos - sin * sin, 2 * cos * sin
+    return cos, sin
+
+
+# From `proven` on the gap of the pair falls until it touches: its first instant t within the margin is bisected between
+# an instant apart and one within, and what lies before t is proven as in the kernels: along an axis fixed in one of the
+# benches the gap stays above its chord by no more than K x (h - x) / 2, with the kernels' K, in as many intervals as
+# that takes. All other pairs are marched over the same stretch in doubles.
+def narrowed(search: Search, found: dict[str, float], half: float) -> dict[str, float] | None:
+    """A contact that was found in a wide bracket, in one of half width `half` [m]; None where that is not proven.
+
+    found: of Search.march(): `proven`, `touching` and the pair; so is the result, with `touching` - `half` the contact
+    """
+    pair = Pair(search, (int(found["first"]), int(found["second"])))
+    if not pair.can_follow or not search.others_clear(pair.pair, found["proven"], found["touching"]):
+        return None
+    with localcontext() as context:
+        context.prec = DIGITS
+        low, high = Decimal(found["proven"]), Decimal(found["touching"])
+        if not pair.gap(low) > 0 >= pair.gap(high):
+            return None
+        while high - low > Decimal(half) / 1000:
+            middle = (low + high) / 2
+            low, high = (middle, high) if pair.gap(middle) > 0 else (low, middle)
+        contact = float(high)
+        clear, touching = contact - half, contact + half
+        if pair.gap(Decimal(touching)) > 0 or not pair.stays_apart(found["proven"], clear):
+            return None
+    return found | {"proven": clear, "touching": touching}

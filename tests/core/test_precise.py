@@ -1,0 +1,103 @@
+"""Benches in decimals: the model of the kernels, contacts within a nanometre of a graze, and where doubles must do."""
+
+from __future__ import annotations
+
+import math
+from decimal import Decimal, localcontext
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from core import Dragon, Outcome, Route, Spiral, Waypoints, first_contact, minimum_pitch, separation, turn
+from core.precise import DIGITS, Bench, Pair, gap_along, narrowed
+from core.precise import separation as precise_separation
+from core.search import Search
+
+# Positions of the kernels [m]: on a route a kilometre long an arc length is good to 2e-13 m.
+DOUBLE = 1e-12
+PRECISE = Decimal("1e-30")  # [m]
+BRACKET = 1e-9  # [s]
+TURN = turn(1.7).path
+
+
+def pair_of(path: Spiral | Route, pair: tuple[int, int]) -> Pair:
+    search = Search(Dragon(60), path, 0.0)
+    search.resize(60)
+    return Pair(search, pair)
+
+
+@pytest.mark.parametrize(
+    ("path", "travel"),
+    [(Spiral(), 10.0), (Spiral(), 412.4), (Spiral(0.45, 20.0), 300.0), (TURN, -30.0), (TURN, 14.0), (TURN, 60.0)],
+    ids=["spiral", "near contact", "another", "before the turn", "in the turn", "after the turn"],
+)
+@pytest.mark.parametrize("pair", [(0, 2), (0, 19), (7, 31)])
+def test_benches_stand_where_the_kernels_put_them(path: Spiral | Route, travel: float, pair: tuple[int, int]) -> None:
+    model = pair_of(path, pair)
+    with localcontext() as context:
+        context.prec = DIGITS
+        benches = model.benches(Decimal(travel))
+        for bench in benches:
+            assert abs(bench.along[0] ** 2 + bench.along[1] ** 2 - 1) < PRECISE
+        distance = precise_separation(*benches)[0]
+    model.search.clearance(travel)
+    rows, sizes = model.search.rows[0, list(pair)], model.search.sizes[list(pair)]
+    poses = np.column_stack([rows[:, 6:8], np.arctan2(rows[:, 9], rows[:, 8])])
+    found = separation(poses[0], 2.0 * sizes[0, 1:3], poses[1], 2.0 * sizes[1, 1:3]).separation
+    assert float(distance) == pytest.approx(float(found), rel=0, abs=DOUBLE)
+
+
+boxes = st.tuples(
+    *(st.floats(-2, 2), st.floats(-2, 2), st.floats(-math.pi, math.pi), st.floats(0.5, 3), st.floats(0.1, 1))
+)
+
+
+@settings(max_examples=200, deadline=None)
+@given(boxes, boxes)
+def test_rectangles_are_as_far_apart_as_in_doubles(a: tuple[float, ...], b: tuple[float, ...]) -> None:
+    def bench(x: float, y: float, heading: float, length: float, width: float) -> Bench:
+        numbers = (x, y, math.cos(heading), math.sin(heading), 0.5 * length, 0.5 * width)
+        dx, dy, ux, uy, half_length, half_width = map(Decimal, numbers)
+        return Bench((dx, dy), (ux, uy), half_length, half_width)
+
+    first, second = bench(*a), bench(*b)
+    distance, axis = precise_separation(first, second)
+    found = separation(a[:3], a[3:], b[:3], b[3:]).separation
+    assert float(distance) == pytest.approx(float(found), rel=0, abs=DOUBLE)
+    assert float(gap_along(first, second, axis)) == pytest.approx(float(distance), rel=0, abs=DOUBLE)
+
+
+@pytest.mark.parametrize("margin", [0.0, 0.05])
+@pytest.mark.parametrize("below", [1e-11, 1e-9, 1e-7])
+@pytest.mark.parametrize("head_speed", [0.01, 1.0, 2.0])
+def test_within_a_nanometre_of_a_graze_the_bracket_is_narrow(margin: float, below: float, head_speed: float) -> None:
+    spiral = Spiral(minimum_pitch(Dragon(60), margin=margin).pitch_bracket[0] - below)
+    found = first_contact(Dragon(60), spiral, margin=margin, head_speed=head_speed)
+    assert found.outcome is Outcome.CONTACT
+    assert found.time_bracket is not None
+    clear, within = found.time_bracket
+    assert clear < found.time < within <= clear + BRACKET
+    model = pair_of(spiral, found.benches)
+    with localcontext() as context:
+        context.prec = DIGITS
+        at = [
+            precise_separation(*model.benches(Decimal(time) * Decimal(head_speed)))[0] - Decimal(margin)
+            for time in (clear, within)
+        ]
+    assert at[0] > 0 >= at[1]
+
+
+def test_where_a_second_pair_is_as_near_the_bracket_stays() -> None:
+    spiral = Spiral(minimum_pitch(Dragon(60)).pitch_bracket[0] - 1e-9)
+    search = Search(Dragon(60), spiral, 0.0)
+    state, found, half = search.approach(0.0, 300.0, 1.0)
+    assert (state, half > 0.5 * BRACKET) == ("touched", True)
+    assert narrowed(search, found, 0.4 * BRACKET) is not None
+    assert narrowed(search, found | {"first": 0.0, "second": 18.0}, 0.4 * BRACKET) is None
+
+
+def test_a_curve_through_waypoints_is_followed_in_doubles_alone() -> None:
+    assert not pair_of(Route([Waypoints(((0, 0), (80, 0), (160, 30)))], start=150.0), (0, 2)).can_follow
+    assert pair_of(TURN, (0, 2)).can_follow
