@@ -1,4 +1,4 @@
-# The first `make` in a fresh clone makes .venv, installs the locked versions and compiles core/kernels.py.
+# The first `make` in a fresh clone makes .venv, installs the locked versions and compiles core/kernels.
 SHELL := /bin/bash
 .DEFAULT_GOAL := help
 .PHONY: help setup serve test lint bench figures lock clean
@@ -28,9 +28,9 @@ $(VENV)/installed: requirements.lock
 	@$(PIP) install -r requirements.lock
 	@touch $@
 
-# The normal install, editable: it compiles core/kernels.py in place, or says why it runs uncompiled.
-$(VENV)/compiled: core/kernels.py setup.py pyproject.toml $(VENV)/installed
-	@rm -f core/kernels.*.so
+# The normal install, editable: it compiles core/kernels in place, or says why it runs uncompiled.
+$(VENV)/compiled: $(wildcard core/kernels/*.py core/kernels/*.pxd) setup.py pyproject.toml $(VENV)/installed
+	@rm -f core/kernels.*.so core/kernels/*.so
 	@$(PIP) install --no-build-isolation --no-deps -e .
 	@$(BIN)/python -c "from core.kernels import COMPILED; raise SystemExit(not COMPILED)" || printf '%s\n' \
 		'No C compiler with the headers of Python was found: everything works, only many times slower.' \
@@ -64,5 +64,5 @@ lock:
 	@rm -rf build/lock
 
 clean:
-	@rm -rf $(VENV) build *.egg-info core/kernels.*.so .pytest_cache .hypothesis .mypy_cache .ruff_cache .benchmarks
+	@rm -rf $(VENV) build *.egg-info core/kernels.*.so core/kernels/*.so .pytest_cache .hypothesis .mypy_cache .ruff_cache .benchmarks
 	@find . -name __pycache__ -type d -prune -exec rm -rf {} +

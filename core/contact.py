@@ -1,6 +1,6 @@
 """First contact and clearance along time, with a certificate.
 
-The proof is written above the loops that carry it out: `core/kernels.py`, "certified motion" and "rings". In short:
+The proof is written above the loops that carry it out: `core/kernels/bounds.py`, `pairs.py` and `rings.py`. In short:
 the head advances from L to R only if, for every pair that can be near, one axis fixed in one of the two benches
 separates them by more than the margin over all of [L, R], because the gap along that axis is known at both ends and
 its second derivative is bounded in between. What lies further out than a radius known in closed form cannot touch.

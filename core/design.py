@@ -242,7 +242,7 @@ def minimum_pitch(
     """The smallest pitch such that every larger one lets the head reach the turning circle without contact.
 
     turning_radius: [m]; start_turns: turns from the centre to the start; margin: [m], clearance required
-    From a pitch at which the ring bound of `core/kernels.py` clears everything, strips of pitches are proven clear
+    From a pitch at which the bound of `core/kernels/rings.py` clears everything, strips of pitches are proven clear
     downwards, each for all its pitches at once (`core/strips.py`), to where a pair of benches grazes: no infeasible
     pitch is stepped over. Where strips have no bound (benches so long that they stand far across the circle, or a start
     inside the region where benches can touch while ways from further out do touch) a stated scan takes their place.

@@ -1,7 +1,7 @@
 """Exact signed separation of two oriented rectangles, with witness points and normal.
 
-The derivation stands in core/kernels.py, above its section on rectangles: the separating axis theorem when
-they meet, the least distance from a corner of the one to the other when they are apart.
+The derivation stands in core/kernels/rectangles.py: the separating axis theorem when they meet, the least
+distance from a corner of the one to the other when they are apart.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """Search: one dragon on one path, as the certified march of the kernels needs them.
 
-The proof of a march is written above the loops that carry it out: `core/kernels.py`, "certified motion" and "rings".
+The proof of a march is written above the loops that carry it out: `core/kernels/bounds.py`, `pairs.py` and `rings.py`.
 """
 
 from __future__ import annotations
@@ -113,7 +113,7 @@ class Search:
     @property
     def room(self) -> int:
         """How many leading benches there is room for."""
-        return self.sizes.shape[0] - 1 - len(self.edges)
+        return int(self.sizes.shape[0]) - 1 - len(self.edges)
 
     def ring_least(self, radius: float) -> float:
         """Lower bound of the separation of pairs whose inner bench leads at this radius or further out [m]."""

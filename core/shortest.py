@@ -175,7 +175,7 @@ def _touch(found: FirstContact, zero: float) -> Touch:
 
 
 # Let every arc's point lie within T of the centre, |C| + r at most, and let `rings` >= T be a radius from which the
-# bounds of "rings" in core/kernels.py hold: two benches of one coil are apart by more than the margin (ring_least()),
+# bounds of core/kernels/rings.py hold: two benches of one coil are apart by more than the margin (ring_least()),
 # and so are two of different coils. Those lie half a turn apart: polar angles on their own coils differ by pi (2 m + 1)
 # + x, |x| <= pi, for points in directions that differ by x, so in place of a pitch there is half of one,
 # and no bench lies beside another of its turn.

@@ -64,7 +64,7 @@ def highest_speed(
         the run
     Sampled, then every interval of time is proven not to exceed the highest rate by more than RATE_TOLERANCE, and
     every peak met on the way is refined on the exact derivative. At a joint the speed is continuous and its
-    derivative jumps, so a peak may be a kink. See core/kernels.py, "the highest speed".
+    derivative jumps, so a peak may be a kink. See core/kernels/speed.py.
     raises: InvalidValue (stop) for a spiral danced to its fold, where speeds grow without bound
     """
     head_speed = checked_head_speed(head_speed)

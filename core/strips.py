@@ -1,7 +1,6 @@
 """Strips: which pitches between two are free of contact, all of them at once.
 
-The proof of one strip is written above the loop that carries it out: `core/kernels.py`, "marching all pitches between
-two at once".
+The proof of one strip is written above the loop that carries it out: `core/kernels/strips.py`.
 """
 
 from __future__ import annotations

@@ -15,6 +15,20 @@ ROOT = Path(__file__).parent.parent
 
 # The pipeline: a module imports only modules that stand before it. kernels stands first, it knows no other.
 ORDER = (
+    "core.kernels.constants",
+    "core.kernels.spiral",
+    "core.kernels.fold",
+    "core.kernels.rectangles",
+    "core.kernels.boxes",
+    "core.kernels.route",
+    "core.kernels.chain",
+    "core.kernels.bounds",
+    "core.kernels.rings",
+    "core.kernels.pairs",
+    "core.kernels.clearance",
+    "core.kernels.marching",
+    "core.kernels.strips",
+    "core.kernels.speed",
     "core.kernels",
     "core.errors",
     "core.dragon",

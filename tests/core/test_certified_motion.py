@@ -1,39 +1,20 @@
-"""The bounds under every certificate, against dense samples: motion, least gaps, rings.
-
-The loops run uncompiled here: the compiled file keeps its inner functions to itself.
-"""
+"""The bounds under every certificate, against dense samples: motion, least gaps, rings."""
 
 from __future__ import annotations
-
-import importlib.util
-from pathlib import Path
-from types import ModuleType
 
 import numpy as np
 import pytest
 
-from core import Dragon, Spiral, run_end
+from core import Dragon, Spiral, kernels, run_end
 from core.search import Search
 from tests.core.slow_search import SlowDance, rectangles_gap
 
-SOURCE = Path(__file__).parents[2] / "core" / "kernels.py"
 # Instants within an interval, and how many apart the second differences are taken; those are means of the derivative.
 INSTANTS, APART = 121, 20
 # Rounding of a projected corner, relative to the largest coordinate [1], and of a travel, relative to the way [1].
 ROUNDING, ULP = 2e-14, 2.3e-16
 # Directions of axes fixed in a bench, from its length [rad].
 AXES = (0.0, 0.7, 0.5 * np.pi, 2.5)
-
-
-@pytest.fixture(scope="module")
-def kernels() -> ModuleType:
-    """Their source."""
-    spec = importlib.util.spec_from_file_location("kernels_source", SOURCE)
-    assert spec is not None
-    assert spec.loader is not None
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
 
 
 def random_interval(rng: np.random.Generator) -> tuple[Dragon, Spiral, float, float]:
@@ -62,7 +43,7 @@ def frames(dance: SlowDance, times: np.ndarray) -> tuple[np.ndarray, np.ndarray]
     return 0.5 * (handles[:, 1:] + handles[:, :-1]), -np.diff(handles, axis=1) / dance.chords[:, None]
 
 
-def laid_out(kernels: ModuleType, dragon: Dragon, spiral: Spiral, travel: float, sizes: np.ndarray) -> np.ndarray:
+def laid_out(dragon: Dragon, spiral: Spiral, travel: float, sizes: np.ndarray) -> np.ndarray:
     chain = np.zeros((dragon.benches + 1, kernels.CHAIN_COLUMNS))
     kernels.start_chain(kernels.spiral_theta((spiral.length - travel) / spiral.growth), chain)
     assert kernels.extend_chain(spiral.growth, 0, dragon.benches, kernels.FREE, sizes, chain) == dragon.benches
@@ -70,15 +51,15 @@ def laid_out(kernels: ModuleType, dragon: Dragon, spiral: Spiral, travel: float,
 
 
 @pytest.mark.parametrize("seed", range(30))
-def test_gaps_along_body_axes_bend_no_more_than_their_bound(seed: int, kernels: ModuleType) -> None:
+def test_gaps_along_body_axes_bend_no_more_than_their_bound(seed: int) -> None:
     dragon, spiral, start, h = random_interval(np.random.default_rng(seed))
     half = 0.5 * np.stack([dragon.lengths, dragon.widths, np.hypot(dragon.lengths, dragon.widths)], axis=1)
     sizes, motion = np.zeros((dragon.benches + 1, 4)), np.zeros((dragon.benches + 1, kernels.MOTION_COLUMNS))
     sizes[:-1] = np.column_stack([dragon.chords, half])
-    rows = [laid_out(kernels, dragon, spiral, travel, sizes) for travel in (start, start + h)]
+    rows = [laid_out(dragon, spiral, travel, sizes) for travel in (start, start + h)]
     while not kernels.motion_bounds(spiral.growth, h, dragon.benches, sizes, *rows, motion):  # too wide for any bound
         h *= 0.5
-        rows[1] = laid_out(kernels, dragon, spiral, start + h, sizes)
+        rows[1] = laid_out(dragon, spiral, start + h, sizes)
     times = np.linspace(start, start + h, INSTANTS)
     centres, along = frames(SlowDance.of(dragon, spiral), times)
     apart = APART * (times[1] - times[0])

@@ -1,7 +1,9 @@
-"""The compiled loops against the same file uncompiled: to the last bit, through everything in core that uses them."""
+"""The compiled loops against the same files uncompiled: to the last bit, through everything in core that uses them."""
 
 from __future__ import annotations
 
+import ast
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -11,23 +13,29 @@ import pytest
 
 import core
 from core import kernels
+from core.kernels import constants
 
 ROOT = Path(__file__).parents[2]
-SOURCE = ROOT / "core" / "kernels.py"
-COMPILED = Path(kernels.__file__)
+SOURCES = ROOT / "core" / "kernels"
+# Modules with a .pxd beside them are compiled; constants is one to the C compiler alone.
+COMPILED = sorted(path.stem for path in SOURCES.glob("*.pxd") if path.stem != "constants")
 
-pytestmark = pytest.mark.skipif(COMPILED.suffix == ".py", reason="the kernels run uncompiled")
+needs_compiled = pytest.mark.skipif(not kernels.COMPILED, reason="the kernels run uncompiled")
 
-# A process in which core.kernels is the source file; it prints what each expression gives, one on a line.
+# A process in which Python finds nothing but source files in core/kernels; it prints what each expression gives, one
+# on a line.
 UNCOMPILED = """
-import importlib.util, sys
+import importlib.machinery, sys
+def sources(folder):
+    if not folder.endswith("kernels"):
+        raise ImportError
+    return importlib.machinery.FileFinder(folder, (importlib.machinery.SourceFileLoader, [".py"]))
+sys.path_hooks.insert(0, sources)
 import numpy as np
-spec = importlib.util.spec_from_file_location("core.kernels", "core/kernels.py")
-kernels = importlib.util.module_from_spec(spec)
-sys.modules["core.kernels"] = kernels
-spec.loader.exec_module(kernels)
-assert not kernels.COMPILED
 import core
+modules = [name for name in sys.modules if name.startswith("core.kernels.")]
+assert len(modules) > 9 and not core.kernels.COMPILED
+assert all(sys.modules[name].__file__.endswith(".py") for name in modules)
 with np.printoptions(floatmode="unique", threshold=sys.maxsize, legacy="1.25"):
     for expression in sys.argv[1:]:
         print(ascii(repr(eval(expression))))
@@ -59,10 +67,38 @@ def uncompiled() -> dict[str, str]:
     return dict(zip(EXPRESSIONS, lines, strict=True))
 
 
-def test_compiled_file_is_not_older_than_its_source() -> None:
-    assert COMPILED.stat().st_mtime >= SOURCE.stat().st_mtime, "run make setup"
+@needs_compiled
+@pytest.mark.parametrize("module", COMPILED)
+def test_compiled_file_is_not_older_than_its_source(module: str) -> None:
+    compiled = Path(str(sys.modules[f"core.kernels.{module}"].__file__))
+    sources = (SOURCES / f"{module}.py", SOURCES / f"{module}.pxd", SOURCES / "constants.pxd")
+    assert compiled.suffix != ".py", "all modules are compiled, or none"
+    assert compiled.stat().st_mtime >= max(source.stat().st_mtime for source in sources), "run make setup"
 
 
+def test_constants_are_the_same_for_the_compiler() -> None:
+    text = (SOURCES / "constants.pxd").read_text(encoding="utf-8")
+    literals = re.findall(r'(\w+) "([^"]+)"', text) + re.findall(r"(\w+) = (\d+)", text)
+    assert {name: float(value) for name, value in literals} == {
+        name: value
+        for name, value in vars(constants).items()
+        if (isinstance(value, int | float) and not name.endswith(("_COLUMNS", "_ENTRIES"))) or name == "MARCH_ENTRIES"
+    }
+
+
+@pytest.mark.parametrize("module", COMPILED)
+def test_modules_take_the_same_from_each_other_compiled_and_uncompiled(module: str) -> None:
+    declared = (SOURCES / f"{module}.pxd").read_text(encoding="utf-8")
+    compiled = set(re.findall(r"^from (core\.\S+) cimport (.+)$", declared, re.MULTILINE))
+    uncompiled = {
+        (node.module, ", ".join(name.name for name in node.names))
+        for node in ast.walk(ast.parse((SOURCES / f"{module}.py").read_text(encoding="utf-8")))
+        if isinstance(node, ast.ImportFrom) and str(node.module).startswith("core.")
+    }
+    assert compiled == uncompiled
+
+
+@needs_compiled
 @pytest.mark.parametrize("name", EXPRESSIONS)
 def test_uncompiled_gives_the_same_to_the_last_bit(name: str, uncompiled: dict[str, str]) -> None:
     with np.printoptions(floatmode="unique", threshold=sys.maxsize, legacy="1.25"):  # np.float64 is written like float

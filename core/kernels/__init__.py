@@ -1,0 +1,60 @@
+"""The compiled loops, in Cython's pure-Python mode: the same files run uncompiled, slower, to the same digits.
+
+Only loops live here; everything around them is NumPy. Beside each module its .pxd gives the C types: functions, the
+integers among their locals, and what they take from other modules. What holds floating-point numbers alone the
+compiler types by itself, and a Python object inside a loop it refuses. `setup.py` compiles all modules or none.
+
+Angles are in radians, lengths on a spiral in units of its growth unless a name says otherwise; no function allocates.
+-1.0 in here means "no such root" and never leaves core.
+
+constants    columns of the arrays, shared numbers
+spiral       arc length, next handle, trajectory, chain        fold        where a run ends
+rectangles   signed separation of two                          boxes       which may touch
+route        points and chain on a table of pieces             chain       on either kind of path
+bounds       how fast handles and benches move at most         pairs       how near two come at most
+rings        benches too far out to touch                      clearance   at one instant
+marching     to first contact                                  strips      all pitches between two at once
+speed        the highest speed
+"""
+
+from core.kernels.bounds import motion_bounds
+from core.kernels.boxes import BOXES_PER_LEAF, grow_tree, meeting_pairs
+from core.kernels.chain import route_tail, route_trajectory
+from core.kernels.clearance import clearance_at, crossing, gap_at, gap_rate_at
+from core.kernels.constants import (
+    BEND_LIMIT,
+    CENTRE_SPEED,
+    CHAIN_COLUMNS,
+    FREE,
+    HANDLE_SPEED,
+    MARCH_FIELDS,
+    MARCH_STATES,
+    MOTION_COLUMNS,
+    PIECE_COLUMNS,
+    PIECE_KINDS,
+    SHIFT_COLUMNS,
+    SIZE_COLUMNS,
+    SPIRAL_CURVATURE_MOST,
+)
+from core.kernels.fold import fold_theta, previous_theta
+from core.kernels.marching import march
+from core.kernels.pairs import axis_bend, pair_least
+from core.kernels.rectangles import pair_gap, pair_gap_within, pair_separation, pair_separations
+from core.kernels.rings import leaders_reach, radius_beyond, ring_least
+from core.kernels.route import cubic_arcs, route_points
+from core.kernels.speed import peak_rate
+from core.kernels.spiral import (
+    COMPILED,
+    LANES_PER_BLOCK,
+    extend_chain,
+    first_crest,
+    first_root,
+    spiral_arc,
+    spiral_curvature,
+    spiral_theta,
+    spiral_thetas,
+    spiral_trajectory,
+    start_chain,
+    steepest_bend,
+)
+from core.kernels.strips import strip

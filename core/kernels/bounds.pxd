@@ -1,0 +1,43 @@
+cimport cython
+from core.kernels.constants cimport *
+from core.kernels.spiral cimport spiral_curvature, steepest_bend
+
+cdef double TRIAL
+cdef double RATIO_FOLLOWED
+
+cdef void stand_between(
+    Py_ssize_t k, double[:, ::1] before, double[:, ::1] after, double[:, ::1] motion
+) noexcept nogil
+
+@cython.locals(k=cython.Py_ssize_t, followed=cython.bint)
+cpdef bint motion_bounds(
+    double growth, double h, Py_ssize_t benches, double[:, ::1] sizes, double[:, ::1] before, double[:, ::1] after,
+    double[:, ::1] motion
+) noexcept nogil
+
+@cython.locals(p=cython.Py_ssize_t)
+cdef (double, double) stretch_curvature(
+    const double[:, ::1] pieces, Py_ssize_t rear, double k_rear, Py_ssize_t front, double k_front
+) noexcept nogil
+
+@cython.locals(rear=cython.Py_ssize_t, front=cython.Py_ssize_t, p=cython.Py_ssize_t)
+cdef double stretch_slope(
+    const double[:, ::1] pieces, Py_ssize_t k, double[:, ::1] before, double[:, ::1] after
+) noexcept nogil
+
+cdef (double, double) link_cosines(Py_ssize_t k, double[:, ::1] chain) noexcept nogil
+
+cdef double swing_bound(
+    double low, double high, double rate, double rate_low, double ratio, double ratio_low
+) noexcept nogil
+
+@cython.locals(rear=cython.Py_ssize_t, front=cython.Py_ssize_t)
+cdef double parts_between(
+    const double[:, ::1] pieces, Py_ssize_t k, double[:, ::1] before, double[:, ::1] after
+) noexcept nogil
+
+@cython.locals(k=cython.Py_ssize_t)
+cdef bint route_bounds(
+    const double[:, ::1] pieces, double h, Py_ssize_t benches, double[:, ::1] sizes, double[:, ::1] before,
+    double[:, ::1] after, bint climbing, double[:, ::1] motion
+) noexcept nogil

@@ -1,0 +1,263 @@
+"""Certified motion: how fast handles and benches move and turn at most over an interval of head travel."""
+
+import cython
+from cython.cimports.libc.math import fabs, sqrt
+
+if not cython.compiled:  # for the compiler the same stands in the .pxd
+    from core.kernels.constants import *
+    from core.kernels.spiral import spiral_curvature, steepest_bend
+
+# The head's travel sigma [m] is the variable; ' is d / d sigma. On [L, R] of width h every quantity below is an
+# upper (or _low lower) bound over the whole interval, from the curvature range [k_low, k_high] of the stretch
+# that the two handles of a link (a leads, b follows, chord c, unit vector u from b to a) sweep.
+#
+# Chord lemma. Let the arc from b to a have curvature in [k_low, k_high], 0 <= k_low, and k_high c < 2. A chord of
+# an arc of length l, curvature at most k and k l <= pi is at least (2 / k) sin(k l / 2) (Schur), and the first
+# root is met before k l = pi; so l lies between those of circles of curvature k_low and k_high. The direction of
+# the chord is the average of the tangents, so the angles alpha between tangents and chord lie in
+# [k_low l / 2, k_high l / 2]: k_low c / 2 <= sin alpha <= k_high c / 2 at both ends.
+#   rigid link        b' cos alpha_b = a' cos alpha_a                      (b', a' the rates ds / d sigma)
+#   turning of u      omega = (a' sin alpha_a + b' sin alpha_b) / c        in [k_low b'_low, k_high a'_high]
+#   angles            alpha_a' = k_a a' - omega, alpha_b' = omega - k_b b' so |alpha'| <= k_high a' - k_low b'_low
+#   link, again       b'' cos alpha_b = a'' cos alpha_a - a' alpha_a' sin alpha_a + b' alpha_b' sin alpha_b
+#   turning, again    omega' c = a'' sin alpha_a + a' alpha_a' cos alpha_a + b'' sin alpha_b + b' alpha_b' cos alpha_b
+#   link, once more   b''' cos alpha_b = a''' cos alpha_a - 2 a'' alpha_a' sin alpha_a + 2 b'' alpha_b' sin alpha_b
+#                       - a' (alpha_a'^2 cos alpha_a + alpha_a'' sin alpha_a) + b' (the same of b),
+#                     alpha_a'' = k_a' a'^2 + k_a a'' - omega', alpha_b'' = omega' - k_b' b'^2 - k_b b'', k' = dk / ds
+# On an inward spiral curvature grows in the direction of travel, so alpha_a >= alpha_b (Vogt) and |b'| <= |a'|.
+#
+# Where k_high c >= 2 (near the centre) the angles are followed from the nearer end of the interval instead: with a
+# trial bound on b', |alpha'| <= k_high max(a', b') + omega bounds the cosines half an interval away, these bound b',
+# and the trial is proven when that is below it (b' is continuous and below the trial at both ends).
+#
+# A handle accelerates by |P''| <= |s''| + k s'^2. A point X of a bench with centre M at distance rho:
+#   |X'| <= |M'| + omega rho,  |X''| <= |M''| + (omega^2 + omega') rho.
+
+# Trial bound on a followed handle's rate, as a multiple of what the ends show [1]; any value > 1 is sound.
+TRIAL = 1.5
+# On a route the cosines of a link's angles are followed from the ends of the interval where the lemma leaves its rates
+# a ratio of more than this [1]: what it leaves multiplies from link to link.
+RATIO_FOLLOWED = 1.001
+
+
+def stand_between(k, before, after, motion):
+    """Where on the spiral handle k stands during an interval, if it does not turn back, and how curved that is."""
+    motion[k, THETA_LOW] = after[k, THETA]
+    motion[k, THETA_HIGH] = before[k, THETA]
+    motion[k, CURVATURE_LOW] = spiral_curvature(before[k, THETA])
+    motion[k, CURVATURE_HIGH] = spiral_curvature(after[k, THETA])
+
+
+def motion_bounds(growth, h, benches, sizes, before, after, motion):
+    """Bounds on the motion of the first benches over an interval of width h; False when h is too wide for any."""
+    followed = False
+    rate_a = 1.0
+    rate_low = 1.0
+    second_a = 0.0
+    motion[0, RATE_HIGH] = motion[0, RATE_LOW] = 1.0
+    motion[0, RATE_RATE] = 0.0
+    for k in range(benches):
+        chord = sizes[k, CHORD]
+        stand_between(k, before, after, motion)
+        inner = after[k, THETA] if after[k, THETA] < before[k, THETA] else before[k, THETA]
+        outer = before[k + 1, THETA] if after[k + 1, THETA] < before[k + 1, THETA] else after[k + 1, THETA]
+        if followed:  # the handle may turn back between the ends: it goes no further in than its rate allows
+            swing_a = 2.0 * rate_a * h / (growth * inner) if inner > 0.0 else FREE
+            inner = inner - swing_a if swing_a <= 0.5 * inner else inner - rate_a * h / growth
+            if inner < 0.0:
+                inner = 0.0
+        k_high = spiral_curvature(inner) / growth
+        sin_high = 0.5 * k_high * chord
+        if sin_high <= BEND_LIMIT:
+            k_low = 0.0 if followed else spiral_curvature(outer) / growth
+            cos_low = sqrt(1.0 - sin_high * sin_high)
+            cos_high = sqrt(1.0 - 0.25 * k_low * k_low * chord * chord)
+            rate_low *= cos_low / cos_high
+            rate_b = rate_a
+            swing_a = swing_b = k_high * rate_a - k_low * rate_low
+            omega = k_high * rate_a
+        else:
+            followed = True
+            rate_low = 0.0
+            swing_a = before[k, TX] * before[k, UX] + before[k, TY] * before[k, UY]
+            swing_b = after[k, TX] * after[k, UX] + after[k, TY] * after[k, UY]
+            cos_high = fabs(swing_a) if fabs(swing_a) > fabs(swing_b) else fabs(swing_b)
+            swing_a = before[k + 1, TX] * before[k, UX] + before[k + 1, TY] * before[k, UY]
+            swing_b = after[k + 1, TX] * after[k, UX] + after[k + 1, TY] * after[k, UY]
+            cos_low = swing_a if swing_a < swing_b else swing_b
+            if cos_low <= 0.0:
+                return False
+            rate_b = rate_a * (TRIAL * cos_high + h * rate_a * (k_high + 2.0 / chord)) / cos_low
+            omega = (rate_a + rate_b) / chord
+            swing_a = k_high * rate_a + omega
+            swing_b = k_high * rate_b + omega
+            cos_high += 0.5 * h * swing_a
+            if cos_high > 1.0:
+                cos_high = 1.0
+            cos_low -= 0.5 * h * swing_b
+            if cos_low <= 0.0 or rate_a * cos_high > rate_b * cos_low:
+                return False
+            sin_high = 1.0
+        second_b = (cos_high * second_a + sin_high * (rate_a * swing_a + rate_b * swing_b)) / cos_low
+        spin = (
+            omega * omega
+            + (cos_high * (rate_a * swing_a + rate_b * swing_b) + sin_high * (second_a + second_b)) / chord
+        )
+        if sin_high == 1.0:
+            spin = omega * omega + (rate_a * swing_a + rate_b * swing_b + second_a + second_b) / chord
+        pull = 0.5 * (second_a + second_b + k_high * (rate_a * rate_a + rate_b * rate_b))
+        motion[k, CENTRE_SPEED] = 0.5 * (rate_a + rate_b)
+        motion[k, CORNER_SPEED] = 0.5 * (rate_a + rate_b) + omega * sizes[k, RADIUS]
+        motion[k, CENTRE_PULL] = pull
+        motion[k, CORNER_PULL] = pull + spin * sizes[k, RADIUS]
+        motion[k, TURN] = omega
+        motion[k, TURN_PULL] = spin
+        motion[k, HANDLE_SPEED] = rate_a if rate_a > rate_b else rate_b
+        motion[k, TURN_LOW] = 0.0 if followed else k_low * rate_low
+        motion[k, TURN_RATE] = spin - omega * omega
+        motion[k + 1, RATE_HIGH] = rate_b
+        motion[k + 1, RATE_LOW] = rate_low
+        motion[k + 1, RATE_RATE] = second_b
+        rate_a = rate_b
+        second_a = second_b
+    stand_between(benches, before, after, motion)
+    return True
+
+
+def stretch_curvature(pieces, rear, k_rear, front, k_front):
+    """Lowest and highest curvature from a place on piece `rear` to one on piece `front` [1/m].
+
+    Within a piece it lies between its ends; for a crest the row holds bounds.
+    """
+    low = FREE
+    high = -FREE
+    for p in range(rear, front + 1):
+        start = pieces[p, K_START]
+        end = pieces[p, K_END]
+        if pieces[p, PIECE_KIND] != CREST:
+            if p == rear:
+                start = k_rear
+            if p == front:
+                end = k_front
+        low = start if start < low else low
+        low = end if end < low else low
+        high = start if start > high else high
+        high = end if end > high else high
+    return low, high
+
+
+def stretch_slope(pieces, k, before, after):
+    """Bound on |d curvature / d s| from the rear of bench k to its front over an interval, jumps left out [1/m^2].
+
+    On a spiral it falls with theta, so that the innermost handle's serves (see steepest_bend()).
+    """
+    rear = cython.cast(cython.Py_ssize_t, before[k + 1, PIECE])
+    front = cython.cast(cython.Py_ssize_t, after[k, PIECE])
+    slope = 0.0
+    if rear == front and pieces[rear, PIECE_KIND] == SPIRAL:
+        theta = min(before[k + 1, PIECE_THETA], after[k, PIECE_THETA])
+        if theta >= 0.5:
+            return steepest_bend(theta) / (pieces[rear, 7] * pieces[rear, 7])
+    for p in range(rear, front + 1):
+        slope = max(slope, pieces[p, K_SLOPE])
+    return slope
+
+
+def link_cosines(k, chain):
+    """Cosines of the angles between bench k and the tangents at its front and its rear handle."""
+    return (
+        chain[k, TX] * chain[k, UX] + chain[k, TY] * chain[k, UY],
+        chain[k + 1, TX] * chain[k, UX] + chain[k + 1, TY] * chain[k, UY],
+    )
+
+
+def swing_bound(low, high, rate, rate_low, ratio, ratio_low):
+    """Bound on |alpha'| of both angles of a link with curvatures in [low, high], from the rates of its leader and the
+    follower's ratio to them."""
+    fastest = rate * max(1.0, ratio)
+    return high * fastest - low * (rate_low * min(1.0, ratio_low) if low > 0.0 else fastest)
+
+
+def parts_between(pieces, k, before, after):
+    """How many parts further on handle k stands in the second of two chains."""
+    rear = cython.cast(cython.Py_ssize_t, before[k, PIECE])
+    front = cython.cast(cython.Py_ssize_t, after[k, PIECE])
+    return pieces[front, PART] - pieces[rear, PART]
+
+
+def route_bounds(pieces, h, benches, sizes, before, after, climbing, motion):
+    """motion_bounds() on a route. The chord lemma serves throughout, as no handle turns back where k chord < 2.
+
+    Where the curvature changes sign between two handles the angles lie in [-k l / 2, k l / 2] for the larger |k|. The
+    cosines of the angles are also followed from both ends of the interval, as near the centre of a spiral: |cos alpha|'
+    <= sin alpha |alpha'|, and half an interval is the most that lies between an instant and the nearer end.
+    climbing: the chains hold s'' too, which with |s'''| bounds it from both ends, until a handle crosses into another
+    part, and with it the rate: so no bound grows from link to link
+    """
+    rate_a = 1.0
+    rate_low = 1.0
+    second_a = 0.0
+    third_a = 0.0
+    crossed = parts_between(pieces, 0, before, after)
+    for k in range(benches):
+        chord = sizes[k, CHORD]
+        low, high = stretch_curvature(
+            pieces,
+            cython.cast(cython.Py_ssize_t, before[k + 1, PIECE]),
+            before[k + 1, CURVATURE],
+            cython.cast(cython.Py_ssize_t, after[k, PIECE]),
+            after[k, CURVATURE],
+        )
+        if high <= 0.0:
+            low, high = -high, -low
+        elif low < 0.0:
+            high = high if high > -low else -low
+            low = -high
+        sin_high = 0.5 * high * chord
+        if sin_high > BEND_LIMIT:
+            return False
+        front_low = rear_low = sqrt(1.0 - sin_high * sin_high)
+        front_high = rear_high = sqrt(1.0 - 0.25 * low * low * chord * chord) if low > 0.0 else 1.0
+        if front_high > RATIO_FOLLOWED * rear_low:
+            turned = swing_bound(low, high, rate_a, rate_low, front_high / rear_low, front_low / rear_high)
+            turned *= 0.5 * h * sin_high
+            front, rear = link_cosines(k, before)
+            front_end, rear_end = link_cosines(k, after)
+            front_low = max(front_low, min(front, front_end) - turned)
+            front_high = min(front_high, max(front, front_end) + turned)
+            rear_low = max(rear_low, min(rear, rear_end) - turned)
+            rear_high = min(rear_high, max(rear, rear_end) + turned)
+        rate_b = rate_a * front_high / rear_low
+        low_b = rate_low * front_low / rear_high
+        omega = high * max(rate_a, rate_b)
+        swing = swing_bound(low, high, rate_a, rate_low, front_high / rear_low, front_low / rear_high)
+        second_b = (front_high * second_a + sin_high * swing * (rate_a + rate_b)) / rear_low
+        spin = omega * omega + (front_high * swing * (rate_a + rate_b) + sin_high * (second_a + second_b)) / chord
+        pull = 0.5 * (second_a + second_b + high * (rate_a * rate_a + rate_b * rate_b))
+        motion[k, CENTRE_SPEED] = 0.5 * (rate_a + rate_b)
+        motion[k, CORNER_SPEED] = 0.5 * (rate_a + rate_b) + omega * sizes[k, RADIUS]
+        motion[k, CENTRE_PULL] = pull
+        motion[k, CORNER_PULL] = pull + spin * sizes[k, RADIUS]
+        motion[k, TURN] = omega
+        motion[k, TURN_PULL] = spin
+        motion[k, TURN_LOW] = motion[k, RATE_LOW] = 0.0
+        motion[k, HANDLE_SPEED] = rate_a if rate_a > rate_b else rate_b
+        third_b = stretch_slope(pieces, k, before, after) * (rate_a * rate_a * rate_a + rate_b * rate_b * rate_b)
+        third_b += high * (rate_a * second_a + rate_b * second_b) + (spin - omega * omega) * (rate_a + rate_b)
+        third_b = sin_high * (third_b + 2.0 * swing * (second_a + second_b))
+        third_b = (front_high * (third_a + swing * swing * (rate_a + rate_b)) + third_b) / rear_low
+        if climbing:
+            crossed += parts_between(pieces, k + 1, before, after)
+            motion[k + 1, CROSSED] = crossed
+            if crossed == 0.0:
+                turned = max(fabs(before[k + 1, CLIMB]), fabs(after[k + 1, CLIMB]))
+                second_b = min(second_b, turned + 0.5 * h * third_b)
+            rate_b = min(rate_b, 0.5 * (before[k + 1, RATE] + after[k + 1, RATE] + h * second_b))
+        motion[k + 1, RATE_HIGH] = rate_b
+        motion[k + 1, RATE_RATE] = second_b
+        motion[k + 1, RATE_JERK] = third_b
+        rate_a = rate_b
+        rate_low = low_b
+        second_a = second_b
+        third_a = third_b
+    return True

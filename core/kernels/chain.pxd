@@ -1,0 +1,24 @@
+cimport cython
+from core.kernels.constants cimport *
+from core.kernels.spiral cimport extend_chain, spiral_theta, start_chain
+from core.kernels.route cimport extend_route, start_route
+
+cdef Py_ssize_t extend(
+    double growth, const double[:, ::1] pieces, Py_ssize_t first, Py_ssize_t last, double[:, ::1] sizes,
+    double[:, ::1] chain
+) noexcept nogil
+
+cdef Py_ssize_t place_chain(
+    double growth, const double[:, ::1] pieces, double place, Py_ssize_t last, double[:, ::1] sizes,
+    double[:, ::1] chain
+) noexcept nogil
+
+cpdef double route_tail(
+    const double[:, ::1] pieces, double s, Py_ssize_t benches, double[:, ::1] sizes, double[:, ::1] chain
+) noexcept nogil
+
+@cython.locals(row=cython.Py_ssize_t, k=cython.Py_ssize_t, last=cython.Py_ssize_t)
+cpdef void route_trajectory(
+    const double[:, ::1] pieces, double[::1] s, double head_speed, double[:, ::1] sizes, double[:, ::1] chain,
+    double[:, :, ::1] position, double[:, :, ::1] velocity, double[:, ::1] speed
+) noexcept

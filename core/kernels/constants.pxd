@@ -1,0 +1,27 @@
+# The numbers of constants.py, as the C compiler sees them: literals, so that columns cost nothing in the innermost loops.
+
+cdef extern from *:
+    const double PI "3.141592653589793"
+    const double TWO_PI "6.283185307179586"
+    const double NO_LIMIT "1e154"
+    const double BEND_LIMIT "0.97"
+    const double FREE "1e150"
+    const double SPIRAL_CURVATURE_MOST "1.0887"
+
+cdef enum:
+    COS = 0, SIN = 1, PX = 0, PY = 1, TX = 2, TY = 3, THETA = 4, PLACE = 4, RATE = 5
+    MX = 6, MY = 7, UX = 8, UY = 9
+    CURVATURE = 10, PIECE = 11, PIECE_THETA = 12, CLIMB = 13
+    CENTRE_SPEED = 0, CORNER_SPEED = 1, CENTRE_PULL = 2, CORNER_PULL = 3, TURN = 4, TURN_PULL = 5, HANDLE_SPEED = 6
+    TURN_LOW = 7, TURN_RATE = 8
+    RATE_HIGH = 9, RATE_LOW = 10, RATE_RATE = 11, THETA_HIGH = 12, THETA_LOW = 13, RATE_JERK = 14
+    CURVATURE_LOW = 15, CURVATURE_HIGH = 16, CROSSED = 17
+    CHORD = 0, HALF_LENGTH = 1, HALF_WIDTH = 2, RADIUS = 3
+    PIECE_KIND = 0, S_START = 1, S_END = 2, K_START = 3, K_END = 4, K_SLOPE = 14, PART = 15, LINE = 0, ARC = 1
+    SPIRAL = 2, CREST = 4
+    REACHED = 0, TOUCHED = 1, TOUCHED_AT_START = 2, STUCK = 3, CAPACITY = 4
+    RING_CLEAR = 0, RING_CHORD = 1, RING_SHORT = 2, RING_OVERHANG = 3, RING_HALF_WIDTH = 4
+    ALL_CHORD = 5, ALL_OVERHANG = 6, ALL_HALF_WIDTH = 7
+    PROVEN = 0, TOUCHING = 1, FIRST = 2, SECOND = 3, STEPS = 4, BEND = 5, GRAZE_GAP = 6, GRAZE_TRAVEL = 7
+    GRAZE_FIRST = 8, GRAZE_SECOND = 9, MARCH_ENTRIES = 10
+    SHIFT_CENTRE = 0, SHIFT_CORNER = 1, SHIFT_PULL = 2, SHIFT_TURN = 3

@@ -1,0 +1,150 @@
+"""What the loops share: the columns of their arrays, and a few numbers.
+
+Compiled, the same names are literals of the C code, from constants.pxd; a test holds the two lists together.
+"""
+
+PI = 3.141592653589793
+TWO_PI = 6.283185307179586
+
+# Beyond every distance: the squares of two coordinates would overflow [m].
+NO_LIMIT = 1e154
+
+# Columns of a chain row, one for each handle. On a spiral the frame is one in which the head stands at polar angle 0.
+COS = 0  # of the polar angle; on a route
+SIN = 1
+PX = 0  # the position instead [m]
+PY = 1
+TX = 2  # unit tangent in the direction of travel
+TY = 3
+THETA = 4  # on a route
+PLACE = 4  # minus the arc length s instead [m]: both fall in the direction of travel
+RATE = 5  # d s / d sigma
+# and, for the bench behind that handle, its centre and direction
+MX = 6
+MY = 7
+UX = 8
+UY = 9
+# and on a route the handle's curvature [1/m], piece, and theta if that is a spiral
+CURVATURE = 10
+PIECE = 11
+PIECE_THETA = 12
+CLIMB = 13  # d rate / d sigma [1/m], where climbs() filled it in
+CHAIN_COLUMNS = 14
+
+# Columns of a motion row, one for each bench: bounds over an interval.
+CENTRE_SPEED = 0
+CORNER_SPEED = 1
+CENTRE_PULL = 2
+CORNER_PULL = 3
+TURN = 4
+TURN_PULL = 5  # omega^2 + omega'
+HANDLE_SPEED = 6  # of the faster of its two handles
+TURN_LOW = 7
+TURN_RATE = 8  # |omega'|
+# and of the handle in front of it
+RATE_HIGH = 9
+RATE_LOW = 10
+RATE_RATE = 11  # |s''|
+THETA_HIGH = 12
+THETA_LOW = 13
+RATE_JERK = 14  # |s'''| on a route, where no handle up to it crosses into another part
+CURVATURE_LOW = 15  # on a spiral, times its growth
+CURVATURE_HIGH = 16
+CROSSED = 17  # how many joints between the parts of a route the handles up to it cross, all told
+MOTION_COLUMNS = 18
+
+# Columns of a size row, one for each bench.
+CHORD = 0
+HALF_LENGTH = 1
+HALF_WIDTH = 2
+RADIUS = 3
+SIZE_COLUMNS = 4
+
+# The chord lemma serves up to this curvature chord / 2; beyond it the angles are followed [1].
+BEND_LIMIT = 0.97
+
+# Larger than any step or distance, and so is its square no overflow [m].
+FREE = 1e150
+
+# A route is a table of pieces joined by arc length s. One row a piece, curvature counter-clockwise positive:
+#   KIND, S_START, S_END, curvature at both ends, then
+#   line   x, y, dx, dy                     at S_START, unit direction
+#   arc    centre x, y, radius, angle, sign  angle at S_START, sign + counter-clockwise
+#   spiral centre x, y, growth, rotation, sign, arc   sign + outwards, arc length from its centre at S_START
+#   cubic  x0..x3, y0..y3, end              r(t) = sum of c_k t^k for t in [0, end], its curvature monotonic
+#   crest  the same for a cubic with a crest of curvature in it: in place of both ends lower and upper bounds
+# The first piece also serves before S_START and the last one after S_END.
+#
+# Next handle. Let |curvature| <= k with k chord < 2 (routes are refused otherwise). As long as k l <= pi the
+# distance to the
+# point l behind grows with l: its rate is the cosine of an angle <= k l / 2 (chord lemma, below). It reaches the chord
+# before l = pi chord / 2 <= pi / k, so in [chord, pi chord / 2] there is one root, it is the first along the path, and
+# whatever comes near further back along the path is never taken for it.
+PIECE_KIND = 0
+S_START = 1
+S_END = 2
+K_START = 3
+K_END = 4
+K_SLOPE = 14  # bound on |d curvature / d s| [1/m^2]
+PART = 15  # within a part of the route curvature has no jump
+PIECE_COLUMNS = 16
+LINE = 0
+ARC = 1
+SPIRAL = 2
+CREST = 4
+PIECE_KINDS = ("line", "arc", "spiral", "cubic", "crest")
+
+# How march() ended.
+REACHED = 0
+TOUCHED = 1
+TOUCHED_AT_START = 2
+STUCK = 3
+CAPACITY = 4
+MARCH_STATES = ("reached", "touched", "touched_at_start", "stuck", "capacity")
+
+# Entries of the ring array: what is known of all benches that can be the outer one of a pair [m].
+RING_CLEAR = 0  # no pair whose inner bench leads at this radius or more can touch
+RING_CHORD = 1  # longest chord
+RING_SHORT = 2  # shortest chord
+RING_OVERHANG = 3
+RING_HALF_WIDTH = 4
+# and of all benches
+ALL_CHORD = 5
+ALL_OVERHANG = 6
+ALL_HALF_WIDTH = 7
+RING_ENTRIES = 8
+
+# Entries of march()'s result.
+PROVEN = 0  # nothing touches up to here [m of head travel]
+TOUCHING = 1  # a pair is within the margin here
+FIRST = 2
+SECOND = 3
+STEPS = 4
+BEND = 5
+GRAZE_GAP = 6  # the least local minimum of the clearance on the way [m], FREE if none
+GRAZE_TRAVEL = 7
+GRAZE_FIRST = 8
+GRAZE_SECOND = 9
+MARCH_ENTRIES = 10
+MARCH_FIELDS = (
+    "proven",
+    "touching",
+    "first",
+    "second",
+    "steps",
+    "bend",
+    "graze_gap",
+    "graze_travel",
+    "graze_first",
+    "graze_second",
+)
+
+# Columns of a shift row, one for each bench: bounds per growth.
+SHIFT_CENTRE = 0  # |M'|
+SHIFT_CORNER = 1  # |X'|
+SHIFT_PULL = 2  # |X''| [rad/m]
+SHIFT_TURN = 3  # |u'| [rad/m]
+SHIFT_COLUMNS = 4
+
+# Above the largest curvature of any spiral at a radius, times that radius: 2 / 1.5^(3/2) = 1.08866 [1].
+SPIRAL_CURVATURE_MOST = 1.0887

@@ -1,0 +1,339 @@
+"""Certified motion: how near two benches come at most over an interval of head travel."""
+
+import cython
+from cython.cimports.libc.math import fabs, sqrt
+
+if not cython.compiled:  # for the compiler the same stands in the .pxd
+    from core.kernels.bounds import motion_bounds, route_bounds
+    from core.kernels.constants import *
+    from core.kernels.rectangles import pair_separation
+    from core.kernels.rings import drift, leaders_reach, radius_beyond
+
+# Gap of bench i along an axis e fixed in bench j: g = min over corners X of i of e . (X - M_j) - support of j, and
+#   |(e . p)''| <= |X''| + |M_j''| + 2 omega_j |X' - M_j'| + (omega_j^2 + omega_j') |p|,  p = X - M_j:  call it K.
+# The same in a frame that turns with bench j about the spiral's centre, where neighbouring rings hardly move: with
+# Omega = omega_j (clockwise), xi = X' less the velocity Omega |X| of that rotation,
+#   |(e . p)''| <= |X'' + Omega^2 X| + |M_j'' + Omega^2 M_j| + 2 Omega (|xi_X| + |xi_M|) + omega_j' |p|,
+#   handle at radius r, b = growth:  |P'' + Omega^2 P| <= |s''| + |k s'^2 - Omega^2 r| + Omega^2 b,
+#                                    |xi_P| <= |s' - Omega r| + Omega b   (the tangent leans by at most b / r),
+#   corner of bench i:  |X'' + Omega^2 X| <= mean of its handles + (|Omega^2 - omega_i^2| + omega_i') rho,
+#                       |xi_X| <= mean of its handles + |Omega - omega_i| rho.
+# The smaller of the two bounds is used.
+# A function with |g''| <= K stays above its chord minus K x (h - x) / 2, so its least value follows from both ends:
+# two benches do not touch on [L, R] if that exceeds the margin for one axis. No step size is guessed.
+
+
+def row_separation(i, j, sizes, chain, out):
+    """pair_separation() of benches i and j of a chain."""
+    pair_separation(
+        chain[i, MX], chain[i, MY], chain[i, UX], chain[i, UY], sizes[i, HALF_LENGTH], sizes[i, HALF_WIDTH],
+        chain[j, MX], chain[j, MY], chain[j, UX], chain[j, UY], sizes[j, HALF_LENGTH], sizes[j, HALF_WIDTH],
+        out,
+    )  # fmt: skip
+
+
+def gap_along(i, j, along, left, sizes, chain):
+    """Gap between benches i and j along the unit vector (along, left) of bench i's frame, pointing to j [m]."""
+    ex = along * chain[i, UX] - left * chain[i, UY]
+    ey = along * chain[i, UY] + left * chain[i, UX]
+    return (
+        ex * (chain[j, MX] - chain[i, MX])
+        + ey * (chain[j, MY] - chain[i, MY])
+        - fabs(along) * sizes[i, HALF_LENGTH]
+        - fabs(left) * sizes[i, HALF_WIDTH]
+        - fabs(ex * chain[j, UX] + ey * chain[j, UY]) * sizes[j, HALF_LENGTH]
+        - fabs(ey * chain[j, UX] - ex * chain[j, UY]) * sizes[j, HALF_WIDTH]
+    )
+
+
+def best_axis(i, j, sizes, chain):
+    """The face normal of bench i with the largest gap to bench j, in i's frame: gap [m], along, left."""
+    dx = chain[j, MX] - chain[i, MX]
+    dy = chain[j, MY] - chain[i, MY]
+    along = 1.0 if dx * chain[i, UX] + dy * chain[i, UY] > 0.0 else -1.0
+    left = 1.0 if dy * chain[i, UX] - dx * chain[i, UY] > 0.0 else -1.0
+    lengthwise = gap_along(i, j, along, 0.0, sizes, chain)
+    sideways = gap_along(i, j, 0.0, left, sizes, chain)
+    if sideways >= lengthwise:
+        return sideways, 0.0, left
+    return lengthwise, along, 0.0
+
+
+def least_between(start, end, bend, h):
+    """Least value on an interval of width h of a function with the given end values and |second derivative| <= bend."""
+    rise = end - start
+    sag = bend * h * h
+    if 2.0 * fabs(rise) >= sag:
+        return start if start < end else end
+    return 0.5 * (start + end) - 0.125 * sag - 0.5 * rise * rise / sag
+
+
+def apart(a_low, a_high, b_low, b_high):
+    """The largest difference between a number in [a_low, a_high] and one in [b_low, b_high]."""
+    return a_high - b_low if a_high - b_low > b_high - a_low else b_high - a_low
+
+
+def against_rotation(growth, k, turn_low, turn_high, motion):
+    """Bounds on |xi| and |P'' + Omega^2 P| of handle k against a rotation Omega in [turn_low, turn_high]."""
+    high = motion[k, RATE_HIGH]
+    low = motion[k, RATE_LOW]
+    r_low = growth * motion[k, THETA_LOW]
+    r_high = growth * motion[k, THETA_HIGH]
+    slip = apart(low, high, turn_low * r_low, turn_high * r_high) + turn_high * growth
+    pull = apart(
+        low * low * motion[k, CURVATURE_LOW] / growth,
+        high * high * motion[k, CURVATURE_HIGH] / growth,
+        turn_low * turn_low * r_low,
+        turn_high * turn_high * r_high,
+    )
+    return slip, pull + motion[k, RATE_RATE] + turn_high * turn_high * growth
+
+
+def axis_bend(growth, i, j, distance, sizes, motion):
+    """Bound K on the second derivative of a gap along an axis fixed in bench i to the corners of bench j [1/m]."""
+    low = motion[i, TURN_LOW]
+    high = motion[i, TURN]
+    plain = plain_bend(i, j, distance, sizes, motion)
+    slips = 0.0
+    pulls = 0.0
+    if motion[j, RATE_LOW] <= 0.0 or motion[i, RATE_LOW] <= 0.0 or low <= 0.0 or motion[j, TURN_LOW] <= 0.0:
+        return plain
+    for side in range(2):
+        slip, pull = against_rotation(growth, i + side, low, high, motion)
+        slips += 0.5 * slip
+        pulls += 0.5 * pull
+        slip, pull = against_rotation(growth, j + side, low, high, motion)
+        slips += 0.5 * slip
+        pulls += 0.5 * pull
+    slips += apart(low, high, motion[j, TURN_LOW], motion[j, TURN]) * sizes[j, RADIUS]
+    pulls += motion[j, TURN_RATE] * sizes[j, RADIUS]
+    pulls += sizes[j, RADIUS] * apart(
+        low * low, high * high, motion[j, TURN_LOW] * motion[j, TURN_LOW], motion[j, TURN] * motion[j, TURN]
+    )
+    pulls += 2.0 * high * slips + motion[i, TURN_RATE] * (distance + sizes[j, RADIUS])
+    return pulls if pulls < plain else plain
+
+
+def plain_bend(i, j, distance, sizes, motion):
+    """axis_bend() in the resting frame [1/m]."""
+    return (
+        motion[j, CORNER_PULL]
+        + motion[i, CENTRE_PULL]
+        + 2.0 * motion[i, TURN] * (motion[j, CORNER_SPEED] + motion[i, CENTRE_SPEED])
+        + motion[i, TURN_PULL] * (distance + sizes[j, RADIUS])
+    )
+
+
+def axis_least(i, j, after_decides, bend, h, sizes, before, after):
+    """Proven least gap over the interval along the face normal of i that is best at one of its ends [m]."""
+    if after_decides:
+        gap, along, left = best_axis(i, j, sizes, after)
+        return least_between(gap_along(i, j, along, left, sizes, before), gap, bend, h)
+    gap, along, left = best_axis(i, j, sizes, before)
+    return least_between(gap, gap_along(i, j, along, left, sizes, after), bend, h)
+
+
+def pair_least(growth, i, j, margin, h, sizes, before, after, motion, out):
+    """A proven lower bound of the separation of benches i and j over the interval [m]; FREE when they are far.
+
+    Tries axes until one exceeds the margin; out[0] is the bound K of the last one.
+    """
+    dx = before[j, MX] - before[i, MX]
+    dy = before[j, MY] - before[i, MY]
+    drift = (motion[i, CENTRE_SPEED] + motion[j, CENTRE_SPEED]) * h
+    square = dx * dx + dy * dy
+    far = sizes[i, RADIUS] + sizes[j, RADIUS] + margin + drift
+    if square > far * far:
+        return FREE
+    distance = sqrt(square) + drift
+    out[0] = axis_bend(growth, j, i, distance, sizes, motion)
+    best = axis_least(j, i, True, out[0], h, sizes, before, after)
+    if best > margin:
+        return best
+    least = axis_least(j, i, False, out[0], h, sizes, before, after)
+    if least > best:
+        best = least
+    if best > margin:
+        return best
+    out[0] = axis_bend(growth, i, j, distance, sizes, motion)
+    least = axis_least(i, j, True, out[0], h, sizes, before, after)
+    if least > best:
+        best = least
+    if best > margin:
+        return best
+    least = axis_least(i, j, False, out[0], h, sizes, before, after)
+    if least > best:
+        best = least
+    if best > margin or margin <= 0.0:
+        return best
+    # two corners nearest each other: the direction between them, fixed in bench i
+    row_separation(i, j, sizes, after, out[1:])
+    turn_x = out[6] * after[i, UX] + out[7] * after[i, UY]
+    turn_y = out[7] * after[i, UX] - out[6] * after[i, UY]
+    least = least_between(
+        gap_along(i, j, turn_x, turn_y, sizes, before), gap_along(i, j, turn_x, turn_y, sizes, after), out[0], h
+    )
+    return least if least > best else best
+
+
+def interval_least(
+    growth, pieces, statics, h, active, handles, benches, margin, ring, sizes, before, after, motion, out
+):
+    """Proven least separation over an interval of all pairs led by the first `active` benches [m]; -FREE: too wide.
+
+    out: (14,) [0] K of the least pair, [1] and [2] that pair, [3] the widest interval the same pairs would allow [m],
+    [4] the least gap at the far end; the rest is scratch
+    """
+    edges = statics if statics >= 0 else -statics
+    best = FREE
+    bend = 0.0
+    room = FREE
+    a = 0
+    b = 0
+    if pieces.shape[0] > 0:
+        if not route_bounds(pieces, h, handles, sizes, before, after, False, motion):
+            return -FREE
+    elif not motion_bounds(growth, h, handles, sizes, before, after, motion):
+        return -FREE
+    if handles < benches:  # those left out must stay outside the reach of the leaders
+        high = before[active, THETA] if before[active, THETA] > after[active, THETA] else after[active, THETA]
+        high *= growth
+        high += drift(motion[active - 1, HANDLE_SPEED], h, growth, high)
+        low = before[0, THETA] if before[0, THETA] < after[0, THETA] else after[0, THETA]
+        high = leaders_reach(growth, growth * low, high, ring)
+        low = before[handles, THETA] if before[handles, THETA] < after[handles, THETA] else after[handles, THETA]
+        low *= growth
+        if low - drift(motion[handles - 1, HANDLE_SPEED], h, growth, low) < radius_beyond(growth, high + margin, ring):
+            return -FREE
+    for i in range(active):
+        far = FREE
+        if pieces.shape[0] == 0:
+            far = before[i + 1, THETA] if before[i + 1, THETA] > after[i + 1, THETA] else after[i + 1, THETA]
+            far = growth * far + drift(motion[i, HANDLE_SPEED], h, growth, growth * far)
+            low = before[i, THETA] if before[i, THETA] < after[i, THETA] else after[i, THETA]
+            low = growth * low - drift(motion[i, HANDLE_SPEED], h, growth, growth * low)
+            far = radius_beyond(growth, leaders_reach(growth, low, far, ring) + margin, ring)
+        for j in range(i + 2 if statics >= 0 else handles + 1, handles + 1 + edges):
+            if j == handles:  # the last handle's row holds no bench; after it stand the edges at rest
+                continue
+            if far < FREE:
+                low = before[j, THETA] if before[j, THETA] < after[j, THETA] else after[j, THETA]
+                if growth * low - drift(motion[j, HANDLE_SPEED], h, growth, growth * low) > far:
+                    break  # handles stand in order, so all further ones lie outside too
+            least = pair_least(growth, i, j, margin, h, sizes, before, after, motion, out)
+            if least >= FREE:
+                continue
+            width = 8.0 * (least - margin) / out[0] + h * h
+            width = sqrt(width) if width > 0.0 else 0.0
+            if width < room:
+                room = width
+            if least < best:
+                best = least
+                bend = out[0]
+                a = i
+                b = j
+    out[0] = bend
+    out[1] = a
+    out[2] = b
+    out[3] = room
+    return best
+
+
+# What a strip of pitches needs of its pairs, see strips.py.
+
+
+def strip_along(i, j, along, left, bends, widths, sizes, before, after, before_high, after_high):
+    """Proven least gap along an axis of bench i over a rectangle of (r_0, b) [m]."""
+    low = least_between(
+        gap_along(i, j, along, left, sizes, before), gap_along(i, j, along, left, sizes, after), bends[0], widths[0]
+    )
+    high = least_between(
+        gap_along(i, j, along, left, sizes, before_high),
+        gap_along(i, j, along, left, sizes, after_high),
+        bends[1],
+        widths[1],
+    )
+    return least_between(low, high, bends[2], widths[2])
+
+
+def strip_pair(
+    low, high, i, j, distance, margin, h_low, h_high, sizes, before, after, before_high, after_high, motion,
+    motion_high, shifts, out
+):  # fmt: skip
+    """A proven lower bound of the separation of benches i and j over a rectangle of (r_0, b) [m].
+
+    distance: no further are their centres apart [m]; out[0]: the bend along the path of the last axis tried
+    """
+    best = -FREE
+    bends: tuple[cython.double, cython.double, cython.double]
+    widths: tuple[cython.double, cython.double, cython.double] = (h_low, h_high, high - low)
+    for trial in range(4):
+        a = j if trial < 2 else i
+        b = i if trial < 2 else j
+        least = shifts[a, SHIFT_TURN]
+        least = (
+            shifts[a, SHIFT_PULL]
+            + shifts[b, SHIFT_PULL]
+            + 2.0 * least * (shifts[a, SHIFT_CORNER] + shifts[b, SHIFT_CORNER])
+            + least * least * (distance + sizes[a, RADIUS] + sizes[b, RADIUS])
+        )
+        bends = (
+            axis_bend(low, a, b, distance, sizes, motion),
+            axis_bend(high, a, b, distance, sizes, motion_high),
+            least,
+        )
+        out[0] = bends[0]
+        least, along, left = best_axis(a, b, sizes, after if trial % 2 == 0 else after_high)
+        least = strip_along(a, b, along, left, bends, widths, sizes, before, after, before_high, after_high)
+        if least > best:
+            best = least
+        if best > margin:
+            return best
+    if margin <= 0.0:
+        return best
+    # two corners nearest each other: the direction between them, fixed in bench i
+    row_separation(i, j, sizes, after, out[1:])
+    along = out[6] * after[i, UX] + out[7] * after[i, UY]
+    left = out[7] * after[i, UX] - out[6] * after[i, UY]
+    least = strip_along(i, j, along, left, bends, widths, sizes, before, after, before_high, after_high)
+    return least if least > best else best
+
+
+def strip_least(
+    low, high, leaders, handles, margin, h_low, h_high, ring, sizes, before, after, before_high, after_high, motion,
+    motion_high, shifts, out
+):  # fmt: skip
+    """interval_least() over a rectangle of (r_0, b), of pairs led by the first `leaders` benches; out: [1] to [3]."""
+    best = FREE
+    room = FREE
+    a = 0
+    b = 0
+    for i in range(leaders):
+        beyond = leaders_reach(high, low * after[i, THETA], high * before_high[i + 1, THETA], ring)
+        beyond = radius_beyond(high, beyond + margin, ring)
+        for j in range(i + 2, handles):
+            if low * after[j, THETA] > beyond:
+                break  # handles stand in order, so all further ones lie outside too
+            dx = after[j, MX] - after[i, MX]
+            dy = after[j, MY] - after[i, MY]
+            distance = sqrt(dx * dx + dy * dy)
+            slack = (motion[i, CENTRE_SPEED] + motion[j, CENTRE_SPEED]) * h_low
+            slack += (shifts[i, SHIFT_CENTRE] + shifts[j, SHIFT_CENTRE]) * (high - low)
+            if distance - slack > sizes[i, RADIUS] + sizes[j, RADIUS] + margin:
+                continue  # far apart
+            least = strip_pair(
+                low, high, i, j, distance + slack, margin, h_low, h_high, sizes, before, after, before_high,
+                after_high, motion, motion_high, shifts, out,
+            )  # fmt: skip
+            if least < best:
+                best = least
+                a = i
+                b = j
+            least = 8.0 * (least - margin) / out[0] + h_low * h_low
+            least = sqrt(least) if least > 0.0 else 0.0
+            if least < room:
+                room = least
+    out[1] = a
+    out[2] = b
+    out[3] = room
+    return best

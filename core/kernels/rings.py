@@ -1,0 +1,115 @@
+"""Rings: which benches of a spiral are too far out to touch, by bounds that need no chain."""
+
+import cython
+from cython.cimports.libc.math import asin, sin, sqrt
+
+if not cython.compiled:  # for the compiler the same stands in the .pxd
+    from core.kernels.constants import *
+
+
+# A point at distance x along the extended centre line of a bench from the foot of the perpendicular from the
+# spiral's centre has radius^2 = d^2 + x^2. With handles at radii r_a < r_b and x0 = (r_b^2 - r_a^2) / (2 c) they
+# stand at x0 -+ c / 2. Where 0 <= x0 <= c: d^2 >= r_a^2 - c^2 / 4, and no point of the bench is further out than
+# sqrt(r_b^2 + o (c + 2 x0) + o^2) + w / 2. A chord is at least (2 / pi) delta sqrt(r_a r_b), so
+# x0 <= (pi / 4) growth (q + 1 / q), q^2 = r_b / r_a = 1 + delta / theta, which is below 1.67 growth once
+# delta <= theta. Otherwise the triangle inequality serves.
+
+
+def settled(growth, radius, ring):
+    """Do all benches led from this radius outwards have 0 <= x0 <= 1.67 growth <= c?"""
+    return (
+        ring[RING_SHORT] >= 1.67 * growth
+        and radius * radius >= 1.5708 * ring[RING_CHORD] * growth
+        and radius >= 0.5 * ring[RING_CHORD]
+    )
+
+
+def radius_beyond(growth, radius, ring):
+    """A radius such that every bench led from there or further out lies wholly outside `radius` [m]."""
+    target = radius + ring[RING_HALF_WIDTH]
+    beyond = sqrt(target * target + 0.25 * ring[RING_CHORD] * ring[RING_CHORD])
+    if settled(growth, beyond, ring):
+        return beyond
+    beyond = 0.5 * ring[RING_CHORD]
+    return target + (beyond if beyond > ring[RING_OVERHANG] else ring[RING_OVERHANG])
+
+
+def leaders_reach(growth, lead, rear, ring):
+    """No point of benches led from radius `lead` or more, rear handles at `rear` or less, is further out [m]."""
+    chord = ring[ALL_CHORD]
+    overhang = ring[ALL_OVERHANG]
+    if lead >= 0.5 * chord and lead * lead >= 1.5708 * chord * growth:
+        return sqrt(rear * rear + overhang * (chord + 3.34 * growth + overhang)) + ring[ALL_HALF_WIDTH]
+    return rear + overhang + ring[ALL_HALF_WIDTH]
+
+
+# Rings. A foot is at most max(c / 2, 1.67 growth) from the front handle of its chord, so d^2 >= r_a^2 - max(...)^2 also
+# where it lies beyond that handle. Let E = |X| - growth psi for a point X of a bench at unwrapped polar angle psi: how
+# far it lies outside the curve itself. Along the centre line e(x) = sqrt(d^2 + x^2) - growth (psi_foot + atan(x / d))
+# vanishes at both handles and 0 <= e'' = d^2 / rho^3 + 2 growth d x / rho^4 <= q = 1 / d + 2 growth x_max / d^3 (for
+# d > 2 growth), so between the handles e >= -q c^2 / 8 and on an overhang o e <= q o (o + c) / 2. Sideways
+# |dE / dy| <= sqrt(1 + (growth / rho)^2).
+# Hence -I <= E <= O with the bows O and I below, both falling as 1 / r. Points X, Y of two benches whose polar angles
+# differ by 2 pi m + x, m >= 1, |x| <= pi, are apart radially by at least G + growth x, G = pitch - O - I, and sideways
+# by at least 2 rho |x| / pi: together G / sqrt(1 + (pi growth / 2 rho)^2). With m = 0 at least one bench lies between
+# them: its angle less the two overhangs' angles remains, each at most (o + x_b w / 2 d) / (d - w / 2), and a chord
+# spans at least c / sqrt(growth^2 + r_b^2); at an angle x they are at least 2 rho sin(x / 2) apart. No angle is larger
+# than that of the whole dragon, overhangs included, where a chord spans at most 2 asin(c / 2 r): while that is less
+# than 2 pi, 2 rho sin(x / 2) at that angle takes the place of the bound with m >= 1. Every term grows with r, so the
+# bound holds from r outwards.
+
+
+# For a range of growths: G is concave in growth (its only curved terms are -growth^2 and -sqrt(1 + growth^2 /
+# rho^2)), so it is at least the lesser of its values at both ends; everything else falls with growth.
+
+
+def ring_least(
+    growth_low, growth, radius, chord, shortest, overhang, half_width, outer_chord, outer_half_width, total=1e150
+):
+    """Lower bound of the separation of any two non-neighbours whose inner bench leads at `radius` or further out [m].
+
+    It holds for every growth in [growth_low, growth] [m/rad]. chord, overhang, half_width: the largest of all benches;
+    shortest: chord of those that can lie between two others; outer_...: over those that can be the outer one; total: at
+    least the sum of all chords, where that may help; -1e150 where the bound says nothing.
+    """
+    foot = 0.5 * chord if 0.5 * chord > 1.67 * growth else 1.67 * growth
+    d2 = radius * radius - foot * foot
+    gap = FREE
+    at = growth_low
+    if d2 <= 0.0 or radius * radius < 1.5708 * chord * growth:
+        return -FREE
+    d = sqrt(d2)
+    rho = d - (half_width if half_width > outer_half_width else outer_half_width)
+    if d <= 2.0 * growth or rho <= 0.0:
+        return -FREE
+    for end in range(2):
+        x_rear = 0.5 * chord + 1.67 * at
+        q = 1.0 / d + 2.0 * at * (x_rear + overhang) / (d * d2)
+        bows = 0.5 * q * overhang * (overhang + chord) + 0.125 * q * outer_chord * outer_chord
+        bows += (half_width + outer_half_width) * sqrt(1.0 + at * at / (rho * rho))
+        if TWO_PI * at - bows < gap:
+            gap = TWO_PI * at - bows
+        at = growth
+    gap /= sqrt(1.0 + PI * PI * growth * growth / (4.0 * rho * rho))
+    x_rear = 0.5 * chord + 1.67 * growth
+    same_turn = radius + PI * growth * chord / radius
+    same_turn = shortest * rho / sqrt(growth * growth + same_turn * same_turn)
+    spread = 2.0 * (overhang + x_rear * half_width / d) / rho
+    same_turn = same_turn / rho - spread
+    if same_turn <= 0.0:
+        return -FREE
+    same_turn = 2.0 * rho * sin(0.5 * same_turn) if same_turn < PI else 2.0 * rho
+    spread += total * asin(0.5 * chord / radius) / (0.5 * chord)
+    if spread < TWO_PI:
+        spread = 2.0 * rho * sin(0.5 * spread) if spread > PI else 2.0 * rho
+        if spread > gap:
+            gap = spread
+    if gap <= 0.0:
+        return -FREE
+    return gap if gap < same_turn else same_turn
+
+
+def drift(rate, h, growth, radius):
+    """How far a handle's radius changes while it travels rate * h along the spiral [m]."""
+    radial = 2.0 * rate * h * growth / radius if radius > 0.0 else FREE
+    return radial if radial <= 0.5 * radius else rate * h

@@ -1,0 +1,55 @@
+cimport cython
+from core.kernels.constants cimport *
+from core.kernels.spiral cimport extend_chain, spiral_theta, start_chain
+from core.kernels.route cimport extend_route, start_route
+from core.kernels.chain cimport extend
+from core.kernels.bounds cimport motion_bounds, route_bounds
+from core.kernels.rings cimport drift
+
+cdef double NOISE
+cdef double PEAK_WIDTH
+
+@cython.locals(k=cython.Py_ssize_t)
+cdef Py_ssize_t lively_chain(
+    double growth, const double[:, ::1] pieces, double place, Py_ssize_t last, double calm, double[:, ::1] sizes,
+    double[:, ::1] chain
+) noexcept nogil
+
+@cython.locals(k=cython.Py_ssize_t, best=cython.Py_ssize_t)
+cdef Py_ssize_t fastest(Py_ssize_t benches, double[:, ::1] chain) noexcept nogil
+
+@cython.locals(k=cython.Py_ssize_t)
+cdef (double, Py_ssize_t) top_rate(
+    double growth, const double[:, ::1] pieces, double place, Py_ssize_t benches, double calm, double[:, ::1] sizes,
+    double[:, ::1] chain
+) noexcept nogil
+
+@cython.locals(i=cython.Py_ssize_t)
+cdef void climbs(Py_ssize_t last, double[:, ::1] sizes, double[:, ::1] chain) noexcept nogil
+
+@cython.locals(k=cython.Py_ssize_t)
+cdef double refined_peak(
+    double growth, const double[:, ::1] pieces, double place, double low, double high, Py_ssize_t benches,
+    double calm, double[:, ::1] sizes, double[:, ::1] chain
+) noexcept nogil
+
+cdef double smooth_bound(
+    double start, double start_slope, double end, double end_slope, double jerk, double h, bint kink
+) noexcept nogil
+
+@cython.locals(k=cython.Py_ssize_t)
+cdef double rate_bound(
+    double growth, const double[:, ::1] pieces, double h, Py_ssize_t handles, Py_ssize_t benches, double calm,
+    double[:, ::1] sizes, double[:, ::1] before, double[:, ::1] after, double[:, ::1] motion
+) noexcept nogil
+
+cdef bint peaks_between(
+    Py_ssize_t placed, Py_ssize_t handles, const double[:, ::1] pieces, double[:, ::1] before, double[:, ::1] after
+) noexcept nogil
+
+@cython.locals(placed=cython.Py_ssize_t, handles=cython.Py_ssize_t, links=cython.Py_ssize_t)
+cpdef void peak_rate(
+    double growth, const double[:, ::1] pieces, double place, double start, double stop, double step,
+    double tolerance, Py_ssize_t budget, Py_ssize_t benches, double calm, double[:, ::1] sizes,
+    double[:, :, ::1] rows, double[:, ::1] motion, double[::1] out
+) noexcept

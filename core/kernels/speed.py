@@ -1,0 +1,231 @@
+"""The highest speed of any handle over a run, with a proven upper bound."""
+
+import cython
+from cython.cimports.libc.math import fabs
+
+if not cython.compiled:  # for the compiler the same stands in the .pxd
+    from core.kernels.bounds import motion_bounds, route_bounds
+    from core.kernels.chain import extend
+    from core.kernels.constants import *
+    from core.kernels.rings import drift
+    from core.kernels.route import extend_route, start_route
+    from core.kernels.spiral import extend_chain, spiral_theta, start_chain
+
+# Rates that differ by less are equal [1].
+NOISE = 1e-13
+# Width to which the place of a peak is found [m]: a kink's height is then good to 1e-11.
+PEAK_WIDTH = 1e-11
+
+
+# Rates are Lipschitz: |d rate / d sigma| = |s''| is bounded over an interval as above, so between two ends a rate is
+# at most (start + end + bound h) / 2, and never above its own bound over the interval.
+#
+# Calm handles. Where curvature does not fall in the direction of travel and the lemma holds, |b'| <= |a'| (Vogt,
+# above): on an inward spiral, a line, an arc. On a route handles only go forward, so if handle n stands on such a first
+# piece at the end of an interval it did so all along, and no handle behind it is faster than it. On a spiral that holds
+# from a radius outwards; the chain is laid out to twice that radius, so that handle n may drift by half of its own.
+
+
+def lively_chain(growth, pieces, place, last, calm, sizes, chain):
+    """The chain with its head at a place up to the first calm handle, or the last; returns that one, -1 at a fold.
+
+    calm: on a spiral the radius from which handles are calm [m]; on a route > 0 if its first piece is calm
+    """
+    k = 0
+    if pieces.shape[0] == 0:
+        start_chain(spiral_theta(place / growth), chain)
+        return extend_chain(growth, 0, last, 2.0 * calm, sizes, chain)
+    start_route(pieces, -place, chain)
+    while k < last and (chain[k, PIECE] > 0.0 or calm <= 0.0):
+        k = extend_route(pieces, k, k + 1, sizes, chain)
+    return k
+
+
+def fastest(benches, chain):
+    """The handle with the largest |rate|, the first of equals."""
+    best = 0
+    for k in range(1, benches + 1):
+        if fabs(chain[k, RATE]) > fabs(chain[best, RATE]):
+            best = k
+    return best
+
+
+def top_rate(growth, pieces, place, benches, calm, sizes, chain):
+    """The largest |rate| with the head at a place, and the first handle that has it; 0 if the chain folds."""
+    k = lively_chain(growth, pieces, place, benches, calm, sizes, chain)
+    if k < 0:
+        return 0.0, 0
+    k = fastest(k, chain)
+    return fabs(chain[k, RATE]), k
+
+
+def climbs(last, sizes, chain):
+    """Fills in d rate / d sigma of the handles of a chain on a route [1/m].
+
+    With D = P_a - P_b twice differentiated, |D| constant, N to the left of T and signed curvature:
+    b'' (D . T_b) = |D'|^2 + D . (a'' T_a + k_a a'^2 N_a - k_b b'^2 N_b),  D' = a' T_a - b' T_b.
+    """
+    second = 0.0
+    chain[0, CLIMB] = 0.0
+    for i in range(last):
+        a = chain[i, RATE]
+        b = chain[i + 1, RATE]
+        x = a * chain[i, TX] - b * chain[i + 1, TX]
+        y = a * chain[i, TY] - b * chain[i + 1, TY]
+        second = (
+            (x * x + y * y) / sizes[i, CHORD]
+            + chain[i, UX] * (second * chain[i, TX] - chain[i, CURVATURE] * a * a * chain[i, TY])
+            + chain[i, UY] * (second * chain[i, TY] + chain[i, CURVATURE] * a * a * chain[i, TX])
+            + chain[i + 1, CURVATURE] * b * b * (chain[i, UX] * chain[i + 1, TY] - chain[i, UY] * chain[i + 1, TX])
+        ) / (chain[i, UX] * chain[i + 1, TX] + chain[i, UY] * chain[i + 1, TY])
+        chain[i + 1, CLIMB] = second
+
+
+def refined_peak(growth, pieces, place, low, high, benches, calm, sizes, chain):
+    """Head travel in [low, high] where the largest rate peaks [m].
+
+    On a route by bisection on whether the fastest handle still gains (also where it stops at a kink), on a spiral,
+    where rates only grow towards the centre, the better end.
+    """
+    if pieces.shape[0] == 0:
+        return high
+    while high - low > PEAK_WIDTH:
+        middle = 0.5 * (low + high)
+        _, k = top_rate(growth, pieces, place - middle, benches, calm, sizes, chain)
+        climbs(k, sizes, chain)
+        if chain[k, CLIMB] > 0.0:
+            low = middle
+        else:
+            high = middle
+    return high
+
+
+# Within a part rates are smooth: with |r''| <= J a rate stays below its chord plus J h^2 / 8. Where one handle crosses
+# one joint at x = y in [0, h], r stays below p = r_0 + s_0 x + J h^2 / 2 for x <= y and below q = r_h + s_h (x - h) +
+# J h^2 / 2 for x >= y. If s_0 >= J h and s_h <= -J h it rises up to y and falls from there, so that its largest value
+# r(y) <= min(p(y), q(y)), which is largest where p and q cross.
+
+
+def smooth_bound(start, start_slope, end, end_slope, jerk, h, kink):
+    """No rate with these ends, |second derivative| <= jerk and at most this one kink exceeds this between them."""
+    most = max(start, end)
+    if not kink:
+        return most + 0.125 * jerk * h * h
+    if start_slope >= jerk * h and end_slope <= -jerk * h and start_slope > end_slope:
+        x = min(max((end - start - end_slope * h) / (start_slope - end_slope), 0.0), h)
+        most = max(most, min(start + start_slope * x, end + end_slope * (x - h)))
+    else:
+        most = max(start + max(start_slope, 0.0) * h, end + max(-end_slope, 0.0) * h)
+    return most + 0.5 * jerk * h * h
+
+
+def rate_bound(growth, pieces, h, handles, benches, calm, sizes, before, after, motion):
+    """No |rate| exceeds this over an interval, between two chains placed up to `handles`; FREE when it is too wide."""
+    upper = 1.0
+    if handles == 0:
+        return upper
+    if pieces.shape[0] > 0:
+        climbs(handles, sizes, before)
+        climbs(handles, sizes, after)
+        if not route_bounds(pieces, h, handles, sizes, before, after, True, motion):
+            return FREE
+    elif not motion_bounds(growth, h, handles, sizes, before, after, motion):
+        return FREE
+    elif handles < benches:
+        bound = before[handles, THETA] if before[handles, THETA] < after[handles, THETA] else after[handles, THETA]
+        bound *= growth
+        if bound - drift(motion[handles - 1, HANDLE_SPEED], h, growth, bound) < calm:
+            return FREE
+    for k in range(1, handles + 1):
+        bound = 0.5 * (fabs(before[k, RATE]) + fabs(after[k, RATE]) + motion[k, RATE_RATE] * h)
+        if motion[k, RATE_HIGH] < bound:
+            bound = motion[k, RATE_HIGH]
+        if pieces.shape[0] > 0 and bound > upper and motion[k, CROSSED] <= 1.0:
+            smooth = smooth_bound(
+                before[k, RATE], before[k, CLIMB], after[k, RATE], after[k, CLIMB], motion[k, RATE_JERK], h,
+                motion[k, CROSSED] > 0.0,
+            )  # fmt: skip
+            bound = min(bound, smooth)
+        if bound > upper:
+            upper = bound
+    return upper
+
+
+def peaks_between(placed, handles, pieces, before, after):
+    """Does the fastest handle of a route climb at the first of two chains, and not at the second?"""
+    if pieces.shape[0] == 0 or placed < 0 or handles < 0:
+        return False
+    return before[fastest(placed, before), CLIMB] > 0.0 >= after[fastest(handles, after), CLIMB]
+
+
+def peak_rate(growth, pieces, place, start, stop, step, tolerance, budget, benches, calm, sizes, rows, motion, out):
+    """The largest |rate| of any handle while the head travels from start to stop [m], and a proven upper bound.
+
+    Samples every `step`, refines around the best, then proves interval after interval that no rate exceeds the best by
+    more than the tolerance, which doubles after every `budget` links followed, so that the proof always ends; a rate
+    found above it becomes the best. out: (4,) rate, upper bound, travel, intervals; calm: as in lively_chain()
+    """
+    before: cython.double[:, ::1] = rows[0]
+    after: cython.double[:, ::1] = rows[1]
+    spare: cython.double[:, ::1] = rows[2]
+    travel = start
+    best = 0.0
+    at = start
+    links = 0
+    with cython.nogil:
+        while travel <= stop:
+            rate, _ = top_rate(growth, pieces, place - travel, benches, calm, sizes, spare)
+            if rate > best:
+                best = rate
+                at = travel
+            travel += step
+        h = at - step if at - step > start else start
+        travel = at + step if at + step < stop else stop
+        travel = refined_peak(growth, pieces, place, h, travel, benches, calm, sizes, spare)
+        rate, _ = top_rate(growth, pieces, place - travel, benches, calm, sizes, spare)
+        if rate > best:
+            best = rate
+            at = travel
+        out[1] = best
+        out[3] = 0.0
+        travel = start
+        h = step
+        placed = lively_chain(growth, pieces, place - start, benches, calm, sizes, before)
+        while travel < stop:
+            out[3] += 1.0
+            if h > stop - travel:
+                h = stop - travel
+            upper = FREE
+            handles = lively_chain(growth, pieces, place - travel - h, benches, calm, sizes, after)
+            if handles >= 0:
+                if 0 <= placed < handles:
+                    placed = extend(growth, pieces, placed, handles, sizes, before)
+                if placed >= 0:
+                    upper = rate_bound(growth, pieces, h, handles, benches, calm, sizes, before, after, motion)
+                rate = fabs(after[fastest(handles, after), RATE])
+                if rate > best * (1.0 + NOISE):
+                    best = rate
+                    at = travel + h
+            links += handles
+            if links > budget:
+                links = 0
+                tolerance *= 2.0
+            if upper > best + tolerance and h > PEAK_WIDTH:
+                h *= 0.5
+                continue
+            if upper > out[1]:
+                out[1] = upper
+            if upper > best * (1.0 + NOISE) and peaks_between(placed, handles, pieces, before, after):
+                peak = refined_peak(growth, pieces, place, travel, travel + h, benches, calm, sizes, spare)
+                rate, _ = top_rate(growth, pieces, place - peak, benches, calm, sizes, spare)
+                if rate > best * (1.0 + NOISE):
+                    best = rate
+                    at = peak
+            travel += h
+            placed = handles
+            before, after = after, before
+            h *= 1.5
+        out[0] = best
+        if best > out[1]:
+            out[1] = best
+        out[2] = at

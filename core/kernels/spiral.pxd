@@ -1,0 +1,62 @@
+cimport cython
+from core.kernels.constants cimport *
+
+cdef double HALLEY_STEP
+cdef double SERIES_LIMIT
+cdef Py_ssize_t LANES
+
+cpdef double spiral_arc(double theta) noexcept nogil
+
+@cython.locals(i=cython.int)
+cpdef double spiral_theta(double arc) noexcept nogil
+
+@cython.locals(i=cython.Py_ssize_t)
+cpdef void spiral_thetas(double[::1] arcs, double[::1] thetas) noexcept
+
+cdef double half_sine(double half) noexcept nogil
+cdef double half_cosine(double half) noexcept nogil
+cdef double half_slope(double theta, double delta) noexcept nogil
+
+@cython.locals(i=cython.int)
+cpdef double first_crest(double theta) noexcept nogil
+
+@cython.locals(i=cython.int)
+cpdef double first_root(double theta, double chord2) noexcept nogil
+
+cdef (double, double, double) halley_step(double theta, double chord2, double delta, double s, double c) noexcept nogil
+
+@cython.locals(i=cython.int)
+cdef (double, double, double) next_handle(double theta, double chord2, double guess) noexcept nogil
+
+cdef (double, double) next_arc(double theta, double chord2, double guess) noexcept nogil
+cdef double theta_ratio(double theta, double delta, double s, double c) noexcept nogil
+cdef double first_guess(double theta, double chord2) noexcept nogil
+
+@cython.locals(lane=cython.Py_ssize_t)
+cdef Py_ssize_t next_handles(
+    Py_ssize_t lanes, double chord2, double* theta, double* guess, double* delta, double* sine, double* cosine
+) noexcept nogil
+
+@cython.locals(lane=cython.Py_ssize_t)
+cdef void write_handles(
+    Py_ssize_t lanes, Py_ssize_t row, Py_ssize_t k, double growth, double* theta, double* x, double* y,
+    double* rate, double[:, :, ::1] position, double[:, :, ::1] velocity, double[:, ::1] speed
+) noexcept nogil
+
+@cython.locals(
+    row=cython.Py_ssize_t, k=cython.Py_ssize_t, lane=cython.Py_ssize_t, lanes=cython.Py_ssize_t,
+    standing=cython.Py_ssize_t, alike=cython.Py_ssize_t
+)
+cpdef Py_ssize_t spiral_trajectory(
+    double growth, double[::1] thetas, const double[::1] chords, double head_speed, double[:, :, ::1] position,
+    double[:, :, ::1] velocity, double[:, ::1] speed
+) noexcept
+
+cpdef double spiral_curvature(double theta) noexcept nogil
+cpdef double steepest_bend(double theta) noexcept nogil
+cpdef void start_chain(double theta, double[:, ::1] chain) noexcept nogil
+
+@cython.locals(k=cython.Py_ssize_t)
+cpdef Py_ssize_t extend_chain(
+    double growth, Py_ssize_t first, Py_ssize_t last, double radius, double[:, ::1] sizes, double[:, ::1] chain
+) noexcept nogil

@@ -1,0 +1,196 @@
+"""Marching all pitches between two at once: one strip of pitches, proven clear."""
+
+import cython
+from cython.cimports.libc.math import cos, sin, sqrt
+
+if not cython.compiled:  # for the compiler the same stands in the .pxd
+    from core.kernels.bounds import motion_bounds
+    from core.kernels.clearance import row_gap
+    from core.kernels.constants import *
+    from core.kernels.pairs import strip_least
+    from core.kernels.rings import leaders_reach, radius_beyond
+    from core.kernels.spiral import extend_chain, spiral_arc, spiral_theta, start_chain
+
+# The separation of two benches is now a function of the head's radius r_0 and of the growth b. Below, ' is d / db at a
+# fixed r_0, seen in the frame in which the head stands at angle 0: handle k stands at rho = r_0 + b psi, angle psi,
+# P = rho R(psi), with unit vectors R outwards and T = R turned left, delta = psi_b - psi_a for a link whose front
+# handle is a and rear handle b, u the unit vector from b to a, c its chord.
+#
+# First derivatives. With f(rho_a, delta, b) = b^2 delta^2 + 2 rho_a (rho_a + b delta) (1 - cos delta) = c^2 and
+# a = rho',
+#     a_b = a_a (1 - b f_rho / f_delta) + 2 rho_a rho_b delta sin delta / f_delta,
+#     delta' = -(f_rho a_a + f_b) / f_delta.
+# While no handle turns back (k c / 2 < 1, k the curvature) 1 - b f_rho / f_delta is the rate of a link, in [0, 1], and
+# the last term is in [0, delta], so 0 <= a_k <= psi_k and delta' <= 0: radii grow with b, angles fall. With
+# f_delta >= 2 rho_a rho_b sin delta and t = tan(delta / 2),
+#     |delta'| <= ((2 psi_a + delta) t + (b / rho_a) delta^2 / sin delta) / rho_a  =: D,   |psi_b'| <= Q_b = Q_a + D.
+# Radii also grow with r_0, and angles fall, so over r_0 in [r_L, r_R] and b in [b_L, b_R] the angles, and the least
+# radii, are those at (r_L, b_L) and the largest radii those at (r_R, b_R).
+#
+# Turning. In the frame that turns with handle a, P_a' = a_a R_a and P_b' = a_b R_b + rho_b delta' T_b, so u turns at
+# psi_a' + w / c with, as T_a . u = -rho_b sin delta / c, T_b . u = -rho_a sin delta / c, rho_a sin delta <= c,
+#     |w| <= |a_b - a_a| + a_a b delta / rho_a + rho_b |delta'| q,   |a_b - a_a| <= max(delta, 2 a_a b t / rho_a),
+#     q = |R_b . u| = (b delta + rho_a (1 - cos delta)) / c.
+#
+# Second derivatives. P'' = psi'' S + B, S = b R + rho T, B = (2 psi' - rho psi'^2) R + 2 a psi' T. From |P_a - P_b| = c
+#     psi_b'' S_b . u = psi_a'' S_a . u + (B_a - B_b) . u + |P_a' - P_b'|^2 / c,
+# in which, written out with psi_b' = psi_a' + delta', all that a common rotation psi_a' contributes cancels:
+#     E = 2 psi_a' (R_a - R_b) . u + w^2 / c + (rho_b delta'^2 - 2 delta') R_b . u - 2 a_b delta' T_b . u,
+#     |E| <= 2 Q_a delta + w^2 / c + (rho_b D + 2) D q + 2 psi_b D.
+# S points along the path, |S_a| <= |S_b|, and S . u = -|S| cos alpha with cos alpha_a <= cos alpha_b (above), so for
+# y = |psi''| |S|:  y_b <= y_a + |E| / cos alpha_b,  sin alpha_b <= k c / 2, and k = (rho^2 + 2 b^2) / (rho^2 +
+# b^2)^(3/2) is at most 2 / (1.5^(3/2) rho) < 1.0887 / rho for every b. Then
+#     |P'| <= sqrt(psi^2 + rho^2 Q^2),   |P''| <= y + sqrt((2 Q + rho Q^2)^2 + 4 psi^2 Q^2).
+# A corner is (1/2 + x / c) P_a + (1/2 - x / c) P_b, |x| = half length, plus half a width across u, and |u''| is at most
+# 2 |P''| / c: it accelerates by at most (length + width) / c times its handles.
+#
+# The gap along an axis e. At each r_0 let e turn evenly from a normal of bench m at b_L to the same normal at b_R, at a
+# rate kappa <= |u_m'| then. For corners X of i and Y of j, p = Y - X,
+#     |(e . p)''| <= |X''| + |Y''| + 2 kappa (|X'| + |Y'|) + kappa^2 |p|  =: K,
+# so the gap is at least what least_between() makes of its least values on b = b_L and on b = b_R, K and b_R - b_L;
+# these come from both ends of the step in r_0 by pairs.py. Four gaps prove a whole rectangle of (r_0, b).
+
+
+def shift_bounds(low, high, benches, sizes, inner, outer, shifts):
+    """Bounds on how the first benches shift with the growth; inner: the chain at (r_L, b_L), outer: at (r_R, b_R)."""
+    psi = 0.0
+    slides = 0.0
+    path_pull = 0.0
+    speed = 0.0
+    for k in range(benches):
+        chord = sizes[k, CHORD]
+        delta = inner[k + 1, THETA] - inner[k, THETA]
+        s = sin(0.5 * delta)
+        c = cos(0.5 * delta)
+        rho = low * inner[k, THETA]
+        rho_b = high * outer[k + 1, THETA]
+        lean = (high * delta + 2.0 * high * outer[k, THETA] * s * s) / chord
+        slide = ((2.0 * psi + delta) * s / c + high * delta * delta / (2.0 * s * c * rho)) / rho
+        swing = 2.0 * psi * high * s / (c * rho)
+        swing = (delta if delta > swing else swing) + psi * high * delta / rho + rho_b * slide * lean
+        shifts[k, SHIFT_TURN] = slides + swing / chord
+        c = 0.5 * SPIRAL_CURVATURE_MOST * chord / rho
+        path_pull += (
+            2.0 * slides * delta
+            + swing * swing / chord
+            + (rho_b * slide + 2.0) * slide * lean
+            + 2.0 * (psi + delta) * slide
+        ) / sqrt(1.0 - c * c)
+        slides += slide
+        psi += delta
+        speed_b = sqrt(psi * psi + rho_b * rho_b * slides * slides)
+        shifts[k, SHIFT_CENTRE] = 0.5 * (speed + speed_b)
+        shifts[k, SHIFT_CORNER] = 0.5 * (speed + speed_b) + shifts[k, SHIFT_TURN] * sizes[k, RADIUS]
+        s = slides * (2.0 + rho_b * slides)
+        c = 2.0 * psi * slides
+        shifts[k, SHIFT_PULL] = (
+            2.0 * (path_pull + sqrt(s * s + c * c)) * (sizes[k, HALF_LENGTH] + sizes[k, HALF_WIDTH]) / chord
+        )
+        speed = speed_b
+
+
+def strip(
+    low,
+    high,
+    outer,
+    inner,
+    leaders,
+    margin,
+    rounding,
+    least_step,
+    budget,
+    benches,
+    ring,
+    sizes,
+    rows,
+    motions,
+    shifts,
+    out,
+):
+    """Prove, for all growths in [low, high] at once, that nothing touches while the head goes from `outer` to `inner`.
+
+    Of pairs led by the first `leaders` benches; outer, inner: head radii [m]. No chord may be so long that
+    SPIRAL_CURVATURE_MOST chord / (2 inner) reaches 1.
+    least_step: head travel below which it gives up [m]; budget: steps; others as for march(), motions: (2, R,
+    MOTION_COLUMNS), shifts: (R, SHIFT_COLUMNS) scratch; out: (MARCH_ENTRIES,) and scratch, PROVEN and TOUCHING as head
+    radii [m]
+    returns: REACHED; TOUCHED with growth `low`; STUCK: not provable in one strip; CAPACITY
+    """
+    before: cython.double[:, ::1] = rows[0]
+    after: cython.double[:, ::1] = rows[1]
+    before_high: cython.double[:, ::1] = rows[2]
+    after_high: cython.double[:, ::1] = rows[3]
+    motion: cython.double[:, ::1] = motions[0]
+    motion_high: cython.double[:, ::1] = motions[1]
+    scratch: cython.double[::1] = out[MARCH_ENTRIES:]
+    cap = rows.shape[1] - 1
+    placed = leaders
+    radius = outer
+    place = low * spiral_arc(outer / low)
+    h = ring[RING_SHORT]
+    if cap > benches:
+        cap = benches
+    if leaders > cap:
+        return CAPACITY
+    out[STEPS] = 0.0
+    out[TOUCHING] = -1.0
+    with cython.nogil:
+        start_chain(outer / low, before)
+        start_chain(outer / high, before_high)
+        extend_chain(low, 0, leaders, FREE, sizes, before)
+        extend_chain(high, 0, leaders, FREE, sizes, before_high)
+        while radius > inner:
+            out[PROVEN] = radius
+            if h < least_step or out[STEPS] >= budget:
+                return STUCK
+            out[STEPS] += 1.0
+            next_radius = low * spiral_theta((place - h) / low)
+            if next_radius <= inner:
+                next_radius = inner
+                h = place - low * spiral_arc(inner / low)
+            h_high = high * (spiral_arc(radius / high) - spiral_arc(next_radius / high))
+            start_chain(next_radius / low, after)
+            start_chain(next_radius / high, after_high)
+            extend_chain(low, 0, leaders, FREE, sizes, after)
+            beyond = leaders_reach(high, next_radius, high * before_high[leaders, THETA], ring) + margin
+            beyond = radius_beyond(high, beyond, ring)
+            handles = extend_chain(low, leaders, cap, beyond, sizes, after)
+            if handles < 0:
+                return STUCK
+            if handles == cap and cap < benches:
+                return CAPACITY
+            extend_chain(high, 0, handles, FREE, sizes, after_high)
+            if placed < handles:
+                extend_chain(low, placed, handles, FREE, sizes, before)
+                extend_chain(high, placed, handles, FREE, sizes, before_high)
+                placed = handles
+            if not (
+                motion_bounds(low, h, handles, sizes, before, after, motion)
+                and motion_bounds(high, h_high, handles, sizes, before_high, after_high, motion_high)
+            ):
+                h *= 0.5
+                continue
+            shift_bounds(low, high, handles, sizes, after, before_high, shifts)
+            best = strip_least(
+                low, high, leaders, handles, margin, h, h_high, ring, sizes, before, after, before_high, after_high,
+                motion, motion_high, shifts, scratch,
+            )  # fmt: skip
+            room = 0.95 * scratch[3]
+            if best <= margin + rounding:
+                a = cython.cast(cython.Py_ssize_t, scratch[1])
+                b = cython.cast(cython.Py_ssize_t, scratch[2])
+                if row_gap(a, b, sizes, after) <= margin:
+                    out[TOUCHING] = next_radius
+                    out[FIRST] = a
+                    out[SECOND] = b
+                    return TOUCHED
+                h *= 0.5 if room < 0.5 * h or room >= h else room / h
+                continue
+            radius = next_radius
+            place -= h
+            placed = handles
+            before, after = after, before
+            before_high, after_high = after_high, before_high
+            h = room if room < 2.0 * h else 2.0 * h
+        out[PROVEN] = radius
+        return REACHED
