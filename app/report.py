@@ -57,7 +57,9 @@ class MaximumHeadSpeed(Answer):
     """The largest constant head speed at which no handle ever exceeds the limit."""
 
     head_speed: float = Field(description="[m/s]")
-    head_speed_bracket: Point = Field(description="Proven to keep the limit, found to reach it [m/s]")
+    head_speed_bracket: tuple[float | None, float] = Field(
+        description="Proven to keep the limit (null where that proof was given up), found to reach it [m/s]"
+    )
     speed_ratio: float = Field(description="Highest speed of a handle over that of the head")
     handles: list[int] = Field(description="The handles that reach the limit together")
     time: float = Field(description="When they do, at that head speed; 0 is the entry into the turn [s]")
@@ -115,7 +117,9 @@ class HighestSpeed(Answer):
     """The highest speed of any handle over continuous time."""
 
     speed: float = Field(description="The highest found [m/s]")
-    speed_bracket: Point = Field(description="Found, proven not to be exceeded [m/s]")
+    speed_bracket: tuple[float, float | None] = Field(
+        description="Found, proven not to be exceeded (null where that proof was given up) [m/s]"
+    )
     time: float = Field(description="When it is reached [s]")
     handles: list[int] = Field(description="The handles that reach it together")
 

@@ -7,11 +7,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from core.contact import PROFILE_SAMPLES, PROFILE_STEP
+from core.contact import PROFILE_STEP
 from core.dragon import Dragon, Floats
 from core.kinematics import checked_head_speed, checked_span, run_end, trajectory
 from core.paths import Spiral
 from core.route import Route
+from core.search import SAMPLES
 
 # Peaks are narrowed down with so many instants at a time, so many times, and so many of the highest: to 1e-9 of a step.
 ZOOM = np.linspace(-1.0, 1.0, 33)
@@ -45,7 +46,7 @@ def sharpest_bend(
     """The sharpest bend between start and stop [s], None for the end of the run; None for a single bench.
 
     head_speed: [m/s]
-    Sampled in steps of PROFILE_STEP of the shortest chord (PROFILE_SAMPLES of them at most), then refined; a peak
+    Sampled in steps of PROFILE_STEP of the shortest chord (SAMPLES of them at most), then refined; a peak
     narrower than a step may be missed.
     raises: InvalidValue; OutsideRun for a stop after the end of the run
     """
@@ -54,7 +55,7 @@ def sharpest_bend(
     if dragon.benches < 2:
         return None
     count = 3 + int((until - begin) * head_speed / (PROFILE_STEP * dragon.chords.min()))
-    grid = np.linspace(begin, until, min(count, PROFILE_SAMPLES))
+    grid = np.linspace(begin, until, min(count, SAMPLES))
     leading = dragon.uniform_from + 2
     front = Dragon.of(dragon.lengths[:leading], dragon.widths[:leading], dragon.overhangs[:leading])
     found = [

@@ -27,6 +27,8 @@ from core.venue import AreaClearance, Venue, VenueClearance, venue_clearance, ve
 
 # Speeds are good to this, so that the maximum head speed itself is allowed [1].
 SPEED_ROUNDING = 1e-12
+# A limit counts as kept if it is proven to within this [1].
+SPEED_PROVEN = 1e-6
 # A dance whose benches touch at its start is looked at for this long [s].
 MOMENT = 1e-3
 
@@ -174,6 +176,12 @@ def _speed_failures(speed: HighestSpeed | None, limit: float | None, end: RunEnd
         message = f"Speeds grow without bound towards {end.time:.6f} s, when bench {end.bench} folds."
         return [Failure(FailureKind.SPEED, end.time, (), None, message)]
     if speed.speed <= limit * (1.0 + SPEED_ROUNDING):
-        return []
+        highest = speed.speed_bracket[1]
+        if highest is not None and highest <= limit * (1.0 + SPEED_PROVEN):
+            return []
+        message = (
+            f"Whether a handle exceeds {limit:g} m/s is not decided; the highest speed found is {speed.speed:.6f} m/s."
+        )
+        return [Failure(FailureKind.UNDECIDED, speed.time, (), None, message)]
     message = f"Handle {speed.handles[0]} reaches {speed.speed:.6f} m/s at {speed.time:.6f} s, above {limit:g} m/s."
     return [Failure(FailureKind.SPEED, speed.time, speed.handles, None, message)]

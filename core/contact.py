@@ -15,6 +15,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import StrEnum
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -28,11 +29,9 @@ from core.precise import narrowed
 from core.route import Route
 from core.search import BRACKETS_GRAZING, MARGIN_MAX, NO_GRAZE, Search
 
-# Grazes of a profile are looked for in steps of at most this fraction of the shortest chord [1] ...
+# Grazes of a profile are looked for in steps of this fraction of the shortest chord [1], longer ones where the work is
+# too much (Search.samples()), and refined to this width [s].
 PROFILE_STEP = 0.2
-# ... and at most this many of them ...
-PROFILE_SAMPLES = 20_000
-# ... and refined to this width [s].
 DIP_WIDTH = 1e-11
 
 
@@ -241,9 +240,9 @@ def clearance_profile(
     """Exact clearance and its pair at every time, and its local minima refined.
 
     times: (T,) [s]; head_speed: [m/s]
-    grazes: looked for between the first and the last time in steps of at most PROFILE_STEP of the shortest chord (and
-        at most PROFILE_SAMPLES of them), refined to rounding; a dip narrower than a step may be missed here, never by
-        first_contact()
+    grazes: looked for between the first and the last time in steps of PROFILE_STEP of the shortest chord (longer ones
+        for thousands of benches on a long way), refined to rounding; a dip of a pair
+        that is the nearest for less than a step may be missed here, never by first_contact()
     raises: OutsideRun after the end of the run; InvalidValue for fewer than three benches
     """
     head_speed = checked_head_speed(head_speed)
@@ -265,18 +264,21 @@ def _sampled(search: Search, time: Floats, head_speed: float) -> tuple[Floats, N
     return clearance, benches
 
 
+# Where the clearance passes from one pair to another it has a kink that points up, so each of its local minima is one
+# of a single pair: of the nearest one at either end of a step, if that pair comes nearer at first and parts at last.
 def _grazes(search: Search, time: Floats, head_speed: float) -> tuple[Graze, ...]:
     if time.size < 2:
         return ()
-    span = float(time.max() - time.min())
-    samples = min(PROFILE_SAMPLES, 3 + int(span * head_speed / (PROFILE_STEP * search.dragon.chords.min())))
-    grid = np.linspace(float(time.min()), float(time.max()), samples)
-    clearance, benches = _sampled(search, grid, head_speed)
-    low = 1 + np.flatnonzero((clearance[1:-1] < clearance[:-2]) & (clearance[1:-1] <= clearance[2:]))
+    first, last = float(time.min()) * head_speed, float(time.max()) * head_speed
+    grid = np.linspace(first, last, search.samples(last - first, PROFILE_STEP * search.extremes[1])).tolist()
+    pairs = [search.clearance(travel)[1] for travel in grid]
     grazes = []
-    for k in low:
-        a, b = (int(bench) for bench in benches[k])
-        travel = search.bottom(grid[k - 1] * head_speed, grid[k + 1] * head_speed, (a, b), DIP_WIDTH * head_speed)
-        gap, pair = search.clearance(travel)
-        grazes.append(Graze(travel / head_speed, gap, pair))
-    return tuple(grazes)
+    for ends, nearest in zip(pairwise(grid), pairwise(pairs), strict=True):
+        for pair in sorted(set(nearest)):
+            if not search.gap_rate(ends[0], pair) < 0.0 < search.gap_rate(ends[1], pair):
+                continue
+            travel = search.bottom(*ends, pair, DIP_WIDTH * head_speed)
+            gap, there = search.clearance(travel)
+            if there == pair:
+                grazes.append(Graze(travel / head_speed, gap, pair))
+    return tuple(sorted(grazes, key=lambda graze: graze.time))

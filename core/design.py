@@ -78,7 +78,7 @@ class _PitchSearch:
     def __init__(self, dragon: Dragon, radius: float, start_turns: float, margin: float) -> None:
         self.radius, self.start_turns, self.margin = radius, start_turns, margin
         self.lowest = radius / start_turns
-        self.search = Search(dragon, Spiral(max(self.lowest, SIZE_MIN), start_turns), margin)
+        self.search = Search(dragon, Spiral(max(self.lowest, SIZE_MIN), start_turns), margin, work=math.inf)
         self.strips = Strips(self.search, radius, start_turns, margin)
         self.ways = 0
         self.scan_step: float | None = None

@@ -6,12 +6,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from core.contact import DIP_WIDTH, PROFILE_SAMPLES, PROFILE_STEP
+from core.contact import DIP_WIDTH, PROFILE_STEP
 from core.dragon import Dragon
 from core.kinematics import EndReason, checked_head_speed, checked_span, run_end
 from core.paths import Spiral
 from core.route import Route
-from core.search import Search
+from core.search import NEAR_WORK_BUDGET, Search
 
 # The least distance is proven to this [m]; to the next one where that takes more steps than a search may.
 PROOF_WIDTHS = (1e-5, 1e-3)
@@ -61,7 +61,7 @@ def least_clearance(
     if dragon.benches < 3:
         return None
     to_fold = until >= end.time and end.reason is EndReason.FOLD
-    search = Search(dragon, path, 0.0)
+    search = Search(dragon, path, 0.0, work=NEAR_WORK_BUDGET)
     last = search.last_travel(until * head_speed, to_fold)
     (distance, travel, pair), at_least = least_over(search, begin * head_speed, last, head_speed)
     if to_fold and at_least is not None and distance > 0.0:
@@ -117,9 +117,8 @@ def _first_touch(search: Search, begin: float, until: float, head_speed: float, 
 
 
 def _sampled(search: Search, begin: float, until: float) -> Dip:
-    """The least of the dips seen in steps of PROFILE_STEP of the shortest chord (PROFILE_SAMPLES of them at most)."""
-    samples = min(PROFILE_SAMPLES, 3 + int((until - begin) / (PROFILE_STEP * search.extremes[1])))
-    grid = np.linspace(begin, until, samples).tolist()
+    """The least of the dips seen in steps of PROFILE_STEP of the shortest chord, or fewer: see Search.samples()."""
+    grid = np.linspace(begin, until, search.samples(until - begin, PROFILE_STEP * search.extremes[1])).tolist()
     leaders = min(search.dragon.uniform_from + 1, search.dragon.benches)
     gaps = np.array([search.clearance(travel, leaders)[0] for travel in grid])
     inner = 1 + np.flatnonzero((gaps[1:-1] <= gaps[:-2]) & (gaps[1:-1] <= gaps[2:]))

@@ -19,12 +19,21 @@ from core.route import Route
 MARGIN_MAX = 1e4  # [m]
 # Steps after which a search gives up as undecided; the default case takes about a hundred.
 STEP_BUDGET = 200_000
+# And work after which it gives up [1]: a bench placed for a step, or 64 edges at rest tried against one. Of first
+# contact, 2 to 5 s; of a least distance, whose steps end near a bench or an edge and cost more, about the same.
+WORK_BUDGET = 2e7
+NEAR_WORK_BUDGET = 5e6
+EDGES_PER_WORK = 64
+# A dance is sampled so many times at most [1], and with this share of the work.
+SAMPLES = 20_000
+SAMPLED_SHARE = 0.1
 # Half width of the bracket around a contact [m of head travel] at head speeds of 1 m/s and more, and the least that
 # rounding of the travel allows at lower ones.
 BRACKET = 1e-10
 BRACKET_MIN = 2e-11
 # The same where benches meet so slowly that rounding hides the gap that near, for contacts within about 1e-6 m of a
 # graze: the first one is 1e-9 s in all at 1 m/s, and core/precise.py narrows the wider ones to it [m of head travel].
+# Below 1 m/s the same in seconds come first.
 BRACKETS_GRAZING = (4.9e-10, 5e-9, 5e-8, 5e-7, 5e-6, 5e-5)
 # Travels are doubles: steps and brackets cannot be finer than this part of them [1].
 TRAVEL_ROUNDING = 1e-15
@@ -53,6 +62,7 @@ class Search:
     sizes: (rows, 4) of the leading benches; edges: (E, 4) x, y, x, y of edges at rest [m], on routes only; with
         edges, the pairs are bench and edge alone: edge e is bench number room + 1 + e of a pair
     clear_radius: on a spiral, no pair whose inner bench leads at this radius or further out comes within the margin [m]
+    work: what its marches may still do, see WORK_BUDGET
     place: what the kernels count places from, at time 0: arc length from the centre of a spiral, minus s on a route [m]
     """
 
@@ -60,8 +70,16 @@ class Search:
     clear_radius: float
     rounding: float
 
-    def __init__(self, dragon: Dragon, path: Spiral | Route, margin: float, edges: Floats | None = None) -> None:
-        self.dragon = dragon
+    def __init__(
+        self,
+        dragon: Dragon,
+        path: Spiral | Route,
+        margin: float,
+        edges: Floats | None = None,
+        *,
+        work: float = WORK_BUDGET,
+    ) -> None:
+        self.dragon, self.work = dragon, work
         self.edges = np.empty((0, 4)) if edges is None else edges
         self.statics = -len(self.edges)
         alike = dragon.uniform_from
@@ -115,6 +133,15 @@ class Search:
         """How many leading benches there is room for."""
         return int(self.sizes.shape[0]) - 1 - len(self.edges)
 
+    @property
+    def _step_work(self) -> float:
+        return self.room * (1.0 + len(self.edges) / EDGES_PER_WORK)
+
+    def samples(self, span: float, step: float) -> int:
+        """How many instants to look at over a span [m]: a step apart [m], or as many as the work allows."""
+        affordable = min(float(SAMPLES), SAMPLED_SHARE * self.work / self._step_work)
+        return max(3, int(min(3.0 + span / step, affordable)))
+
     def ring_least(self, radius: float) -> float:
         """Lower bound of the separation of pairs whose inner bench leads at this radius or further out [m]."""
         return float(kernels.ring_least(self.growth, self.growth, radius, *self.ring_extremes))
@@ -164,6 +191,7 @@ class Search:
             return "reached", dict.fromkeys(kernels.MARCH_FIELDS, 0.0) | {"proven": stop, "graze_gap": NO_GRAZE}
         out = np.empty(32)
         while True:
+            budget = min(float(STEP_BUDGET), max(self.work / self._step_work, 1.0))
             code = kernels.march(
                 self.growth,
                 self.pieces,
@@ -175,7 +203,7 @@ class Search:
                 self.margin,
                 tolerance,
                 self.rounding,
-                STEP_BUDGET,
+                int(budget),
                 self.dragon.benches,
                 self.statics,
                 self.ring,
@@ -186,6 +214,7 @@ class Search:
                 out,
             )
             state = kernels.MARCH_STATES[code]
+            self.work -= out[4] * self._step_work
             if state != "capacity":
                 return state, dict(zip(kernels.MARCH_FIELDS, out.tolist(), strict=False))
             self.resize(min(4 * self.room, self.dragon.benches))
@@ -206,11 +235,13 @@ class Search:
         """march() between two travels [m] with the bracket of a contact: state, result by name, its half width [m]."""
         tolerance = max(BRACKET * min(1.0, head_speed), BRACKET_MIN, TRAVEL_ROUNDING * abs(until))
         state, found = self.march(until, tolerance, start=begin)
-        for wider in BRACKETS_GRAZING:
+        slowed = [wider * min(1.0, head_speed) for wider in BRACKETS_GRAZING]
+        for wider in sorted({*slowed, *BRACKETS_GRAZING}):
             if state != "stuck" or found["touching"] < 0.0:
                 break
-            tolerance = wider * min(1.0, head_speed)
-            state, found = self.march(until, tolerance, start=begin)
+            if wider > tolerance:
+                tolerance = wider
+                state, found = self.march(until, tolerance, start=begin)
         return state, found, tolerance
 
     def place_leaders(self, travel: float, leaders: int) -> None:

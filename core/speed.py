@@ -18,32 +18,36 @@ from core.search import Search
 RATE_TOLERANCE = 1e-9
 # Rates are first sampled in steps of this part of the longest chord [1].
 SAMPLE_STEP = 0.5
-# The tolerance doubles after so many links of chains, about 30 ms, so that nearly equal peaks of many handles end in a
-# wider bracket instead of a long search; the turn of the contest takes about 30,000 over 200 s.
-LINKS_BUDGET = 400_000
+# The tolerance grows fourfold after so many links of chains, 15 to 250 ms, so that nearly equal peaks of many handles
+# end in a wider bracket instead of a long search; the turn of the contest takes about 30,000 over 200 s.
+LINKS_BUDGET = 250_000
+# With a tolerance of more than this the proof is given up [1]: hundreds of benches on kilometres of winding curve.
+LOOSEST_TOLERANCE = 1e-2
 # Handles whose rates differ by less share the highest one [1].
 TIED = 1e-9
 
 
 @dataclass(frozen=True, slots=True)
 class HighestSpeed:
-    """speed: the highest found [m/s]; speed_bracket: (found, proven not to be exceeded) [m/s]; time [s];
+    """speed: the highest found [m/s]; speed_bracket: (found, proven not to be exceeded: None where the proof was given
+    up) [m/s]; time [s];
     handles: those that reach it together."""
 
     speed: float
-    speed_bracket: tuple[float, float]
+    speed_bracket: tuple[float, float | None]
     time: float
     handles: tuple[int, ...]
 
 
 @dataclass(frozen=True, slots=True)
 class MaximumHeadSpeed:
-    """head_speed: the largest [m/s]; head_speed_bracket: (proven to keep the limit, found to reach it) [m/s]
+    """head_speed: the largest [m/s]; head_speed_bracket: (proven to keep the limit: None where the proof
+    was given up, found to reach it) [m/s]
     speed_ratio: highest handle speed over head speed; handles: those that reach the limit together
     time: when they do at that head speed [s]; time_at_unit_head_speed [s]"""
 
     head_speed: float
-    head_speed_bracket: tuple[float, float]
+    head_speed_bracket: tuple[float | None, float]
     speed_ratio: float
     handles: tuple[int, ...]
     time: float
@@ -88,6 +92,7 @@ def highest_speed(
         until * head_speed,
         SAMPLE_STEP * float(search.extremes[0]),
         RATE_TOLERANCE,
+        LOOSEST_TOLERANCE,
         LINKS_BUDGET,
         dragon.benches,
         _calm(search),
@@ -99,7 +104,8 @@ def highest_speed(
     rate, upper, travel, _ = out.tolist()
     rates = np.abs(search.rates(travel))
     tied = tuple(int(k) for k in np.flatnonzero(rates >= rate * (1.0 - TIED)))
-    return HighestSpeed(rate * head_speed, (rate * head_speed, upper * head_speed), travel / head_speed, tied)
+    proven = upper * head_speed if upper < kernels.FREE else None
+    return HighestSpeed(rate * head_speed, (rate * head_speed, proven), travel / head_speed, tied)
 
 
 def _calm(search: Search) -> float:
@@ -128,5 +134,6 @@ def maximum_head_speed(
     limit = checked_number("speed_limit", speed_limit, "m/s", 1e-6, HEAD_SPEED_MAX)
     found = highest_speed(dragon, path, start=start, stop=stop)
     speed = limit / found.speed
-    bracket = (limit / found.speed_bracket[1], speed)
+    highest = found.speed_bracket[1]
+    bracket = (None if highest is None else limit / highest, speed)
     return MaximumHeadSpeed(speed, bracket, found.speed, found.handles, found.time / speed, found.time)

@@ -19,7 +19,7 @@ from core.least import Pair, first_pair, least_over
 from core.overlaps import inside, polygon_fault
 from core.paths import Spiral
 from core.route import COORDINATE_MAX, Coil, Point, Route
-from core.search import MARGIN_MAX, Search
+from core.search import MARGIN_MAX, NEAR_WORK_BUDGET, Search
 
 Ring = tuple[Point, ...]
 
@@ -181,8 +181,9 @@ def venue_clearance(
     begin, until = checked_span(dragon, path, start, stop, end, head_speed)
     route = _route(path, until * head_speed)
     run_end(dragon, route, head_speed=head_speed)
+    share = NEAR_WORK_BUDGET / len(venue.areas)
     areas = tuple(
-        _area_clearance(Search(dragon, route, margin, area.edges), area.name, begin, until, head_speed)
+        _area_clearance(Search(dragon, route, margin, area.edges, work=share), area.name, begin, until, head_speed)
         for area in venue.areas
     )
     return VenueClearance(_stray(dragon, route, venue, begin, head_speed), areas)

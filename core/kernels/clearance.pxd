@@ -23,7 +23,7 @@ cdef double least_with(
     i=cython.Py_ssize_t, a=cython.Py_ssize_t, b=cython.Py_ssize_t, blocks=cython.Py_ssize_t, first=cython.Py_ssize_t
 )
 cdef double row_clearance(
-    Py_ssize_t active, Py_ssize_t handles, Py_ssize_t statics, double[:, ::1] sizes, double[:, ::1] chain,
+    double growth, Py_ssize_t active, Py_ssize_t handles, Py_ssize_t statics, double[:, ::1] sizes, double[:, ::1] chain,
     double[:, ::1] boxes, Py_ssize_t[::1] pair
 ) noexcept nogil
 

@@ -50,10 +50,12 @@ def least_with(i, first, end, best, sizes, chain, pair):
     return best
 
 
-def row_clearance(active, handles, statics, sizes, chain, boxes, pair):
+def row_clearance(growth, active, handles, statics, sizes, chain, boxes, pair):
     """Least separation among the pairs led by the first `active` benches, and that pair [m]; FREE without pairs.
 
-    boxes: (handles / BLOCK, 4) at least, scratch
+    growth: of the spiral, 0 on a route; boxes: (handles / BLOCK, 4) at least, scratch
+    On a spiral radii r grow from handle to handle, and no point of a bench is further in than its r less two of the
+    largest half diagonals, nor further out than its rear handle's r and one of them: far enough out all is passed over.
     """
     best = FREE
     b = handles + 1 + (statics if statics >= 0 else -statics)
@@ -64,8 +66,14 @@ def row_clearance(active, handles, statics, sizes, chain, boxes, pair):
     if active > 0:  # a first value to compare with
         best = least_with(0, 2, handles, best, sizes, chain, pair)
     blocks = block_boxes(handles, sizes, chain, boxes)
+    widest = 0.0
+    for i in range(handles):
+        widest = max(widest, sizes[i, RADIUS])
     for a in range((active + BLOCK - 1) // BLOCK):
+        reach = growth * chain[min(a * BLOCK + BLOCK, handles), THETA] + 3.0 * widest
         for b in range(a, blocks):
+            if growth > 0.0 and growth * chain[b * BLOCK, THETA] > reach + max(best, 0.0):
+                break
             dx = max(boxes[b, 0] - boxes[a, 1], boxes[a, 0] - boxes[b, 1], 0.0)
             dy = max(boxes[b, 2] - boxes[a, 3], boxes[a, 2] - boxes[b, 3], 0.0)
             if dx * dx + dy * dy > max(best, 0.0) * max(best, 0.0):
@@ -89,7 +97,7 @@ def clearance_at(growth, pieces, place, benches, leaders, statics, sizes, chain,
     pair[0] = place_chain(growth, pieces, place, benches, sizes, chain)
     if pair[0] < 0:
         return FREE
-    return row_clearance(leaders, benches, statics, sizes, chain, boxes, pair)
+    return row_clearance(growth if pieces.shape[0] == 0 else 0.0, leaders, benches, statics, sizes, chain, boxes, pair)
 
 
 def gap_at(growth, pieces, place, benches, a, b, sizes, chain):

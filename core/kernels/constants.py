@@ -112,7 +112,10 @@ RING_HALF_WIDTH = 4
 ALL_CHORD = 5
 ALL_OVERHANG = 6
 ALL_HALF_WIDTH = 7
-RING_ENTRIES = 8
+# and a pair that a march leaves out, -1 for none
+LEFT_OUT = 8
+LEFT_OUT_TOO = 9
+RING_ENTRIES = 10
 
 # Entries of march()'s result.
 PROVEN = 0  # nothing touches up to here [m of head travel]

@@ -1,13 +1,14 @@
 """Marching to first contact, by proven steps."""
 
 import cython
-from cython.cimports.libc.math import fabs
+from cython.cimports.libc.math import fabs, sqrt
 
 if not cython.compiled:  # for the compiler the same stands in the .pxd
+    from core.kernels.bounds import motion_bounds, route_bounds
     from core.kernels.chain import extend, place_chain
     from core.kernels.clearance import crossing, gap_at, row_clearance, row_gap
     from core.kernels.constants import *
-    from core.kernels.pairs import interval_least
+    from core.kernels.pairs import axis_bend, interval_least
     from core.kernels.rings import drift, leaders_reach, radius_beyond
     from core.kernels.spiral import extend_chain, spiral_theta, start_chain
 
@@ -40,6 +41,30 @@ def chain_between(growth, pieces, place, leaders, benches, margin, allowance, ri
         return k
     radius = leaders_reach(growth, growth * theta, growth * chain[k, THETA] + allowance, ring)
     return extend_chain(growth, k, benches, radius_beyond(growth, radius + margin, ring) + allowance, sizes, chain)
+
+
+def pair_bends(growth, pieces, place, h, a, b, sizes, rows, motion, out):
+    """Bounds on the second derivative of gaps of two benches while the head travels h from a place [1/m].
+
+    out: (2,) along axes fixed in bench a, and in bench b; False where no bound is known
+    """
+    before: cython.double[:, ::1] = rows[0]
+    after: cython.double[:, ::1] = rows[1]
+    if place_chain(growth, pieces, place, b + 1, sizes, before) < 0:
+        return False
+    if place_chain(growth, pieces, place - h, b + 1, sizes, after) < 0:
+        return False
+    if pieces.shape[0] > 0:
+        if not route_bounds(pieces, h, b + 1, sizes, before, after, False, motion):
+            return False
+    elif not motion_bounds(growth, h, b + 1, sizes, before, after, motion):
+        return False
+    dx = before[b, MX] - before[a, MX]
+    dy = before[b, MY] - before[a, MY]
+    distance = sqrt(dx * dx + dy * dy) + (motion[a, CENTRE_SPEED] + motion[b, CENTRE_SPEED]) * h
+    out[0] = axis_bend(growth, a, b, distance, sizes, motion)
+    out[1] = axis_bend(growth, b, a, distance, sizes, motion)
+    return True
 
 
 def passed(first, last, placed, opening, chain):
@@ -95,6 +120,7 @@ def march(
     cap = before.shape[0] - 1 - edges
     first = leaders
     followers = benches if at_start else leaders
+    solo = growth if pieces.shape[0] == 0 else 0.0
     travel = start
     h = ring[RING_SHORT]
     target = -1.0
@@ -119,7 +145,7 @@ def march(
             return STUCK
         opened = pair[0] if pair[0] < benches else benches - 1
         opening[: placed + 1] = before[: placed + 1]
-        last_clearance = row_clearance(pair[0], placed, statics, sizes, before, motion, pair)
+        last_clearance = row_clearance(solo, pair[0], placed, statics, sizes, before, motion, pair)
         if last_clearance <= margin:
             out[PROVEN] = out[TOUCHING] = start
             out[FIRST] = pair[1]
@@ -246,7 +272,7 @@ def march(
             target = -1.0
             clearance = FREE
             if tolerance != 0.0:
-                clearance = row_clearance(active, handles, statics, sizes, before, motion, pair)
+                clearance = row_clearance(solo, active, handles, statics, sizes, before, motion, pair)
             lowest = least if least < floor else floor
             floor = least
             if older_clearance > last_clearance <= clearance and lowest < out[GRAZE_GAP]:

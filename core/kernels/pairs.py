@@ -221,7 +221,7 @@ def interval_least(
                 if growth * low - drift(motion[j, HANDLE_SPEED], h, growth, growth * low) > far:
                     break  # handles stand in order, so all further ones lie outside too
             least = pair_least(growth, i, j, margin, h, sizes, before, after, motion, out)
-            if least >= FREE:
+            if least >= FREE or (i == ring[LEFT_OUT] and j == ring[LEFT_OUT_TOO]):
                 continue
             width = 8.0 * (least - margin) / out[0] + h * h
             width = sqrt(width) if width > 0.0 else 0.0

@@ -50,6 +50,6 @@ cdef bint peaks_between(
 @cython.locals(placed=cython.Py_ssize_t, handles=cython.Py_ssize_t, links=cython.Py_ssize_t)
 cpdef void peak_rate(
     double growth, const double[:, ::1] pieces, double place, double start, double stop, double step,
-    double tolerance, Py_ssize_t budget, Py_ssize_t benches, double calm, double[:, ::1] sizes,
+    double tolerance, double loosest, Py_ssize_t budget, Py_ssize_t benches, double calm, double[:, ::1] sizes,
     double[:, :, ::1] rows, double[:, ::1] motion, double[::1] out
 ) noexcept

@@ -158,12 +158,15 @@ def peaks_between(placed, handles, pieces, before, after):
     return before[fastest(placed, before), CLIMB] > 0.0 >= after[fastest(handles, after), CLIMB]
 
 
-def peak_rate(growth, pieces, place, start, stop, step, tolerance, budget, benches, calm, sizes, rows, motion, out):
+def peak_rate(
+    growth, pieces, place, start, stop, step, tolerance, loosest, budget, benches, calm, sizes, rows, motion, out
+):
     """The largest |rate| of any handle while the head travels from start to stop [m], and a proven upper bound.
 
     Samples every `step`, refines around the best, then proves interval after interval that no rate exceeds the best by
-    more than the tolerance, which doubles after every `budget` links followed, so that the proof always ends; a rate
-    found above it becomes the best. out: (4,) rate, upper bound, travel, intervals; calm: as in lively_chain()
+    more than the tolerance, which grows fourfold after every `budget` links followed, until the proof ends or is given
+    up at `loosest`; a rate found above it becomes the best. calm: as in lively_chain()
+    out: (4,) rate, upper bound (FREE if given up), travel, intervals
     """
     before: cython.double[:, ::1] = rows[0]
     after: cython.double[:, ::1] = rows[1]
@@ -209,7 +212,10 @@ def peak_rate(growth, pieces, place, start, stop, step, tolerance, budget, bench
             links += handles
             if links > budget:
                 links = 0
-                tolerance *= 2.0
+                tolerance *= 4.0
+                if tolerance > loosest:
+                    out[1] = FREE
+                    break
             if upper > best + tolerance and h > PEAK_WIDTH:
                 h *= 0.5
                 continue
