@@ -11,7 +11,6 @@ const BUSY = 503;
 export class Problem extends Error {
   constructor(status, body) {
     super(body?.detail ?? `HTTP ${status}`);
-    this.status = status;
     this.errors = body?.errors ?? [];
   }
 }
@@ -23,50 +22,38 @@ const wait = (milliseconds) => new Promise((resolve) => setTimeout(resolve, mill
 
 /** One kind of question: at most one is being asked and one waits, the newest. */
 class Channel {
+  #newest = null;
   #running = null;
-  #next = null;
 
-  ask(question) {
-    return new Promise((resolve, reject) => {
-      this.#next?.reject(new Superseded());
-      this.#next = { question, resolve, reject };
-      if (!this.#running) return this.#start();
-      const age = performance.now() - this.#running.since;
-      const { abort } = this.#running;
-      setTimeout(() => abort.abort(), Math.max(0, GRACE - age));
-    });
-  }
-
-  cancel() {
-    this.#next?.reject(new Superseded());
-    this.#next = null;
-    this.#running?.abort.abort();
-  }
-
-  async #start() {
-    const { question, resolve, reject } = this.#next;
-    this.#next = null;
+  async ask(question) {
+    this.#newest = question;
+    while (this.#running) {
+      const { since, abort, settled } = this.#running;
+      setTimeout(() => abort.abort(), since + GRACE - performance.now());
+      await settled;
+      if (question !== this.#newest) throw new Superseded();
+    }
     const abort = new AbortController();
-    this.#running = { abort, since: performance.now() };
+    const answer = question(abort.signal);
+    this.#running = { since: performance.now(), abort, settled: Promise.allSettled([answer]) };
     try {
-      resolve(await question(abort.signal));
+      return await answer;
     } catch (error) {
-      reject(abort.signal.aborted ? new Superseded() : error);
+      throw abort.signal.aborted ? new Superseded() : error;
     } finally {
       this.#running = null;
-      if (this.#next) this.#start();
     }
   }
 }
 
-/** Events: `lost` (detail: seconds until the next try), `back`, `busy` (detail: [channel, is it]). */
-export class Service extends EventTarget {
+export class Service {
   #channels = new Map();
   #return = null;
   #retryNow = () => {};
 
-  constructor() {
-    super();
+  /** tell: {lost(seconds until the next try), back(), busy(channel, is it)} */
+  constructor(tell) {
+    this.tell = tell;
     setInterval(() => document.hidden || this.#return || this.#beat(), HEARTBEAT);
   }
 
@@ -76,20 +63,15 @@ export class Service extends EventTarget {
     const url = query ? `${path}?${new URLSearchParams(query)}` : path;
     const headers = { Accept: accept, ...(body && { "Content-Type": "application/json" }) };
     const options = { method: body ? "POST" : "GET", headers, body: body && JSON.stringify(body) };
-    this.#tell("busy", [channel, true]);
+    this.tell.busy(channel, true);
     try {
       const answer = await this.#channels.get(channel).ask((signal) => this.#patiently(url, options, signal));
-      this.#tell("busy", [channel, false]);
+      this.tell.busy(channel, false);
       return answer;
     } catch (error) {
-      if (!(error instanceof Superseded)) this.#tell("busy", [channel, false]);
+      if (!(error instanceof Superseded)) this.tell.busy(channel, false);
       throw error;
     }
-  }
-
-  cancel(channel) {
-    this.#channels.get(channel)?.cancel();
-    this.#tell("busy", [channel, false]);
   }
 
   /** Do not wait for the next try. */
@@ -100,9 +82,8 @@ export class Service extends EventTarget {
   /** Asks until there is an answer: through a lost service and through a busy one. */
   async #patiently(url, options, signal) {
     for (;;) {
-      const response = await this.#fetch(url, options, signal);
-      if (response?.ok) return await (options.headers.Accept.includes("json") ? response.json() : response.blob());
-      signal.throwIfAborted();
+      const response = await this.#fetch(url, { ...options, signal });
+      if (response?.ok) return options.headers.Accept.includes("json") ? response.json() : response.blob();
       if (!response) await this.#untilBack();
       else if (response.status === BUSY) await wait(1000 * (Number(response.headers.get("Retry-After")) || 1));
       else throw new Problem(response.status, await response.json().catch(() => null));
@@ -111,12 +92,12 @@ export class Service extends EventTarget {
   }
 
   /** The response; null when the service is not there. */
-  async #fetch(url, options, signal) {
+  async #fetch(url, options) {
     try {
-      const response = await fetch(url, { ...options, signal });
+      const response = await fetch(url, options);
       return GATEWAY_ERRORS.includes(response.status) ? null : response;
-    } catch (error) {
-      signal?.throwIfAborted();
+    } catch {
+      options.signal?.throwIfAborted();
       return null;
     }
   }
@@ -128,11 +109,11 @@ export class Service extends EventTarget {
 
   async #knock() {
     for (let pause = RETRY_FIRST; ; pause = Math.min(2 * pause, RETRY_LAST)) {
-      this.#tell("lost", pause / 1000);
+      this.tell.lost(pause / 1000);
       await Promise.race([wait(pause), new Promise((resolve) => (this.#retryNow = resolve))]);
       if (await this.#alive()) break;
     }
-    this.#tell("back");
+    this.tell.back();
   }
 
   async #alive() {
@@ -141,9 +122,5 @@ export class Service extends EventTarget {
 
   async #beat() {
     if (!(await this.#alive())) await this.#untilBack();
-  }
-
-  #tell(type, detail) {
-    this.dispatchEvent(new CustomEvent(type, { detail }));
   }
 }

@@ -1,27 +1,22 @@
 /** Two charts drawn by uPlot: clearance over time, and where the head stops against the pitch. */
 
+import { make } from "./elements.js";
 import { say } from "./text.js";
 
 const HEIGHT = 240;
+/** So much of the highest value the scale goes on above it [1]. */
 const ABOVE = 1.06;
 
-function colours() {
-  const style = getComputedStyle(document.documentElement);
-  const read = (name) => style.getPropertyValue(`--${name}`).trim();
-  const [text, grid, line, bad, mark, good] = ["muted", "line", "accent", "contact", "text", "clear"].map(read);
-  return { text, grid, line, bad, mark, good };
-}
-
 /** A chart in a box; click or drag calls seek(x). The marker `now` is an element, so moving it redraws nothing. */
-class Chart {
+export class Chart {
   #plot = null;
   #data = null;
   #now = null;
+  #marker = make("div", { className: "now" });
 
-  constructor(box, seek) {
-    Object.assign(this, { box, seek });
-    this.marker = document.createElement("div");
-    this.marker.className = "now";
+  /** plan(data): {labels of both axes, table of uPlot, range of y, width of the line [px], draw(pen, colours)} */
+  constructor(box, plan, seek) {
+    Object.assign(this, { box, plan, seek });
     new ResizeObserver(() => this.#plot?.setSize({ width: box.clientWidth, height: HEIGHT })).observe(box);
   }
 
@@ -31,8 +26,9 @@ class Chart {
     this.#plot?.destroy();
     this.#plot = null;
     if (!data) return;
-    this.#plot = new uPlot(this.options(data, colours()), this.table(data), this.box);
-    this.#plot.over.append(this.marker);
+    const plan = this.plan(data);
+    this.#plot = new uPlot(this.#options(plan), plan.table, this.box);
+    this.#plot.over.append(this.#marker);
     this.#listen(this.#plot.over);
     this.now(this.#now);
   }
@@ -41,25 +37,25 @@ class Chart {
     this.#now = x;
     if (!this.#plot || x === null) return;
     const left = this.#plot.valToPos(x, "x");
-    this.marker.hidden = !(left >= -1 && left <= this.#plot.over.clientWidth + 1);
-    this.marker.style.transform = `translateX(${left}px)`;
+    this.#marker.hidden = !(left >= -1 && left <= this.#plot.over.clientWidth + 1);
+    this.#marker.style.transform = `translateX(${left}px)`;
   }
 
-  frame(paint, xAxis, yAxis, series, hook, y) {
-    const [grid, font] = [{ stroke: paint.grid, width: 1 }, "12px system-ui, sans-serif"];
-    const looks = { stroke: paint.text, grid, ticks: grid, font, labelFont: font, labelSize: 22 };
+  #options({ labels, range, width, draw }) {
+    const style = getComputedStyle(document.documentElement);
+    const colour = (name) => style.getPropertyValue(`--${name}`).trim();
+    const [grid, font] = [{ stroke: colour("line"), width: 1 }, "12px system-ui, sans-serif"];
+    const looks = { stroke: colour("muted"), grid, ticks: grid, font, labelFont: font, labelSize: 22 };
+    const place = () => this.now(this.#now);
     return {
       width: this.box.clientWidth,
       height: HEIGHT,
       legend: { show: false },
       cursor: { drag: { x: false, y: false }, y: false, points: { show: false } },
-      scales: { x: { time: false }, y },
-      axes: [
-        { ...looks, label: say(xAxis), size: 34 },
-        { ...looks, label: say(yAxis), size: 52 },
-      ],
-      series: [{}, series],
-      hooks: { draw: [hook], setSize: [() => this.now(this.#now)], ready: [() => this.now(this.#now)] },
+      scales: { x: { time: false }, y: { range } },
+      axes: labels.map((label, k) => ({ ...looks, label: say(label), size: [34, 52][k] })),
+      series: [{}, { stroke: colour("accent"), width, points: { show: false } }],
+      hooks: { draw: [(plot) => draw(pen(plot, colour))], setSize: [place], ready: [place] },
     };
   }
 
@@ -76,12 +72,13 @@ class Chart {
   }
 }
 
-/** Draws on a uPlot canvas at data coordinates. */
-function pen(plot) {
+/** Draws on a uPlot canvas at data coordinates, in a colour of the page by its name. */
+function pen(plot, colour) {
   const { ctx: context } = plot;
+  const { left, top, width, height } = plot.bbox;
   const at = (x, y) => [plot.valToPos(x, "x", true), plot.valToPos(y, "y", true)];
-  const line = (from, to, colour, dash = [6, 4]) => {
-    Object.assign(context, { strokeStyle: colour, lineWidth: 1.5 * devicePixelRatio });
+  const line = (from, to, name, dash) => {
+    Object.assign(context, { strokeStyle: colour(name), lineWidth: 1.5 * devicePixelRatio });
     context.setLineDash(dash.map((one) => one * devicePixelRatio));
     context.beginPath();
     context.moveTo(...from);
@@ -89,70 +86,61 @@ function pen(plot) {
     context.stroke();
     context.setLineDash([]);
   };
-  const { left, top, width, height } = plot.bbox;
   return {
-    across: (y, colour, dash) => line([left, at(0, y)[1]], [left + width, at(0, y)[1]], colour, dash),
-    up: (x, colour, dash) => line([at(x, 0)[0], top], [at(x, 0)[0], top + height], colour, dash),
-    dot(x, y, colour, radius) {
+    across: (y, name) => line([left, at(0, y)[1]], [left + width, at(0, y)[1]], name, [6, 4]),
+    up: (x, name) => line([at(x, 0)[0], top], [at(x, 0)[0], top + height], name, [2, 3]),
+    dot(x, y, name, radius) {
       context.beginPath();
       context.arc(...at(x, y), radius * devicePixelRatio, 0, 2 * Math.PI);
-      Object.assign(context, { fillStyle: colour });
+      context.fillStyle = colour(name);
       context.fill();
     },
-    cross(x, y, colour) {
+    cross(x, y, name) {
       const [px, py] = at(x, y);
       const size = 6 * devicePixelRatio;
-      for (const way of [1, -1]) line([px - size, py - way * size], [px + size, py + way * size], colour, []);
+      for (const way of [size, -size]) line([px - size, py - way], [px + size, py + way], name, []);
     },
   };
 }
 
-/** data: {time, clearance [m], grazes, margin [m], contact: time or null} */
-export class ClearanceChart extends Chart {
-  table({ time, clearance }) {
-    return [time, clearance.map((one) => 1000 * one)];
-  }
-
-  options({ clearance, grazes, margin, contact }, paint) {
-    const low = Math.min(0, ...clearance) * 1000;
-    const high = 1000 * Math.max(margin, ...clearance) || 1;
-    const hook = (plot) => {
-      const draw = pen(plot);
-      draw.across(1000 * margin, paint.bad);
-      for (const graze of grazes) draw.dot(graze.time, 1000 * graze.clearance, paint.mark, 2.5);
-      if (contact !== null) draw.cross(contact, 1000 * margin, paint.bad);
-    };
-    const range = [ABOVE * low - 0.04 * high, ABOVE * high];
-    const series = { stroke: paint.line, width: 1.5, points: { show: false } };
-    return this.frame(paint, "timeAxis", "clearanceAxis", series, hook, { range });
-  }
+/** Clearance over time, of /clearance; margin [m], contact: its time or null. */
+export function clearancePlan({ time, clearance, grazes, margin, contact }) {
+  const low = 1000 * Math.min(0, ...clearance);
+  const high = 1000 * Math.max(margin, ...clearance) || 1;
+  return {
+    labels: ["timeAxis", "clearanceAxis"],
+    table: [time, clearance.map((one) => 1000 * one)],
+    range: [ABOVE * low - 0.04 * high, ABOVE * high],
+    width: 1.5,
+    draw(pen) {
+      pen.across(1000 * margin, "contact");
+      for (const graze of grazes) pen.dot(graze.time, 1000 * graze.clearance, "text", 2.5);
+      if (contact !== null) pen.cross(contact, 1000 * margin, "contact");
+    },
+  };
 }
 
-/** data: {pitch, radius, pieces, circle: radius, least: minimum pitch} */
-export class ScanChart extends Chart {
-  table({ pitch, radius, pieces }) {
-    const [x, y] = [[], []];
-    for (const [from, to] of pieces) {
-      // A hole between two pieces: a jump is not a line.
-      if (x.length) {
-        x.push((x.at(-1) + pitch[from]) / 2);
-        y.push(null);
-      }
-      x.push(...pitch.slice(from, to));
-      y.push(...radius.slice(from, to));
+/** Where the head stops against the pitch, of /pitch-scan; circle: radius of the turning circle [m]. */
+export function scanPlan({ pitch, radius, pieces, minimum_pitch, circle }) {
+  const [x, y] = [[], []];
+  for (const [from, to] of pieces) {
+    // A hole between two pieces: a jump is not a line.
+    if (x.length) {
+      x.push((x.at(-1) + pitch[from]) / 2);
+      y.push(null);
     }
-    return [x, y];
+    x.push(...pitch.slice(from, to));
+    y.push(...radius.slice(from, to));
   }
-
-  options({ pitch, radius, pieces, circle, least }, paint) {
-    const hook = (plot) => {
-      const draw = pen(plot);
-      draw.across(circle, paint.mark);
-      draw.up(least, paint.good, [2, 3]);
-      for (const [from, to] of pieces) for (const k of [from, to - 1]) draw.dot(pitch[k], radius[k], paint.line, 2);
-    };
-    const range = [0, ABOVE * Math.max(circle, ...radius)];
-    const series = { stroke: paint.line, width: 2, points: { show: false } };
-    return this.frame(paint, "pitchAxis", "radiusAxis", series, hook, { range });
-  }
+  return {
+    labels: ["pitchAxis", "radiusAxis"],
+    table: [x, y],
+    range: [0, ABOVE * Math.max(circle, ...radius)],
+    width: 2,
+    draw(pen) {
+      pen.across(circle, "text");
+      pen.up(minimum_pitch, "clear");
+      for (const [from, to] of pieces) for (const k of [from, to - 1]) pen.dot(pitch[k], radius[k], "accent", 2);
+    },
+  };
 }

@@ -1,41 +1,25 @@
 /** The form: for each number a field, a slider, its unit, its limits, a reset, and the service's words when it is wrong. */
 
+import { make, onClick } from "./elements.js";
 import { FIELDS } from "./state.js";
 import { say } from "./text.js";
-
-/** An element with these properties and children; `class` and attributes with a dash or of ARIA go in by name. */
-export function make(tag, properties = {}, ...children) {
-  const element = document.createElement(tag);
-  for (const [name, value] of Object.entries(properties)) {
-    if (name in element) element[name] = value;
-    else element.setAttribute(name, value);
-  }
-  element.append(...children.filter((child) => child !== null));
-  return element;
-}
 
 /** Half-typed numbers are not asked: a text counts after a pause of the hand [ms], or with Enter. */
 const TYPING = 300;
 
 export class Controls {
   #rows = new Map();
-  #groups = new Map();
 
   constructor(form, state) {
     this.state = state;
     form.addEventListener("submit", (event) => event.preventDefault());
-    form.querySelector("#reset-all").addEventListener("click", () => state.reset());
-    for (const field of FIELDS) this.#group(form, field.group).append(this.#row(field));
-    state.addEventListener("change", ({ detail }) => detail.forEach((name) => this.#show(name)));
-  }
-
-  #group(form, name) {
-    if (!this.#groups.has(name)) {
-      const group = make("fieldset", {}, make("legend", { "data-text": name }));
-      this.#groups.set(name, group);
-      form.append(group);
+    onClick("#reset-all", () => state.reset());
+    for (const [group, fields] of Map.groupBy(FIELDS, (field) => field.group)) {
+      const legend = make("legend", { "data-text": group });
+      form.append(make("fieldset", {}, legend, ...fields.map((field) => this.#row(field))));
     }
-    return this.#groups.get(name);
+    // Another path has another pitch to reset to.
+    state.listen((names) => names.forEach((name) => this.#show(name === "path" ? "pitch" : name)));
   }
 
   #row({ name, unit, slider: [min, max, step] }) {
@@ -69,7 +53,7 @@ export class Controls {
     const text = this.state.get(name);
     if (row.text.value.trim() !== text) row.text.value = text;
     row.slider.value = text;
-    row.reset.disabled = text === FIELDS.find((field) => field.name === name).value;
+    row.reset.disabled = text === this.state.initial(name);
   }
 
   /** limits: name -> [low, high] as the service states them */
@@ -88,7 +72,7 @@ export class Controls {
       const words = errors.get(name) ?? "";
       if (row.error.textContent !== words) row.error.textContent = words;
       row.error.hidden = !words;
-      row.text.setAttribute("aria-invalid", String(Boolean(words)));
+      row.text.setAttribute("aria-invalid", Boolean(words));
     }
   }
 }

@@ -5,7 +5,9 @@ import { View } from "./view.js";
 const SHADES = 48;
 /** Speeds closer than this [m/s] are one colour: the colours must not show rounding. */
 const SPEED_SPREAD_MIN = 1e-9;
+/** Within so many pixels of a handle a click takes it. */
 const PICK_RADIUS = 22;
+/** The inset shows so many widths of a bench to either side of the point of contact. */
 const INSET_WIDTHS = 1.6;
 
 /** So many colours along a list of them such as "#00224e, #fee838". */
@@ -18,19 +20,20 @@ function palette(ramp) {
   });
 }
 
-/** [smallest, largest] speed of a pose. */
+const least = (numbers) => numbers.reduce((a, b) => Math.min(a, b));
+const largest = (numbers) => numbers.reduce((a, b) => Math.max(a, b));
+
+/** [smallest, largest] speed of a pose, null when all are equal but for rounding. */
 export function speedRange({ speed }) {
-  let [low, high] = [Infinity, -Infinity];
-  for (const one of speed) [low, high] = [Math.min(low, one), Math.max(high, one)];
-  return [low, high];
+  const [low, high] = [least(speed), largest(speed)];
+  return [high - low > SPEED_SPREAD_MIN ? low : null, high];
 }
 
 /** Corners of bench k of a pose as drawn: front left, front right, rear right, rear left. */
-export function outline({ x, y }, dragon, k) {
+function outline({ x, y }, { overhang, width }, k) {
   const length = Math.hypot(x[k] - x[k + 1], y[k] - y[k + 1]);
   const [ux, uy] = [(x[k] - x[k + 1]) / length, (y[k] - y[k + 1]) / length];
-  const [ox, oy] = [ux * dragon.overhang, uy * dragon.overhang];
-  const [wx, wy] = [(-uy * dragon.width) / 2, (ux * dragon.width) / 2];
+  const [ox, oy, wx, wy] = [ux * overhang, uy * overhang, (-uy * width) / 2, (ux * width) / 2];
   const [fx, fy, rx, ry] = [x[k] + ox, y[k] + oy, x[k + 1] - ox, y[k + 1] - oy];
   return [[fx + wx, fy + wy], [fx - wx, fy - wy], [rx - wx, ry - wy], [rx + wx, ry + wy]];
 }
@@ -45,6 +48,7 @@ function edge(corners, name) {
 function trace(path, corners) {
   corners.forEach(([x, y], k) => (k ? path.lineTo(x, y) : path.moveTo(x, y)));
   path.closePath();
+  return path;
 }
 
 /** A smooth line through the middles of the given points. */
@@ -54,6 +58,47 @@ function smooth({ x, y }) {
   for (let k = 1; k < x.length - 1; k++) path.quadraticCurveTo(x[k], y[k], (x[k] + x[k + 1]) / 2, (y[k] + y[k + 1]) / 2);
   path.lineTo(x.at(-1), y.at(-1));
   return path;
+}
+
+/** Draws in metres on a cleared canvas with the place (x, y) in its middle; radii and widths of lines are in pixels. */
+class Pen {
+  constructor(canvas, { x, y, scale }) {
+    const [width, height] = [canvas.clientWidth, canvas.clientHeight].map((size) => Math.round(size * devicePixelRatio));
+    if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, { width, height });
+    const [context, zoom] = [canvas.getContext("2d"), scale * devicePixelRatio];
+    context.resetTransform();
+    context.clearRect(0, 0, width, height);
+    context.setTransform(zoom, 0, 0, -zoom, width / 2 - x * zoom, height / 2 + y * zoom);
+    Object.assign(this, { context, scale });
+  }
+
+  fill(path, colour) {
+    this.context.fillStyle = colour;
+    this.context.fill(path);
+  }
+
+  stroke(path, colour, width = 1) {
+    Object.assign(this.context, { strokeStyle: colour, lineWidth: width / this.scale });
+    this.context.stroke(path);
+  }
+
+  circle(x, y, radius) {
+    const path = new Path2D();
+    path.arc(x, y, radius / this.scale, 0, 2 * Math.PI);
+    return path;
+  }
+
+  label(text, x, y, colour, halo) {
+    const { context, scale } = this;
+    context.save();
+    context.translate(x, y);
+    context.scale(1 / scale, -1 / scale);
+    context.font = "600 14px system-ui, sans-serif";
+    Object.assign(context, { lineWidth: 4, lineJoin: "round", strokeStyle: halo, fillStyle: colour });
+    context.strokeText(text, 10, -10);
+    context.fillText(text, 10, -10);
+    context.restore();
+  }
 }
 
 export class Dance {
@@ -81,141 +126,83 @@ export class Dance {
   }
 
   /** The head's way, {x, y}, as the service samples it. */
-  setPath(points) {
-    this.#path = points && smooth(points);
-    if (!points) return;
-    const { x, y } = points;
-    const pick = (choice, numbers) => numbers.reduce((a, b) => choice(a, b));
-    this.#bounds = [pick(Math.min, x), pick(Math.min, y), pick(Math.max, x), pick(Math.max, y)];
-  }
-
-  fit() {
-    if (this.#bounds && this.view.width) this.view.fit(this.#bounds);
+  setPath({ x, y }) {
+    this.#path = smooth({ x, y });
+    this.#bounds = [least(x), least(y), largest(x), largest(y)];
   }
 
   draw() {
-    const { pose } = this.scene;
-    const context = this.#cleared(this.canvas);
-    if (this.view.fitted) this.fit();
-    this.view.apply(context);
-    if (this.#path) this.#stroke(context, this.#path, this.#colours.path, 1);
-    const { scale } = this.view;
-    if (this.scene.circle > 0) this.#ring(context, 0, 0, scale, this.scene.circle * scale, this.#colours.circle, 1.5);
-    if (pose) this.#draw(context, pose, this.view.scale);
-    if (pose && !this.inset.hidden) this.#drawInset(pose);
-  }
-
-  #cleared(canvas) {
-    const ratio = devicePixelRatio;
-    const [width, height] = [canvas.clientWidth, canvas.clientHeight].map((size) => Math.round(size * ratio));
-    if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, { width, height });
-    const context = canvas.getContext("2d");
-    context.setTransform(1, 0, 0, 1, 0, 0);
-    context.clearRect(0, 0, width, height);
-    return context;
-  }
-
-  #draw(context, pose, scale) {
-    const { dragon, contact, handle, headName, handleName } = this.scene;
-    this.#benches(context, pose, dragon, scale);
-    const head = new Path2D();
-    trace(head, outline(pose, dragon, 0));
-    this.#stroke(context, head, this.#colours.head, 2.5, scale);
-    if (contact?.benches) this.#pair(context, pose, dragon, contact, scale);
-    this.#dot(context, pose.x[0], pose.y[0], 4, this.#colours.head, scale);
-    if (handle !== null && handle < pose.x.length) this.#ring(context, pose.x[handle], pose.y[handle], scale);
-    this.#label(context, headName, pose.x[0], pose.y[0], this.#colours.head);
-    const chosen = handle > 0 && handle < pose.x.length;
-    if (chosen) this.#label(context, handleName, pose.x[handle], pose.y[handle], this.#colours.pick);
-  }
-
-  #benches(context, pose, dragon, scale) {
-    const [low, high] = speedRange(pose);
-    const gain = high - low > SPEED_SPREAD_MIN ? (SHADES - 1) / (high - low) : 0;
-    const paths = this.#palette.map(() => new Path2D());
-    const all = new Path2D();
-    for (let k = pose.x.length - 2; k >= 0; k--) {
-      const path = paths[gain ? Math.round((pose.speed[k] - low) * gain) : SHADES - 1];
-      trace(path, outline(pose, dragon, k));
+    const { pose, contact, handle, headName, handleName, circle } = this.scene;
+    if (this.view.fitted && this.#bounds && this.view.width) this.view.fit(this.#bounds);
+    const [pen, colours] = [new Pen(this.canvas, this.view), this.#colours];
+    if (this.#path) pen.stroke(this.#path, colours.path);
+    if (circle > 0) pen.stroke(pen.circle(0, 0, circle * pen.scale), colours.circle, 1.5);
+    if (!pose) return;
+    this.#benches(pen);
+    pen.stroke(this.#bench(0), colours.head, 2.5);
+    if (contact) this.#pair(pen);
+    if (contact?.point) pen.stroke(pen.circle(...contact.point, 9), colours.text, 3);
+    const [x, y] = [pose.x[0], pose.y[0]];
+    pen.fill(pen.circle(x, y, 4), colours.head);
+    pen.label(headName, x, y, colours.head, colours.card);
+    if (handle !== null && handle < pose.x.length) {
+      const [x, y] = [pose.x[handle], pose.y[handle]];
+      pen.stroke(pen.circle(x, y, 8), colours.pick, 3);
+      if (handle > 0) pen.label(handleName, x, y, colours.pick, colours.card);
     }
+    if (!this.inset.hidden && contact?.point) this.#drawInset();
+  }
+
+  #bench(k, path = new Path2D()) {
+    return trace(path, outline(this.scene.pose, this.scene.dragon, k));
+  }
+
+  #benches(pen) {
+    const { pose } = this.scene;
+    const [low, high] = speedRange(pose);
+    const paths = this.#palette.map(() => new Path2D());
+    const shade = (speed) => (low === null ? SHADES - 1 : Math.round(((speed - low) * (SHADES - 1)) / (high - low)));
+    for (let k = pose.x.length - 2; k >= 0; k--) this.#bench(k, paths[shade(pose.speed[k])]);
+    const all = new Path2D();
     paths.forEach((path, k) => {
-      context.fillStyle = this.#palette[k];
-      context.fill(path);
+      pen.fill(path, this.#palette[k]);
       all.addPath(path);
     });
-    this.#stroke(context, all, this.#colours.outline, 1, scale);
+    pen.stroke(all, this.#colours.outline);
   }
 
-  #pair(context, pose, dragon, contact, scale) {
-    contact.benches.forEach((bench, k) => {
-      const path = new Path2D();
-      trace(path, outline(pose, dragon, bench));
-      context.fillStyle = this.#colours[k ? "second" : "first"];
-      context.fill(path);
-      this.#stroke(context, path, this.#colours.text, 1, scale);
+  /** The two benches that touch. */
+  #pair(pen) {
+    this.scene.contact.benches.forEach((bench, k) => {
+      const path = this.#bench(bench);
+      pen.fill(path, this.#colours[k ? "second" : "first"]);
+      pen.stroke(path, this.#colours.text);
     });
-    if (contact.point) this.#ring(context, ...contact.point, scale, 9, this.#colours.text);
   }
 
   /** The two benches enlarged around the point where they meet. */
-  #drawInset(pose) {
-    const { dragon, contact } = this.scene;
-    if (!contact?.point) return;
-    const context = this.#cleared(this.inset);
-    const scale = this.inset.clientHeight / (2 * INSET_WIDTHS * dragon.width);
+  #drawInset() {
+    const { pose, dragon, contact } = this.scene;
     const [x, y] = contact.point;
-    const ratio = this.inset.width / this.inset.clientWidth;
-    const [dx, dy] = [this.inset.width / 2 - x * scale * ratio, this.inset.height / 2 + y * scale * ratio];
-    context.setTransform(ratio * scale, 0, 0, -ratio * scale, dx, dy);
-    this.#benches(context, pose, dragon, scale);
-    this.#pair(context, pose, dragon, { benches: contact.benches }, scale);
+    const pen = new Pen(this.inset, { x, y, scale: this.inset.clientHeight / (2 * INSET_WIDTHS * dragon.width) });
+    this.#benches(pen);
+    this.#pair(pen);
     if (contact.edge) {
-      const [[ax, ay], [bx, by]] = edge(outline(pose, dragon, contact.edge.bench), contact.edge.name);
-      const line = new Path2D();
-      line.moveTo(ax, ay);
-      line.lineTo(bx, by);
-      this.#stroke(context, line, this.#colours.text, 4, scale);
+      const ends = edge(outline(pose, dragon, contact.edge.bench), contact.edge.name);
+      pen.stroke(trace(new Path2D(), ends), this.#colours.text, 4);
     }
-    this.#dot(context, x, y, 6, this.#colours.card, scale);
-    this.#ring(context, x, y, scale, 6, this.#colours.text);
-  }
-
-  #stroke(context, path, colour, width, scale = this.view.scale) {
-    context.strokeStyle = colour;
-    context.lineWidth = width / scale;
-    context.stroke(path);
-  }
-
-  #dot(context, x, y, radius, colour, scale) {
-    context.fillStyle = colour;
-    context.beginPath();
-    context.arc(x, y, radius / scale, 0, 2 * Math.PI);
-    context.fill();
-  }
-
-  #ring(context, x, y, scale, radius = 8, colour = this.#colours.pick, width = 3) {
-    const path = new Path2D();
-    path.arc(x, y, radius / scale, 0, 2 * Math.PI);
-    this.#stroke(context, path, colour, width, scale);
-  }
-
-  #label(context, text, x, y, colour) {
-    const [px, py] = this.view.toScreen(x, y);
-    const ratio = this.canvas.width / this.view.width;
-    context.setTransform(ratio, 0, 0, ratio, 0, 0);
-    context.font = "600 14px system-ui, sans-serif";
-    Object.assign(context, { lineWidth: 4, lineJoin: "round", strokeStyle: this.#colours.card, fillStyle: colour });
-    context.strokeText(text, px + 10, py - 10);
-    context.fillText(text, px + 10, py - 10);
+    const point = pen.circle(x, y, 6);
+    pen.fill(point, this.#colours.card);
+    pen.stroke(point, this.#colours.text, 3);
   }
 
   #nearest(px, py) {
     const { pose } = this.scene;
-    let [best, least] = [null, PICK_RADIUS];
+    let [best, radius] = [null, PICK_RADIUS];
     pose?.x.forEach((x, k) => {
       const [sx, sy] = this.view.toScreen(x, pose.y[k]);
       const distance = Math.hypot(sx - px, sy - py);
-      if (distance < least) [best, least] = [k, distance];
+      if (distance < radius) [best, radius] = [k, distance];
     });
     return best;
   }

@@ -1,18 +1,21 @@
 /** What a person takes away: the link, files, and the command that gives the same. */
 
 import { Problem, Superseded } from "./api.js";
+import { $, make, onClick } from "./elements.js";
 import { say } from "./text.js";
 
-const $ = (selector) => document.querySelector(selector);
 const CSV_STEP = 1;
 
 export class Keep {
   /** announce(words) tells what happened */
   constructor(state, service, questions, canvas, announce) {
-    Object.assign(this, { state, service, questions, canvas, announce });
-    $("#share").addEventListener("click", () => this.#share());
-    $("#copy-curl").addEventListener("click", () => this.#copy($("#curl").textContent));
-    for (const kind of ["csv", "png", "figure", "json"]) $(`#${kind}`).addEventListener("click", () => this.#save(kind));
+    Object.assign(this, { service, questions, canvas, announce });
+    onClick("#share", () => {
+      state.write();
+      this.#copy(location.href);
+    });
+    onClick("#copy-curl", () => this.#copy($("#curl").textContent));
+    for (const kind of ["csv", "png", "figure", "json"]) onClick(`#${kind}`, () => this.#save(kind));
   }
 
   /** The commands for the dance that is shown. */
@@ -20,16 +23,9 @@ export class Keep {
     const { dance } = this.questions;
     const base = new URL("./", location).href;
     const post = (path, body) => `curl '${base}${path}' -H 'Content-Type: application/json' -d '${JSON.stringify(body)}'`;
-    const contact =
-      dance.kind === "turn"
-        ? post("check", this.questions.checkBody(dance))
-        : `curl '${base}collision-time?${new URLSearchParams(dance.query)}'`;
+    const get = () => `curl '${base}collision-time?${new URLSearchParams(dance.query)}'`;
+    const contact = dance.kind === "spiral" ? get() : post("check", this.questions.checkBody(dance));
     $("#curl").textContent = `${contact}\n${post("trajectory", this.#table())}`;
-  }
-
-  async #share() {
-    this.state.write();
-    await this.#copy(location.href);
   }
 
   async #copy(text) {
@@ -44,11 +40,11 @@ export class Keep {
   async #save(kind) {
     if (!this.questions.dance) return;
     try {
-      const [name, blob] = await this[kind]();
-      const link = Object.assign(document.createElement("a"), { href: URL.createObjectURL(blob), download: name });
+      const [download, blob] = await this[kind]();
+      const link = make("a", { href: URL.createObjectURL(blob), download });
       link.click();
       setTimeout(() => URL.revokeObjectURL(link.href), 10_000);
-      this.announce(say("saved", { name }));
+      this.announce(say("saved", { name: download }));
     } catch (error) {
       if (error instanceof Problem) this.announce(error.message);
       else if (!(error instanceof Superseded)) throw error;
@@ -65,10 +61,11 @@ export class Keep {
   }
 
   async png() {
-    const copy = Object.assign(document.createElement("canvas"), { width: this.canvas.width, height: this.canvas.height });
+    const { width, height } = this.canvas;
+    const copy = make("canvas", { width, height });
     const context = copy.getContext("2d");
     context.fillStyle = getComputedStyle(this.canvas).backgroundColor;
-    context.fillRect(0, 0, copy.width, copy.height);
+    context.fillRect(0, 0, width, height);
     context.drawImage(this.canvas, 0, 0);
     return ["dance.png", await new Promise((resolve) => copy.toBlob(resolve, "image/png"))];
   }
@@ -81,7 +78,8 @@ export class Keep {
   }
 
   async json() {
-    const text = JSON.stringify(this.questions.dance.answer, null, 2);
-    return ["collision-time.json", new Blob([text], { type: "application/json" })];
+    const { answer, report } = this.questions.dance;
+    const text = JSON.stringify(report ?? answer, null, 2);
+    return [report ? "check.json" : "collision-time.json", new Blob([text], { type: "application/json" })];
   }
 }

@@ -1,5 +1,6 @@
 /** The clock of the dance: plays, steps, scrubs, and stops at first contact. */
 
+import { $, onClick } from "./elements.js";
 import { RATES } from "./state.js";
 import { say } from "./text.js";
 
@@ -10,51 +11,50 @@ const STEP_EVERY = 500;
 /** A frame that took longer than this [ms] does not jump ahead. */
 const FRAME_MAX = 100;
 
-const $ = (selector) => document.querySelector(selector);
-
 export class Player {
   #playing = false;
   #frame = 0;
   #asked = 0;
-  #drawn = 0;
+  /** Since the dance last moved [ms]. */
+  #passed = 0;
+  #exact = null;
 
   /** show(pose) draws it; list(pose) puts it into the table alone */
   constructor(state, questions, show, list) {
     Object.assign(this, { state, questions, show, list });
     this.still = matchMedia("(prefers-reduced-motion: reduce)");
-    $("#play").addEventListener("click", () => this.toggle());
-    $("#back").addEventListener("click", () => this.step(-1));
-    $("#on").addEventListener("click", () => this.step(1));
-    $("#to-end").addEventListener("click", () => this.seek(Infinity));
+    onClick("#play", () => this.toggle());
+    onClick("#back", () => this.#step(-1));
+    onClick("#on", () => this.#step(1));
+    onClick("#to-end", () => this.seek(Infinity));
     $("#time").addEventListener("input", (event) => this.seek(Number(event.target.value)));
     $("#rate").append(...RATES.map((rate) => new Option(`${rate}×`, rate)));
-    $("#rate").addEventListener("change", (event) => this.state.set({ rate: Number(event.target.value) }));
+    $("#rate").addEventListener("change", (event) => state.set({ rate: Number(event.target.value) }));
   }
 
-  /** The instant that is shown: no time in the state is the end. */
-  time() {
-    const { begin, end } = this.#span();
-    const time = this.state.get("time");
-    return time === null ? end : Math.min(Math.max(time, begin), end);
-  }
-
-  seek(time) {
-    const { begin, end } = this.#span();
-    this.state.set({ time: time >= end ? null : Math.max(begin, time) });
-  }
-
-  #span() {
+  get #span() {
     return this.questions.dance ?? { begin: 0, end: 0 };
   }
 
-  step(seconds) {
+  /** The instant that is shown: no time in the state is the end. */
+  get time() {
+    const { begin, end } = this.#span;
+    return Math.min(Math.max(this.state.get("time") ?? end, begin), end);
+  }
+
+  seek(time) {
+    const { begin, end } = this.#span;
+    this.state.set({ time: time >= end ? null : Math.max(begin, time) });
+  }
+
+  #step(seconds) {
     this.#stop();
-    this.seek(this.time() + seconds);
+    this.seek(this.time + seconds);
   }
 
   toggle() {
     if (this.#playing) return this.#stop();
-    const { begin, end } = this.#span();
+    const { begin, end } = this.#span;
     if (begin >= end) return;
     if (this.state.get("time") === null) this.seek(begin);
     this.#playing = true;
@@ -70,10 +70,11 @@ export class Player {
   update(ask = true) {
     const { dance } = this.questions;
     if (!dance) return;
-    const time = this.time();
+    const { time } = this;
     const now = performance.now();
     const pose = dance.track?.at(time);
-    if (pose && time < dance.end && (!this.#exactAt(time))) this.show(pose);
+    const isExact = this.#exact?.time === time && this.#exact.dance === dance;
+    if (pose && time < dance.end && !isExact) this.show(pose);
     if (!ask || (this.#playing && now - this.#asked < EXACT_EVERY)) return;
     this.#asked = now;
     this.questions.pose(time);
@@ -81,13 +82,9 @@ export class Player {
 
   /** The service's own numbers have come. */
   exact(pose) {
-    this.last = pose;
-    if (!this.#playing || pose.time === this.time()) this.show(pose);
+    this.#exact = pose;
+    if (!this.#playing || pose.time === this.time) this.show(pose);
     else this.list(pose);
-  }
-
-  #exactAt(time) {
-    return this.last?.time === time && this.last.dance === this.questions.dance;
   }
 
   #stop() {
@@ -98,18 +95,13 @@ export class Player {
   }
 
   #tick(now, before) {
-    if (!this.#playing) return;
     this.#frame = requestAnimationFrame((next) => this.#tick(next, now));
     const { dance } = this.questions;
-    const time = this.time();
-    if (!dance.track?.at(time)) return;
-    this.#drawn += Math.min(now - before, FRAME_MAX);
-    if (this.still.matches && this.#drawn < STEP_EVERY) return;
-    const next = time + (this.#drawn / 1000) * this.state.get("rate");
-    this.#drawn = 0;
-    if (next >= dance.end) {
-      this.state.set({ time: null });
-      this.#stop();
-    } else this.state.set({ time: next });
+    if (!dance.track?.at(this.time)) return;
+    this.#passed += Math.min(now - before, FRAME_MAX);
+    if (this.still.matches && this.#passed < STEP_EVERY) return;
+    this.seek(this.time + (this.#passed / 1000) * this.state.get("rate"));
+    this.#passed = 0;
+    if (this.state.get("time") === null) this.#stop();
   }
 }

@@ -17,49 +17,59 @@ export const FIELDS = [
   { name: "margin", value: "0", unit: "m", group: "motion", slider: [0, 0.2, 0.005] },
 ];
 
-export const DRAGON = ["benches", "head_length", "body_length", "width", "overhang"];
+export const DRAGON = FIELDS.filter(({ group }) => group === "dragon").map(({ name }) => name);
 export const RATES = [1, 2, 5, 10, 20, 50];
+/** A turn needs a wider spiral: the contest's pitch. */
+const PITCHES = { spiral: "0.55", turn: "1.7" };
 
-const NUMBERS = Object.fromEntries(FIELDS.map((field) => [field.name, field.value]));
+const NUMBERS = Object.fromEntries(FIELDS.map(({ name, value }) => [name, value]));
 /** time: null is the end of the dance; view: [x, y, pixels per metre], null shows the whole path. */
 const DEFAULTS = { ...NUMBERS, path: "spiral", time: null, rate: 20, follow: false, handle: null, view: null, lang: null };
 
+const oneOf = (values) => (text) => values.find((value) => String(value) === text);
 const READ = {
-  time: finite,
-  rate: (text) => (RATES.includes(Number(text)) ? Number(text) : DEFAULTS.rate),
+  path: oneOf(["spiral", "turn"]),
+  time: (text) => (text.trim() && Number.isFinite(Number(text)) ? Number(text) : null),
+  rate: oneOf(RATES),
   follow: (text) => text === "true",
   handle: (text) => (/^\d+$/.test(text) ? Number(text) : null),
-  view: (text) => {
+  view(text) {
     const numbers = text.split(",").map(Number);
     return numbers.length === 3 && numbers.every(Number.isFinite) && numbers[2] > 0 ? numbers : null;
   },
-  lang: (text) => (["en", "zh"].includes(text) ? text : null),
-  path: (text) => (["spiral", "turn"].includes(text) ? text : DEFAULTS.path),
+  lang: oneOf(["en", "zh"]),
 };
 
-function finite(text) {
-  return text.trim() !== "" && Number.isFinite(Number(text)) ? Number(text) : null;
-}
-
-/** Tells its listeners `change` with the set of names that changed; writes the address soon after. */
-export class State extends EventTarget {
+export class State {
   #values = { ...DEFAULTS };
+  #listeners = [];
   #writing = 0;
 
-  constructor(address = location.search) {
-    super();
-    for (const [name, text] of new URLSearchParams(address)) {
-      if (name in DEFAULTS) this.#values[name] = (READ[name] ?? String)(text);
+  constructor() {
+    const given = new URLSearchParams(location.search);
+    for (const [name, text] of given) {
+      if (name in DEFAULTS) this.#values[name] = (READ[name] ?? String)(text) ?? DEFAULTS[name];
     }
+    if (!given.has("pitch")) this.#values.pitch = this.initial("pitch");
   }
 
   get(name) {
     return this.#values[name];
   }
 
+  /** What a name holds until a person changes it. */
+  initial(name) {
+    return name === "pitch" ? PITCHES[this.#values.path] : DEFAULTS[name];
+  }
+
   /** The numbers of these names as a person wrote them. */
   texts(names) {
     return Object.fromEntries(names.map((name) => [name, this.#values[name]]));
+  }
+
+  /** listener(names): called after each change with the set of names that changed */
+  listen(listener) {
+    this.#listeners.push(listener);
   }
 
   set(changes) {
@@ -68,25 +78,25 @@ export class State extends EventTarget {
     Object.assign(this.#values, changes);
     // Browsers refuse more than a few changes of the address per second.
     this.#writing ||= setTimeout(() => this.write(), 300);
-    this.dispatchEvent(new CustomEvent("change", { detail: new Set(names) }));
+    for (const listener of this.#listeners) listener(new Set(names));
   }
 
   reset(names = Object.keys(NUMBERS)) {
-    this.set(Object.fromEntries(names.map((name) => [name, DEFAULTS[name]])));
+    this.set(Object.fromEntries(names.map((name) => [name, this.initial(name)])));
   }
 
-  address() {
-    const query = new URLSearchParams();
-    for (const [name, value] of Object.entries(this.#values)) {
-      if (value !== DEFAULTS[name]) query.set(name, name === "view" ? value.map((one) => +one.toPrecision(6)) : value);
-    }
-    const text = query.toString().replaceAll("%2C", ",");
-    return location.origin + location.pathname + (text && `?${text}`);
+  choosePath(path) {
+    if (path !== this.get("path")) this.set({ path, pitch: PITCHES[path], time: null, view: null });
   }
 
   write() {
     clearTimeout(this.#writing);
     this.#writing = 0;
-    history.replaceState(null, "", this.address());
+    const query = new URLSearchParams();
+    for (const [name, value] of Object.entries(this.#values)) {
+      if (value !== this.initial(name)) query.set(name, name === "view" ? value.map((one) => +one.toPrecision(6)) : value);
+    }
+    const text = query.toString().replaceAll("%2C", ",");
+    history.replaceState(null, "", location.pathname + (text && `?${text}`));
   }
 }

@@ -1,22 +1,27 @@
 /** Handles at one instant: of thousands of rows only those in sight are made. */
 
-import { make } from "./controls.js";
+import { make } from "./elements.js";
 import { handleName } from "./text.js";
 
 const ROW = 30;
 const SPARE = 6;
 const DECIMALS = 6;
+const KEYS = { ArrowDown: 1, ArrowUp: -1, PageDown: 10, PageUp: -10 };
 
 export class Table {
   #pose = null;
   #handle = null;
   #queued = false;
 
-  /** chosen(handle): a person chose a row */
-  constructor(box, chosen) {
-    Object.assign(this, { box, chosen, body: box.querySelector("tbody"), table: box.querySelector("table") });
+  /** choose(step): a person moves the choice by so many rows; chosen(handle): or takes a row */
+  constructor(box, { choose, chosen }) {
+    Object.assign(this, { box, body: box.querySelector("tbody"), table: box.querySelector("table") });
     box.addEventListener("scroll", () => this.#queue());
-    box.addEventListener("keydown", (event) => this.#key(event));
+    box.addEventListener("keydown", (event) => {
+      if (!(event.key in KEYS)) return;
+      event.preventDefault();
+      choose(KEYS[event.key]);
+    });
     this.body.addEventListener("click", (event) => {
       const row = event.target.closest("tr[data-handle]");
       if (row) chosen(Number(row.dataset.handle));
@@ -40,17 +45,9 @@ export class Table {
   }
 
   #reveal() {
-    if (this.#handle === null || !this.#pose) return;
+    if (this.#handle === null) return;
     const [top, sight] = [this.#handle * ROW, this.box.clientHeight - 2 * ROW];
     if (top < this.box.scrollTop || top > this.box.scrollTop + sight) this.box.scrollTop = top - sight / 2;
-  }
-
-  #key(event) {
-    const step = { ArrowDown: 1, ArrowUp: -1, PageDown: 10, PageUp: -10 }[event.key];
-    if (!step || !this.#pose) return;
-    event.preventDefault();
-    const from = this.#handle ?? (step > 0 ? -1 : 0);
-    this.chosen(Math.min(Math.max(from + step, 0), this.#pose.x.length - 1));
   }
 
   #queue() {
@@ -77,8 +74,7 @@ export class Table {
 }
 
 function spacer(rows) {
-  const row = make("tr", { "aria-hidden": "true" }, make("td", { colSpan: 4, className: "spacer" }));
+  const row = make("tr", { "aria-hidden": "true", hidden: rows <= 0 }, make("td", { colSpan: 4, className: "spacer" }));
   row.firstChild.style.height = `${rows * ROW}px`;
-  row.hidden = rows <= 0;
   return row;
 }

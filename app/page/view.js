@@ -6,6 +6,8 @@ const CLICK_TRAVEL = 5;
 const [SCALE_MIN, SCALE_MAX] = [0.05, 20_000];
 const PADDING = 24;
 
+const within = (scale) => Math.min(Math.max(scale, SCALE_MIN), SCALE_MAX);
+
 export class View {
   #pointers = new Map();
   #travel = 0;
@@ -31,27 +33,18 @@ export class View {
     return [this.width / 2 + (x - this.x) * this.scale, this.height / 2 - (y - this.y) * this.scale];
   }
 
-  /** Let the context draw in metres. */
-  apply(context) {
-    const ratio = this.canvas.width / this.width;
-    const [dx, dy] = this.toScreen(0, 0);
-    context.setTransform(ratio * this.scale, 0, 0, -ratio * this.scale, ratio * dx, ratio * dy);
-  }
-
   /** Show these bounds [x min, y min, x max, y max] whole. */
   fit([left, bottom, right, top]) {
     const [wide, high] = [this.width - 2 * PADDING, this.height - 2 * PADDING];
-    this.#to((left + right) / 2, (bottom + top) / 2, Math.min(wide / (right - left), high / (top - bottom)));
-    this.fitted = true;
+    this.set((left + right) / 2, (bottom + top) / 2, Math.min(wide / (right - left), high / (top - bottom)), true);
   }
 
-  set(x, y, scale = this.scale) {
-    this.#to(x, y, scale);
-    this.fitted = false;
+  set(x, y, scale = this.scale, fitted = false) {
+    Object.assign(this, { x, y, scale: within(scale), fitted });
   }
 
   zoom(factor, px = this.width / 2, py = this.height / 2) {
-    const scale = Math.min(Math.max(this.scale * factor, SCALE_MIN), SCALE_MAX);
+    const scale = within(this.scale * factor);
     const gain = 1 / this.scale - 1 / scale;
     this.set(this.x + (px - this.width / 2) * gain, this.y - (py - this.height / 2) * gain, scale);
     this.moved(false);
@@ -72,30 +65,21 @@ export class View {
     return true;
   }
 
-  #to(x, y, scale) {
-    Object.assign(this, { x, y, scale: Math.min(Math.max(scale, SCALE_MIN), SCALE_MAX) });
-  }
-
-  #place(event) {
-    const box = this.canvas.getBoundingClientRect();
-    return [event.clientX - box.left, event.clientY - box.top];
-  }
-
   #wheel(event) {
     event.preventDefault();
-    this.zoom(Math.exp(-event.deltaY * (event.deltaMode ? 0.05 : 0.0015)), ...this.#place(event));
+    this.zoom(Math.exp(-event.deltaY * (event.deltaMode ? 0.05 : 0.0015)), event.offsetX, event.offsetY);
   }
 
   #down(event) {
     this.canvas.setPointerCapture(event.pointerId);
     if (!this.#pointers.size) this.#travel = 0;
-    this.#pointers.set(event.pointerId, this.#place(event));
+    this.#pointers.set(event.pointerId, [event.offsetX, event.offsetY]);
   }
 
   #move(event) {
     const before = this.#pointers.get(event.pointerId);
     if (!before) return;
-    const now = this.#place(event);
+    const now = [event.offsetX, event.offsetY];
     const [dx, dy] = [now[0] - before[0], now[1] - before[1]];
     this.#travel += Math.hypot(dx, dy);
     this.#pointers.set(event.pointerId, now);

@@ -70,7 +70,21 @@ def test_every_answer_stands_with_how_it_is_known(open_page: Any, settled: Any, 
     settled(page)
     least = httpx.get(f"{server}/minimum-pitch").json()
     text_of(page, "#minimum-pitch .value", f"{least['pitch']:.9f} m")
-    assert page.locator(".answer details").count() == page.locator(".answer").count() == 4
+    page.locator("#minimum-pitch summary").click()
+    assert page.locator("#minimum-pitch dt").last.inner_text() == "Ways to the circle and strips of pitches marched"
+    assert page.locator("#minimum-pitch dd").last.inner_text() == str(least["evaluations"])
+    assert page.locator(".answer details").count() == page.locator(".answer:not([hidden])").count() == 4
+
+
+def test_the_highest_speed_on_a_spiral_is_the_proven_one(open_page: Any, settled: Any, server: str) -> None:
+    page = open_page("?pitch=0.5&benches=4")
+    settled(page)
+    dance = {"dragon": {"benches": 4}, "path": {"kind": "spiral", "pitch": 0.5}}
+    fastest = httpx.post(f"{server}/check", json=dance).raise_for_status().json()["highest_speed"]
+    assert fastest["speed"] > 1
+    text_of(page, "#highest-speed .value", f"{fastest['speed']:.6f} m/s")
+    page.locator("#highest-speed summary").click()
+    text_of(page, "#highest-speed dl", f"{fastest['speed_bracket'][1]:.9f} m/s never exceeded")
 
 
 def test_dragging_the_pitch_to_045_shows_the_numbers_of_the_service(open_page: Any, settled: Any, server: str) -> None:
@@ -241,6 +255,8 @@ def test_the_turn_shows_the_verdict_of_the_service(open_page: Any, settled: Any,
     report = httpx.post(f"{server}/check", json=body).raise_for_status().json()
     text_of(page, "#highest-speed .value", f"{report['highest_speed']['speed']:.6f} m/s")
     text_of(page, "#clock", f"{report['stop']:.2f} s")
+    shortest = httpx.get(f"{server}/shortest-turn", params={"pitch": 1.7}).raise_for_status().json()
+    text_of(page, "#shortest-turn .value", f"{shortest['entry_radius']:.6f} m")
     with page.expect_download() as download:
         page.locator("#figure").click()
     assert b"<svg" in Path(download.value.path()).read_bytes()
@@ -248,3 +264,15 @@ def test_the_turn_shows_the_verdict_of_the_service(open_page: Any, settled: Any,
     text_of(page, "#clock", f"{report['start']:.2f} s")
     page.get_by_role("button", name="Spiral", exact=True).click()
     text_of(page, "#first-contact .value", f"{collision_time(server, head_speed=1.5)['time']:.6f} s")
+    page.locator("#shortest-turn").wait_for(state="hidden")
+
+
+def test_a_link_to_the_turn_opens_at_the_pitch_of_the_contest(open_page: Any, settled: Any) -> None:
+    page = open_page("?path=turn")
+    settled(page)
+    assert page.locator("#pitch").input_value() == "1.7"
+    page.locator("#pitch").fill("1.8")
+    page.wait_for_url(re.compile("pitch=1.8"))
+    page.get_by_role("button", name="Reset all").click()
+    assert page.locator("#pitch").input_value() == "1.7"
+    page.wait_for_url(re.compile("path=turn$"))

@@ -132,9 +132,8 @@ def test_a_wait_of_more_than_half_a_second_shows_its_progress(open_page: Any, se
     page.locator("#width").fill("0.28")
     box = page.locator("#minimum-pitch[aria-busy=true]")
     box.wait_for()
-    shown = "box => Number(getComputedStyle(box, '::after').opacity)"
-    assert box.evaluate(shown) == 0
-    while box.evaluate(shown) == 0:
+    assert box.evaluate("box => getComputedStyle(box, '::after').animationDelay") == "0.5s, 0.5s"
+    while box.evaluate("box => Number(getComputedStyle(box, '::after').opacity)") == 0:
         page.wait_for_timeout(50)
 
 

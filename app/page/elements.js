@@ -1,0 +1,16 @@
+/** Elements of the document: found, made, listened to. */
+
+export const $ = (selector) => document.querySelector(selector);
+export const $$ = (selector) => [...document.querySelectorAll(selector)];
+export const onClick = (selector, act) => $(selector).addEventListener("click", act);
+
+/** An element with these properties and children; attributes with a dash go in by name. */
+export function make(tag, properties = {}, ...children) {
+  const element = document.createElement(tag);
+  for (const [name, value] of Object.entries(properties)) {
+    if (name in element) element[name] = value;
+    else element.setAttribute(name, value);
+  }
+  element.append(...children);
+  return element;
+}
