@@ -105,7 +105,7 @@ def run_end(dragon: Dragon, path: Spiral | Route, *, head_speed: float = 1.0) ->
 def follows(dragon: Dragon, path: Route) -> bool:
     """Does no piece of the route bend too tight for a chord?"""
     longest = float(dragon.chords[: dragon.uniform_from + 1].max())
-    return bool(0.5 * path.sharpest[0] * longest <= kernels.BEND_LIMIT)
+    return bool(0.5 * path.sharpest[0] * longest <= kernels.ROUTE_BEND_LIMIT)
 
 
 def _check_bends(dragon: Dragon, path: Route) -> None:
@@ -120,7 +120,7 @@ def _check_bends(dragon: Dragon, path: Route) -> None:
         x, y = path.position(s)
         raise InvalidValue(
             "path",
-            f"path must not bend tighter than a radius of {0.5 * chord / kernels.BEND_LIMIT:.4g} m for the chord of "
+            f"path must not bend tighter than a radius of {0.5 * chord / kernels.ROUTE_BEND_LIMIT:.4g} m for the chord of "
             f"bench {bench} ({chord:g} m), got {1.0 / curvature:.4g} m near ({x:.4g}, {y:.4g}) m, s = {s:.4g} m",
         )
 

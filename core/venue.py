@@ -205,7 +205,7 @@ def venue_end(dragon: Dragon, path: Spiral | Route, *, head_speed: float = 1.0) 
     end = run_end(dragon, path, head_speed=head_speed).time
     if isinstance(path, Route):
         return end
-    theta = min(path.gentle_theta(2.0 * kernels.BEND_LIMIT / float(dragon.chords.max())), path.start_theta)
+    theta = min(path.gentle_theta(2.0 * kernels.ROUTE_BEND_LIMIT / float(dragon.chords.max())), path.start_theta)
     travel = path.length - path.growth * float(kernels.spiral_arc(theta)) - 2.0 * SPARE
     return min(end, travel / head_speed)
 

@@ -96,7 +96,8 @@ export function showHighestSpeed(box, fastest, { benches }) {
   const { speed, speed_bracket, time, handles } = fastest;
   const name = handles.map((handle) => handleName(handle, benches)).join(", ");
   const whose = handles.includes(0) ? say("headFastest") : say("whose", { name, time: time.toFixed(6) });
-  show(box, "highest", `${speed.toFixed(6)} m/s`, [whose], [facts(bracket("bracketSpeed", speed_bracket, 9))]);
+  const known = speed_bracket[1] === null ? [] : [facts(bracket("bracketSpeed", speed_bracket, 9))];
+  show(box, "highest", `${speed.toFixed(6)} m/s`, [whose], known);
 }
 
 export function showEnd(box, answer, time) {

@@ -32,6 +32,7 @@ from core.kernels.constants import (
     MOTION_COLUMNS,
     PIECE_COLUMNS,
     PIECE_KINDS,
+    ROUTE_BEND_LIMIT,
     SHIFT_COLUMNS,
     SIZE_COLUMNS,
     SPIRAL_CURVATURE_MOST,

@@ -214,7 +214,7 @@ def route_bounds(pieces, h, benches, sizes, before, after, climbing, motion):
             high = high if high > -low else -low
             low = -high
         sin_high = 0.5 * high * chord
-        if sin_high > BEND_LIMIT:
+        if sin_high > ROUTE_BEND_LIMIT:
             return False
         front_low = rear_low = sqrt(1.0 - sin_high * sin_high)
         front_high = rear_high = sqrt(1.0 - 0.25 * low * low * chord * chord) if low > 0.0 else 1.0

@@ -5,6 +5,7 @@ cdef extern from *:
     const double TWO_PI "6.283185307179586"
     const double NO_LIMIT "1e154"
     const double BEND_LIMIT "0.97"
+    const double ROUTE_BEND_LIMIT "0.999"
     const double FREE "1e150"
     const double SPIRAL_CURVATURE_MOST "1.0887"
 

@@ -62,6 +62,9 @@ SIZE_COLUMNS = 4
 
 # The chord lemma serves up to this curvature chord / 2; beyond it the angles are followed [1].
 BEND_LIMIT = 0.97
+# The same on a route, where the cosines of the angles are followed too: at 1 a chord is the diameter of its bend and
+# its rear handle can be infinitely faster than its front one, here 22 times.
+ROUTE_BEND_LIMIT = 0.999
 
 # Larger than any step or distance, and so is its square no overflow [m].
 FREE = 1e150

@@ -36,7 +36,7 @@ from core import (
     venue_clearance,
 )
 
-BEND_LIMIT = 0.97  # half a chord over the radius of the tightest bend that a route may have [1]
+BEND_LIMIT = 0.999  # half a chord over the radius of the tightest bend that a route may have [1]
 REFERENCE = Path(__file__).parents[1] / "reference"
 CLEARANCE = json.loads((REFERENCE / "turn.json").read_text())["clearance"]
 SPEED = json.loads((REFERENCE / "maximum_head_speed.json").read_text())
