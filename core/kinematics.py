@@ -118,9 +118,10 @@ def _check_bends(dragon: Dragon, path: Route) -> None:
     chord = float(dragon.chords[bench])
     if not follows(dragon, path):
         x, y = path.position(s)
+        tightest = 0.5 * chord / kernels.ROUTE_BEND_LIMIT
         raise InvalidValue(
             "path",
-            f"path must not bend tighter than a radius of {0.5 * chord / kernels.ROUTE_BEND_LIMIT:.4g} m for the chord of "
+            f"path must not bend tighter than a radius of {tightest:.4g} m for the chord of "
             f"bench {bench} ({chord:g} m), got {1.0 / curvature:.4g} m near ({x:.4g}, {y:.4g}) m, s = {s:.4g} m",
         )
 

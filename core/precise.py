@@ -113,7 +113,7 @@ class Pair:
         return Bench(centre, ((front[0] - rear[0]) / chord, (front[1] - rear[1]) / chord), half_length, half_width)
 
     def _point(self, piece: int, s: Decimal) -> Vector:
-        """Point at arc length s of a row of the table, see core/kernels.py, "routes"."""
+        """Point at arc length s of a row of the table, see core/kernels/constants.py."""
         row = self.pieces[piece]
         kind, u = kernels.PIECE_KINDS[int(row[0])], s - row[1]
         if kind == "line":

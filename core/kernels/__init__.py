@@ -38,8 +38,8 @@ from core.kernels.constants import (
     SPIRAL_CURVATURE_MOST,
 )
 from core.kernels.fold import fold_theta, previous_theta
-from core.kernels.marching import march, pair_bends
-from core.kernels.pairs import axis_bend, pair_least
+from core.kernels.marching import march
+from core.kernels.pairs import axis_bend, pair_bends, pair_least
 from core.kernels.rectangles import pair_gap, pair_gap_within, pair_separation, pair_separations
 from core.kernels.rings import leaders_reach, radius_beyond, ring_least
 from core.kernels.route import cubic_arcs, route_points

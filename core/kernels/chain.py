@@ -13,15 +13,11 @@ if not cython.compiled:  # for the compiler the same stands in the .pxd
     from core.kernels.spiral import extend_chain, spiral_theta, start_chain
 
 
-# `place` falls in the direction of travel: the arc length from the centre of a spiral, minus s on a route. A path
-# without pieces is the spiral of that growth.
-
-
 def extend(growth, pieces, first, last, sizes, chain):
     """Handles after `first` to the `last`; returns last, -1 at a fold."""
     if pieces.shape[0] == 0:
         return extend_chain(growth, first, last, FREE, sizes, chain)
-    return extend_route(pieces, first, last, sizes, chain)
+    return extend_route(pieces, first, last, 0.0, sizes, chain)
 
 
 def place_chain(growth, pieces, place, last, sizes, chain):
@@ -36,7 +32,7 @@ def place_chain(growth, pieces, place, last, sizes, chain):
 def route_tail(pieces, s, benches, sizes, chain):
     """Where the last handle stands with the head at s on a route [m]."""
     start_route(pieces, s, chain)
-    extend_route(pieces, 0, benches, sizes, chain)
+    extend_route(pieces, 0, benches, 0.0, sizes, chain)
     return -chain[benches, PLACE]
 
 
@@ -46,7 +42,7 @@ def route_trajectory(pieces, s, head_speed, sizes, chain, position, velocity, sp
     with cython.nogil:
         for row in range(s.shape[0]):
             start_route(pieces, s[row], chain)
-            extend_route(pieces, 0, last, sizes, chain)
+            extend_route(pieces, 0, last, 0.0, sizes, chain)
             for k in range(last + 1):
                 position[row, k, 0] = chain[k, PX]
                 position[row, k, 1] = chain[k, PY]

@@ -1,4 +1,4 @@
-# The numbers of constants.py, as the C compiler sees them: literals, so that columns cost nothing in the innermost loops.
+# The numbers of constants.py as the C compiler sees them: literals, so that columns cost nothing in inner loops.
 
 cdef extern from *:
     const double PI "3.141592653589793"
@@ -22,7 +22,8 @@ cdef enum:
     SPIRAL = 2, CREST = 4
     REACHED = 0, TOUCHED = 1, TOUCHED_AT_START = 2, STUCK = 3, CAPACITY = 4
     RING_CLEAR = 0, RING_CHORD = 1, RING_SHORT = 2, RING_OVERHANG = 3, RING_HALF_WIDTH = 4
-    ALL_CHORD = 5, ALL_OVERHANG = 6, ALL_HALF_WIDTH = 7, LEFT_OUT = 8, LEFT_OUT_TOO = 9
+    ALL_CHORD = 5, ALL_OVERHANG = 6, ALL_HALF_WIDTH = 7
+    LEFT_OUT = 8, LEFT_OUT_TOO = 9
     PROVEN = 0, TOUCHING = 1, FIRST = 2, SECOND = 3, STEPS = 4, BEND = 5, GRAZE_GAP = 6, GRAZE_TRAVEL = 7
     GRAZE_FIRST = 8, GRAZE_SECOND = 9, MARCH_ENTRIES = 10
     SHIFT_CENTRE = 0, SHIFT_CORNER = 1, SHIFT_PULL = 2, SHIFT_TURN = 3

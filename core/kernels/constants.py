@@ -77,12 +77,6 @@ FREE = 1e150
 #   cubic  x0..x3, y0..y3, end              r(t) = sum of c_k t^k for t in [0, end], its curvature monotonic
 #   crest  the same for a cubic with a crest of curvature in it: in place of both ends lower and upper bounds
 # The first piece also serves before S_START and the last one after S_END.
-#
-# Next handle. Let |curvature| <= k with k chord < 2 (routes are refused otherwise). As long as k l <= pi the
-# distance to the
-# point l behind grows with l: its rate is the cosine of an angle <= k l / 2 (chord lemma, below). It reaches the chord
-# before l = pi chord / 2 <= pi / k, so in [chord, pi chord / 2] there is one root, it is the first along the path, and
-# whatever comes near further back along the path is never taken for it.
 PIECE_KIND = 0
 S_START = 1
 S_END = 2

@@ -3,8 +3,7 @@ from core.kernels.constants cimport *
 from core.kernels.spiral cimport extend_chain, spiral_theta, start_chain
 from core.kernels.chain cimport extend, place_chain
 from core.kernels.rings cimport drift, leaders_reach, radius_beyond
-from core.kernels.bounds cimport motion_bounds, route_bounds
-from core.kernels.pairs cimport axis_bend, interval_least
+from core.kernels.pairs cimport interval_least
 from core.kernels.clearance cimport crossing, gap_at, row_clearance, row_gap
 
 cdef double DIP_WIDTH
@@ -18,11 +17,6 @@ cdef Py_ssize_t chain_between(
     double growth, const double[:, ::1] pieces, double place, Py_ssize_t leaders, Py_ssize_t benches, double margin,
     double allowance, double[::1] ring, double[:, ::1] sizes, double[:, ::1] chain, Py_ssize_t[::1] found
 ) noexcept nogil
-
-cpdef bint pair_bends(
-    double growth, const double[:, ::1] pieces, double place, double h, Py_ssize_t a, Py_ssize_t b,
-    double[:, ::1] sizes, double[:, :, ::1] rows, double[:, ::1] motion, double[::1] out
-) noexcept
 
 @cython.locals(i=cython.Py_ssize_t)
 cdef bint passed(

@@ -1,14 +1,13 @@
 """Marching to first contact, by proven steps."""
 
 import cython
-from cython.cimports.libc.math import fabs, sqrt
+from cython.cimports.libc.math import fabs
 
 if not cython.compiled:  # for the compiler the same stands in the .pxd
-    from core.kernels.bounds import motion_bounds, route_bounds
     from core.kernels.chain import extend, place_chain
     from core.kernels.clearance import crossing, gap_at, row_clearance, row_gap
     from core.kernels.constants import *
-    from core.kernels.pairs import axis_bend, interval_least
+    from core.kernels.pairs import interval_least
     from core.kernels.rings import drift, leaders_reach, radius_beyond
     from core.kernels.spiral import extend_chain, spiral_theta, start_chain
 
@@ -41,30 +40,6 @@ def chain_between(growth, pieces, place, leaders, benches, margin, allowance, ri
         return k
     radius = leaders_reach(growth, growth * theta, growth * chain[k, THETA] + allowance, ring)
     return extend_chain(growth, k, benches, radius_beyond(growth, radius + margin, ring) + allowance, sizes, chain)
-
-
-def pair_bends(growth, pieces, place, h, a, b, sizes, rows, motion, out):
-    """Bounds on the second derivative of gaps of two benches while the head travels h from a place [1/m].
-
-    out: (2,) along axes fixed in bench a, and in bench b; False where no bound is known
-    """
-    before: cython.double[:, ::1] = rows[0]
-    after: cython.double[:, ::1] = rows[1]
-    if place_chain(growth, pieces, place, b + 1, sizes, before) < 0:
-        return False
-    if place_chain(growth, pieces, place - h, b + 1, sizes, after) < 0:
-        return False
-    if pieces.shape[0] > 0:
-        if not route_bounds(pieces, h, b + 1, sizes, before, after, False, motion):
-            return False
-    elif not motion_bounds(growth, h, b + 1, sizes, before, after, motion):
-        return False
-    dx = before[b, MX] - before[a, MX]
-    dy = before[b, MY] - before[a, MY]
-    distance = sqrt(dx * dx + dy * dy) + (motion[a, CENTRE_SPEED] + motion[b, CENTRE_SPEED]) * h
-    out[0] = axis_bend(growth, a, b, distance, sizes, motion)
-    out[1] = axis_bend(growth, b, a, distance, sizes, motion)
-    return True
 
 
 def passed(first, last, placed, opening, chain):
@@ -102,7 +77,7 @@ def march(
 ):
     """Advance the head from `start` to `stop` [m of travel] by proven steps, until a pair comes within the margin.
 
-    place: at travel 0, see above [m]; leaders: benches whose pairs must be followed; at_start: follow all pairs
+    place: at travel 0, see chain.py [m]; leaders: benches whose pairs must be followed; at_start: follow all pairs
     until every bench has passed the start of the one before it; tolerance: half width of the bracket around a
     contact [m], 0 or less for none: to end at any instant found to be within the margin, and with 0 without looking
     for grazes; rounding: what a computed gap may be off by [m]; budget: steps; benches: n; statics: edges at rest in

@@ -1,6 +1,7 @@
 cimport cython
 from core.kernels.constants cimport *
 from core.kernels.rectangles cimport pair_separation
+from core.kernels.chain cimport place_chain
 from core.kernels.bounds cimport motion_bounds, route_bounds
 from core.kernels.rings cimport drift, leaders_reach, radius_beyond
 
@@ -30,6 +31,11 @@ cpdef double axis_bend(
 
 cdef double plain_bend(
     Py_ssize_t i, Py_ssize_t j, double distance, double[:, ::1] sizes, double[:, ::1] motion
+) noexcept nogil
+
+cpdef bint pair_bends(
+    double growth, const double[:, ::1] pieces, double place, double h, Py_ssize_t a, Py_ssize_t b,
+    double[:, ::1] sizes, double[:, :, ::1] rows, double[:, ::1] motion, double[::1] out
 ) noexcept nogil
 
 cdef double axis_least(

@@ -5,6 +5,7 @@ from cython.cimports.libc.math import fabs, sqrt
 
 if not cython.compiled:  # for the compiler the same stands in the .pxd
     from core.kernels.bounds import motion_bounds, route_bounds
+    from core.kernels.chain import place_chain
     from core.kernels.constants import *
     from core.kernels.rectangles import pair_separation
     from core.kernels.rings import drift, leaders_reach, radius_beyond
@@ -122,6 +123,30 @@ def plain_bend(i, j, distance, sizes, motion):
         + 2.0 * motion[i, TURN] * (motion[j, CORNER_SPEED] + motion[i, CENTRE_SPEED])
         + motion[i, TURN_PULL] * (distance + sizes[j, RADIUS])
     )
+
+
+def pair_bends(growth, pieces, place, h, a, b, sizes, rows, motion, out):
+    """Bounds on the second derivative of gaps of two benches while the head travels h from a place [1/m].
+
+    out: (2,) along axes fixed in bench a, and in bench b; False where no bound is known
+    """
+    before: cython.double[:, ::1] = rows[0]
+    after: cython.double[:, ::1] = rows[1]
+    if place_chain(growth, pieces, place, b + 1, sizes, before) < 0:
+        return False
+    if place_chain(growth, pieces, place - h, b + 1, sizes, after) < 0:
+        return False
+    if pieces.shape[0] > 0:
+        if not route_bounds(pieces, h, b + 1, sizes, before, after, False, motion):
+            return False
+    elif not motion_bounds(growth, h, b + 1, sizes, before, after, motion):
+        return False
+    dx = before[b, MX] - before[a, MX]
+    dy = before[b, MY] - before[a, MY]
+    dx = sqrt(dx * dx + dy * dy) + (motion[a, CENTRE_SPEED] + motion[b, CENTRE_SPEED]) * h
+    out[0] = axis_bend(growth, a, b, dx, sizes, motion)
+    out[1] = axis_bend(growth, b, a, dx, sizes, motion)
+    return True
 
 
 def axis_least(i, j, after_decides, bend, h, sizes, before, after):

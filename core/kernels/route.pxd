@@ -30,7 +30,8 @@ cdef void start_route(const double[:, ::1] pieces, double s, double[:, ::1] chai
 
 @cython.locals(k=cython.Py_ssize_t, p=cython.Py_ssize_t, i=cython.int)
 cdef Py_ssize_t extend_route(
-    const double[:, ::1] pieces, Py_ssize_t first, Py_ssize_t last, double[:, ::1] sizes, double[:, ::1] chain
+    const double[:, ::1] pieces, Py_ssize_t first, Py_ssize_t last, double calm, double[:, ::1] sizes,
+    double[:, ::1] chain
 ) noexcept nogil
 
 cdef void finish_link(Py_ssize_t k, double chord, double[:, ::1] chain) noexcept nogil

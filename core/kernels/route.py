@@ -1,4 +1,4 @@
-"""Routes: points on a table of pieces, and the chain of one instant."""
+"""Routes: points on a table of pieces, and the chain of one instant. The table is described in constants.py."""
 
 import cython
 from cython.cimports.libc.math import asin, cos, fabs, sin, sqrt
@@ -136,12 +136,20 @@ def start_route(pieces, s, chain):
     set_piece_theta(pieces, p, 0, chain)
 
 
-def extend_route(pieces, first, last, sizes, chain):
+# Next handle. Let |curvature| <= k with k chord < 2 (routes are refused otherwise). As long as k l <= pi the distance
+# to the point l behind grows with l: its rate is the cosine of an angle <= k l / 2 (chord lemma, bounds.py). It reaches
+# the chord before l = pi chord / 2 <= pi / k, so in [chord, pi chord / 2] there is one root, it is the first along the
+# path, and whatever comes near further back along the path is never taken for it.
+
+
+def extend_route(pieces, first, last, calm, sizes, chain):
     """Handles after `first` to the `last`, each the first point behind its leader at the bench's chord.
 
-    returns: last
+    returns: last, or where calm > 0 a handle before it that stands on the first piece
     """
     for k in range(first, last):
+        if calm > 0.0 and chain[k, PIECE] <= 0.0:
+            return k
         s = -chain[k, PLACE]
         p = cython.cast(cython.Py_ssize_t, chain[k, PIECE])
         chord = sizes[k, CHORD]

@@ -9,7 +9,6 @@ from core.kernels.rings cimport drift
 cdef double NOISE
 cdef double PEAK_WIDTH
 
-@cython.locals(k=cython.Py_ssize_t)
 cdef Py_ssize_t lively_chain(
     double growth, const double[:, ::1] pieces, double place, Py_ssize_t last, double calm, double[:, ::1] sizes,
     double[:, ::1] chain

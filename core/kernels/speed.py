@@ -17,13 +17,14 @@ NOISE = 1e-13
 PEAK_WIDTH = 1e-11
 
 
-# Rates are Lipschitz: |d rate / d sigma| = |s''| is bounded over an interval as above, so between two ends a rate is
+# Rates are Lipschitz: |d rate / d sigma| = |s''| is bounded over an interval (bounds.py), so between two ends a rate is
 # at most (start + end + bound h) / 2, and never above its own bound over the interval.
 #
 # Calm handles. Where curvature does not fall in the direction of travel and the lemma holds, |b'| <= |a'| (Vogt,
-# above): on an inward spiral, a line, an arc. On a route handles only go forward, so if handle n stands on such a first
-# piece at the end of an interval it did so all along, and no handle behind it is faster than it. On a spiral that holds
-# from a radius outwards; the chain is laid out to twice that radius, so that handle n may drift by half of its own.
+# bounds.py): on an inward spiral, a line, an arc. On a route handles only go forward, so if handle n stands on such a
+# first piece at the end of an interval it did so all along, and no handle behind it is faster than it. On a spiral that
+# holds from a radius outwards; the chain is laid out to twice that radius, so that handle n may drift by half of its
+# own.
 
 
 def lively_chain(growth, pieces, place, last, calm, sizes, chain):
@@ -31,14 +32,11 @@ def lively_chain(growth, pieces, place, last, calm, sizes, chain):
 
     calm: on a spiral the radius from which handles are calm [m]; on a route > 0 if its first piece is calm
     """
-    k = 0
     if pieces.shape[0] == 0:
         start_chain(spiral_theta(place / growth), chain)
         return extend_chain(growth, 0, last, 2.0 * calm, sizes, chain)
     start_route(pieces, -place, chain)
-    while k < last and (chain[k, PIECE] > 0.0 or calm <= 0.0):
-        k = extend_route(pieces, k, k + 1, sizes, chain)
-    return k
+    return extend_route(pieces, 0, last, calm, sizes, chain)
 
 
 def fastest(benches, chain):

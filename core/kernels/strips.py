@@ -37,8 +37,8 @@ if not cython.compiled:  # for the compiler the same stands in the .pxd
 # in which, written out with psi_b' = psi_a' + delta', all that a common rotation psi_a' contributes cancels:
 #     E = 2 psi_a' (R_a - R_b) . u + w^2 / c + (rho_b delta'^2 - 2 delta') R_b . u - 2 a_b delta' T_b . u,
 #     |E| <= 2 Q_a delta + w^2 / c + (rho_b D + 2) D q + 2 psi_b D.
-# S points along the path, |S_a| <= |S_b|, and S . u = -|S| cos alpha with cos alpha_a <= cos alpha_b (above), so for
-# y = |psi''| |S|:  y_b <= y_a + |E| / cos alpha_b,  sin alpha_b <= k c / 2, and k = (rho^2 + 2 b^2) / (rho^2 +
+# S points along the path, |S_a| <= |S_b|, and S . u = -|S| cos alpha with cos alpha_a <= cos alpha_b (bounds.py).
+# So for y = |psi''| |S|:  y_b <= y_a + |E| / cos alpha_b,  sin alpha_b <= k c / 2, and k = (rho^2 + 2 b^2) / (rho^2 +
 # b^2)^(3/2) is at most 2 / (1.5^(3/2) rho) < 1.0887 / rho for every b. Then
 #     |P'| <= sqrt(psi^2 + rho^2 Q^2),   |P''| <= y + sqrt((2 Q + rho Q^2)^2 + 4 psi^2 Q^2).
 # A corner is (1/2 + x / c) P_a + (1/2 - x / c) P_b, |x| = half length, plus half a width across u, and |u''| is at most
