@@ -1,7 +1,7 @@
 # The first `make` in a fresh clone makes .venv, installs the locked versions and compiles core/kernels.
 SHELL := /bin/bash
 .DEFAULT_GOAL := help
-.PHONY: help setup serve test lint bench figures lock clean
+.PHONY: help setup serve test lint bench examples figures lock clean
 
 VENV := .venv
 BIN := $(VENV)/bin
@@ -16,6 +16,7 @@ help:
 	@echo 'make test     all tests (ARGS= for pytest)'
 	@echo 'make lint     ruff and mypy'
 	@echo 'make bench    benchmarks against a plain SciPy baseline, into the table of README.md'
+	@echo 'make examples the answers that /docs shows, asked anew'
 	@echo 'make figures  the figures of README.md'
 	@echo 'make lock     new exact versions in requirements.lock'
 	@echo 'make clean    remove everything that make made'
@@ -50,6 +51,9 @@ lint: setup
 
 bench: setup
 	@$(BIN)/python -m benchmarks.report README.md
+
+examples: setup
+	@$(BIN)/python -m tests.app.renew_examples
 
 figures: setup
 	@$(BIN)/bench-dragon figures docs
