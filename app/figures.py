@@ -270,21 +270,20 @@ def _mark_pair(axes: Axes, outlines: Floats, found: FirstContact, *, legend: boo
 
 
 def _draw_enlarged(axes: Axes, outlines: Floats, found: FirstContact, width: float) -> None:
-    """The neighbourhood of the contact: corner, edge and point."""
-    assert found.corner is not None
-    assert found.edge is not None
+    """The neighbourhood of the contact: corner, edge and point; two corners may meet, or two parallel edges."""
     assert found.point is not None
     _plan(axes)
     _draw_benches(axes, outlines, facecolor="white", edgecolor=GREY, linewidth=0.8, zorder=2)
     _mark_pair(axes, outlines, found)
     corner, edge = found.corner, found.edge
-    axes.plot(
-        *_edge(outlines[edge.bench], edge.name).T, color="black", linewidth=2.5, zorder=6,
-        label=f"{edge.name} edge of bench {edge.bench}",
-    )  # fmt: skip
+    if edge:
+        axes.plot(
+            *_edge(outlines[edge.bench], edge.name).T, color="black", linewidth=2.5, zorder=6,
+            label=f"{edge.name} edge of bench {edge.bench}",
+        )  # fmt: skip
     axes.plot(
         *found.point, marker="o", linestyle="none", markersize=11, markerfacecolor="white", markeredgecolor="black",
-        markeredgewidth=2, zorder=7, label=f"{corner.name} corner of bench {corner.bench}",
+        markeredgewidth=2, zorder=7, label=f"{corner.name} corner of bench {corner.bench}" if corner else "nearest point",
     )  # fmt: skip
     x, y = found.point
     axes.set(xlim=(x - ENLARGED_WIDTHS * width, x + ENLARGED_WIDTHS * width))

@@ -10,7 +10,7 @@ import pytest
 
 from app import figures
 from app.figures import Format
-from core import Dragon, OutsideRun, Spiral, first_contact, minimum_pitch
+from core import Dragon, Line, OutsideRun, Route, Spiral, first_contact, minimum_pitch
 
 SMALL = Dragon(benches=30)
 PNG_SIGNATURE = b"\x89PNG\r\n\x1a\n"
@@ -52,6 +52,22 @@ def test_contact_figure_at_the_start_says_so() -> None:
 
 def test_contact_figure_with_a_margin_states_it() -> None:
     assert "First approach to 0.05 m" in texts(figures.contact_figure(SMALL, Spiral(), margin=0.05))
+
+
+def test_contact_figure_of_two_corners_that_come_near_names_no_edge() -> None:
+    ten = Dragon(benches=10)
+    assert first_contact(ten, Spiral(), margin=0.3).edge is None
+    words = texts(figures.contact_figure(ten, Spiral(), margin=0.3))
+    assert "front-outer corner of bench 0" in words
+    assert "edge of bench" not in words
+
+
+def test_contact_figure_of_two_parallel_edges_names_no_corner() -> None:
+    in_line = Dragon(benches=5), Route([Line((0.0, 0.0), (60.0, 0.0))])
+    assert first_contact(*in_line, margin=1.2, start=20.0).corner is None
+    words = texts(figures.contact_figure(*in_line, margin=1.2, start=20.0))
+    assert "front edge of bench 2" in words
+    assert "corner of bench" not in words
 
 
 def test_pitch_scan_figure_marks_minimum_pitch_and_circle() -> None:
