@@ -15,31 +15,11 @@ from numpy.typing import ArrayLike, NDArray
 
 from core import kernels
 from core.angle_sum import ANGLE_TOLERANCE, angle_sum_overlap, angle_sums, paper_corners
-from core.dragon import SIZE_MAX, Floats, checked_number
-from core.errors import InvalidValue, TooLarge
-from core.rectangles import (
-    POSE,
-    SIZE,
-    Separation,
-    checked_array,
-    checked_columns,
-    corners,
-    frames,
-    frames_separation,
-)
+from core.broad_phase import ROUNDING, Pairs, checked_benches, meeting_pairs
+from core.dragon import Floats
+from core.errors import InvalidValue
+from core.rectangles import POSE, Separation, checked_array, checked_columns, corners, frames, frames_separation
 
-Pairs = NDArray[np.int64]
-
-# Overlapping pairs in one answer: 10 for each of 100,000 benches, and 200 MB while they are found.
-PAIRS_MAX = 1_000_000
-# Pairs of upright boxes that the search may meet: under a second. 100,000 benches on a spiral of pitch 0.55 m meet
-# 340,000, neighbours aside.
-CANDIDATES_MAX = 20_000_000
-# The same for the other engines, of which FCL takes about 5 microseconds for each.
-CROSS_CANDIDATES_MAX = 2_000_000
-# Searches reach further by this share of the coordinates and sizes that they compute with: each of their few
-# operations rounds by 1.1e-16, and so does the separation that they must not miss [1].
-ROUNDING = 4e-15
 # Pairs that the angle-sum rule judges at once, to keep its 32 angles a pair within 60 MB.
 ANGLE_BATCH = 50_000
 
@@ -104,7 +84,7 @@ def overlaps(
     >>> overlaps([[0, 0, 0], [3, 0, 0], [1, 0, 1.57]], [2.2] * 3, [0.3] * 3).pairs
     array([[0, 2]])
     """
-    pose, size, margin = _checked(poses, lengths, widths, margin)
+    pose, size, margin = checked_benches(poses, lengths, widths, margin)
     pairs = _find(engine, pose, size, margin, chained)
     frame = frames(pose, size)
     return Overlaps(pairs, frames_separation(frame[pairs[:, 0]], frame[pairs[:, 1]]))
@@ -117,7 +97,7 @@ def cross_check(
 
     poses, lengths, widths, raises: as overlaps(), with CROSS_CANDIDATES_MAX
     """
-    pose, size, margin = _checked(poses, lengths, widths, margin)
+    pose, size, margin = checked_benches(poses, lengths, widths, margin)
     found = {engine: _find(engine, pose, size, margin, chained) for engine in _able(margin)}
     codes = {engine: pairs[:, 0] * len(pose) + pairs[:, 1] for engine, pairs in found.items()}
     some = np.unique(np.concatenate(list(codes.values())))
@@ -146,7 +126,7 @@ def verdicts(
     >>> verdicts([[0, 0, 0], [0, 0.4, 0]], [[0, 0, 0], [0, 0.2, 0]], [2.2] * 2, [0.3] * 2)[Engine.FCL]
     Verdict(before=False, after=True)
     """
-    pose_before, size, margin = _checked(before, lengths, widths, margin)
+    pose_before, size, margin = checked_benches(before, lengths, widths, margin)
     pose_after = checked_array("benches", after, "(2, 3): x, y, heading", 3)
     for pose in (pose_before, pose_after):
         if pose.shape != (2, 3):
@@ -156,32 +136,8 @@ def verdicts(
     return {engine: Verdict(*JUDGES[engine](poses, size, margin)) for engine in _able(margin)}
 
 
-def broad_phase(
-    poses: ArrayLike, lengths: ArrayLike, widths: ArrayLike, *, margin: float = 0.0, chained: bool = True
-) -> Pairs:
-    """Pairs (P, 2), a < b, sorted, whose upright boxes come within the margin: every pair that does is among them.
-
-    poses, lengths, widths, raises: as overlaps(), with CROSS_CANDIDATES_MAX
-    """
-    pose, size, margin = _checked(poses, lengths, widths, margin)
-    return _meeting(frames(pose, size), margin, chained, exact=False)
-
-
 def _able(margin: float) -> list[Engine]:
     return [engine for engine in Engine if margin == 0.0 or engine is not Engine.ANGLE_SUM]
-
-
-def _checked(poses: ArrayLike, lengths: ArrayLike, widths: ArrayLike, margin: float) -> tuple[Floats, Floats, float]:
-    pose = checked_array("benches", poses, "(n, 3): x, y, heading", 3)
-    if pose.ndim != 2:
-        raise InvalidValue("benches", f"benches must have shape (n, 3): x, y, heading, got {pose.shape}")
-    length = checked_array("lengths", lengths, "(n,)", None)
-    width = checked_array("widths", widths, "(n,)", None)
-    for name, column in (("lengths", length), ("widths", width)):
-        if column.size != len(pose):
-            raise InvalidValue(name, f"{name} must have one number for each of {len(pose)} benches, got {column.size}")
-    checked_columns("benches", np.column_stack([pose, length, width]), POSE + SIZE)
-    return pose, np.stack([length, width], axis=-1), checked_number("margin", margin, "m", 0.0, SIZE_MAX)
 
 
 def _find(engine: Engine, poses: Floats, sizes: Floats, margin: float, chained: bool) -> Pairs:
@@ -197,49 +153,8 @@ def _find(engine: Engine, poses: Floats, sizes: Floats, margin: float, chained: 
 def _separating_axis(poses: Floats, sizes: Floats, margin: float, chained: bool) -> Pairs:
     frame = frames(poses, sizes)
     reach = margin + ROUNDING * (margin + 2.0 * sizes.sum(axis=1).max(initial=0.0))
-    pairs = _meeting(frame, reach, chained, exact=True)
+    pairs = meeting_pairs(frame, reach, chained, exact=True)
     return pairs[frames_separation(frame[pairs[:, 0]], frame[pairs[:, 1]]).separation <= margin]
-
-
-# Two rectangles within the margin have upright boxes within it along x and along y, so boxes wider by half of it
-# meet: the broad phase misses none.
-def _meeting(frame: Floats, margin: float, chained: bool, *, exact: bool) -> Pairs:
-    half = np.abs(frame[:, 2:4]) * frame[:, 4:5] + np.abs(frame[:, 3:1:-1]) * frame[:, 5:6]
-    scale = np.abs(frame[:, :2]).sum(axis=1) + frame[:, 4:].sum(axis=1) + margin
-    half += 0.5 * margin + ROUNDING * scale[:, None]
-    boxes = np.hstack([frame[:, :2] - half, frame[:, :2] + half])
-    leaves = 1 << max(0, (-(-len(frame) // kernels.BOXES_PER_LEAF) - 1).bit_length())
-    order = _tree_order(frame[:, :2], leaves)
-    frame, boxes, tree = frame[order], boxes[order], np.empty((2 * leaves, 4))
-    kernels.grow_tree(boxes, tree)
-    most = PAIRS_MAX, CANDIDATES_MAX
-    if not exact:
-        most = CROSS_CANDIDATES_MAX, CROSS_CANDIDATES_MAX
-    counts = np.zeros(2, dtype=np.int64)
-    pairs = np.empty((2 * len(frame), 2), dtype=np.int64)
-    while True:
-        kernels.meeting_pairs(frame, boxes, tree, order, margin, exact, chained, np.array(most), pairs, counts)
-        for count, limit, what in zip(
-            counts, most, ("within the margin" if exact else "close by", "close by"), strict=True
-        ):
-            if count > limit:
-                raise TooLarge(
-                    "benches", f"benches must have at most {limit} pairs {what}, got more among {len(frame)}"
-                )
-        if counts[0] <= len(pairs):
-            return pairs[: counts[0]]
-        pairs = np.empty((int(counts[0]), 2), dtype=np.int64)
-
-
-def _tree_order(centres: Floats, leaves: int) -> Pairs:
-    """Rows so that fours of them lie close together: strips of equal count along x, each sorted along y.
-
-    By rank, not by coordinate: one bench far away must not crowd all others into one strip.
-    """
-    strip = kernels.BOXES_PER_LEAF << (leaves.bit_length() // 2)
-    strip_of = np.empty(len(centres), dtype=np.int64)
-    strip_of[np.argsort(centres[:, 0], kind="stable")] = np.arange(len(centres)) // strip
-    return np.lexsort((centres[:, 1], strip_of))
 
 
 # -- FCL and shapely ------------------------------------------------------------------------------------------
@@ -252,7 +167,7 @@ def _tree_order(centres: Floats, leaves: int) -> Pairs:
 def _fcl(poses: Floats, sizes: Floats, margin: float, chained: bool) -> Pairs:
     import fcl
 
-    _meeting(frames(poses, sizes), margin, chained, exact=False)  # refuses hopeless work
+    meeting_pairs(frames(poses, sizes), margin, chained, exact=False)  # refuses hopeless work
     grown = [_fcl_box(pose, *(size + margin)) for pose, size in zip(poses, sizes, strict=True)]
     number = {id(box): k for k, (box, _) in enumerate(grown)}
     manager = fcl.DynamicAABBTreeCollisionManager()
@@ -309,7 +224,7 @@ def _fcl_within(poses: Floats, sizes: Floats, margin: float) -> bool:
 def _shapely(poses: Floats, sizes: Floats, margin: float, chained: bool) -> Pairs:
     import shapely
 
-    _meeting(frames(poses, sizes), margin, chained, exact=False)  # refuses hopeless work
+    meeting_pairs(frames(poses, sizes), margin, chained, exact=False)  # refuses hopeless work
     polygons = shapely.polygons(corners(poses, sizes))
     tree = shapely.STRtree(polygons)
     if margin > 0.0:
@@ -354,7 +269,7 @@ def _angle_sum(poses: Floats, sizes: Floats, margin: float, chained: bool) -> Pa
             "margin",
             f"margin must be 0 m for the angle-sum rule, which knows only inside and outside, got {margin} m",
         )
-    pairs = _meeting(frames(poses, sizes), margin, chained, exact=False)
+    pairs = meeting_pairs(frames(poses, sizes), margin, chained, exact=False)
     corner = paper_corners(poses, sizes)
     batches = [pairs[k : k + ANGLE_BATCH] for k in range(0, len(pairs), ANGLE_BATCH)]
     seen = [angle_sum_overlap(corner[batch[:, 0]], corner[batch[:, 1]]) for batch in batches]

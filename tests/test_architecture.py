@@ -38,6 +38,7 @@ ORDER = (
     "core.kinematics",
     "core.rectangles",
     "core.angle_sum",
+    "core.broad_phase",
     "core.overlaps",
     "core.search",
     "core.precise",

@@ -11,19 +11,11 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from core.angle_sum import ANGLE_TOLERANCE, angle_sum_overlap, angle_sums, literal_corners, paper_corners
+from core.broad_phase import CROSS_CANDIDATES_MAX, PAIRS_MAX, broad_phase
 from core.dragon import SIZE_MAX, Dragon
 from core.errors import InvalidValue, TooLarge
 from core.kinematics import bench_poses, trajectory
-from core.overlaps import (
-    CROSS_CANDIDATES_MAX,
-    PAIRS_MAX,
-    Engine,
-    Verdict,
-    broad_phase,
-    cross_check,
-    overlaps,
-    verdicts,
-)
+from core.overlaps import Engine, Verdict, cross_check, overlaps, verdicts
 from core.paths import Spiral
 from core.rectangles import corners, separation
 
