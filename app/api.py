@@ -1,4 +1,4 @@
-"""The calls: to core, call, from core."""
+"""The calls that answer in numbers: to core, call, from core."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from typing import Annotated, Any
 from fastapi import APIRouter, Body, Query, Response
 
 import core
-from app import figures, paper, tables
+from app import paper, tables
 from app.answers import (
     ClearanceTable,
     CollisionTime,
@@ -29,15 +29,12 @@ from app.schemas import (
     ClearanceQuery,
     ClearanceRequest,
     CollisionQuery,
-    ContactFigureRequest,
     MaximumHeadSpeedQuery,
     MinimumPitchQuery,
     Nothing,
     OverlapsRequest,
     PitchScanQuery,
     ShortestTurnQuery,
-    TrajectoryFigureQuery,
-    TrajectoryFigureRequest,
     TrajectoryRequest,
     TurnQuery,
 )
@@ -46,7 +43,6 @@ from core.scan import scan_near_minimum
 
 router = APIRouter()
 
-IMAGES = {figures.Format.SVG: "image/svg+xml", figures.Format.PNG: "image/png"}
 PROBLEM_REF = {PROBLEM_TYPE: {"schema": {"$ref": "#/components/schemas/Problem"}}}
 FILE = {"schema": {"type": "string", "format": "binary"}}
 PROBLEMS = {
@@ -62,8 +58,6 @@ PROBLEMS = {
 DEFAULT_TRAJECTORY = TrajectoryRequest()
 DEFAULT_CLEARANCE = ClearanceRequest()
 DEFAULT_CHECK = CheckRequest()
-DEFAULT_TRAJECTORY_FIGURE = TrajectoryFigureRequest()
-DEFAULT_CONTACT_FIGURE = ContactFigureRequest()
 QUERY_STATUSES = (406, 422, 500, 503)
 BODY_STATUSES = (400, 406, 413, 415, 422, 500, 503)
 
@@ -82,11 +76,6 @@ def documented(call: str, model: Any, statuses: tuple[int, ...], **content: Any)
         "response_class": Response,
         "responses": {200: answer, **unchanged, **problems},
     }
-
-
-def drawn(call: str, statuses: tuple[int, ...]) -> dict[str, Any]:
-    """What OpenAPI says of a figure."""
-    return documented(f"{call}.{{format}}", None, (404, *statuses), **dict.fromkeys(IMAGES.values(), FILE))
 
 
 def _trajectory_json(found: core.Trajectory, decimals: int | None) -> bytes:
@@ -269,86 +258,3 @@ def overlaps(
 def paper_numbers(reply: QueryReply, wanted: Annotated[Nothing, Query()]) -> Response:
     """The paper's reported numbers beside ours, with the reason for each difference."""
     return reply(wanted, lambda: PaperTable.model_validate({"rows": paper.comparison()}).to_json())
-
-
-@router.get(**drawn("GET /figures/trajectory", QUERY_STATUSES))
-def trajectory_figure(
-    reply: QueryReply, format: figures.Format, wanted: Annotated[TrajectoryFigureQuery, Query()]
-) -> Response:
-    """Every handle at one instant, coloured by its speed."""
-
-    def compute() -> bytes:
-        dragon, path = wanted.to_dragon(reply.settings.drawn_benches_max), wanted.to_path()
-        return figures.trajectory_figure(dragon, path, time=wanted.time, head_speed=wanted.head_speed, format=format)
-
-    return reply(wanted, compute, reply.media_type([IMAGES[format]]))
-
-
-@router.get(**drawn("GET /figures/contact", QUERY_STATUSES))
-def contact_figure(reply: QueryReply, format: figures.Format, wanted: Annotated[CollisionQuery, Query()]) -> Response:
-    """The dance at first contact, with the touching pair marked and enlarged."""
-
-    def compute() -> bytes:
-        dragon, path = wanted.to_dragon(reply.settings.drawn_benches_max), wanted.to_path()
-        return figures.contact_figure(dragon, path, head_speed=wanted.head_speed, margin=wanted.margin, format=format)
-
-    return reply(wanted, compute, reply.media_type([IMAGES[format]]))
-
-
-@router.get(**drawn("GET /figures/pitch-scan", QUERY_STATUSES))
-def pitch_scan_figure(
-    reply: QueryReply, format: figures.Format, wanted: Annotated[PitchScanQuery, Query()]
-) -> Response:
-    """Where the head stands at first contact, against the pitch: jumps as jumps, the minimum pitch marked."""
-
-    def compute() -> bytes:
-        return figures.pitch_scan_figure(
-            wanted.to_dragon(reply.settings.drawn_benches_max),
-            turning_radius=wanted.turning_diameter / 2,
-            start_turns=wanted.start_turns,
-            margin=wanted.margin,
-            samples=wanted.samples,
-            format=format,
-        )
-
-    return reply(wanted, compute, reply.media_type([IMAGES[format]]))
-
-
-@router.post(**drawn("POST /figures/trajectory", BODY_STATUSES))
-def path_trajectory_figure(
-    reply: BodyReply, format: figures.Format, wanted: TrajectoryFigureRequest = DEFAULT_TRAJECTORY_FIGURE
-) -> Response:
-    """Every handle at one instant, coloured by its speed, on any path and in any venue."""
-
-    def compute() -> bytes:
-        return figures.trajectory_figure(
-            wanted.dragon.to_dragon(reply.settings.drawn_benches_max),
-            wanted.path.to_path(),
-            venue=wanted.to_venue(),
-            time=wanted.time,
-            head_speed=wanted.head_speed,
-            format=format,
-        )
-
-    return reply(wanted, compute, reply.media_type([IMAGES[format]]))
-
-
-@router.post(**drawn("POST /figures/contact", BODY_STATUSES))
-def path_contact_figure(
-    reply: BodyReply, format: figures.Format, wanted: ContactFigureRequest = DEFAULT_CONTACT_FIGURE
-) -> Response:
-    """The dance at first contact, with the touching pair marked and enlarged, on any path and in any venue."""
-
-    def compute() -> bytes:
-        return figures.contact_figure(
-            wanted.dragon.to_dragon(reply.settings.checked_benches_max),
-            wanted.path.to_path(),
-            venue=wanted.to_venue(),
-            head_speed=wanted.head_speed,
-            margin=wanted.margin,
-            start=wanted.start,
-            stop=wanted.stop,
-            format=format,
-        )
-
-    return reply(wanted, compute, reply.media_type([IMAGES[format]]))

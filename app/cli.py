@@ -218,13 +218,14 @@ def _drawn_check(
     time: float | None,
 ) -> bytes:
     from app import figures as draw
+    from app.drawing import Format as Drawn
 
     if suffix not in (".svg", ".png"):
         raise InvalidValue("figure", f"--figure must end in .svg or .png, got {suffix or 'no ending'}")
     if time is None:
         closest = answer.least_clearance.time if answer.least_clearance else answer.start
         time = answer.failures[0].time if answer.failures else closest
-    speed, kind = asked.head_speed, draw.Format(suffix[1:])
+    speed, kind = asked.head_speed, Drawn(suffix[1:])
     return draw.trajectory_figure(dragon, path, venue=asked.to_venue(), time=time, head_speed=speed, format=kind)
 
 
@@ -278,9 +279,10 @@ def figures(
 
 def _drawn(asked: FigureOptions, kind: Kind, format: Format, progress: Callable[[float], None]) -> bytes:
     from app import figures as draw
+    from app.drawing import Format as Drawn
 
     dragon, path = asked.to_dragon(Settings().drawn_benches_max), asked.to_path()
-    kind_of_file = draw.Format(format)
+    kind_of_file = Drawn(format)
     speed, margin = asked.head_speed, asked.margin
     match kind:
         case Kind.TRAJECTORY:

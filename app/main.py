@@ -22,7 +22,7 @@ from prometheus_client.multiprocess import MultiProcessCollector
 from starlette.middleware import Middleware
 from starlette.staticfiles import StaticFiles
 
-from app import api, problems
+from app import api, figure_calls, problems
 from app.answers import State
 from app.examples import EXAMPLES
 from app.middleware import BodyLimit, HeadAsGet, Metrics, Mistakes, SafetyHeaders
@@ -117,6 +117,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     app.openapi = lambda: _openapi(app)  # type: ignore[method-assign]
     problems.install(app)
     app.include_router(api.router)
+    app.include_router(figure_calls.router)
     _add_health(app)
     _add_pages(app)
     return app

@@ -9,7 +9,7 @@ from xml.etree import ElementTree
 import pytest
 
 from app import figures
-from app.figures import Format
+from app.drawing import Format
 from core import Dragon, Line, OutsideRun, Route, Spiral, first_contact, minimum_pitch
 
 SMALL = Dragon(benches=30)
