@@ -35,6 +35,11 @@ class Answer(BaseModel):
     def to_json(self) -> bytes:
         return self.model_dump_json().encode()
 
+    @classmethod
+    def known(cls, found: Any, **own: Any) -> Self:
+        """This answer from a result of core, by the names of its fields, but for those that are given."""
+        return cls(**{name: getattr(found, name) for name in cls.model_fields if name not in own}, **own)
+
 
 class TrajectoryTable(Answer):
     """Columns: one row per instant, one entry per handle, handle 0 leading (H = benches + 1)."""
@@ -168,8 +173,7 @@ class CollisionTime(Answer):
             times = [contact.time + travel / head_speed for travel in (-CHECK_TRAVEL, CHECK_TRAVEL)]
             before, after = _pair_poses(dragon, path, times, head_speed, contact.benches)
             check = PairCheck.of(before, after, dragon, contact.benches, margin)
-        known = {name: getattr(contact, name) for name in cls.model_fields if name != "cross_check"}
-        return cls(**known, cross_check=check)
+        return cls.known(contact, cross_check=check)
 
 
 class MinimumPitch(Answer):
@@ -194,8 +198,7 @@ class MinimumPitch(Answer):
             spirals = (Spiral(pitch, found.head_radius / pitch) for pitch in pitches)
             before, after = (_pair_poses(dragon, spiral, [0.0], 1.0, found.benches)[0] for spiral in spirals)
             check = PairCheck.of(before, after, dragon, found.benches, margin)
-        known = {name: getattr(found, name) for name in cls.model_fields if name != "cross_check"}
-        return cls(**known, cross_check=check)
+        return cls.known(found, cross_check=check)
 
 
 class Overlap(Answer):

@@ -8,17 +8,13 @@ error. Exit code 0 for an answer, also when benches touch or a check fails; 2 fo
 from __future__ import annotations
 
 import sys
-import threading
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
 from enum import StrEnum
 from pathlib import Path
 from typing import Annotated, Any
 
 import typer
 from pydantic import Field
-from rich.console import Console
-from rich.progress import Progress
 from typer.core import TyperGroup
 
 import core
@@ -28,8 +24,6 @@ from app.options import asks, checked
 from app.settings import Settings
 from core import BenchDragonError, Dragon, InvalidValue, Route, Spiral
 
-# A wait longer than this is shown [s].
-SHOWN_WAIT = 1.0
 # Processes of the service, about 100 MB each.
 WORKERS_MAX = 64
 Json = Annotated[bool, typer.Option("--json", help="The service's JSON instead of a table.")]
@@ -91,25 +85,6 @@ class Kind(StrEnum):
     PITCH_SCAN = "pitch-scan"
 
 
-@contextmanager
-def _waiting(what: str) -> Iterator[Callable[[float], None]]:
-    """A bar on standard error once the wait exceeds SHOWN_WAIT; yields the function that takes the share done."""
-    if not sys.stderr.isatty():
-        yield lambda share: None
-        return
-    bar = Progress(console=Console(stderr=True), transient=True)
-    task = bar.add_task(what, total=None)
-    timer = threading.Timer(SHOWN_WAIT, bar.start)
-    timer.start()
-    try:
-        yield lambda share: bar.update(task, total=1.0, completed=share)
-    finally:
-        timer.cancel()
-        timer.join()
-        if bar.live.is_started:
-            bar.stop()
-
-
 @app.command()
 @asks(TrajectoryOptions)
 def trajectory(
@@ -124,7 +99,7 @@ def trajectory(
     settings = Settings()
     dragon, path = asked.to_dragon(settings.benches_max), asked.to_path()
     times = asked.to_times(dragon.benches + 1, settings.cells_max)
-    with _waiting("trajectory"):
+    with show.waiting("trajectory"):
         result = core.trajectory(dragon, path, times, head_speed=asked.head_speed)
         data = write(result)
     if output:
@@ -141,7 +116,7 @@ def trajectory(
 def collision_time(asked: schemas.CollisionQuery, json: Json = False) -> None:
     """When two benches first touch, and how that is known."""
     dragon, path = asked.to_dragon(Settings().benches_max), asked.to_path()
-    with _waiting("first contact"):
+    with show.waiting("first contact"):
         found = core.first_contact(dragon, path, head_speed=asked.head_speed, margin=asked.margin)
         answer = answers.CollisionTime.of(found, dragon, path, asked.head_speed, asked.margin)
     show.print_answer("First contact", answer, json)
@@ -152,7 +127,7 @@ def collision_time(asked: schemas.CollisionQuery, json: Json = False) -> None:
 def minimum_pitch(asked: schemas.MinimumPitchQuery, json: Json = False) -> None:
     """The smallest pitch such that every larger one lets the head reach the turning circle."""
     dragon, radius = asked.to_dragon(Settings().benches_max), asked.turning_diameter / 2
-    with _waiting("minimum pitch"):
+    with show.waiting("minimum pitch"):
         found = core.minimum_pitch(dragon, turning_radius=radius, start_turns=asked.start_turns, margin=asked.margin)
         answer = answers.MinimumPitch.of(found, dragon, asked.margin)
     show.print_answer(f"Minimum pitch for a turning circle of {asked.turning_diameter:g} m", answer, json)
@@ -169,7 +144,7 @@ def turn(asked: schemas.TurnQuery, json: Json = False) -> None:
 @asks(schemas.ShortestTurnQuery)
 def shortest_turn(asked: schemas.ShortestTurnQuery, json: Json = False) -> None:
     """The turn that begins as deep inside its circle as the dragon can dance, and what limits it."""
-    with _waiting("shortest turn"):
+    with show.waiting("shortest turn"):
         found = asked.to_shortest_turn(Settings().checked_benches_max)
     show.print_answer("Shortest turn", report.ShortestTurn.of_shortest(found), json)
 
@@ -179,7 +154,7 @@ def shortest_turn(asked: schemas.ShortestTurnQuery, json: Json = False) -> None:
 def maximum_head_speed(asked: schemas.MaximumHeadSpeedQuery, json: Json = False) -> None:
     """The largest constant head speed at which no handle exceeds the limit on the way through a turn."""
     dragon, path = asked.to_dragon(Settings().checked_benches_max), asked.to_turn().path
-    with _waiting("maximum head speed"):
+    with show.waiting("maximum head speed"):
         found = core.maximum_head_speed(dragon, path, asked.speed_limit)
     answer = report.MaximumHeadSpeed.model_validate(found)
     show.print_answer(f"Maximum head speed for {asked.speed_limit:g} m/s", answer, json)
@@ -197,7 +172,7 @@ def check(
     """Can the dragon dance this path here? What fails is an answer: the exit code is 0."""
     asked = checked(schemas.CheckRequest, read_dance(file))
     dragon, path = asked.dragon.to_dragon(Settings().checked_benches_max), asked.path.to_path()
-    with _waiting("check"):
+    with show.waiting("check"):
         found = asked.to_report(dragon, path)
         answer = report.Report.of(found, dragon, path, asked.head_speed, asked.margin)
     if figure:
@@ -249,7 +224,7 @@ def overlaps(
         handles = core.trajectory(dragon, path, [asked.time], head_speed=asked.head_speed).position[0]
         poses, lengths, widths = core.bench_poses(handles), dragon.lengths, dragon.widths
         margin, chained = asked.margin, True
-    with _waiting("overlaps"):
+    with show.waiting("overlaps"):
         found = core.overlaps(poses, lengths, widths, margin=margin, chained=chained)
         check = core.cross_check(poses, lengths, widths, margin=margin, chained=chained)
     answer = answers.OverlapsAnswer.of(found, check)
@@ -270,7 +245,7 @@ def figures(
     """The paper's figures 6, 7 and 8 from live numbers, as files."""
     folder.mkdir(parents=True, exist_ok=True)
     for one in kind or list(Kind):
-        with _waiting(f"figure {one.value}") as progress:
+        with show.waiting(f"figure {one.value}") as progress:
             data = _drawn(asked, one, format, progress)
         file = folder / f"{one.value}.{format.value}"
         file.write_bytes(data)
@@ -306,7 +281,7 @@ def paper(json: Json = False) -> None:
     """What the paper reports beside what this program computes, with the reason for each difference."""
     from app import paper as reported
 
-    with _waiting("recomputing the paper"):
+    with show.waiting("recomputing the paper"):
         found = reported.comparison()
     if json:
         show.print_json(answers.PaperTable.model_validate({"rows": found}).to_json())

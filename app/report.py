@@ -28,8 +28,7 @@ class Turn(Answer):
 
     @classmethod
     def of(cls, found: core.Turn) -> Self:
-        known = {name: getattr(found, name) for name in cls.model_fields if name != "turning_diameter"}
-        return cls(**known, turning_diameter=2 * found.turning_radius)
+        return cls.known(found, turning_diameter=2 * found.turning_radius)
 
 
 class ShortestTurn(Turn):
@@ -49,8 +48,7 @@ class ShortestTurn(Turn):
 
     @classmethod
     def of_shortest(cls, found: core.ShortestTurn) -> Self:
-        turn = Turn.of(found.turn).model_dump()
-        return cls(**turn, **{name: getattr(found, name) for name in cls.model_fields if name not in turn})
+        return cls.known(found, **Turn.of(found.turn).model_dump())
 
 
 class MaximumHeadSpeed(Answer):
@@ -158,5 +156,4 @@ class Report(Answer):
     @classmethod
     def of(cls, found: core.Report, dragon: Dragon, path: Spiral | Route, head_speed: float, margin: float) -> Self:
         contact = CollisionTime.of(found.first_contact, dragon, path, head_speed, margin)
-        known = {name: getattr(found, name) for name in cls.model_fields if name != "first_contact"}
-        return cls(**known, first_contact=contact)
+        return cls.known(found, first_contact=contact)

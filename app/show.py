@@ -1,16 +1,19 @@
-"""Answers for people: what the command prints, as tables with units, or as the service's JSON."""
+"""Answers for people: tables with units or the service's JSON, and a bar while they wait."""
 
 from __future__ import annotations
 
 import re
 import sys
-from collections.abc import Iterator, Sequence
+import threading
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from typing import Any
 
 import numpy as np
 from pydantic import BaseModel
 from rich import box
 from rich.console import Console
+from rich.progress import Progress
 from rich.table import Table
 from rich.text import Text
 
@@ -24,9 +27,29 @@ SHOWN_HANDLES = (0, 1, 51, 101, 151, 201)
 SHOWN_INSTANTS = 5
 # Width of a table where standard output is no terminal [characters].
 PIPE_WIDTH = 120
-
+# A wait longer than this is shown [s].
+SHOWN_WAIT = 1.0
 
 Part = Table | Text | str
+
+
+@contextmanager
+def waiting(what: str) -> Iterator[Callable[[float], None]]:
+    """A bar on standard error once the wait exceeds SHOWN_WAIT; yields the function that takes the share done."""
+    if not sys.stderr.isatty():
+        yield lambda share: None
+        return
+    bar = Progress(console=Console(stderr=True), transient=True)
+    task = bar.add_task(what, total=None)
+    timer = threading.Timer(SHOWN_WAIT, bar.start)
+    timer.start()
+    try:
+        yield lambda share: bar.update(task, total=1.0, completed=share)
+    finally:
+        timer.cancel()
+        timer.join()
+        if bar.live.is_started:
+            bar.stop()
 
 
 def print_json(data: bytes) -> None:
