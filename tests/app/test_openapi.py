@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from typing import Any
 
 import httpx
@@ -11,9 +12,10 @@ from hypothesis import HealthCheck, given, settings
 from schemathesis import GenerationMode
 from schemathesis.checks import CHECKS
 
-from app.examples import EXAMPLES
+from app.examples import EXAMPLES, FILE
 from app.main import create_app
 from app.settings import Settings
+from tests.app.renew_examples import text
 
 EXAMPLES_PER_CALL = 25
 # Grazes are flat in time, so theirs is known to 1e-7 s only [m], [s], [rad] and relative.
@@ -93,6 +95,10 @@ def test_the_example_of_every_call_is_true(client: httpx.Client, document: Any, 
     got = client.request(method, path, params=example.query, json=example.body).raise_for_status().json()
     told = document["paths"][path][method.lower()]["responses"]["200"]["content"]["application/json"]["example"]
     assert same(got, told), got
+
+
+def test_the_examples_stand_as_make_examples_writes_them() -> None:
+    assert text(json.loads(FILE.read_bytes())) + "\n" == FILE.read_text(encoding="utf-8")
 
 
 def same(got: Any, told: Any) -> bool:
