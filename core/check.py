@@ -23,7 +23,7 @@ from core.least import LeastClearance, least_clearance
 from core.paths import Spiral
 from core.route import Route
 from core.speed import HighestSpeed, highest_speed
-from core.venue import AreaClearance, Venue, VenueClearance, venue_clearance, venue_end
+from core.venue import AreaClearance, Venue, VenueClearance, is_clear_beyond, venue_clearance, venue_end
 
 # Speeds are good to this, so that the maximum head speed itself is allowed [1].
 SPEED_ROUNDING = 1e-12
@@ -118,9 +118,11 @@ def check(
         speed = highest_speed(dragon, path, head_speed=head_speed, start=begin, stop=until)
     failures = _contact_failures(contact, margin) + _venue_failures(square, begin, margin)
     failures += _speed_failures(speed, limit, end)
-    if seen < until:
-        message = f"From {seen:.6f} s on the spiral is too tight to follow the benches against the venue."
-        failures.append(Failure(FailureKind.UNDECIDED, seen, (), None, message))
+    if venue is not None and isinstance(path, Spiral) and seen < until:
+        span = {"start": begin, "seen": seen}
+        if not is_clear_beyond(dragon, path, venue, head_speed=head_speed, margin=margin, **span):
+            message = f"From {seen:.6f} s on the spiral is too tight to follow the benches against the venue."
+            failures.append(Failure(FailureKind.UNDECIDED, seen, (), None, message))
     failures.sort(key=lambda failure: failure.time)
     return Report(begin, until, not failures, tuple(failures), contact, least, square, speed, bend)
 

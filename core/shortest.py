@@ -1,6 +1,7 @@
 """The shortest turn: how deep inside its circle the entry may lie.
 
-Whether handles can follow is known in closed form. The arcs' radii add up to S = sqrt(E^2 + growth^2) for the entry
+Whether handles can follow is known in closed form: a bend's radius must be at least half a chord over ROUTE_BEND_LIMIT
+(core/kernels/constants.py). The arcs' radii add up to S = sqrt(E^2 + growth^2) for the entry
 radius E (see turn()), so both shrink with E, and so does the coil's at the entry: the bend sets one least entry.
 
 Whether benches touch is tried entry by entry, from the circle down. On the coil before the entry first_contact() on the
@@ -92,7 +93,7 @@ def shortest_turn(
     raises: InvalidValue (turning_radius) when even the turn at the circle cannot be danced
 
     >>> round(shortest_turn(Dragon(), 1.7).turn.entry_radius, 6)
-    4.414397
+    4.285762
     """
     radius = checked_size("turning_radius", turning_radius)
     margin = checked_number("margin", margin, "m", 0.0, MARGIN_MAX)

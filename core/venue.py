@@ -210,6 +210,29 @@ def venue_end(dragon: Dragon, path: Spiral | Route, *, head_speed: float = 1.0) 
     return min(end, travel / head_speed)
 
 
+def is_clear_beyond(
+    dragon: Dragon, path: Spiral, venue: Venue, *, head_speed: float, margin: float, start: float, seen: float
+) -> bool:
+    """Does a spiral dance whose benches were clear of the venue from start to `seen` [s] stay so to its end, for sure?
+
+    No head or bench before the first of the equal ones leaves the disc around the centre that its chords span from the
+    head, which goes inwards. Every other bench stands where the one before it stood since the start, once it has passed
+    where that one began; so it has met nothing new, if all edges lie outside the disc by more than the margin.
+    """
+    ends = np.linalg.norm(trajectory(dragon, path, [start, seen], head_speed=head_speed).position, axis=-1)
+    if (ends[1, 1:] > ends[0, :-1]).any():
+        return False
+    alike = dragon.uniform_from + 1
+    reach = (
+        ends[1, 0] + dragon.chords[:alike].sum() + dragon.overhangs[:alike].max() + 0.5 * dragon.widths[:alike].max()
+    )
+    edges = np.concatenate([area.edges for area in venue.areas])
+    along = edges[:, 2:] - edges[:, :2]
+    share = np.clip(-(edges[:, :2] * along).sum(axis=1) / (along**2).sum(axis=1), 0.0, 1.0)
+    nearest = np.linalg.norm(edges[:, :2] + share[:, None] * along, axis=1).min()
+    return bool(nearest > reach + margin)
+
+
 def _area_clearance(search: Search, name: str, begin: float, until: float, head_speed: float) -> AreaClearance:
     state, found, tolerance = search.approach(begin * head_speed, until * head_speed, head_speed)
     outcome, time, bracket, bench, point = Outcome.CLEAR, None, None, None, None

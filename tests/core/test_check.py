@@ -161,14 +161,28 @@ def test_without_a_limit_a_run_to_the_fold_has_no_highest_speed() -> None:
 
 
 def test_towards_the_fold_the_venue_is_followed_as_far_as_it_can_be() -> None:
-    report = check(Dragon(benches=3), Spiral(), venue=SQUARE)
+    post = venue(box("square", -50, -50, 50, 50), box("post", 0.0, 0.0, 0.02, 0.02))
+    report = check(Dragon(benches=3), Spiral(), venue=post)
     undecided = report.failures[0]
     assert undecided.kind is FailureKind.UNDECIDED
     assert 429.0 < undecided.time < report.stop
     head = trajectory(Dragon(benches=3), Spiral(), [undecided.time]).position[0, 0]
     assert np.hypot(*head) == pytest.approx(0.5 * 2.86 / BEND_LIMIT, abs=1e-2)  # the curvature is not quite 1 / r
     assert report.venue is not None
-    assert report.venue.areas[0].outcome is Outcome.CLEAR
+    assert all(area.outcome is Outcome.CLEAR for area in report.venue.areas)
+
+
+# The head is followed to 1.43 m from the centre; two chords, an overhang and half a width reach 4.94 m further.
+@pytest.mark.parametrize(("x", "passed"), [(6.3, False), (6.45, True)])
+def test_to_the_fold_nothing_may_stand_where_only_the_leading_benches_get(x: float, passed: bool) -> None:
+    scene = venue(box("square", -50, -50, 50, 50), box("post", x, 0, x + 0.01, 0.01))
+    report = check(Dragon(3), Spiral(0.8, 3.0), venue=scene)
+    assert report.passed is passed
+    assert [failure.kind for failure in report.failures] == ([] if passed else [FailureKind.UNDECIDED])
+
+
+def test_a_long_dragon_on_a_spiral_passes_in_a_square_around_it() -> None:
+    assert check(Dragon(), Spiral(0.8), venue=SQUARE).passed
 
 
 @pytest.mark.parametrize("benches", [1, 2])
