@@ -32,6 +32,8 @@ from core.search import BRACKETS_GRAZING, MARGIN_MAX, NO_GRAZE, Search
 # Grazes of a profile are looked for in steps of this fraction of the shortest chord [1], longer ones where the work is
 # too much (Search.samples()), and refined to this width [s].
 PROFILE_STEP = 0.2
+# So far beyond where a search gave up it looks for an overlap that is certain [m of head travel].
+BEYOND = 1e-3
 DIP_WIDTH = 1e-11
 
 
@@ -93,8 +95,8 @@ class FirstContact:
     """When two benches that share no handle first come within the margin.
 
     time: [s], None when clear or undecided; 0 for contact_at_start
-    time_bracket: (proven clear up to, overlapping at) [s], at most 1e-9 s wide unless they all but graze; for
-        undecided (proven clear up to, not decided from there to); None when clear or at the start
+    time_bracket: (proven clear up to, overlapping at) [s], at most 1e-9 s wide, see first_contact(); for undecided the
+        same, or up to the end of the run if no overlap is certain; None when clear or at the start
     head: the head at that time; benches: the pair (a, b), a < b; corner, edge: the features that meet;
     point: (x, y) [m] of the corner; end: where the run ends when clear
     """
@@ -170,9 +172,17 @@ def first_contact(
         found, tolerance = narrower, narrow
     if to_fold and (state == "reached" or (state == "stuck" and found["touching"] < 0.0)):
         state = "reached" if search.clear_to_fold(min(found["proven"], last), end) else "stuck"
+    if state == "stuck":
+        until = _known_overlap(search, found["proven"], last, head_speed, until)
     if stop is not None and state == "reached":
         end = RunEnd(EndReason.STOP, until, None, None)
     return _result(search, state, found, end, until, tolerance, head_speed)
+
+
+def _known_overlap(search: Search, proven: float, last: float, head_speed: float, until: float) -> float:
+    """When benches are within the margin for certain after a search gave up [s]; until if that is not known."""
+    state, found, _ = search.approach(min(proven + BEYOND, last), last, head_speed)
+    return found["touching"] / head_speed if state.startswith("touched") else until
 
 
 def _result(

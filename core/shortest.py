@@ -1,8 +1,8 @@
 """The shortest turn: how deep inside its circle the entry may lie.
 
 Whether handles can follow is known in closed form: a bend's radius must be at least half a chord over ROUTE_BEND_LIMIT
-(core/kernels/constants.py). The arcs' radii add up to S = sqrt(E^2 + growth^2) for the entry
-radius E (see turn()), so both shrink with E, and so does the coil's at the entry: the bend sets one least entry.
+(core/kernels/constants.py). The arcs' radii add up to S = sqrt(E^2 + growth^2) for the entry radius E (see turn()), so
+both shrink with E, and so does the coil's at the entry: the bend sets one least entry.
 
 Whether benches touch is tried entry by entry, from the circle down. On the coil before the entry first_contact() on the
 spiral answers. From the entry on it answers on the route, but only until the leading benches are out of reach, below;

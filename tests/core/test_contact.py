@@ -20,6 +20,7 @@ from core import (
     Spiral,
     clearance_profile,
     first_contact,
+    minimum_pitch,
     run_end,
 )
 from core.search import BRACKET, MARGIN_MAX
@@ -244,6 +245,17 @@ def test_a_graze_is_met_just_below_a_jump_and_passed_just_above(
             assert graze.benches == met.benches
             assert graze.clearance == pytest.approx(least, rel=0, abs=ROUNDING)
             assert graze.time == pytest.approx(bottom, rel=0, abs=1e-5)
+
+
+def test_a_graze_at_the_margin_is_undecided_up_to_the_next_certain_contact() -> None:
+    pitch, free = minimum_pitch(Dragon(60)).pitch_bracket
+    found = first_contact(Dragon(60), Spiral(pitch))
+    assert found.outcome is Outcome.UNDECIDED
+    clear, within = found.time_bracket
+    bottom, least = SlowDance.of(Dragon(60), Spiral(pitch)).dip(clear - AROUND, clear + AROUND, (0, 19))
+    assert clear <= bottom
+    assert abs(least) <= ROUNDING
+    assert within == pytest.approx(first_contact(Dragon(60), Spiral(free)).time, rel=0, abs=ACCURACY)
 
 
 def test_a_margin_between_a_graze_and_zero_is_met_at_the_graze() -> None:
