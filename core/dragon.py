@@ -24,10 +24,14 @@ def checked_number(name: str, value: object, unit: str, low: float, high: float,
 
     raises: InvalidValue naming the field, the value, its unit and the limit
     """
-    shown = f"{value!r} {unit}".rstrip() if not isinstance(value, Real) else f"{value} {unit}".rstrip()
     if not isinstance(value, Real) or isinstance(value, bool):
         raise InvalidValue(name, f"{name} must be a number, got {value!r}")
-    number = float(value)
+    try:
+        number, shown = float(value), f"{value} {unit}".rstrip()
+    except OverflowError as error:  # a whole number may have any number of digits
+        raise InvalidValue(
+            name, f"{name} must be from {low:g} to {high:g} {unit}".rstrip() + ", got 1e308 or more"
+        ) from error
     limit_unit = f" {unit}" if unit else ""
     if not np.isfinite(number):
         raise InvalidValue(name, f"{name} must be a finite number, got {shown}")
@@ -42,7 +46,7 @@ def checked_number(name: str, value: object, unit: str, low: float, high: float,
 
 def checked_size(name: str, value: object) -> float:
     """A positive length in [SIZE_MIN, SIZE_MAX] metres."""
-    if isinstance(value, Real) and not isinstance(value, bool) and float(value) <= 0.0:
+    if isinstance(value, Real) and not isinstance(value, bool) and value <= 0.0:
         raise InvalidValue(name, f"{name} must be positive, got {value} m")
     return checked_number(name, value, "m", SIZE_MIN, SIZE_MAX)
 

@@ -18,6 +18,8 @@ from core.route import Route
 HEAD_SPEED_MIN = 1e-6  # [m/s]
 HEAD_SPEED_MAX = 1e4  # [m/s]
 TIME_MAX = 1e12  # [s]
+# How long a dance is looked at, second by second, where nobody says: the contest's table is as long [s].
+DEFAULT_SPAN = 300
 # A run ends this much before its fold, so that rounding leaves every chord a place at the end too; 1e-14 was enough for
 # 1,494 random dragons, 2026-11-21 [1].
 FOLD_ROUNDING = 1e-13
@@ -171,16 +173,16 @@ def checked_times(
     wrong = np.flatnonzero(~np.isfinite(time))
     if wrong.size:
         raise InvalidValue(f"times.{wrong[0]}", f"times[{wrong[0]}] must be finite, got {time[wrong[0]]} s")
+    earliest = earliest_time(dragon, path, head_speed)
     late = np.flatnonzero(time > end.time)
     if late.size:
         raise _after_the_end(end, time, int(late[0]))
-    early = np.flatnonzero(time < earliest_time(dragon, path, head_speed))
+    early = np.flatnonzero(time < earliest)
     if early.size:
         k = int(early[0])
         raise OutsideRun(
             f"times.{k}",
-            f"times[{k}] must be at least {earliest_time(dragon, path, head_speed):.6f} s, when the whole dragon "
-            f"is on the path, got {time[k]:g} s",
+            f"times[{k}] must be at least {earliest:.6f} s, when the whole dragon is on the path, got {time[k]:g} s",
         )
     return np.ascontiguousarray(time)
 
@@ -206,20 +208,57 @@ def checked_span(
 def earliest_time(dragon: Dragon, path: Spiral | Route, head_speed: float) -> float:
     """When the last handle is at the beginning of the route [s]; -TIME_MAX where the path has no beginning.
 
-    A chord spans between its own length and pi / 2 times it of the path, so the place of the head is bisected.
+    A chord spans between its own length and pi / 2 times it of the path, so the place of the head is bisected, as far
+    as the path goes: beyond its end there is nothing to stand on.
+    raises: InvalidValue (path) for a route too short for the dragon
     """
     if isinstance(path, Spiral) or path.tail_begin is None:
         return -TIME_MAX
     sizes = np.zeros((dragon.benches, kernels.SIZE_COLUMNS))
     sizes[:, 0] = dragon.chords
     chain = np.empty((dragon.benches + 1, kernels.CHAIN_COLUMNS))
-    low = path.tail_begin
-    high = low + 0.5 * math.pi * float(dragon.chords.sum())
+
+    def has_room(s: float) -> bool:
+        return bool(kernels.route_tail(path.table, min(s, path.end), dragon.benches, sizes, chain) >= path.tail_begin)
+
+    low, straight = path.tail_begin, float(dragon.chords.sum())
+    high = low + 0.5 * math.pi * straight
+    if not has_room(high):
+        raise InvalidValue(
+            "path",
+            f"path is too short for the whole dragon, which takes {straight:.9g} m of it from handle 0 to handle "
+            f"{dragon.benches} (more along bends), got {path.end - path.begin:.9g} m",
+        )
     while high - low > 1e-9 * (1.0 + abs(high)):
         middle = 0.5 * (low + high)
-        tail = kernels.route_tail(path.table, middle, dragon.benches, sizes, chain)
-        low, high = (low, middle) if tail >= path.tail_begin else (middle, high)
-    return high / head_speed
+        low, high = (low, middle) if has_room(middle) else (middle, high)
+    return min(high, path.end) / head_speed
+
+
+def first_time(dragon: Dragon, path: Spiral | Route, *, head_speed: float = 1.0) -> float:
+    """From when a run is shown where nobody says [s]: 0, or where it has no 0, when the whole dragon is on the path.
+
+    head_speed: [m/s]
+    raises: InvalidValue (path) for a route too short for the dragon, or too tight
+    """
+    end = run_end(dragon, path, head_speed=head_speed).time
+    begin = path.begin / head_speed if isinstance(path, Route) else 0.0
+    earliest = max(begin, earliest_time(dragon, path, head_speed))
+    return 0.0 if earliest <= 0.0 <= end else earliest
+
+
+def default_times(dragon: Dragon, path: Route, *, head_speed: float = 1.0) -> Floats:
+    """Whole seconds (T,) from first_time() on, for DEFAULT_SPAN or to the end of the route [s].
+
+    first_time() alone where the run is too short for a whole second.
+    head_speed: [m/s]; raises: as first_time()
+    """
+    earliest = first_time(dragon, path, head_speed=head_speed)
+    # Both are whole, so that no rounding leads past the end.
+    first, last = math.ceil(earliest), math.floor(path.end / head_speed)
+    if first > last:
+        return np.array([earliest])
+    return np.arange(first, min(first + DEFAULT_SPAN, last) + 1, dtype=np.float64)
 
 
 def _why(end: RunEnd) -> str:

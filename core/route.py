@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -20,6 +20,10 @@ COORDINATE_MAX = 1e5
 # Pieces that meet within this are joined [m], [rad]: rounding of coordinates up to 1 km.
 JOINT_GAP = 1e-9
 JOINT_KINK = 1e-9
+# Waypoints nearer to each other than this are one [m]: a slip of the hand, no step of a dance.
+WAYPOINT_GAP = 1e-3
+# Angles beyond this lose the digits that the joints need [rad].
+ANGLE_MAX = 1e6
 
 Point = tuple[float, float]
 _KINDS = {name: float(code) for code, name in enumerate(kernels.PIECE_KINDS)}
@@ -32,6 +36,20 @@ def _checked_point(name: str, value: Any) -> Point:
         raise InvalidValue(name, f"{name} must be a point [x, y] in metres, got {value!r}") from error
     limits = (-COORDINATE_MAX, COORDINATE_MAX)
     return (checked_number(f"{name}.0", x, "m", *limits), checked_number(f"{name}.1", y, "m", *limits))
+
+
+def _checked_angle(name: str, value: Any) -> float:
+    return checked_number(name, value, "rad", -ANGLE_MAX, ANGLE_MAX)
+
+
+def _listed(name: str, value: Any, what: str) -> list[Any]:
+    """The value's entries, where it has some and is no text."""
+    try:
+        if not isinstance(value, str | bytes | Mapping):
+            return list(value)
+    except TypeError:
+        pass
+    raise InvalidValue(name, f"{name} must be {what}, got {value!r}")
 
 
 def _row(kind: str, start: float, end: float, curvature: Point, *parameters: float, slope: float = 0.0) -> Floats:
@@ -71,8 +89,8 @@ class Arc:
         """Rows of the kernels' table from arc length s on."""
         x, y = _checked_point(f"{name}.centre", self.centre)
         radius = checked_size(f"{name}.radius", self.radius)
-        angle = checked_number(f"{name}.start_angle", self.start_angle, "rad", -1e6, 1e6)
-        sweep = checked_number(f"{name}.sweep", self.sweep, "rad", -1e6, 1e6)
+        angle = _checked_angle(f"{name}.start_angle", self.start_angle)
+        sweep = _checked_angle(f"{name}.sweep", self.sweep)
         _check_length(name, radius * abs(sweep))
         sign = math.copysign(1.0, sweep)
         bend = sign / radius
@@ -99,7 +117,7 @@ class Coil:
         start = 2.0 * math.pi * checked_number(f"{name}.start_turns", self.start_turns, "turns", 0.0, 1e5)
         end = 2.0 * math.pi * checked_number(f"{name}.end_turns", self.end_turns, "turns", 0.0, 1e5)
         x, y = _checked_point(f"{name}.centre", self.centre)
-        rotation = checked_number(f"{name}.rotation", self.rotation, "rad", -1e6, 1e6)
+        rotation = _checked_angle(f"{name}.rotation", self.rotation)
         arc, end_arc = growth * kernels.spiral_arc(start), growth * kernels.spiral_arc(end)
         _check_length(name, abs(end_arc - arc))
         sign = 1.0 if end > start else -1.0
@@ -123,27 +141,35 @@ class Waypoints:
         """Rows of the kernels' table from arc length s on: as many cubics as exact arc lengths take."""
         from scipy.interpolate import CubicSpline  # type: ignore[import-untyped]
 
-        if len(self.points) < 2:
-            raise InvalidValue(f"{name}.points", f"{name}.points must be at least 2 points, got {len(self.points)}")
-        points = np.array([_checked_point(f"{name}.points.{k}", point) for k, point in enumerate(self.points)])
+        given = _listed(f"{name}.points", self.points, "a list of points [x, y] in metres")
+        if len(given) < 2:
+            raise InvalidValue(f"{name}.points", f"{name}.points must be at least 2 points, got {len(given)}")
+        points = np.array([_checked_point(f"{name}.points.{k}", point) for k, point in enumerate(given)])
+        headings = (
+            self._end(f"{name}.start_heading", self.start_heading),
+            self._end(f"{name}.end_heading", self.end_heading),
+        )
         steps = np.hypot(*np.diff(points, axis=0).T)
-        short = np.flatnonzero(steps < 1e-3)
+        short = np.flatnonzero(steps < WAYPOINT_GAP)
         if short.size:
             k = int(short[0])
             raise InvalidValue(
-                f"{name}.points.{k + 1}", f"{name}.points[{k + 1}] must be at least 0.001 m from the point before it"
+                f"{name}.points.{k + 1}",
+                f"{name}.points[{k + 1}] must be at least {WAYPOINT_GAP:g} m from the point before it, "
+                f"got {steps[k]:g} m",
             )
         knots = np.concatenate([[0.0], np.cumsum(steps)])
-        spline = CubicSpline(knots, points, bc_type=(self._end(self.start_heading), self._end(self.end_heading)))
+        spline = CubicSpline(knots, points, bc_type=headings)
         rows = cut(f"{name}.points", np.moveaxis(spline.c[::-1], 1, 0), np.diff(knots))
         ends = np.cumsum([s, *rows[:, 2]])
         rows[:, 1], rows[:, 2] = ends[:-1], ends[1:]
         return rows
 
     @staticmethod
-    def _end(heading: float | None) -> tuple[int, Floats]:
+    def _end(name: str, heading: float | None) -> tuple[int, Floats]:
         if heading is None:
             return 2, np.zeros(2)
+        heading = _checked_angle(name, heading)
         return 1, np.array([math.cos(heading), math.sin(heading)])
 
 
@@ -166,13 +192,16 @@ class Route:
     """
 
     def __init__(self, pieces: Sequence[Piece], start: float = 0.0) -> None:
-        if not pieces:
+        self.pieces: tuple[Piece, ...] = tuple(_listed("path.pieces", pieces, "a list of pieces"))
+        if not self.pieces:
             raise InvalidValue("path.pieces", "path.pieces must hold at least one piece")
-        self.pieces = tuple(pieces)
         self.start = checked_number("path.start", start, "m", -1e9, 1e9)
         rows: list[Floats] = []
         joints, count, s = [], 0, -self.start
         for k, piece in enumerate(self.pieces):
+            if not isinstance(piece, Piece):
+                name = f"path.pieces.{k}"
+                raise InvalidValue(name, f"{name} must be a Line, Arc, Coil or Waypoints, got {piece!r}")
             joints.append((s, count))
             rows.append(piece.rows(f"path.pieces.{k}", s))
             rows[-1][:, -1] = k

@@ -5,6 +5,7 @@ from __future__ import annotations
 import cmath
 import json
 import math
+from collections.abc import Callable
 from itertools import pairwise
 from pathlib import Path
 
@@ -25,16 +26,21 @@ from core import (
     Line,
     Outcome,
     OutsideRun,
+    Piece,
     Route,
     Spiral,
     Waypoints,
     bench_poses,
+    check,
     clearance_profile,
     first_contact,
+    highest_speed,
     least_clearance,
+    maximum_head_speed,
     trajectory,
     turn,
 )
+from core.kinematics import default_times, first_time
 from core.rectangles import corners
 
 REFERENCE = json.loads((Path(__file__).parents[1] / "reference" / "turn.json").read_text())
@@ -113,6 +119,36 @@ def test_a_coordinate_that_is_no_finite_number_is_refused(bad: object) -> None:
     assert e.value.field == "path.pieces.0.end.1"
 
 
+FIELDS_THAT_ARE_NONE = [
+    (Waypoints(((0, 0), (5, 5)), math.nan), "path.pieces.0.start_heading", "finite number, got nan rad"),
+    (Waypoints(((0, 0), (5, 5)), 0.0, math.inf), "path.pieces.0.end_heading", "finite number, got inf rad"),
+    (Waypoints(((0, 0), (5, 5)), "north"), "path.pieces.0.start_heading", "a number, got 'north'"),  # type: ignore[arg-type]
+    (Waypoints(((0, 0), (5, 5)), 2e6), "path.pieces.0.start_heading", r"at most 1e\+06 rad, got 2000000.0 rad"),
+    (Waypoints(None), "path.pieces.0.points", "list of points .* got None"),  # type: ignore[arg-type]
+    (Waypoints("ab"), "path.pieces.0.points", "list of points .* got 'ab'"),  # type: ignore[arg-type]
+    (Waypoints(((0, 0), 7)), "path.pieces.0.points.1", "a point .* got 7"),  # type: ignore[arg-type]
+    (Waypoints(((0, 0), (5, 10**400))), "path.pieces.0.points.1.1", "got 1e308 or more"),
+    (Arc((0, 0), 3, math.nan, 1), "path.pieces.0.start_angle", "got nan rad"),
+    (Arc((0, 0), None, 0, 1), "path.pieces.0.radius", "a number, got None"),  # type: ignore[arg-type]
+    (Coil(0.5, 5, 3, rotation=math.inf), "path.pieces.0.rotation", "got inf rad"),
+    (3, "path.pieces.0", "a Line, Arc, Coil or Waypoints, got 3"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("piece", "field", "words"), FIELDS_THAT_ARE_NONE, ids=[f for _, f, _ in FIELDS_THAT_ARE_NONE])
+def test_a_field_of_a_piece_that_is_none_is_refused_by_name_and_value(piece: Piece, field: str, words: str) -> None:
+    with pytest.raises(InvalidValue, match=rf"^{field} must be .*{words}$") as e:
+        Route([piece])
+    assert e.value.field == field
+
+
+@pytest.mark.parametrize("pieces", [None, 3, "line", Line((0, 0), (1, 0))])
+def test_pieces_that_are_no_list_are_refused(pieces: list[Piece]) -> None:
+    with pytest.raises(InvalidValue, match=r"path\.pieces must be a list of pieces, got") as e:
+        Route(pieces)
+    assert e.value.field == "path.pieces"
+
+
 def test_a_bend_too_tight_for_a_chord_names_the_bench_and_the_place() -> None:
     route = Route([Line((-30, 0), (0, 0)), Arc((0, 1.2), 1.2, -0.5 * math.pi, math.pi), Line((0, 2.4), (-30, 2.4))])
     with pytest.raises(InvalidValue, match=r"bench 0 \(2\.86 m\), got 1\.2 m near \(.*\) m, s = 30 m") as e:
@@ -132,11 +168,86 @@ def test_a_start_before_the_beginning_of_the_path_is_refused() -> None:
     assert e.value.field == "start"
 
 
+LENGTH = float(DRAGON.chords.sum())  # 16.4 m
+
+
+@pytest.mark.parametrize(
+    ("path", "head_speed", "first", "instants"),
+    [
+        (Route([Line((0, 0), (100, 0))]), 1.0, 17.0, range(17, 101)),
+        (Route([Line((0, 0), (100.5, 0))], 10.0), 1.0, 7.0, range(7, 91)),
+        (Route([Line((0, 0), (100, 0))], 60.0), 1.0, 0.0, range(41)),
+        (Route([Line((0, 0), (100, 0))], 200.0), 1.0, -183.0, range(-183, -99)),
+        (Route([Line((0, 0), (1000, 0))]), 1.0, 17.0, range(17, 318)),
+        (Route([Line((0, 0), (100, 0))]), 7.0, 3.0, range(3, 15)),
+        (TURN.path, 1.0, 0.0, range(301)),
+        (Route([Coil(0.55, 16, 4)]), 1.0, 0.0, range(301)),
+        (Route([Coil(0.55, 16, 4)], -7.5), 1.0, 8.0, range(8, 309)),
+    ],
+    ids=["line", "started", "long started", "ended", "long", "fast", "turn", "coil", "coil later"],
+)
+def test_default_instants_are_whole_seconds_that_the_run_has(
+    path: Route, head_speed: float, first: float, instants: range
+) -> None:
+    times = default_times(DRAGON, path, head_speed=head_speed)
+    assert times.tolist() == list(instants)
+    assert math.ceil(first_time(DRAGON, path, head_speed=head_speed)) == first
+    assert trajectory(DRAGON, path, times, head_speed=head_speed).speed.min() >= 0.0
+
+
+def test_a_run_too_short_for_a_whole_second_has_one_default_instant() -> None:
+    path = Route([Line((0, 0), (LENGTH + 0.2, 0))])
+    (time,) = default_times(DRAGON, path).tolist()
+    assert time == pytest.approx(LENGTH, abs=1e-6)
+    assert trajectory(DRAGON, path, [time]).position[0, -1, 0] == pytest.approx(0.0, abs=1e-6)
+
+
 def test_an_instant_after_the_end_of_the_path_is_refused() -> None:
     route = Route([Line((0, 0), (100, 0))])
     trajectory(DRAGON, route, [100.0])
     with pytest.raises(OutsideRun, match=r"at most 100\.000000000 s, when the path ends"):
         trajectory(DRAGON, route, [100.001])
+
+
+TOO_SHORT = {
+    "a line": Route([Line((0, 0), (10, 0))]),
+    "a line a hair shorter than the dragon": Route([Line((0, 0), (float(DRAGON.chords.sum()) - 1e-6, 0))]),
+    "an arc as long as the dragon when straight": Route([Arc((0, 0), 3.7, 0, float(DRAGON.chords.sum()) / 3.7)]),
+    "a hook": Route([Waypoints(((0, 0), (6, 0), (7, 4), (4, 6)))]),
+    "a coil outwards": Route([Coil(3.0, 0.5, 1.0)]),
+}
+
+
+@pytest.mark.parametrize("name", TOO_SHORT)
+@pytest.mark.parametrize(
+    "ask",
+    [
+        lambda path: check(DRAGON, path),
+        lambda path: highest_speed(DRAGON, path),
+        lambda path: maximum_head_speed(DRAGON, path, 2.0),
+        lambda path: trajectory(DRAGON, path, [5.0]),
+        lambda path: clearance_profile(DRAGON, path, [50.0]),
+        lambda path: first_contact(DRAGON, path),
+        lambda path: default_times(DRAGON, path),
+    ],
+    ids=["check", "highest_speed", "maximum_head_speed", "trajectory", "clearance", "first_contact", "default_times"],
+)
+def test_a_path_too_short_for_the_dragon_says_so(ask: Callable[[Route], object], name: str) -> None:
+    path = TOO_SHORT[name]
+    with pytest.raises(InvalidValue) as e:
+        ask(path)
+    length = f"{path.end - path.begin:.9g}"
+    assert e.value.message == (
+        "path is too short for the whole dragon, which takes 16.4 m of it from handle 0 to handle 16 (more along "
+        f"bends), got {length} m"
+    )
+    assert e.value.field == "path"
+
+
+def test_a_path_a_hair_longer_than_the_dragon_has_room() -> None:
+    length = float(DRAGON.chords.sum())
+    path = Route([Line((0, 0), (length + 1e-6, 0))])
+    assert check(DRAGON, path).start == pytest.approx(length, abs=1e-6)
 
 
 # -- the reference turn --------------------------------------------------------------------------------------
