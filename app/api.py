@@ -115,8 +115,9 @@ def trajectory(
         limits = reply.settings
         cells_max = limits.workbook_cells_max if media_type == tables.XLSX_TYPE else limits.cells_max
         dragon = wanted.dragon.to_dragon(limits.benches_max)
-        times = wanted.to_times(dragon.benches + 1, cells_max)
-        found = core.trajectory(dragon, wanted.path.to_path(), times, head_speed=wanted.head_speed)
+        path = wanted.path.to_path()
+        times = wanted.to_times(dragon, path, cells_max)
+        found = core.trajectory(dragon, path, times, head_speed=wanted.head_speed)
         return TABLES[media_type](found, wanted.decimals)
 
     return reply(wanted, compute, media_type)
@@ -190,8 +191,8 @@ def path_clearance(
 
     def compute() -> bytes:
         dragon = wanted.dragon.to_dragon(reply.settings.checked_benches_max)
-        times = wanted.to_times(dragon.benches + 1, reply.settings.cells_max)
         path = wanted.path.to_path()
+        times = wanted.to_times(dragon, path, reply.settings.cells_max)
         return _clearance_json(core.clearance_profile(dragon, path, times, head_speed=wanted.head_speed))
 
     return reply(wanted, compute)

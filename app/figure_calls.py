@@ -76,11 +76,12 @@ def path_trajectory_figure(
     """Every handle at one instant, coloured by its speed, on any path and in any venue."""
 
     def compute() -> bytes:
+        dragon, path = wanted.dragon.to_dragon(reply.settings.drawn_benches_max), wanted.path.to_path()
         return figures.trajectory_figure(
-            wanted.dragon.to_dragon(reply.settings.drawn_benches_max),
-            wanted.path.to_path(),
+            dragon,
+            path,
             venue=wanted.to_venue(),
-            time=wanted.time,
+            time=wanted.to_time(dragon, path),
             head_speed=wanted.head_speed,
             format=format,
         )
@@ -93,13 +94,14 @@ def path_contact_figure(reply: BodyReply, format: Format, wanted: ContactFigureR
     """The dance at first contact, with the touching pair marked and enlarged, on any path and in any venue."""
 
     def compute() -> bytes:
+        dragon, path = wanted.dragon.to_dragon(reply.settings.checked_benches_max), wanted.path.to_path()
         return figures.contact_figure(
-            wanted.dragon.to_dragon(reply.settings.checked_benches_max),
-            wanted.path.to_path(),
+            dragon,
+            path,
             venue=wanted.to_venue(),
             head_speed=wanted.head_speed,
             margin=wanted.margin,
-            start=wanted.start,
+            start=wanted.to_start(dragon, path),
             stop=wanted.stop,
             format=format,
         )

@@ -19,6 +19,7 @@ from app.wire import Coordinate, Instant, Length, Margin, Overhang, SpeedLimit, 
 from app.wire_paths import KINDS, AnyPath, SpiralFields, SpiralPath, TurnCircle, TurnFields
 from core import Dragon, InvalidValue, Report, Route, ShortestTurn, Spiral, Venue, check, shortest_turn
 from core.dragon import BENCHES_MAX, Floats
+from core.kinematics import default_times, first_time
 
 # The last instant of a range may miss `stop` by this share of a step, so that 0 to 0.3 by 0.1 has four instants.
 LAST_STEP_TOLERANCE = 1e-9
@@ -132,14 +133,22 @@ class Dance(HeadSpeed, strict=True):
 class TimedDance(Dance):
     """A dance at some instants."""
 
-    times: AnyTimes = Field(
-        default_factory=TimeSteps, description="Instants: evenly spaced, or a list; 0 is the start of the dance [s]"
+    times: AnyTimes | None = Field(
+        None,
+        description="Instants: evenly spaced, or a list; 0 is the start of the dance; null: every second from 0 to "
+        "300 s; on a path that is no spiral every second from 0, or if the dance has no 0, from the first at which the "
+        "whole dragon is on the path, for 300 s or to the end of the path [s]",
     )
 
-    def to_times(self, handles: int, cells_max: int) -> Floats:
+    def to_times(self, dragon: Dragon, path: Spiral | Route, cells_max: int) -> Floats:
         """Instants (T,) [s]. raises: TooLarge, InvalidValue"""
-        if isinstance(self.times, TimeRange):
-            return self.times.to_times(handles, cells_max)
+        handles = dragon.benches + 1
+        if self.times is None and isinstance(path, Route):
+            times = default_times(dragon, path, head_speed=self.head_speed)
+            check_limit("times", "instants x handles", len(times) * handles, cells_max, FEWER_CELLS)
+            return times
+        if not isinstance(self.times, list):
+            return (self.times or TimeSteps()).to_times(handles, cells_max)
         check_limit("times", "instants x handles", len(self.times) * handles, cells_max, FEWER_CELLS)
         return np.array(self.times, dtype=np.float64)
 
@@ -211,15 +220,28 @@ class CheckRequest(PlacedDance):
 class TrajectoryFigureRequest(PlacedDance):
     """Every handle at one instant, drawn on any path."""
 
-    time: Instant = Field(0.0, description="The instant [s]")
+    time: Instant | None = Field(
+        None,
+        description="The instant; null: 0, or if the dance has no 0, when the whole dragon is on the path [s]",
+    )
+
+    def to_time(self, dragon: Dragon, path: Spiral | Route) -> float:
+        """The instant [s]. raises: InvalidValue"""
+        return first_time(dragon, path, head_speed=self.head_speed) if self.time is None else self.time
 
 
 class ContactFigureRequest(PlacedDance):
     """The dance at first contact, drawn on any path."""
 
     margin: Margin = 0.0
-    start: Instant = Field(0.0, description="From when [s]")
+    start: Instant | None = Field(
+        None, description="From when; null: 0, or if the dance has no 0, when the whole dragon is on the path [s]"
+    )
     stop: Instant | None = Field(None, description="Until when; null: the end of the run [s]")
+
+    def to_start(self, dragon: Dragon, path: Spiral | Route) -> float:
+        """From when [s]. raises: InvalidValue"""
+        return first_time(dragon, path, head_speed=self.head_speed) if self.start is None else self.start
 
 
 class DanceQuery(HeadSpeed, SpiralFields, UniformDragon):

@@ -23,6 +23,9 @@ PIECES_MAX = 1_000
 
 Radius = Annotated[float, Field(ge=1e-3, le=1e4)]
 Point = Annotated[list[Coordinate], Field(min_length=2, max_length=2)]
+Start = Annotated[
+    float, Field(ge=-1e6, le=1e6, description="How far from the beginning of the path the head is at time 0 [m]")
+]
 # An entry deeper inside the circle makes the turn shorter.
 EntryRadius = Annotated[
     float | None, Field(ge=1e-3, le=100, description="Where the turn begins; null: on the circle [m]")
@@ -146,10 +149,12 @@ class WaypointsPiece(Wire, strict=True):
 class WaypointsPath(WaypointsPiece, strict=True):
     """A smooth curve through points as the whole path."""
 
+    start: Start = 0.0
+
     def to_path(self) -> Route:
         """raises: InvalidValue"""
         with placed("path.pieces.0", "path"):
-            return Route((self.to_piece(),))
+            return Route((self.to_piece(),), self.start)
 
 
 def _point(value: list[float]) -> tuple[float, float]:
@@ -166,7 +171,7 @@ class RoutePath(Wire, strict=True):
     pieces: list[AnyPiece] = Field(
         min_length=1, max_length=PIECES_MAX, fail_fast=True, description="In the order they are danced"
     )
-    start: float = Field(0.0, ge=-1e6, le=1e6, description="How far along the first piece the head is at time 0 [m]")
+    start: Start = 0.0
 
     def to_path(self) -> Route:
         """raises: TooLarge, InvalidValue"""

@@ -115,6 +115,66 @@ def test_waypoints_are_a_path_and_a_piece(client: httpx.Client) -> None:
     assert chords == pytest.approx(np.tile(core.Dragon(**SHORT).chords, (2, 1)), rel=0, abs=SAME_PATH_TOLERANCE)
 
 
+@pytest.mark.parametrize("start", [0, 20, -7.5])
+def test_waypoints_start_as_far_along_as_a_route_does(client: httpx.Client, start: float) -> None:
+    curve = {"kind": "waypoints", "points": [[0, 0], [20, 3], [40, -3], [60, 0]]}
+    times = [30.0 - start, 45.0 - start]
+    alone, later = (
+        posted(client, "/trajectory", dragon=SHORT, path=path, times=times)
+        for path in (curve | {"start": start}, route(curve, start=start))
+    )
+    assert alone == later
+    from_beginning = posted(client, "/trajectory", dragon=SHORT, path=curve, times=[30.0, 45.0])
+    for name in ("x", "y", "speed"):
+        assert np.array(alone[name]) == pytest.approx(np.array(from_beginning[name]), rel=0, abs=SAME_PATH_TOLERANCE)
+
+
+# Four benches are 7.81 m from handle 0 to handle 4.
+CURVE = {"kind": "waypoints", "points": [[0, 0], [20, 0], [40, 0], [60.5, 0]]}
+LONG_LANE = route(LANE | {"end": [900, 0]})
+
+
+@pytest.mark.parametrize("call", ["/trajectory", "/clearance"])
+@pytest.mark.parametrize(
+    ("path", "seconds"),
+    [
+        (route(LANE), range(8, 61)),
+        (route(LANE, start=5), range(3, 56)),
+        (route(LANE, start=9), range(52)),
+        (CURVE, range(8, 61)),
+        (CURVE | {"start": 5}, range(3, 56)),
+        (LONG_LANE, range(8, 309)),
+        (TURN, range(301)),
+        ({"kind": "spiral"}, range(301)),
+    ],
+    ids=["route", "start", "past", "waypoints", "waypoints_start", "long", "turn", "spiral"],
+)
+def test_without_times_a_dance_has_seconds_that_its_path_has(
+    client: httpx.Client, call: str, path: Any, seconds: range
+) -> None:
+    assert posted(client, call, dragon=SHORT, path=path)["time"] == list(seconds)
+    assert posted(client, call, dragon=SHORT, path=path, times=None)["time"] == list(seconds)
+
+
+@pytest.mark.parametrize("call", ["/figures/trajectory.svg", "/figures/contact.svg", "/check"])
+@pytest.mark.parametrize("path", [route(LANE), CURVE, TURN, {"kind": "spiral", "pitch": 2}])
+def test_without_times_any_path_is_drawn_and_checked(client: httpx.Client, call: str, path: Any) -> None:
+    assert client.post(call, json={"dragon": SHORT, "path": path}).status_code == 200
+
+
+@pytest.mark.parametrize("call", ["/trajectory", "/clearance", "/check", "/figures/trajectory.svg"])
+@pytest.mark.parametrize("path", [route(LANE), CURVE], ids=["route", "waypoints"])
+def test_a_path_too_short_for_the_dragon_is_a_problem_that_says_so(client: httpx.Client, call: str, path: Any) -> None:
+    words = ("too short for the whole dragon", "369.16 m", "handle 223", "got 60")
+    assert_refused(client.post(call, json={"path": path}), "/path", words)
+
+
+def test_times_by_default_and_the_same_times_given_have_tags_of_their_own(client: httpx.Client) -> None:
+    asked = {"dragon": SHORT, "path": route(LANE)}
+    tags = [client.post("/trajectory", json=asked | more).headers["etag"] for more in ({}, {"times": [8.0]})]
+    assert tags[0] != tags[1]
+
+
 def test_clearance_on_a_spiral_is_the_same_by_get_and_by_post(client: httpx.Client) -> None:
     got = client.get("/clearance?start=409&stop=410&step=0.5").json()
     assert got == posted(client, "/clearance", times={"start": 409, "stop": 410, "step": 0.5})
