@@ -58,6 +58,7 @@ ORDER = (
     "core.proof.chain",
     "core.proof.sweeps",
     "core.proof.claims",
+    "core.proof.members",
     "core.proof.certificate",
     "core.proof",
     "app",

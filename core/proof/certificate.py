@@ -12,9 +12,10 @@ import numpy as np
 from flint import __FLINT_VERSION__, __version__, ctx
 
 from core.dragon import BENCHES_MAX, Dragon
-from core.errors import ProofRefused
+from core.errors import InvalidValue, ProofRefused
 from core.paths import Spiral
 from core.proof.claims import Claim, CollisionTime, MinimumPitch, refusing
+from core.proof.members import CLAIMS, SHOWN_MOST, check_members
 from core.proof.sweeps import Progress, found, recorded, swept
 
 FORMAT = "bench-dragon proof 1"
@@ -97,26 +98,28 @@ def _proven(claim: Claim, every_pair: bool, progress: Progress) -> Certificate:
 def check(certificate: Certificate, *, progress: Progress = lambda share: None) -> Proof:
     """What a certificate proves, after every inequality in it was verified again, without a search.
 
-    raises: ProofRefused when anything was changed, is missing, or is not proven
+    certificate: as made here, or read from JSON; the balls have the precision that it states
+    raises: ProofRefused when anything was changed, is missing, is unknown, or is not proven
     """
+    stated = certificate.get("format") if isinstance(certificate, dict) else None
+    if isinstance(stated, str) and stated != FORMAT:
+        raise ProofRefused("format", f"the certificate's format is not {FORMAT!r}: {stated[:SHOWN_MOST]!r}")
+    check_members(certificate)
+    content = {name: value for name, value in certificate.items() if name != "digest"}
+    if certificate["digest"] != digest(content):
+        raise ProofRefused("digest", "the certificate was changed after it was made")
     try:
-        if certificate["format"] != FORMAT:
-            raise ProofRefused("format", f"the certificate's format is not {FORMAT!r}: {certificate['format']!r}")
-        content = {name: value for name, value in certificate.items() if name != "digest"}
-        if certificate["digest"] != digest(content):
-            raise ProofRefused("digest", "the certificate was changed after it was made")
-        with ctx.workprec(PRECISION), refusing("certificate"):
+        with ctx.workprec(certificate["precision"]), refusing("certificate"):
             return _verified(content, progress)
-    except (ArithmeticError, AttributeError, LookupError, RecursionError, TypeError, ValueError) as error:
-        raise ProofRefused("certificate", f"the certificate is malformed: {error!r}") from error
+    except InvalidValue as error:
+        place = error.field if error.field.startswith("dragon.") else f"claim.{error.field.removeprefix('path.')}"
+        words = error.message.replace(error.field, place, 1)
+        raise ProofRefused(place, f"the certificate is malformed: {words}") from error
 
 
 def _verified(content: Certificate, progress: Progress) -> Proof:
     values = dict(content["claim"])
-    kinds: dict[str, type[CollisionTime] | type[MinimumPitch]] = {
-        kind.kind: kind for kind in (CollisionTime, MinimumPitch)
-    }
-    claim = kinds[values.pop("kind")](_dragon(content["dragon"]), **values)
+    claim = CLAIMS[values.pop("kind")](_dragon(content["dragon"]), **values)
     chain, repeats_from, sweeps = claim.chain, content["repeats_from"], content["sweeps"]
     if not chain.repeats_from <= repeats_from <= max(0, chain.count - 3):
         raise ProofRefused("repeats_from", f"the benches from {repeats_from} on are not alike")
@@ -147,8 +150,8 @@ def _runs(dragon: Dragon) -> list[list[float]]:
     return [[len(list(run)), *sizes] for sizes, run in groupby(rows)]
 
 
-def _dragon(runs: Sequence[Sequence[float]]) -> Dragon:
-    counts = [int(run[0]) for run in runs]
+def _dragon(runs: Sequence[Any]) -> Dragon:
+    counts = [run[0] for run in runs]
     if not (min(counts) > 0 and sum(counts) <= BENCHES_MAX):
         raise ProofRefused("dragon", f"a dragon has 1 to {BENCHES_MAX} benches")
     return Dragon.of(*(np.repeat([run[column] for run in runs], counts) for column in (1, 2, 3)))

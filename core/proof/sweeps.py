@@ -193,9 +193,16 @@ def recorded(chain: Chain, sweeps: Sequence[Any]) -> Source:
     """The stretches of a certificate, each verified as it stands."""
 
     def source(bench: int, high: float, low: float, places: Sequence[float]) -> Iterator[tuple[Stretch, str]]:
+        if bench >= len(sweeps):
+            raise ProofRefused("sweeps", f"the certificate is malformed: sweeps.{bench} is missing")
         if sweeps[bench]["bench"] != bench:
-            raise ProofRefused("certificate", f"sweep {bench} is of another bench: {sweeps[bench]['bench']}")
-        for high, low, faces in sweeps[bench]["stretches"]:
+            raise ProofRefused("sweeps", f"sweep {bench} is of another bench: {sweeps[bench]['bench']}")
+        for k, (high, low, faces) in enumerate(sweeps[bench]["stretches"]):
+            most = chain.count - bench - 2
+            if len(faces) > most:
+                place = f"sweeps.{bench}.stretches.{k}.2"
+                words = f"must have at most {most} faces, one for each bench behind, got {len(faces)}"
+                raise ProofRefused(place, f"the certificate is malformed: {place} {words}")
             stretch = Stretch(chain, bench, low, high, chain.count - bisect_left(places, low))
             while len(stretch.placed) < len(faces) + 2:
                 stretch.grow()

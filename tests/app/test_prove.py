@@ -54,6 +54,29 @@ def test_a_changed_certificate_is_refused(certificate: Path) -> None:
     assert done.stderr == "Refused: the certificate was changed after it was made\n"
 
 
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("{}", "format is missing"),
+        ("[]", "it must be an object, got a list of 0"),
+        ('{"x": 1}', "format is missing"),
+        ('{"format": 3}', "versions is missing"),
+    ],
+)
+def test_a_malformed_certificate_is_one_line_that_names_the_member(text: str, words: str) -> None:
+    done = run("--check", "-", text=text)
+    assert (done.returncode, done.stdout) == (1, "")
+    assert done.stderr == f"Refused: the certificate is malformed: {words}\n"
+
+
+@pytest.mark.parametrize("name", ["claim", "overlap", "sweeps", "dragon", "precision", "digest"])
+def test_a_certificate_without_a_member_is_one_line_that_names_it(certificate: Path, name: str) -> None:
+    content = json.loads(certificate.read_text())
+    del content[name]
+    done = run("--check", "-", text=json.dumps(content))
+    assert done.stderr == f"Refused: the certificate is malformed: {name} is missing\n"
+
+
 def test_a_wrong_claim_is_refused_and_leaves_no_file(tmp_path: Path) -> None:
     done = run("collision-time", *FIVE, "--time", "20", "--output", str(tmp_path / "wrong.json"))
     assert (done.returncode, done.stdout) == (1, "")

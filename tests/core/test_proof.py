@@ -6,6 +6,7 @@ import copy
 import itertools
 import json
 import math
+import re
 import subprocess
 import sys
 from collections.abc import Callable
@@ -227,7 +228,7 @@ FORGERIES = {
     "another format": (lambda c: c.__setitem__("format", "bench-dragon proof 0"), "format"),
     "no overlap": (lambda c: c.pop("overlap"), "malformed"),
     "no number": (lambda c: stretches(c)[7].__setitem__(1, "30"), "malformed"),
-    "not a number": (lambda c: stretches(c)[7].__setitem__(1, math.nan), "not proven"),
+    "not a number": (lambda c: stretches(c)[7].__setitem__(1, math.nan), "malformed"),
 }
 
 
@@ -240,9 +241,129 @@ def test_a_forged_certificate_is_refused(small: Certificate, name: str) -> None:
 
 def test_an_edit_of_what_no_proof_needs_is_refused_by_the_digest(small: Certificate) -> None:
     with pytest.raises(ProofRefused, match="was changed"):
-        check(small | {"versions": {}})
+        check(small | {"versions": {"python-flint": "0", "flint": "0"}})
     with pytest.raises(ProofRefused, match="malformed"):
         check({name: value for name, value in small.items() if name != "digest"})
+
+
+def at(*place: str | int, put: Any) -> Callable[[dict[str, Any]], None]:
+    def change(content: dict[str, Any]) -> None:
+        inside: Any = content
+        for step in place[:-1]:
+            inside = inside[step]
+        inside[place[-1]] = put
+
+    return change
+
+
+MALFORMED = {
+    "an unknown member": (at("note", put="x"), "note", "note is no member of it"),
+    "an unknown member of the claim": (at("claim", "margin", put=0), "claim.margin", "claim.margin is no member of it"),
+    "an unknown member of a sweep": (at("sweeps", 1, "x", put=0), "sweeps.1.x", "sweeps.1.x is no member of it"),
+    "a missing member": (lambda c: c.pop("sweeps"), "sweeps", "sweeps is missing"),
+    "a claim without time": (lambda c: c["claim"].pop("time"), "claim.time", "claim.time is missing"),
+    "a claim of another kind": (
+        at("claim", "kind", put="x"), "claim.kind", 'claim.kind must be collision-time or minimum-pitch, got "x"',
+    ),
+    "a claim without a kind": (
+        lambda c: c["claim"].pop("kind"), "claim.kind", "claim.kind must be collision-time or minimum-pitch, got null",
+    ),
+    "a claim that is none": (at("claim", put=[]), "claim", "claim must be an object, got a list of 0"),
+    "a time in words": (at("claim", "time", put="51"), "claim.time", 'claim.time must be a number, got "51"'),
+    "a pitch below all": (at("claim", "pitch", put=-1), "claim.pitch", "claim.pitch must be positive, got -1 m"),
+    "a time past the centre": (
+        at("claim", "time", put=1e6), "claim.time", "claim.time must be at most 442.59 s, got 1000000.0 s",
+    ),
+    "no precision": (at("precision", put=0), "precision", "precision must be from 53 to 4096 bits, got 0"),
+    "too little precision": (at("precision", put=52), "precision", "precision must be from 53 to 4096 bits, got 52"),
+    "too much precision": (at("precision", put=4097), "precision", "precision must be from 53 to 4096 bits, got 4097"),
+    "half a bit": (at("precision", put=96.5), "precision", "precision must be a whole number, got 96.5"),
+    "a run of three": (at("dragon", 1, put=[1, 2, 3]), "dragon.1", "dragon.1 must be a list of 4, got a list of 3"),
+    "half a bench": (at("dragon", 1, 0, put=0.5), "dragon.1.0", "dragon.1.0 must be a whole number, got 0.5"),
+    "a bench without a chord": (
+        at("dragon", 1, 3, put=2.0),
+        "dragon.overhangs.1",
+        "dragon.overhangs[1] must be less than half of dragon.lengths[1] (2.2 m / 2 = 1.1 m), got 2 m",
+    ),
+    "an overlap of one": (
+        at("overlap", "benches", put=[3]), "overlap.benches", "overlap.benches must be a list of 2, got a list of 1",
+    ),
+    "a bench that is true": (
+        at("overlap", "benches", 0, put=True),
+        "overlap.benches.0",
+        "overlap.benches.0 must be a whole number, got true",
+    ),
+    "a stretch of two": (
+        at("sweeps", 0, "stretches", 7, put=[1, 2]),
+        "sweeps.0.stretches.7",
+        "sweeps.0.stretches.7 must be [highest theta, lowest theta, faces], got a list of 2",
+    ),
+    "a theta without end": (
+        at("sweeps", 0, "stretches", 7, 0, put=math.inf),
+        "sweeps.0.stretches.7.0",
+        "sweeps.0.stretches.7.0 must be a number from -1e+15 to 1e+15, got inf",
+    ),
+    "a ninth face": (
+        at("sweeps", 0, "stretches", 7, 2, put="08"),
+        "sweeps.0.stretches.7.2",
+        'sweeps.0.stretches.7.2 must be faces, digits from 0 to 7, got "08"',
+    ),
+    "a face for no bench": (
+        at("sweeps", 0, "stretches", 0, 2, put="4330"),
+        "sweeps.0.stretches.0.2",
+        "sweeps.0.stretches.0.2 must have at most 3 faces, one for each bench behind, got 4",
+    ),
+    "a long text": (at("repeats_from", put="9" * 90), "repeats_from", f'must be a whole number, got "{"9" * 39}...'),
+    "no second sweep": (lambda c: c["sweeps"].pop(), "sweeps", "sweeps.1 is missing"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", MALFORMED)
+def test_a_malformed_certificate_is_refused_by_its_member(small: Certificate, name: str) -> None:
+    change, field, words = MALFORMED[name]
+    with pytest.raises(ProofRefused) as e:
+        check(edit(change)(small))
+    assert e.value.message.startswith("the certificate is malformed: ")
+    assert e.value.message.endswith(words)
+    assert e.value.field == field
+
+
+@pytest.mark.parametrize("precision", [53, 4096])
+def test_a_certificate_is_checked_with_the_precision_that_it_states(
+    small: Certificate, precision: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    used: list[int] = []
+    monkeypatch.setattr("core.proof.certificate.swept", lambda *asked: used.append(ctx.prec) or [])
+    with pytest.raises(ProofRefused):
+        check(edit(at("precision", put=precision))(small))
+    assert used == [precision]
+
+
+def places(value: Any, place: tuple[str | int, ...] = ()) -> list[tuple[str | int, ...]]:
+    """Every member of a certificate, and the first entries of every list."""
+    entries = list(value) if isinstance(value, dict) else range(min(2, len(value))) if isinstance(value, list) else ()
+    return [place, *(found for entry in entries for found in places(value[entry], (*place, entry)))]
+
+
+def refusal(certificate: Certificate) -> str:
+    """Why a certificate is refused; empty for a proof."""
+    try:
+        check(certificate)
+    except ProofRefused as refused:
+        return refused.message
+    return ""
+
+
+@pytest.mark.parametrize(
+    "put",
+    [None, "x", [], {}, -1, 0, 0.5, 1e15, 1e-300, math.nan, True, 10**20, [1], {"a": 1}],
+    ids=lambda put: f"{put!r}",
+)
+def test_no_change_of_any_member_escapes_or_shows_python(small: Certificate, put: Any) -> None:
+    content = {name: value for name, value in small.items() if name != "digest"}
+    messages = [refusal(edit(at(*place, put=put))(small)) for place in places(content)[1:]]
+    assert [message for message in messages if re.search(r"Error\(|None|True|False|\n", message)] == []
+    assert sum(map(bool, messages)) > 20
 
 
 @pytest.mark.parametrize("value", [None, [], {}, "proof", 1.0])
