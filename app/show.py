@@ -118,7 +118,11 @@ def trajectory_tables(result: Trajectory) -> list[Part]:
         for k in rows:
             table.add_row(f"{k} {names[k]}", *(f"{value:.6f}" for value in values[columns, k].round(6) + 0.0))
         shown.append(table)
-    return [*shown, f"{len(rows)} of {handles} handles, {len(columns)} of {instants} instants: --output has all."]
+    of_handles, of_instants = _plural("handle", range(handles)), _plural("instant", range(instants))
+    return [
+        *shown,
+        f"{len(rows)} of {handles} {of_handles}, {len(columns)} of {instants} {of_instants}: --output has all.",
+    ]
 
 
 def overlap_tables(answer: answers.OverlapsAnswer) -> list[Part]:
@@ -168,9 +172,18 @@ def _measured(report: Report) -> Iterator[tuple[str, str, float | None, str]]:
             f"bench {area.nearest.bench}",
         )
     if speed := report.highest_speed:
-        yield "highest speed", f"{speed.speed:.6f} m/s", speed.time, f"handles {_shown(speed.handles)}"
+        yield (
+            "highest speed",
+            f"{speed.speed:.6f} m/s",
+            speed.time,
+            f"{_plural('handle', speed.handles)} {_shown(speed.handles)}",
+        )
     if bend := report.sharpest_bend:
         yield "sharpest bend", f"{bend.angle:.6f} rad", bend.time, f"benches {_shown(bend.benches)}"
+
+
+def _plural(word: str, things: Sequence[Any]) -> str:
+    return word if len(things) == 1 else f"{word}s"
 
 
 def _distance(found: LeastClearance | Nearest) -> str:

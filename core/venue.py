@@ -29,6 +29,15 @@ EDGES_MAX = 2_000
 DEPTH_MAX = 8
 # A spiral is danced a little past the last instant, so that rounding does not leave it outside [m].
 SPARE = 1e-3
+# What polygon_fault() calls a fault, in a sentence before its place.
+FAULTS = {
+    "self-intersection": "a self-intersection",
+    "ring self-intersection": "a ring that touches itself",
+    "hole lies outside shell": "a hole outside the outer ring",
+    "holes are nested": "a hole inside another hole",
+    "interior is disconnected": "an inside cut in two by rings that touch",
+    "too few points in geometry component": "a ring of fewer than three different points",
+}
 
 
 @dataclass(frozen=True)
@@ -47,10 +56,11 @@ class Area:
             if len(ring) < 4 or ring[0] != ring[-1]:
                 words = f"venue: a ring of {self.name!r} must be closed and have at least 4 points"
                 raise InvalidValue("venue", f"{words}, got {len(ring)}, from {ring[:1]} to {ring[-1:]}")
-        if fault := polygon_fault(self.rings):
-            reason, x, y = fault
+        if found := polygon_fault(self.rings):
+            reason, x, y = found
+            fault = FAULTS.get(reason, f"a fault ({reason})")
             raise InvalidValue(
-                "venue", f"venue: {self.name!r} must be a valid polygon, got a {reason} at ({x:g}, {y:g}) m"
+                "venue", f"venue: {self.name!r} must be a valid polygon, got {fault} at ({x:g}, {y:g}) m"
             )
 
     @cached_property

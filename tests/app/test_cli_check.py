@@ -86,7 +86,19 @@ def test_a_failed_check_is_an_answer_that_says_what_fails(dance: Path) -> None:
 
 def test_a_dance_that_passes_says_so(dance: Path) -> None:
     dance.write_text(DANCE.replace("0.9", "0.1").replace("0.5", "2.0"))
-    assert "Nothing fails." in answer_of("check", str(dance))
+    said = answer_of("check", str(dance))
+    assert "Nothing fails." in said
+    assert "handles 0, 1, 2, 3, 4" in said
+
+
+def test_a_single_handle_is_no_handles(dance: Path) -> None:
+    # While the head alone is on the arc, it turns away from the lane, along which the others follow more slowly.
+    bend = 'kind = "arc"\ncentre = [60, 20]\nradius = 20\nstart_angle = -1.5707963267948966\nsweep = 1.5'
+    times = DANCE.replace("start = 15", "start = 60.5").replace('venue = "yard.geojson"', "stop = 61")
+    dance.write_text(f"{times}\n[[path.pieces]]\n{bend}")
+    words = answer_of("check", str(dance)).splitlines()
+    (row,) = [line for line in words if "highest speed" in line]
+    assert row.rstrip().endswith("handle 0")
 
 
 def test_the_dance_is_drawn_in_its_venue(dance: Path) -> None:

@@ -137,11 +137,22 @@ def test_a_self_crossing_polygon_is_refused_with_the_place() -> None:
         Venue.from_geojson(polygon(bow))
 
 
-def test_a_hole_outside_its_polygon_is_refused_by_name() -> None:
-    with pytest.raises(
-        InvalidValue, match=r"'stage' must be a valid polygon, got a hole lies outside shell at \(40, 40\) m"
-    ):
-        Venue.from_geojson(features(feature("square", SQUARE), feature("stage", STAGE, box(40, 40, 41, 41))))
+@pytest.mark.parametrize(
+    ("rings", "words"),
+    [
+        ((STAGE, box(40, 40, 41, 41)), "a hole outside the outer ring at (40, 40) m"),
+        ((box(0, 0, 9, 9), box(2, 2, 8, 8), box(3, 3, 4, 4)), "a hole inside another hole at (3, 3) m"),
+        ((box(0, 0, 9, 9), [[0, 4], [4, 0], [9, 4], [4, 9], [0, 4]]), "an inside cut in two by rings that touch at"),
+        (([[0, 0], [5, 5], [9, 0], [9, 9], [5, 5], [0, 9], [0, 0]],), "a ring that touches itself at (5, 5) m"),
+        (([[2, 1]] * 4,), "a ring of fewer than three different points at (2, 1) m"),
+        ((box(0, 0, 9, 9), box(8, 8, 12, 12)), "a self-intersection at (8, 9) m"),
+    ],
+    ids=["hole outside", "nested holes", "cut", "touching itself", "too few points", "crossing hole"],
+)
+def test_a_polygon_that_is_none_is_refused_by_name_in_plain_words(rings: tuple, words: str) -> None:
+    with pytest.raises(InvalidValue) as e:
+        Venue.from_geojson(features(feature("square", SQUARE), feature("stage", *rings)))
+    assert e.value.message.startswith(f"venue: 'stage' must be a valid polygon, got {words}")
 
 
 def test_endless_nesting_is_refused() -> None:
