@@ -22,8 +22,9 @@ from core import (
     first_contact,
     minimum_pitch,
     run_end,
+    turn,
 )
-from core.search import BRACKET, MARGIN_MAX
+from core.search import BRACKET, MARGIN_MAX, Search
 from tests.core.slow_search import SlowDance
 
 CASES = json.loads((Path(__file__).parents[1] / "reference" / "first_contact.json").read_text())["cases"]
@@ -265,6 +266,13 @@ def test_a_margin_between_a_graze_and_zero_is_met_at_the_graze() -> None:
         found = first_contact(Dragon(), Spiral(0.4504), margin=graze.clearance * factor)
         assert found.outcome is Outcome.CONTACT
         assert (abs(found.time - graze.time) < AROUND) is near
+
+
+def test_a_search_whose_work_is_done_gives_up() -> None:
+    search = Search(Dragon(), turn(1.7).path, 0.0, work=2e4)
+    state, found, _ = search.approach(-50.0, 100.0, 1.0)
+    assert state == "stuck"
+    assert -50.0 < found["proven"] < 100.0
 
 
 # -- margin ------------------------------------------------------------------------------------------

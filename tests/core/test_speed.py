@@ -10,15 +10,18 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+import core.speed
 from core import (
     Arc,
     Coil,
     Dragon,
+    FailureKind,
     InvalidValue,
     Line,
     Route,
     Spiral,
     Waypoints,
+    check,
     highest_speed,
     maximum_head_speed,
     run_end,
@@ -122,3 +125,14 @@ def test_towards_the_fold_of_a_spiral_the_last_instant_is_the_fastest(gap: float
     fastest = trajectory(Dragon(), Spiral(), [stop]).speed.max()
     assert found.speed == pytest.approx(fastest, rel=ROUNDING)
     assert found.speed_bracket[1] <= found.speed * (1.0 + 1e-7)
+
+
+def test_a_proof_that_takes_too_long_is_given_up_and_said_so(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(core.speed, "LINKS_BUDGET", 20)
+    span = {"start": -20.0, "stop": 40.0}
+    found = maximum_head_speed(Dragon(), TURN, SPEED["speed_limit"], **span)
+    assert found.head_speed_bracket == (None, found.head_speed)
+    report = check(Dragon(), TURN, speed_limit=2.0, **span)
+    assert report.highest_speed is not None
+    assert report.highest_speed.speed_bracket[1] is None
+    assert [failure.kind for failure in report.failures] == [FailureKind.UNDECIDED]
