@@ -150,8 +150,8 @@ def first_contact(
     head_speed: [m/s]; margin: [m], the clearance required; contact means separation <= margin
     start, stop: the times between which to look [s]; None for the end of the run
     returns: see FirstContact; times good to 1e-10 s at 1 m/s, bracketed by [proven clear up to, overlapping at], no
-        wider than 1e-9 s but where an arc length itself is not that good (beyond 1e6 m), and within about 1e-6 m of a
-        graze along waypoints or where a second pair meets at once
+        wider than 1e-9 s but where an arc length or a time itself is not that good (beyond 1e6 m, below 1e-3 m/s), and
+        within about 1e-6 m of a graze along waypoints, behind bench 60, or where a second pair meets at once
     raises: InvalidValue; OutsideRun for a stop after the end of the run
     source: the model of Yang et al., sections 2.4 and 2.5, whose times differ: see app/paper.py
 

@@ -14,6 +14,7 @@ from typing import NamedTuple
 import numpy as np
 
 from core import kernels
+from core.kernels.constants import PIECE, PLACE, SPIRAL, TX, UX
 from core.search import Search
 
 DIGITS = 40
@@ -22,8 +23,12 @@ NEGLIGIBLE = Decimal("1e-34")
 # Intervals shorter than this prove nothing [m].
 SHORTEST = 1e-13
 TWO_PI = Decimal("6.2831853071795864769252867665590057683943387987502")
-# Columns of a chain row of the kernels.
-TANGENT, PLACE, LINK, PIECE = slice(2, 4), 4, slice(8, 10), 11
+# Pairs up to this bench are followed, a third of a millisecond for each handle and instant [1], and so many intervals
+# are tried before a proof is given up: about a second in all.
+LAST_BENCH = 60
+INTERVALS_MAX = 60
+# Columns of a chain row of the kernels that belong together.
+TANGENT, LINK = slice(TX, TX + 2), slice(UX, UX + 2)
 
 Vector = tuple[Decimal, Decimal]
 
@@ -48,17 +53,17 @@ class Axis(NamedTuple):
 class Pair:
     """Two benches of a search: where they are, and how far apart.
 
-    can_follow: the path has no curve through waypoints
+    can_follow: the path has no curve through waypoints, and the pair is not further back than LAST_BENCH
     """
 
     def __init__(self, search: Search, pair: tuple[int, int]) -> None:
         self.search, self.pair = search, pair
-        spiral = [2, 0, 0, 0, 0, 0, 0, search.growth, 0, -1, search.place]  # one coil inwards, s = travel
+        spiral = [SPIRAL, 0, 0, 0, 0, 0, 0, search.growth, 0, -1, search.place]  # one coil inwards, s = travel
         self.pieces: list[list[Decimal]] = [
             [Decimal(number) for number in row] for row in (search.pieces.tolist() or [spiral])
         ]
         names = {kernels.PIECE_KINDS[int(row[0])] for row in self.pieces}
-        self.can_follow = not names & {"cubic", "crest"}
+        self.can_follow = pair[1] <= LAST_BENCH and not names & {"cubic", "crest"}
 
     def benches(self, travel: Decimal) -> tuple[Bench, Bench]:
         """The two benches with the head at a travel [m]."""
@@ -89,6 +94,7 @@ class Pair:
         """Are the two proven to be further apart than the margin from one travel to another [m]?"""
         search, bends, margin = self.search, np.empty(2), Decimal(self.search.margin)
         a, b = self.pair
+        tried = 0
         while start < stop:
             here = self.benches(Decimal(start))
             h = stop - start
@@ -102,7 +108,8 @@ class Pair:
                 if least > Decimal(bends[axis.owner] * h * h / 8.0):
                     break
                 h *= 0.5
-                if h < SHORTEST:
+                tried += 1
+                if h < SHORTEST or tried > INTERVALS_MAX:
                     return False
             start = start + h if start + h < stop else stop
         return True

@@ -29,9 +29,8 @@ TIED = 1e-9
 
 @dataclass(frozen=True, slots=True)
 class HighestSpeed:
-    """speed: the highest found [m/s]; speed_bracket: (found, proven not to be exceeded: None where the proof was given
-    up) [m/s]; time [s];
-    handles: those that reach it together."""
+    """speed: the highest found [m/s]; time [s]; handles: those that reach it together
+    speed_bracket: (found, proven not to be exceeded: None where the proof was given up) [m/s]"""
 
     speed: float
     speed_bracket: tuple[float, float | None]
@@ -41,8 +40,8 @@ class HighestSpeed:
 
 @dataclass(frozen=True, slots=True)
 class MaximumHeadSpeed:
-    """head_speed: the largest [m/s]; head_speed_bracket: (proven to keep the limit: None where the proof
-    was given up, found to reach it) [m/s]
+    """head_speed: the largest [m/s]
+    head_speed_bracket: (proven to keep the limit: None where the proof was given up, found to reach it) [m/s]
     speed_ratio: highest handle speed over head speed; handles: those that reach the limit together
     time: when they do at that head speed [s]; time_at_unit_head_speed [s]"""
 

@@ -11,7 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from core import Dragon, Outcome, Route, Spiral, Waypoints, first_contact, minimum_pitch, separation, turn
-from core.precise import DIGITS, Bench, Pair, gap_along, narrowed
+from core.precise import DIGITS, LAST_BENCH, Bench, Pair, gap_along, narrowed
 from core.precise import separation as precise_separation
 from core.search import Search
 
@@ -101,3 +101,11 @@ def test_where_a_second_pair_is_as_near_the_bracket_stays() -> None:
 def test_a_curve_through_waypoints_is_followed_in_doubles_alone() -> None:
     assert not pair_of(Route([Waypoints(((0, 0), (80, 0), (160, 30)))], start=150.0), (0, 2)).can_follow
     assert pair_of(TURN, (0, 2)).can_follow
+
+
+def test_benches_far_behind_are_followed_in_doubles_alone() -> None:
+    assert pair_of(Spiral(), (0, LAST_BENCH)).can_follow
+    assert not pair_of(Spiral(), (0, LAST_BENCH + 1)).can_follow
+    found = first_contact(Dragon(2_000, width=0.54), Spiral(start_turns=1_000))
+    assert found.outcome is Outcome.CONTACT
+    assert found.benches[1] > LAST_BENCH
