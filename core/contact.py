@@ -27,7 +27,7 @@ from core.kinematics import EndReason, RunEnd, checked_head_speed, checked_span,
 from core.paths import Spiral
 from core.precise import narrowed
 from core.route import Route
-from core.search import BRACKETS_GRAZING, MARGIN_MAX, NO_GRAZE, Search
+from core.search import BRACKETS_GRAZING, MARGIN_MAX, NO_GRAZE, TRAVEL_ROUNDING, Search
 
 # Grazes of a profile are looked for in steps of this fraction of the shortest chord [1], longer ones where the work is
 # too much (Search.samples()), and refined to this width [s].
@@ -168,8 +168,10 @@ def first_contact(
     last = search.last_travel(until * head_speed, to_fold)
     state, found, tolerance = search.approach(begin * head_speed, last, head_speed)
     narrow = BRACKETS_GRAZING[0] * min(1.0, head_speed)
-    if state == "touched" and tolerance > narrow and (narrower := narrowed(search, found, narrow)):
-        found, tolerance = narrower, narrow
+    if state == "touched" and tolerance > narrow >= TRAVEL_ROUNDING * abs(found["touching"]):
+        narrower = narrowed(search, found, narrow)
+        if narrower is not None:
+            found, tolerance = narrower, narrow
     if to_fold and (state == "reached" or (state == "stuck" and found["touching"] < 0.0)):
         state = "reached" if search.clear_to_fold(min(found["proven"], last), end) else "stuck"
     if state == "stuck":

@@ -109,3 +109,10 @@ def test_benches_far_behind_are_followed_in_doubles_alone() -> None:
     found = first_contact(Dragon(2_000, width=0.54), Spiral(start_turns=1_000))
     assert found.outcome is Outcome.CONTACT
     assert found.benches[1] > LAST_BENCH
+
+
+def test_where_a_travel_is_rounded_to_more_than_the_bracket_decimals_are_not_asked() -> None:
+    found = first_contact(Dragon(20), Spiral(0.3, 1_500), head_speed=0.01)
+    assert found.outcome is Outcome.CONTACT
+    assert found.time_bracket is not None
+    assert found.time_bracket[1] - found.time_bracket[0] > BRACKET
