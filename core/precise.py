@@ -43,7 +43,11 @@ class Bench(NamedTuple):
 
 
 class Axis(NamedTuple):
-    """A unit vector fixed in the first (0) or the second (1) bench of a pair, by its parts along it and to its left."""
+    """A unit vector fixed in the first (0) or the second (1) bench of a pair, by its parts along it and to its left.
+
+    It points to the other bench as that stood when the axis was chosen. A gap along it proves something of an interval
+    only with that sign kept: a bench that is apart on one side at its start and on the other at its end passed through.
+    """
 
     owner: int
     along: Decimal
@@ -144,18 +148,19 @@ def separation(first: Bench, second: Bench) -> tuple[Decimal, Axis]:
 
 
 def gap_along(first: Bench, second: Bench, axis: Axis) -> Decimal:
-    """Gap of two rectangles along an axis, in whichever direction the other one lies [m]; at most their distance."""
+    """Gap of two rectangles along an axis, which leads from its owner to the other one [m]; at most their distance."""
     own, other = (first, second) if axis.owner == 0 else (second, first)
     (x, y), (ux, uy) = _local(own, other.centre), other.along
     along, left = _dot(own.along, (ux, uy)), own.along[0] * uy - own.along[1] * ux
     reach = abs(axis.along) * own.half_length + abs(axis.left) * own.half_width
     reach += abs(axis.along * along + axis.left * left) * other.half_length
     reach += abs(axis.left * along - axis.along * left) * other.half_width
-    return abs(axis.along * x + axis.left * y) - reach
+    return axis.along * x + axis.left * y - reach
 
 
 _ONE, _NONE = Decimal(1), Decimal(0)
-_FACES = [Axis(owner, *parts) for owner in (0, 1) for parts in ((_ONE, _NONE), (_NONE, _ONE))]
+_NORMALS = ((_ONE, _NONE), (_NONE, _ONE), (-_ONE, _NONE), (_NONE, -_ONE))
+_FACES = [Axis(owner, *parts) for owner in (0, 1) for parts in _NORMALS]
 
 
 def _nearest_corner(owner: int, own: Bench, other: Bench) -> tuple[Decimal, Axis]:
@@ -213,8 +218,8 @@ def _cos_sin(angle: Decimal) -> Vector:
 
 # From `proven` on the gap of the pair falls until it touches: its first instant t within the margin is bisected between
 # an instant apart and one within, and what lies before t is proven as in the kernels: along an axis fixed in one of the
-# benches the gap stays above its chord by no more than K x (h - x) / 2, with the kernels' K, in as many intervals as
-# that takes. All other pairs are marched over the same stretch in doubles.
+# benches, its sign too, the gap falls below its chord by no more than K x (h - x) / 2, with the kernels' K, in as many
+# intervals as that takes. All other pairs are marched over the same stretch in doubles.
 def narrowed(search: Search, found: dict[str, float], half: float) -> dict[str, float] | None:
     """A contact that was found in a wide bracket, in one of half width `half` [m]; None where that is not proven.
 

@@ -69,6 +69,27 @@ def test_rectangles_are_as_far_apart_as_in_doubles(a: tuple[float, ...], b: tupl
     assert float(gap_along(first, second, axis)) == pytest.approx(float(distance), rel=0, abs=DOUBLE)
 
 
+@pytest.mark.parametrize("owner", [0, 1])
+@pytest.mark.parametrize("across", [Decimal(0), Decimal("0.1")], ids=["faces", "corners"])
+def test_a_bench_that_passed_through_the_other_is_not_apart_along_the_axis_of_its_former_side(
+    owner: int, across: Decimal
+) -> None:
+    """An axis chosen while the other bench lies to the left says nothing good of it once it lies to the right."""
+
+    def bench(x: Decimal, y: Decimal) -> Bench:
+        return Bench((x, y), (Decimal(1), Decimal(0)), Decimal(1), Decimal("0.2"))
+
+    resting = bench(Decimal(0), Decimal(0))
+    sides = [bench(30 * across, Decimal(2)), bench(30 * across, Decimal(-2))]
+    left, right = ((resting, side) if owner == 0 else (side, resting) for side in sides)
+    with localcontext() as context:
+        context.prec = DIGITS
+        distance, axis = precise_separation(*left)
+        assert abs(gap_along(*left, axis) - distance) < PRECISE
+        assert gap_along(*right, axis) < 0
+        assert abs(precise_separation(*right)[0] - distance) < PRECISE
+
+
 @pytest.mark.parametrize("margin", [0.0, 0.05])
 @pytest.mark.parametrize("below", [1e-11, 1e-9, 1e-7])
 @pytest.mark.parametrize("head_speed", [0.01, 1.0, 2.0])
