@@ -2,7 +2,8 @@ cimport cython
 from core.kernels.constants cimport *
 from core.kernels.spiral cimport first_root, half_slope
 
-cdef int FOLD_SAMPLES
+cdef double CREST_DELTA
+cdef double FOLDING_CHORD2
 cdef double ARRIVAL
 
 cdef double theta_of_delta(double delta, double chord2) noexcept nogil

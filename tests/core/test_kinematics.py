@@ -239,6 +239,49 @@ def test_the_reference_agrees_on_every_fold() -> None:
         assert end.time == pytest.approx(case["fold_time"], rel=0, abs=1e-9), case["name"]
 
 
+def sampled_fold(chord2: float) -> float | None:
+    """Where theta first stops falling along f = chord^2 as delta grows from pi, None if nowhere: two scans, the second
+    around the least slope of the first."""
+
+    def theta_and_slope(delta: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        rise = 1.0 - np.cos(delta)
+        theta = np.sqrt(0.25 * delta**2 + np.maximum(chord2 - delta**2, 0.0) / (2.0 * rise)) - 0.5 * delta
+        return theta, delta + theta * rise + theta * (theta + delta) * np.sin(delta)
+
+    low, high = math.pi, min(2.0 * math.pi, math.sqrt(chord2))
+    for _ in range(2):
+        delta = np.linspace(low, high, 200_001)[1:-1]
+        theta, slope = theta_and_slope(delta)
+        if (slope < 0.0).any():
+            return float(theta[int(np.argmax(slope < 0.0))])
+        least = int(slope.argmin())
+        low, high = delta[max(least - 2, 0)], delta[min(least + 2, delta.size - 1)]
+    return None
+
+
+# The chord, in units of growth squared, from which on a bench folds: core/kernels/fold.py [1].
+FOLDING = 33.44973623331110255
+# theta is flat at the fold: a sample beside it is good to this [rad].
+BESIDE_FOLD = 1e-8
+
+
+@pytest.mark.parametrize("excess", [-20.0, -1.0, -1e-6, 1e-8, 1e-7, 1e-6, 3e-6, 1e-5, 1e-3, 0.1, 1.0, 7.0, 100.0, 1e5])
+def test_a_bench_folds_where_dense_samples_see_theta_stop_falling(excess: float) -> None:
+    sampled = sampled_fold(FOLDING + excess)
+    assert (sampled is None) == (excess < 0.0)
+    fold = kernels.fold_theta(FOLDING + excess)
+    assert fold == pytest.approx(sampled or 0.0, rel=BESIDE_FOLD, abs=0.0)
+
+
+def test_a_chord_that_just_folds_ends_the_run_before_the_centre() -> None:
+    """256 samples of delta missed that theta stops falling, and rises, between two of them."""
+    growth = 0.5
+    chord = growth * math.sqrt(FOLDING + 1e-6)
+    end = run_end(Dragon(1, chord, chord, 0.1, 0.0), Spiral(2.0 * math.pi * growth, 3.0))
+    assert end.reason is EndReason.FOLD
+    assert end.theta == pytest.approx(sampled_fold(FOLDING + 1e-6), rel=BESIDE_FOLD)
+
+
 @pytest.mark.parametrize("seed", range(12))
 def test_a_run_of_unlike_benches_ends_where_the_slow_chain_stops(seed: int) -> None:
     rng = np.random.default_rng(seed)
