@@ -7,8 +7,8 @@ if not cython.compiled:  # for the compiler the same stands in the .pxd
     from core.kernels.constants import *
     from core.kernels.spiral import first_root, half_slope
 
-# The fold's delta lies between pi and this angle [rad], and chords whose square in units of growth is less than this [1]
-# never fold. Both are derived below; to more digits 4.876650491316303265 and 33.44973623331110255.
+# The fold's delta lies between pi and this angle [rad]; chords whose square in units of growth is less than the second
+# number [1] never fold. Both are derived below; to more digits 4.876650491316303265 and 33.44973623331110255.
 CREST_DELTA = 4.876650491316303
 FOLDING_CHORD2 = 33.4497362333111
 # A follower counts as arrived within this relative angle (60 bisections leave 1e-16) [1].
@@ -17,27 +17,27 @@ ARRIVAL = 1e-12
 
 # On f = chord^2 (spiral.py), theta is an explicit function of delta:
 #     theta(delta) = -delta / 2 + sqrt(delta^2 / 4 + (chord^2 - delta^2) / (2 (1 - cos delta))).
-# The chain follows it from large theta (delta small) until theta stops falling. As f_theta > 0 that is where h = f_delta
-# / 2 first vanishes along it: the fold. Up to delta = pi h > 0. With chord <= pi the head reaches the centre, where
-# delta = chord.
+# The chain follows it from large theta (delta small) until theta stops falling. As f_theta > 0 that is where
+# h = f_delta / 2 first vanishes along it: the fold. Up to delta = pi h > 0. With chord <= pi the head reaches the
+# centre, where delta = chord.
 #
 # There is at most one place to look, and it is found by bisection. With S = -sin delta > 0 and K = 1 - cos delta > 0,
 # on pi < delta < 2 pi
 #     -h = S theta^2 + (S delta - K) theta - delta
-# has the product of its roots in theta negative, so that h vanishes at one theta > 0, call it H(delta), is positive
-# below and negative above. H grows without bound towards both ends, where S falls to 0: towards pi as K / S, towards
-# 2 pi as sqrt(delta / S), because there K / S falls to 0 too. For a fixed theta, h is positive at pi and at 2 pi, its
-# slope h' falls, then rises to h'(2 pi) > 0 (spiral.py), so h has at most two zeros: H takes no value more than twice.
-# A continuous function that is unbounded at both ends and takes no value more than twice falls up to one point and rises
-# from there: if it did not fall strictly up to its least value, at D, some a < b < D had H(a) <= H(b), and a value
-# between H(a) and H(b) (or equal to both) would be taken before a or at it, between a and b or at b, after b up to D or
-# at it, or once more beyond D: three times at least.
+# has the product of its roots in theta negative: h vanishes at one theta > 0, call it H(delta), is positive below it
+# and negative above. H grows without bound towards both ends, where S falls to 0: towards pi as K / S, towards 2 pi as
+# sqrt(delta / S), because there K / S falls to 0 too. For a fixed theta, h is positive at pi and at 2 pi, and its slope
+# h' falls, then rises to h'(2 pi) > 0 (spiral.py), so h has at most two zeros: H takes no value more than twice. Hence
+# H falls strictly up to its least value, at D, and rises strictly from there. For if a < b < D had H(a) < H(b), a value
+# between these two would be taken before a, between a and b, between b and D and beyond D; if they had H(a) = H(b),
+# that value would be taken at a, at b, and at D or beyond it. From D to 2 pi the same holds from the other side. Now
 #     C(delta) = f(H(delta), delta)   has   C' = f_theta H' + f_delta = f_theta H',
-# so it falls up to D too and rises from there, from no bound to C(D) and on to its limit (2 pi)^2. Where the chain has
-# chord^2 = f(theta(delta), delta), f grows with theta, so
+# so it falls up to D too and rises from there: from no bound to C(D) and on to its limit (2 pi)^2. Along the chain
+# chord^2 = f(theta(delta), delta), and f grows with theta, so
 #     h(theta(delta), delta) > 0   <=>   theta(delta) < H(delta)   <=>   chord^2 < C(delta).
-# Hence with chord^2 < C(D) h stays positive: no fold. With more, h changes sign once on (pi, D], from + to -, and that
-# change is the first: the fold. (From D on it may change back; the chain is gone by then.) D and C(D) depend on nothing.
+# Hence with chord^2 < C(D) h stays positive: no fold. With more, h changes sign once on (pi, D], from + to -, and this
+# is its first change: the fold. (From D on it may change back, when the chain is gone.) D and C(D) are two numbers that
+# depend on nothing.
 
 
 def theta_of_delta(delta, chord2):
