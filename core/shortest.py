@@ -39,6 +39,9 @@ RADIUS_FACTOR = 1.1
 RADIUS_MAX = 1e4
 # No arc under a chord is longer by more [1].
 STRETCH = 0.5 * math.pi
+# The foot of the perpendicular from the centre on a chord lies no further than this times the growth from the middle of
+# the chord, where ring_least() says anything (core/kernels/rings.py) [1].
+FOOT = 1.67
 # Bounds must exceed the margin by this, far above their rounding [m].
 CLEARLY = 1e-6
 # A longer coil than needed by this part ends after the instant asked for also in rounding [1].
@@ -182,11 +185,9 @@ def _touch(found: FirstContact, zero: float) -> Touch:
 # and no bench lies beside another of its turn.
 #
 # A bench with a handle within `rings` has its other one on the coil not further out than pi c / 2 of arc, as no arc
-# under a chord is longer, and so no point further out than that radius + o + w / 2. A bench that stands on a coil, its
-# handles from r outwards, has none further in than sqrt(r^2 - c^2 / 4) - w / 2. With r such that the latter is larger
-# by the margin, nothing comes near a bench that is on the coil outwards from r: the leading benches need not be
-# followed further. Until then nothing on the coil inwards comes near them that is likewise beyond their outermost
-# point.
+# under a chord is longer, and so no point further out than that radius + o + w / 2. From _beyond() of that radius and
+# the margin outwards nothing comes near a bench on the coil: the leading benches need not be followed further. Until
+# then nothing on the coil inwards comes near them that is likewise beyond their outermost point.
 def _way(dragon: Dragon, danced: Turn, margin: float) -> tuple[float, Dragon]:
     """How far the head must be followed from the entry [m], and the benches that matter until then."""
     growth, chords = danced.pitch / (2.0 * math.pi), dragon.chords
@@ -198,8 +199,7 @@ def _way(dragon: Dragon, danced: Turn, margin: float) -> tuple[float, Dragon]:
 
     def beyond(handle: float) -> float:
         """Arc of the coil from the entry to where benches are clear of all whose handles are within a radius [m]."""
-        points = handle + overhang + half
-        return _arc(danced, math.hypot(points + margin + half + CLEARLY, 0.5 * longest))
+        return _arc(danced, _beyond(dragon, growth, handle + overhang + half + margin + CLEARLY))
 
     inner = growth * kernels.spiral_theta((_arc(danced, rings) - _arc(danced, 0.0) + STRETCH * longest) / growth)
     leaders = STRETCH * float(chords[: dragon.uniform_from + 1].sum())
@@ -210,6 +210,18 @@ def _way(dragon: Dragon, danced: Turn, margin: float) -> tuple[float, Dragon]:
     count = max(int(np.searchsorted(np.cumsum(chords), behind)) + 2, dragon.uniform_from + 2)
     front = Dragon.of(dragon.lengths[:count], dragon.widths[:count], dragon.overhangs[:count])
     return danced.length + out, front
+
+
+def _beyond(dragon: Dragon, growth: float, radius: float) -> float:
+    """A radius such that every bench whose handles are on a coil from there outwards lies wholly outside `radius` [m].
+
+    sqrt((radius + w / 2)^2 + c^2 / 4), but only where the foot of the perpendicular from the centre is no further from
+    the inner handle than c / 2; else by the triangle inequality: core/kernels/rings.py
+    """
+    chord, overhang = float(dragon.chords.max()), float(dragon.overhangs.max())
+    half, shortest = 0.5 * float(dragon.widths.max()), float(dragon.chords.min())
+    ring = np.array([0.0, chord, shortest, overhang, half, chord, overhang, half, -1.0, -1.0])
+    return float(kernels.radius_beyond(growth, radius, ring))
 
 
 def _arc(danced: Turn, radius: float) -> float:
@@ -223,11 +235,12 @@ def _clear_rings(dragon: Dragon, danced: Turn, margin: float) -> float | None:
     growth, chords = danced.pitch / (2.0 * math.pi), dragon.chords
     longest, shortest = float(chords.max()), float(chords.min())
     overhang, half = float(dragon.overhangs.max()), 0.5 * float(dragon.widths.max())
+    foot = max(0.5 * longest, FOOT * growth)
     radius = max(math.hypot(*c) + r for c, r in zip(danced.centres, danced.radii, strict=True))
     while radius <= RADIUS_MAX:
         sizes = (longest, shortest, overhang, half, longest, half)
         if kernels.ring_least(growth, growth, radius, *sizes) > margin:
-            d = math.sqrt(radius * radius - 0.25 * longest * longest)
+            d = math.sqrt(radius * radius - foot * foot)
             inner = d - half
             q = 1.0 / d + 2.0 * growth * (0.5 * longest + 1.67 * growth + overhang) / d**3
             bows = 0.5 * q * overhang * (overhang + longest) + 0.125 * q * longest * longest

@@ -188,6 +188,26 @@ def poses_on(coil: Spiral, turned: float, count: int, radius: float) -> np.ndarr
     return shapely.polygons(corners(poses, np.stack([dragon.lengths, dragon.widths], axis=-1)))
 
 
+# Where the growth exceeds the chord, the foot of the perpendicular from the centre lies in front of the inner handle,
+# and an overhang on that side reaches centimetres further in than the chord does.
+@pytest.mark.parametrize("radius", [3.0, 8.0, 20.0])
+@pytest.mark.parametrize(
+    ("pitch", "chord", "overhang"),
+    [(0.6, 1.65, 0.275), (3.0, 0.5, 0.2), (6.0, 0.5, 0.2), (9.0, 0.5, 0.24), (12.0, 0.5, 0.2), (9.9, 0.3, 0.14)],
+)
+def test_benches_said_to_stand_wholly_outside_a_radius_do(
+    pitch: float, chord: float, overhang: float, radius: float
+) -> None:
+    dragon = Dragon(4, chord + 2.0 * overhang, chord + 2.0 * overhang, 0.05, overhang)
+    beyond = core.shortest._beyond(dragon, pitch / (2.0 * math.pi), radius)
+    sizes = np.stack([dragon.lengths, dragon.widths], axis=-1)
+    for further in np.linspace(0.0, pitch, 5):
+        handles = trajectory(dragon, Spiral(pitch, (beyond + further) / pitch), [0.0]).position[0]
+        benches = shapely.polygons(corners(bench_poses(handles), sizes))
+        assert shapely.distance(benches, shapely.Point(0.0, 0.0)).min() >= radius
+    assert beyond < radius + chord + overhang
+
+
 @pytest.mark.parametrize("pitch", [0.9, 1.2, 1.7, 3.0])
 def test_two_coils_are_apart_by_more_than_the_margin_where_they_are_said_to_be(pitch: float) -> None:
     danced, dragon = turn(pitch), Dragon(benches=60, head_length=2.2)
