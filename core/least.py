@@ -8,7 +8,7 @@ import numpy as np
 
 from core.contact import DIP_WIDTH, PROFILE_STEP
 from core.dragon import Dragon
-from core.kinematics import EndReason, checked_head_speed, checked_span, run_end
+from core.kinematics import EndReason, RunEnd, checked_head_speed, checked_span, run_end
 from core.paths import Spiral
 from core.route import Route
 from core.search import NEAR_WORK_BUDGET, Search
@@ -63,9 +63,8 @@ def least_clearance(
     to_fold = until >= end.time and end.reason is EndReason.FOLD
     search = Search(dragon, path, 0.0, work=NEAR_WORK_BUDGET)
     last = search.last_travel(until * head_speed, to_fold)
-    (distance, travel, pair), at_least = least_over(search, begin * head_speed, last, head_speed)
-    if to_fold and at_least is not None and distance > 0.0:
-        at_least = min(at_least, max(0.0, search.clearance(last)[0] - search.motion_left(last, end)))
+    fold = end if to_fold else None
+    (distance, travel, pair), at_least = least_over(search, begin * head_speed, last, head_speed, fold)
     return LeastClearance(distance, at_least, travel / head_speed, pair)
 
 
@@ -78,13 +77,17 @@ def first_pair(found: dict[str, float]) -> Pair:
 # width either ends, and so proves that nothing comes nearer, or meets a lower gap: then that one is refined, and the
 # march goes on from there with the lower margin, since what was passed is clear of the higher one. A dip that ends
 # between that margin and the gap is crossed in steps far shorter than it is wide, so the march refines it.
-def least_over(search: Search, begin: float, until: float, head_speed: float) -> tuple[Dip, float | None]:
+def least_over(
+    search: Search, begin: float, until: float, head_speed: float, fold: RunEnd | None = None
+) -> tuple[Dip, float | None]:
     """The least gap of the search's pairs between two travels of the head, and what is proven of it [m].
 
     A gap of 0 stands for the first touch. The search's margin is another one afterwards.
+    fold: where the run ends, if right after `until` and at a fold. Steps shrink to nothing before it, where handles
+        are fast without bound, so a bound on the motion left takes the place of the last ones: Search.least_to_fold()
     """
     best = _sampled(search, begin, until)
-    proven_to = begin
+    proven_to, proven = begin, None
     for width in PROOF_WIDTHS:
         for _ in range(ROUNDS):
             if best[0] <= 0.0:
@@ -95,15 +98,19 @@ def least_over(search: Search, begin: float, until: float, head_speed: float) ->
             graze = found["graze_gap"]
             if graze < best[0]:
                 best = (graze, found["graze_travel"], (int(found["graze_first"]), int(found["graze_second"])))
-            if state == "reached":
-                return best, margin
-            if state == "stuck":
+            if state in ("reached", "stuck"):
+                left = margin if state == "reached" else None
+                if fold is not None:
+                    left = search.least_to_fold(min(found["proven"], until), fold)
+                if left is not None and left >= margin:
+                    return best, margin
+                proven = max(proven or 0.0, left or 0.0) or None
                 break
             proven_to = max(proven_to, found["proven"])
             reach = PROFILE_STEP * search.extremes[1]
             touching = found["touching"]
             best = min(best, _refined(search, max(begin, touching - reach), touching, min(until, touching + reach)))
-    return best, None
+    return best, proven
 
 
 def _first_touch(search: Search, begin: float, until: float, head_speed: float, touching: Dip) -> tuple[Dip, float]:

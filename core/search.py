@@ -5,6 +5,7 @@ The proof of a march is written above the loops that carry it out: `core/kernels
 
 from __future__ import annotations
 
+import heapq
 import math
 from functools import cached_property
 
@@ -39,6 +40,10 @@ BRACKETS_GRAZING = (4.9e-10, 5e-9, 5e-8, 5e-7, 5e-6, 5e-5)
 TRAVEL_ROUNDING = 1e-15
 # The last stretch before a fold, where handle speeds grow without bound: dismissed by a bound on the motion left [m].
 FOLD_SLIVER = 1e-9
+# What is left is cut into so many stretches at most, 0.1 to 0.3 ms each.
+FOLD_STRETCHES = 200
+# Angles of handles are good to far less than this, relative [1].
+THETA_ROUNDING = 1e-12
 # No radius is known to be clear [m].
 NO_BOUND = 1e150
 # A spiral is no route.
@@ -316,23 +321,97 @@ class Search:
         )
 
     def clear_to_fold(self, travel: float, end: RunEnd) -> bool:
-        """Is the clearance after a travel more than what is left of the motion to the fold can use up?"""
-        if self.dragon.benches < 3:
-            return True
-        return self.clearance(travel)[0] > self.margin + self.motion_left(travel, end)
+        """Do all pairs stay further apart than the margin from a travel [m] to the fold?"""
+        least = self.least_to_fold(travel, end)
+        return least is not None and least > self.margin
 
-    def motion_left(self, travel: float, end: RunEnd) -> float:
-        """Bound on how far any two points of two benches approach each other from a travel to the fold [m].
+    # Towards the fold handles move as the square root of what is left of the travel, so a stretch whose bound is too
+    # low is split where a quarter of it is left: about half of its motion lies on each side.
+    def least_to_fold(self, travel: float, end: RunEnd) -> float | None:
+        """No two benches come nearer than this, or than the margin, from a travel to the fold [m]; None: not known.
 
-        Bench m = end.bench folds: from delta_L to the crest, handle m + 1 moves by at most the change of both ends'
-        angles; the handles before it move less than the head's travel rates there, those behind it less than it.
+        By FOLD_STRETCHES at most, or until the bound exceeds the margin.
         """
-        assert end.bench is not None
-        self.clearance(travel)
-        m, growth = end.bench, self.growth
-        lead, rear = self.rows[0, m, 4], self.rows[0, m + 1, 4]
-        fold = kernels.fold_theta(float((self.dragon.chords[m] / growth) ** 2))
-        swing = abs(kernels.first_crest(fold) - (rear - lead)) + abs(lead - fold)
-        moved = growth * swing * math.hypot(1.0, rear + swing)
-        share = 1.0 + (2.0 * self.extremes[2] + 2.0 * self.extremes[3]) / self.extremes[1]
-        return float(2.0 * share * moved)
+        assert end.theta is not None
+        if self.dragon.benches < 3:
+            return NO_GRAZE
+        last = self.travel_at(end.theta)
+        stretches = [(self._least_left(travel, end.theta), travel, last)]
+        while stretches[0][0] <= self.margin and len(stretches) < FOLD_STRETCHES:
+            _, start, stop = heapq.heappop(stretches)
+            middle = stop - 0.25 * (stop - start)
+            ends = (
+                (start, middle, self.theta_at(middle)),
+                (middle, stop, end.theta if stop == last else self.theta_at(stop)),
+            )
+            for begin, until, theta in ends:
+                heapq.heappush(stretches, (self._least_left(begin, theta), begin, until))
+        least = stretches[0][0]
+        return least if least > -NO_BOUND else None
+
+    # From a travel to a later one handle 0 stands in [low_0, high_0] = [theta then, theta now]. Follower and leader
+    # differ by delta(theta), which falls with theta (spiral.py), so handle k + 1 stands in
+    #     [low_k + delta(high_k), high_k + delta(low_k)],
+    # and where the curvature at low_k times half the chord is at most BEND_LIMIT (chord lemma, bounds.py) in
+    #     [low_k + delta(low_k), high_k + delta(high_k)],
+    # as the follower then moves in the direction of its leader. It goes no further than its leader there (Vogt), so
+    # once this holds for all chords that follow, no handle behind moves further than that one. A handle moves by no
+    # more than D_k, the arc between the ends of its interval. A bench (front handle a, rear handle b, chord c) turns by
+    #     turn = min((D_a + D_b) / c, k (D_a + D_b) / 2)
+    # at most, the second under the lemma, which bounds omega by k (a' + b') / 2 there; and a point of it, beyond a
+    # handle by o at most and sideways by w / 2, moves by no more than
+    #     max(D_a, D_b) + (o + w / 2) turn.
+    # Where delta folds for low_k, or rounds to a fold, the delta of the fold itself takes its place, which is larger.
+    def _least_left(self, travel: float, theta: float) -> float:
+        """No two benches come nearer than this, or than the margin, from a travel until the head is at theta [m].
+
+        Every pair's gap after that travel, less what both can still move, each bench by its own sizes; -NO_BOUND where
+        a bench that has no place in rows[0] could come near one that leads a pair.
+        """
+        gap, _ = self.clearance(travel)
+        arcs, moved = self._moved_until(theta)
+        radii = self.growth * self.rows[0, : self.room + 1, 4]
+        outside = np.flatnonzero(radii[:-1] - arcs[:-1] >= self.clear_radius)
+        leaders = int(outside[0]) if outside.size else self.room
+        if self.room < self.dragon.benches:
+            reach = (self.growth * theta * (1.0 - THETA_ROUNDING), float(radii[leaders] + arcs[leaders]), self.ring)
+            reach = kernels.leaders_reach(self.growth, *reach) + self.margin
+            if radii[-1] - arcs[-1] < kernels.radius_beyond(self.growth, reach, self.ring):
+                return -NO_BOUND
+        least = gap - 2.0 * float(moved.max())
+        if least <= self.margin:
+            least = kernels.clearance_left(leaders, self.room, self.sizes, self.rows[0], moved)
+        return float(least) - self.rounding
+
+    def _moved_until(self, theta: float) -> tuple[Floats, Floats]:
+        """How far each handle in rows[0], and any point of each bench, moves until the head is at theta at most [m]."""
+        growth, benches = self.growth, self.room
+        chords = self.sizes[:benches, 0]
+        longest_behind = np.maximum.accumulate(chords[::-1])[::-1].tolist()
+        low, high = theta * (1.0 - THETA_ROUNDING), float(self.rows[0, 0, 4]) * (1.0 + THETA_ROUNDING)
+        arcs, bends = np.empty(benches + 1), np.full(benches, NO_BOUND)
+        for k in range(benches + 1):
+            arcs[k] = growth * (high - low) * math.hypot(1.0, high)
+            if k == benches:
+                break
+            curvature = kernels.spiral_curvature(low) / growth
+            if 0.5 * curvature * longest_behind[k] <= kernels.BEND_LIMIT:
+                arcs[k:], bends[k:] = arcs[k], curvature
+                break
+            inner, outer = self._deltas(low, high, float(chords[k]))
+            if 0.5 * curvature * chords[k] <= kernels.BEND_LIMIT:
+                inner, outer, bends[k] = outer, inner, curvature
+            low, high = low + inner, high + outer
+        both = arcs[:-1] + arcs[1:]
+        turned = both * np.minimum(1.0 / chords, 0.5 * bends)
+        over = self.sizes[:benches, 1] - 0.5 * chords + self.sizes[:benches, 2]
+        return arcs, np.maximum(arcs[:-1], arcs[1:]) + over * turned
+
+    def _deltas(self, low: float, high: float, chord: float) -> tuple[float, float]:
+        """delta of a follower whose leader stands at high, and at low [rad]; where there is none, that of the fold."""
+        chord2 = (chord / self.growth) ** 2
+        inner, outer = (float(kernels.first_root(theta, chord2)) for theta in (high, low))
+        if min(inner, outer) < 0.0:
+            fold = float(kernels.first_crest(kernels.fold_theta(chord2)))
+            inner, outer = (fold if delta < 0.0 else delta for delta in (inner, outer))
+        return inner, outer

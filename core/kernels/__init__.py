@@ -20,7 +20,7 @@ speed        the highest speed
 from core.kernels.bounds import motion_bounds
 from core.kernels.boxes import BOXES_PER_LEAF, grow_tree, meeting_pairs
 from core.kernels.chain import route_tail, route_trajectory
-from core.kernels.clearance import clearance_at, crossing, gap_at, gap_rate_at
+from core.kernels.clearance import clearance_at, clearance_left, crossing, gap_at, gap_rate_at
 from core.kernels.constants import (
     BEND_LIMIT,
     CENTRE_SPEED,

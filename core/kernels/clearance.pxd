@@ -27,6 +27,11 @@ cdef double row_clearance(
     double[:, ::1] boxes, Py_ssize_t[::1] pair
 ) noexcept nogil
 
+@cython.locals(i=cython.Py_ssize_t, j=cython.Py_ssize_t)
+cpdef double clearance_left(
+    Py_ssize_t leaders, Py_ssize_t benches, double[:, ::1] sizes, double[:, ::1] chain, double[::1] moved
+) noexcept nogil
+
 cpdef double clearance_at(
     double growth, const double[:, ::1] pieces, double place, Py_ssize_t benches, Py_ssize_t leaders,
     Py_ssize_t statics, double[:, ::1] sizes, double[:, ::1] chain, double[:, ::1] boxes, Py_ssize_t[::1] pair

@@ -88,6 +88,22 @@ def row_clearance(growth, active, handles, statics, sizes, chain, boxes, pair):
     return best
 
 
+def clearance_left(leaders, benches, sizes, chain, moved):
+    """The least, over pairs led by the first `leaders` benches, of a separation less what both benches still move [m].
+
+    moved: (benches,) [m]; FREE without pairs
+    """
+    best = FREE
+    for i in range(leaders):
+        for j in range(i + 2, benches):
+            dx = chain[j, MX] - chain[i, MX]
+            dy = chain[j, MY] - chain[i, MY]
+            far = sizes[i, RADIUS] + sizes[j, RADIUS] + moved[i] + moved[j] + best
+            if far > 0.0 and dx * dx + dy * dy <= far * far:
+                best = min(best, row_gap(i, j, sizes, chain) - moved[i] - moved[j])
+    return best
+
+
 def clearance_at(growth, pieces, place, benches, leaders, statics, sizes, chain, boxes, pair):
     """Clearance with the head at a place over all pairs led by the first `leaders` benches [m]; the pair in pair[1],
     pair[2]; FREE without pairs.
