@@ -16,6 +16,7 @@ from core import (
     Arc,
     Coil,
     Dragon,
+    EndReason,
     FailureKind,
     InvalidValue,
     Line,
@@ -30,11 +31,13 @@ from core import (
     highest_speed,
     least_clearance,
     maximum_head_speed,
+    run_end,
     sharpest_bend,
     trajectory,
     turn,
     venue_clearance,
 )
+from core.least import PROOF_WIDTHS
 
 BEND_LIMIT = 0.999  # half a chord over the radius of the tightest bend that a route may have [1]
 REFERENCE = Path(__file__).parents[1] / "reference"
@@ -279,6 +282,29 @@ def test_the_least_clearance_is_below_dense_samples_and_proven(
     there = clearance_profile(dragon, path, [least.time])
     assert there.clearance[0] == pytest.approx(least.distance, abs=1e-12)
     assert tuple(there.benches[0]) == least.benches
+
+
+# Beyond the width of the proof: its own rounding [m].
+PROOF_ROUNDING = 1e-9
+
+
+@pytest.mark.parametrize("pitch", [0.7, 0.8, 0.9, 1.2])
+def test_the_least_clearance_of_a_run_to_its_fold_is_proven(pitch: float) -> None:
+    least = least_clearance(Dragon(), Spiral(pitch))
+    end = run_end(Dragon(), Spiral(pitch))
+    assert end.reason is EndReason.FOLD
+    assert least is not None
+    assert least.at_least is not None
+    assert 0.0 < least.distance - least.at_least <= PROOF_WIDTHS[0] + PROOF_ROUNDING
+    towards_the_fold = end.time * (1.0 - np.linspace(1.0, 0.0, 400) ** 4)
+    assert least.at_least <= clearance_profile(Dragon(), Spiral(pitch), towards_the_fold).clearance.min()
+
+
+def test_a_least_clearance_that_takes_more_steps_than_a_search_may_is_proven_within_a_millimetre() -> None:
+    least = least_clearance(Dragon(20), Spiral(2.0, 6.0))
+    assert least is not None
+    assert least.at_least is not None
+    assert 0.0 < least.distance - least.at_least <= PROOF_WIDTHS[1] + PROOF_ROUNDING
 
 
 def test_a_first_touch_is_a_least_clearance_of_zero() -> None:
