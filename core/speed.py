@@ -16,10 +16,14 @@ from core.search import Search
 
 # Every handle is proven to stay below this much above the highest rate found [1]; the rate itself is good to 1e-12.
 RATE_TOLERANCE = 1e-9
-# Rates are first sampled in steps of this part of the longest chord [1].
+# Rates are first sampled in steps of this part of the longest chord [1] ...
 SAMPLE_STEP = 0.5
+# ... or in as many as take so many links of chains, on ways of many kilometres [1].
+SAMPLED_LINKS = 1_000_000
+SAMPLES_MIN = 16
 # The tolerance grows fourfold after so many links of chains, 15 to 250 ms, so that nearly equal peaks of many handles
-# end in a wider bracket instead of a long search; the turn of the contest takes about 30,000 over 200 s.
+# end in a wider bracket instead of a long search; the turn of the contest takes about 30,000 over 200 s. An interval
+# counts as twenty links at least (core/kernels/speed.py), and twelve times the tolerance may grow: no search is longer.
 LINKS_BUDGET = 250_000
 # With a tolerance of more than this the proof is given up [1]: hundreds of benches on kilometres of winding curve.
 LOOSEST_TOLERANCE = 1e-2
@@ -82,29 +86,36 @@ def highest_speed(
     begin, until = checked_span(dragon, path, start, stop, end, head_speed)
     search = Search(dragon, path, 0.0)
     search.resize(dragon.benches)
-    out = np.empty(4)
+    rate, upper, travel, _ = peak_over(search, begin * head_speed, until * head_speed)
+    rates = np.abs(search.rates(travel))
+    tied = tuple(int(k) for k in np.flatnonzero(rates >= rate * (1.0 - TIED)))
+    proven = upper * head_speed if upper < kernels.FREE else None
+    return HighestSpeed(rate * head_speed, (rate * head_speed, proven), travel / head_speed, tied)
+
+
+def peak_over(search: Search, begin: float, until: float) -> tuple[float, float, float, float]:
+    """kernels.peak_rate() between two travels of the head [m]: the rate, its upper bound, the travel, the intervals."""
+    benches, out = search.dragon.benches, np.empty(4)
+    samples = max(SAMPLES_MIN, SAMPLED_LINKS // (benches + 1))
     kernels.peak_rate(
         search.growth,
         search.pieces,
         search.place,
-        begin * head_speed,
-        until * head_speed,
-        SAMPLE_STEP * float(search.extremes[0]),
+        begin,
+        until,
+        max(SAMPLE_STEP * float(search.extremes[0]), (until - begin) / samples),
         RATE_TOLERANCE,
         LOOSEST_TOLERANCE,
         LINKS_BUDGET,
-        dragon.benches,
+        benches,
         _calm(search),
         search.sizes,
         search.rows,
         search.motion,
         out,
     )
-    rate, upper, travel, _ = out.tolist()
-    rates = np.abs(search.rates(travel))
-    tied = tuple(int(k) for k in np.flatnonzero(rates >= rate * (1.0 - TIED)))
-    proven = upper * head_speed if upper < kernels.FREE else None
-    return HighestSpeed(rate * head_speed, (rate * head_speed, proven), travel / head_speed, tied)
+    rate, upper, travel, intervals = out.tolist()
+    return rate, upper, travel, intervals
 
 
 def _calm(search: Search) -> float:

@@ -1,13 +1,16 @@
 cimport cython
 from core.kernels.constants cimport *
-from core.kernels.spiral cimport extend_chain, spiral_theta, start_chain
+from core.kernels.spiral cimport extend_chain, spiral_curvature, spiral_theta, start_chain, steepest_bend
 from core.kernels.route cimport extend_route, start_route
 from core.kernels.chain cimport extend
 from core.kernels.bounds cimport motion_bounds, route_bounds
 from core.kernels.rings cimport drift
 
+cdef double APPROACH
+cdef double LAST_SAMPLE
 cdef double NOISE
 cdef double PEAK_WIDTH
+cdef Py_ssize_t INTERVAL_LINKS
 
 cdef Py_ssize_t lively_chain(
     double growth, const double[:, ::1] pieces, double place, Py_ssize_t last, double calm, double[:, ::1] sizes,
@@ -24,12 +27,19 @@ cdef (double, Py_ssize_t) top_rate(
 ) noexcept nogil
 
 @cython.locals(i=cython.Py_ssize_t)
-cdef void climbs(Py_ssize_t last, double[:, ::1] sizes, double[:, ::1] chain) noexcept nogil
+cdef void climbs(
+    double growth, const double[:, ::1] pieces, Py_ssize_t last, double[:, ::1] sizes, double[:, ::1] chain
+) noexcept nogil
 
 @cython.locals(k=cython.Py_ssize_t)
 cdef double refined_peak(
     double growth, const double[:, ::1] pieces, double place, double low, double high, Py_ssize_t benches,
     double calm, double[:, ::1] sizes, double[:, ::1] chain
+) noexcept nogil
+
+@cython.locals(k=cython.Py_ssize_t)
+cdef void spiral_jerks(
+    double growth, double h, Py_ssize_t handles, double[:, ::1] before, double[:, ::1] after, double[:, ::1] motion
 ) noexcept nogil
 
 cdef double smooth_bound(
@@ -42,8 +52,9 @@ cdef double rate_bound(
     double[:, ::1] sizes, double[:, ::1] before, double[:, ::1] after, double[:, ::1] motion
 ) noexcept nogil
 
+@cython.locals(a=cython.Py_ssize_t, b=cython.Py_ssize_t)
 cdef bint peaks_between(
-    Py_ssize_t placed, Py_ssize_t handles, const double[:, ::1] pieces, double[:, ::1] before, double[:, ::1] after
+    Py_ssize_t placed, Py_ssize_t handles, double[:, ::1] before, double[:, ::1] after
 ) noexcept nogil
 
 @cython.locals(placed=cython.Py_ssize_t, handles=cython.Py_ssize_t, links=cython.Py_ssize_t)

@@ -9,12 +9,18 @@ if not cython.compiled:  # for the compiler the same stands in the .pxd
     from core.kernels.constants import *
     from core.kernels.rings import drift
     from core.kernels.route import extend_route, start_route
-    from core.kernels.spiral import extend_chain, spiral_theta, start_chain
+    from core.kernels.spiral import extend_chain, spiral_curvature, spiral_theta, start_chain, steepest_bend
 
+# Samples on a spiral, whose rates change ever faster towards its centre, lie nearer each other there: by this part of
+# what is left of the way [1], down to this part of a step [1].
+APPROACH = 0.25
+LAST_SAMPLE = 1e-6
 # Rates that differ by less are equal [1].
 NOISE = 1e-13
 # Width to which the place of a peak is found [m]: a kink's height is then good to 1e-11.
 PEAK_WIDTH = 1e-11
+# What an interval costs beside its links, in links [1]: bounds, and a bisection where no Newton step converges.
+INTERVAL_LINKS = 20
 
 
 # Rates are Lipschitz: |d rate / d sigma| = |s''| is bounded over an interval (bounds.py), so between two ends a rate is
@@ -57,14 +63,17 @@ def top_rate(growth, pieces, place, benches, calm, sizes, chain):
     return fabs(chain[k, RATE]), k
 
 
-def climbs(last, sizes, chain):
-    """Fills in d rate / d sigma of the handles of a chain on a route [1/m].
+def climbs(growth, pieces, last, sizes, chain):
+    """Fills in d rate / d sigma of the handles of a chain [1/m], and on a spiral, which bends clockwise, the curvature.
 
     With D = P_a - P_b twice differentiated, |D| constant, N to the left of T and signed curvature:
     b'' (D . T_b) = |D'|^2 + D . (a'' T_a + k_a a'^2 N_a - k_b b'^2 N_b),  D' = a' T_a - b' T_b.
     """
     second = 0.0
     chain[0, CLIMB] = 0.0
+    if pieces.shape[0] == 0:
+        for i in range(last + 1):
+            chain[i, CURVATURE] = -spiral_curvature(chain[i, THETA]) / growth
     for i in range(last):
         a = chain[i, RATE]
         b = chain[i + 1, RATE]
@@ -80,34 +89,64 @@ def climbs(last, sizes, chain):
 
 
 def refined_peak(growth, pieces, place, low, high, benches, calm, sizes, chain):
-    """Head travel in [low, high] where the largest rate peaks [m].
-
-    On a route by bisection on whether the fastest handle still gains (also where it stops at a kink), on a spiral,
-    where rates only grow towards the centre, the better end.
-    """
-    if pieces.shape[0] == 0:
-        return high
+    """Head travel in [low, high] where the largest rate peaks [m]: bisected on whether the fastest handle still gains,
+    which it stops to do at a kink too."""
     while high - low > PEAK_WIDTH:
         middle = 0.5 * (low + high)
+        if middle <= low or middle >= high:
+            break
         _, k = top_rate(growth, pieces, place - middle, benches, calm, sizes, chain)
-        climbs(k, sizes, chain)
-        if chain[k, CLIMB] > 0.0:
+        climbs(growth, pieces, k, sizes, chain)
+        if chain[k, CLIMB] * chain[k, RATE] > 0.0:
             low = middle
         else:
             high = middle
     return high
 
 
-# Within a part rates are smooth: with |r''| <= J a rate stays below its chord plus J h^2 / 8. Where one handle crosses
-# one joint at x = y in [0, h], r stays below p = r_0 + s_0 x + J h^2 / 2 for x <= y and below q = r_h + s_h (x - h) +
-# J h^2 / 2 for x >= y. If s_0 >= J h and s_h <= -J h it rises up to y and falls from there, so that its largest value
-# r(y) <= min(p(y), q(y)), which is largest where p and q cross.
+# Within a part rates are smooth: with |r''| <= J a rate stays below its chord plus J h^2 / 8; and where its slope at an
+# end exceeds J h, it rises or falls throughout, so that it is largest at an end. Where one handle crosses one joint at
+# x = y in [0, h], r stays below p = r_0 + s_0 x + J h^2 / 2 for x <= y and below q = r_h + s_h (x - h) + J h^2 / 2 for
+# x >= y. If s_0 >= J h and s_h <= -J h it rises up to y and falls from there, so that its largest value r(y) <=
+# min(p(y), q(y)), which is largest where p and q cross.
+#
+# On a spiral J follows from what motion_bounds() found, by "link, once more" in bounds.py, at handles no further in
+# than `inner`. There |alpha'| <= swing = k_high s' + omega for either handle, so that half an interval from the nearer
+# end the cosine of alpha_b is known from below; sines and the other cosine count as 1. A rate may change its sign, but
+# its amount too is largest at an end if it rises or falls throughout.
+
+
+def spiral_jerks(growth, h, handles, before, after, motion):
+    """Fills in bounds on |s'''| of the handles of a spiral over an interval [1/m^2]; FREE where a link may fold."""
+    jerk = 0.0
+    for k in range(handles):
+        rate_a = motion[k, RATE_HIGH]
+        rate_b = motion[k + 1, RATE_HIGH]
+        inner = min(before[k, THETA], after[k, THETA])
+        inner = max(inner - rate_a * h / growth, 0.0)
+        bend = spiral_curvature(inner) / growth
+        slope = steepest_bend(inner) / (growth * growth)
+        swing_a = bend * rate_a + motion[k, TURN]
+        swing_b = bend * rate_b + motion[k, TURN]
+        cosine = before[k + 1, TX] * before[k, UX] + before[k + 1, TY] * before[k, UY]
+        cosine = min(cosine, after[k + 1, TX] * after[k, UX] + after[k + 1, TY] * after[k, UY])
+        cosine -= 0.5 * h * swing_b
+        if cosine <= 0.0 or jerk >= FREE:
+            motion[k + 1, RATE_JERK] = jerk = FREE
+            continue
+        jerk += 2.0 * (swing_a * motion[k, RATE_RATE] + swing_b * motion[k + 1, RATE_RATE])
+        jerk += rate_a * (swing_a * swing_a + slope * rate_a * rate_a + bend * motion[k, RATE_RATE])
+        jerk += rate_b * (swing_b * swing_b + slope * rate_b * rate_b + bend * motion[k + 1, RATE_RATE])
+        jerk = (jerk + (rate_a + rate_b) * motion[k, TURN_RATE]) / cosine
+        motion[k + 1, RATE_JERK] = jerk
 
 
 def smooth_bound(start, start_slope, end, end_slope, jerk, h, kink):
     """No rate with these ends, |second derivative| <= jerk and at most this one kink exceeds this between them."""
     most = max(start, end)
     if not kink:
+        if fabs(start_slope) >= jerk * h or fabs(end_slope) >= jerk * h:
+            return most
         return most + 0.125 * jerk * h * h
     if start_slope >= jerk * h and end_slope <= -jerk * h and start_slope > end_slope:
         x = min(max((end - start - end_slope * h) / (start_slope - end_slope), 0.0), h)
@@ -122,9 +161,9 @@ def rate_bound(growth, pieces, h, handles, benches, calm, sizes, before, after, 
     upper = 1.0
     if handles == 0:
         return upper
+    climbs(growth, pieces, handles, sizes, before)
+    climbs(growth, pieces, handles, sizes, after)
     if pieces.shape[0] > 0:
-        climbs(handles, sizes, before)
-        climbs(handles, sizes, after)
         if not route_bounds(pieces, h, handles, sizes, before, after, True, motion):
             return FREE
     elif not motion_bounds(growth, h, handles, sizes, before, after, motion):
@@ -134,11 +173,19 @@ def rate_bound(growth, pieces, h, handles, benches, calm, sizes, before, after, 
         bound *= growth
         if bound - drift(motion[handles - 1, HANDLE_SPEED], h, growth, bound) < calm:
             return FREE
+    if pieces.shape[0] == 0:
+        spiral_jerks(growth, h, handles, before, after, motion)
     for k in range(1, handles + 1):
         bound = 0.5 * (fabs(before[k, RATE]) + fabs(after[k, RATE]) + motion[k, RATE_RATE] * h)
         if motion[k, RATE_HIGH] < bound:
             bound = motion[k, RATE_HIGH]
-        if pieces.shape[0] > 0 and bound > upper and motion[k, CROSSED] <= 1.0:
+        if pieces.shape[0] == 0:
+            smooth = smooth_bound(
+                fabs(before[k, RATE]), before[k, CLIMB], fabs(after[k, RATE]), after[k, CLIMB],
+                motion[k, RATE_JERK], h, False,
+            )  # fmt: skip
+            bound = min(bound, smooth)
+        elif bound > upper and motion[k, CROSSED] <= 1.0:
             smooth = smooth_bound(
                 before[k, RATE], before[k, CLIMB], after[k, RATE], after[k, CLIMB], motion[k, RATE_JERK], h,
                 motion[k, CROSSED] > 0.0,
@@ -149,11 +196,13 @@ def rate_bound(growth, pieces, h, handles, benches, calm, sizes, before, after, 
     return upper
 
 
-def peaks_between(placed, handles, pieces, before, after):
-    """Does the fastest handle of a route climb at the first of two chains, and not at the second?"""
-    if pieces.shape[0] == 0 or placed < 0 or handles < 0:
+def peaks_between(placed, handles, before, after):
+    """Does the fastest handle climb at the first of two chains, and not at the second?"""
+    if placed < 0 or handles < 0:
         return False
-    return before[fastest(placed, before), CLIMB] > 0.0 >= after[fastest(handles, after), CLIMB]
+    a = fastest(placed, before)
+    b = fastest(handles, after)
+    return before[a, CLIMB] * before[a, RATE] > 0.0 >= after[b, CLIMB] * after[b, RATE]
 
 
 def peak_rate(
@@ -161,9 +210,10 @@ def peak_rate(
 ):
     """The largest |rate| of any handle while the head travels from start to stop [m], and a proven upper bound.
 
-    Samples every `step`, refines around the best, then proves interval after interval that no rate exceeds the best by
-    more than the tolerance, which grows fourfold after every `budget` links followed, until the proof ends or is given
-    up at `loosest`; a rate found above it becomes the best. calm: as in lively_chain()
+    Samples every `step`, denser towards the centre of a spiral, refines around the best, then proves interval after
+    interval that no rate exceeds the best by more than the tolerance, which grows fourfold after every `budget` links
+    followed (an interval counts as INTERVAL_LINKS more), until the proof ends or is given up at `loosest`; a rate found
+    above it becomes the best. calm: as in lively_chain()
     out: (4,) rate, upper bound (FREE if given up), travel, intervals
     """
     before: cython.double[:, ::1] = rows[0]
@@ -174,15 +224,23 @@ def peak_rate(
     at = start
     links = 0
     with cython.nogil:
-        while travel <= stop:
+        low = high = last = start
+        h = step
+        while True:
             rate, _ = top_rate(growth, pieces, place - travel, benches, calm, sizes, spare)
             if rate > best:
                 best = rate
-                at = travel
-            travel += step
-        h = at - step if at - step > start else start
-        travel = at + step if at + step < stop else stop
-        travel = refined_peak(growth, pieces, place, h, travel, benches, calm, sizes, spare)
+                at = high = travel
+                low = last
+            elif at == last:
+                high = travel
+            if travel >= stop:
+                break
+            last = travel
+            if pieces.shape[0] == 0 and h > APPROACH * (stop - travel) and stop - travel > LAST_SAMPLE * step:
+                h = APPROACH * (stop - travel)
+            travel = travel + h if travel + h < stop else stop
+        travel = refined_peak(growth, pieces, place, low, high, benches, calm, sizes, spare)
         rate, _ = top_rate(growth, pieces, place - travel, benches, calm, sizes, spare)
         if rate > best:
             best = rate
@@ -207,7 +265,7 @@ def peak_rate(
                 if rate > best * (1.0 + NOISE):
                     best = rate
                     at = travel + h
-            links += handles
+            links += max(handles, 0) + INTERVAL_LINKS
             if links > budget:
                 links = 0
                 tolerance *= 4.0
@@ -219,7 +277,7 @@ def peak_rate(
                 continue
             if upper > out[1]:
                 out[1] = upper
-            if upper > best * (1.0 + NOISE) and peaks_between(placed, handles, pieces, before, after):
+            if upper > best * (1.0 + NOISE) and peaks_between(placed, handles, before, after):
                 peak = refined_peak(growth, pieces, place, travel, travel + h, benches, calm, sizes, spare)
                 rate, _ = top_rate(growth, pieces, place - peak, benches, calm, sizes, spare)
                 if rate > best * (1.0 + NOISE):

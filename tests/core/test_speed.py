@@ -15,6 +15,7 @@ from core import (
     Arc,
     Coil,
     Dragon,
+    EndReason,
     FailureKind,
     InvalidValue,
     Line,
@@ -28,6 +29,7 @@ from core import (
     trajectory,
     turn,
 )
+from core.search import Search
 from core.speed import RATE_TOLERANCE
 
 SPEED = json.loads((Path(__file__).parent.parent / "reference" / "maximum_head_speed.json").read_text())
@@ -125,6 +127,56 @@ def test_towards_the_fold_of_a_spiral_the_last_instant_is_the_fastest(gap: float
     fastest = trajectory(Dragon(), Spiral(), [stop]).speed.max()
     assert found.speed == pytest.approx(fastest, rel=ROUNDING)
     assert found.speed_bracket[1] <= found.speed * (1.0 + 1e-7)
+
+
+# A peak is proven in so many intervals [1]; a search follows so many links, see LINKS_BUDGET, and an interval counts as
+# so many of them at least [1].
+FEW = 5_000
+LINKS_MOST = 12 * core.speed.LINKS_BUDGET
+INTERVAL_LINKS = 20
+# A sample may exceed the highest speed found by what its proof leaves open [1].
+UNSEEN = 1e-6
+
+
+def intervals_of(dragon: Dragon, path: Spiral | Route, start: float, stop: float) -> float:
+    """How many intervals the proof of the highest speed takes, the head at 1 m/s."""
+    search = Search(dragon, path, 0.0)
+    search.resize(dragon.benches)
+    return core.speed.peak_over(search, start, stop)[3]
+
+
+# The rear handle turns back before its bench could fold, and is 3.7 times as fast as the head on its way outwards: the
+# peak is so sharp, and so near the centre, that a slope alone bounded it by nothing in a hundred thousand intervals.
+@pytest.mark.parametrize(("benches", "pitch"), [(1, 3.82), (4, 3.9), (2, 4.2)])
+def test_a_peak_beside_the_centre_is_proven_in_few_intervals(benches: int, pitch: float) -> None:
+    dragon, spiral = Dragon(benches, 2.2, 2.2, 0.3, 0.0), Spiral(pitch, 5.0)
+    end = run_end(dragon, spiral)
+    assert end.reason is EndReason.CENTRE
+    found = highest_speed(dragon, spiral)
+    assert intervals_of(dragon, spiral, 0.0, end.time) < FEW
+    speed, proven = found.speed_bracket
+    assert proven is not None
+    assert proven - speed <= 1.1 * RATE_TOLERANCE
+    near = end.time - np.concatenate([np.linspace(0.0, 2.0, 20_001), np.geomspace(1e-9, 2.0, 5_001)])
+    assert trajectory(dragon, spiral, near).speed.max() <= proven * (1.0 + ROUNDING)
+    assert trajectory(dragon, spiral, [found.time]).speed[0, found.handles[0]] == pytest.approx(speed, rel=ROUNDING)
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_the_work_of_a_search_is_bounded_and_its_bracket_true(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    benches = int(rng.integers(1, 8))
+    dragon = Dragon.of(10 ** rng.uniform(-0.5, 0.6, benches), [0.1] * benches, [0.05] * benches)
+    spiral = Spiral(10 ** rng.uniform(-0.5, 0.8), 4.0)
+    end = run_end(dragon, spiral)
+    stop = end.time * (1.0 - (end.reason is EndReason.FOLD) * 10 ** rng.uniform(-6.0, -2.0))
+    found = highest_speed(dragon, spiral, stop=stop)
+    assert INTERVAL_LINKS * intervals_of(dragon, spiral, 0.0, stop) < LINKS_MOST
+    speed, proven = found.speed_bracket
+    near = stop * (1.0 - np.concatenate([np.linspace(0.0, 1.0, 5_001), np.geomspace(1e-9, 1.0, 2_001)]))
+    seen = trajectory(dragon, spiral, near).speed.max()
+    assert proven is None or seen <= proven * (1.0 + ROUNDING)
+    assert seen <= speed * (1.0 + UNSEEN)
 
 
 def test_a_proof_that_takes_too_long_is_given_up_and_said_so(monkeypatch: pytest.MonkeyPatch) -> None:
