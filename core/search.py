@@ -12,6 +12,7 @@ from functools import cached_property
 import numpy as np
 
 from core import kernels
+from core.coils import two_coils, way_out
 from core.dragon import Dragon, Floats
 from core.kinematics import RunEnd
 from core.paths import Spiral
@@ -97,9 +98,9 @@ class Search:
         shortest, outer_shortest = columns[0].min(), outer[0].min()
         self.extremes = (longest, shortest, overhang, half_width, outer_chord, outer_half_width)
         ring = (0.0, outer_chord, outer_shortest, outer_overhang, outer_half_width)
-        self.ring = np.array([*ring, longest, overhang, half_width, *NO_PAIR])
-        self.resize(dragon.benches if isinstance(path, Route) else min(dragon.benches, 255))
+        self.ring = np.array([*ring, longest, overhang, half_width, *NO_PAIR, NO_BOUND, -NO_BOUND])
         self.use(path, margin)
+        self.resize(dragon.benches if self.follows_all else min(dragon.benches, 255))
 
     def use(self, path: Spiral | Route, margin: float) -> None:
         """Turn to another path or margin."""
@@ -107,11 +108,12 @@ class Search:
         if isinstance(path, Route):
             self.growth, self.pieces, self.place = 1.0, path.table, 0.0
             self.clear_radius = NO_BOUND
+            self.ring[10:] = self._clear_places(path)
             seen = path.position(np.linspace(path.begin, path.end, 256))
             largest = float(np.abs(seen).max()) + ARC_ROUNDING * max(abs(path.begin), abs(path.end))
         else:
             self.growth, self.pieces, self.place = path.growth, NO_PIECES, path.length
-            self.clear_radius = self._clear_radius()
+            self.clear_radius = self._clear_radius(path.growth)
             largest = min(path.growth * path.start_theta, self.clear_radius)
         self.ring[0] = self.clear_radius
         self.rounding = GAP_ROUNDING * (largest + 2.0 * self.longest)
@@ -158,18 +160,42 @@ class Search:
         alike = self.dragon.uniform_from
         return longest, float(self.dragon.chords[min(1, alike) : alike + 1].min()), *others
 
-    def _clear_radius(self) -> float:
+    @property
+    def follows_all(self) -> bool:
+        """Must a march follow all benches: on a route that says of none that it is out of reach?"""
+        return isinstance(self.path, Route) and float(self.ring[10]) >= NO_BOUND
+
+    def _clear_radius(self, growth: float) -> float:
         """The least radius, within 1e-3, from which the ring bound exceeds the margin; 1e150 if none."""
+
+        def clear(radius: float) -> bool:
+            least: float = kernels.ring_least(growth, growth, radius, *self.ring_extremes)
+            return least > self.margin
+
         high = 1.0
-        while self.ring_least(high) <= self.margin:
+        while not clear(high):
             high *= 4.0
             if high > 1e9:
                 return NO_BOUND
         low = 0.0
         while high - low > 1e-3 * high:
             middle = 0.5 * (low + high)
-            low, high = (low, middle) if self.ring_least(middle) > self.margin else (middle, high)
+            low, high = (low, middle) if clear(middle) else (middle, high)
         return high
+
+    def _clear_places(self, path: Route) -> tuple[float, float]:
+        """RING_PLACE and RING_END of the kernels [m]: 1e150 and -1e150 if not known, or where edges at rest may lie
+        anywhere."""
+        if path.tail_begin is not None or len(self.edges) or self.dragon.benches < 3:
+            return NO_BOUND, -NO_BOUND
+        first = path.table[0].tolist()
+        radius = self._clear_radius(first[7])
+        if radius >= NO_BOUND:
+            return NO_BOUND, -NO_BOUND
+        clear = min(first[2], first[1] + first[10] - first[7] * float(kernels.spiral_arc(radius / first[7])))
+        coils = two_coils(path)
+        out = None if coils is None else way_out(self.dragon, coils, self.margin)
+        return -clear, -NO_BOUND if out is None else -float(path.table[-1, 1]) - out
 
     def travel_at(self, theta: float) -> float:
         """Head travel from the start of a spiral to theta [m]."""
@@ -226,9 +252,9 @@ class Search:
 
     def others_clear(self, pair: tuple[int, int], start: float, stop: float) -> bool:
         """Are all pairs but one proven to be clear between two travels [m]?"""
-        self.ring[-2:] = pair
+        self.ring[8:10] = pair
         state, _ = self.march(stop, 0.0, start=start)
-        self.ring[-2:] = NO_PAIR
+        self.ring[8:10] = NO_PAIR
         return state == "reached"
 
     @staticmethod

@@ -20,6 +20,7 @@ from enum import StrEnum
 import numpy as np
 
 from core import kernels
+from core.coils import STRETCH, TwoCoils, beyond, way_out
 from core.contact import FirstContact, Outcome, first_contact
 from core.dragon import Dragon, checked_number, checked_size
 from core.errors import InvalidValue
@@ -34,16 +35,6 @@ ENTRY_STEP = 0.01
 ENTRY_WIDTH = 1e-9
 # turn() takes no deeper entry [m].
 ENTRY_MIN = 1e-3
-# Where the rings are clear is looked for in radii that grow by this factor [1], up to this one [m].
-RADIUS_FACTOR = 1.1
-RADIUS_MAX = 1e4
-# No arc under a chord is longer by more [1].
-STRETCH = 0.5 * math.pi
-# The foot of the perpendicular from the centre on a chord lies no further than this times the growth from the middle of
-# the chord, where ring_least() says anything (core/kernels/rings.py) [1].
-FOOT = 1.67
-# Bounds must exceed the margin by this, far above their rounding [m].
-CLEARLY = 1e-6
 # A longer coil than needed by this part ends after the instant asked for also in rounding [1].
 SPARE_TURNS = 1e-9
 
@@ -166,7 +157,7 @@ def _contact(dragon: Dragon, danced: Turn, start_turns: float, margin: float, cl
         if found.outcome is not Outcome.CLEAR:
             return _touch(found, before)
     stop, front = _way(dragon, danced, margin)
-    arc = stop - danced.length - _arc(danced, 0.0)
+    arc = stop - danced.length - _coils(danced).arc(0.0)
     turns = max(start_turns, (1.0 + SPARE_TURNS) * kernels.spiral_theta(arc / coil.growth) / (2.0 * math.pi))
     entry, radius = danced.entry_radius, danced.turning_radius
     path = turn(danced.pitch, radius, danced.ratio, start_turns=turns, entry_radius=entry).path
@@ -178,77 +169,23 @@ def _touch(found: FirstContact, zero: float) -> Touch:
     return found.benches, None if found.time is None else found.time - zero
 
 
-# Let every arc's point lie within T of the centre, |C| + r at most, and let `rings` >= T be a radius from which the
-# bounds of core/kernels/rings.py hold: two benches of one coil are apart by more than the margin (ring_least()),
-# and so are two of different coils. Those lie half a turn apart: polar angles on their own coils differ by pi (2 m + 1)
-# + x, |x| <= pi, for points in directions that differ by x, so in place of a pitch there is half of one,
-# and no bench lies beside another of its turn.
-#
-# A bench with a handle within `rings` has its other one on the coil not further out than pi c / 2 of arc, as no arc
-# under a chord is longer, and so no point further out than that radius + o + w / 2. From _beyond() of that radius and
-# the margin outwards nothing comes near a bench on the coil: the leading benches need not be followed further. Until
-# then nothing on the coil inwards comes near them that is likewise beyond their outermost point.
 def _way(dragon: Dragon, danced: Turn, margin: float) -> tuple[float, Dragon]:
-    """How far the head must be followed from the entry [m], and the benches that matter until then."""
-    growth, chords = danced.pitch / (2.0 * math.pi), dragon.chords
-    longest, overhang, half = float(chords.max()), float(dragon.overhangs.max()), 0.5 * float(dragon.widths.max())
+    """How far the head must be followed from the entry [m], and the benches that matter until then: core/coils.py."""
+    coils, chords = _coils(danced), dragon.chords
     whole = danced.length + STRETCH * float(chords.sum())
-    rings = _clear_rings(dragon, danced, margin)
-    if rings is None or STRETCH * longest >= danced.length:
+    out = way_out(dragon, coils, margin)
+    if out is None or danced.length + out >= whole:
         return whole, dragon
-
-    def beyond(handle: float) -> float:
-        """Arc of the coil from the entry to where benches are clear of all whose handles are within a radius [m]."""
-        return _arc(danced, _beyond(dragon, growth, handle + overhang + half + margin + CLEARLY))
-
-    inner = growth * kernels.spiral_theta((_arc(danced, rings) - _arc(danced, 0.0) + STRETCH * longest) / growth)
-    leaders = STRETCH * float(chords[: dragon.uniform_from + 1].sum())
-    out = beyond(inner) + leaders
-    if danced.length + out >= whole:
-        return whole, dragon
-    behind = danced.length + out + beyond(growth * kernels.spiral_theta((out - _arc(danced, 0.0)) / growth))
+    head = coils.growth * float(kernels.spiral_theta((out - coils.arc(0.0)) / coils.growth))
+    behind = danced.length + out + coils.arc(beyond(dragon, coils.growth, head, margin))
     count = max(int(np.searchsorted(np.cumsum(chords), behind)) + 2, dragon.uniform_from + 2)
     front = Dragon.of(dragon.lengths[:count], dragon.widths[:count], dragon.overhangs[:count])
     return danced.length + out, front
 
 
-def _beyond(dragon: Dragon, growth: float, radius: float) -> float:
-    """A radius such that every bench whose handles are on a coil from there outwards lies wholly outside `radius` [m].
-
-    sqrt((radius + w / 2)^2 + c^2 / 4), but only where the foot of the perpendicular from the centre is no further from
-    the inner handle than c / 2; else by the triangle inequality: core/kernels/rings.py
-    """
-    chord, overhang = float(dragon.chords.max()), float(dragon.overhangs.max())
-    half, shortest = 0.5 * float(dragon.widths.max()), float(dragon.chords.min())
-    ring = np.array([0.0, chord, shortest, overhang, half, chord, overhang, half, -1.0, -1.0])
-    return float(kernels.radius_beyond(growth, radius, ring))
-
-
-def _arc(danced: Turn, radius: float) -> float:
-    """Arc of the coil from the entry outwards to a radius [m]."""
-    growth = danced.pitch / (2.0 * math.pi)
-    return growth * float(kernels.spiral_arc(radius / growth) - kernels.spiral_arc(danced.entry_radius / growth))
-
-
-def _clear_rings(dragon: Dragon, danced: Turn, margin: float) -> float | None:
-    """A radius around the arcs from which coils are clear of themselves and of each other [m], None if not known."""
-    growth, chords = danced.pitch / (2.0 * math.pi), dragon.chords
-    longest, shortest = float(chords.max()), float(chords.min())
-    overhang, half = float(dragon.overhangs.max()), 0.5 * float(dragon.widths.max())
-    foot = max(0.5 * longest, FOOT * growth)
-    radius = max(math.hypot(*c) + r for c, r in zip(danced.centres, danced.radii, strict=True))
-    while radius <= RADIUS_MAX:
-        sizes = (longest, shortest, overhang, half, longest, half)
-        if kernels.ring_least(growth, growth, radius, *sizes) > margin:
-            d = math.sqrt(radius * radius - foot * foot)
-            inner = d - half
-            q = 1.0 / d + 2.0 * growth * (0.5 * longest + 1.67 * growth + overhang) / d**3
-            bows = 0.5 * q * overhang * (overhang + longest) + 0.125 * q * longest * longest
-            bows += 2.0 * half * math.hypot(1.0, growth / inner)
-            if math.pi * growth - bows > margin * math.hypot(1.0, 0.5 * math.pi * growth / inner):
-                return radius
-        radius *= RADIUS_FACTOR
-    return None
+def _coils(danced: Turn) -> TwoCoils:
+    extent = max(math.hypot(*c) + r for c, r in zip(danced.centres, danced.radii, strict=True))
+    return TwoCoils(danced.pitch / (2.0 * math.pi), math.pi, extent, danced.length, danced.entry_radius)
 
 
 def _refusal(radius: float, touch: Touch, margin: float) -> str:

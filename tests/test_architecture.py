@@ -41,6 +41,7 @@ ORDER = (
     "core.angle_sum",
     "core.broad_phase",
     "core.overlaps",
+    "core.coils",
     "core.search",
     "core.precise",
     "core.contact",

@@ -112,7 +112,11 @@ ALL_HALF_WIDTH = 7
 # and a pair that a march leaves out, -1 for none
 LEFT_OUT = 8
 LEFT_OUT_TOO = 9
-RING_ENTRIES = 10
+# on a route: no two benches of which the leading one's front handle stands at this place or further back can touch
+RING_PLACE = 10
+# and once a body repeats itself, nothing touches while the head is beyond this place
+RING_END = 11
+RING_ENTRIES = 12
 
 # Entries of march()'s result.
 PROVEN = 0  # nothing touches up to here [m of head travel]

@@ -1,8 +1,9 @@
 cimport cython
 from core.kernels.constants cimport *
 from core.kernels.spiral cimport extend_chain, spiral_theta, start_chain
-from core.kernels.chain cimport extend, place_chain
-from core.kernels.rings cimport drift, leaders_reach, radius_beyond
+from core.kernels.chain cimport extend
+from core.kernels.rings cimport coil_radius, coil_reach, drift, leaders_reach, radius_beyond
+from core.kernels.route cimport extend_route, start_route
 from core.kernels.pairs cimport interval_least
 from core.kernels.clearance cimport crossing, gap_at, row_clearance, row_gap
 
@@ -15,6 +16,12 @@ cdef double CROSSING_WIDTH
 @cython.locals(k=cython.Py_ssize_t)
 cdef Py_ssize_t chain_between(
     double growth, const double[:, ::1] pieces, double place, Py_ssize_t leaders, Py_ssize_t benches, double margin,
+    double allowance, double[::1] ring, double[:, ::1] sizes, double[:, ::1] chain, Py_ssize_t[::1] found
+) noexcept nogil
+
+@cython.locals(k=cython.Py_ssize_t)
+cdef Py_ssize_t route_between(
+    const double[:, ::1] pieces, double place, Py_ssize_t leaders, Py_ssize_t benches, double margin,
     double allowance, double[::1] ring, double[:, ::1] sizes, double[:, ::1] chain, Py_ssize_t[::1] found
 ) noexcept nogil
 

@@ -4,11 +4,12 @@ import cython
 from cython.cimports.libc.math import fabs
 
 if not cython.compiled:  # for the compiler the same stands in the .pxd
-    from core.kernels.chain import extend, place_chain
+    from core.kernels.chain import extend
     from core.kernels.clearance import crossing, gap_at, row_clearance, row_gap
     from core.kernels.constants import *
     from core.kernels.pairs import interval_least
-    from core.kernels.rings import drift, leaders_reach, radius_beyond
+    from core.kernels.rings import coil_radius, coil_reach, drift, leaders_reach, radius_beyond
+    from core.kernels.route import extend_route, start_route
     from core.kernels.spiral import extend_chain, spiral_theta, start_chain
 
 # Width to which the place of a graze is found [m]: 1e-10 s at 1 m/s.
@@ -30,8 +31,7 @@ def chain_between(growth, pieces, place, leaders, benches, margin, allowance, ri
     allowance: extra radius for what moves during an interval [m]
     """
     if pieces.shape[0] > 0:
-        found[0] = leaders
-        return place_chain(growth, pieces, place, benches, sizes, chain)
+        return route_between(pieces, place, leaders, benches, margin, allowance, ring, sizes, chain, found)
     theta = spiral_theta(place / growth)
     start_chain(theta, chain)
     k = extend_chain(growth, 0, leaders, ring[RING_CLEAR], sizes, chain)
@@ -40,6 +40,25 @@ def chain_between(growth, pieces, place, leaders, benches, margin, allowance, ri
         return k
     radius = leaders_reach(growth, growth * theta, growth * chain[k, THETA] + allowance, ring)
     return extend_chain(growth, k, benches, radius_beyond(growth, radius + margin, ring) + allowance, sizes, chain)
+
+
+def route_between(pieces, place, leaders, benches, margin, allowance, ring, sizes, chain, found):
+    """chain_between() on a route: as far as rings.py says where it begins with a coil inwards, else all benches."""
+    start_route(pieces, -place, chain)
+    k = leaders
+    if ring[RING_PLACE] < FREE:
+        k = 0
+        while k < leaders and chain[k, PLACE] < ring[RING_PLACE]:
+            k = extend_route(pieces, k, k + 1, 0.0, sizes, chain)
+    found[0] = k
+    if ring[RING_PLACE] >= FREE:
+        return extend_route(pieces, 0, benches, 0.0, sizes, chain)
+    if k == 0:
+        return 0
+    radius = radius_beyond(pieces[0, 7], coil_reach(pieces, k, sizes, chain) + margin + allowance, ring) + allowance
+    while k < benches and (chain[k, PIECE] > 0.0 or coil_radius(pieces, chain[k, PX], chain[k, PY]) < radius):
+        k = extend_route(pieces, k, k + 1, 0.0, sizes, chain)
+    return k
 
 
 def passed(first, last, placed, opening, chain):
@@ -126,7 +145,7 @@ def march(
             out[FIRST] = pair[1]
             out[SECOND] = pair[2]
             return TOUCHED_AT_START
-        while travel < stop:
+        while travel < stop and (at_start or place - travel > ring[RING_END]):
             out[PROVEN] = travel
             if out[STEPS] >= budget or h < rounding or h < (LEAST_STEP * tolerance if tolerance > 0.0 else LEAST_WAY):
                 return STUCK
@@ -140,7 +159,7 @@ def march(
                 followers,
                 cap,
                 margin,
-                ALLOWANCE * drift(fabs(before[1, RATE]) + 1.0, h, growth, growth * before[1, THETA]),
+                ALLOWANCE * drift(fabs(before[1, RATE]) + 1.0, h, growth, solo * before[1, THETA]),
                 ring,
                 sizes,
                 after,
@@ -284,5 +303,5 @@ def march(
                 at_start = False
                 followers = leaders if leaders < cap else cap
             h = room if room < 2.0 * h else 2.0 * h
-        out[PROVEN] = travel
+        out[PROVEN] = stop
         return REACHED

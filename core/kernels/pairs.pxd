@@ -3,7 +3,7 @@ from core.kernels.constants cimport *
 from core.kernels.rectangles cimport pair_separation
 from core.kernels.chain cimport place_chain
 from core.kernels.bounds cimport motion_bounds, route_bounds
-from core.kernels.rings cimport drift, leaders_reach, radius_beyond
+from core.kernels.rings cimport drift, leaders_reach, radius_beyond, stays_beyond
 
 cdef void row_separation(
     Py_ssize_t i, Py_ssize_t j, double[:, ::1] sizes, double[:, ::1] chain, double[::1] out

@@ -8,7 +8,7 @@ if not cython.compiled:  # for the compiler the same stands in the .pxd
     from core.kernels.chain import place_chain
     from core.kernels.constants import *
     from core.kernels.rectangles import pair_separation
-    from core.kernels.rings import drift, leaders_reach, radius_beyond
+    from core.kernels.rings import drift, leaders_reach, radius_beyond, stays_beyond
 
 # Gap of bench i along an axis e fixed in bench j: g = min over corners X of i of e . (X - M_j) - support of j, and
 #   |(e . p)''| <= |X''| + |M_j''| + 2 omega_j |X' - M_j'| + (omega_j^2 + omega_j') |p|,  p = X - M_j:  call it K.
@@ -220,7 +220,10 @@ def interval_least(
             return -FREE
     elif not motion_bounds(growth, h, handles, sizes, before, after, motion):
         return -FREE
-    if handles < benches:  # those left out must stay outside the reach of the leaders
+    if handles < benches and pieces.shape[0] > 0:
+        if not stays_beyond(pieces, active, handles, h, margin, ring, sizes, before, after, motion):
+            return -FREE
+    elif handles < benches:  # those left out must stay outside the reach of the leaders
         high = before[active, THETA] if before[active, THETA] > after[active, THETA] else after[active, THETA]
         high *= growth
         high += drift(motion[active - 1, HANDLE_SPEED], h, growth, high)

@@ -11,4 +11,17 @@ cpdef double ring_least(
     double half_width, double outer_chord, double outer_half_width, double total=*
 ) noexcept nogil
 
+cdef double coil_radius(const double[:, ::1] pieces, double x, double y) noexcept nogil
+
+@cython.locals(i=cython.Py_ssize_t)
+cdef double coil_reach(
+    const double[:, ::1] pieces, Py_ssize_t leaders, double[:, ::1] sizes, double[:, ::1] chain
+) noexcept nogil
+
+@cython.locals(i=cython.Py_ssize_t)
+cdef bint stays_beyond(
+    const double[:, ::1] pieces, Py_ssize_t leaders, Py_ssize_t handles, double h, double margin, double[::1] ring,
+    double[:, ::1] sizes, double[:, ::1] before, double[:, ::1] after, double[:, ::1] motion
+) noexcept nogil
+
 cdef double drift(double rate, double h, double growth, double radius) noexcept nogil

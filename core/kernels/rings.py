@@ -109,6 +109,49 @@ def ring_least(
     return gap if gap < same_turn else same_turn
 
 
+# A route that begins with a coil inwards, which goes on outwards behind its beginning. On a route handles only go
+# forward (route.py), so a bench whose front handle stands on that coil has always been there, and so have all behind
+# it: they stand on one spiral, and all bounds above hold of them, around the coil's centre. Hence no two benches touch
+# of which the leading one's front handle stands at RING_PLACE or further back, from where ring_least() exceeds the
+# margin; and no bench that stands on the coil with its front handle at radius_beyond(X) or further out touches one
+# within X of the centre. So only benches before RING_PLACE lead pairs, and the chain need not be laid out further than
+# beyond the reach of these.
+
+
+def coil_radius(pieces, x, y):
+    """Distance of a point from the centre of the coil that a route begins with [m]."""
+    x -= pieces[0, 5]
+    y -= pieces[0, 6]
+    return sqrt(x * x + y * y)
+
+
+def coil_reach(pieces, leaders, sizes, chain):
+    """No point of the first so many benches of a chain is further from the centre of the first coil than this [m]."""
+    reach = 0.0
+    for i in range(leaders):
+        far = coil_radius(pieces, chain[i, MX], chain[i, MY]) + sizes[i, RADIUS]
+        if far > reach:
+            reach = far
+    return reach
+
+
+def stays_beyond(pieces, leaders, handles, h, margin, ring, sizes, before, after, motion):
+    """Do the benches behind handle `handles` of a route stay beyond the reach of those that lead pairs meanwhile?
+
+    A leader's centre is at most h / 2 of travel from where it stands at one of the ends. That handle goes inwards, so
+    it is nearest to the centre at the far end.
+    """
+    reach = 0.0
+    for i in range(leaders):
+        far = max(coil_radius(pieces, before[i, MX], before[i, MY]), coil_radius(pieces, after[i, MX], after[i, MY]))
+        far += sizes[i, RADIUS] + 0.5 * h * motion[i, CENTRE_SPEED]
+        if far > reach:
+            reach = far
+    return after[handles, PIECE] == 0.0 and coil_radius(pieces, after[handles, PX], after[handles, PY]) >= (
+        radius_beyond(pieces[0, 7], reach + margin, ring)
+    )
+
+
 def drift(rate, h, growth, radius):
     """How far a handle's radius changes while it travels rate * h along the spiral [m]."""
     radial = 2.0 * rate * h * growth / radius if radius > 0.0 else FREE

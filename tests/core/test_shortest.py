@@ -23,6 +23,7 @@ from core import (
     trajectory,
     turn,
 )
+from core.coils import rings_clear, wholly_outside
 from core.rectangles import corners
 
 ENTRY_ERROR = 1e-9  # [m]
@@ -199,7 +200,7 @@ def test_benches_said_to_stand_wholly_outside_a_radius_do(
     pitch: float, chord: float, overhang: float, radius: float
 ) -> None:
     dragon = Dragon(4, chord + 2.0 * overhang, chord + 2.0 * overhang, 0.05, overhang)
-    beyond = core.shortest._beyond(dragon, pitch / (2.0 * math.pi), radius)
+    beyond = wholly_outside(dragon, pitch / (2.0 * math.pi), radius)
     sizes = np.stack([dragon.lengths, dragon.widths], axis=-1)
     for further in np.linspace(0.0, pitch, 5):
         handles = trajectory(dragon, Spiral(pitch, (beyond + further) / pitch), [0.0]).position[0]
@@ -214,7 +215,7 @@ def test_two_coils_are_apart_by_more_than_the_margin_where_they_are_said_to_be(p
     radii = []
     # along a coil, with one between them, two benches are known to be 0.6 m apart
     for margin in np.linspace(0.0, min(0.5 * pitch - 0.35, 0.55), 5):
-        clear = core.shortest._clear_rings(dragon, danced, margin)
+        clear = rings_clear(dragon, core.shortest._coils(danced), margin)
         assert clear is not None
         radii.append(clear)
         for shift in np.linspace(0.0, 2.0, 9):
@@ -222,4 +223,4 @@ def test_two_coils_are_apart_by_more_than_the_margin_where_they_are_said_to_be(p
             other = poses_on(Spiral(pitch, 16), math.pi, 60, clear + shift)
             assert shapely.distance(shapely.union_all(one), shapely.union_all(other)) > margin
     assert radii == sorted(radii)
-    assert core.shortest._clear_rings(dragon, danced, 0.5 * pitch - 0.3) is None
+    assert rings_clear(dragon, core.shortest._coils(danced), 0.5 * pitch - 0.3) is None

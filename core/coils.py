@@ -1,0 +1,148 @@
+"""Two coils of one route: from where on outwards nothing touches on them, so that no search need go on.
+
+A dance through the turn, and any other that comes in along a coil and leaves along one with the same centre and pitch.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from core import kernels
+from core.dragon import Dragon, Floats
+from core.route import Route
+
+# Where the rings are clear is looked for in radii that grow by this factor [1], up to this one [m].
+RADIUS_FACTOR = 1.1
+RADIUS_MAX = 1e4
+# No arc under a chord is longer by more [1].
+STRETCH = 0.5 * math.pi
+# The foot of the perpendicular from the centre on a chord lies no further than this times the growth from the middle of
+# the chord, where ring_least() says anything (core/kernels/rings.py) [1].
+FOOT = 1.67
+# Bounds must exceed the margin by this, far above their rounding [m].
+CLEARLY = 1e-6
+# Coils count as having one centre if theirs lie no further apart than this [m]; CLEARLY makes up for it.
+CENTRES_APART = 1e-9
+
+
+@dataclass(frozen=True, slots=True)
+class TwoCoils:
+    """A coil inwards and one outwards around one centre, with other pieces between them.
+
+    growth: of both [m/rad]; offset: angle between them at one radius, at most pi [rad]
+    extent: no point of the path between them, nor an end of theirs, is further from the centre [m]
+    length: of the path between them [m]; radius: where the one outwards begins [m]
+    """
+
+    growth: float
+    offset: float
+    extent: float
+    length: float
+    radius: float
+
+    def arc(self, radius: float) -> float:
+        """Arc of the coil outwards from its beginning to a radius [m]."""
+        return self.growth * float(
+            kernels.spiral_arc(radius / self.growth) - kernels.spiral_arc(self.radius / self.growth)
+        )
+
+
+def two_coils(path: Route) -> TwoCoils | None:
+    """The coils that a route begins and ends with, None where it does not, or not around one centre with one pitch."""
+    table = path.table
+    first, last = table[0].tolist(), table[-1].tolist()
+    spirals = [kernels.PIECE_KINDS[int(row[0])] == "spiral" for row in (first, last)]
+    if len(table) < 2 or not all(spirals) or (first[9], last[9]) != (-1.0, 1.0) or first[7] != last[7]:
+        return None
+    growth, centre = first[7], np.array(first[5:7])
+    if math.hypot(last[5] - first[5], last[6] - first[6]) > CENTRES_APART:
+        return None
+    turned = (last[8] - first[8]) % (2.0 * math.pi)
+    inner = first[10] - (first[2] - first[1])
+    radii = [growth * float(kernels.spiral_theta(arc / growth)) for arc in (inner, last[10])]
+    extent = max([*radii, *(_extent(path, row, centre) for row in table[1:-1])]) + CENTRES_APART
+    return TwoCoils(growth, min(turned, 2.0 * math.pi - turned), extent, last[1] - first[2], radii[1])
+
+
+def _extent(path: Route, row: Floats, centre: Floats) -> float:
+    """No point of a piece is further from a point than this [m].
+
+    The distance to one of its ends and half its length; on an arc also the distance of the circle's furthest point.
+    """
+    ends = path.position(row[1:3])
+    extent = float(np.hypot(*(ends - centre).T).max() + 0.5 * (row[2] - row[1]))
+    if kernels.PIECE_KINDS[int(row[0])] == "arc":
+        extent = min(extent, float(math.hypot(*(row[5:7] - centre)) + row[7]))
+    return extent
+
+
+# Let `rings` >= extent be a radius from which the bounds of core/kernels/rings.py hold: two benches of one coil are
+# apart by more than the margin (ring_least()), and so are two of different coils. Of these, polar angles on their own
+# coils differ by offset + 2 pi m + x, |x| <= pi, for points in directions that differ by x, in one order or the other,
+# so that in place of a pitch there is growth offset, and no bench lies beside another of its turn.
+#
+# A bench with a handle within `rings` has its other one on a coil not further out than pi c / 2 of arc, as no arc
+# under a chord is longer, and so no point further out than that radius + o + w / 2. If the path between the coils is
+# longer than that arc, no bench stands on both. From radius_beyond() of that radius and the margin outwards nothing
+# comes near a bench on a coil. So once all handles of the leading benches, up to the first of the equal ones, are
+# there, on the coil outwards, these meet nothing any more; and every bench behind repeats in place what one of them met
+# (core/kernels/marching.py), or is there too: nothing touches, however long the coils.
+
+
+def rings_clear(dragon: Dragon, coils: TwoCoils, margin: float) -> float | None:
+    """A radius >= extent from which both coils are clear of themselves and of each other [m], None if not known."""
+    growth, chords = coils.growth, dragon.chords[: dragon.uniform_from + 1]
+    longest, shortest = float(chords.max()), float(chords.min())
+    overhang, half = _sideways(dragon)
+    foot = max(0.5 * longest, FOOT * growth)
+    radius = coils.extent
+    while radius <= RADIUS_MAX:
+        sizes = (longest, shortest, overhang, half, longest, half)
+        if kernels.ring_least(growth, growth, radius, *sizes) > margin:
+            d = math.sqrt(radius * radius - foot * foot)
+            inner = d - half
+            q = 1.0 / d + 2.0 * growth * (0.5 * longest + FOOT * growth + overhang) / d**3
+            bows = 0.5 * q * overhang * (overhang + longest) + 0.125 * q * longest * longest
+            bows += 2.0 * half * math.hypot(1.0, growth / inner) + CLEARLY
+            if coils.offset * growth - bows > margin * math.hypot(1.0, 0.5 * math.pi * growth / inner):
+                return radius
+        radius *= RADIUS_FACTOR
+    return None
+
+
+def way_out(dragon: Dragon, coils: TwoCoils, margin: float) -> float | None:
+    """How far along the coil outwards the head is when nothing can touch any more [m], None if that is not known."""
+    growth, leaders = coils.growth, dragon.chords[: dragon.uniform_from + 1]
+    longest, rings = float(leaders.max()), rings_clear(dragon, coils, margin)
+    if rings is None or STRETCH * longest >= coils.length:
+        return None
+    reach = growth * float(kernels.spiral_theta(kernels.spiral_arc(rings / growth) + STRETCH * longest / growth))
+    return max(0.0, coils.arc(beyond(dragon, growth, reach, margin))) + STRETCH * float(leaders.sum())
+
+
+def beyond(dragon: Dragon, growth: float, handles: float, margin: float) -> float:
+    """From this radius outwards a bench on a coil is clear of all whose handles are within a radius [m]."""
+    overhang, half = _sideways(dragon)
+    return wholly_outside(dragon, growth, handles + overhang + half + margin + CLEARLY)
+
+
+def wholly_outside(dragon: Dragon, growth: float, radius: float) -> float:
+    """A radius such that every bench whose handles are on a coil from there outwards lies wholly outside `radius` [m].
+
+    sqrt((radius + w / 2)^2 + c^2 / 4), but only where the foot of the perpendicular from the centre is no further from
+    the inner handle than c / 2; else by the triangle inequality: core/kernels/rings.py
+    """
+    chords = dragon.chords[: dragon.uniform_from + 1]
+    longest, shortest = float(chords.max()), float(chords.min())
+    overhang, half = _sideways(dragon)
+    ring = np.array([0.0, longest, shortest, overhang, half, longest, overhang, half, -1.0, -1.0, 0.0, 0.0])
+    return float(kernels.radius_beyond(growth, radius, ring))
+
+
+def _sideways(dragon: Dragon) -> tuple[float, float]:
+    """The longest overhang and half the largest width [m]."""
+    alike = dragon.uniform_from + 1
+    return float(dragon.overhangs[:alike].max()), 0.5 * float(dragon.widths[:alike].max())
