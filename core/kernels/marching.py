@@ -10,7 +10,7 @@ if not cython.compiled:  # for the compiler the same stands in the .pxd
     from core.kernels.pairs import interval_least
     from core.kernels.rings import coil_radius, coil_reach, drift, leaders_reach, radius_beyond
     from core.kernels.route import extend_route, start_route
-    from core.kernels.spiral import extend_chain, spiral_theta, start_chain
+    from core.kernels.spiral import extend_chain, spiral_curvature, spiral_theta, start_chain
 
 # Width to which the place of a graze is found [m]: 1e-10 s at 1 m/s.
 DIP_WIDTH = 1e-10
@@ -20,21 +20,23 @@ LEAST_STEP = 0.05
 LEAST_WAY = 1e-7
 # The chain is laid out so many drifts further than the pose needs; if that is too little the step is halved [1].
 ALLOWANCE = 2.0
+# Handles count as having passed a place when they are beyond it by this, far above their rounding: of the places [1].
+PASSED = 1e-12
 # A crossing is found this much closer than the bracket that is proven around it [1].
 CROSSING_WIDTH = 1e-3
 
 
-def chain_between(growth, pieces, place, leaders, benches, margin, allowance, ring, sizes, chain, found):
+def chain_between(growth, pieces, place, leaders, benches, margin, allowance, turning, ring, sizes, chain, found):
     """The chain for a head at a place as far as its leading benches can touch; the last handle's index, -1 at a fold.
 
     found[0] = how many benches can be the inner one of a touching pair
-    allowance: extra radius for what moves during an interval [m]
+    allowance: extra radius for what moves during an interval [m], for those too if they are `turning`
     """
     if pieces.shape[0] > 0:
         return route_between(pieces, place, leaders, benches, margin, allowance, ring, sizes, chain, found)
     theta = spiral_theta(place / growth)
     start_chain(theta, chain)
-    k = extend_chain(growth, 0, leaders, ring[RING_CLEAR], sizes, chain)
+    k = extend_chain(growth, 0, leaders, ring[RING_CLEAR] + (allowance if turning else 0.0), sizes, chain)
     found[0] = k
     if k <= 0:
         return k
@@ -61,16 +63,65 @@ def route_between(pieces, place, leaders, benches, margin, allowance, ring, size
     return k
 
 
-def passed(first, last, placed, opening, chain):
-    """Has every handle from `first` to `last` passed where its predecessor began?
+# The family lemma. Let m be the first of the benches that are alike to the tail (`leaders` = m + 1), and let place_i(t)
+# be where handle i stands with the head at travel t. The handle behind one at place p is the first point behind p at
+# its chord (spiral.py, route.py): a function N_i of p alone, and N_i = N for all i >= m. So all handles from i on, and
+# with them the benches i and j > i, stand at N_i, N_(i+1) N_i, ... of place_i: the separation of (i, j) is a function
+# of place_i alone, and for i >= m one of place_i and j - i alone, g_(j - i)(place_i). (m, m + j - i) is a pair too, as
+# m + j - i <= j.
+#
+# Places fall in the direction of travel, and are continuous in t. Let all pairs led by every bench that may touch be
+# followed from `start` to T, and only those led by benches 0 to m from then on to t; nothing came within the margin.
+# Pairs led by 0 to m were followed throughout. For a pair (i, j), i > m, at t, and x = place_i(t), it suffices that
+# g_(j - i) was followed at x: in a pair led by some bench i' in [m, i], which has an outer bench i' + j - i <= j, at an
+# instant with place_i' = x. Bench m was followed over all places between place_m(start) and the least of place_m until
+# t, every other such i' over those between place_i'(start) and place_i'(T). If
+#     passed():   place_i'(T) <= place_(i'-1)(start)   for all i' in (m, i],
+# these stretches overlap, each with the one of the bench before it, and cover all from the least of place_m to
+# place_i(start); and x >= place_m(t), as no handle overtakes. So x is covered if
+#     place_i(t) <= place_i(start),
+# bench i not being further back than where it started. On a route that is always so: handles only go forward
+# (route.py). On a spiral a handle turns back where the link before it stands across the path, near the fold: while one
+# may stand behind its start (slid_back()), all pairs are followed again.
+#
+# Bench i leads no pair that may touch while place_i >= clear, RING_PLACE on a route, RING_CLEAR / growth on a spiral.
+# So with `opened` the first bench that started there, benches behind it need neither of the two: x < clear lies before
+# place_opened(start), and the benches m to `opened` cover that by passed() alone. (With m >= opened bench m itself
+# covers all from clear on.) chain_between() leaves out those benches at the far end of every step. Where handles only
+# go forward they have been out there all along it; one that may turn back is kept among the leaders while it is within
+# a drift of RING_CLEAR (`turning`).
+#
+# With edges at rest in place of the second bench the same holds of g(place_i), the separation of a bench and an edge.
 
-    last: the first bench that began where none can touch, whose predecessor began where they can: from there outwards
-    nothing needs to be followed
-    """
+
+def passed(first, last, placed, opening, chain):
+    """Has every handle from `first` to `last` passed where its predecessor began?"""
     for i in range(first, last + 1):
-        if i > placed or chain[i, THETA] > opening[i - 1, THETA]:
+        if i > placed or chain[i, THETA] > opening[i - 1, THETA] - PASSED * (1.0 + fabs(opening[i - 1, THETA])):
             return False
     return True
+
+
+def turns_back(k, h, before, after, motion):
+    """May handle k go backwards during an interval? Its rate is never below this mean by more than |s''| h / 2."""
+    return before[k, RATE] + after[k, RATE] <= motion[k, RATE_RATE] * h
+
+
+def slid_back(growth, first, last, placed, h, ring, opening, before, after, motion):
+    """May a handle of a spiral from `first` to before `last` have stood behind its own start during an interval?
+
+    Behind the last handle placed every other moves in the direction of its leader, where links bend no more than the
+    chord lemma asks (bounds.py): then what holds of that one holds of them.
+    """
+    for k in range(min(first, placed), min(last, placed + 1)):
+        low = growth * max(before[k, THETA], after[k, THETA])
+        if k > 0 and turns_back(k, h, before, after, motion):
+            low += drift(motion[k - 1, HANDLE_SPEED], h, growth, low)
+        if low > growth * opening[k, THETA]:
+            return True
+    low = min(before[placed, THETA], after[placed, THETA])
+    low -= drift(motion[placed - 1, HANDLE_SPEED], h, growth, growth * low) / growth
+    return placed + 1 < last and 0.5 * spiral_curvature(low) * ring[ALL_CHORD] > BEND_LIMIT * growth
 
 
 def march(
@@ -124,6 +175,8 @@ def march(
     older_travel = start
     last_a = 0
     last_b = 0
+    turning = False
+    opens = at_start and solo > 0.0
     if cap > benches:
         cap = benches
     if followers > cap:
@@ -132,7 +185,9 @@ def march(
     out[TOUCHING] = -1.0
     out[STEPS] = out[BEND] = 0.0
     with cython.nogil:
-        placed = chain_between(growth, pieces, place - start, followers, cap, margin, h, ring, sizes, before, pair)
+        placed = chain_between(
+            growth, pieces, place - start, followers, cap, margin, h, False, ring, sizes, before, pair
+        )
         if placed == cap and cap < benches:
             return CAPACITY
         if placed < 0:
@@ -160,6 +215,7 @@ def march(
                 cap,
                 margin,
                 ALLOWANCE * drift(fabs(before[1, RATE]) + 1.0, h, growth, solo * before[1, THETA]),
+                turning,
                 ring,
                 sizes,
                 after,
@@ -241,6 +297,19 @@ def march(
                 h *= 0.5
                 target = -1.0
                 continue
+            if solo > 0.0 and 0 < active < followers and turns_back(active, h, before, after, motion):
+                edge = growth * min(before[active, THETA], after[active, THETA])
+                if edge - drift(motion[active - 1, HANDLE_SPEED], h, growth, edge) < ring[RING_CLEAR]:
+                    h *= 0.5 if turning else 1.0
+                    turning = True
+                    target = -1.0
+                    continue
+            if opens and not at_start and active > 0:
+                if slid_back(growth, first, opened, handles, h, ring, opening, before, after, motion):
+                    at_start = True
+                    followers = benches if benches < cap else cap
+                    target = -1.0
+                    continue
             travel += h
             placed = handles
             before, after = after, before
