@@ -1,0 +1,125 @@
+"""How far apart the benches stand where the spiral is wide: a bound that holds for every larger growth."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from core import kernels
+from core.dragon import Dragon
+
+# Rounding of the bound, in units of the lengths that it adds up; the formulas round some twenty times [1].
+STRAIGHT_ROUNDING = 1e-14
+# S is such that benches further apart along the path are apart by the gap on a straight line, at least by this part of
+# what two benches can bridge [1].
+SPARE = 0.05
+
+# The curvature of the spiral r = b theta at a radius r is (r^2 + 2 b^2) / (r^2 + b^2)^(3/2). It falls with r, and, at a
+# fixed r, with b from b = r / sqrt(2) on, where it is 2 / (1.5^(3/2) r) < 1.0887 / r, its largest for any b. So k, its
+# value at the least radius rho and the least growth b (1.0887 / rho while b < rho / sqrt(2)), bounds the curvature from
+# rho outwards for b and every larger growth. With chords at most c, overhangs o and half widths w, and k c / 2 < 1:
+#
+# A bench's arc, from handle to handle, turns by at most k l <= 2 beta, sin beta = k c / 2 (bounds.py), and the tangents
+# along it, and so all its points seen from the chord, lean by at most beta from the chord: the arc is within
+# (c / 2) tan beta of the chord, and every point of a bench within h = max(hypot(o, w), w + (c / 2) tan beta) of its arc.
+#
+# Benches i and i + 2. Neighbours' directions differ by at most 2 beta. Along that of the bench between them, with the
+# angle phi = 2 beta <= pi / 2, a point of bench i lies at most o_i + w sin phi behind its rear handle, one of bench
+# i + 2 at most o_(i+2) + w sin phi before its front handle, so they are apart by g - 2 w sin phi at least, where
+#     g = the least of c_(i+1) - o_i - o_(i+2).
+# On a straight line the gap of benches i and i + 2 is c_(i+1) - o_i - o_(i+2) itself. On a wide spiral it is less: it
+# loses about w_i phi_i + w_(i+2) phi_(i+2) where their ends lean inwards by angles phi, and gains only o phi^2 / 2. So
+# where it is the margin or less on a straight line the two come within the margin at every growth from some on.
+#
+# Benches further apart. Points at theta and theta + delta, delta <= pi, the arc between them longer than S <= pi / k, are
+# further apart than (2 / k) sin(k S / 2): that holds where the arc is S (Schur, bounds.py), and their distance grows with
+# delta (spiral.py). Where delta >= pi they are at least b delta apart, and for x = 2 pi - delta in [0, pi] at least
+#     sqrt(b^2 delta^2 + 4 rho^2 sin^2(delta / 2)) >= sqrt(b^2 (2 pi - x)^2 + 4 rho^2 x^2 / pi^2)
+#                                                 >= 2 pi b / sqrt(1 + (pi b / (2 rho))^2),
+# both growing with b. So where the arc between the rear handle of i and the front handle of j is S or longer, the benches
+# are apart by the lesser of the two less 2 h. S is at least the least sum of two consecutive chords between others; if
+# that is too short, S is taken longer, and benches nearer than S along the path are compared along one direction as
+# above, that in the middle of their tangents: these turn by at most k S + 4 beta from i to j, so with
+# phi = k S / 2 + 2 beta <= pi / 2 the benches are apart by at least
+#     sum of the chords between - o_i - o_j - S (1 - cos phi) - 2 w sin phi,
+# and that sum is at least c_(i+1) + c_(j-1) = (c_(i+1) - o_i - o_(i+2)) + (c_(j-1) - o_(j-2) - o_j) + o_(i+2) + o_(j-2),
+# so at least 2 g + o_i + o_j. As b grows k falls to 0 and the bound grows to more than the margin wherever g is more.
+
+
+def curvature_most(growth: float, radius: float) -> float:
+    """No spiral of this growth [m/rad] or a larger one is bent more from this radius [m] outwards [1/m]."""
+    if math.sqrt(2.0) * growth <= radius:
+        return kernels.SPIRAL_CURVATURE_MOST / radius
+    square = radius * radius + growth * growth
+    return (square + growth * growth) / (square * math.sqrt(square))
+
+
+@dataclass(frozen=True, slots=True)
+class Straight:
+    """What the bound needs of a dragon.
+
+    gap: least separation of benches `at` and `at` + 2 on a straight line [m]; between: least sum of two consecutive
+        chords between others [m]; both 1e150 where there are none; chord, overhang, half_width: the largest [m]; total:
+        of all chords [m]
+    """
+
+    gap: float
+    at: int
+    between: float
+    chord: float
+    overhang: float
+    half_width: float
+    total: float
+
+    @classmethod
+    def of(cls, dragon: Dragon) -> Straight:
+        distinct = min(dragon.benches, dragon.uniform_from + 4)
+        chords, overhangs = dragon.chords[:distinct], dragon.overhangs[:distinct]
+        gaps = chords[1:-1] - overhangs[:-2] - overhangs[2:] if distinct > 2 else np.array([kernels.FREE])
+        between = float((chords[1:-2] + chords[2:-1]).min()) if distinct > 3 else kernels.FREE
+        at = int(gaps.argmin())
+        longest, overhang = float(chords.max()), float(overhangs.max())
+        half_width, total = 0.5 * float(dragon.widths[:distinct].max()), float(dragon.chords.sum())
+        return cls(float(gaps[at]), at, between, longest, overhang, half_width, total)
+
+    def least(self, growth: float, radius: float) -> float:
+        """Lower bound of the separation of any two benches that share no handle [m], the inner one leading at the
+        radius [m] or further out, on the spiral of this growth [m/rad] and on every wider one; -1e150 where it says
+        nothing.
+        """
+        width, diagonals = 2.0 * self.half_width, 2.0 * math.hypot(self.overhang, self.half_width)
+        if 2.0 * math.pi * growth <= diagonals and self.total >= math.pi * radius:  # a ring may lie on the next
+            return -kernels.FREE
+        curvature = curvature_most(growth, radius)
+        sine = 0.5 * curvature * self.chord
+        if sine >= math.sqrt(0.5):  # 2 beta would pass pi / 2
+            return -kernels.FREE
+        beta = math.asin(sine)
+        least = self.gap - width * math.sin(2.0 * beta)
+        if self.between < kernels.FREE:
+            bridged = max(diagonals, width + self.chord * math.tan(beta))
+            least = min(least, self._along(curvature, beta, bridged))
+            if 2.0 * beta * self.total >= math.pi * radius * curvature * self.chord:  # it may go half around
+                across = 2.0 * math.pi * growth / math.hypot(1.0, 0.5 * math.pi * growth / radius)
+                least = min(least, max(across, math.pi * growth) - bridged)
+        return least - STRAIGHT_ROUNDING * (abs(self.gap) + self.chord + self.overhang + width)
+
+    def _along(self, curvature: float, beta: float, bridged: float) -> float:
+        """The same for benches less than half a turn apart, with two others or more between them [m].
+
+        bridged: 2 h [m]
+        """
+        half_turn = min(0.5 * curvature * self.between, 0.5 * math.pi)
+        apart = 2.0 / curvature * math.sin(half_turn) - bridged
+        spare = max(self.gap, SPARE * bridged)
+        sine = 0.5 * curvature * (bridged + spare)
+        if apart >= self.gap or sine >= 1.0:
+            return apart
+        half_turn = math.asin(sine)
+        phi = half_turn + 2.0 * beta
+        if phi > 0.5 * math.pi:
+            return apart
+        nearer = 2.0 * self.gap - 2.0 * half_turn / curvature * (1.0 - math.cos(phi))
+        return max(apart, min(nearer - 2.0 * self.half_width * math.sin(phi), spare))
