@@ -64,10 +64,10 @@ class MinimumPitch:
         benches, begin inside the circle; or the fold: a bench could not follow the head as far as the circle
     benches: the pair that touches just below; head_radius: of the head then [m], at a fold that of the circle
     other_feasible_intervals: [m], islands below pitch, found on a grid of ISLAND_SAMPLES pitches
-    justified_by: how every larger pitch is known to be feasible: 'bound': all are proven; 'scan': between pitch and the
-        one from which on all are proven, single ones are, scan_step [m] apart at most: a narrower range of infeasible
-        ones in between is not excluded
-    proven_up_to: no larger pitch is looked at [m]; None: every larger one is feasible, without end
+    justified_by: how every larger pitch is known to be feasible: 'bound': proven for all; 'scan': below proven_from
+        single ones are proven, scan_step [m] apart at most: a narrower range of infeasible ones is not excluded there
+    proven_from, proven_up_to: every pitch in between is proven feasible [m]; the first is pitch itself without a scan,
+        the second None for every larger pitch, without end
     scan_step: None without a scan
     evaluations: ways from the start to the circle that were marched, and strips of pitches, see `core/strips.py`
     """
@@ -79,9 +79,20 @@ class MinimumPitch:
     head_radius: float | None
     other_feasible_intervals: tuple[tuple[float, float], ...]
     justified_by: str
+    proven_from: float
     proven_up_to: float | None
     scan_step: float | None
     evaluations: int
+
+
+# One bench alone: what is feasible at one growth is so at every larger one, so a bisection finds the minimum. With the
+# head at a radius rho, f = b^2 delta^2 + 2 rho (rho + b delta) (1 - cos delta) has a root f = c^2 before its first
+# crest (spiral.py) or none. At a fixed rho and delta f grows with b. Its first crest does not come nearer: in units of
+# b, with theta = rho / b, it is the first zero of h = delta + theta (1 - cos delta) + theta (theta + delta) sin delta,
+# and where h = 0
+#     theta (theta + delta) dh / d theta = -theta^2 (1 - cos delta) - delta (2 theta + delta) < 0,
+# so h, once 0, is negative for all larger theta: where h > 0 on (0, delta) it is so for all smaller theta, all larger
+# b. So the root stays as b grows, at every radius from the circle outwards.
 
 
 class _PitchSearch:
@@ -93,6 +104,8 @@ class _PitchSearch:
         self.search = Search(dragon, Spiral(self.lowest, start_turns), margin, work=math.inf)
         self.strips = Strips(self.search, radius, start_turns, margin)
         self.ways = 0
+        self.alone = dragon.benches == 1
+        self.scanned_from: float | None = None
         self.scan_step: float | None = None
 
     def way(self, pitch: float, width: float = 0.0) -> tuple[str, dict[str, float]]:
@@ -119,11 +132,8 @@ class _PitchSearch:
         end = RunEnd(EndReason.FOLD, search.travel_at(fold), fold, bench)
         last = min(stop, search.last_travel(end.time, True))
         state, found = search.march(last, width or CONTACT_WIDTH)
-        left = state == "stuck" and found["touching"] < 0.0 or (state == "reached" and last < stop)
-        if left and search.clear_to_fold(min(found["proven"], last), end):
-            state = "reached"
-        elif left:
-            state = "stuck"
+        if (state == "stuck" and found["touching"] < 0.0) or (state == "reached" and last < stop):
+            state = "reached" if search.clear_to_fold(min(found["proven"], last), end) else "stuck"
         return state, found
 
     def is_clear(self, pitch: float) -> bool | None:
@@ -147,8 +157,8 @@ class _PitchSearch:
             if not self.is_clear(SIZE_MAX):
                 raise InvalidValue(
                     "turning_radius",
-                    f"turning_radius must be larger for this dragon: on no spiral up to a pitch of {SIZE_MAX:g} m can it "
-                    f"dance down to {self.radius:g} m, got {self.radius:g} m",
+                    f"turning_radius must be larger for this dragon: up to a pitch of {SIZE_MAX:g} m it cannot dance "
+                    f"down to {self.radius:g} m",
                 )
             return SIZE_MAX, SIZE_MAX
         beyond = 0.5 * lowest
@@ -163,7 +173,7 @@ class _PitchSearch:
 
     def descend(self, top: float) -> tuple[float, float, str]:
         """From a feasible pitch down to (infeasible, feasible) [m], close together, and what justifies the way down."""
-        if self.search.dragon.benches == 1:
+        if self.alone:
             pitch = self.lowest if self.is_clear(self.lowest) else top
             return *((pitch, pitch) if pitch < top else self.bisect(self.lowest, top)), "bound"
         pitch, stopped = self.strips.descend(top, self.lowest)
@@ -173,7 +183,9 @@ class _PitchSearch:
             step = max(BORDER_WIDTH, 2.0 * math.ulp(pitch))
             while step <= max(PASSED_OVER, PASSED_OVER_WIDE * pitch) and pitch - step > self.lowest:
                 if self.grazes(pitch - step) or self.is_clear(pitch - step) is False:
-                    return *(self.bisect(pitch - step, pitch) if step <= PASSED_OVER else (pitch - step, pitch)), "bound"
+                    return *(
+                        self.bisect(pitch - step, pitch) if step <= PASSED_OVER else (pitch - step, pitch)
+                    ), "bound"
                 step *= 2.0
         # strips are proven however far outside a way starts; this one may begin inside what stops them
         return *self.scan(pitch), "scan"
@@ -189,7 +201,7 @@ class _PitchSearch:
     def scan(self, pitch: float) -> tuple[float, float]:
         """(infeasible, feasible) by trying SCAN_SAMPLES pitches down to the lowest, then by bisection [m]."""
         factor = (self.lowest / pitch) ** (1.0 / SCAN_SAMPLES)
-        self.scan_step = (1.0 - factor) * pitch
+        self.scanned_from, self.scan_step = pitch, (1.0 - factor) * pitch
         for k in range(1, SCAN_SAMPLES + 1):
             below = factor * pitch if k < SCAN_SAMPLES else self.lowest
             if not self.is_clear(below):
@@ -300,10 +312,10 @@ def minimum_pitch(
     if radius / turns > SIZE_MAX:
         raise InvalidValue(
             "start_turns",
-            f"start_turns must be at least {radius / SIZE_MAX:g} turns for a turning circle of {radius:g} m radius, so that "
-            f"a pitch of at most {SIZE_MAX:g} m lets the dance begin outside it, got {turns:g} turns",
+            f"start_turns must be at least {radius / SIZE_MAX:g} turns, or no pitch up to {SIZE_MAX:g} m lets a dance "
+            f"begin outside a turning circle of {radius:g} m radius, got {turns:g} turns",
         )
-    _check_straight(dragon, Straight.of(dragon), margin)
+    _check_straight(dragon, Straight(dragon), margin)
     search = _PitchSearch(dragon, radius, turns, margin)
     top, proven_up_to = search.top()
     infeasible = feasible = search.lowest
@@ -315,7 +327,7 @@ def minimum_pitch(
         islands: tuple[tuple[float, float], ...] = ()
     else:
         limited_by, pair, head_radius = search.limit(infeasible)
-        islands = search.islands(infeasible)
+        islands = () if search.alone else search.islands(infeasible)
     return MinimumPitch(
         feasible,
         (infeasible, feasible),
@@ -324,6 +336,7 @@ def minimum_pitch(
         head_radius,
         islands,
         justified_by,
+        search.scanned_from or feasible,
         proven_up_to,
         search.scan_step,
         search.ways + search.strips.marches,

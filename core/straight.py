@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
 import numpy as np
 
 from core import kernels
-from core.dragon import Dragon
+from core.dragon import Dragon, Floats
 
+# Where a dragon has no such pair, and where the bound says nothing, as a negative [m].
+NONE = 1e150
 # Rounding of the bound, in units of the lengths that it adds up; the formulas round some twenty times [1].
 STRAIGHT_ROUNDING = 1e-14
 # S is such that benches further apart along the path are apart by the gap on a straight line, at least by this part of
@@ -22,41 +23,44 @@ SPARE = 0.05
 # rho outwards for b and every larger growth. With chords at most c, overhangs o and half widths w, and k c / 2 < 1:
 #
 # A bench's arc, from handle to handle, turns by at most k l <= 2 beta, sin beta = k c / 2 (bounds.py), and the tangents
-# along it, and so all its points seen from the chord, lean by at most beta from the chord: the arc is within
-# (c / 2) tan beta of the chord, and every point of a bench within h = max(hypot(o, w), w + (c / 2) tan beta) of its arc.
+# along it lean by at most beta from the chord: the arc is within (c / 2) tan beta of the chord, and every point of a
+# bench within h = max(hypot(o, w), w + (c / 2) tan beta) of its arc.
 #
-# Benches i and i + 2. Neighbours' directions differ by at most 2 beta. Along that of the bench between them, with the
-# angle phi = 2 beta <= pi / 2, a point of bench i lies at most o_i + w sin phi behind its rear handle, one of bench
-# i + 2 at most o_(i+2) + w sin phi before its front handle, so they are apart by g - 2 w sin phi at least, where
-#     g = the least of c_(i+1) - o_i - o_(i+2).
-# On a straight line the gap of benches i and i + 2 is c_(i+1) - o_i - o_(i+2) itself. On a wide spiral it is less: it
-# loses about w_i phi_i + w_(i+2) phi_(i+2) where their ends lean inwards by angles phi, and gains only o phi^2 / 2. So
-# where it is the margin or less on a straight line the two come within the margin at every growth from some on.
+# Benches i and i + 2, beta_i that of bench i. Neighbours' directions differ by at most phi = beta_i + beta_(i+1). Along
+# the direction of the bench between them a point of bench i lies behind its rear handle by at most
+# o_i cos x + w_i sin x, x <= phi <= pi / 2 the angle between the two, which grows up to x = atan(w_i / o_i). So with
+# d(phi) its value at phi or, if phi is more, at that angle, the benches are apart by at least
+#     c_(i+1) - d_i(beta_i + beta_(i+1)) - d_(i+2)(beta_(i+1) + beta_(i+2)).
+# On a straight line they are apart by c_(i+1) - o_i - o_(i+2), g at the least of all i. On a wide spiral it is less: as
+# their inner corners lean towards each other by angles x and y it loses w_i x + w_(i+2) y, and gains only as much as
+# the squares. So where it is the margin or less on a straight line, they come within the margin at every growth from
+# some on.
 #
-# Benches further apart. Points at theta and theta + delta, delta <= pi, the arc between them longer than S <= pi / k, are
-# further apart than (2 / k) sin(k S / 2): that holds where the arc is S (Schur, bounds.py), and their distance grows with
-# delta (spiral.py). Where delta >= pi they are at least b delta apart, and for x = 2 pi - delta in [0, pi] at least
+# Benches further apart. Let the arc between two points, at theta and theta + delta, be S or longer, S <= pi / k. Where
+# delta <= pi they are apart by at least (2 / k) sin(k S / 2): that holds where the arc is S (Schur, bounds.py), and the
+# distance grows with delta (spiral.py). Where delta >= pi they are apart by at least b delta >= pi b, and, with
+# x = 2 pi - delta in [0, pi], also by at least
 #     sqrt(b^2 delta^2 + 4 rho^2 sin^2(delta / 2)) >= sqrt(b^2 (2 pi - x)^2 + 4 rho^2 x^2 / pi^2)
 #                                                 >= 2 pi b / sqrt(1 + (pi b / (2 rho))^2),
-# both growing with b. So where the arc between the rear handle of i and the front handle of j is S or longer, the benches
-# are apart by the lesser of the two less 2 h. S is at least the least sum of two consecutive chords between others; if
-# that is too short, S is taken longer, and benches nearer than S along the path are compared along one direction as
-# above, that in the middle of their tangents: these turn by at most k S + 4 beta from i to j, so with
-# phi = k S / 2 + 2 beta <= pi / 2 the benches are apart by at least
-#     sum of the chords between - o_i - o_j - S (1 - cos phi) - 2 w sin phi,
-# and that sum is at least c_(i+1) + c_(j-1) = (c_(i+1) - o_i - o_(i+2)) + (c_(j-1) - o_(j-2) - o_j) + o_(i+2) + o_(j-2),
-# so at least 2 g + o_i + o_j. As b grows k falls to 0 and the bound grows to more than the margin wherever g is more.
+# both growing with b; a dragon whose arcs together are shorter than pi rho has no such points. So where the arc from
+# the rear handle of i to the front handle of j is S or longer, the benches are apart by the lesser of the two less 2 h.
+# S is at most the least sum of two consecutive chords between others. If that is too short, S is taken longer, and
+# benches nearer than S along the path are compared along one direction as above, that in the middle of their tangents:
+# these turn by at most k S + 4 beta from i to j, so with phi = k S / 2 + 2 beta <= pi / 2 they are apart by at least
+#     (sum of the chords between) - o_i - o_j - S (1 - cos phi) - 2 w sin phi,
+# and that sum is at least
+#     c_(i+1) + c_(j-1) = (c_(i+1) - o_i - o_(i+2)) + (c_(j-1) - o_(j-2) - o_j) + o_i + o_(i+2) + o_(j-2) + o_j,
+# at least 2 g + o_i + o_j. As b grows k falls to 0, and the bound exceeds the margin in the end wherever g does.
 
 
 def curvature_most(growth: float, radius: float) -> float:
     """No spiral of this growth [m/rad] or a larger one is bent more from this radius [m] outwards [1/m]."""
     if math.sqrt(2.0) * growth <= radius:
-        return kernels.SPIRAL_CURVATURE_MOST / radius
+        return float(kernels.SPIRAL_CURVATURE_MOST) / radius
     square = radius * radius + growth * growth
     return (square + growth * growth) / (square * math.sqrt(square))
 
 
-@dataclass(frozen=True, slots=True)
 class Straight:
     """What the bound needs of a dragon.
 
@@ -65,24 +69,21 @@ class Straight:
         of all chords [m]
     """
 
-    gap: float
-    at: int
-    between: float
-    chord: float
-    overhang: float
-    half_width: float
-    total: float
-
-    @classmethod
-    def of(cls, dragon: Dragon) -> Straight:
+    def __init__(self, dragon: Dragon) -> None:
         distinct = min(dragon.benches, dragon.uniform_from + 4)
         chords, overhangs = dragon.chords[:distinct], dragon.overhangs[:distinct]
-        gaps = chords[1:-1] - overhangs[:-2] - overhangs[2:] if distinct > 2 else np.array([kernels.FREE])
-        between = float((chords[1:-2] + chords[2:-1]).min()) if distinct > 3 else kernels.FREE
-        at = int(gaps.argmin())
-        longest, overhang = float(chords.max()), float(overhangs.max())
-        half_width, total = 0.5 * float(dragon.widths[:distinct].max()), float(dragon.chords.sum())
-        return cls(float(gaps[at]), at, between, longest, overhang, half_width, total)
+        half_widths = 0.5 * dragon.widths[:distinct]
+        self.chord, self.overhang = float(chords.max()), float(overhangs.max())
+        self.half_width, self.total = float(half_widths.max()), float(dragon.chords.sum())
+        self.gap, self.at, self.between = NONE, 0, NONE
+        if distinct > 2:
+            gaps = chords[1:-1] - overhangs[:-2] - overhangs[2:]
+            self.at = int(gaps.argmin())
+            self.gap = float(gaps[self.at])
+        if distinct > 3:
+            self.between = float((chords[1:-2] + chords[2:-1]).min())
+        self._chords, self._overhangs, self._half_widths = chords, overhangs, half_widths
+        self._diagonals = np.hypot(overhangs, half_widths)
 
     def least(self, growth: float, radius: float) -> float:
         """Lower bound of the separation of any two benches that share no handle [m], the inner one leading at the
@@ -91,20 +92,38 @@ class Straight:
         """
         width, diagonals = 2.0 * self.half_width, 2.0 * math.hypot(self.overhang, self.half_width)
         if 2.0 * math.pi * growth <= diagonals and self.total >= math.pi * radius:  # a ring may lie on the next
-            return -kernels.FREE
+            return -NONE
         curvature = curvature_most(growth, radius)
         sine = 0.5 * curvature * self.chord
         if sine >= math.sqrt(0.5):  # 2 beta would pass pi / 2
-            return -kernels.FREE
+            return -NONE
         beta = math.asin(sine)
-        least = self.gap - width * math.sin(2.0 * beta)
-        if self.between < kernels.FREE:
+        least = self._next_but_one(curvature)
+        if self.between < NONE:
             bridged = max(diagonals, width + self.chord * math.tan(beta))
             least = min(least, self._along(curvature, beta, bridged))
             if 2.0 * beta * self.total >= math.pi * radius * curvature * self.chord:  # it may go half around
                 across = 2.0 * math.pi * growth / math.hypot(1.0, 0.5 * math.pi * growth / radius)
                 least = min(least, max(across, math.pi * growth) - bridged)
         return least - STRAIGHT_ROUNDING * (abs(self.gap) + self.chord + self.overhang + width)
+
+    def _next_but_one(self, curvature: float) -> float:
+        """The same for benches i and i + 2 [m]."""
+        if self.gap >= NONE:
+            return NONE
+        betas = np.arcsin(0.5 * curvature * self._chords)
+        phi = betas[:-1] + betas[1:]
+        sine, cosine = np.sin(phi), np.cos(phi)
+
+        def reach(benches: slice, angles: slice) -> Floats:
+            overhangs, half_widths = self._overhangs[benches], self._half_widths[benches]
+            leaning = overhangs * cosine[angles] + half_widths * sine[angles]
+            least = half_widths * cosine[angles] >= overhangs * sine[angles]
+            return np.where(least, leaning, self._diagonals[benches])
+
+        first, last = slice(None, -2), slice(2, None)
+        gaps = self._chords[1:-1] - reach(first, slice(None, -1)) - reach(last, slice(1, None))
+        return float(gaps.min())
 
     def _along(self, curvature: float, beta: float, bridged: float) -> float:
         """The same for benches less than half a turn apart, with two others or more between them [m].

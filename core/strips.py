@@ -14,8 +14,8 @@ from core.paths import Spiral
 from core.search import GAP_ROUNDING, NO_BOUND, NO_PIECES, Search
 from core.straight import Straight
 
-# A descent first asks for a strip down to this part of the top, which is seldom far above the border, then for the rest:
-# medians of the default and of a circle of 4 m 14.7 and 5.9 ms, without it 17.7 and 9.0 ms, 2026-11-21 [1].
+# A descent first asks for a strip down to this part of the top, which is seldom far above the border, then for the
+# rest: 14.7 ms for the default and 5.9 ms for a circle of 4 m, without it 17.7 and 9.0 ms, 2026-11-21 [1].
 FIRST_STRIP = 0.9
 # Half width of the bracket around the border of what is feasible [m of pitch]; rounding of a clearance is near 1e-14 m.
 BORDER_WIDTH = 1e-13
@@ -45,7 +45,8 @@ class Strips:
     """Proofs for one dragon and turning circle, each for an interval of pitches.
 
     A proven strip holds for all ways to the circle, however far outside they start: by a bound that needs no chain from
-    where it holds outwards, and from there inwards by the march for the leading benches, whose every pose the body repeats.
+    where it holds outwards, and from there inwards by the march for the leading benches, whose every pose the body
+    repeats.
     steps: that all strips took; marches: strips tried; graze: the pair that ends the last descent and where the head
         then is [m], if that was found
     """
@@ -54,7 +55,7 @@ class Strips:
         self.search, self.radius, self.start_turns, self.margin = search, radius, start_turns, margin
         self.steps = self.marches = 0
         self.graze: tuple[tuple[int, int], float] | None = None
-        self.straight = Straight.of(search.dragon)
+        self.straight = Straight(search.dragon)
         # the benches are bent little enough everywhere outside the circle: none turns back, none folds
         most = 0.5 * kernels.SPIRAL_CURVATURE_MOST * float(search.extremes[0]) / radius
         self.bent_little = most <= kernels.BEND_LIMIT
@@ -78,7 +79,8 @@ class Strips:
         """Are all pitches in [low, high] clear while the head's radius falls from outer to the circle [m]?
 
         'reached': yes; 'touched': not the lowest one; 'stuck': not provable in one strip; 'turned', 'unbounded': nor,
-        perhaps, by splitting it, as a handle may turn back or no bound holds far out. Result by name: 'proven' down to that radius, 'touching' at one, by the benches 'first' and 'second'.
+        perhaps, by splitting it, as a handle may turn back or no bound holds far out. Result by name: 'proven' down to
+        that radius, 'touching' at one, by the benches 'first' and 'second'.
         """
         search, turn = self.search, 2.0 * math.pi
         search.use(Spiral(low, self.start_turns), self.margin)

@@ -20,18 +20,18 @@ TURNED_WITHIN = 1e-3
 #
 # First derivatives. With f(rho_a, delta, b) = b^2 delta^2 + 2 rho_a (rho_a + b delta) (1 - cos delta) = c^2 and
 # a = rho',
-#     a_b = a_a (1 - b f_rho / f_delta) + 2 rho_a rho_b delta sin delta / f_delta,
+#     a_b = a_a (1 - b f_rho / f_delta) + z,    z = 2 rho_a rho_b delta sin delta / f_delta,
 #     delta' = -(f_rho a_a + f_b) / f_delta,
 # in which, with the angles alpha between the path and the chord at both handles,
 #     F = f_delta / 2 = b^2 delta + b rho_a (1 - cos delta) + rho_a rho_b sin delta = c sqrt(b^2 + rho_b^2) cos alpha_b,
 #     f_rho / 2 = (rho_a + rho_b) (1 - cos delta),    f_b / 2 = b delta^2 + rho_a delta (1 - cos delta),
 #     F - b f_rho / 2 = b^2 delta cos delta - b rho_a (1 - cos delta) + rho_a rho_b sin delta
 #                     = c sqrt(b^2 + rho_a^2) cos alpha_a  =: A.
-# While delta < pi and no handle turns back (F > 0, A >= 0) 1 - b f_rho / f_delta = A / F is in [0, 1], and the last
-# term of a_b is in [0, delta], so 0 <= a_k <= psi_k and delta' <= 0: radii grow with b, angles fall. F, A and c are
-# divided into:
-#     |delta'| <= ((2 psi_a + delta) t + (b / rho_a) delta^2 / sin delta) / rho_a,  as F >= rho_a rho_b sin delta,
-#     |delta'| <= ((psi_a (rho_a + rho_b) + rho_a delta) (1 - cos delta) + b delta^2) / F,
+# While delta < pi and no handle turns back (F > 0, A >= 0) 1 - b f_rho / f_delta = A / F is in [0, 1], and, as
+# F >= b^2 delta + rho_a rho_b sin delta, 0 <= z <= Z = delta m / (1 + m) with m = rho_a rho_b / b^2. So with
+# g_b = g_a + Z 0 <= a_b <= g_b <= psi_b and delta' <= 0: radii grow with b, angles fall. Further
+#     |delta'| <= ((2 g_a + delta) t + (b / rho_a) delta^2 / sin delta) / rho_a,  as F >= rho_a rho_b sin delta,
+#     |delta'| <= ((g_a (rho_a + rho_b) + rho_a delta) (1 - cos delta) + b delta^2) / F,
 # t = tan(delta / 2); the lesser of both is D, and |psi_b'| <= Q_b = Q_a + D.
 # Radii also grow with r_0, and angles fall, so over r_0 in [r_L, r_R] and b in [b_L, b_R] the angles, and the least
 # radii, are those at (r_L, b_L) and the largest radii those at (r_R, b_R). That needs no more than F > 0 and A >= 0 on
@@ -42,20 +42,20 @@ TURNED_WITHIN = 1e-3
 # Turning. In the frame that turns with handle a, P_a' = a_a R_a and P_b' = a_b R_b + rho_b delta' T_b, so u turns at
 # psi_a' + w / c with, as T_a . u = -rho_b sin delta / c, T_b . u = -rho_a sin delta / c, rho_a sin delta <= c,
 #     |w| <= |a_b - a_a| + a_a b delta min(1 / rho_a, delta / c) + rho_b |delta'| q,
-#     |a_b - a_a| <= max(delta, a_a b f_rho / f_delta),   b f_rho / f_delta <= 2 b t / rho_a,
+#     |a_b - a_a| <= max(Z, a_a b f_rho / f_delta),   b f_rho / f_delta <= 2 b t / rho_a,
 #     q = |R_b . u| = (b delta + rho_a (1 - cos delta)) / c.
 #
 # Second derivatives. P'' = psi'' S + B, S = b R + rho T, B = (2 psi' - rho psi'^2) R + 2 a psi' T. From |P_a - P_b| = c
 #     psi_b'' S_b . u = psi_a'' S_a . u + (B_a - B_b) . u + |P_a' - P_b'|^2 / c,
 # in which, written out with psi_b' = psi_a' + delta', all that a common rotation psi_a' contributes cancels:
 #     E = 2 psi_a' (R_a - R_b) . u + w^2 / c + (rho_b delta'^2 - 2 delta') R_b . u - 2 a_b delta' T_b . u,
-#     |E| <= 2 Q_a delta + w^2 / c + (rho_b D + 2) D q + 2 psi_b D.
+#     |E| <= 2 Q_a delta + w^2 / c + (rho_b D + 2) D q + 2 g_b D.
 # S points along the path, |S_a| <= |S_b|, and S . u = -|S| cos alpha with cos alpha_a <= cos alpha_b (Vogt: neither
 # angle exceeds pi / 2, so arc and chord bound a convex figure, and the arc is curved more at its inner end a).
 # So for y = |psi''| |S|:  y_b <= y_a + |E| / cos alpha_b, where cos alpha_b is F / (c sqrt(b^2 + rho_b^2)); and, while
 # that is below 1, sin alpha_b <= k c / 2, where k = (rho^2 + 2 b^2) / (rho^2 + b^2)^(3/2) is at most
 # 2 / (1.5^(3/2) rho) < 1.0887 / rho for every b. Then
-#     |P'| <= sqrt(psi^2 + rho^2 Q^2),   |P''| <= y + sqrt((2 Q + rho Q^2)^2 + 4 psi^2 Q^2).
+#     |P'| <= sqrt(g^2 + rho^2 Q^2),   |P''| <= y + sqrt((2 Q + rho Q^2)^2 + 4 g^2 Q^2).
 # A corner is (1/2 + x / c) P_a + (1/2 - x / c) P_b, |x| = half length, plus half a width across u, and |u''| is at most
 # 2 |P''| / c: it accelerates by at most (length + width) / c times its handles.
 #
@@ -71,7 +71,7 @@ def shift_bounds(low, high, benches, sizes, inner, outer, shifts):
 
     False where a handle may turn back on the rectangle: there are no bounds then
     """
-    psi = 0.0
+    grown = 0.0
     slides = 0.0
     path_pull = 0.0
     speed = 0.0
@@ -97,17 +97,19 @@ def shift_bounds(low, high, benches, sizes, inner, outer, shifts):
         front = front * (1.0 - rise) - high * rho_far * rise + sine
         if front < 0.0 or slope <= 0.0:
             return False
+        extra = rho_far * rho_b / (low * low)
+        extra = delta * extra / (1.0 + extra)
         lean = (high * delta + high * outer[k, THETA] * rise) / chord
-        slide = ((2.0 * psi + delta) * s / c + high * delta * delta / (2.0 * s * c * rho)) / rho
-        swing = 2.0 * psi * high * s / (c * rho)
+        slide = ((2.0 * grown + delta) * s / c + high * delta * delta / (2.0 * s * c * rho)) / rho
+        swing = 2.0 * grown * high * s / (c * rho)
         rise *= rho_far + rho_far + high * delta
-        if psi * high * rise < swing * slope:
-            swing = psi * high * rise / slope
-        rise = psi * rise + 2.0 * s * s * rho_far * delta + high * delta * delta
+        if grown * high * rise < swing * slope:
+            swing = grown * high * rise / slope
+        rise = grown * rise + 2.0 * s * s * rho_far * delta + high * delta * delta
         if rise < slide * slope:
             slide = rise / slope
         rise = delta * rho if delta * rho < chord else chord
-        swing = (delta if delta > swing else swing) + psi * high * delta * rise / (rho * chord) + rho_b * slide * lean
+        swing = (extra if extra > swing else swing) + grown * high * delta * rise / (rho * chord) + rho_b * slide * lean
         shifts[k, SHIFT_TURN] = slides + swing / chord
         c = 0.5 * SPIRAL_CURVATURE_MOST * chord / rho
         c = sqrt(1.0 - c * c) if c < 1.0 else 0.0
@@ -116,15 +118,15 @@ def shift_bounds(low, high, benches, sizes, inner, outer, shifts):
             2.0 * slides * delta
             + swing * swing / chord
             + (rho_b * slide + 2.0) * slide * lean
-            + 2.0 * (psi + delta) * slide
+            + 2.0 * (grown + extra) * slide
         ) / (c if c > slope else slope)
         slides += slide
-        psi += delta
-        speed_b = sqrt(psi * psi + rho_b * rho_b * slides * slides)
+        grown += extra
+        speed_b = sqrt(grown * grown + rho_b * rho_b * slides * slides)
         shifts[k, SHIFT_CENTRE] = 0.5 * (speed + speed_b)
         shifts[k, SHIFT_CORNER] = 0.5 * (speed + speed_b) + shifts[k, SHIFT_TURN] * sizes[k, RADIUS]
         s = slides * (2.0 + rho_b * slides)
-        c = 2.0 * psi * slides
+        c = 2.0 * grown * slides
         shifts[k, SHIFT_PULL] = (
             2.0 * (path_pull + sqrt(s * s + c * c)) * (sizes[k, HALF_LENGTH] + sizes[k, HALF_WIDTH]) / chord
         )

@@ -28,7 +28,7 @@ WIDE = 9e3
 def random_case(seed):
     """dragon, turning radius [m], start turns, margin [m]"""
     rng = np.random.default_rng(seed)
-    benches = int(rng.choice([1, 2, 3, 4, 5, 8, 12, 20], p=[0.03, 0.04, 0.08, 0.1, 0.15, 0.25, 0.25, 0.1]))
+    benches = int(rng.choice([1, 2, 3, 4, 5, 8, 12, 20, 40], p=[0.03, 0.04, 0.08, 0.1, 0.15, 0.25, 0.22, 0.1, 0.03]))
     chord = 10.0 ** rng.uniform(-0.3, 0.5)
     width = chord * 10.0 ** rng.uniform(-1.2, -0.1)
     if rng.uniform() < 0.4:
