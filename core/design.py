@@ -26,7 +26,11 @@ PASSED_OVER = 1e-9
 PASSED_OVER_WIDE = 1e-6
 # The pitch is bisected to this width [m]; rounding of a clearance is near 1e-14 m.
 PITCH_WIDTH = 2e-13
-# Where no bound on the change of a clearance with the pitch is at hand, so many pitches are tried, evenly spaced.
+# A way that a march leaves undecided is marched once more, in finer steps and with so much work, see WORK_BUDGET of
+# core/search.py; so many pitches that stay undecided end a bisection [1].
+FINER_WORK = 1e6
+UNDECIDED_MAX = 4
+# Where no bound on the change of a clearance with the pitch is at hand, so many pitches are tried.
 SCAN_SAMPLES = 1000
 # Islands below the minimum pitch are looked for at so many pitches, evenly spaced.
 ISLAND_SAMPLES = 400
@@ -59,7 +63,8 @@ class LimitedBy(StrEnum):
 class MinimumPitch:
     """The smallest pitch such that every larger one is free of contact down to the turning circle.
 
-    pitch: [m]; pitch_bracket: (infeasible, feasible) [m], twice the same where the start limits it without benches
+    pitch: [m]; pitch_bracket: (infeasible, feasible) [m], twice the same where the start limits it without benches;
+        what lies in between is undecided: more than 1e-9 m on wide spirals and where a fold vanishes within the way
     limited_by: a graze on the way, contact exactly on the circle, the start: the dance would touch there, or, without
         benches, begin inside the circle; or the fold: a bench could not follow the head as far as the circle
     benches: the pair that touches just below; head_radius: of the head then [m], at a fold that of the circle
@@ -138,8 +143,10 @@ class _PitchSearch:
 
     def is_clear(self, pitch: float) -> bool | None:
         """Is the whole way free of contact? None where neither is known, within rounding of a graze."""
-        for width in (0.0, CONTACT_WIDTH):
+        for width, work in ((0.0, math.inf), (CONTACT_WIDTH, FINER_WORK)):
+            self.search.work = work
             state, found = self.way(pitch, width)
+            self.search.work = math.inf
             if state != "stuck" or found["touching"] >= 0.0:
                 return state == "reached"
         return None
@@ -153,7 +160,8 @@ class _PitchSearch:
         """
         turn = 2.0 * math.pi
         lowest, growth = self.lowest / turn, SIZE_MAX / turn
-        if self.strips.straight.least(growth, self.radius) <= self.margin:
+        clears = self.strips.straight.clears
+        if not clears(growth, self.radius, self.margin):
             if not self.is_clear(SIZE_MAX):
                 raise InvalidValue(
                     "turning_radius",
@@ -164,8 +172,7 @@ class _PitchSearch:
         beyond = 0.5 * lowest
         while growth > lowest and growth - beyond > TOP_WIDTH * growth:
             middle = math.sqrt(beyond * growth)
-            clear = self.strips.straight.least(middle, self.radius) > self.margin
-            beyond, growth = (beyond, middle) if clear else (middle, growth)
+            beyond, growth = (beyond, middle) if clears(middle, self.radius, self.margin) else (middle, growth)
         for factor in RANGES:
             while growth > lowest and self.strips.clears(factor * growth, growth, self.radius):
                 growth *= factor
@@ -199,24 +206,43 @@ class _PitchSearch:
         return gap <= self.margin and radius <= pitch * self.start_turns
 
     def scan(self, pitch: float) -> tuple[float, float]:
-        """(infeasible, feasible) by trying SCAN_SAMPLES pitches down to the lowest, then by bisection [m]."""
+        """(infeasible, feasible) by trying SCAN_SAMPLES pitches down to the lowest, then by bisection [m].
+
+        They stand closer together further down, each the same part below the one before.
+        """
         factor = (self.lowest / pitch) ** (1.0 / SCAN_SAMPLES)
         self.scanned_from, self.scan_step = pitch, (1.0 - factor) * pitch
+        below, left = pitch, UNDECIDED_MAX
         for k in range(1, SCAN_SAMPLES + 1):
-            below = factor * pitch if k < SCAN_SAMPLES else self.lowest
-            if not self.is_clear(below):
+            below = factor * below if k < SCAN_SAMPLES else self.lowest
+            clear = self.is_clear(below)
+            if clear is False:
                 return self.bisect(below, pitch)
-            pitch = below
-        return self.lowest, self.lowest
+            if clear and left == UNDECIDED_MAX:
+                pitch = below
+            left -= clear is None
+            if not left:
+                break
+        return self.lowest, pitch
 
     def bisect(self, infeasible: float, feasible: float) -> tuple[float, float]:
-        """The same with a bracket of PITCH_WIDTH [m]."""
-        while feasible - infeasible > PITCH_WIDTH:
-            middle = 0.5 * (infeasible + feasible)
-            clear = self.is_clear(middle)
-            if middle in (infeasible, feasible) or clear is None:
+        """The same with a bracket of PITCH_WIDTH [m], wider by what can be neither proven nor refuted in between."""
+        undecided, left = infeasible, UNDECIDED_MAX
+        while feasible - undecided > PITCH_WIDTH and left:
+            middle = 0.5 * (undecided + feasible)
+            if middle in (undecided, feasible):
                 break
-            infeasible, feasible = (infeasible, middle) if clear else (middle, feasible)
+            clear = self.is_clear(middle)
+            left -= clear is None
+            undecided, feasible = (undecided, middle) if clear else (middle, feasible)
+            infeasible = middle if clear is False else infeasible
+        while undecided - infeasible > PITCH_WIDTH and left:
+            middle = 0.5 * (infeasible + undecided)
+            if middle in (infeasible, undecided):
+                break
+            clear = self.is_clear(middle)
+            left -= clear is None
+            infeasible, undecided = (middle, undecided) if clear is False else (infeasible, middle)
         return infeasible, feasible
 
     def islands(self, pitch: float) -> tuple[tuple[float, float], ...]:

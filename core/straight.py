@@ -85,11 +85,23 @@ class Straight:
         self._chords, self._overhangs, self._half_widths = chords, overhangs, half_widths
         self._diagonals = np.hypot(overhangs, half_widths)
 
+    def clears(self, growth: float, radius: float, margin: float) -> bool:
+        """Does the bound exceed a margin [m]? See least()."""
+        return self._further(growth, radius) > margin and self.least(growth, radius) > margin
+
     def least(self, growth: float, radius: float) -> float:
         """Lower bound of the separation of any two benches that share no handle [m], the inner one leading at the
         radius [m] or further out, on the spiral of this growth [m/rad] and on every wider one; -1e150 where it says
         nothing.
         """
+        further = self._further(growth, radius)
+        if further == -NONE or self.gap >= NONE:
+            return further
+        rounding = STRAIGHT_ROUNDING * (abs(self.gap) + self.chord + self.overhang + 2.0 * self.half_width)
+        return min(further, self._next_but_one(curvature_most(growth, radius))) - rounding
+
+    def _further(self, growth: float, radius: float) -> float:
+        """The same for benches with two others or more between them, rounding aside [m]; NONE without such benches."""
         width, diagonals = 2.0 * self.half_width, 2.0 * math.hypot(self.overhang, self.half_width)
         if 2.0 * math.pi * growth <= diagonals and self.total >= math.pi * radius:  # a ring may lie on the next
             return -NONE
@@ -97,20 +109,18 @@ class Straight:
         sine = 0.5 * curvature * self.chord
         if sine >= math.sqrt(0.5):  # 2 beta would pass pi / 2
             return -NONE
+        if self.between >= NONE:
+            return NONE
         beta = math.asin(sine)
-        least = self._next_but_one(curvature)
-        if self.between < NONE:
-            bridged = max(diagonals, width + self.chord * math.tan(beta))
-            least = min(least, self._along(curvature, beta, bridged))
-            if 2.0 * beta * self.total >= math.pi * radius * curvature * self.chord:  # it may go half around
-                across = 2.0 * math.pi * growth / math.hypot(1.0, 0.5 * math.pi * growth / radius)
-                least = min(least, max(across, math.pi * growth) - bridged)
-        return least - STRAIGHT_ROUNDING * (abs(self.gap) + self.chord + self.overhang + width)
+        bridged = max(diagonals, width + self.chord * math.tan(beta))
+        least = self._along(curvature, beta, bridged)
+        if 2.0 * beta * self.total >= math.pi * radius * curvature * self.chord:  # it may go half around
+            across = 2.0 * math.pi * growth / math.hypot(1.0, 0.5 * math.pi * growth / radius)
+            least = min(least, max(across, math.pi * growth) - bridged)
+        return least
 
     def _next_but_one(self, curvature: float) -> float:
         """The same for benches i and i + 2 [m]."""
-        if self.gap >= NONE:
-            return NONE
         betas = np.arcsin(0.5 * curvature * self._chords)
         phi = betas[:-1] + betas[1:]
         sine, cosine = np.sin(phi), np.cos(phi)

@@ -64,7 +64,7 @@ class Strips:
 
     def clears(self, low: float, high: float, radius: float) -> bool:
         """Does a bound clear all from a head radius outwards for all growths in [low, high]?"""
-        return self.ring_clears(low, high, radius) or self.straight.least(low, radius) > self.margin
+        return self.ring_clears(low, high, radius) or self.straight.clears(low, radius, self.margin)
 
     def ring_clears(self, low: float, high: float, radius: float) -> bool:
         """Does the ring bound clear all from a head radius outwards for all growths in [low, high]?"""
