@@ -1,7 +1,7 @@
 # The first `make` in a fresh clone makes .venv, installs the locked versions and compiles core/kernels.
 SHELL := /bin/bash
 .DEFAULT_GOAL := help
-.PHONY: help setup serve test lint bench examples figures lock clean
+.PHONY: help setup serve test lint sweep-pitch bench examples figures lock clean
 
 VENV := .venv
 BIN := $(VENV)/bin
@@ -15,6 +15,7 @@ help:
 	@echo 'make serve    the service on http://$(HOST):$(PORT) (HOST=, PORT=)'
 	@echo 'make test     all tests (ARGS= for pytest)'
 	@echo 'make lint     ruff and mypy'
+	@echo 'make sweep-pitch  the minimum pitch of 2,000 random dragons against a slow scan, 10 minutes (DRAGONS=, FIRST=)'
 	@echo 'make bench    benchmarks against a plain SciPy baseline, into the table of README.md'
 	@echo 'make examples the answers that /docs shows, asked anew'
 	@echo 'make figures  the figures of README.md'
@@ -48,6 +49,9 @@ lint: setup
 	@$(BIN)/ruff check .
 	@$(BIN)/ruff format --check .
 	@$(BIN)/mypy
+
+sweep-pitch: setup
+	@$(BIN)/python -m tests.core.sweep_pitch $(or $(DRAGONS),2000) $(or $(FIRST),0)
 
 bench: setup
 	@$(BIN)/python -m benchmarks.report README.md

@@ -181,11 +181,22 @@ class MinimumPitch(Answer):
 
     pitch: float = Field(description="[m]")
     pitch_bracket: Point = Field(description="Infeasible, feasible [m]")
-    limited_by: core.LimitedBy = Field(description="A graze on the way, contact on the circle, or the start radius")
-    benches: Pair | None = Field(description="The pair that touches just below")
+    limited_by: core.LimitedBy = Field(
+        description="Just below: a graze on the way; contact on the circle; the start: contact there or, where benches "
+        "is null, a start inside the circle; or a fold: a bench cannot follow the head as far as the circle"
+    )
+    benches: Pair | None = Field(description="The pair that touches just below; null at a fold and without contact")
     head_radius: float | None = Field(description="Where the head is then [m]")
     other_feasible_intervals: list[Point] = Field(description="Feasible islands below [m]")
-    justified_by: str = Field(description="How it is known that every larger pitch is feasible: bound or scan")
+    justified_by: str = Field(
+        description="How larger pitches are known to be feasible. bound: proven for all; scan: below proven_from "
+        "single ones are proven, at most scan_step apart: a narrower range of infeasible ones is not excluded there"
+    )
+    proven_from: float = Field(
+        description="From here on every pitch is proven feasible; pitch itself without a scan [m]"
+    )
+    proven_up_to: float | None = Field(description="Up to here; null: every larger pitch, without end [m]")
+    scan_step: float | None = Field(description="How far apart the pitches of a scan are at most; null: no scan [m]")
     evaluations: int = Field(description="Ways to the circle, and strips of pitches at once, that were marched")
     cross_check: PairCheck | None = Field(description="Engines on the pair at a pitch 1e-6 m larger and smaller")
 

@@ -27,6 +27,8 @@ SHOWN_HANDLES = (0, 1, 51, 101, 151, 201)
 SHOWN_INSTANTS = 5
 # Width of a table where standard output is no terminal [characters].
 PIPE_WIDTH = 120
+# What a null says where it is an answer.
+SAID_BY_NULL = {"proven_up_to": "every larger pitch", "scan_step": "no scan"}
 # A wait longer than this is shown [s].
 SHOWN_WAIT = 1.0
 
@@ -88,6 +90,8 @@ def _flat(answer: BaseModel, prefix: str = "") -> Iterator[tuple[str, str]]:
         elif value is not None:
             unit = re.search(r"\[([^\]]+)\]$", field.description or "")
             yield label, f"{_shown(value)} {unit[1] if unit else ''}".rstrip()
+        elif name in SAID_BY_NULL:
+            yield label, SAID_BY_NULL[name]
 
 
 def _shown(value: Any, decimals: int = 9) -> str:

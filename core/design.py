@@ -9,25 +9,37 @@ from enum import StrEnum
 import numpy as np
 
 from core import kernels
-from core.dragon import SIZE_MIN, Dragon, checked_number, checked_size
+from core.dragon import SIZE_MAX, SIZE_MIN, Dragon, checked_number, checked_size
 from core.errors import InvalidValue
-from core.kinematics import end_theta
+from core.kinematics import EndReason, RunEnd, end_theta
 from core.paths import START_TURNS_MAX, Spiral
 from core.search import MARGIN_MAX, NO_PIECES, Search
+from core.straight import Straight
 from core.strips import BORDER_WIDTH, Strips
 
 # Half width of the bracket around a contact [m of head travel].
 CONTACT_WIDTH = 2e-11
-# Just below what the strips prove, an infeasible pitch is looked for this far down [m of pitch]: an error below 1e-9 m.
+# Just below what the strips prove, an infeasible pitch is looked for: an error below this [m of pitch].
 PASSED_OVER = 1e-9
+# On spirals so wide that a clearance hardly changes with the pitch it is looked for down to this part of it, and the
+# bracket is as wide [1].
+PASSED_OVER_WIDE = 1e-6
 # The pitch is bisected to this width [m]; rounding of a clearance is near 1e-14 m.
 PITCH_WIDTH = 2e-13
-# Where no bound on the change of a clearance with the pitch is at hand, so many pitches are tried, evenly spaced.
+# A way that a march leaves undecided is marched once more, in finer steps and with so much work, see WORK_BUDGET of
+# core/search.py; so many pitches that stay undecided end a bisection [1].
+FINER_WORK = 1e6
+UNDECIDED_MAX = 4
+# Where no bound on the change of a clearance with the pitch is at hand, so many pitches are tried.
 SCAN_SAMPLES = 1000
 # Islands below the minimum pitch are looked for at so many pitches, evenly spaced.
 ISLAND_SAMPLES = 400
-# The ring bound wants d > 2 growth, where d^2 >= radius^2 - (1.67 growth)^2: growths below radius / this [1].
-FOOT_LIMIT = 2.61
+# The growth from which on a bound clears every spiral is found this well [1].
+TOP_WIDTH = 0.02
+# From there the bounds are asked about such ranges of growths, as parts of the upper one, further and further down [1].
+RANGES = (0.95, 0.99, 0.998)
+# A way that ends this close to a fold, where handles are fast, is marched in finer steps [m of head travel].
+NEAR_FOLD = 0.1
 # What limits the pitch is looked at this far below it, where a graze has become a contact of some length [m of pitch].
 BELOW = 1e-11
 # At both ends of a way the pairs led by so many benches are looked at before it is marched.
@@ -44,19 +56,24 @@ class LimitedBy(StrEnum):
     GRAZE = "graze"
     CIRCLE = "circle"
     START = "start"
+    FOLD = "fold"
 
 
 @dataclass(frozen=True, slots=True)
 class MinimumPitch:
     """The smallest pitch such that every larger one is free of contact down to the turning circle.
 
-    pitch: [m]; pitch_bracket: (infeasible, feasible) [m]
-    limited_by: a graze on the way, contact exactly on the circle, or the start: the dance would touch
-        there, or, without benches, begin inside the circle
-    benches: the pair that touches just below; head_radius: of the head then [m]
+    pitch: [m]; pitch_bracket: (infeasible, feasible) [m], twice the same where the start limits it without benches;
+        what lies in between is undecided: more than 1e-9 m on wide spirals and where a fold vanishes within the way
+    limited_by: a graze on the way, contact exactly on the circle, the start: the dance would touch there, or, without
+        benches, begin inside the circle; or the fold: a bench could not follow the head as far as the circle
+    benches: the pair that touches just below; head_radius: of the head then [m], at a fold that of the circle
     other_feasible_intervals: [m], islands below pitch, found on a grid of ISLAND_SAMPLES pitches
-    justified_by: how every larger pitch up to proven_up_to [m] is known to be feasible: 'bound' or 'scan', in steps of
-        scan_step [m]
+    justified_by: how every larger pitch is known to be feasible: 'bound': proven for all; 'scan': below proven_from
+        single ones are proven, scan_step [m] apart at most: a narrower range of infeasible ones is not excluded there
+    proven_from, proven_up_to: every pitch in between is proven feasible [m]; the first is pitch itself without a scan,
+        the second None for every larger pitch, without end
+    scan_step: None without a scan
     evaluations: ways from the start to the circle that were marched, and strips of pitches, see `core/strips.py`
     """
 
@@ -67,9 +84,20 @@ class MinimumPitch:
     head_radius: float | None
     other_feasible_intervals: tuple[tuple[float, float], ...]
     justified_by: str
-    proven_up_to: float
+    proven_from: float
+    proven_up_to: float | None
     scan_step: float | None
     evaluations: int
+
+
+# One bench alone: what is feasible at one growth is so at every larger one, so a bisection finds the minimum. With the
+# head at a radius rho, f = b^2 delta^2 + 2 rho (rho + b delta) (1 - cos delta) has a root f = c^2 before its first
+# crest (spiral.py) or none. At a fixed rho and delta f grows with b. Its first crest does not come nearer: in units of
+# b, with theta = rho / b, it is the first zero of h = delta + theta (1 - cos delta) + theta (theta + delta) sin delta,
+# and where h = 0
+#     theta (theta + delta) dh / d theta = -theta^2 (1 - cos delta) - delta (2 theta + delta) < 0,
+# so h, once 0, is negative for all larger theta: where h > 0 on (0, delta) it is so for all smaller theta, all larger
+# b. So the root stays as b grows, at every radius from the circle outwards.
 
 
 class _PitchSearch:
@@ -77,10 +105,12 @@ class _PitchSearch:
 
     def __init__(self, dragon: Dragon, radius: float, start_turns: float, margin: float) -> None:
         self.radius, self.start_turns, self.margin = radius, start_turns, margin
-        self.lowest = radius / start_turns
-        self.search = Search(dragon, Spiral(max(self.lowest, SIZE_MIN), start_turns), margin, work=math.inf)
+        self.lowest = max(radius / start_turns, SIZE_MIN)
+        self.search = Search(dragon, Spiral(self.lowest, start_turns), margin, work=math.inf)
         self.strips = Strips(self.search, radius, start_turns, margin)
         self.ways = 0
+        self.alone = dragon.benches == 1
+        self.scanned_from: float | None = None
         self.scan_step: float | None = None
 
     def way(self, pitch: float, width: float = 0.0) -> tuple[str, dict[str, float]]:
@@ -93,80 +123,126 @@ class _PitchSearch:
         search.use(path, self.margin)
         self.ways += 1
         circle = self.radius / path.growth
-        if not self.strips.bent_little and end_theta(search.dragon, path)[0] > circle:
-            return "folded", dict.fromkeys(kernels.MARCH_FIELDS, 0.0)
         stop = max(search.travel_at(circle), 0.0)
+        fold, bench = (0.0, None) if self.strips.bent_little else end_theta(search.dragon, path)
+        if fold > circle:
+            return "folded", dict.fromkeys(kernels.MARCH_FIELDS, 0.0)
         for state, travel in () if width else (("touched_at_start", 0.0), ("touched", stop)):
             # a look at both ends decides most ways that are not clear, without laying out a long dragon
             gap, pair = search.clearance(travel, min(LOOKED_AT, search.room))
             if gap <= self.margin:
                 return state, {"touching": travel, "first": pair[0], "second": pair[1]}
-        return search.march(stop, width)
+        if bench is None or search.travel_at(fold) - stop > NEAR_FOLD:
+            return search.march(stop, width)
+        end = RunEnd(EndReason.FOLD, search.travel_at(fold), fold, bench)
+        last = min(stop, search.last_travel(end.time, True))
+        state, found = search.march(last, width or CONTACT_WIDTH)
+        if (state == "stuck" and found["touching"] < 0.0) or (state == "reached" and last < stop):
+            state = "reached" if search.clear_to_fold(min(found["proven"], last), end) else "stuck"
+        return state, found
 
-    def is_clear(self, pitch: float) -> bool:
-        """Is the whole way proven free of contact?"""
-        return self.way(pitch)[0] == "reached"
+    def is_clear(self, pitch: float) -> bool | None:
+        """Is the whole way free of contact? None where neither is known, within rounding of a graze."""
+        for width, work in ((0.0, math.inf), (CONTACT_WIDTH, FINER_WORK)):
+            self.search.work = work
+            state, found = self.way(pitch, width)
+            self.search.work = math.inf
+            if state != "stuck" or found["touching"] >= 0.0:
+                return state == "reached"
+        return None
 
-    def top(self) -> tuple[float, float]:
-        """A feasible pitch to descend from, and up to which every larger one is feasible by the ring bound [m].
+    def top(self) -> tuple[float, float | None]:
+        """A feasible pitch to descend from, and up to which every larger one is feasible [m], None: without end.
 
-        The ring bound holds for growths up to those of its derivation, so a pitch beyond is not asked about; where it
-        clears nothing (a circle hardly wider than a bench is long), the two are the same pitch, cleared by a march
-        and no larger than the circle's radius.
+        From the least growth at which the bound of `core/straight.py` clears that growth and every larger one, it and
+        the ring bound are asked about ranges of growths further down.
+        raises: InvalidValue where that is beyond the largest pitch allowed, and that pitch is infeasible
         """
-        chord = float(self.search.extremes[0])
-        foot2, lowest = self.radius**2 - 0.25 * chord**2, self.lowest / (2.0 * math.pi)
-        limits = [self.radius**2 / (1.5708 * chord), self.radius / FOOT_LIMIT]
-        limits += [0.5 * math.sqrt(foot2)] if foot2 > 0.0 else []
-        growths = [growth for growth in (0.999 * min(limits) * 0.95**k for k in range(200)) if growth > lowest]
-        for growth in growths:
-            if self.strips.ring_clears(0.95 * growth, growth, self.radius):
-                low = growth
-                for factor in (0.95, 0.99):
-                    while low > lowest and self.strips.ring_clears(factor * low, low, self.radius):
-                        low *= factor
-                return 2.0 * math.pi * max(low, lowest), 2.0 * math.pi * growth
-        for growth in growths:
-            if max(self.lowest, SIZE_MIN) < 2.0 * math.pi * growth < self.radius and self.is_clear(
-                2.0 * math.pi * growth
-            ):
-                return (2.0 * math.pi * growth,) * 2
-        return (self.lowest,) * 2
+        turn = 2.0 * math.pi
+        lowest, growth = self.lowest / turn, SIZE_MAX / turn
+        clears = self.strips.straight.clears
+        if not clears(growth, self.radius, self.margin):
+            if not self.is_clear(SIZE_MAX):
+                raise InvalidValue(
+                    "turning_radius",
+                    f"turning_radius must be larger for this dragon: up to a pitch of {SIZE_MAX:g} m it cannot dance "
+                    f"down to {self.radius:g} m",
+                )
+            return SIZE_MAX, SIZE_MAX
+        beyond = 0.5 * lowest
+        while growth > lowest and growth - beyond > TOP_WIDTH * growth:
+            middle = math.sqrt(beyond * growth)
+            beyond, growth = (beyond, middle) if clears(middle, self.radius, self.margin) else (middle, growth)
+        for factor in RANGES:
+            while growth > lowest and self.strips.clears(factor * growth, growth, self.radius):
+                growth *= factor
+        return turn * max(growth, lowest), None
 
     def descend(self, top: float) -> tuple[float, float, str]:
         """From a feasible pitch down to (infeasible, feasible) [m], close together, and what justifies the way down."""
-        if not self.strips.bent_little:
-            return *self.scan(top), "scan"
+        if self.alone:
+            pitch = self.lowest if self.is_clear(self.lowest) else top
+            return *((pitch, pitch) if pitch < top else self.bisect(self.lowest, top)), "bound"
         pitch, stopped = self.strips.descend(top, self.lowest)
         if stopped == "lowest":
             return pitch, pitch, "bound"
         if stopped != "unbounded":
-            step = BORDER_WIDTH
-            while step <= PASSED_OVER and pitch - step > self.lowest:
-                if not self.is_clear(pitch - step):
-                    return *self.bisect(pitch - step, pitch), "bound"
+            step = max(BORDER_WIDTH, 2.0 * math.ulp(pitch))
+            while step <= max(PASSED_OVER, PASSED_OVER_WIDE * pitch) and pitch - step > self.lowest:
+                if self.grazes(pitch - step) or self.is_clear(pitch - step) is False:
+                    return *(
+                        self.bisect(pitch - step, pitch) if step <= PASSED_OVER else (pitch - step, pitch)
+                    ), "bound"
                 step *= 2.0
         # strips are proven however far outside a way starts; this one may begin inside what stops them
         return *self.scan(pitch), "scan"
 
+    def grazes(self, pitch: float) -> bool:
+        """Is the pair whose graze ended the strips within the margin on the way, as far as its dip is followed?"""
+        if not self.strips.graze:
+            return False
+        pair, radius = self.strips.graze
+        gap, radius = self.strips.dip(pitch, radius, pair)
+        return gap <= self.margin and radius <= pitch * self.start_turns
+
     def scan(self, pitch: float) -> tuple[float, float]:
-        """(infeasible, feasible) by trying SCAN_SAMPLES pitches down to the lowest, then by bisection [m]."""
-        self.scan_step = (pitch - self.lowest) / SCAN_SAMPLES
+        """(infeasible, feasible) by trying SCAN_SAMPLES pitches down to the lowest, then by bisection [m].
+
+        They stand closer together further down, each the same part below the one before.
+        """
+        factor = (self.lowest / pitch) ** (1.0 / SCAN_SAMPLES)
+        self.scanned_from, self.scan_step = pitch, (1.0 - factor) * pitch
+        below, left = pitch, UNDECIDED_MAX
         for k in range(1, SCAN_SAMPLES + 1):
-            below = pitch - self.scan_step if k < SCAN_SAMPLES else self.lowest
-            if not self.is_clear(below):
+            below = factor * below if k < SCAN_SAMPLES else self.lowest
+            clear = self.is_clear(below)
+            if clear is False:
                 return self.bisect(below, pitch)
-            pitch = below
-        return self.lowest, self.lowest
+            if clear and left == UNDECIDED_MAX:
+                pitch = below
+            left -= clear is None
+            if not left:
+                break
+        return self.lowest, pitch
 
     def bisect(self, infeasible: float, feasible: float) -> tuple[float, float]:
-        """The same with a bracket of PITCH_WIDTH [m]."""
-        while feasible - infeasible > PITCH_WIDTH:
-            middle = 0.5 * (infeasible + feasible)
-            state, found = self.way(middle)
-            if middle in (infeasible, feasible) or (state == "stuck" and found["touching"] < 0.0):
+        """The same with a bracket of PITCH_WIDTH [m], wider by what can be neither proven nor refuted in between."""
+        undecided, left = infeasible, UNDECIDED_MAX
+        while feasible - undecided > PITCH_WIDTH and left:
+            middle = 0.5 * (undecided + feasible)
+            if middle in (undecided, feasible):
                 break
-            infeasible, feasible = (infeasible, middle) if state == "reached" else (middle, feasible)
+            clear = self.is_clear(middle)
+            left -= clear is None
+            undecided, feasible = (undecided, middle) if clear else (middle, feasible)
+            infeasible = middle if clear is False else infeasible
+        while undecided - infeasible > PITCH_WIDTH and left:
+            middle = 0.5 * (infeasible + undecided)
+            if middle in (infeasible, undecided):
+                break
+            clear = self.is_clear(middle)
+            left -= clear is None
+            infeasible, undecided = (middle, undecided) if clear is False else (infeasible, middle)
         return infeasible, feasible
 
     def islands(self, pitch: float) -> tuple[tuple[float, float], ...]:
@@ -205,6 +281,8 @@ class _PitchSearch:
     def _end_of_island(self, feasible: float, infeasible: float) -> float:
         while infeasible - feasible > PITCH_WIDTH:
             middle = 0.5 * (feasible + infeasible)
+            if middle in (feasible, infeasible):
+                break
             feasible, infeasible = (middle, infeasible) if self.is_clear(middle) else (feasible, middle)
         return feasible
 
@@ -222,7 +300,7 @@ class _PitchSearch:
         if state == "touched_at_start":
             return LimitedBy.START, pair, self.search.growth * 2.0 * math.pi * self.start_turns
         if state == "folded":
-            return LimitedBy.START, None, None
+            return LimitedBy.FOLD, None, self.radius
         travel = found["touching"] - (CONTACT_WIDTH if state == "touched" else 0.0)
         return self._met(travel, travel + BOTTOM_WITHIN, pair)
 
@@ -242,11 +320,12 @@ def minimum_pitch(
     """The smallest pitch such that every larger one lets the head reach the turning circle without contact.
 
     turning_radius: [m]; start_turns: turns from the centre to the start; margin: [m], clearance required
-    From a pitch at which the bound of `core/kernels/rings.py` clears everything, strips of pitches are proven clear
-    downwards, each for all its pitches at once (`core/strips.py`), to where a pair of benches grazes: no infeasible
-    pitch is stepped over. Where strips have no bound (benches so long that they stand far across the circle, or a start
-    inside the region where benches can touch while ways from further out do touch) a stated scan takes their place.
-    raises: InvalidValue; also when the dragon cannot reach the circle at any pitch
+    From some pitch on all are feasible, without end: the spiral is so wide there that the dragon stands nearly straight
+    (`core/straight.py`). Downwards from there strips of pitches are proven clear, each for all its pitches at once
+    (`core/strips.py`), to where a pair of benches grazes: no infeasible pitch is stepped over. Where strips have no
+    bound (benches so long that handles turn back on the way, or a start inside the region where benches can touch while
+    ways from further out do touch) a stated scan takes their place.
+    raises: InvalidValue; also where benches touch on a straight line, so that no pitch is large enough
     source: the model of Yang et al., section 2.5; their bisection of the contact radius cannot converge, because that
         radius jumps over the circle
 
@@ -256,17 +335,15 @@ def minimum_pitch(
     radius = checked_size("turning_radius", turning_radius)
     turns = checked_number("start_turns", start_turns, "turns", 0.0, START_TURNS_MAX, open_low=True)
     margin = checked_number("margin", margin, "m", 0.0, MARGIN_MAX)
+    if radius / turns > SIZE_MAX:
+        raise InvalidValue(
+            "start_turns",
+            f"start_turns must be at least {radius / SIZE_MAX:g} turns, or no pitch up to {SIZE_MAX:g} m lets a dance "
+            f"begin outside a turning circle of {radius:g} m radius, got {turns:g} turns",
+        )
+    _check_straight(dragon, Straight(dragon), margin)
     search = _PitchSearch(dragon, radius, turns, margin)
     top, proven_up_to = search.top()
-    if max(top, search.lowest) < SIZE_MIN:
-        raise InvalidValue(
-            "turning_radius", f"turning_radius must allow pitches of {SIZE_MIN:g} m and more, got {radius:g} m"
-        )
-    if not search.is_clear(max(top, search.lowest)):
-        raise InvalidValue(
-            "turning_radius",
-            f"turning_radius must be larger for this dragon: at no pitch tried can it dance down to {radius:g} m",
-        )
     infeasible = feasible = search.lowest
     justified_by = "bound"
     if top > search.lowest:
@@ -276,7 +353,7 @@ def minimum_pitch(
         islands: tuple[tuple[float, float], ...] = ()
     else:
         limited_by, pair, head_radius = search.limit(infeasible)
-        islands = search.islands(infeasible)
+        islands = () if search.alone else search.islands(infeasible)
     return MinimumPitch(
         feasible,
         (infeasible, feasible),
@@ -285,7 +362,38 @@ def minimum_pitch(
         head_radius,
         islands,
         justified_by,
-        max(proven_up_to, search.lowest),
+        search.scanned_from or feasible,
+        proven_up_to,
         search.scan_step,
         search.ways + search.strips.marches,
+    )
+
+
+def _check_straight(dragon: Dragon, straight: Straight, margin: float) -> None:
+    """Refuse a dragon whose benches come within the margin on a straight line, and so on every wide spiral.
+
+    raises: InvalidValue (margin or the overhang)
+    """
+    if straight.gap > margin:
+        return
+    a, b = straight.at, straight.at + 2
+    chord, front, rear = dragon.chords[a + 1], dragon.overhangs[a], dragon.overhangs[b]
+    why = (
+        f"on a straight line, and so on every wide enough spiral, benches {a} and {b} "
+        + (f"are {straight.gap:.9g} m apart" if straight.gap > 0.0 else "touch")
+        + f": the chord of bench {a + 1} between them is {chord:.9g} m, their overhangs {front:.9g} m and {rear:.9g} m"
+    )
+    if straight.gap > 0.0:
+        raise InvalidValue("margin", f"margin must be less than {straight.gap:.9g} m, got {margin:.9g} m: {why}")
+    if all((column[1:] == column[1]).all() for column in (dragon.lengths, dragon.widths)) and front == rear:
+        body = dragon.lengths[a + 1]
+        raise InvalidValue(
+            "dragon.overhang",
+            f"dragon.overhang must be less than a quarter of dragon.body_length ({body:g} m / 4 = {0.25 * body:g} m), "
+            f"got {front:g} m: {why}",
+        )
+    raise InvalidValue(
+        f"dragon.overhangs.{a}",
+        f"dragon.overhangs[{a}] + dragon.overhangs[{b}] must be less than the chord of bench {a + 1} ({chord:.9g} m), "
+        f"got {front:.9g} m + {rear:.9g} m: {why}",
     )

@@ -66,12 +66,16 @@ export function showFirstContact(box, answer, { benches, margin }) {
 export function showMinimumPitch(box, answer, { benches, turning_diameter: diameter }, use) {
   const names = answer.benches ? pair(answer.benches, Number(benches)) : {};
   const limit = say(`limited_${answer.limited_by}`, { ...names, radius: answer.head_radius?.toFixed(6) });
-  const lines = [say("toCircle", { diameter }), limit];
+  const { scan_step: step, proven_up_to: upTo } = answer;
+  const all = step === null && upTo === null;
+  const from = answer.proven_from.toFixed(9);
+  const lines = [say(all ? "toCircle" : "toCircleTried", { diameter }), limit];
   const islands = answer.other_feasible_intervals.map(([low, high]) => `${low.toFixed(6)}–${high.toFixed(6)} m`);
   if (islands.length) lines.push(say("islands", { list: islands.join(", ") }));
   const rows = [
     bracket("bracketPitch", answer.pitch_bracket, 10),
-    [say("justified"), say(`justified_${answer.justified_by}`)],
+    [say("justified"), say(`justified_${answer.justified_by}`, { from, step: step === null ? "" : millimetres(step) })],
+    [say("proven"), say(upTo === null ? "provenToAll" : "provenTo", { from, upTo })],
     [say("evaluations"), answer.evaluations],
   ];
   show(box, "minimumPitch", `${answer.pitch.toFixed(9)} m`, lines, [facts(...rows), engines(answer.cross_check)]);

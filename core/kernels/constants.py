@@ -97,7 +97,8 @@ TOUCHED = 1
 TOUCHED_AT_START = 2
 STUCK = 3
 CAPACITY = 4
-MARCH_STATES = ("reached", "touched", "touched_at_start", "stuck", "capacity")
+TURNED = 5
+MARCH_STATES = ("reached", "touched", "touched_at_start", "stuck", "capacity", "turned")
 
 # Entries of the ring array: what is known of all benches that can be the outer one of a pair [m].
 RING_CLEAR = 0  # no pair whose inner bench leads at this radius or more can touch

@@ -6,14 +6,16 @@ from core.kernels.rings cimport leaders_reach, radius_beyond
 from core.kernels.pairs cimport strip_least
 from core.kernels.clearance cimport row_gap
 
+cdef double TURNED_WITHIN
+
 @cython.locals(k=cython.Py_ssize_t)
-cdef void shift_bounds(
+cdef bint shift_bounds(
     double low, double high, Py_ssize_t benches, double[:, ::1] sizes, double[:, ::1] inner, double[:, ::1] outer,
     double[:, ::1] shifts
 ) noexcept nogil
 
 @cython.locals(
-    cap=cython.Py_ssize_t, placed=cython.Py_ssize_t, handles=cython.Py_ssize_t, a=cython.Py_ssize_t,
+    bounded=cython.bint, cap=cython.Py_ssize_t, placed=cython.Py_ssize_t, handles=cython.Py_ssize_t, a=cython.Py_ssize_t,
     b=cython.Py_ssize_t
 )
 cpdef int strip(

@@ -10,6 +10,8 @@ if not cython.compiled:  # for the compiler the same stands in the .pxd
     from core.kernels.pairs import strip_least
     from core.kernels.rings import leaders_reach, radius_beyond
     from core.kernels.spiral import extend_chain, spiral_arc, spiral_theta, start_chain
+# A strip is given up where handles may turn back in steps shorter than this part of the head's radius [1].
+TURNED_WITHIN = 1e-3
 
 # The separation of two benches is now a function of the head's radius r_0 and of the growth b. Below, ' is d / db at a
 # fixed r_0, seen in the frame in which the head stands at angle 0: handle k stands at rho = r_0 + b psi, angle psi,
@@ -18,29 +20,42 @@ if not cython.compiled:  # for the compiler the same stands in the .pxd
 #
 # First derivatives. With f(rho_a, delta, b) = b^2 delta^2 + 2 rho_a (rho_a + b delta) (1 - cos delta) = c^2 and
 # a = rho',
-#     a_b = a_a (1 - b f_rho / f_delta) + 2 rho_a rho_b delta sin delta / f_delta,
-#     delta' = -(f_rho a_a + f_b) / f_delta.
-# While no handle turns back (k c / 2 < 1, k the curvature) 1 - b f_rho / f_delta is the rate of a link, in [0, 1], and
-# the last term is in [0, delta], so 0 <= a_k <= psi_k and delta' <= 0: radii grow with b, angles fall. With
-# f_delta >= 2 rho_a rho_b sin delta and t = tan(delta / 2),
-#     |delta'| <= ((2 psi_a + delta) t + (b / rho_a) delta^2 / sin delta) / rho_a  =: D,   |psi_b'| <= Q_b = Q_a + D.
+#     a_b = a_a (1 - b f_rho / f_delta) + z,    z = 2 rho_a rho_b delta sin delta / f_delta,
+#     delta' = -(f_rho a_a + f_b) / f_delta,
+# in which, with the angles alpha between the path and the chord at both handles,
+#     F = f_delta / 2 = b^2 delta + b rho_a (1 - cos delta) + rho_a rho_b sin delta = c sqrt(b^2 + rho_b^2) cos alpha_b,
+#     f_rho / 2 = (rho_a + rho_b) (1 - cos delta),    f_b / 2 = b delta^2 + rho_a delta (1 - cos delta),
+#     F - b f_rho / 2 = b^2 delta cos delta - b rho_a (1 - cos delta) + rho_a rho_b sin delta
+#                     = c sqrt(b^2 + rho_a^2) cos alpha_a  =: A.
+# While delta < pi and no handle turns back (F > 0, A >= 0) 1 - b f_rho / f_delta = A / F is in [0, 1], and, as
+# F >= b^2 delta + rho_a rho_b sin delta, 0 <= z <= Z = delta m / (1 + m) with m = rho_a rho_b / b^2. So with
+# g_b = g_a + Z 0 <= a_b <= g_b <= psi_b and delta' <= 0: radii grow with b, angles fall. Further
+#     |delta'| <= ((2 g_a + delta) t + (b / rho_a) delta^2 / sin delta) / rho_a,  as F >= rho_a rho_b sin delta,
+#     |delta'| <= ((g_a (rho_a + rho_b) + rho_a delta) (1 - cos delta) + b delta^2) / F,
+# t = tan(delta / 2); the lesser of both is D, and |psi_b'| <= Q_b = Q_a + D.
 # Radii also grow with r_0, and angles fall, so over r_0 in [r_L, r_R] and b in [b_L, b_R] the angles, and the least
-# radii, are those at (r_L, b_L) and the largest radii those at (r_R, b_R).
+# radii, are those at (r_L, b_L) and the largest radii those at (r_R, b_R). That needs no more than F > 0 and A >= 0 on
+# the rectangle, link by link: delta, a first root, falls wherever f grows, with rho_a and with b; so it lies between
+# its values at the two corners once rho_a does, these bound F and A (rho_b = rho_a + b delta), and F > 0, A >= 0 make
+# rho_b grow too.
 #
 # Turning. In the frame that turns with handle a, P_a' = a_a R_a and P_b' = a_b R_b + rho_b delta' T_b, so u turns at
 # psi_a' + w / c with, as T_a . u = -rho_b sin delta / c, T_b . u = -rho_a sin delta / c, rho_a sin delta <= c,
-#     |w| <= |a_b - a_a| + a_a b delta / rho_a + rho_b |delta'| q,   |a_b - a_a| <= max(delta, 2 a_a b t / rho_a),
+#     |w| <= |a_b - a_a| + a_a b delta min(1 / rho_a, delta / c) + rho_b |delta'| q,
+#     |a_b - a_a| <= max(Z, a_a b f_rho / f_delta),   b f_rho / f_delta <= 2 b t / rho_a,
 #     q = |R_b . u| = (b delta + rho_a (1 - cos delta)) / c.
 #
 # Second derivatives. P'' = psi'' S + B, S = b R + rho T, B = (2 psi' - rho psi'^2) R + 2 a psi' T. From |P_a - P_b| = c
 #     psi_b'' S_b . u = psi_a'' S_a . u + (B_a - B_b) . u + |P_a' - P_b'|^2 / c,
 # in which, written out with psi_b' = psi_a' + delta', all that a common rotation psi_a' contributes cancels:
 #     E = 2 psi_a' (R_a - R_b) . u + w^2 / c + (rho_b delta'^2 - 2 delta') R_b . u - 2 a_b delta' T_b . u,
-#     |E| <= 2 Q_a delta + w^2 / c + (rho_b D + 2) D q + 2 psi_b D.
-# S points along the path, |S_a| <= |S_b|, and S . u = -|S| cos alpha with cos alpha_a <= cos alpha_b (bounds.py).
-# So for y = |psi''| |S|:  y_b <= y_a + |E| / cos alpha_b,  sin alpha_b <= k c / 2, and k = (rho^2 + 2 b^2) / (rho^2 +
-# b^2)^(3/2) is at most 2 / (1.5^(3/2) rho) < 1.0887 / rho for every b. Then
-#     |P'| <= sqrt(psi^2 + rho^2 Q^2),   |P''| <= y + sqrt((2 Q + rho Q^2)^2 + 4 psi^2 Q^2).
+#     |E| <= 2 Q_a delta + w^2 / c + (rho_b D + 2) D q + 2 g_b D.
+# S points along the path, |S_a| <= |S_b|, and S . u = -|S| cos alpha with cos alpha_a <= cos alpha_b (Vogt: neither
+# angle exceeds pi / 2, so arc and chord bound a convex figure, and the arc is curved more at its inner end a).
+# So for y = |psi''| |S|:  y_b <= y_a + |E| / cos alpha_b, where cos alpha_b is F / (c sqrt(b^2 + rho_b^2)); and, while
+# that is below 1, sin alpha_b <= k c / 2, where k = (rho^2 + 2 b^2) / (rho^2 + b^2)^(3/2) is at most
+# 2 / (1.5^(3/2) rho) < 1.0887 / rho for every b. Then
+#     |P'| <= sqrt(g^2 + rho^2 Q^2),   |P''| <= y + sqrt((2 Q + rho Q^2)^2 + 4 g^2 Q^2).
 # A corner is (1/2 + x / c) P_a + (1/2 - x / c) P_b, |x| = half length, plus half a width across u, and |u''| is at most
 # 2 |P''| / c: it accelerates by at most (length + width) / c times its handles.
 #
@@ -52,41 +67,71 @@ if not cython.compiled:  # for the compiler the same stands in the .pxd
 
 
 def shift_bounds(low, high, benches, sizes, inner, outer, shifts):
-    """Bounds on how the first benches shift with the growth; inner: the chain at (r_L, b_L), outer: at (r_R, b_R)."""
-    psi = 0.0
+    """Bounds on how the first benches shift with the growth; inner: the chain at (r_L, b_L), outer: at (r_R, b_R).
+
+    False where a handle may turn back on the rectangle: there are no bounds then
+    """
+    grown = 0.0
     slides = 0.0
     path_pull = 0.0
     speed = 0.0
     for k in range(benches):
         chord = sizes[k, CHORD]
         delta = inner[k + 1, THETA] - inner[k, THETA]
+        least = outer[k + 1, THETA] - outer[k, THETA]
+        if delta >= PI:
+            return False
         s = sin(0.5 * delta)
         c = cos(0.5 * delta)
+        rise = 2.0 * s * s
         rho = low * inner[k, THETA]
+        rho_far = high * outer[k, THETA]
         rho_b = high * outer[k + 1, THETA]
-        lean = (high * delta + 2.0 * high * outer[k, THETA] * s * s) / chord
-        slide = ((2.0 * psi + delta) * s / c + high * delta * delta / (2.0 * s * c * rho)) / rho
-        swing = 2.0 * psi * high * s / (c * rho)
-        swing = (delta if delta > swing else swing) + psi * high * delta / rho + rho_b * slide * lean
+        sine = sin(least)
+        if 2.0 * s * c < sine:
+            sine = 2.0 * s * c
+        sine *= rho * (rho + low * least)
+        slope = sin(0.5 * least)
+        slope = low * low * least + 2.0 * low * rho * slope * slope + sine
+        front = low * low * least if rise < 1.0 else high * high * delta
+        front = front * (1.0 - rise) - high * rho_far * rise + sine
+        if front < 0.0 or slope <= 0.0:
+            return False
+        extra = rho_far * rho_b / (low * low)
+        extra = delta * extra / (1.0 + extra)
+        lean = (high * delta + high * outer[k, THETA] * rise) / chord
+        slide = ((2.0 * grown + delta) * s / c + high * delta * delta / (2.0 * s * c * rho)) / rho
+        swing = 2.0 * grown * high * s / (c * rho)
+        rise *= rho_far + rho_far + high * delta
+        if grown * high * rise < swing * slope:
+            swing = grown * high * rise / slope
+        rise = grown * rise + 2.0 * s * s * rho_far * delta + high * delta * delta
+        if rise < slide * slope:
+            slide = rise / slope
+        rise = delta * rho if delta * rho < chord else chord
+        swing = (extra if extra > swing else swing) + grown * high * delta * rise / (rho * chord) + rho_b * slide * lean
         shifts[k, SHIFT_TURN] = slides + swing / chord
         c = 0.5 * SPIRAL_CURVATURE_MOST * chord / rho
+        c = sqrt(1.0 - c * c) if c < 1.0 else 0.0
+        slope /= chord * sqrt(high * high + (rho_far + high * delta) * (rho_far + high * delta))
         path_pull += (
             2.0 * slides * delta
             + swing * swing / chord
             + (rho_b * slide + 2.0) * slide * lean
-            + 2.0 * (psi + delta) * slide
-        ) / sqrt(1.0 - c * c)
+            + 2.0 * (grown + extra) * slide
+        ) / (c if c > slope else slope)
         slides += slide
-        psi += delta
-        speed_b = sqrt(psi * psi + rho_b * rho_b * slides * slides)
+        grown += extra
+        speed_b = sqrt(grown * grown + rho_b * rho_b * slides * slides)
         shifts[k, SHIFT_CENTRE] = 0.5 * (speed + speed_b)
         shifts[k, SHIFT_CORNER] = 0.5 * (speed + speed_b) + shifts[k, SHIFT_TURN] * sizes[k, RADIUS]
         s = slides * (2.0 + rho_b * slides)
-        c = 2.0 * psi * slides
+        c = 2.0 * grown * slides
         shifts[k, SHIFT_PULL] = (
             2.0 * (path_pull + sqrt(s * s + c * c)) * (sizes[k, HALF_LENGTH] + sizes[k, HALF_WIDTH]) / chord
         )
         speed = speed_b
+    return True
 
 
 def strip(
@@ -109,12 +154,12 @@ def strip(
 ):
     """Prove, for all growths in [low, high] at once, that nothing touches while the head goes from `outer` to `inner`.
 
-    Of pairs led by the first `leaders` benches; outer, inner: head radii [m]. No chord may be so long that
-    SPIRAL_CURVATURE_MOST chord / (2 inner) reaches 1.
+    Of pairs led by the first `leaders` benches; outer, inner: head radii [m].
     least_step: head travel below which it gives up [m]; budget: steps; others as for march(), motions: (2, R,
     MOTION_COLUMNS), shifts: (R, SHIFT_COLUMNS) scratch; out: (MARCH_ENTRIES,) and scratch, PROVEN and TOUCHING as head
     radii [m]
-    returns: REACHED; TOUCHED with growth `low`; STUCK: not provable in one strip; CAPACITY
+    returns: REACHED; TOUCHED with growth `low`; STUCK: not provable in one strip; TURNED: nor, perhaps, in any, because
+    a handle turns back or a bench folds; CAPACITY
     """
     before: cython.double[:, ::1] = rows[0]
     after: cython.double[:, ::1] = rows[1]
@@ -134,13 +179,19 @@ def strip(
         return CAPACITY
     out[STEPS] = 0.0
     out[TOUCHING] = -1.0
+    out[PROVEN] = outer
+    bounded = True
     with cython.nogil:
         start_chain(outer / low, before)
         start_chain(outer / high, before_high)
-        extend_chain(low, 0, leaders, FREE, sizes, before)
-        extend_chain(high, 0, leaders, FREE, sizes, before_high)
+        if extend_chain(low, 0, leaders, FREE, sizes, before) < 0:
+            return TURNED
+        if extend_chain(high, 0, leaders, FREE, sizes, before_high) < 0:
+            return TURNED
         while radius > inner:
             out[PROVEN] = radius
+            if not bounded and h < TURNED_WITHIN * radius:
+                return TURNED
             if h < least_step or out[STEPS] >= budget:
                 return STUCK
             out[STEPS] += 1.0
@@ -156,21 +207,25 @@ def strip(
             beyond = radius_beyond(high, beyond, ring)
             handles = extend_chain(low, leaders, cap, beyond, sizes, after)
             if handles < 0:
-                return STUCK
+                return TURNED
             if handles == cap and cap < benches:
                 return CAPACITY
-            extend_chain(high, 0, handles, FREE, sizes, after_high)
+            if extend_chain(high, 0, handles, FREE, sizes, after_high) < 0:
+                return TURNED
             if placed < handles:
-                extend_chain(low, placed, handles, FREE, sizes, before)
-                extend_chain(high, placed, handles, FREE, sizes, before_high)
+                if extend_chain(low, placed, handles, FREE, sizes, before) < 0:
+                    return TURNED
+                if extend_chain(high, placed, handles, FREE, sizes, before_high) < 0:
+                    return TURNED
                 placed = handles
-            if not (
+            bounded = (
                 motion_bounds(low, h, handles, sizes, before, after, motion)
                 and motion_bounds(high, h_high, handles, sizes, before_high, after_high, motion_high)
-            ):
+                and shift_bounds(low, high, handles, sizes, after, before_high, shifts)
+            )
+            if not bounded:
                 h *= 0.5
                 continue
-            shift_bounds(low, high, handles, sizes, after, before_high, shifts)
             best = strip_least(
                 low, high, leaders, handles, margin, h, h_high, ring, sizes, before, after, before_high, after_high,
                 motion, motion_high, shifts, scratch,

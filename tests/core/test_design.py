@@ -10,15 +10,23 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from scipy.optimize import brentq
 
 from core import Dragon, InvalidValue, LimitedBy, MinimumPitch, Outcome, Spiral, first_contact, minimum_pitch
-from tests.core.slow_search import SlowDance
+from tests.core.slow_pitch import SlowWay
+from tests.core.slow_search import SlowDance, chord_squared
 
 CASES = json.loads((Path(__file__).parents[1] / "reference" / "minimum_pitch.json").read_text())["cases"]
 # Pitches are promised to this [m].
 ACCURACY = 1e-9
 # Within this of its minimum a pitch is neither surely feasible nor surely not [m].
 BESIDE = 1e-8
+# The largest pitch there is [m].
+WIDEST = 1e4
+# Where a clearance changes by less than 1e-6 m per metre of pitch, a bracket is no wider than this part of it [1].
+WIDE_BRACKET = 2e-6
+# Its head bench of 1.97 m stretches far across a circle of 0.85 m radius, and folds on it.
+FOLDING = Dragon(14, 2.21, 1.47, 0.06, 0.12)
 
 
 def is_feasible(dragon: Dragon, pitch: float, radius: float, turns: float, margin: float) -> bool:
@@ -147,17 +155,121 @@ def test_a_short_dragon_is_proven_up_from_its_start_whatever_bounds_hold_at_lowe
     found = minimum_pitch(dragon, turning_radius=1.32, start_turns=10.0, margin=0.29)
     assert found.pitch == 1.32 / 10.0
     assert (found.limited_by, found.justified_by) == (LimitedBy.START, "bound")
-    assert found.proven_up_to > 1.0
-    for pitch in np.linspace(found.pitch + BESIDE, found.proven_up_to, 20):
+    assert (found.proven_from, found.proven_up_to) == (found.pitch, None)
+    for pitch in np.geomspace(found.pitch + BESIDE, WIDEST, 20):
         assert is_feasible(dragon, pitch, 1.32, 10.0, 0.29)
 
 
-def test_where_benches_are_bent_too_much_for_a_bound_a_scan_is_said() -> None:
+def test_benches_far_across_the_circle_are_proven_by_strips_too() -> None:
     found = minimum_pitch(Dragon(20), turning_radius=1.5, start_turns=12.0)
-    assert (found.justified_by, found.limited_by) == ("scan", LimitedBy.CIRCLE)
-    assert found.scan_step is not None
+    assert (found.justified_by, found.limited_by, found.scan_step) == ("bound", LimitedBy.CIRCLE, None)
     assert is_feasible(Dragon(20), found.pitch + BESIDE, 1.5, 12.0, 0.0)
     assert not is_feasible(Dragon(20), found.pitch - BESIDE, 1.5, 12.0, 0.0)
+
+
+def test_where_a_handle_turns_back_a_scan_is_said_with_its_step_and_where_the_proof_begins() -> None:
+    found = minimum_pitch(FOLDING, turning_radius=0.85, start_turns=5.0)
+    assert (found.justified_by, found.proven_up_to) == ("scan", None)
+    assert found.scan_step is not None
+    assert found.pitch + found.scan_step < found.proven_from < WIDEST
+
+
+@pytest.mark.parametrize("turns", [0.2, 0.3, 0.5])
+def test_a_start_less_than_a_turn_out_is_proven_for_every_larger_pitch(turns: float) -> None:
+    """The tail stands on the outward extension; the head begins on the circle at the least pitch."""
+    found = minimum_pitch(Dragon(), start_turns=turns)
+    assert found.pitch == 4.5 / turns
+    assert (found.limited_by, found.justified_by, found.proven_up_to) == (LimitedBy.START, "bound", None)
+    short = Dragon(40)  # a slow scan of all 223 takes minutes
+    for pitch in np.geomspace(found.pitch, WIDEST, 8):
+        assert SlowWay.of(short, pitch, turns, 4.5).least() > 0.0
+
+
+def fold_on_the_circle(chord: float, radius: float, near: tuple[float, float]) -> float:
+    """Pitch between two at which a head of this chord folds on the circle [m].
+
+    The chord is then the largest distance of a point of the spiral near half a turn further out, by scipy.
+    """
+
+    def too_long(growth: float) -> float:
+        theta = radius / growth
+
+        def slope(delta: float) -> float:
+            return float(delta + theta * (1.0 - np.cos(delta)) + theta * (theta + delta) * np.sin(delta))
+
+        crest = brentq(slope, np.pi, 1.5 * np.pi, xtol=1e-15)
+        return float(np.sqrt(chord_squared(theta, crest)) * growth - chord)
+
+    growth = brentq(too_long, *(np.array(near) / (2.0 * np.pi)), xtol=1e-16)
+    return float(2.0 * np.pi * growth)
+
+
+def test_a_minimum_limited_by_the_fold_is_where_the_head_folds_on_the_circle() -> None:
+    """With 40 digits: 0.525552677857343."""
+    found = minimum_pitch(FOLDING, turning_radius=0.85, start_turns=5.0)
+    expected = fold_on_the_circle(FOLDING.chords[0], 0.85, (0.5, 0.6))
+    assert expected == pytest.approx(0.525552677857343, rel=0, abs=ACCURACY)
+    assert found.pitch == pytest.approx(expected, rel=0, abs=ACCURACY)
+    assert found.pitch_bracket[0] == pytest.approx(expected, rel=0, abs=ACCURACY)
+    assert (found.limited_by, found.benches, found.head_radius) == (LimitedBy.FOLD, None, 0.85)
+
+
+def test_a_small_circle_is_reached_at_larger_pitches() -> None:
+    """One bench, which folds before the circle at every pitch up to 2.4 m. With 40 digits: 2.434860824509272."""
+    found = minimum_pitch(Dragon(1), turning_radius=0.7535, start_turns=1.605)
+    expected = fold_on_the_circle(Dragon().chords[0], 0.7535, (2.3, 2.6))
+    assert expected == pytest.approx(2.434860824509272, rel=0, abs=ACCURACY)
+    assert found.pitch == pytest.approx(expected, rel=0, abs=ACCURACY)
+    assert (found.limited_by, found.justified_by, found.proven_up_to) == (LimitedBy.FOLD, "bound", None)
+
+
+def listed(overhang: float) -> Dragon:
+    """Bench 2 alone with this overhang, chords of 1 m."""
+    overhangs = np.array([0.2, 0.2, overhang, 0.2, 0.2])
+    return Dragon.of(1.0 + 2.0 * overhangs, np.full(5, 0.3), overhangs)
+
+
+@pytest.mark.parametrize(
+    ("dragon", "margin", "field", "words"),
+    [
+        (Dragon(5, 2.2, 2.2, 0.3, 0.6), 0.0, "dragon.overhang", ("0.55 m", "0.6 m", "benches 0 and 2", "1 m")),
+        (Dragon(5, 2.0, 2.0, 0.3, 0.5), 0.0, "dragon.overhang", ("0.5 m", "a quarter of dragon.body_length")),
+        (Dragon(), 1.2, "margin", ("1.1 m", "1.2 m", "benches 0 and 2", "1.65 m", "0.275 m")),
+        (listed(0.9), 0.0, "dragon.overhangs.0", ("dragon.overhangs[2]", "1 m", "0.9 m", "0.2 m")),
+        (listed(0.5), 0.4, "margin", ("0.3 m", "0.4 m", "benches 0 and 2")),
+    ],
+)
+def test_benches_that_meet_on_a_straight_line_are_refused(
+    dragon: Dragon, margin: float, field: str, words: tuple[str, ...]
+) -> None:
+    """Equality too: any bend brings the inner corners nearer."""
+    with pytest.raises(InvalidValue) as refused:
+        minimum_pitch(dragon, turning_radius=1.0, margin=margin)
+    assert refused.value.field == field
+    assert all(word in refused.value.message for word in words)
+    assert "straight line" in refused.value.message
+    assert SlowWay.of(dragon, WIDEST, 16.0, 1.0).least() <= margin
+
+
+def test_benches_nearly_apart_on_a_straight_line_need_a_wide_spiral() -> None:
+    """3 mm are left on the line: the corners of benches lean that far inwards up to a pitch of 1,400 m."""
+    dragon = Dragon(8, 2.0, 2.0, 0.3, 0.49925)
+    found = minimum_pitch(dragon, turning_radius=2.0, start_turns=3.0)
+    assert (found.limited_by, found.justified_by, found.proven_up_to) == (LimitedBy.CIRCLE, "bound", None)
+    low, high = found.pitch_bracket
+    assert high - low <= WIDE_BRACKET * high
+    beside = WIDE_BRACKET * high
+    assert SlowWay.of(dragon, low - beside, 3.0, 2.0).least() < 0.0
+    for pitch in np.geomspace(high + beside, WIDEST, 6):
+        assert SlowWay.of(dragon, pitch, 3.0, 2.0).least() > 0.0
+
+
+def test_a_start_so_far_in_that_no_pitch_lies_outside_the_circle_is_refused_by_name() -> None:
+    with pytest.raises(
+        InvalidValue, match=r"start_turns must be at least 0\.00045 turns.*got 0\.0001 turns"
+    ) as refused:
+        minimum_pitch(Dragon(), start_turns=1e-4)
+    assert refused.value.field == "start_turns"
 
 
 def test_a_start_inside_a_graze_passes_it_and_names_the_pair_that_repeats_it() -> None:

@@ -1,0 +1,154 @@
+"""How far apart the benches stand where the spiral is wide: a bound that holds for every larger growth."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from core import kernels
+from core.dragon import Dragon, Floats
+
+# Where a dragon has no such pair, and where the bound says nothing, as a negative [m].
+NONE = 1e150
+# Rounding of the bound, in units of the lengths that it adds up; the formulas round some twenty times [1].
+STRAIGHT_ROUNDING = 1e-14
+# S is such that benches further apart along the path are apart by the gap on a straight line, at least by this part of
+# what two benches can bridge [1].
+SPARE = 0.05
+
+# The curvature of the spiral r = b theta at a radius r is (r^2 + 2 b^2) / (r^2 + b^2)^(3/2). It falls with r, and, at a
+# fixed r, with b from b = r / sqrt(2) on, where it is 2 / (1.5^(3/2) r) < 1.0887 / r, its largest for any b. So k, its
+# value at the least radius rho and the least growth b (1.0887 / rho while b < rho / sqrt(2)), bounds the curvature from
+# rho outwards for b and every larger growth. With chords at most c, overhangs o and half widths w, and k c / 2 < 1:
+#
+# A bench's arc, from handle to handle, turns by at most k l <= 2 beta, sin beta = k c / 2 (bounds.py), and the tangents
+# along it lean by at most beta from the chord: the arc is within (c / 2) tan beta of the chord, and every point of a
+# bench within h = max(hypot(o, w), w + (c / 2) tan beta) of its arc.
+#
+# Benches i and i + 2, beta_i that of bench i. Neighbours' directions differ by at most phi = beta_i + beta_(i+1). Along
+# the direction of the bench between them a point of bench i lies behind its rear handle by at most
+# o_i cos x + w_i sin x, x <= phi <= pi / 2 the angle between the two, which grows up to x = atan(w_i / o_i). So with
+# d(phi) its value at phi or, if phi is more, at that angle, the benches are apart by at least
+#     c_(i+1) - d_i(beta_i + beta_(i+1)) - d_(i+2)(beta_(i+1) + beta_(i+2)).
+# On a straight line they are apart by c_(i+1) - o_i - o_(i+2), g at the least of all i. On a wide spiral it is less: as
+# their inner corners lean towards each other by angles x and y it loses w_i x + w_(i+2) y, and gains only as much as
+# the squares. So where it is the margin or less on a straight line, they come within the margin at every growth from
+# some on.
+#
+# Benches further apart. Let the arc between two points, at theta and theta + delta, be S or longer, S <= pi / k. Where
+# delta <= pi they are apart by at least (2 / k) sin(k S / 2): that holds where the arc is S (Schur, bounds.py), and the
+# distance grows with delta (spiral.py). Where delta >= pi they are apart by at least b delta >= pi b, and, with
+# x = 2 pi - delta in [0, pi], also by at least
+#     sqrt(b^2 delta^2 + 4 rho^2 sin^2(delta / 2)) >= sqrt(b^2 (2 pi - x)^2 + 4 rho^2 x^2 / pi^2)
+#                                                 >= 2 pi b / sqrt(1 + (pi b / (2 rho))^2),
+# both growing with b; a dragon whose arcs together are shorter than pi rho has no such points. So where the arc from
+# the rear handle of i to the front handle of j is S or longer, the benches are apart by the lesser of the two less 2 h.
+# S is at most the least sum of two consecutive chords between others. If that is too short, S is taken longer, and
+# benches nearer than S along the path are compared along one direction as above, that in the middle of their tangents:
+# these turn by at most k S + 4 beta from i to j, so with phi = k S / 2 + 2 beta <= pi / 2 they are apart by at least
+#     (sum of the chords between) - o_i - o_j - S (1 - cos phi) - 2 w sin phi,
+# and that sum is at least
+#     c_(i+1) + c_(j-1) = (c_(i+1) - o_i - o_(i+2)) + (c_(j-1) - o_(j-2) - o_j) + o_i + o_(i+2) + o_(j-2) + o_j,
+# at least 2 g + o_i + o_j. As b grows k falls to 0, and the bound exceeds the margin in the end wherever g does.
+
+
+def curvature_most(growth: float, radius: float) -> float:
+    """No spiral of this growth [m/rad] or a larger one is bent more from this radius [m] outwards [1/m]."""
+    if math.sqrt(2.0) * growth <= radius:
+        return float(kernels.SPIRAL_CURVATURE_MOST) / radius
+    square = radius * radius + growth * growth
+    return (square + growth * growth) / (square * math.sqrt(square))
+
+
+class Straight:
+    """What the bound needs of a dragon.
+
+    gap: least separation of benches `at` and `at` + 2 on a straight line [m]; between: least sum of two consecutive
+        chords between others [m]; both 1e150 where there are none; chord, overhang, half_width: the largest [m]; total:
+        of all chords [m]
+    """
+
+    def __init__(self, dragon: Dragon) -> None:
+        distinct = min(dragon.benches, dragon.uniform_from + 4)
+        chords, overhangs = dragon.chords[:distinct], dragon.overhangs[:distinct]
+        half_widths = 0.5 * dragon.widths[:distinct]
+        self.chord, self.overhang = float(chords.max()), float(overhangs.max())
+        self.half_width, self.total = float(half_widths.max()), float(dragon.chords.sum())
+        self.gap, self.at, self.between = NONE, 0, NONE
+        if distinct > 2:
+            gaps = chords[1:-1] - overhangs[:-2] - overhangs[2:]
+            self.at = int(gaps.argmin())
+            self.gap = float(gaps[self.at])
+        if distinct > 3:
+            self.between = float((chords[1:-2] + chords[2:-1]).min())
+        self._chords, self._overhangs, self._half_widths = chords, overhangs, half_widths
+        self._diagonals = np.hypot(overhangs, half_widths)
+
+    def clears(self, growth: float, radius: float, margin: float) -> bool:
+        """Does the bound exceed a margin [m]? See least()."""
+        return self._further(growth, radius) > margin and self.least(growth, radius) > margin
+
+    def least(self, growth: float, radius: float) -> float:
+        """Lower bound of the separation of any two benches that share no handle [m], the inner one leading at the
+        radius [m] or further out, on the spiral of this growth [m/rad] and on every wider one; -1e150 where it says
+        nothing.
+        """
+        further = self._further(growth, radius)
+        if further == -NONE or self.gap >= NONE:
+            return further
+        rounding = STRAIGHT_ROUNDING * (abs(self.gap) + self.chord + self.overhang + 2.0 * self.half_width)
+        return min(further, self._next_but_one(curvature_most(growth, radius))) - rounding
+
+    def _further(self, growth: float, radius: float) -> float:
+        """The same for benches with two others or more between them, rounding aside [m]; NONE without such benches."""
+        width, diagonals = 2.0 * self.half_width, 2.0 * math.hypot(self.overhang, self.half_width)
+        if 2.0 * math.pi * growth <= diagonals and self.total >= math.pi * radius:  # a ring may lie on the next
+            return -NONE
+        curvature = curvature_most(growth, radius)
+        sine = 0.5 * curvature * self.chord
+        if sine >= math.sqrt(0.5):  # 2 beta would pass pi / 2
+            return -NONE
+        if self.between >= NONE:
+            return NONE
+        beta = math.asin(sine)
+        bridged = max(diagonals, width + self.chord * math.tan(beta))
+        least = self._along(curvature, beta, bridged)
+        if 2.0 * beta * self.total >= math.pi * radius * curvature * self.chord:  # it may go half around
+            across = 2.0 * math.pi * growth / math.hypot(1.0, 0.5 * math.pi * growth / radius)
+            least = min(least, max(across, math.pi * growth) - bridged)
+        return least
+
+    def _next_but_one(self, curvature: float) -> float:
+        """The same for benches i and i + 2 [m]."""
+        betas = np.arcsin(0.5 * curvature * self._chords)
+        phi = betas[:-1] + betas[1:]
+        sine, cosine = np.sin(phi), np.cos(phi)
+
+        def reach(benches: slice, angles: slice) -> Floats:
+            overhangs, half_widths = self._overhangs[benches], self._half_widths[benches]
+            leaning = overhangs * cosine[angles] + half_widths * sine[angles]
+            least = half_widths * cosine[angles] >= overhangs * sine[angles]
+            return np.where(least, leaning, self._diagonals[benches])
+
+        first, last = slice(None, -2), slice(2, None)
+        gaps = self._chords[1:-1] - reach(first, slice(None, -1)) - reach(last, slice(1, None))
+        return float(gaps.min())
+
+    def _along(self, curvature: float, beta: float, bridged: float) -> float:
+        """The same for benches less than half a turn apart, with two others or more between them [m].
+
+        bridged: 2 h [m]
+        """
+        half_turn = min(0.5 * curvature * self.between, 0.5 * math.pi)
+        apart = 2.0 / curvature * math.sin(half_turn) - bridged
+        spare = max(self.gap, SPARE * bridged)
+        sine = 0.5 * curvature * (bridged + spare)
+        if apart >= self.gap or sine >= 1.0:
+            return apart
+        half_turn = math.asin(sine)
+        phi = half_turn + 2.0 * beta
+        if phi > 0.5 * math.pi:
+            return apart
+        nearer = 2.0 * self.gap - 2.0 * half_turn / curvature * (1.0 - math.cos(phi))
+        return max(apart, min(nearer - 2.0 * self.half_width * math.sin(phi), spare))

@@ -1,0 +1,133 @@
+"""Is a pitch feasible? A second, slow, obvious answer: no code shared with core, every pair, dense samples of the way.
+
+Every next handle is found by bisection, rectangles are compared corner by corner as in slow_search.py, and dips between
+samples are looked at again in finer ones.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from tests.core.slow_search import arc_length, chord_squared, rectangles_gap
+
+# Half the range of delta is bisected to 2^-48 of it, about 1e-14.
+BISECTIONS = 48
+# The range of delta beyond half a turn is looked at on so many points, three times around the largest value [1].
+CREST_POINTS, CREST_ROUNDS = 200, 3
+# The way is sampled in such steps, in shortest chords, for so many chords out from the circle; then further apart [1].
+NEAR_STEP, NEAR_CHORDS = 0.2, 30.0
+FAR_SAMPLES = 120
+# The deepest dips are looked at again, in so many rounds of so many samples.
+DIPS, ROUNDS, SPLIT = 4, 3, 24
+
+
+def next_delta(theta, chord):
+    """First delta at which points of r = theta are a chord apart; NaN where there is none before the first crest."""
+    low, high = np.zeros_like(theta), np.full_like(theta, np.pi)
+    beyond = np.flatnonzero(chord_squared(theta, high) < chord**2)
+    if beyond.size:
+        low[beyond], high[beyond] = beyond_half_a_turn(theta[beyond], chord)
+    for _ in range(BISECTIONS):
+        middle = 0.5 * (low + high)
+        short = chord_squared(theta, middle) < chord**2
+        low, high = np.where(short, middle, low), np.where(short, high, middle)
+    return 0.5 * (low + high)
+
+
+def beyond_half_a_turn(theta, chord):
+    """(low, high) around the first delta > pi; NaN where the distance falls again before it is a chord."""
+    start, end = np.full_like(theta, np.pi), np.full_like(theta, 2.0 * np.pi)
+    rows = np.arange(theta.size)
+    for _ in range(CREST_ROUNDS):
+        delta = start[:, None] + (end - start)[:, None] * np.linspace(0.0, 1.0, CREST_POINTS)
+        value = chord_squared(theta[:, None], delta)
+        falls = np.diff(value, axis=1) < 0.0
+        crest = np.where(falls.any(axis=1), falls.argmax(axis=1), CREST_POINTS - 1)
+        top, reached = delta[rows, crest], value[rows, crest] >= chord**2
+        start = delta[rows, np.maximum(crest - 1, 0)]
+        end = delta[rows, np.minimum(crest + 1, CREST_POINTS - 1)]
+    return np.where(reached, np.pi, np.nan), np.where(reached, top, np.nan)
+
+
+@dataclass
+class SlowWay:
+    """One dragon on one spiral from its start to the circle, the head's place given by its angle."""
+
+    lengths: np.ndarray
+    widths: np.ndarray
+    chords: np.ndarray
+    pitch: float
+    start_turns: float
+    radius: float
+
+    @classmethod
+    def of(cls, dragon, pitch, start_turns, radius):
+        lengths, overhangs = np.array(dragon.lengths), np.array(dragon.overhangs)
+        return cls(lengths, np.array(dragon.widths), lengths - 2.0 * overhangs, pitch, start_turns, radius)
+
+    @property
+    def growth(self):
+        return self.pitch / (2.0 * np.pi)
+
+    def heads(self):
+        """Angles of the head, from the circle outwards, at which the way is sampled."""
+        circle, start = self.radius / self.growth, 2.0 * np.pi * self.start_turns
+        if start <= circle:
+            return np.array([circle])
+        inner, outer = arc_length(circle), arc_length(start)
+        step = NEAR_STEP * self.chords.min() / self.growth
+        near = inner + step * np.arange(int(NEAR_CHORDS / NEAR_STEP))
+        arcs = np.concatenate([near, np.geomspace(near[-1], max(outer, near[-1]), FAR_SAMPLES)[1:], [outer]])
+        arcs = np.unique(arcs[arcs <= outer])
+        theta = np.sqrt(2.0 * arcs)
+        for _ in range(60):
+            theta = theta - (arc_length(theta) - arcs) / np.sqrt(1.0 + theta**2)
+        return np.clip(theta, circle, start)
+
+    def handles(self, heads):
+        """(T, n + 1, 2) [m]; NaN from where the chain folds."""
+        columns = [heads]
+        for chord in self.chords:
+            columns.append(columns[-1] + next_delta(columns[-1], chord / self.growth))
+        theta = np.stack(columns, axis=1)
+        return self.growth * theta[..., None] * np.stack([np.cos(theta), np.sin(theta)], axis=-1)
+
+    def clearance(self, heads):
+        """(T,) least separation of all pairs that share no handle [m]; -inf where the chain folds."""
+        handles = self.handles(heads)
+        best = np.full(heads.size, np.inf)
+        centres = 0.5 * (handles[:, 1:] + handles[:, :-1])
+        along = handles[:, :-1] - handles[:, 1:]
+        along /= np.linalg.norm(along, axis=-1, keepdims=True)
+        half_diagonals = 0.5 * np.hypot(self.lengths, self.widths)
+        sides = 0.5 * np.stack([self.lengths, self.widths], axis=-1)
+        for apart in range(2, self.chords.size):
+            away = np.linalg.norm(centres[:, apart:] - centres[:, :-apart], axis=-1)
+            near = away - half_diagonals[apart:] - half_diagonals[:-apart] < np.maximum(best, 0.0)[:, None]
+            t, a = np.nonzero(near)
+            if not t.size:
+                continue
+            b = a + apart
+            exact = np.full(away.shape, np.inf)
+            exact[t, a] = rectangles_gap(centres[t, a], along[t, a], sides[a], centres[t, b], along[t, b], sides[b])
+            best = np.minimum(best, exact.min(axis=1))
+        return np.where(np.isnan(handles).any(axis=(1, 2)), -np.inf, best)
+
+    def least(self):
+        """Least clearance on the way [m], as far as the samples show it; -inf where the chain folds."""
+        heads = self.heads()
+        gaps = self.clearance(heads)
+        for _ in range(ROUNDS):
+            before, after = np.append(np.inf, gaps[:-1]), np.append(gaps[1:], np.inf)
+            dips = np.flatnonzero((gaps <= before) & (gaps <= after) & np.isfinite(gaps))
+            dips = dips[gaps[dips].argsort()[:DIPS]]
+            if not dips.size:
+                break
+            ends = [(heads[max(k - 1, 0)], heads[min(k + 1, heads.size - 1)]) for k in dips]
+            finer = np.concatenate([np.linspace(low, high, SPLIT) for low, high in ends])
+            more = self.clearance(finer)
+            heads, first = np.unique(np.append(heads, finer), return_index=True)
+            gaps = np.append(gaps, more)[first]
+        return float(gaps.min())

@@ -1,0 +1,100 @@
+"""Random dragons: is what minimum_pitch() says true of a dense scan that shares no code with it?
+
+`make sweep-pitch` runs it over 2,000 dragons, `test_sweep_pitch.py` over a few. Dragons are uniform or given bench by
+bench, also such as overlap on a straight line; starts from 0.2 to 20 turns, circles from a part of a bench to many.
+"""
+
+from __future__ import annotations
+
+import sys
+from collections import Counter
+
+import numpy as np
+
+from core import Dragon, InvalidValue, LimitedBy, minimum_pitch
+from tests.core.slow_pitch import SlowWay
+
+# A pitch this much above the answer must be feasible, one this much below the infeasible end must not be [1], and at
+# least so much [m]: pitches are promised to 1e-9 m.
+BESIDE, BESIDE_LEAST = 1e-8, 2e-9
+# Rounding of a slow clearance on a way of metres [m], and of one on a wide spiral, per metre of its pitch [1].
+ROUNDING, ROUNDING_PER_PITCH = 1e-11, 1e-13
+# Of the samples above the answer, as multiples of it less one; the largest pitch looked at [m].
+NEAREST, FURTHEST, PITCH_MAX = 1e-5, 1e2, 1e4
+# A dragon that is refused touches, or folds, at every pitch looked at from here to the largest [m].
+WIDE = 9e3
+
+
+def random_case(seed):
+    """dragon, turning radius [m], start turns, margin [m]"""
+    rng = np.random.default_rng(seed)
+    benches = int(rng.choice([1, 2, 3, 4, 5, 8, 12, 20, 40], p=[0.03, 0.04, 0.08, 0.1, 0.15, 0.25, 0.22, 0.1, 0.03]))
+    chord = 10.0 ** rng.uniform(-0.3, 0.5)
+    width = chord * 10.0 ** rng.uniform(-1.2, -0.1)
+    if rng.uniform() < 0.4:
+        chords = chord * 10.0 ** rng.uniform(-0.25, 0.25, benches)
+        overhangs = chord * rng.uniform(0.0, 0.35, benches)
+        widths = width * 10.0 ** rng.uniform(-0.2, 0.2, benches)
+        dragon = Dragon.of(chords + 2.0 * overhangs, widths, overhangs)
+    else:
+        overhang = chord * rng.choice([0.0, 0.1, 0.2, 0.35, 0.49, 0.55], p=[0.1, 0.3, 0.25, 0.2, 0.1, 0.05])
+        head = chord * 10.0 ** rng.uniform(-0.2, 0.3)
+        dragon = Dragon(benches, head + 2.0 * overhang, chord + 2.0 * overhang, width, overhang)
+    radius = float(dragon.chords.max()) * 10.0 ** rng.uniform(-0.7, 0.9)
+    turns = 10.0 ** rng.uniform(np.log10(0.2), np.log10(2.0)) if rng.uniform() < 0.3 else rng.uniform(2.0, 20.0)
+    margin = float(rng.choice([0.0, 0.05, 0.2]) * chord)
+    return dragon, radius, turns, margin
+
+
+def fault(seed):
+    """What the answer for one random dragon is, and what is wrong with it, '' if nothing is."""
+    dragon, radius, turns, margin = random_case(seed)
+
+    def least(pitch):
+        return SlowWay.of(dragon, pitch, turns, radius).least() - margin
+
+    def rounding(pitch):
+        return ROUNDING + ROUNDING_PER_PITCH * pitch
+
+    rng = np.random.default_rng(seed)
+    try:
+        found = minimum_pitch(dragon, turning_radius=radius, start_turns=turns, margin=margin)
+    except InvalidValue as refused:
+        field = refused.field.split(".")[-2 if refused.field[-1].isdigit() else -1]
+        feasible = [pitch for pitch in rng.uniform(WIDE, PITCH_MAX, 3) if least(pitch) > rounding(pitch)]
+        return f"refused: {field}", f"refused, but feasible at {feasible}" if feasible else ""
+    kind = f"{found.limited_by.value}, {found.justified_by}"
+    beside = max(BESIDE * found.pitch, BESIDE_LEAST)
+    above = found.pitch * (1.0 + 10.0 ** rng.uniform(np.log10(NEAREST), np.log10(FURTHEST), 5))
+    above = above[above <= min(PITCH_MAX, found.proven_up_to or PITCH_MAX)]
+    touching = [pitch for pitch in [found.pitch + beside, *above] if least(pitch) <= -rounding(pitch)]
+    if touching:
+        return kind, f"{found.pitch}: said to be feasible, but not at {touching}"
+    infeasible = found.pitch_bracket[0]
+    if infeasible == found.pitch:
+        within = found.limited_by is LimitedBy.START and (infeasible - beside) * turns < radius
+        return kind, "" if within else f"{infeasible}: not limited by the start"
+    if least(infeasible - beside) > rounding(infeasible):
+        return kind, f"{infeasible}: said to be infeasible, but {infeasible - beside} is feasible"
+    wide = found.pitch_bracket[1] - infeasible > max(BESIDE_LEAST, BESIDE * infeasible)
+    return kind + (", wide bracket" if wide else ""), ""
+
+
+def main(count, first):
+    """Print every fault and how often each kind of answer came."""
+    kinds: Counter[str] = Counter()
+    faults = 0
+    for seed in range(first, first + count):
+        kind, wrong = fault(seed)
+        kinds[kind] += 1
+        if wrong:
+            faults += 1
+            print(f"seed {seed}: {kind}: {wrong}", flush=True)
+    for kind, times in sorted(kinds.items()):
+        print(f"{times:6d}  {kind}")
+    print(f"{count} dragons, {faults} false")
+    return faults
+
+
+if __name__ == "__main__":
+    sys.exit(main(int(sys.argv[1]), int(sys.argv[2]) if len(sys.argv) > 2 else 0) > 0)

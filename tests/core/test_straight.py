@@ -1,0 +1,69 @@
+"""Straight: the bound for wide spirals against dense samples, and against its limit on a straight line."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from core import Dragon, kernels
+from core.straight import Straight, curvature_most
+from tests.core.slow_pitch import SlowWay
+from tests.core.sweep_pitch import random_case
+
+# Rounding of a slow clearance on ways of metres [m], and on a wide spiral per metre of its growth [1].
+ROUNDING, ROUNDING_PER_GROWTH = 1e-11, 1e-12
+# From this growth on, in longest chords, a dragon of metres stands straight to a part of a thousand [1].
+WIDE = 1e5
+
+
+@pytest.mark.parametrize("seed", range(40))
+def test_benches_are_no_closer_than_the_bound_at_any_larger_growth(seed: int) -> None:
+    dragon, radius, turns, _ = random_case(seed)
+    straight = Straight(dragon)
+    rng, bounds = np.random.default_rng(seed), 0
+    for growth in straight.chord * 10.0 ** rng.uniform(-1.0, 3.0, 6):
+        least = straight.least(growth, radius)
+        if least == -1e150:
+            continue
+        bounds += 1
+        for wider in growth * np.array([1.0, 1.0 + 10.0 ** rng.uniform(-2.0, 1.0)]):
+            slow = SlowWay.of(dragon, 2.0 * math.pi * wider, max(turns, radius / wider / math.pi), radius).least()
+            assert slow >= least - ROUNDING - ROUNDING_PER_GROWTH * wider
+    assert bounds
+
+
+@pytest.mark.parametrize("seed", range(40))
+def test_the_bound_grows_to_the_gap_on_a_straight_line(seed: int) -> None:
+    dragon, radius, _, _ = random_case(seed)
+    straight = Straight(dragon)
+    growth = WIDE * straight.chord
+    if dragon.benches < 3:
+        assert straight.least(growth, radius) > growth
+        return
+    ends = np.cumsum(dragon.chords)  # of the chords, along the line
+    gaps = [
+        ends[j - 1] - ends[i] - dragon.overhangs[i] - dragon.overhangs[j]
+        for i in range(dragon.benches)
+        for j in range(i + 2, dragon.benches)
+    ]
+    if min(gaps) > 0.0:
+        assert straight.gap == pytest.approx(min(gaps), rel=1e-12)
+        assert straight.least(growth, radius) == pytest.approx(min(gaps), abs=4.0 * straight.chord / WIDE)
+    else:
+        assert straight.gap <= 0.0
+
+
+def test_no_spiral_of_the_growth_or_a_larger_one_is_bent_more() -> None:
+    for radius in (0.1, 1.0, 7.0):
+        for growth in np.geomspace(0.01, 100.0, 60):
+            most = curvature_most(growth, radius)
+            for wider in growth * np.geomspace(1.0, 50.0, 40):
+                for further in radius * np.geomspace(1.0, 9.0, 20):
+                    assert kernels.spiral_curvature(further / wider) / wider <= most * (1.0 + 1e-15)
+
+
+def test_a_long_dragon_needs_no_more_than_its_leading_benches() -> None:
+    short, long = Straight(Dragon(30)), Straight(Dragon(100_000))
+    assert (short.gap, short.between, short.at) == (long.gap, long.between, long.at)
