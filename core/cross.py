@@ -6,7 +6,6 @@ judged: before, no two benches that share no handle are within the margin, after
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
@@ -27,9 +26,9 @@ Pair = tuple[int, int]
 Indices = NDArray[np.int64]
 
 # How far the head travels from first contact to the poses that are judged [m]: far above the rounding of positions
-# (1e-13 m), far below a bench. Where two benches touch for less than that, the shorter ones are tried in turn.
+# (1e-13 m), far below a bench. Within 1e-10 m of a pitch at which two benches only graze, their gap is then too small
+# for the angle sum to see (1e-12 m).
 CHECK_TRAVEL = 1e-6
-SHORTER_TRAVELS = (1e-7, 1e-8, 1e-9, 0.0)
 # Where arc lengths are so long that rounding hides such a travel, so many of their last digits are taken [1].
 CHECK_DIGITS = 64
 # The same for a pitch [m].
@@ -41,7 +40,7 @@ TOGETHER_DEPTH = 1e-5
 # Longest dragon that is judged whole [benches], and as many pairs of cubes around benches as may meet for that [1]:
 # FCL takes about 1.2 microseconds for each.
 WHOLE_BENCHES = 2_000
-CLOSE_MAX = 50_000
+CLOSE_MAX = 30_000
 
 
 @dataclass(frozen=True, slots=True)
@@ -95,13 +94,9 @@ def contact_check(
     rounding = CHECK_DIGITS * float(np.spacing(length + abs(contact.time) * head_speed))
     travel = max(CHECK_TRAVEL, rounding) / head_speed
     times = [first if at_start else first - travel, last + travel]
-    place = _Placed(dragon if whole else dragon.leading(contact.benches[1] + 1), path, head_speed)
-    poses = place.at(times)
+    front = dragon if whole else dragon.leading(contact.benches[1] + 1)  # No bench moves one in front of it.
+    poses = _poses(front, path, times, head_speed)
     size = np.stack([dragon.lengths, dragon.widths], axis=-1)[: poses.shape[1]]
-    if _gap(poses[1], size, contact.benches) > margin:
-        later = place.at([last + shorter / head_speed for shorter in SHORTER_TRAVELS])
-        touching = [pose for pose in later if _gap(pose, size, contact.benches) <= margin]
-        poses[1] = touching[0] if touching else poses[1]
     return judged_contact(poses, size, contact.benches, margin=margin, whole=whole, at_start=at_start)
 
 
@@ -118,28 +113,16 @@ def pitch_check(found: MinimumPitch, dragon: Dragon, *, margin: float = 0.0, who
         # A spiral that starts at a radius has its head there at time 0.
         turns = found.head_radius / (found.pitch if found.limited_by is LimitedBy.START else pitch)
         front = dragon if whole else dragon.leading(found.benches[1] + 1)
-        poses.append(_Placed(front, Spiral(pitch, turns), 1.0).at([0.0])[0])
+        poses.append(_poses(front, Spiral(pitch, turns), [0.0], 1.0)[0])
     size = np.stack([dragon.lengths, dragon.widths], axis=-1)[: len(poses[0])]
     return judged_contact(np.array(poses), size, found.benches, margin=margin, whole=whole)
 
 
-class _Placed:
-    """A dragon on a path, at any instant that its run has, or else at the nearest one."""
-
-    def __init__(self, dragon: Dragon, path: Spiral | Route, head_speed: float) -> None:
-        self.dragon, self.path, self.head_speed = dragon, path, head_speed
-        self.first = earliest_time(dragon, path, head_speed)
-        self.last = run_end(dragon, path, head_speed=head_speed).time
-
-    def at(self, times: Iterable[float]) -> Floats:
-        """Poses (T, n, 3)."""
-        held = [min(max(time, self.first), self.last) for time in times]
-        return bench_poses(trajectory(self.dragon, self.path, held, head_speed=self.head_speed).position)
-
-
-def _gap(pose: Floats, size: Floats, pair: Pair) -> float:
-    a, b = frames(pose[list(pair)], size[list(pair)])
-    return float(frames_separation(a, b).separation)
+def _poses(dragon: Dragon, path: Spiral | Route, times: list[float], head_speed: float) -> Floats:
+    """Poses (T, n, 3) of the dragon at instants, or at the nearest ones that its run has."""
+    first, last = earliest_time(dragon, path, head_speed), run_end(dragon, path, head_speed=head_speed).time
+    held = [min(max(time, first), last) for time in times]
+    return bench_poses(trajectory(dragon, path, held, head_speed=head_speed).position)
 
 
 def judged_contact(

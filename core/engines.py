@@ -9,6 +9,7 @@ from collections import deque
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from enum import StrEnum
+from itertools import chain
 from threading import Lock
 
 import numpy as np
@@ -185,10 +186,12 @@ def _fcl_within(poses: Floats, sizes: Floats, margin: float) -> bool:
     import fcl
 
     (length, width), other = sizes[0].tolist(), _fcl_body(_fcl_box(*sizes[1].tolist()), *poses[1].tolist())
-    bodies = [_fcl_body(_fcl_box(length + 2.0 * margin, width), *poses[0].tolist())]
-    if margin > 0.0:
-        bodies.append(_fcl_body(_fcl_box(length, width + 2.0 * margin), *poses[0].tolist()))
-        bodies += [_fcl_body(fcl.Sphere(margin), x, y, 0.0) for x, y in corners(poses[0], sizes[0]).tolist()]
+    grown = [(length + 2.0 * margin, width), (length, width + 2.0 * margin)] if margin > 0.0 else [(length, width)]
+    round_corners = corners(poses[0], sizes[0]).tolist() if margin > 0.0 else []
+    bodies = chain(
+        (_fcl_body(_fcl_box(*size), *poses[0].tolist()) for size in grown),
+        (_fcl_body(fcl.Sphere(margin), x, y, 0.0) for x, y in round_corners),
+    )
     return any(fcl.collide(body, other, fcl.CollisionRequest(), fcl.CollisionResult()) for body in bodies)
 
 
