@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from core.contact import FirstContact, Outcome, first_contact
+from core.contact import FirstContact, Outcome, clearance_profile, first_contact
 from core.cross import (
     CHECK_TRAVEL,
     CLOSE_MAX,
@@ -260,6 +260,25 @@ def test_a_minimum_pitch_that_no_pair_limits_is_not_judged() -> None:
     found = minimum_pitch(Dragon(3), turning_radius=4.5, start_turns=3.0)
     assert found.benches is None
     assert pitch_check(found, Dragon(3)) is None
+
+
+def test_a_pitch_limited_at_the_start_is_judged_with_the_head_at_the_start() -> None:
+    dragon, turns = Dragon(40), 3.0
+    low, high = 0.2, 1.0
+
+    def nearest(pitch: float) -> tuple[float, tuple[int, int]]:
+        profile = clearance_profile(dragon, Spiral(pitch, turns), [0.0])
+        a, b = profile.benches[0].tolist()
+        return float(profile.clearance[0]), (a, b)
+
+    while low < (middle := 0.5 * (low + high)) < high:
+        low, high = (low, middle) if nearest(middle)[0] > 0.0 else (middle, high)
+    graze = minimum_pitch(DRAGON)
+    start = {"limited_by": LimitedBy.START, "benches": nearest(low)[1], "head_radius": turns * low}
+    check = pitch_check(replace(graze, pitch=high, pitch_bracket=(low, high), **start), dragon)
+    assert check is not None
+    assert check.agree
+    assert set(check.engines.values()) == {AS_REPORTED}
 
 
 # -- whom the engines judge -----------------------------------------------------------------------------------
