@@ -104,7 +104,7 @@ def throughput(results: Results) -> list[str]:
         ("two processes (`serve --workers 2`, the default on two cores), on two cores", "throughput[2on2]"),
     )
     lines = [
-        "| `GET /collision-time?cross_check=pair`, each at a pitch of its own, eight at a time | requests/s (best) | ratio |",
+        "| `/collision-time?cross_check=pair`, each at its own pitch, eight at a time | requests/s (best) | ratio |",
         "|---|---|---|",
         *(f"| {label} | {rates[name]:,.0f} | {rates[name] / one:.2f}x |" for label, name in rows if name in rates),
     ]

@@ -263,7 +263,7 @@ def test_a_minimum_pitch_that_no_pair_limits_is_not_judged() -> None:
 
 
 def test_a_pitch_limited_at_the_start_is_judged_with_the_head_at_the_start() -> None:
-    dragon, turns = Dragon(40), 3.0
+    dragon, turns = Dragon(80), 8.0
     low, high = 0.2, 1.0
 
     def nearest(pitch: float) -> tuple[float, tuple[int, int]]:
