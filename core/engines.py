@@ -24,7 +24,7 @@ from core.rectangles import corners, frames, frames_separation
 
 # Pairs that the angle-sum rule judges at once, to keep its 32 angles a pair within 60 MB.
 ANGLE_BATCH = 50_000
-# FCL's objects are kept for so many dragons, of so many benches at most: 16 MB in all.
+# FCL's objects are kept for so many dragons, of so many benches at most: 8 MB in all.
 KEPT_DRAGONS = 8
 KEPT_BENCHES = 2_000
 
@@ -96,7 +96,7 @@ def _fcl(poses: Floats, sizes: Floats, margin: float, chained: bool) -> Iterator
 class _FclBoxes:
     """FCL's boxes of benches, made once and moved from pose to pose, by one thread at a time.
 
-    Making them takes longer than moving them, and each leaks some bytes: python-fcl 0.7 frees a body without its
+    Making them takes longer than moving them, and each leaks 44 bytes: python-fcl 0.7 frees a body without its
     destructor. A manager is made anew for each pose: its tree fits the pose, and building one for 223 benches takes
     0.05 ms, less than searching one built for another pose loses (up to 0.2 ms of 2.0, 2026-11-21).
     """
