@@ -5,7 +5,6 @@ A trajectory has 200,000 numbers, so tables leave as columns of numpy through or
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import Any, Self
 
 import numpy as np
@@ -13,15 +12,8 @@ import orjson
 from pydantic import BaseModel, ConfigDict, Field
 
 import core
+from app.schemas import CheckRequest, CollisionQuery, MinimumPitchQuery
 from core import Dragon, Engine, Outcome, Route, Spiral
-from core.dragon import Floats
-from core.kinematics import earliest_time
-
-# How far the head travels from first contact to the poses that the four engines judge [m]: far above the
-# rounding of positions (1e-13 m), far below a bench.
-CHECK_TRAVEL = 1e-6
-# The same for a pitch [m].
-CHECK_PITCH = 1e-6
 
 Pair = tuple[int, int]
 Point = tuple[float, float]
@@ -115,38 +107,34 @@ class Certificate(Answer):
 
 
 class Verdict(Answer):
-    """Does an engine find the pair overlapping?"""
+    """What an engine finds among the benches judged, neighbours aside."""
 
-    before: bool = Field(description="Just before first contact")
-    after: bool = Field(description="Just after first contact")
+    before: bool | None = Field(
+        description="Does it find any two overlapping just before? null for a contact at the start, before which there "
+        "is nothing"
+    )
+    after: bool = Field(
+        description="Does it find the reported pair overlapping just after, and no other but those that meet together "
+        "with it? At the start others may overlap too"
+    )
 
 
-class PairCheck(Answer):
-    """Independent engines on the touching pair, just before and just after."""
+class ContactCheck(Answer):
+    """Independent engines on the dance just before and just after; within the margin counts as overlapping."""
 
-    agree: bool = Field(description="All engines asked say the same")
+    agree: bool = Field(description="Every engine asked finds nothing before, and after the reported pair alone")
+    judged: list[int] = Field(
+        description="The benches judged: all; of more than 2,000, or very crowded ones, those near the pair, or the "
+        "pair; with cross_check=pair the pair"
+    )
     engines: dict[Engine, Verdict] = Field(
         description="Each engine's verdict; angle_sum knows no margin, so it is asked only where that is 0"
     )
-
-    @classmethod
-    def of(cls, before: Floats, after: Floats, dragon: Dragon, benches: Pair, margin: float) -> Self:
-        """before, after: (2, 3) poses of the pair"""
-        pair = list(benches)
-        found = core.verdicts(before, after, dragon.lengths[pair], dragon.widths[pair], margin=margin)
-        words = {(verdict.before, verdict.after) for verdict in found.values()}
-        return cls(agree=len(words) == 1, engines=found)
-
-
-def _pair_poses(
-    dragon: Dragon, path: Spiral | Route, times: Sequence[float], head_speed: float, benches: Pair
-) -> Floats:
-    """Poses (T, 2, 3) of two benches at some instants, or at the nearest ones that the run has."""
-    front = dragon.leading(benches[1] + 1)  # No bench moves one in front of it.
-    first, last = earliest_time(front, path, head_speed), core.run_end(front, path, head_speed=head_speed).time
-    held = [min(max(time, first), last) for time in times]
-    position = core.trajectory(front, path, held, head_speed=head_speed).position
-    return core.bench_poses(position)[:, list(benches)]
+    together: list[Pair] = Field(
+        description="Other pairs that meet with the reported one, as where a corner meets two benches of a straight "
+        "row at once: apart just before, and hardly within the margin just after"
+    )
+    left_out: list[Engine] = Field(description="Engines that cannot judge this margin, and were not asked")
 
 
 class CollisionTime(Answer):
@@ -162,17 +150,19 @@ class CollisionTime(Answer):
     point: Point | None = Field(description="Where, x and y [m]")
     end: End | None = Field(description="Where the run ends, when clear")
     certificate: Certificate = Field(description="How the answer is known")
-    cross_check: PairCheck | None = Field(description="Engines on the pair 1e-6 m of travel before and after")
+    cross_check: ContactCheck | None = Field(
+        description="Engines on the dance 1e-6 m of travel before and after, at the start at once and after; null "
+        "without a contact, and when not asked for"
+    )
 
     @classmethod
     def of(
-        cls, contact: core.FirstContact, dragon: Dragon, path: Spiral | Route, head_speed: float, margin: float
+        cls, contact: core.FirstContact, dragon: Dragon, path: Spiral | Route, wanted: CollisionQuery | CheckRequest
     ) -> Self:
         check = None
-        if contact.time is not None and contact.benches is not None:
-            times = [contact.time + travel / head_speed for travel in (-CHECK_TRAVEL, CHECK_TRAVEL)]
-            before, after = _pair_poses(dragon, path, times, head_speed, contact.benches)
-            check = PairCheck.of(before, after, dragon, contact.benches, margin)
+        if wanted.cross_check != "none":
+            whole, speed = wanted.cross_check == "dragon", wanted.head_speed
+            check = core.contact_check(contact, dragon, path, head_speed=speed, margin=wanted.margin, whole=whole)
         return cls.known(contact, cross_check=check)
 
 
@@ -198,17 +188,16 @@ class MinimumPitch(Answer):
     proven_up_to: float | None = Field(description="Up to here; null: every larger pitch, without end [m]")
     scan_step: float | None = Field(description="How far apart the pitches of a scan are at most; null: no scan [m]")
     evaluations: int = Field(description="Ways to the circle, and strips of pitches at once, that were marched")
-    cross_check: PairCheck | None = Field(description="Engines on the pair at a pitch 1e-6 m larger and smaller")
+    cross_check: ContactCheck | None = Field(
+        description="Engines on the dance at a pitch 1e-6 m larger and smaller, the head where the pair meets; null "
+        "without a pair, and when not asked for"
+    )
 
     @classmethod
-    def of(cls, found: core.MinimumPitch, dragon: Dragon, margin: float) -> Self:
+    def of(cls, found: core.MinimumPitch, dragon: Dragon, wanted: MinimumPitchQuery) -> Self:
         check = None
-        if found.benches is not None and found.head_radius is not None:
-            # A spiral that starts at that radius has its head there at time 0.
-            pitches = (found.pitch + CHECK_PITCH, found.pitch - CHECK_PITCH)
-            spirals = (Spiral(pitch, found.head_radius / pitch) for pitch in pitches)
-            before, after = (_pair_poses(dragon, spiral, [0.0], 1.0, found.benches)[0] for spiral in spirals)
-            check = PairCheck.of(before, after, dragon, found.benches, margin)
+        if wanted.cross_check != "none":
+            check = core.pitch_check(found, dragon, margin=wanted.margin, whole=wanted.cross_check == "dragon")
         return cls.known(found, cross_check=check)
 
 

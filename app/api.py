@@ -130,7 +130,7 @@ def collision_time(reply: QueryReply, wanted: Annotated[CollisionQuery, Query()]
     def compute() -> bytes:
         dragon, path = wanted.to_dragon(reply.settings.benches_max), wanted.to_path()
         found = core.first_contact(dragon, path, head_speed=wanted.head_speed, margin=wanted.margin)
-        return CollisionTime.of(found, dragon, path, wanted.head_speed, wanted.margin).to_json()
+        return CollisionTime.of(found, dragon, path, wanted).to_json()
 
     return reply(wanted, compute)
 
@@ -142,7 +142,7 @@ def minimum_pitch(reply: QueryReply, wanted: Annotated[MinimumPitchQuery, Query(
     def compute() -> bytes:
         dragon, radius = wanted.to_dragon(reply.settings.benches_max), wanted.turning_diameter / 2
         found = core.minimum_pitch(dragon, turning_radius=radius, start_turns=wanted.start_turns, margin=wanted.margin)
-        return MinimumPitch.of(found, dragon, wanted.margin).to_json()
+        return MinimumPitch.of(found, dragon, wanted).to_json()
 
     return reply(wanted, compute)
 
@@ -234,7 +234,7 @@ def check(
     def compute() -> bytes:
         dragon, path = wanted.dragon.to_dragon(reply.settings.checked_benches_max), wanted.path.to_path()
         found = wanted.to_report(dragon, path)
-        return Report.of(found, dragon, path, wanted.head_speed, wanted.margin).to_json()
+        return Report.of(found, dragon, path, wanted).to_json()
 
     return reply(wanted, compute)
 

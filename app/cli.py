@@ -62,7 +62,7 @@ class TrajectoryOptions(schemas.TimeRange, schemas.DanceQuery):
     decimals: int | None = Field(None, ge=0, le=15, description="Decimals of x, y and speed; else all (xlsx: 6)")
 
 
-class InstantOptions(schemas.TrajectoryFigureQuery, schemas.CollisionQuery):
+class InstantOptions(schemas.TrajectoryFigureQuery, schemas.ContactQuery):
     """The dance at one instant."""
 
 
@@ -118,8 +118,8 @@ def collision_time(asked: schemas.CollisionQuery, json: Json = False) -> None:
     dragon, path = asked.to_dragon(Settings().benches_max), asked.to_path()
     with show.waiting("first contact"):
         found = core.first_contact(dragon, path, head_speed=asked.head_speed, margin=asked.margin)
-        answer = answers.CollisionTime.of(found, dragon, path, asked.head_speed, asked.margin)
-    show.print_answer("First contact", answer, json)
+        answer = answers.CollisionTime.of(found, dragon, path, asked)
+    show.print_answer("First contact", answer, json, benches=dragon.benches)
 
 
 @app.command()
@@ -129,8 +129,9 @@ def minimum_pitch(asked: schemas.MinimumPitchQuery, json: Json = False) -> None:
     dragon, radius = asked.to_dragon(Settings().benches_max), asked.turning_diameter / 2
     with show.waiting("minimum pitch"):
         found = core.minimum_pitch(dragon, turning_radius=radius, start_turns=asked.start_turns, margin=asked.margin)
-        answer = answers.MinimumPitch.of(found, dragon, asked.margin)
-    show.print_answer(f"Minimum pitch for a turning circle of {asked.turning_diameter:g} m", answer, json)
+        answer = answers.MinimumPitch.of(found, dragon, asked)
+    title = f"Minimum pitch for a turning circle of {asked.turning_diameter:g} m"
+    show.print_answer(title, answer, json, benches=dragon.benches)
 
 
 @app.command()
@@ -167,21 +168,28 @@ def check(
     time: Annotated[
         float | None, typer.Option(help="When it is drawn; else at the first failure or the closest [s]")
     ] = None,
+    cross_check: Annotated[
+        str | None,
+        typer.Option(metavar="dragon|pair|none", help="Whom independent engines judge; else as the file says."),
+    ] = None,
     json: Json = False,
 ) -> None:
     """Can the dragon dance this path here? What fails is an answer: the exit code is 0."""
-    asked = checked(schemas.CheckRequest, read_dance(file))
+    told = read_dance(file)
+    if cross_check and isinstance(told, dict):
+        told["cross_check"] = cross_check
+    asked = checked(schemas.CheckRequest, told)
     dragon, path = asked.dragon.to_dragon(Settings().checked_benches_max), asked.path.to_path()
     with show.waiting("check"):
         found = asked.to_report(dragon, path)
-        answer = report.Report.of(found, dragon, path, asked.head_speed, asked.margin)
+        answer = report.Report.of(found, dragon, path, asked)
     if figure:
         figure.write_bytes(_drawn_check(asked, dragon, path, answer, figure.suffix.lower(), time))
         print(figure, file=sys.stderr)
     if json:
         show.print_json(answer.to_json())
     else:
-        show.print_parts(*show.report_tables(answer))
+        show.print_parts(*show.report_tables(answer, dragon.benches))
 
 
 def _drawn_check(

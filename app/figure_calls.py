@@ -11,8 +11,8 @@ from app.api import BODY_STATUSES, FILE, QUERY_STATUSES, documented
 from app.drawing import Format
 from app.reply import BodyReply, QueryReply
 from app.schemas import (
-    CollisionQuery,
     ContactFigureRequest,
+    ContactQuery,
     PitchScanQuery,
     TrajectoryFigureQuery,
     TrajectoryFigureRequest,
@@ -42,7 +42,7 @@ def trajectory_figure(reply: QueryReply, format: Format, wanted: Annotated[Traje
 
 
 @router.get(**drawn("GET /figures/contact", QUERY_STATUSES))
-def contact_figure(reply: QueryReply, format: Format, wanted: Annotated[CollisionQuery, Query()]) -> Response:
+def contact_figure(reply: QueryReply, format: Format, wanted: Annotated[ContactQuery, Query()]) -> Response:
     """The dance at first contact, with the touching pair marked and enlarged."""
 
     def compute() -> bytes:

@@ -8,6 +8,7 @@ from pydantic import Field
 
 import core
 from app.answers import Answer, CollisionTime, Pair, Point
+from app.schemas import CheckRequest
 from core import Dragon, Outcome, Route, Spiral
 
 
@@ -154,6 +155,6 @@ class Report(Answer):
     sharpest_bend: SharpestBend | None = Field(description="Between two consecutive benches; null for a single bench")
 
     @classmethod
-    def of(cls, found: core.Report, dragon: Dragon, path: Spiral | Route, head_speed: float, margin: float) -> Self:
-        contact = CollisionTime.of(found.first_contact, dragon, path, head_speed, margin)
+    def of(cls, found: core.Report, dragon: Dragon, path: Spiral | Route, wanted: CheckRequest) -> Self:
+        contact = CollisionTime.of(found.first_contact, dragon, path, wanted)
         return cls.known(found, first_contact=contact)

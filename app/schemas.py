@@ -15,7 +15,19 @@ from pydantic import AfterValidator, Discriminator, Field, Tag
 from pydantic_core import PydanticCustomError
 
 from app.settings import check_limit
-from app.wire import Coordinate, Instant, Length, Margin, Overhang, SpeedLimit, StartTurns, TurningDiameter, Width, Wire
+from app.wire import (
+    Coordinate,
+    CrossCheck,
+    Instant,
+    Length,
+    Margin,
+    Overhang,
+    SpeedLimit,
+    StartTurns,
+    TurningDiameter,
+    Width,
+    Wire,
+)
 from app.wire_paths import KINDS, AnyPath, SpiralFields, SpiralPath, TurnCircle, TurnFields
 from core import Dragon, InvalidValue, Report, Route, ShortestTurn, Spiral, Venue, check, shortest_turn
 from core.dragon import BENCHES_MAX, Floats
@@ -197,6 +209,7 @@ class CheckRequest(PlacedDance):
     """Can this dragon dance this path here?"""
 
     margin: Margin = 0.0
+    cross_check: CrossCheck = "dragon"
     speed_limit: SpeedLimit | None = Field(None, description="Of every handle; null: none [m/s]")
     start: Instant | None = Field(
         None, description="From when; null: the start of the dance, or when the whole dragon is on the path [s]"
@@ -248,18 +261,30 @@ class DanceQuery(HeadSpeed, SpiralFields, UniformDragon):
     """A uniform dragon on a spiral, as query parameters."""
 
 
-class CollisionQuery(DanceQuery):
-    """When do two benches first touch?"""
+class ContactQuery(DanceQuery):
+    """The dance at first contact."""
 
     margin: Margin = 0.0
 
 
-class MinimumPitchQuery(UniformDragon):
-    """How tight may the spiral be?"""
+class CollisionQuery(ContactQuery):
+    """When do two benches first touch?"""
+
+    cross_check: CrossCheck = "dragon"
+
+
+class CircleQuery(UniformDragon):
+    """A circle that the head of a uniform dragon must reach, from a start on a spiral of any pitch."""
 
     turning_diameter: TurningDiameter = Field(9.0, description="Diameter of the circle that the head must reach [m]")
     start_turns: StartTurns = 16.0
     margin: Margin = 0.0
+
+
+class MinimumPitchQuery(CircleQuery):
+    """How tight may the spiral be?"""
+
+    cross_check: CrossCheck = "dragon"
 
 
 class TrajectoryFigureQuery(DanceQuery):
@@ -268,7 +293,7 @@ class TrajectoryFigureQuery(DanceQuery):
     time: Instant = Field(300.0, description="The instant [s]")
 
 
-class PitchScanQuery(MinimumPitchQuery):
+class PitchScanQuery(CircleQuery):
     """First contact against the pitch, drawn."""
 
     samples: int = Field(101, ge=2, le=401, description="Pitches to sample; jumps between them are searched for")

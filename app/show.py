@@ -65,33 +65,56 @@ def print_parts(*parts: Part) -> None:
         console.print(part)
 
 
-def print_answer(title: str, answer: answers.Answer, json: bool) -> None:
-    """An answer as its JSON, or as two columns: each field by its name on the wire, and its value with its unit."""
+def print_answer(title: str, answer: answers.Answer, json: bool, *, benches: int = 0) -> None:
+    """An answer as its JSON, or as two columns: each field by its name on the wire, and its value with its unit.
+
+    benches: of the dragon, where the answer names those that were judged
+    """
     if json:
         print_json(answer.to_json())
         return
     table = _table(title, "field", "value", header=False)
-    for name, value in _flat(answer):
+    for name, value in _flat(answer, benches=benches):
         table.add_row(name, value)
     print_parts(table)
 
 
-def _flat(answer: BaseModel, prefix: str = "") -> Iterator[tuple[str, str]]:
+def _flat(answer: BaseModel, prefix: str = "", *, benches: int) -> Iterator[tuple[str, str]]:
     for name, field in type(answer).model_fields.items():
         value = getattr(answer, name)
         label = prefix + name.replace("_", " ")
         if isinstance(value, answers.Feature):
             yield label, ", ".join(f"{word} {_shown(said)}" for word, said in value)
+        elif isinstance(value, answers.ContactCheck):
+            yield from ((f"{label}: {word}", said) for word, said in _check_words(value, benches))
         elif isinstance(value, BaseModel):
-            yield from _flat(value, f"{label}: ")
-        elif isinstance(value, dict):
-            for key, entry in value.items():
-                yield f"{prefix}{key}", ", ".join(f"{word} {_shown(said)}" for word, said in entry)
+            yield from _flat(value, f"{label}: ", benches=benches)
         elif value is not None:
             unit = re.search(r"\[([^\]]+)\]$", field.description or "")
             yield label, f"{_shown(value)} {unit[1] if unit else ''}".rstrip()
         elif name in SAID_BY_NULL:
             yield label, SAID_BY_NULL[name]
+
+
+def _check_words(check: answers.ContactCheck, benches: int) -> Iterator[tuple[str, str]]:
+    yield "agree", _shown(check.agree)
+    yield "judged", judged_words(check.judged, benches)
+    for engine, verdict in check.engines.items():
+        before = "" if verdict.before is None else f"before {_shown(verdict.before)}, "
+        yield engine.value, f"{before}after {_shown(verdict.after)}"
+    if check.together:
+        yield "together", "; ".join(map(_shown, check.together))
+    if check.left_out:
+        yield "left out", _shown(check.left_out)
+
+
+def judged_words(judged: Sequence[int], benches: int) -> str:
+    """Which of so many benches the engines judged, in short."""
+    if len(judged) == benches:
+        return f"all {benches} benches"
+    if len(judged) == len(("a", "b")):
+        return f"benches {_shown(judged)} alone"
+    return f"{len(judged)} benches from {judged[0]} to {judged[-1]}, of {benches:,}: those near the pair"
 
 
 def _shown(value: Any, decimals: int = 9) -> str:
@@ -152,20 +175,27 @@ def paper_tables(rows: Sequence[Comparison]) -> list[Part]:
     return parts
 
 
-def report_tables(report: Report) -> list[Part]:
-    """The verdict, what fails in order of time, and what was measured."""
+def report_tables(report: Report, benches: int) -> list[Part]:
+    """The verdict, what fails in order of time, and what was measured. benches: of the dragon"""
     verdict = "Nothing fails." if report.passed else "What fails, in order of time:"
     facts = _table(f"From {report.start:.3f} to {report.stop:.3f} s", "what", "value", "at", "who")
-    for name, value, time, who in _measured(report):
+    for name, value, time, who in _measured(report, benches):
         facts.add_row(name, value, "" if time is None else f"{time:.6f} s", who)
     return [Text(verdict, style="bold"), *(f"  {one.message}" for one in report.failures), "", facts]
 
 
-def _measured(report: Report) -> Iterator[tuple[str, str, float | None, str]]:
+def _measured(report: Report, benches: int) -> Iterator[tuple[str, str, float | None, str]]:
     """What, how much, when, who."""
     contact = report.first_contact
     pair = f"benches {_shown(contact.benches)}" if contact.benches else ""
     yield "first contact", contact.outcome.value, contact.time, pair
+    if check := contact.cross_check:
+        yield (
+            "cross-check",
+            f"engines {'agree' if check.agree else 'DISAGREE'}",
+            None,
+            judged_words(check.judged, benches),
+        )
     if least := report.least_clearance:
         yield "least clearance", _distance(least), least.time, f"benches {_shown(least.benches)}"
     for area in report.venue.areas if report.venue else ():

@@ -6,7 +6,7 @@ noticed.
 
 from __future__ import annotations
 
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 from pydantic_core import PydanticCustomError
@@ -25,6 +25,14 @@ Instant = Annotated[float, Field(ge=-1e6, le=1e6)]
 SpeedLimit = Annotated[float, Field(ge=1e-3, le=100)]
 TurningDiameter = Annotated[float, Field(ge=2e-3, le=200)]
 Angle = Annotated[float, Field(ge=-1000, le=1000)]
+# Whom four engines judge around a contact.
+CrossCheck = Annotated[
+    Literal["dragon", "pair", "none"],
+    Field(
+        description="Whom independent engines judge just before and just after: dragon: every bench (of more than "
+        "2,000, or very crowded ones, those near the pair); pair: the two that touch, a tenth of the work; none: nobody"
+    ),
+]
 
 
 class Wire(BaseModel):

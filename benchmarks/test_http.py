@@ -37,12 +37,16 @@ def connect(server: str) -> http.client.HTTPConnection:
     return http.client.HTTPConnection(server.removeprefix("http://"))
 
 
-def test_get_collision_time(benchmark: BenchmarkFixture, server: str) -> None:
+@pytest.mark.parametrize("judged", ["dragon", "pair", "none"])
+def test_get_collision_time(benchmark: BenchmarkFixture, server: str, judged: str) -> None:
+    """With the whole dragon judged by four engines, the touching pair alone, or nobody."""
     benchmark.group = "GET /collision-time"
     connection = connect(server)
-    benchmark.pedantic(
-        lambda: call(connection, "GET", f"/collision-time?pitch={next(PITCHES):.9f}"), rounds=200, warmup_rounds=10
-    )
+
+    def get() -> bytes:
+        return call(connection, "GET", f"/collision-time?pitch={next(PITCHES):.9f}&cross_check={judged}")
+
+    benchmark.pedantic(get, rounds=200, warmup_rounds=10)
 
 
 def test_post_trajectory(benchmark: BenchmarkFixture, server: str) -> None:
@@ -84,7 +88,7 @@ SERVICES = [(1, 1), (1, 2), (2, 2)]
 
 @pytest.mark.parametrize(("workers", "cores"), SERVICES, ids=[f"{w}on{c}" for w, c in SERVICES])
 def test_throughput(benchmark: BenchmarkFixture, workers: int, cores: int, tmp_path: Path) -> None:
-    """Requests per second of /collision-time from eight connections of one light client."""
+    """Requests per second of /collision-time, its pair checked, from eight connections of one light client."""
     usable = sorted(os.sched_getaffinity(0))
     if len(usable) < cores:
         pytest.skip(f"needs {cores} cores")
@@ -92,8 +96,8 @@ def test_throughput(benchmark: BenchmarkFixture, workers: int, cores: int, tmp_p
     benchmark.extra_info["requests"] = REQUESTS
 
     def requests() -> tuple[tuple[list[bytes]], dict[str, object]]:
-        head = "GET /collision-time?pitch={:.9f} HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n"
-        return ([head.format(next(PITCHES)).encode() for _ in range(REQUESTS)],), {}
+        head = "GET /collision-time?cross_check=pair&pitch={:.9f} HTTP/1.1\r\nHost: localhost\r\nConnection: close"
+        return ([f"{head.format(next(PITCHES))}\r\n\r\n".encode() for _ in range(REQUESTS)],), {}
 
     with serving(workers, set(usable[:cores]), tmp_path / "server.log") as server:
         port = int(server.rpartition(":")[2])

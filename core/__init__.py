@@ -13,12 +13,14 @@ from core.contact import (
     clearance_profile,
     first_contact,
 )
+from core.cross import ContactCheck, contact_check, pitch_check
 from core.design import LimitedBy, MinimumPitch, minimum_pitch
 from core.dragon import Dragon
+from core.engines import Engine
 from core.errors import BenchDragonError, InvalidValue, OutsideRun, TooLarge
 from core.kinematics import EndReason, RunEnd, Trajectory, bench_poses, run_end, trajectory
 from core.least import LeastClearance, least_clearance
-from core.overlaps import CrossCheck, Engine, Overlaps, Verdict, cross_check, overlaps, verdicts
+from core.overlaps import CrossCheck, Overlaps, Verdict, cross_check, overlaps, verdicts
 from core.paths import Spiral
 from core.rectangles import Separation, separation
 from core.route import Arc, Coil, Line, Piece, Route, Waypoints
@@ -35,6 +37,7 @@ __all__ = [
     "Certificate",
     "ClearanceProfile",
     "Coil",
+    "ContactCheck",
     "CrossCheck",
     "Dragon",
     "EndReason",
@@ -76,6 +79,7 @@ __all__ = [
     "bench_poses",
     "check",
     "clearance_profile",
+    "contact_check",
     "cross_check",
     "first_contact",
     "highest_speed",
@@ -83,6 +87,7 @@ __all__ = [
     "maximum_head_speed",
     "minimum_pitch",
     "overlaps",
+    "pitch_check",
     "run_end",
     "separation",
     "sharpest_bend",

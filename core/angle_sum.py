@@ -14,6 +14,9 @@ from core.dragon import Floats
 # the middle of an edge of length e lacks 8 d / e, so in reach this is 4e-13 m for an edge of 3.41 m [rad].
 ANGLE_TOLERANCE = 1e-12
 
+# More than any such sum is rounded by [rad].
+SUM_ROUNDING = 1e-13
+
 # Eq. 12's order of the corners, top right, bottom right, bottom left, top left, in units of (half length, half
 # width), the length pointing right.
 PAPER_SIDES = np.array([[1.0, 1.0], [1.0, -1.0], [-1.0, -1.0], [-1.0, 1.0]])
@@ -74,6 +77,22 @@ def angle_sum_overlap(corners_a: Floats, corners_b: Floats, *, tolerance: float 
     corners_a, corners_b: (..., C, 2) [m]; tolerance [rad]; returns (...)
     source: Yang et al., eqs. 13-16
     """
-    full = 2.0 * np.pi - tolerance
-    a_in_b = (angle_sums(corners_a, corners_b) >= full).any(axis=-1)
-    return np.asarray(a_in_b | (angle_sums(corners_b, corners_a) >= full).any(axis=-1))
+    return _holds_any(corners_a, corners_b, tolerance) | _holds_any(corners_b, corners_a, tolerance)
+
+
+# Only corners in or near the upright box of the polygon are asked about. The others cannot have a full sum: let a point
+# lie d > 0 away from a convex polygon of diameter at most D (that of its box). Seen from the point, with the nearest
+# point of the polygon straight ahead, all of it lies beyond the line across at distance d and within D to either side,
+# so it fills an angle of at most pi - 2 atan(d / D). From outside, each direction into the polygon meets its edges
+# twice, so the sum is at most 2 pi - 4 atan(d / D), which is less than 2 pi - tolerance where d > D tan(tolerance / 4).
+def _holds_any(points: Floats, polygon: Floats, tolerance: float) -> NDArray[np.bool_]:
+    """Whether a polygon has one of some points inside, by the rule. points: (..., P, 2), polygon: (..., C, 2) [m]"""
+    # x and y first, then the points: numpy is slow along short last axes.
+    place, edge = (np.ascontiguousarray(np.moveaxis(one, (-1, -2), (0, 1))) for one in (points, polygon))
+    low, high = edge.min(axis=1), edge.max(axis=1)
+    reach = np.hypot(*(high - low)) * np.tan(0.25 * min(tolerance + SUM_ROUNDING, 2.0 * np.pi))
+    near = ((place >= (low - reach)[:, None]) & (place <= (high + reach)[:, None])).all(axis=0)
+    point, *pair = np.nonzero(near)
+    sums = angle_sums(points[*pair, point, None, :], polygon[tuple(pair)])[:, 0]
+    near[near] = sums >= 2.0 * np.pi - tolerance
+    return np.asarray(near.any(axis=0))

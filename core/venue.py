@@ -13,10 +13,10 @@ import numpy as np
 from core import kernels
 from core.contact import Outcome
 from core.dragon import Dragon, Floats, checked_number
+from core.engines import inside, polygon_fault
 from core.errors import InvalidValue
 from core.kinematics import bench_poses, checked_head_speed, checked_span, run_end, trajectory
 from core.least import Pair, first_pair, least_over
-from core.overlaps import inside, polygon_fault
 from core.paths import Spiral
 from core.route import COORDINATE_MAX, Coil, Point, Route
 from core.search import MARGIN_MAX, NEAR_WORK_BUDGET, Search

@@ -40,6 +40,7 @@ ORDER = (
     "core.rectangles",
     "core.angle_sum",
     "core.broad_phase",
+    "core.engines",
     "core.overlaps",
     "core.coils",
     "core.search",
@@ -47,6 +48,7 @@ ORDER = (
     "core.contact",
     "core.strips",
     "core.design",
+    "core.cross",
     "core.scan",
     "core.turn",
     "core.shortest",
@@ -132,8 +134,8 @@ def test_core_knows_no_http_json_files_or_clocks(module: str) -> None:
     assert top_names(module) & OUTSIDE_CORE == set()
 
 
-def test_only_overlaps_imports_fcl_and_shapely() -> None:
-    assert {name for name in MODULES if top_names(name) & OVERLAP_ENGINES} == {"core.overlaps"}
+def test_only_the_engines_import_fcl_and_shapely() -> None:
+    assert {name for name in MODULES if top_names(name) & OVERLAP_ENGINES} == {"core.engines"}
 
 
 def test_importing_core_loads_nothing_heavy() -> None:

@@ -24,15 +24,25 @@ function facts(...rows) {
   return make("dl", {}, ...rows.flatMap((row) => ["dt", "dd"].map((tag, k) => make(tag, { textContent: row[k] }))));
 }
 
-function engines(check) {
+/** Whom the engines judged, of so many benches. */
+function judgedWords({ judged }, benches) {
+  const count = judged.length;
+  if (count === benches) return say("judgedAll", { count });
+  return count === 2 ? say("judgedPair", pair(judged, benches)) : say("judgedNear", { count, benches });
+}
+
+function engines(check, benches) {
   if (!check) return paragraph(say("noEngines"));
-  const cell = (overlaps) => make("td", { textContent: say(overlaps ? "overlapping" : "apart") });
+  const cell = (overlaps) => make("td", { textContent: say(overlaps === null ? "noBefore" : overlaps ? "overlapping" : "apart") });
   const head = (key, scope) => make("th", { scope, textContent: say(key) });
   const rows = Object.entries(check.engines).map(([name, { before, after }]) =>
     make("tr", {}, head(name, "row"), cell(before), cell(after)),
   );
   const heads = make("tr", {}, ...["engine", "before", "after"].map((key) => head(key, "col")));
-  const caption = make("caption", { textContent: `${say("engines")}. ${say(check.agree ? "agree" : "disagree")}` });
+  const words = [`${say("engines")}${judgedWords(check, benches)}`, say(check.agree ? "agree" : "disagree")];
+  const list = check.together.map((both) => Object.values(pair(both, benches)).join(", ")).join("; ");
+  if (list) words.push(say("together", { list }));
+  const caption = make("caption", { textContent: words.join(" ") });
   return make("table", {}, caption, make("thead", {}, heads), make("tbody", {}, ...rows));
 }
 
@@ -59,7 +69,7 @@ export function showFirstContact(box, answer, { benches, margin }) {
   const method = paragraph(certificate.method, { lang: "en", className: "method" });
   const mark = make("span", { className: "mark", "aria-hidden": "true", textContent: MARKS[outcome] });
   const value = [mark, say(outcome, { time: time?.toFixed(6) })];
-  show(box, "firstContact", value, lines, [facts(...rows), method, engines(answer.cross_check)], outcome);
+  show(box, "firstContact", value, lines, [facts(...rows), method, engines(answer.cross_check, benches)], outcome);
 }
 
 /** answer: of /minimum-pitch; use(pitch) sets it */
@@ -78,7 +88,7 @@ export function showMinimumPitch(box, answer, { benches, turning_diameter: diame
     [say("proven"), say(upTo === null ? "provenToAll" : "provenTo", { from, upTo })],
     [say("evaluations"), answer.evaluations],
   ];
-  show(box, "minimumPitch", `${answer.pitch.toFixed(9)} m`, lines, [facts(...rows), engines(answer.cross_check)]);
+  show(box, "minimumPitch", `${answer.pitch.toFixed(9)} m`, lines, [facts(...rows), engines(answer.cross_check, Number(benches))]);
   const button = make("button", { type: "button", textContent: say("usePitch") });
   button.addEventListener("click", () => use(answer.pitch_bracket[1]));
   box.querySelector("details").before(button);

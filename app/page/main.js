@@ -167,6 +167,10 @@ const SHOW = {
   fastest() {
     const { answer, dance: of } = questions.answers.fastest;
     answers.showHighestSpeed($("#highest-speed"), answer.highest_speed, of.numbers);
+    if (of !== questions.dance) return;
+    // The check at rest is of the whole dragon, the one while a hand drags of the pair.
+    const { cross_check } = answer.first_contact;
+    answers.showFirstContact($("#first-contact"), { ...of.answer, cross_check }, of.numbers);
   },
   clearance() {
     const { answer, dance: of } = questions.answers.clearance;

@@ -16,6 +16,8 @@ const TURN_TRAVEL = 100;
 
 const MOTION = [...DRAGON, "pitch", "start_turns", "head_speed"];
 const CIRCLE = [...DRAGON, "turning_diameter", "start_turns", "margin"];
+/** While a hand drags, the engines judge the touching pair alone. */
+const QUICK = { cross_check: "pair" };
 /** Their refusals are about a number that a person wrote; others only say what cannot be shown of it. */
 const ABOUT_NUMBERS = ["contact", "minimum"];
 
@@ -47,7 +49,7 @@ export class Questions {
     const query = this.state.texts([...MOTION, "margin", ...(kind === "turn" ? ["turning_diameter"] : [])]);
     const numbers = Object.fromEntries(Object.entries(query).map(([name, text]) => [name, Number(text)]));
     if (this.#isNew("contact", { kind, ...query })) this.#askContact({ kind, query, numbers });
-    this.#askOnce("minimum", "minimum-pitch", CIRCLE);
+    this.#askOnce("minimum", "minimum-pitch", CIRCLE, QUICK);
   }
 
   /** Body of a request about the dance that is shown, or about another one. */
@@ -81,10 +83,10 @@ export class Questions {
 
   async #askContact(asked) {
     if (asked.kind === "spiral") {
-      const answer = await this.#answer("contact", "collision-time", { query: asked.query });
+      const answer = await this.#answer("contact", "collision-time", { query: { ...asked.query, ...QUICK } });
       if (answer) this.#accept({ ...asked, answer, begin: 0, end: lastInstant(answer) });
     } else {
-      const report = await this.#answer("contact", "check", { body: this.checkBody(asked) });
+      const report = await this.#answer("contact", "check", { body: { ...this.checkBody(asked), ...QUICK } });
       if (!report) return;
       const answer = { ...report.first_contact, end: null };
       this.#accept({ ...asked, answer, begin: report.start, end: answer.time ?? report.stop, report });
@@ -143,8 +145,8 @@ export class Questions {
     this.tell("track");
   }
 
-  #askOnce(kind, path, names) {
-    const query = this.state.texts(names);
+  #askOnce(kind, path, names, more = {}) {
+    const query = { ...this.state.texts(names), ...more };
     if (this.#isNew(kind, query)) this.#keep(kind, path, { query });
   }
 

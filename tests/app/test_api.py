@@ -119,6 +119,54 @@ def test_a_margin_is_reached_before_contact_and_judged_by_the_engines_that_know_
     assert answer["time"] < client.get("/collision-time").json()["time"]
     assert answer["cross_check"]["agree"]
     assert set(answer["cross_check"]["engines"]) == ENGINES - {"angle_sum"}
+    assert answer["cross_check"]["left_out"] == ["angle_sum"]
+
+
+@pytest.mark.parametrize(
+    ("call", "pair"), [("/collision-time", [0, 8]), ("/minimum-pitch", [0, 19])], ids=["time", "pitch"]
+)
+def test_the_engines_judge_the_whole_dragon_the_pair_or_nobody(
+    client: httpx.Client, call: str, pair: list[int]
+) -> None:
+    default, dragon, both, nobody = (
+        client.get(call, params=query).raise_for_status().json()
+        for query in ({}, {"cross_check": "dragon"}, {"cross_check": "pair"}, {"cross_check": "none"})
+    )
+    assert default == dragon
+    assert dragon["benches"] == both["cross_check"]["judged"] == pair
+    assert dragon["cross_check"]["judged"] == list(range(223))
+    assert nobody["cross_check"] is None
+    for check in (dragon["cross_check"], both["cross_check"]):
+        assert list(check) == ["agree", "judged", "engines", "together", "left_out"]
+        assert check["agree"]
+        assert check["engines"] == {name: {"before": False, "after": True} for name in ENGINES}
+        assert check["together"] == check["left_out"] == []
+    for answer in (both, nobody):
+        assert answer | {"cross_check": None} == dragon | {"cross_check": None}
+
+
+def test_a_cross_check_of_anybody_else_is_refused(client: httpx.Client) -> None:
+    refused = client.get("/collision-time?cross_check=everybody")
+    assert refused.status_code == 422
+    assert refused.json()["detail"] == "cross_check must be 'dragon', 'pair' or 'none', got \"everybody\""
+    refused = client.post("/check", json={"cross_check": None})
+    assert (refused.status_code, refused.json()["errors"][0]["pointer"]) == (422, "/cross_check")
+    for call in ("/pitch-scan", "/clearance", "/figures/contact.svg"):
+        assert client.get(call, params={"cross_check": "pair"}).status_code == 422
+
+
+def test_a_contact_at_the_start_has_no_before(client: httpx.Client) -> None:
+    answer = client.get("/collision-time?pitch=0.25&start_turns=8&benches=60").json()
+    assert answer["outcome"] == "contact_at_start"
+    assert answer["cross_check"]["agree"]
+    assert answer["cross_check"]["engines"] == {name: {"before": None, "after": True} for name in ENGINES}
+
+
+def test_of_a_long_dragon_the_benches_near_the_pair_are_judged(client: httpx.Client) -> None:
+    check = client.get("/collision-time?benches=100000").json()["cross_check"]
+    assert check["agree"]
+    assert {0, 8} < set(check["judged"])
+    assert len(check["judged"]) < 2_000
 
 
 def test_overlaps_gives_depth_witnesses_and_each_engines_pairs(client: httpx.Client) -> None:

@@ -68,7 +68,10 @@ def served(client: httpx.Client, method: str, target: str, body: object = None) 
         (["collision-time"], "GET", "/collision-time", None),
         (["collision-time", "--pitch", "0.45"], "GET", "/collision-time?pitch=0.45", None),
         (["collision-time", "--margin", "0.05"], "GET", "/collision-time?margin=0.05", None),
+        (["collision-time", "--cross-check", "pair"], "GET", "/collision-time?cross_check=pair", None),
+        (["collision-time", "--cross-check", "none"], "GET", "/collision-time?cross_check=none", None),
         (["minimum-pitch"], "GET", "/minimum-pitch", None),
+        (["minimum-pitch", "--cross-check", "none"], "GET", "/minimum-pitch?cross_check=none", None),
         (["minimum-pitch", "--turning-diameter", "6"], "GET", "/minimum-pitch?turning_diameter=6", None),
         (["trajectory"], "POST", "/trajectory", {}),
         (
@@ -107,6 +110,11 @@ def test_overlaps_of_the_dance_before_and_after_first_contact() -> None:
     [
         (["trajectory"], ["handle", "223 tail (rear)", "speed [m/s]", "300 s", "0.996478"]),
         (["collision-time"], ["412.473837682 s", "0, 8", "front-outer", "412.473837682"]),
+        (["collision-time"], ["judged", "all 223 benches", "before no, after yes"]),
+        (["collision-time", "--cross-check", "pair"], ["benches 0, 8 alone"]),
+        (["collision-time", "--margin", "0.05"], ["left out", "angle_sum"]),
+        (["collision-time", "--benches", "3000"], ["benches from 0 to 287, of 3,000: those near the pair"]),
+        (["collision-time", "--pitch", "0.25", "--start-turns", "8"], ["contact_at_start", "   after yes"]),
         (["collision-time", "--pitch", "0.8"], ["clear", "fold", "637.66"]),
         (["minimum-pitch"], ["0.450337393 m", "graze", "0, 19"]),
         (["overlaps", "--time", "413"], ["0, 8", "All four engines agree"]),

@@ -78,6 +78,24 @@ def test_check_reads_toml_and_json_and_answers_like_the_service(client: httpx.Cl
     assert json.loads(answer_of("check", str(dance.with_suffix(".json")), "--json")) == told
 
 
+def test_check_has_the_engines_judge_whom_the_option_says_or_else_the_file(
+    client: httpx.Client, tmp_path: Path
+) -> None:
+    body = {"dragon": {"benches": 30}, "path": {"pitch": 0.4}, "start": 100.0}
+    file = tmp_path / "dance.json"
+    for in_file, option, told in (("none", [], "none"), ("none", ["pair"], "pair"), ("pair", ["dragon"], "dragon")):
+        file.write_text(json.dumps(body | {"cross_check": in_file}))
+        said = json.loads(answer_of("check", str(file), "--json", *(f"--cross-check={word}" for word in option)))
+        assert said == served(client, "POST", "/check", body | {"cross_check": told})
+    check = said["first_contact"]["cross_check"]
+    assert (check["agree"], check["judged"]) == (True, list(range(30)))
+    assert "engines agree" in answer_of("check", str(file), "--cross-check", "dragon")
+    assert "all 30 benches" in answer_of("check", str(file), "--cross-check", "dragon")
+    refused = run("check", str(file), "--cross-check", "all")
+    assert (refused.returncode, refused.stdout) == (2, "")
+    assert refused.stderr == "Error: cross_check must be 'dragon', 'pair' or 'none', got \"all\"\n"
+
+
 def test_a_failed_check_is_an_answer_that_says_what_fails(dance: Path) -> None:
     said = answer_of("check", str(dance))
     for word in ("What fails", "'square'", "above 0.5 m/s", "nearest to square", "proven: at least", "highest speed"):

@@ -53,6 +53,7 @@ def test_the_first_view_shows_the_contact_its_certificate_and_the_four_engines(o
     text_of(page, "#first-contact dl", f"{answer['time_bracket'][1]:.10f}")
     text_of(page, "#first-contact dl", f"{answer['certificate']['steps']} proven steps")
     assert page.locator("#first-contact tbody tr").count() == len(answer["cross_check"]["engines"])
+    text_of(page, "#first-contact caption", "on all 223 benches. They agree.")
     text_of(page, "#inset figcaption", "gap 0.000 mm")
     text_of(page, "#inset figcaption", "front outer corner of head meets inner edge of body 8")
 
@@ -85,6 +86,27 @@ def test_the_highest_speed_on_a_spiral_is_the_proven_one(open_page: Any, settled
     text_of(page, "#highest-speed .value", f"{fastest['speed']:.6f} m/s")
     page.locator("#highest-speed summary").click()
     text_of(page, "#highest-speed dl", f"{fastest['speed_bracket'][1]:.9f} m/s never exceeded")
+
+
+def test_the_engines_judge_the_pair_while_a_hand_drags_and_the_whole_dragon_when_it_rests(
+    open_page: Any, settled: Any, server: str
+) -> None:
+    page = open_page()
+    asked: list[str] = []
+    page.on("request", lambda request: asked.append(request.url))
+    slider = page.locator("#controls input[type=range]").first
+    slider.press("ArrowLeft")
+    settled(page)
+    contacts = [url for url in asked if "/collision-time" in url or "/minimum-pitch" in url]
+    assert contacts
+    assert all("cross_check=pair" in url for url in contacts)
+    page.locator("#first-contact summary").click()
+    text_of(page, "#first-contact caption", "on all 223 benches")
+    page.locator("#minimum-pitch summary").click()
+    text_of(page, "#minimum-pitch caption", "on head and body 19 alone. They agree.")
+    page.locator("[data-lang=zh]").click()
+    text_of(page, "#first-contact caption", "检验全部 223 节板凳。")
+    text_of(page, "#minimum-pitch caption", "只检验")
 
 
 def test_dragging_the_pitch_to_045_shows_the_numbers_of_the_service(open_page: Any, settled: Any, server: str) -> None:

@@ -1,0 +1,222 @@
+"""Four engines on the dance just before and just after a contact: is it where and between whom the search says?
+
+Nothing of the search goes into a judgement but the claim: when, or at which pitch, and which pair. The whole dragon is
+judged: before, no two benches that share no handle are within the margin, after, the reported pair is, and no other.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from core.broad_phase import Pairs, meeting_pairs
+from core.contact import FirstContact, Outcome
+from core.design import LimitedBy, MinimumPitch
+from core.dragon import Dragon, Floats
+from core.engines import JUDGES, Engine, able, found_pairs
+from core.kinematics import bench_poses, earliest_time, run_end, trajectory
+from core.overlaps import Verdict
+from core.paths import Spiral
+from core.rectangles import frames, frames_separation
+from core.route import Route
+
+Pair = tuple[int, int]
+Indices = NDArray[np.int64]
+
+# How far the head travels from first contact to the poses that are judged [m]: far above the rounding of positions
+# (1e-13 m), far below a bench. Within 1e-10 m of a pitch at which two benches only graze, their gap is then too small
+# for the angle sum to see (1e-12 m).
+CHECK_TRAVEL = 1e-6
+# Where arc lengths are so long that rounding hides such a travel, so many of their last digits are taken [1].
+CHECK_DIGITS = 64
+# The same for a pitch [m].
+CHECK_PITCH = 1e-6
+# A pair that meets within these travels or pitches is no deeper than this afterwards [m]: the check sees 2e-6 m, and
+# two benches near one another by at most twice the highest speed of a handle over that of the head, or by the turns
+# between them for each metre of pitch. Near a fold speeds are higher; such a pair counts as a different finding there.
+TOGETHER_DEPTH = 1e-5
+# Longest dragon that is judged whole [benches], and as many pairs of cubes around benches as may meet for that [1]:
+# FCL takes about 1 microsecond for each, 3 where they touch, and 30 where they touch with a margin.
+WHOLE_BENCHES = 2_000
+CLOSE_MAX = 30_000
+
+
+@dataclass(frozen=True, slots=True)
+class ContactCheck:
+    """What the engines say of a reported contact.
+
+    agree: every engine asked finds nothing before, and after the reported pair alone
+    engines: before: does it find any two benches judged within the margin just before; None for a contact at the start,
+        which has no before. after: does it find the reported pair just after, and no other but those of `together`; at
+        the start others may be found too
+    judged: the benches judged, ascending: all; the pair alone; or of a dragon too long or too crowded those near the
+        pair
+    together: other pairs that meet with the reported one, as nearly as the two poses can tell: apart before, within the
+        margin after by no more than TOGETHER_DEPTH. A corner that meets a straight row where two benches of it overlap
+        touches both at once. Told by the exact separation alone; the engines may find them or not.
+    left_out: engines that cannot judge the margin
+    """
+
+    agree: bool
+    judged: tuple[int, ...]
+    engines: dict[Engine, Verdict]
+    together: tuple[Pair, ...]
+    left_out: tuple[Engine, ...]
+
+
+def contact_check(
+    contact: FirstContact,
+    dragon: Dragon,
+    path: Spiral | Route,
+    *,
+    head_speed: float = 1.0,
+    margin: float = 0.0,
+    whole: bool = True,
+) -> ContactCheck | None:
+    """The engines on the dance CHECK_TRAVEL of head travel before and after the bracket of a first contact.
+
+    A contact at the start has no before: it is judged at the start and CHECK_TRAVEL after it, and counts where either
+    finds it.
+    whole: judge the whole dragon, else the reported pair alone; None where nothing touches or nothing is decided
+
+    >>> from core import first_contact
+    >>> check = contact_check(first_contact(Dragon(), Spiral()), Dragon(), Spiral())
+    >>> check.agree, len(check.judged)
+    (True, 223)
+    """
+    if contact.time is None or contact.benches is None:
+        return None
+    at_start = contact.outcome is Outcome.CONTACT_AT_START
+    first, last = contact.time_bracket or (contact.time, contact.time)
+    length = path.length if isinstance(path, Spiral) else 0.0
+    rounding = CHECK_DIGITS * float(np.spacing(length + abs(contact.time) * head_speed))
+    travel = max(CHECK_TRAVEL, rounding) / head_speed
+    times = [first if at_start else first - travel, last + travel]
+    front = dragon if whole else dragon.leading(contact.benches[1] + 1)  # No bench moves one in front of it.
+    poses = _poses(front, path, times, head_speed)
+    size = np.stack([dragon.lengths, dragon.widths], axis=-1)[: poses.shape[1]]
+    return judged_contact(poses, size, contact.benches, margin=margin, whole=whole, at_start=at_start)
+
+
+def pitch_check(found: MinimumPitch, dragon: Dragon, *, margin: float = 0.0, whole: bool = True) -> ContactCheck | None:
+    """The engines on the dance at a pitch CHECK_PITCH larger and CHECK_PITCH smaller than the minimum.
+
+    The head stands where the pair meets just below that pitch, or at the start where that is what limits it.
+    whole: judge the whole dragon, else the reported pair alone; None where no pair limits the pitch
+    """
+    if found.benches is None or found.head_radius is None:
+        return None
+    poses = []
+    for pitch in (found.pitch + CHECK_PITCH, found.pitch - CHECK_PITCH):
+        # A spiral that starts at a radius has its head there at time 0.
+        turns = found.head_radius / (found.pitch if found.limited_by is LimitedBy.START else pitch)
+        front = dragon if whole else dragon.leading(found.benches[1] + 1)
+        poses.append(_poses(front, Spiral(pitch, turns), [0.0], 1.0)[0])
+    size = np.stack([dragon.lengths, dragon.widths], axis=-1)[: len(poses[0])]
+    return judged_contact(np.array(poses), size, found.benches, margin=margin, whole=whole)
+
+
+def _poses(dragon: Dragon, path: Spiral | Route, times: list[float], head_speed: float) -> Floats:
+    """Poses (T, n, 3) of the dragon at instants, or at the nearest ones that its run has."""
+    first, last = earliest_time(dragon, path, head_speed), run_end(dragon, path, head_speed=head_speed).time
+    held = [min(max(time, first), last) for time in times]
+    return bench_poses(trajectory(dragon, path, held, head_speed=head_speed).position)
+
+
+def judged_contact(
+    poses: Floats, sizes: Floats, pair: Pair, *, margin: float = 0.0, whole: bool = True, at_start: bool = False
+) -> ContactCheck:
+    """What the engines say of a pair that is reported to come within the margin between two instants.
+
+    poses: (2, n, 3) just before and just after, or at a start and just after; sizes: (n, 2) length and width [m]
+    """
+    if not whole:
+        words = {
+            engine: _word(JUDGES[engine](poses[:, list(pair)], sizes[list(pair)], margin), at_start)
+            for engine in able(margin)
+        }
+        return _check(words, np.array(pair), (), margin)
+    judged = judged_benches(poses[1], sizes, pair, margin)
+    if len(judged) == len(pair):
+        return judged_contact(poses, sizes, pair, margin=margin, whole=False, at_start=at_start)
+    found = {engine: _found(engine, poses[:, judged], sizes[judged], margin, judged) for engine in able(margin)}
+    together: set[Pair] = set()
+    if not at_start:
+        others = sorted(found[Engine.SEPARATING_AXIS][1] - {pair})
+        together = _meeting_together(others, poses, sizes, margin)
+    words = {}
+    for engine, (before, after) in found.items():
+        if at_start:
+            words[engine] = _word([pair in before, pair in after], at_start)
+        else:
+            words[engine] = Verdict(bool(before), pair in after and after <= together | {pair})
+    return _check(words, judged, tuple(sorted(together)), margin)
+
+
+def _word(found: list[bool], at_start: bool) -> Verdict:
+    return Verdict(None, any(found)) if at_start else Verdict(*found)
+
+
+def _check(words: dict[Engine, Verdict], judged: Indices, together: tuple[Pair, ...], margin: float) -> ContactCheck:
+    agree = all(word.after and not word.before for word in words.values())
+    left_out = tuple(engine for engine in Engine if engine not in words)
+    return ContactCheck(agree, tuple(judged.tolist()), words, together, left_out)
+
+
+# Of the benches judged, only those that follow one another in the dragon are neighbours, so pairs are sought among all
+# of them and neighbours left out by their numbers.
+def _found(engine: Engine, poses: Floats, sizes: Floats, margin: float, judged: Indices) -> list[set[Pair]]:
+    """The pairs that an engine finds at each instant, by their numbers in the dragon."""
+    chained = len(judged) == int(judged[-1] - judged[0]) + 1
+    found = []
+    for pairs in found_pairs(engine, poses, sizes, margin, chained=chained):
+        a, b = judged[pairs].reshape(-1, 2).T
+        apart = b - a != 1
+        found.append(set(zip(a[apart].tolist(), b[apart].tolist(), strict=True)))
+    return found
+
+
+def _meeting_together(others: list[Pair], poses: Floats, sizes: Floats, margin: float) -> set[Pair]:
+    """Those pairs that come within the margin between the two instants, and are hardly deeper than it after."""
+    if not others:
+        return set()
+    a, b = np.array(others).T
+    frame = frames(poses, sizes)
+    before, after = frames_separation(frame[:, a], frame[:, b]).separation
+    meeting = (before > margin) & (after <= margin) & (after >= margin - TOGETHER_DEPTH)
+    return {pair for pair, meets in zip(others, meeting.tolist(), strict=True) if meets}
+
+
+def judged_benches(poses: Floats, sizes: Floats, pair: Pair, margin: float) -> Indices:
+    """The benches to judge, ascending: all, those near the pair, or the pair, whichever first is not too much work.
+
+    Near are those whose upright boxes come within the length of the longest bench of the box around the pair.
+    poses: (n, 3); sizes: (n, 2)
+    """
+    everyone = np.arange(len(poses))
+    if len(poses) <= WHOLE_BENCHES and _is_manageable(poses, sizes, margin):
+        return everyone
+    frame = frames(poses, sizes)
+    half = np.abs(frame[:, 2:4]) * frame[:, 4:5] + np.abs(frame[:, 3:1:-1]) * frame[:, 5:6]
+    low, high = frame[:, :2] - half, frame[:, :2] + half
+    reach = float(sizes[:, 0].max()) + margin
+    rows = list(pair)
+    is_near = (low <= high[rows].max(axis=0) + reach) & (high >= low[rows].min(axis=0) - reach)
+    near: Indices = everyone[is_near.all(axis=1)]
+    if len(near) <= WHOLE_BENCHES and _is_manageable(poses[near], sizes[near], margin):
+        return near
+    return np.array(pair)
+
+
+# FCL's tree meets the pairs of upright cubes around the spheres around the boxes, not those of their own upright boxes.
+def _is_manageable(poses: Floats, sizes: Floats, margin: float) -> bool:
+    """Do so few cubes around benches meet that FCL is done in a tenth of a second, or in one with a margin?"""
+    if len(poses) * (len(poses) - 1) // 2 <= CLOSE_MAX:
+        return True
+    upright = np.column_stack([poses[:, :2], np.zeros(len(poses))])
+    radius = np.hypot(np.hypot(sizes[:, 0] + margin, sizes[:, 1] + margin), sizes[:, 1] + margin)
+    cubes = frames(upright, np.stack([radius, radius], axis=-1))
+    meeting: Pairs = meeting_pairs(cubes, 0.0, False, exact=False)
+    return len(meeting) <= CLOSE_MAX

@@ -1,0 +1,301 @@
+"""Four independent ways to find overlapping benches, and shapely's word on polygons at rest.
+
+The only file that knows FCL and shapely, and it imports them only when they are asked for.
+"""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from enum import StrEnum
+from itertools import chain
+from threading import Lock
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from core import kernels
+from core.angle_sum import ANGLE_TOLERANCE, angle_sum_overlap, angle_sums, paper_corners
+from core.broad_phase import CROSS_CANDIDATES_MAX, ROUNDING, Pairs, meeting_pairs
+from core.dragon import Floats
+from core.errors import InvalidValue
+from core.rectangles import corners, frames, frames_separation
+
+# Pairs that the angle-sum rule judges at once, to keep its 32 angles a pair within 60 MB.
+ANGLE_BATCH = 50_000
+# FCL's objects are kept for so many dragons, of so many benches at most: 8 MB in all.
+KEPT_DRAGONS = 8
+KEPT_BENCHES = 2_000
+
+
+class Engine(StrEnum):
+    """Four independent ways to find overlapping rectangles."""
+
+    SEPARATING_AXIS = "separating_axis"
+    FCL = "fcl"
+    SHAPELY = "shapely"
+    ANGLE_SUM = "angle_sum"
+
+
+def able(margin: float) -> list[Engine]:
+    """The engines that can judge a margin [m]: the angle-sum rule knows only inside and outside."""
+    return [engine for engine in Engine if margin == 0.0 or engine is not Engine.ANGLE_SUM]
+
+
+def found_pairs(engine: Engine, poses: Floats, sizes: Floats, margin: float, *, chained: bool) -> list[Pairs]:
+    """The pairs (P, 2) within the margin that an engine finds at each instant: a < b, sorted.
+
+    poses: (T, n, 3); sizes: (n, 2); margin: [m]; chained: without neighbours
+    raises: InvalidValue for the angle-sum rule with a margin; TooLarge as meeting_pairs()
+    """
+    found = []
+    for pairs in FINDERS[engine](poses, sizes, margin, chained):
+        kept = pairs[pairs[:, 1] - pairs[:, 0] != 1] if chained else pairs
+        found.append(kept[np.lexsort((kept[:, 1], kept[:, 0]))])
+    return found
+
+
+# -- separating axis ------------------------------------------------------------------------------------------
+
+
+def _separating_axis(poses: Floats, sizes: Floats, margin: float, chained: bool) -> Iterator[Pairs]:
+    reach = margin + ROUNDING * (margin + 2.0 * sizes.sum(axis=1).max(initial=0.0))
+    for frame in frames(poses, sizes):
+        pairs = meeting_pairs(frame, reach, chained, exact=True)
+        yield pairs[frames_separation(frame[pairs[:, 0]], frame[pairs[:, 1]]).separation <= margin]
+
+
+def _refuse_hopeless(frame: Floats, margin: float, chained: bool) -> None:
+    """raises: TooLarge where more boxes meet than FCL and shapely, which seek pairs by themselves, can be asked of"""
+    if len(frame) ** 2 > 2 * CROSS_CANDIDATES_MAX:
+        meeting_pairs(frame, margin, chained, exact=False)
+
+
+# -- FCL ------------------------------------------------------------------------------------------------------
+
+
+# FCL's yes/no is exact for two boxes and for a sphere and a box; its distance is not. The points within the margin
+# of a rectangle are the rectangle made longer by the margin at both ends, the same made wider, and four discs
+# around the corners, so b comes within the margin of a just where its box meets one of two boxes and four spheres.
+# The manager runs over boxes grown by half the margin on every side, which contain what is within half of it.
+def _fcl(poses: Floats, sizes: Floats, margin: float, chained: bool) -> Iterator[Pairs]:
+    frame = frames(poses, sizes)
+    with _KEPT.boxes(sizes + margin) as boxes:
+        for rows, pose in zip(frame, poses, strict=True):
+            _refuse_hopeless(rows, margin, chained)
+            pairs = boxes.meeting(pose)
+            if margin > 0.0:
+                if chained:  # All neighbours are among them, and each pair takes six more bodies.
+                    pairs = pairs[pairs[:, 1] - pairs[:, 0] != 1]
+                near = [_fcl_within(pose[pair], sizes[pair], margin) for pair in pairs]
+                pairs = pairs[np.array(near, dtype=bool)]
+            yield pairs
+
+
+class _FclBoxes:
+    """FCL's boxes of benches, made once and moved from pose to pose, by one thread at a time.
+
+    Making them takes longer than moving them, and each leaks 44 bytes: python-fcl 0.7 frees a body without its
+    destructor. A manager is made anew for each pose: its tree fits the pose, and building one for 223 benches takes
+    0.05 ms, less than searching one built for another pose loses (up to 0.2 ms of 2.0, 2026-11-21).
+    """
+
+    def __init__(self, sizes: Floats) -> None:
+        import fcl
+
+        self.boxes = [_fcl_box(length, width) for length, width in sizes.tolist()]
+        self.bodies = [fcl.CollisionObject(box, fcl.Transform()) for box in self.boxes]
+
+    # FCL's tree keeps the upright cube around a sphere around each box: of 223 benches 1,925 pairs of cubes meet, where
+    # 661 upright boxes do. An exception in the callback would vanish, and the bodies handed to it are fresh wrappers:
+    # only the geometries of a contact can be told apart. fcl.collide() asks FCL with a result of its own each time and
+    # only appends the contact to ours, so that one result can gather all of them.
+    def meeting(self, poses: Floats) -> Pairs:
+        """Pairs (P, 2), a < b, that overlap, neighbours among them. poses: (n, 3) x [m], y [m], heading [rad]"""
+        import fcl
+
+        turns, places = np.zeros((len(poses), 4)), np.zeros((len(poses), 3))
+        turns[:, 0], turns[:, 3] = np.cos(0.5 * poses[:, 2]), np.sin(0.5 * poses[:, 2])
+        places[:, :2] = poses[:, :2]
+        for body, turn, place in zip(self.bodies, turns, places, strict=True):
+            body.setQuatRotation(turn)
+            body.setTranslation(place)
+        manager = fcl.DynamicAABBTreeCollisionManager()
+        manager.registerObjects(self.bodies)
+        manager.setup()
+        request, result, collide = fcl.CollisionRequest(), fcl.CollisionResult(), fcl.collide
+
+        def keep(first: object, second: object, _: object) -> bool:
+            collide(first, second, request, result)
+            return False
+
+        manager.collide(None, keep)
+        number = {id(box): k for k, box in enumerate(self.boxes)}
+        pairs = np.array([(number[id(c.o1)], number[id(c.o2)]) for c in result.contacts], dtype=np.int64)
+        return np.sort(pairs.reshape(-1, 2), axis=1)
+
+
+class _Kept:
+    """Boxes of the dragons asked about last. Whoever uses some has them alone: python-fcl never releases Python's
+    lock, but Python may pass it on while a callback runs, and a body can only be in one place."""
+
+    def __init__(self) -> None:
+        self.lock = Lock()
+        self.resting: deque[tuple[bytes, _FclBoxes]] = deque(maxlen=KEPT_DRAGONS)
+
+    @contextmanager
+    def boxes(self, sizes: Floats) -> Iterator[_FclBoxes]:
+        """Boxes of these sizes (n, 2) length and width [m], for the time of a with-statement."""
+        key = sizes.tobytes()
+        boxes = self._taken(key) or _FclBoxes(sizes)
+        yield boxes
+        if len(sizes) <= KEPT_BENCHES:  # and not after an exception
+            with self.lock:
+                self.resting.append((key, boxes))
+
+    def _taken(self, key: bytes) -> _FclBoxes | None:
+        with self.lock:
+            for entry in self.resting:
+                if entry[0] == key:
+                    self.resting.remove(entry)
+                    return entry[1]
+        return None
+
+
+_KEPT = _Kept()
+
+
+# FCL parts two boxes by the separating axis theorem [boxBox2 of its narrow phase]. All lie flat on the same plane, so
+# no axis along or across it parts them by their heights, and any height gives the same answer: a low one keeps the
+# sphere around the box small.
+def _fcl_box(length: float, width: float) -> object:
+    import fcl
+
+    return fcl.Box(length, width, width)
+
+
+def _fcl_body(shape: object, x: float, y: float, heading: float) -> object:
+    import fcl
+
+    turn = np.array([np.cos(0.5 * heading), 0.0, 0.0, np.sin(0.5 * heading)])
+    return fcl.CollisionObject(shape, fcl.Transform(turn, np.array([x, y, 0.0])))
+
+
+def _fcl_within(poses: Floats, sizes: Floats, margin: float) -> bool:
+    import fcl
+
+    (length, width), other = sizes[0].tolist(), _fcl_body(_fcl_box(*sizes[1].tolist()), *poses[1].tolist())
+    grown = [(length + 2.0 * margin, width), (length, width + 2.0 * margin)] if margin > 0.0 else [(length, width)]
+    round_corners = corners(poses[0], sizes[0]).tolist() if margin > 0.0 else []
+    bodies = chain(
+        (_fcl_body(_fcl_box(*size), *poses[0].tolist()) for size in grown),
+        (_fcl_body(fcl.Sphere(margin), x, y, 0.0) for x, y in round_corners),
+    )
+    return any(fcl.collide(body, other, fcl.CollisionRequest(), fcl.CollisionResult()) for body in bodies)
+
+
+# -- shapely --------------------------------------------------------------------------------------------------
+
+
+# Prepared geometries crash the process when threads share them; these live and die in this call.
+def _shapely(poses: Floats, sizes: Floats, margin: float, chained: bool) -> Iterator[Pairs]:
+    import shapely
+
+    frame = frames(poses, sizes)
+    for rows, polygons in zip(frame, shapely.polygons(corners(poses, sizes)), strict=True):
+        _refuse_hopeless(rows, margin, chained)
+        asking = polygons
+        if margin > 0.0:
+            reach = margin + ROUNDING * (margin + np.abs(rows).max(initial=0.0))
+            asking = shapely.box(*(shapely.bounds(polygons) + reach * np.array([-1.0, -1.0, 1.0, 1.0])).T)
+        first, second = shapely.STRtree(polygons).query(asking)
+        asked = second > first + chained  # each pair once, and neighbours never
+        first, second = first[asked], second[asked]
+        shapely.prepare(polygons)
+        a, b = polygons[first], polygons[second]
+        meet = shapely.dwithin(a, b, margin) if margin > 0.0 else shapely.intersects(a, b)
+        yield np.stack([first[meet], second[meet]], axis=-1).astype(np.int64)
+
+
+def polygon_fault(rings: Sequence[ArrayLike]) -> tuple[str, float, float] | None:
+    """What is wrong with a polygon and where, (reason, x [m], y [m]); None if it is valid.
+
+    rings: closed, (points, 2) [m]: the outer one, then the holes
+    """
+    import shapely
+
+    reason = str(shapely.is_valid_reason(shapely.Polygon(rings[0], rings[1:])))
+    if "[" not in reason:
+        return None
+    words, _, place = reason.removesuffix("]").partition("[")
+    x, y = (float(number) for number in place.split())
+    return words.lower(), x, y
+
+
+def inside(rings: Sequence[ArrayLike], points: Floats) -> NDArray[np.bool_]:
+    """Which points lie inside a valid polygon, not on its boundary. rings: as in polygon_fault(); points: (P, 2) [m]"""
+    import shapely
+
+    found: NDArray[np.bool_] = shapely.contains_xy(shapely.Polygon(rings[0], rings[1:]), points)
+    return found
+
+
+# -- the paper's angle-sum rule -------------------------------------------------------------------------------
+
+
+def _angle_sum(poses: Floats, sizes: Floats, margin: float, chained: bool) -> Iterator[Pairs]:
+    if margin != 0.0:
+        raise InvalidValue(
+            "margin",
+            f"margin must be 0 m for the angle-sum rule, which knows only inside and outside, got {margin} m",
+        )
+    for frame, corner in zip(frames(poses, sizes), paper_corners(poses, sizes), strict=True):
+        pairs = meeting_pairs(frame, margin, chained, exact=False)
+        batches = [pairs[k : k + ANGLE_BATCH] for k in range(0, len(pairs), ANGLE_BATCH)]
+        seen = [angle_sum_overlap(corner[batch[:, 0]], corner[batch[:, 1]]) for batch in batches]
+        yield pairs[np.concatenate(seen)] if seen else pairs
+
+
+FINDERS: dict[Engine, Callable[[Floats, Floats, float, bool], Iterator[Pairs]]] = {
+    Engine.SEPARATING_AXIS: _separating_axis,
+    Engine.FCL: _fcl,
+    Engine.SHAPELY: _shapely,
+    Engine.ANGLE_SUM: _angle_sum,
+}
+
+
+# -- one pair at several instants -----------------------------------------------------------------------------
+
+
+# One pair needs no search. poses: (T, 2, 3); sizes: (2, 2); each judge says for each of the T instants whether the pair
+# is within the margin, by the means of its engine above.
+def _judged_by_separating_axis(poses: Floats, sizes: Floats, margin: float) -> list[bool]:
+    return [kernels.pair_gap(*a, *b) <= margin for a, b in frames(poses, sizes).tolist()]
+
+
+def _judged_by_fcl(poses: Floats, sizes: Floats, margin: float) -> list[bool]:
+    return [_fcl_within(pair, sizes, margin) for pair in poses]
+
+
+def _judged_by_shapely(poses: Floats, sizes: Floats, margin: float) -> list[bool]:
+    import shapely
+
+    a, b = shapely.polygons(corners(poses, sizes)).T
+    within: list[bool] = (shapely.dwithin(a, b, margin) if margin > 0.0 else shapely.intersects(a, b)).tolist()
+    return within
+
+
+def _judged_by_angle_sum(poses: Floats, sizes: Floats, margin: float) -> list[bool]:
+    corner = paper_corners(poses, sizes)
+    sums = angle_sums(corner, corner[:, ::-1])  # each bench's corners in the other
+    overlap: list[bool] = np.any(sums >= 2.0 * np.pi - ANGLE_TOLERANCE, axis=(1, 2)).tolist()
+    return overlap
+
+
+JUDGES: dict[Engine, Callable[[Floats, Floats, float], list[bool]]] = {
+    Engine.SEPARATING_AXIS: _judged_by_separating_axis,
+    Engine.FCL: _judged_by_fcl,
+    Engine.SHAPELY: _judged_by_shapely,
+    Engine.ANGLE_SUM: _judged_by_angle_sum,
+}

@@ -1,0 +1,373 @@
+"""Four engines on the whole dragon around a contact: they agree with what is found, and with nothing that is forged."""
+
+from __future__ import annotations
+
+import math
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from core.contact import FirstContact, Outcome, clearance_profile, first_contact
+from core.cross import (
+    CHECK_TRAVEL,
+    CLOSE_MAX,
+    TOGETHER_DEPTH,
+    WHOLE_BENCHES,
+    contact_check,
+    judged_benches,
+    judged_contact,
+    pitch_check,
+)
+from core.design import LimitedBy, minimum_pitch
+from core.dragon import Dragon
+from core.engines import KEPT_DRAGONS, Engine, found_pairs
+from core.kinematics import bench_poses, trajectory
+from core.overlaps import Verdict
+from core.paths import Spiral
+from core.rectangles import separation
+from core.route import Arc, Line, Route
+
+Floats = NDArray[np.float64]
+
+EXACT = (Engine.SEPARATING_AXIS, Engine.FCL, Engine.SHAPELY)
+AS_REPORTED = Verdict(before=False, after=True)
+DRAGON, SPIRAL = Dragon(), Spiral()
+# So much earlier or later is not when two benches first touch [s]; far above CHECK_TRAVEL.
+WRONG = 1e-4
+THREADS = 4
+
+
+@pytest.fixture(scope="module")
+def contact() -> FirstContact:
+    return first_contact(DRAGON, SPIRAL)
+
+
+def sizes_of(dragon: Dragon) -> Floats:
+    return np.stack([dragon.lengths, dragon.widths], axis=-1)
+
+
+def poses_of(dragon: Dragon, path: Spiral | Route, times: list[float], head_speed: float = 1.0) -> Floats:
+    return bench_poses(trajectory(dragon, path, times, head_speed=head_speed).position)
+
+
+def close_pairs(pose: Floats, size: Floats, margin: float = 0.0) -> set[tuple[int, int]]:
+    """Oracle: every pair that shares no handle, one by one, within the margin."""
+    gaps = separation(pose[:, None], size[:, None], pose[None], size[None]).separation
+    return {(int(a), int(b)) for a, b in np.argwhere(np.triu(gaps <= margin, k=2))}
+
+
+def random_dragon(random: np.random.Generator) -> Dragon:
+    count = int(random.integers(10, 60))
+    if random.random() < 0.5:
+        body = random.uniform(1.0, 2.5)
+        return Dragon(count, body * random.uniform(0.8, 1.8), body, random.uniform(0.05, 0.3), 0.1 * body)
+    lengths = random.uniform(1.0, 2.5, count)
+    return Dragon.of(lengths, random.uniform(0.05, 0.25, count), lengths * random.uniform(0.0, 0.15, count))
+
+
+# -- what is true ---------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("whole", [True, False], ids=["dragon", "pair"])
+def test_all_engines_agree_on_the_default_dance(contact: FirstContact, whole: bool) -> None:
+    check = contact_check(contact, DRAGON, SPIRAL, whole=whole)
+    assert check is not None
+    assert check.agree
+    assert check.judged == (tuple(range(223)) if whole else (0, 8))
+    assert check.engines == dict.fromkeys(Engine, AS_REPORTED)
+    assert (check.together, check.left_out) == ((), ())
+
+
+def test_the_whole_dragon_is_as_reported_on_200_random_dragons() -> None:
+    random = np.random.default_rng(1)
+    checked = 0
+    for _ in range(200):
+        dragon, path = random_dragon(random), Spiral(random.uniform(0.4, 0.7), random.uniform(8, 16))
+        margin, head_speed = random.choice([0.0, 0.0, 0.03]), random.choice([0.01, 1.0, 5.0])
+        found = first_contact(dragon, path, margin=margin, head_speed=head_speed)
+        check = contact_check(found, dragon, path, margin=margin, head_speed=head_speed)
+        if check is None:
+            assert found.outcome is Outcome.CLEAR
+            continue
+        assert check.judged == tuple(range(dragon.benches))
+        assert check.left_out == ((Engine.ANGLE_SUM,) if margin else ())
+        if found.outcome is Outcome.CONTACT_AT_START:
+            assert all(check.engines[engine] == Verdict(before=None, after=True) for engine in EXACT)
+            continue
+        assert found.time is not None
+        assert check.agree, (dragon, path, margin, check)
+        step = 2.0 * CHECK_TRAVEL / head_speed
+        before, after = poses_of(dragon, path, [found.time - step, found.time + step], head_speed)
+        assert close_pairs(before, sizes_of(dragon), margin) == set()
+        assert close_pairs(after, sizes_of(dragon), margin) == {found.benches, *check.together}
+        checked += 1
+    assert checked > 60
+
+
+@pytest.mark.parametrize("whole", [True, False], ids=["dragon", "pair"])
+def test_a_contact_at_the_start_has_no_before_and_may_have_others_beside_it(whole: bool) -> None:
+    dragon, path = Dragon(60), Spiral(0.25, 8.0)
+    found = first_contact(dragon, path)
+    assert (found.outcome, found.time) == (Outcome.CONTACT_AT_START, 0.0)
+    check = contact_check(found, dragon, path, whole=whole)
+    assert check is not None
+    assert check.agree
+    assert check.engines == dict.fromkeys(Engine, Verdict(before=None, after=True))
+    assert len(close_pairs(poses_of(dragon, path, [0.0])[0], sizes_of(dragon))) > 1
+    assert check.together == ()
+
+
+def test_a_start_in_the_middle_of_a_contact_is_judged_there(contact: FirstContact) -> None:
+    assert contact.time is not None
+    found = first_contact(DRAGON, SPIRAL, start=contact.time + 0.5)
+    assert found.outcome is Outcome.CONTACT_AT_START
+    check = contact_check(found, DRAGON, SPIRAL)
+    assert check is not None
+    assert check.agree
+    # that is no first contact of the whole dance, which a different claim shows
+    forged = contact_check(replace(found, outcome=Outcome.CONTACT), DRAGON, SPIRAL)
+    assert forged is not None
+    assert all(verdict.before for verdict in forged.engines.values())
+    assert not forged.agree
+
+
+def test_two_benches_of_a_straight_row_that_are_met_at_once_stand_together() -> None:
+    # The head comes back across its own straight row and meets it where two benches overlap around their handle.
+    path = Route((Line((0.0, 0.0), (100.0, 0.0)), Arc((100.0, 4.0), 4.0, -math.pi / 2, 1.5 * math.pi)))
+    path = Route((*path.pieces, Line((96.0, 4.0), (96.0, -30.0))))
+    met = []
+    for overhang in (0.1, 0.2, 0.3, 0.4, 0.5):
+        dragon = Dragon(40, 2.2, 2.2, 0.3, overhang)
+        found = first_contact(dragon, path, start=95.0)
+        check = contact_check(found, dragon, path)
+        assert check is not None
+        assert found.benches is not None
+        assert check.agree
+        assert all(pair[0] == found.benches[0] for pair in check.together)
+        assert {abs(pair[1] - found.benches[1]) for pair in check.together} <= {1}
+        met.append(len(check.together))
+    assert {0, 1} <= set(met)
+
+
+def test_nothing_is_judged_where_nothing_touches() -> None:
+    clear = first_contact(DRAGON, Spiral(0.8))
+    assert clear.outcome is Outcome.CLEAR
+    assert contact_check(clear, DRAGON, Spiral(0.8)) is None
+
+
+# -- what is forged -------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("whole", [True, False], ids=["dragon", "pair"])
+def test_a_wrong_pair_is_noticed_by_every_engine(contact: FirstContact, whole: bool) -> None:
+    check = contact_check(replace(contact, benches=(0, 9)), DRAGON, SPIRAL, whole=whole)
+    assert check is not None
+    assert not check.agree
+    assert check.engines == dict.fromkeys(Engine, Verdict(before=False, after=False))
+
+
+@pytest.mark.parametrize(
+    ("shift", "verdict"),
+    [(-WRONG, Verdict(before=False, after=False)), (WRONG, Verdict(before=True, after=True))],
+    ids=["too early", "too late"],
+)
+@pytest.mark.parametrize("whole", [True, False], ids=["dragon", "pair"])
+def test_a_wrong_time_is_noticed_by_every_engine(
+    contact: FirstContact, whole: bool, shift: float, verdict: Verdict
+) -> None:
+    assert contact.time_bracket is not None
+    low, high = contact.time_bracket
+    forged = replace(contact, time=low + shift, time_bracket=(low + shift, high + shift))
+    check = contact_check(forged, DRAGON, SPIRAL, whole=whole)
+    assert check is not None
+    assert not check.agree
+    assert check.engines == dict.fromkeys(Engine, verdict)
+
+
+@pytest.mark.parametrize("when", ["before", "after", "both"])
+@pytest.mark.parametrize("margin", [0.0, 0.02])
+def test_a_third_bench_is_noticed_by_every_engine_but_not_by_the_pair_alone(when: str, margin: float) -> None:
+    found = first_contact(DRAGON, SPIRAL, margin=margin)
+    assert found.time is not None
+    assert found.benches is not None
+    poses = poses_of(DRAGON, SPIRAL, [found.time - CHECK_TRAVEL, found.time + CHECK_TRAVEL])
+    moved = {"before": [0], "after": [1], "both": [0, 1]}[when]
+    poses[moved, 100] = poses[moved, 150] + [0.4, 0.05, 0.3]
+    check = judged_contact(poses, sizes_of(DRAGON), found.benches, margin=margin)
+    assert not check.agree
+    assert check.together == ()
+    wanted = Verdict(before=when != "after", after=when == "before")
+    assert set(check.engines.values()) == {wanted}
+    assert len(check.engines) == (3 if margin else 4)
+    assert judged_contact(poses, sizes_of(DRAGON), found.benches, margin=margin, whole=False).agree
+
+
+@pytest.mark.parametrize(("deep", "together"), [(0.5, True), (2.0, False)], ids=["hardly", "deep"])
+def test_a_pair_that_meets_at_the_same_instant_is_hardly_within_the_margin(deep: float, together: bool) -> None:
+    # four benches across two others: both pairs side by side, one of them deeper after than it can be by then
+    size = np.tile([2.0, 0.5], (7, 1))
+    apart = np.array([[0, 0, 0], [50, 9, 0], [0, 0.6, 0], [50, -9, 0], [20, 0, 0], [60, 9, 0], [20, 0.6, 0]], float)
+    after = apart.copy()
+    after[2, 1] = 0.5 - 0.1 * TOGETHER_DEPTH
+    after[6, 1] = 0.5 - deep * TOGETHER_DEPTH
+    check = judged_contact(np.array([apart, after]), size, (0, 2))
+    assert check.agree == together
+    assert check.together == (((4, 6),) if together else ())
+    assert set(check.engines.values()) == {Verdict(before=False, after=together)}
+
+
+def test_an_engine_that_differs_makes_them_disagree() -> None:
+    size = np.array([[2.0, 0.3], [2.0, 0.3], [2.0, 0.3]])
+    before = np.array([[0.0, 0.0, 0.0], [9.0, 9.0, 0.0], [0.0, 5.0, math.pi / 2]])
+    crossed = np.array([[0.0, 0.0, 0.0], [9.0, 9.0, 0.0], [0.0, 0.0, math.pi / 2]])
+    check = judged_contact(np.array([before, crossed]), size, (0, 2))
+    assert [engine for engine, verdict in check.engines.items() if verdict != AS_REPORTED] == [Engine.ANGLE_SUM]
+    assert not check.agree
+
+
+# -- the minimum pitch ----------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("whole", [True, False], ids=["dragon", "pair"])
+@pytest.mark.parametrize(
+    ("options", "limited_by"),
+    [({}, LimitedBy.GRAZE), ({"turning_radius": 3.0}, None), ({"margin": 0.05}, None), ({"turning_radius": 4.0}, None)],
+    ids=["default", "6 m", "margin", "8 m"],
+)
+def test_engines_agree_on_the_minimum_pitch(options: dict[str, float], limited_by: LimitedBy, whole: bool) -> None:
+    found = minimum_pitch(DRAGON, **options)
+    check = pitch_check(found, DRAGON, margin=options.get("margin", 0.0), whole=whole)
+    assert check is not None
+    assert limited_by in (None, found.limited_by)
+    assert check.agree
+    assert check.judged == (tuple(range(223)) if whole else found.benches)
+    assert set(check.engines.values()) == {AS_REPORTED}
+
+
+def test_a_wrong_minimum_pitch_is_noticed() -> None:
+    found = minimum_pitch(DRAGON)
+    for pitch, verdict in ((found.pitch - WRONG, Verdict(True, True)), (found.pitch + WRONG, Verdict(False, False))):
+        check = pitch_check(replace(found, pitch=pitch), DRAGON)
+        assert check is not None
+        assert not check.agree
+        assert set(check.engines.values()) == {verdict}
+
+
+def test_a_minimum_pitch_that_no_pair_limits_is_not_judged() -> None:
+    found = minimum_pitch(Dragon(3), turning_radius=4.5, start_turns=3.0)
+    assert found.benches is None
+    assert pitch_check(found, Dragon(3)) is None
+
+
+def test_a_pitch_limited_at_the_start_is_judged_with_the_head_at_the_start() -> None:
+    dragon, turns = Dragon(80), 8.0
+    low, high = 0.2, 1.0
+
+    def nearest(pitch: float) -> tuple[float, tuple[int, int]]:
+        profile = clearance_profile(dragon, Spiral(pitch, turns), [0.0])
+        a, b = profile.benches[0].tolist()
+        return float(profile.clearance[0]), (a, b)
+
+    while low < (middle := 0.5 * (low + high)) < high:
+        low, high = (low, middle) if nearest(middle)[0] > 0.0 else (middle, high)
+    graze = minimum_pitch(DRAGON)
+    start = {"limited_by": LimitedBy.START, "benches": nearest(low)[1], "head_radius": turns * low}
+    check = pitch_check(replace(graze, pitch=high, pitch_bracket=(low, high), **start), dragon)
+    assert check is not None
+    assert check.agree
+    assert set(check.engines.values()) == {AS_REPORTED}
+
+
+# -- whom the engines judge -----------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(("benches", "judged"), [(WHOLE_BENCHES, WHOLE_BENCHES), (WHOLE_BENCHES + 1, 119)])
+def test_of_a_longer_dragon_those_near_the_pair_are_judged(benches: int, judged: int) -> None:
+    dragon = Dragon(benches)
+    check = contact_check(first_contact(dragon, SPIRAL), dragon, SPIRAL)
+    assert check is not None
+    assert check.agree
+    assert len(check.judged) == judged
+    assert {0, 8} < set(check.judged)
+
+
+def test_near_are_all_that_touch_one_of_the_pair() -> None:
+    random = np.random.default_rng(3)
+    count = WHOLE_BENCHES + 500
+    pose = np.stack([*random.uniform(0.0, 60.0, (2, count)), random.uniform(-4.0, 4.0, count)], axis=-1)
+    size = np.stack([random.uniform(0.5, 3.0, count), random.uniform(0.1, 0.5, count)], axis=-1)
+    judged = judged_benches(pose, size, (7, 1500), 0.1)
+    assert len(judged) < count
+    gaps = separation(pose[[7, 1500], None], size[[7, 1500], None], pose[None], size[None]).separation
+    assert set(np.flatnonzero((gaps <= 0.1).any(axis=0)).tolist()) <= set(judged.tolist())
+
+
+def test_of_too_crowded_benches_the_pair_alone_is_judged() -> None:
+    most = (1 + math.isqrt(1 + 8 * CLOSE_MAX)) // 2
+    for count, judged in ((most, most), (most + 1, 2)):
+        crowd = np.zeros((count, 3))
+        assert len(judged_benches(crowd, np.ones((count, 2)), (0, 2), 0.0)) == judged
+    check = judged_contact(np.zeros((2, most + 1, 3)), np.ones((most + 1, 2)), (0, 2), at_start=True)
+    assert check.judged == (0, 2)
+    assert check.agree
+
+
+def test_benches_left_out_make_no_neighbours_of_those_beside_them() -> None:
+    # Of a long straight row only those near the pair are judged; 1 is too far off, so that 0 and 2 stand side by side.
+    count = WHOLE_BENCHES + 1
+    pose = np.zeros((count, 3))
+    pose[:, 0] = 100.0 * np.arange(count)
+    pose[2, :2] = [0.0, 0.45]
+    size = np.tile([2.0, 0.5], (count, 1))
+    before = pose.copy()
+    before[2, 1] = 0.55
+    check = judged_contact(np.array([before, pose]), size, (0, 2))
+    assert 1 not in check.judged
+    assert check.engines == dict.fromkeys(Engine, AS_REPORTED)
+
+
+# -- FCL's boxes, kept from pose to pose ----------------------------------------------------------------------
+
+
+def crowds(count: int) -> list[tuple[Floats, Floats]]:
+    """Dragons more than are kept, each at several instants: poses (T, n, 3) and sizes (n, 2)."""
+    random = np.random.default_rng(4)
+    scenes = []
+    for _ in range(count):
+        benches = int(random.integers(2, 60))
+        place, heading = random.uniform(0.0, 9.0, (3, benches, 2)), random.uniform(-4.0, 4.0, (3, benches, 1))
+        scenes.append((np.concatenate([place, heading], axis=-1), random.uniform(0.1, 3.0, (benches, 2))))
+    return scenes
+
+
+@pytest.mark.parametrize("margin", [0.0, 0.1])
+def test_boxes_used_again_find_what_new_ones_find_in_any_order_and_from_several_threads(margin: float) -> None:
+    scenes = crowds(KEPT_DRAGONS + 4)
+    truth = [[close_pairs(pose, size, margin) for pose in poses] for poses, size in scenes]
+    assert sum(len(pairs) for instants in truth for pairs in instants) > 1_000
+    random = np.random.default_rng(5)
+    order = random.integers(0, (len(scenes), 3), (400, 2)).tolist()
+
+    def found(asked: list[int]) -> set[tuple[int, int]]:
+        scene, instant = asked
+        poses, size = scenes[scene]
+        (pairs,) = found_pairs(Engine.FCL, poses[instant : instant + 1], size, margin, chained=True)
+        return {(a, b) for a, b in pairs.tolist()}
+
+    wanted = [truth[scene][instant] for scene, instant in order]
+    assert [found(asked) for asked in order] == wanted
+    with ThreadPoolExecutor(THREADS) as pool:
+        assert list(pool.map(found, order)) == wanted
+
+
+@pytest.mark.parametrize("engine", Engine)
+def test_many_instants_at_once_are_as_one_by_one(engine: Engine) -> None:
+    for poses, size in crowds(5):
+        for chained in (True, False):
+            together = found_pairs(engine, poses, size, 0.0, chained=chained)
+            for instant, pairs in enumerate(together):
+                (alone,) = found_pairs(engine, poses[instant : instant + 1], size, 0.0, chained=chained)
+                np.testing.assert_array_equal(pairs, alone)
