@@ -9,7 +9,7 @@ from enum import StrEnum
 import numpy as np
 
 from core import kernels
-from core.dragon import SIZE_MIN, Dragon, checked_number, checked_size
+from core.dragon import SIZE_MAX, SIZE_MIN, Dragon, checked_number, checked_size, checked_type
 from core.errors import InvalidValue
 from core.kinematics import end_theta
 from core.paths import START_TURNS_MAX, Spiral
@@ -253,20 +253,20 @@ def minimum_pitch(
     >>> round(minimum_pitch(Dragon()).pitch, 9)
     0.450337393
     """
+    checked_type("dragon", dragon, Dragon)
     radius = checked_size("turning_radius", turning_radius)
     turns = checked_number("start_turns", start_turns, "turns", 0.0, START_TURNS_MAX, open_low=True)
+    if radius > SIZE_MAX * turns:
+        rule = f"must be at least {radius / SIZE_MAX:g} turns to start outside the circle at a pitch of {SIZE_MAX:g} m"
+        raise InvalidValue.of("start_turns", rule, turns, "turns")
     margin = checked_number("margin", margin, "m", 0.0, MARGIN_MAX)
     search = _PitchSearch(dragon, radius, turns, margin)
     top, proven_up_to = search.top()
     if max(top, search.lowest) < SIZE_MIN:
-        raise InvalidValue(
-            "turning_radius", f"turning_radius must allow pitches of {SIZE_MIN:g} m and more, got {radius:g} m"
-        )
+        raise InvalidValue.of("turning_radius", f"must allow pitches of {SIZE_MIN:g} m and more", radius, "m")
     if not search.is_clear(max(top, search.lowest)):
-        raise InvalidValue(
-            "turning_radius",
-            f"turning_radius must be larger for this dragon: at no pitch tried can it dance down to {radius:g} m",
-        )
+        rule = "must be larger for this dragon, which dances down to such a circle at no pitch tried"
+        raise InvalidValue.of("turning_radius", rule, radius, "m")
     infeasible = feasible = search.lowest
     justified_by = "bound"
     if top > search.lowest:

@@ -12,7 +12,7 @@ import numpy as np
 
 from core import kernels
 from core.contact import Outcome
-from core.dragon import Dragon, Floats, checked_number
+from core.dragon import Dragon, Floats, checked_number, checked_type
 from core.errors import InvalidValue
 from core.kinematics import bench_poses, checked_head_speed, checked_span, run_end, trajectory
 from core.least import Pair, first_pair, least_over
@@ -52,6 +52,9 @@ class Area:
     rings: tuple[Ring, ...]
 
     def __post_init__(self) -> None:
+        if not isinstance(self.name, str):
+            raise InvalidValue("venue", f"venue: the name of a polygon must be a text, got {self.name!r:.60}")
+        _rings("venue", self.rings)
         for ring in self.rings:
             if len(ring) < 4 or ring[0] != ring[-1]:
                 words = f"venue: a ring of {self.name!r} must be closed and have at least 4 points"
@@ -82,6 +85,9 @@ class Venue:
     obstacles: tuple[Area, ...] = ()
 
     def __post_init__(self) -> None:
+        checked_type("venue", self.square, Area)
+        for area in _listed("venue", self.obstacles):
+            checked_type("venue", area, Area)
         edges = sum(len(area.edges) for area in self.areas)
         if edges > EDGES_MAX:
             raise InvalidValue("venue", f"venue must have at most {EDGES_MAX} edges, got {edges}")
@@ -140,6 +146,7 @@ class AreaClearance:
     time_bracket: (proven clear up to, within the margin at) [s]; for undecided up to the end; None when clear or at the
         start
     bench, point (x, y) [m]: the first one within the margin, and where it is nearest
+    gap: between that bench and the edge at that time [m]: the margin to rounding, but for contact_at_start
     """
 
     name: str
@@ -149,6 +156,7 @@ class AreaClearance:
     bench: int | None
     point: Point | None
     nearest: Nearest
+    gap: float | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -185,6 +193,7 @@ def venue_clearance(
     head_speed: [m/s]; margin: [m]; start, stop: [s], None for the end of the run
     raises: InvalidValue, also for a path that bends too tightly for a chord by the stop; OutsideRun
     """
+    checked_type("venue", venue, Venue)
     head_speed = checked_head_speed(head_speed)
     margin = checked_number("margin", margin, "m", 0.0, MARGIN_MAX)
     end = run_end(dragon, path, head_speed=head_speed)
@@ -245,7 +254,7 @@ def is_clear_beyond(
 
 def _area_clearance(search: Search, name: str, begin: float, until: float, head_speed: float) -> AreaClearance:
     state, found, tolerance = search.approach(begin * head_speed, until * head_speed, head_speed)
-    outcome, time, bracket, bench, point = Outcome.CLEAR, None, None, None, None
+    outcome, time, bracket, bench, point, gap = Outcome.CLEAR, None, None, None, None, None
     if state == "stuck":
         outcome, bracket = Outcome.UNDECIDED, (found["proven"] / head_speed, until)
     elif state != "reached":
@@ -254,19 +263,19 @@ def _area_clearance(search: Search, name: str, begin: float, until: float, head_
         outcome, time = Outcome.CONTACT_AT_START if at_start else Outcome.CONTACT, travel / head_speed
         bracket = None if at_start else (found["proven"] / head_speed, found["touching"] / head_speed)
         pair = first_pair(found)
-        bench, point = pair[0], _witnesses(search, travel, pair)[0]
+        bench, (point, _, gap) = pair[0], _witnesses(search, travel, pair)
     (distance, travel, pair), at_least = least_over(search, begin * head_speed, until * head_speed, head_speed)
-    nearest = Nearest(distance, at_least, travel / head_speed, pair[0], *_witnesses(search, travel, pair))
-    return AreaClearance(name, outcome, time, bracket, bench, point, nearest)
+    nearest = Nearest(distance, at_least, travel / head_speed, pair[0], *_witnesses(search, travel, pair)[:2])
+    return AreaClearance(name, outcome, time, bracket, bench, point, nearest, gap)
 
 
-def _witnesses(search: Search, travel: float, pair: Pair) -> tuple[Point, Point]:
-    """The points of a bench and an edge that are nearest to each other [m]."""
+def _witnesses(search: Search, travel: float, pair: Pair) -> tuple[Point, Point, float]:
+    """The points of a bench and an edge that are nearest to each other, and their separation [m]."""
     search.clearance(travel)
     a, b = (search.rows[0, k, 6:10] for k in pair)
     out = np.empty(8)
     kernels.pair_separation(*a, *search.sizes[pair[0], 1:3], *b, *search.sizes[pair[1], 1:3], out)
-    return (float(out[1]), float(out[2])), (float(out[3]), float(out[4]))
+    return (float(out[1]), float(out[2])), (float(out[3]), float(out[4])), float(out[0])
 
 
 def _stray(dragon: Dragon, route: Route, venue: Venue, begin: float, head_speed: float) -> Stray | None:

@@ -30,6 +30,7 @@ ORDER = (
     "core.kernels.marching",
     "core.kernels.strips",
     "core.kernels.speed",
+    "core.kernels.excess",
     "core.kernels",
     "core.errors",
     "core.dragon",
