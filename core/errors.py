@@ -49,7 +49,7 @@ class BenchDragonError(Exception):
         """
         if self.got is not None:
             return type(self).of(field, self._rule, self.got if got is None else got, self._unit)
-        for old in (_spoken(self.field), self.field):
+        for old in (_spoken(self.field), re.sub(r"\.(\d+)$", r"[\1]", self.field), self.field):
             if self.message.startswith(old):
                 return type(self)(field, _spoken(field) + self.message[len(old) :])
         return type(self)(field, self.message)

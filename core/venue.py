@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
@@ -22,6 +22,8 @@ from core.route import COORDINATE_MAX, Coil, Point, Route
 from core.search import MARGIN_MAX, NEAR_WORK_BUDGET, Search
 
 Ring = tuple[Point, ...]
+# Name and rings.
+Polygon = tuple[str, tuple[Ring, ...]]
 
 # Edges of one venue: each is followed like a bench, but it stands.
 EDGES_MAX = 2_000
@@ -110,15 +112,13 @@ class Venue:
             property `name`, else "obstacle 1" and so on. Heights are passed over.
         raises: InvalidValue naming the member at fault, or the polygon with the reason and the place
         """
-        named = _polygons("venue", geometry)
-        if not named:
-            raise InvalidValue("venue", "venue must hold at least one polygon, the square")
-        square = next((k for k, (name, _) in enumerate(named) if name == "square"), 0)
-        others = [polygon for k, polygon in enumerate(named) if k != square]
-        return cls(
-            Area(named[square][0] or "square", named[square][1]),
-            tuple(Area(name or f"obstacle {k}", rings) for k, (name, rings) in enumerate(others, start=1)),
-        )
+        return cls.of(geojson_polygons(geometry))
+
+    @classmethod
+    def of(cls, polygons: Sequence[Polygon]) -> Venue:
+        """The venue of some polygons in metres, the square first."""
+        square, *obstacles = (Area(*polygon) for polygon in polygons)
+        return cls(square, tuple(obstacles))
 
 
 @dataclass(frozen=True, slots=True)
@@ -288,7 +288,29 @@ def _stray(dragon: Dragon, route: Route, venue: Venue, begin: float, head_speed:
     return None
 
 
-def _polygons(field: str, geometry: object, depth: int = 0) -> list[tuple[str | None, tuple[Ring, ...]]]:
+def geojson_polygons(
+    geometry: object, *, unit: str = "m", limits: Point = (COORDINATE_MAX, COORDINATE_MAX)
+) -> list[Polygon]:
+    """The polygons of a GeoJSON object as in Venue.from_geojson(), the square first.
+
+    unit: of its coordinates; limits: the largest |x| and |y| in that unit
+    raises: InvalidValue naming the member at fault
+    """
+    named = _polygons("venue", geometry, (unit, *limits))
+    if not named:
+        raise InvalidValue("venue", "venue must hold at least one polygon, the square")
+    square = next((k for k, (name, _) in enumerate(named) if name == "square"), 0)
+    others = [polygon for k, polygon in enumerate(named) if k != square]
+    obstacles = [(name or f"obstacle {k}", rings) for k, (name, rings) in enumerate(others, start=1)]
+    return [(named[square][0] or "square", named[square][1]), *obstacles]
+
+
+# Unit of coordinates, and the largest |x| and |y| in it.
+Scale = tuple[str, float, float]
+METRES: Scale = ("m", COORDINATE_MAX, COORDINATE_MAX)
+
+
+def _polygons(field: str, geometry: object, scale: Scale, depth: int = 0) -> list[tuple[str | None, tuple[Ring, ...]]]:
     """Name and rings of every polygon of a GeoJSON object, in its order."""
     if depth > DEPTH_MAX:
         raise InvalidValue("venue", f"venue must not nest objects deeper than {DEPTH_MAX}")
@@ -296,13 +318,13 @@ def _polygons(field: str, geometry: object, depth: int = 0) -> list[tuple[str | 
         raise InvalidValue(field, f"{field} must be a GeoJSON object, got {type(geometry).__name__}")
     kind = geometry.get("type")
     if kind == "Polygon":
-        return [(None, _rings(f"{field}.coordinates", geometry.get("coordinates")))]
+        return [(None, _rings(f"{field}.coordinates", geometry.get("coordinates"), scale))]
     if kind == "Feature":
         properties = geometry.get("properties")
         name = properties.get("name") if isinstance(properties, Mapping) else None
         if name is not None and not isinstance(name, str):
             raise InvalidValue(f"{field}.properties.name", f"{field}.properties.name must be a text, got {name!r}")
-        inner = _polygons(f"{field}.geometry", geometry.get("geometry"), depth + 1)
+        inner = _polygons(f"{field}.geometry", geometry.get("geometry"), scale, depth + 1)
         return [(name or own, rings) for own, rings in inner]
     members = {"FeatureCollection": "features", "GeometryCollection": "geometries"}.get(str(kind))
     if members is None:
@@ -311,24 +333,27 @@ def _polygons(field: str, geometry: object, depth: int = 0) -> list[tuple[str | 
             f"{field}.type must be Polygon, Feature, FeatureCollection or GeometryCollection, got {kind!r}",
         )
     items = _listed(f"{field}.{members}", geometry.get(members))
-    return [found for k, item in enumerate(items) for found in _polygons(f"{field}.{members}.{k}", item, depth + 1)]
+    each = [_polygons(f"{field}.{members}.{k}", item, scale, depth + 1) for k, item in enumerate(items)]
+    return [found for polygons in each for found in polygons]
 
 
-def _rings(field: str, value: object) -> tuple[Ring, ...]:
+def _rings(field: str, value: object, scale: Scale = METRES) -> tuple[Ring, ...]:
     rings = _listed(field, value)
     if not rings:
         raise InvalidValue(field, f"{field} must hold at least one ring")
     return tuple(
-        tuple(_place(f"{field}.{k}.{i}", point) for i, point in enumerate(_listed(f"{field}.{k}", ring)))
+        tuple(_place(f"{field}.{k}.{i}", point, scale) for i, point in enumerate(_listed(f"{field}.{k}", ring)))
         for k, ring in enumerate(rings)
     )
 
 
-def _place(field: str, value: object) -> Point:
+def _place(field: str, value: object, scale: Scale) -> Point:
+    unit, *limits = scale
     numbers = _listed(field, value)
     if len(numbers) not in (2, 3):
-        raise InvalidValue(field, f"{field} must be a position [x, y] in metres, got {len(numbers)} numbers")
-    x, y = (checked_number(f"{field}.{k}", numbers[k], "m", -COORDINATE_MAX, COORDINATE_MAX) for k in range(2))
+        words = "[x, y] in metres" if scale == METRES else f"[longitude, latitude] in {unit}"
+        raise InvalidValue(field, f"{field} must be a position {words}, got {len(numbers)} numbers")
+    x, y = (checked_number(f"{field}.{k}", numbers[k], unit, -limits[k], limits[k]) for k in range(2))
     return x, y
 
 
