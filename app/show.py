@@ -220,7 +220,10 @@ def report_tables(report: Report, margin: float = 0.0) -> list[Part]:
     facts = _table(f"From {report.start:.3f} to {report.stop:.3f} s", "what", "value", "at", "who")
     for name, value, time, who in _measured(report, margin):
         facts.add_row(name, value, "" if time is None else f"{time:.6f} s", who)
-    return [Text(verdict, style="bold"), *(f"  {one.message}" for one in report.failures), "", facts]
+    origin = report.origin
+    words = "x = y = 0 is longitude {:.6f}, latitude {:.6f}: the middle of the square."
+    where = [words.format(origin.longitude, origin.latitude)] if origin else []
+    return [Text(verdict, style="bold"), *(f"  {one.message}" for one in report.failures), "", facts, *where]
 
 
 def _measured(report: Report, margin: float) -> Iterator[tuple[str, str, float | None, str]]:

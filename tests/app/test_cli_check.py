@@ -11,6 +11,7 @@ import pytest
 
 from tests.app.test_cli import answer_of, run, served
 
+ROUNDING = 1e-12  # of an angle [1]
 DANCE = """
 margin = 0.9
 speed_limit = 0.5
@@ -89,6 +90,46 @@ def test_a_dance_that_passes_says_so(dance: Path) -> None:
     said = answer_of("check", str(dance))
     assert "Nothing fails." in said
     assert "handles 0, 1, 2, 3, 4" in said
+
+
+def test_a_dance_that_folds_is_no_dance_of_which_nothing_fails(client: httpx.Client, tmp_path: Path) -> None:
+    body = {"dragon": {"benches": 40}, "path": {"pitch": 1.2, "start_turns": 8}}
+    told = served(client, "POST", "/check", body)
+    assert (told["verdict"], told["passed"]) == ("fails", False)
+    (fold,) = told["failures"]
+    assert (fold["kind"], fold["benches"], fold["area"]) == ("folds", [0], None)
+    assert fold["time"] == told["stop"] == told["first_contact"]["end"]["time"]
+    assert fold["head"]["theta"] == pytest.approx(told["first_contact"]["end"]["theta"], rel=ROUNDING)
+    assert told["first_contact"]["end"]["bench"] == 0
+    file = tmp_path / "dance.json"
+    file.write_text(json.dumps(body))
+    said = answer_of("check", str(file))
+    assert said.startswith("Fails. What fails, in order of time:\n  Bench 0 folds at 238.214985 s, the head at (1.0120")
+    assert "Nothing fails" not in said
+    file.write_text(json.dumps(body | {"stop": 238.0}))
+    assert answer_of("check", str(file)).startswith("Passes. Nothing fails.")
+
+
+def test_what_is_not_decided_is_no_failure(tmp_path: Path) -> None:
+    yard = [[-70, -9], [70, -9], [70, 0.35 + 1e-14], [-70, 0.35 + 1e-14], [-70, -9]]
+    lane = {"kind": "route", "pieces": [{"kind": "line", "start": [-60, 0], "end": [60, 0]}], "start": 60}
+    venue = {"type": "Polygon", "coordinates": [yard]}
+    body = {"dragon": {"benches": 5}, "path": lane, "venue": venue, "margin": 0.2, "start": 0}
+    file = tmp_path / "dance.json"
+    file.write_text(json.dumps(body))
+    told = json.loads(answer_of("check", str(file), "--json"))
+    assert (told["verdict"], told["passed"]) == ("undecided", False)
+    said = answer_of("check", str(file))
+    assert said.startswith("Undecided. Nothing is known to fail, but this is not decided:\n")
+    assert "fails" not in said
+
+
+def test_a_margin_of_a_check_is_told_in_every_line(dance: Path) -> None:
+    said = answer_of("check", str(dance))
+    assert "comes nearer than 0.9 m to 'square'" in said
+    assert "never nearer than 0.9 m" in said
+    assert "first nearer than 0.9 m" in said
+    assert "contact" not in said
 
 
 def test_a_single_handle_is_no_handles(dance: Path) -> None:
