@@ -61,13 +61,15 @@ class Feature(Answer):
 
 
 class End(Answer):
-    """Where a run ends on which nothing touches."""
+    """Where a run ends on which nothing comes nearer than the margin, or touches if it is 0."""
 
     reason: core.EndReason = Field(
         description="fold: a bench cannot follow any more; centre: the head arrived; end: the path ends; stop: the "
         "time asked for is over"
     )
     time: float = Field(description="[s]")
+    theta: float | None = Field(description="Polar angle of the head then, on a spiral that folds or ends [rad]")
+    bench: int | None = Field(description="The bench that folds; null if none does")
 
 
 class Graze(Answer):
@@ -88,7 +90,8 @@ class ClearanceTable(Answer):
 
 
 class PitchScanTable(Answer):
-    """Columns: one entry per pitch at which two benches touch, and where the radius jumps."""
+    """Columns: one entry per pitch at which two benches come nearer than the margin, or touch, and where the radius
+    jumps."""
 
     pitch: list[float] = Field(description="Ascending [m]")
     radius: list[float] = Field(description="Distance of the head from the centre at first contact [m]")
@@ -101,7 +104,7 @@ class Certificate(Answer):
 
     method: str = Field(description="In one sentence")
     steps: int = Field(description="Proven steps taken")
-    clear_until: float = Field(description="Nothing touches from 0 to here [s]")
+    clear_until: float = Field(description="Nothing comes nearer than the margin, or touches, from 0 to here [s]")
     bound: float = Field(description="Largest bound on the second derivative of a gap that a step used [1/m]")
     least_clearance: Graze | None = Field(description="Narrowest graze before the contact, or over the whole run")
 
@@ -120,7 +123,7 @@ class Verdict(Answer):
 
 
 class ContactCheck(Answer):
-    """Independent engines on the dance just before and just after; within the margin counts as overlapping."""
+    """Independent engines on the dance just before and just after; nearer than the margin counts as overlapping."""
 
     agree: bool = Field(description="Every engine asked finds nothing before, and after the reported pair alone")
     judged: list[int] = Field(
@@ -138,16 +141,22 @@ class ContactCheck(Answer):
 
 
 class CollisionTime(Answer):
-    """When two benches that share no handle first touch."""
+    """When two benches that share no handle first come nearer than the margin, or touch if it is 0."""
 
-    outcome: Outcome = Field(description="How the search ended")
+    outcome: Outcome = Field(
+        description="How the search ended; contact is the first time at which two benches are nearer than the margin"
+    )
+    margin: float = Field(description="Clearance that was asked for; 0 asks for a touch [m]")
     time: float | None = Field(description="First contact; null when clear or undecided [s]")
-    time_bracket: Point | None = Field(description="Proven clear up to, overlapping at [s]")
+    time_bracket: Point | None = Field(description="Proven clear up to, nearer than the margin at [s]")
     head: Head | None = Field(description="The head at that time")
-    benches: Pair | None = Field(description="The pair that touches")
-    corner: Feature | None = Field(description="The corner that touches")
-    edge: Feature | None = Field(description="The edge that it touches")
-    point: Point | None = Field(description="Where, x and y [m]")
+    benches: Pair | None = Field(description="The pair that is so near")
+    gap: float | None = Field(
+        description="Between the two then: the margin, or less where they are nearer from the start on [m]"
+    )
+    corner: Feature | None = Field(description="The corner that is nearest, or touches")
+    edge: Feature | None = Field(description="The edge that it is nearest to, or touches")
+    point: Point | None = Field(description="Where that corner is, x and y [m]")
     end: End | None = Field(description="Where the run ends, when clear")
     certificate: Certificate = Field(description="How the answer is known")
     cross_check: ContactCheck | None = Field(
@@ -163,11 +172,12 @@ class CollisionTime(Answer):
         if wanted.cross_check != "none":
             whole, speed = wanted.cross_check == "dragon", wanted.head_speed
             check = core.contact_check(contact, dragon, path, head_speed=speed, margin=wanted.margin, whole=whole)
-        return cls.known(contact, cross_check=check)
+        return cls.known(contact, margin=wanted.margin, cross_check=check)
 
 
 class MinimumPitch(Answer):
-    """The smallest pitch such that every larger one lets the head reach the turning circle without contact."""
+    """The smallest pitch such that every larger one lets the head reach the turning circle with no two benches nearer
+    than the margin, or touching if it is 0."""
 
     pitch: float = Field(description="[m]")
     pitch_bracket: Point = Field(description="Infeasible, feasible [m]")
@@ -175,7 +185,9 @@ class MinimumPitch(Answer):
         description="Just below: a graze on the way; contact on the circle; the start: contact there or, where benches "
         "is null, a start inside the circle; or a fold: a bench cannot follow the head as far as the circle"
     )
-    benches: Pair | None = Field(description="The pair that touches just below; null at a fold and without contact")
+    benches: Pair | None = Field(
+        description="The pair that is nearer than the margin, or touches, just below; null at a fold and without contact"
+    )
     head_radius: float | None = Field(description="Where the head is then [m]")
     other_feasible_intervals: list[Point] = Field(description="Feasible islands below [m]")
     justified_by: str = Field(
@@ -202,7 +214,7 @@ class MinimumPitch(Answer):
 
 
 class Overlap(Answer):
-    """Two benches that overlap. witness_b - witness_a = separation * normal."""
+    """Two benches nearer than the margin, or overlapping if it is 0. witness_b - witness_a = separation * normal."""
 
     benches: Pair = Field(description="The pair a, b")
     separation: float = Field(description="Signed: minus the penetration depth when they overlap [m]")

@@ -233,8 +233,9 @@ def check(
 
     def compute() -> bytes:
         dragon, path = wanted.dragon.to_dragon(reply.settings.checked_benches_max), wanted.path.to_path()
-        found = wanted.to_report(dragon, path)
-        return Report.of(found, dragon, path, wanted).to_json()
+        place = wanted.to_place(dragon)
+        found = wanted.to_report(dragon, path, place)
+        return Report.of(found, dragon, path, wanted, place.origin).to_json()
 
     return reply(wanted, compute)
 

@@ -19,10 +19,12 @@ from typer.core import TyperGroup
 
 import core
 from app import answers, prove, report, schemas, show, tables
-from app.files import read_dance, read_json, trajectory_writer
-from app.options import asks, checked
+from app.files import TABLE_ENDINGS, checked_output, read_dance, read_json, trajectory_writer, write_whole
+from app.options import asks, checked, given, numbers
+from app.refusals import refusing
 from app.settings import Settings
-from core import BenchDragonError, Dragon, InvalidValue, Route, Spiral
+from core import BenchDragonError, Dragon, InvalidValue, Route, Spiral, Venue
+from core.dragon import Floats
 
 # Processes of the service, about 100 MB each.
 WORKERS_MAX = 64
@@ -60,6 +62,31 @@ class TrajectoryOptions(schemas.TimeRange, schemas.DanceQuery):
     """POST /trajectory, flat."""
 
     decimals: int | None = Field(None, ge=0, le=15, description="Decimals of x, y and speed; else all (xlsx: 6)")
+    times: str | None = Field(None, description="Instants such as 0,60,120, in place of --start, --stop and --step [s]")
+    handles: str | None = Field(
+        None, description="Handles in the table, such as 0,1,51, in place of those that the contest asks for"
+    )
+
+    def to_instants(self, dragon: Dragon, path: Spiral, cells_max: int, ranged: list[str]) -> Floats:
+        """Instants (T,) [s], a list or a range, whose options `ranged` are given. raises: TooLarge, InvalidValue"""
+        if self.times is None:
+            return self.to_times(dragon.benches + 1, cells_max)
+        if ranged:
+            raise InvalidValue("times", f"--times takes the place of --{ranged[0]}: give one of the two")
+        listed = checked(schemas.TrajectoryRequest, {"times": numbers("times", self.times, float)})
+        return listed.to_times(dragon, path, cells_max)
+
+    def to_handles(self, dragon: Dragon) -> list[int] | None:
+        """The handles asked for; None: nobody says. raises: InvalidValue"""
+        if self.handles is None:
+            return None
+        found = numbers("handles", self.handles, int)
+        for k, handle in enumerate(found):
+            if not 0 <= handle <= dragon.benches:
+                raise InvalidValue(
+                    f"handles.{k}", f"handles[{k}] must be from 0 to {dragon.benches} for this dragon, got {handle}"
+                )
+        return found
 
 
 class InstantOptions(schemas.TrajectoryFigureQuery, schemas.ContactQuery):
@@ -89,26 +116,30 @@ class Kind(StrEnum):
 @asks(TrajectoryOptions)
 def trajectory(
     asked: TrajectoryOptions,
+    context: typer.Context,
     output: Annotated[Path | None, typer.Option(help="Write a .csv, .xlsx, .arrow or .json file.")] = None,
     language: Annotated[tables.Language, typer.Option(help="Names in an xlsx file.")] = tables.Language.ENGLISH,
     json: Json = False,
 ) -> None:
     """Where every handle is, and how fast."""
-    suffix = output.suffix.lower() if output else ".json" if json else ""
-    write = trajectory_writer(suffix, asked.decimals, language) if suffix else lambda result: b""
+    ending = checked_output("output", output, TABLE_ENDINGS) if output else ".json" if json else None
+    if ending and asked.handles is not None:
+        raise InvalidValue("handles", "--handles chooses rows of the table: leave it out with --output or --json")
+    write = trajectory_writer(ending, asked.decimals, language) if ending else None
     settings = Settings()
     dragon, path = asked.to_dragon(settings.benches_max), asked.to_path()
-    times = asked.to_times(dragon.benches + 1, settings.cells_max)
+    handles, ranged = asked.to_handles(dragon), given(context, "start", "stop", "step")
+    times = asked.to_instants(dragon, path, settings.cells_max, ranged)
     with show.waiting("trajectory"):
         result = core.trajectory(dragon, path, times, head_speed=asked.head_speed)
-        data = write(result)
+        data = write(result) if write else b""
     if output:
-        output.write_bytes(data)
+        write_whole(output, data)
         print(f"{output}: {dragon.benches + 1} handles at {times.size} instants", file=sys.stderr)
     elif json:
         show.print_json(data)
     else:
-        show.print_parts(*show.trajectory_tables(result))
+        show.print_parts(*show.trajectory_tables(result, handles, all_instants=asked.times is not None))
 
 
 @app.command()
@@ -119,7 +150,8 @@ def collision_time(asked: schemas.CollisionQuery, json: Json = False) -> None:
     with show.waiting("first contact"):
         found = core.first_contact(dragon, path, head_speed=asked.head_speed, margin=asked.margin)
         answer = answers.CollisionTime.of(found, dragon, path, asked)
-    show.print_answer("First contact", answer, json, benches=dragon.benches)
+    title = f"First time that two benches are nearer than {asked.margin:g} m" if asked.margin else "First contact"
+    show.print_answer(title, answer, json, margin=asked.margin, benches=dragon.benches)
 
 
 @app.command()
@@ -130,8 +162,9 @@ def minimum_pitch(asked: schemas.MinimumPitchQuery, json: Json = False) -> None:
     with show.waiting("minimum pitch"):
         found = core.minimum_pitch(dragon, turning_radius=radius, start_turns=asked.start_turns, margin=asked.margin)
         answer = answers.MinimumPitch.of(found, dragon, asked)
-    title = f"Minimum pitch for a turning circle of {asked.turning_diameter:g} m"
-    show.print_answer(title, answer, json, benches=dragon.benches)
+    gap = f" and no bench nearer than {asked.margin:g} m to another" if asked.margin else ""
+    title = f"Minimum pitch for a turning circle of {asked.turning_diameter:g} m{gap}"
+    show.print_answer(title, answer, json, margin=asked.margin, benches=dragon.benches)
 
 
 @app.command()
@@ -147,7 +180,8 @@ def shortest_turn(asked: schemas.ShortestTurnQuery, json: Json = False) -> None:
     """The turn that begins as deep inside its circle as the dragon can dance, and what limits it."""
     with show.waiting("shortest turn"):
         found = asked.to_shortest_turn(Settings().checked_benches_max)
-    show.print_answer("Shortest turn", report.ShortestTurn.of_shortest(found), json)
+    gap = f" with no bench nearer than {asked.margin:g} m to another" if asked.margin else ""
+    show.print_answer(f"Shortest turn{gap}", report.ShortestTurn.of_shortest(found), json, asked.margin)
 
 
 @app.command()
@@ -175,41 +209,46 @@ def check(
     json: Json = False,
 ) -> None:
     """Can the dragon dance this path here? What fails is an answer: the exit code is 0."""
+    ending = checked_output("figure", figure, (".svg", ".png")) if figure else ""
     told = read_dance(file)
     if cross_check and isinstance(told, dict):
         told["cross_check"] = cross_check
     asked = checked(schemas.CheckRequest, told)
-    dragon, path = asked.dragon.to_dragon(Settings().checked_benches_max), asked.path.to_path()
-    with show.waiting("check"):
-        found = asked.to_report(dragon, path)
-        answer = report.Report.of(found, dragon, path, asked)
+    with refusing(asked), show.waiting("check"):
+        dragon, path = asked.dragon.to_dragon(Settings().checked_benches_max), asked.path.to_path()
+        place = asked.to_place(dragon)
+        found = asked.to_report(dragon, path, place)
+        answer = report.Report.of(found, dragon, path, asked, place.origin)
+        drawn = _drawn_check(dragon, path, place.venue, asked.head_speed, answer, ending[1:], time) if figure else b""
     if figure:
-        figure.write_bytes(_drawn_check(asked, dragon, path, answer, figure.suffix.lower(), time))
+        write_whole(figure, drawn)
         print(figure, file=sys.stderr)
     if json:
         show.print_json(answer.to_json())
     else:
-        show.print_parts(*show.report_tables(answer, dragon.benches))
+        show.print_parts(*show.report_tables(answer, margin=asked.margin, benches=dragon.benches))
 
 
 def _drawn_check(
-    asked: schemas.CheckRequest,
     dragon: Dragon,
     path: Spiral | Route,
+    venue: Venue | None,
+    head_speed: float,
     answer: report.Report,
-    suffix: str,
+    format: str,
     time: float | None,
 ) -> bytes:
     from app import figures as draw
     from app.drawing import Format as Drawn
 
-    if suffix not in (".svg", ".png"):
-        raise InvalidValue("figure", f"--figure must end in .svg or .png, got {suffix or 'no ending'}")
     if time is None:
         closest = answer.least_clearance.time if answer.least_clearance else answer.start
         time = answer.failures[0].time if answer.failures else closest
-    speed, kind = asked.head_speed, Drawn(suffix[1:])
-    return draw.trajectory_figure(dragon, path, venue=asked.to_venue(), time=time, head_speed=speed, format=kind)
+    try:
+        kind = Drawn(format)
+        return draw.trajectory_figure(dragon, path, venue=venue, time=time, head_speed=head_speed, format=kind)
+    except BenchDragonError as error:
+        raise error.named("time") if error.field.startswith("times") else error from error
 
 
 @app.command()
@@ -239,7 +278,7 @@ def overlaps(
     if json:
         show.print_json(answer.to_json())
     else:
-        show.print_parts(*show.overlap_tables(answer))
+        show.print_parts(*show.overlap_tables(answer, margin))
 
 
 @app.command()
@@ -252,12 +291,14 @@ def figures(
 ) -> None:
     """The paper's figures 6, 7 and 8 from live numbers, as files."""
     folder.mkdir(parents=True, exist_ok=True)
-    for one in kind or list(Kind):
+    files = {one: folder / f"{one.value}.{format.value}" for one in kind or list(Kind)}
+    for file in files.values():
+        checked_output("format", file)
+    for one in files:
         with show.waiting(f"figure {one.value}") as progress:
             data = _drawn(asked, one, format, progress)
-        file = folder / f"{one.value}.{format.value}"
-        file.write_bytes(data)
-        print(file, file=sys.stderr)
+        write_whole(files[one], data)
+        print(files[one], file=sys.stderr)
 
 
 def _drawn(asked: FigureOptions, kind: Kind, format: Format, progress: Callable[[float], None]) -> bytes:

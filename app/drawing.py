@@ -31,6 +31,8 @@ SHAPES_MAX = 3_000
 HEAD_ARROW, HEAD_LABEL = 1.2, 1.0
 # Half the side of the enlarged view, in widths of the wider bench.
 ENLARGED_WIDTHS = 1.5
+# And at least so many margins.
+ENLARGED_MARGINS = 1.5
 # A route is drawn this far around its start [m], as a line of so many points.
 ROUTE_DRAWN = 2_000.0
 PATH_POINTS = 20_000
@@ -157,8 +159,11 @@ def mark_pair(axes: Axes, outlines: Floats, found: FirstContact, *, legend: bool
         axes.legend(loc="upper right", fontsize=9, framealpha=0.95)
 
 
-def draw_enlarged(axes: Axes, outlines: Floats, found: FirstContact, width: float) -> None:
-    """The neighbourhood of the contact: corner, edge and point; two corners may meet, or two parallel edges."""
+def draw_enlarged(axes: Axes, outlines: Floats, found: FirstContact, width: float, margin: float) -> None:
+    """The neighbourhood of the contact: corner, edge and point; two corners may meet, or two parallel edges.
+
+    width: of the wider bench; margin: with one the two are only near [m]
+    """
     assert found.point is not None
     _plan(axes)
     _draw_benches(axes, outlines, facecolor="white", edgecolor=GREY, linewidth=0.8, zorder=2)
@@ -175,10 +180,12 @@ def draw_enlarged(axes: Axes, outlines: Floats, found: FirstContact, width: floa
         markeredgewidth=2, zorder=7, label=nearest,
     )  # fmt: skip
     x, y = found.point
-    axes.set(xlim=(x - ENLARGED_WIDTHS * width, x + ENLARGED_WIDTHS * width))
-    axes.set(ylim=(y - ENLARGED_WIDTHS * width, y + ENLARGED_WIDTHS * width))
+    half = max(ENLARGED_WIDTHS * width, ENLARGED_MARGINS * margin)
+    axes.set(xlim=(x - half, x + half), ylim=(y - half, y + half))
     axes.legend(loc="upper right", fontsize=9, framealpha=0.95)
-    axes.set_title(f"They meet at ({x:.6f} m, {y:.6f} m)", fontsize=11)
+    place = f"({x:.6f} m, {y:.6f} m)"
+    near = f"Nearer than {margin:g} m: a gap of {found.gap:.6f} m at {place}"
+    axes.set_title(near if margin else f"They meet at {place}", fontsize=11)
 
 
 def _edge(outline: Floats, name: str) -> Floats:

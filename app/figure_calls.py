@@ -80,7 +80,7 @@ def path_trajectory_figure(
         return figures.trajectory_figure(
             dragon,
             path,
-            venue=wanted.to_venue(),
+            venue=wanted.to_place(dragon).venue,
             time=wanted.to_time(dragon, path),
             head_speed=wanted.head_speed,
             format=format,
@@ -98,7 +98,7 @@ def path_contact_figure(reply: BodyReply, format: Format, wanted: ContactFigureR
         return figures.contact_figure(
             dragon,
             path,
-            venue=wanted.to_venue(),
+            venue=wanted.to_place(dragon).venue,
             head_speed=wanted.head_speed,
             margin=wanted.margin,
             start=wanted.to_start(dragon, path),

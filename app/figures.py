@@ -29,6 +29,7 @@ from app.drawing import (
 )
 from core import (
     Dragon,
+    EndReason,
     FirstContact,
     MinimumPitch,
     Outcome,
@@ -117,7 +118,7 @@ def contact_figure(
         axes.set_title(_contact_title(found, margin), fontsize=11)
         if found.benches:
             enlarged = figure.add_subplot(1, 2, 2)
-            draw_enlarged(enlarged, outlines, found, float(dragon.widths[list(found.benches)].max()))
+            draw_enlarged(enlarged, outlines, found, float(dragon.widths[list(found.benches)].max()), margin)
             axes.indicate_inset_zoom(enlarged, edgecolor="black", linewidth=0.8)
         return file_bytes(figure, format)
 
@@ -132,14 +133,17 @@ def _shown_time(dragon: Dragon, path: Spiral | Route, head_speed: float, found: 
 
 
 def _contact_title(found: FirstContact, margin: float) -> str:
-    what = f"First approach to {margin:g} m" if margin else "First contact"
+    what = f"First nearer than {margin:g} m" if margin else "First contact"
     if found.outcome is Outcome.CONTACT:
         assert found.head is not None
         return f"{what}: {found.time:.6f} s, head at radius {found.head.radius:.6f} m"
     if found.outcome is Outcome.CONTACT_AT_START:
-        return f"{what}: already at the start"
+        return f"Nearer than {margin:g} m from the start on" if margin else f"{what}: already at the start"
     if found.outcome is Outcome.CLEAR and found.end is not None:
-        return f"No contact: the run ends clear at the {found.end.reason.value}, {found.end.time:.6f} s"
+        none = f"Never nearer than {margin:g} m" if margin else "No contact"
+        if found.end.reason is EndReason.FOLD:
+            return f"{none}, but bench {found.end.bench} folds at {found.end.time:.6f} s"
+        return f"{none}: the run ends clear at the {found.end.reason.value}, {found.end.time:.6f} s"
     return f"Undecided: clear up to {_shown_bracket(found)} s"
 
 
@@ -173,16 +177,18 @@ def pitch_scan_figure(
     with _DRAWING:
         figure = canvas(9.0, 5.6)
         axes = figure.add_subplot()
-        _draw_scan(axes, scan, least, turning_radius)
+        near_words = f"first nearer than {margin:g} m" if margin else "first contact"
+        when = f"when two benches are {near_words}" if margin else f"at {near_words}"
+        _draw_scan(axes, scan, least, turning_radius, near_words)
         axes.plot(pitches, start_turns * pitches, color=GREY, linewidth=0.9, zorder=1, label="start of the dance")
-        axes.set(xlim=(pitches[0], pitches[-1]), xlabel="pitch [m]", ylabel="radius of the head at first contact [m]")
+        axes.set(xlim=(pitches[0], pitches[-1]), xlabel="pitch [m]", ylabel=f"radius of the head {when} [m]")
         axes.set_ylim(0.0, 1.2 * scan.radius.max(initial=turning_radius))
         axes.legend(loc="lower left", fontsize=9)
-        none = "No contact at any of these pitches"
-        title = "Where the head stands at first contact, against the pitch" if scan.pitch.size else none
+        none = f"Never nearer than {margin:g} m at any" if margin else "No contact at any"
+        title = f"Where the head stands {when}, against the pitch" if scan.pitch.size else f"{none} of these pitches"
         axes.set_title(title, fontsize=11)
         near = axes.inset_axes((0.56, 0.64, 0.41, 0.33))
-        _draw_scan(near, scan, least, turning_radius)
+        _draw_scan(near, scan, least, turning_radius, near_words)
         near.set(xlim=(0.995 * least.pitch, 1.005 * least.pitch))
         near.set(ylim=(0.94 * turning_radius, 1.05 * turning_radius))
         near.tick_params(labelsize=8)
@@ -190,11 +196,9 @@ def pitch_scan_figure(
         return file_bytes(figure, format)
 
 
-def _draw_scan(axes: Axes, scan: PitchScan, least: MinimumPitch, turning_radius: float) -> None:
+def _draw_scan(axes: Axes, scan: PitchScan, least: MinimumPitch, turning_radius: float, near: str) -> None:
     points = np.stack([scan.pitch, scan.radius], axis=-1)
-    axes.add_collection(
-        LineCollection([points[a:b] for a, b in scan.pieces], colors=BLUE, linewidths=1.8, label="first contact")
-    )
+    axes.add_collection(LineCollection([points[a:b] for a, b in scan.pieces], colors=BLUE, linewidths=1.8, label=near))
     falls = [points[a - 1 : a + 1] for a, _ in scan.pieces[1:] if scan.pitch[a] - scan.pitch[a - 1] <= JUMP_WIDTH]
     axes.add_collection(LineCollection(falls, colors=GREY, linewidths=0.8, linestyles="dotted", label="jump"))
     axes.axhline(

@@ -11,10 +11,12 @@ from pydantic import BaseModel, ValidationError
 from rich.markup import escape
 
 from app.messages import message
+from app.refusals import refusing
 from app.schemas import SHAPES
 from core import InvalidValue
 
 Model = TypeVar("Model", bound=BaseModel)
+Number = TypeVar("Number", int, float)
 
 
 def checked(model: type[Model], values: object) -> Model:
@@ -25,7 +27,28 @@ def checked(model: type[Model], values: object) -> Model:
         first = error.errors()[0]
         field = ".".join(str(part) for part in first["loc"] if part not in SHAPES)
         words = message({**first, "loc": ("", *first["loc"])})
-        raise InvalidValue(field, f"{field}: {words}" if "." in field else words) from error
+        # Words such as `times[1] must be ...` name the place in a list already.
+        outer = field.rstrip("0123456789").rstrip(".") if "[" in words.partition(" ")[0] else field
+        raise InvalidValue(field, f"{outer}: {words}" if "." in outer else words) from error
+
+
+def given(context: typer.Context, *names: str) -> list[str]:
+    """Those of the options that stand on the command line."""
+    sources = {name: context.get_parameter_source(name) for name in names}
+    return [name for name, source in sources.items() if source is not None and source.name == "COMMANDLINE"]
+
+
+def numbers(option: str, text: str, kind: Callable[[str], Number]) -> list[Number]:
+    """A list such as 0,60,120. raises: InvalidValue naming the entry that is no number"""
+    found = []
+    for k, word in enumerate(text.split(",")):
+        try:
+            found.append(kind(word))
+        except ValueError as error:
+            what = "a whole number" if kind is int else "a number"
+            rule = f"{option}[{k}] must be {what}, as in --{option} 0,1,2"
+            raise InvalidValue(f"{option}.{k}", f"{rule}, got {word!r:.60}") from error
+    return found
 
 
 def asks(model: type[Model]) -> Callable[[Callable[..., None]], Callable[..., None]]:
@@ -45,7 +68,8 @@ def asks(model: type[Model]) -> Callable[[Callable[..., None]], Callable[..., No
 
         def asked(**values: Any) -> None:
             request = checked(model, {name: values.pop(name) for name in model.model_fields})
-            command(request, **values)
+            with refusing(request):
+                command(request, **values)
 
         parameters = [p.replace(kind=inspect.Parameter.KEYWORD_ONLY) for p in own] + fields
         asked.__signature__ = inspect.Signature(parameters)  # type: ignore[attr-defined]

@@ -20,12 +20,6 @@ PROBLEM_TYPE = "application/problem+json"
 ERRORS_MAX = 20
 # Titles by RFC 9110, which newer Pythons know by these names and older ones do not.
 TITLES = {413: "Content Too Large", 422: "Unprocessable Content"}
-# Names of core that a query knows by another name: the first of them that the call has.
-QUERY_NAMES = {
-    "turning_radius": ("turning_diameter",),
-    "times": ("stop", "time"),
-    "path": ("turning_diameter",),
-}
 # What pydantic says of a union, though it is the field `kind` that is wrong.
 UNION_ERRORS = frozenset({"union_tag_invalid", "union_tag_not_found"})
 
@@ -138,8 +132,7 @@ def server_problem() -> Response:
 async def _item(request: Request, place: Sequence[Any], detail: str) -> ErrorItem:
     if request.method in ("GET", "HEAD"):
         name = next((part for part in reversed(place) if isinstance(part, str)), "")
-        known = getattr(request.state, "names", frozenset({name}))
-        return ErrorItem(name=next((n for n in QUERY_NAMES.get(name, ()) if n in known), name), detail=detail)
+        return ErrorItem(name=name, detail=detail)
     body = await request.json() if await request.body() else {}
     return ErrorItem(pointer=pointer(place, body), detail=detail)
 

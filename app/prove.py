@@ -6,9 +6,7 @@ certificate is checked before it is written, and its file is there whole or not 
 
 from __future__ import annotations
 
-import os
 import sys
-import tempfile
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -22,6 +20,7 @@ from rich.progress import Progress
 
 import core
 from app import schemas
+from app.files import checked_output, write_whole
 from app.settings import Settings
 from app.wire import StartTurns, TurningDiameter, Wire
 from core import InvalidValue
@@ -98,7 +97,7 @@ def collision_time(
     output: Annotated[Path, typer.Option(help="The certificate.")] = Path("collision-time.proof.json"),
 ) -> None:
     """Nothing touches up to 1e-10 s before this time, and two benches overlap 1e-10 s after it."""
-    _check_folder(output)
+    checked_output("output", output)
     dragon, path, time = asked.to_dragon(Settings().benches_max), asked.to_path(), asked.time
     with _working("proof") as progress:
         from core.proof import prove_collision_time
@@ -118,7 +117,7 @@ def minimum_pitch(
     output: Annotated[Path, typer.Option(help="The certificate.")] = Path("minimum-pitch.proof.json"),
 ) -> None:
     """Nothing touches on the way to the circle with this pitch; two benches overlap on it with 1e-6 m less."""
-    _check_folder(output)
+    checked_output("output", output)
     dragon, radius, pitch = asked.to_dragon(Settings().benches_max), asked.turning_diameter / 2, asked.pitch
     with _working("proof") as progress:
         from core.proof import prove_minimum_pitch
@@ -137,11 +136,6 @@ def minimum_pitch(
     _finish(certificate, output)
 
 
-def _check_folder(output: Path) -> None:
-    if not output.parent.is_dir():
-        raise InvalidValue("output", f"--output must be in a folder that exists, got {output}")
-
-
 def _checked(certificate: Any) -> Proof:
     with _working("check") as progress:
         from core.proof import check
@@ -153,10 +147,8 @@ def _finish(certificate: dict[str, Any], output: Path) -> None:
     """Check a fresh certificate as anyone would, write it whole, and say what it proves."""
     data = orjson.dumps(certificate, option=orjson.OPT_APPEND_NEWLINE)
     checked = _checked(orjson.loads(data))
-    with _working("writing"), tempfile.TemporaryDirectory(prefix=".proof-", dir=output.parent) as folder:
-        whole = Path(folder, output.name)
-        whole.write_bytes(data)
-        os.replace(whole, output)
+    with _working("writing"):
+        write_whole(output, data)
     _print(checked)
     print(f"{output}: {len(data)} bytes", file=sys.stderr)
 

@@ -13,6 +13,7 @@ from prometheus_client import Gauge
 from pydantic import BaseModel
 
 from app.problems import ErrorItem, Refused
+from app.refusals import refusing
 from app.settings import Settings
 
 JSON = "application/json"
@@ -47,7 +48,6 @@ class Reply:
         raises: Refused (503) when as many computations run as may run at once
         """
         media_type = media_type or self.media_type()
-        self.request.state.names = frozenset(type(wanted).model_fields)
         headers = {
             "ETag": self._tag(wanted, media_type),
             "Cache-Control": f"public, max-age={self.settings.cache_seconds}",
@@ -59,7 +59,7 @@ class Reply:
             detail = f"{self.settings.concurrent_max} computations are running, as many as may: try again later."
             raise Refused(503, detail, headers={"Retry-After": str(self.settings.retry_after)})
         try:
-            with self._busy.track_inprogress():
+            with self._busy.track_inprogress(), refusing(wanted):
                 return Response(compute(), headers=headers, media_type=media_type)
         finally:
             self._free.release()

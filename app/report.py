@@ -7,7 +7,8 @@ from typing import Self
 from pydantic import Field
 
 import core
-from app.answers import Answer, CollisionTime, Pair, Point
+from app import degrees
+from app.answers import Answer, CollisionTime, Head, Pair, Point
 from app.schemas import CheckRequest
 from core import Dragon, Outcome, Route, Spiral
 
@@ -37,9 +38,12 @@ class ShortestTurn(Turn):
 
     entry_bracket: Point = Field(description="Entry radii: infeasible, feasible [m]")
     limited_by: core.TurnLimit = Field(
-        description="A chord cannot follow the bend, benches come within the margin, or nothing down to the centre"
+        description="bend: a chord cannot follow; contact: benches come nearer than the margin, or touch if it is 0; "
+        "centre: nothing down to the centre"
     )
-    benches: Pair | None = Field(description="The pair that comes within the margin just below; null if none does")
+    benches: Pair | None = Field(
+        description="The pair that comes nearer than the margin, or touches, just below; null if none does"
+    )
     time: float | None = Field(description="When, at a head speed of 1 m/s; 0 is the entry into the turn [s]")
     scan_step: float = Field(
         description="Entries down from the circle were tried this far apart, each one proven: a narrower range of "
@@ -89,10 +93,13 @@ class AreaClearance(Answer):
     """The benches and the edges of the square or of one obstacle."""
 
     name: str = Field(description="Name of the area")
-    outcome: Outcome = Field(description="Does a bench come within the margin?")
+    outcome: Outcome = Field(description="Does a bench come nearer than the margin, or touch if it is 0?")
     time: float | None = Field(description="When first; null when clear or undecided [s]")
-    time_bracket: Point | None = Field(description="Proven clear up to, within the margin at [s]")
-    bench: int | None = Field(description="The first bench within the margin")
+    time_bracket: Point | None = Field(description="Proven clear up to, nearer than the margin at [s]")
+    bench: int | None = Field(description="The first bench nearer than the margin")
+    gap: float | None = Field(
+        description="What is left then between it and the area: the margin, or less from the start on [m]"
+    )
     point: Point | None = Field(description="Its point that is nearest then, x and y [m]")
     nearest: Nearest = Field(description="The least distance over the dance")
 
@@ -135,26 +142,60 @@ class Failure(Answer):
     """One thing that fails."""
 
     kind: core.FailureKind = Field(description="What fails")
-    time: float = Field(description="When; of a speed, when it is highest [s]")
-    benches: list[int] = Field(description="The benches at fault; of a speed: the handles")
+    time: float = Field(
+        description="When it first does; of what is undecided, proven good until then; of a speed, the first instant "
+        "above the limit [s]"
+    )
+    benches: list[int] = Field(description="The benches at fault; of a speed: the handle")
     area: str | None = Field(description="The area of the venue; null where it has no part")
     message: str = Field(description="One sentence")
+    time_bracket: Point | None = Field(
+        description="Proven not to fail up to, failing at; null for a fold and for what fails from the start [s]"
+    )
+    head: Head | None = Field(description="The head at that time")
+    peak_speed: float | None = Field(
+        description="Of a speed: the highest over the dance; null where it grows without bound, towards a fold [m/s]"
+    )
+    peak_time: float | None = Field(description="Of a speed: when it is highest, or the time of the fold [s]")
+
+
+class Origin(Answer):
+    """A place on earth."""
+
+    longitude: float = Field(description="Eastwards [degrees]")
+    latitude: float = Field(description="Northwards [degrees]")
 
 
 class Report(Answer):
-    """Can the dragon dance this path here? Where benches touch, the dance stops."""
+    """Can the dragon dance this path here? Where benches touch, or fold, the dance stops."""
 
-    passed: bool = Field(description="Nothing fails")
-    failures: list[Failure] = Field(description="What fails, in order of time")
+    verdict: core.Judgement = Field(
+        description="passes: nothing fails; fails: something does for certain; undecided: neither is proven"
+    )
+    passed: bool = Field(description="The verdict is passes")
+    failures: list[Failure] = Field(
+        description="What fails, in order of time, until the dance stops; and what is undecided"
+    )
     start: float = Field(description="Looked at from here [s]")
     stop: float = Field(description="Looked at until here [s]")
-    first_contact: CollisionTime = Field(description="When two benches first come within the margin")
+    first_contact: CollisionTime = Field(
+        description="When two benches first come nearer than the margin, or touch if it is 0"
+    )
     least_clearance: LeastClearance | None = Field(description="Of any two benches; null with fewer than three")
     venue: VenueClearance | None = Field(description="The benches and the venue; null without one")
     highest_speed: HighestSpeed | None = Field(description="Of any handle; null in a run to its fold, without bound")
     sharpest_bend: SharpestBend | None = Field(description="Between two consecutive benches; null for a single bench")
 
+    origin: Origin | None = Field(description="Where x = y = 0 lies; null unless the venue was given in degrees")
+
     @classmethod
-    def of(cls, found: core.Report, dragon: Dragon, path: Spiral | Route, wanted: CheckRequest) -> Self:
+    def of(
+        cls,
+        found: core.Report,
+        dragon: Dragon,
+        path: Spiral | Route,
+        wanted: CheckRequest,
+        origin: degrees.Origin | None = None,
+    ) -> Self:
         contact = CollisionTime.of(found.first_contact, dragon, path, wanted)
-        return cls.known(found, first_contact=contact)
+        return cls.known(found, first_contact=contact, origin=origin)

@@ -14,6 +14,7 @@ import numpy as np
 from pydantic import AfterValidator, Discriminator, Field, Tag
 from pydantic_core import PydanticCustomError
 
+from app.degrees import Coordinates, Place, place_of
 from app.settings import check_limit
 from app.wire import (
     Coordinate,
@@ -29,7 +30,7 @@ from app.wire import (
     Wire,
 )
 from app.wire_paths import KINDS, AnyPath, SpiralFields, SpiralPath, TurnCircle, TurnFields
-from core import Dragon, InvalidValue, Report, Route, ShortestTurn, Spiral, Venue, check, shortest_turn
+from core import Dragon, InvalidValue, Report, Route, ShortestTurn, Spiral, check, shortest_turn
 from core.dragon import BENCHES_MAX, Floats
 from core.kinematics import default_times, first_time
 
@@ -196,13 +197,19 @@ class PlacedDance(Dance):
 
     venue: Annotated[dict[str, Any] | None, AfterValidator(_shallow)] = Field(
         None,
-        description="GeoJSON with coordinates in metres: the square (the polygon named square, else the first one; its "
-        "holes are outside) and the obstacles in it; null: an endless plain",
+        description="GeoJSON with coordinates in metres, or in degrees: the square (the polygon named square, else the "
+        "first one; its holes are outside) and the obstacles in it; null: an endless plain",
+    )
+    coordinates: Coordinates | None = Field(
+        None,
+        description="Of the venue: metres, or degrees of longitude and latitude (WGS 84), which are laid out on the "
+        "plane that touches the earth in the middle of the square's bounding box, x to the east and y to the north "
+        "from there; null: what the venue's crs says, else metres",
     )
 
-    def to_venue(self) -> Venue | None:
+    def to_place(self, dragon: Dragon) -> Place:
         """raises: InvalidValue"""
-        return None if self.venue is None else Venue.from_geojson(self.venue)
+        return Place() if self.venue is None else place_of(self.venue, self.coordinates, dragon)
 
 
 class CheckRequest(PlacedDance):
@@ -216,12 +223,12 @@ class CheckRequest(PlacedDance):
     )
     stop: Instant | None = Field(None, description="Until when; null: the end of the run [s]")
 
-    def to_report(self, dragon: Dragon, path: Spiral | Route) -> Report:
-        """raises: InvalidValue, OutsideRun"""
+    def to_report(self, dragon: Dragon, path: Spiral | Route, place: Place | None = None) -> Report:
+        """place: as to_place() gives it. raises: InvalidValue, OutsideRun"""
         return check(
             dragon,
             path,
-            venue=self.to_venue(),
+            venue=(place or self.to_place(dragon)).venue,
             margin=self.margin,
             speed_limit=self.speed_limit,
             head_speed=self.head_speed,

@@ -20,11 +20,13 @@ from rich.text import Text
 from app import answers, tables
 from app.paper import Comparison
 from app.report import LeastClearance, Nearest, Report
-from core import Trajectory
+from core import Judgement, Trajectory
 
-# A trajectory on a terminal: the handles that the contest asks for, at this many instants.
+# A trajectory on a terminal: the handles that the contest asks for, at this many instants, or as many as fit.
 SHOWN_HANDLES = (0, 1, 51, 101, 151, 201)
-SHOWN_INSTANTS = 5
+SHOWN_INSTANTS = 7
+# What a table takes beside its entries: for each column, and at its sides [characters].
+COLUMN_SPACE, TABLE_SPACE = 3, 1
 # Width of a table where standard output is no terminal [characters].
 PIPE_WIDTH = 120
 # What a null says where it is an answer.
@@ -59,15 +61,20 @@ def print_json(data: bytes) -> None:
     sys.stdout.buffer.flush()
 
 
+def _console() -> Console:
+    return Console(highlight=False, markup=False, width=None if sys.stdout.isatty() else PIPE_WIDTH)
+
+
 def print_parts(*parts: Part) -> None:
-    console = Console(highlight=False, markup=False, width=None if sys.stdout.isatty() else PIPE_WIDTH)
+    console = _console()
     for part in parts:
         console.print(part)
 
 
-def print_answer(title: str, answer: answers.Answer, json: bool, *, benches: int = 0) -> None:
+def print_answer(title: str, answer: answers.Answer, json: bool, *, margin: float = 0.0, benches: int = 0) -> None:
     """An answer as its JSON, or as two columns: each field by its name on the wire, and its value with its unit.
 
+    margin: what counts as a contact [m], told where it is more than a touch
     benches: of the dragon, where the answer names those that were judged
     """
     if json:
@@ -75,8 +82,15 @@ def print_answer(title: str, answer: answers.Answer, json: bool, *, benches: int
         return
     table = _table(title, "field", "value", header=False)
     for name, value in _flat(answer, benches=benches):
-        table.add_row(name, value)
+        table.add_row(name, _near(value, margin) if name in ("outcome", "limited by") else value)
     print_parts(table)
+
+
+def _near(word: str, margin: float) -> str:
+    """The word of an outcome: with a margin a contact is no touch."""
+    near = f"nearer than {margin:g} m"
+    words = {"contact": near, "contact_at_start": f"{near} from the start on", "clear": f"never {near}"}
+    return words.get(word, word) if margin else word
 
 
 def _flat(answer: BaseModel, prefix: str = "", *, benches: int) -> Iterator[tuple[str, str]]:
@@ -132,28 +146,71 @@ def _table(title: str, *columns: str, header: bool = True) -> Table:
     return table
 
 
-def trajectory_tables(result: Trajectory) -> list[Part]:
-    """A few handles at a few instants."""
-    instants, handles = result.speed.shape
-    rows = sorted({k for k in SHOWN_HANDLES if k < handles} | {handles - 1})
-    columns = np.unique(np.linspace(0, instants - 1, SHOWN_INSTANTS).round().astype(int))
-    names = tables.handle_names(handles - 1)
+def trajectory_tables(
+    result: Trajectory, handles: Sequence[int] | None = None, *, all_instants: bool = False
+) -> list[Part]:
+    """Some handles at some instants.
+
+    handles: which; None: those of the contest and the last
+    all_instants: in as many tables as they take; else up to SHOWN_INSTANTS, evenly spaced, as many as fit one
+    """
+    instants, number = result.speed.shape
+    rows = list(handles) if handles else sorted({k for k in SHOWN_HANDLES if k < number} | {number - 1})
+    names = tables.handle_names(number - 1)
+    labels = [f"{k} {names[k]}" for k in rows]
     x, y = result.position[..., 0], result.position[..., 1]
+    blocks = _blocks(result, rows, labels, all_instants)
     shown: list[Part] = []
     for title, values in (("x [m]", x), ("y [m]", y), ("speed [m/s]", result.speed)):
-        table = _table(title, "handle", *(f"{result.time[t]:g} s" for t in columns))
-        for k in rows:
-            table.add_row(f"{k} {names[k]}", *(f"{value:.6f}" for value in values[columns, k].round(6) + 0.0))
-        shown.append(table)
-    of_handles, of_instants = _plural("handle", range(handles)), _plural("instant", range(instants))
-    return [
-        *shown,
-        f"{len(rows)} of {handles} {of_handles}, {len(columns)} of {instants} {of_instants}: --output has all.",
-    ]
+        for block in blocks:
+            table = _table(title, "handle", *(_instant(result, t) for t in block))
+            for k, label in zip(rows, labels, strict=True):
+                table.add_row(label, *map(_entry, values[block, k]))
+            shown.append(table)
+    count = sum(map(len, blocks))
+    of_handles, of_instants = _plural("handle", range(number)), _plural("instant", range(instants))
+    words = f"{len(rows)} of {number} {of_handles}, {count} of {instants} {of_instants}"
+    return [*shown, f"{words}: --output has all, --handles and --times choose."]
 
 
-def overlap_tables(answer: answers.OverlapsAnswer) -> list[Part]:
-    table = _table("Overlapping pairs", "benches", "separation [m]", "witness a [m]", "witness b [m]")
+def _blocks(result: Trajectory, rows: Sequence[int], labels: Sequence[str], all_instants: bool) -> list[list[int]]:
+    """The instants of each table: as many as fit into the width."""
+    instants = len(result.time)
+    values = np.concatenate([result.position[:, rows].reshape(instants, -1), result.speed[:, rows]], axis=1)
+    room = _console().width - TABLE_SPACE - COLUMN_SPACE - max(map(len, [*labels, "handle"]), default=0)
+
+    def width(t: int) -> int:
+        return COLUMN_SPACE + max(map(len, [_instant(result, t), *map(_entry, values[t])]))
+
+    if not all_instants:
+        for count in range(min(SHOWN_INSTANTS, instants), 1, -1):
+            spaced = np.linspace(0, instants - 1, count).round().astype(int).tolist()
+            if sum(map(width, spaced)) <= room:
+                return [spaced]
+        return [[0]] if instants else []
+    blocks: list[list[int]] = []
+    left = 0
+    for t in range(instants):
+        taken = width(t)
+        if not blocks or taken > left:
+            blocks.append([])
+            left = room
+        blocks[-1].append(t)
+        left -= taken
+    return blocks
+
+
+def _instant(result: Trajectory, t: int) -> str:
+    return f"{result.time[t]:.12g} s"
+
+
+def _entry(value: float) -> str:
+    return f"{round(value, 6) + 0.0:.6f}"
+
+
+def overlap_tables(answer: answers.OverlapsAnswer, margin: float = 0.0) -> list[Part]:
+    title = f"Pairs nearer than {margin:g} m" if margin else "Overlapping pairs"
+    table = _table(title, "benches", "separation [m]", "witness a [m]", "witness b [m]")
     for one in answer.overlaps:
         table.add_row(*map(_shown, (one.benches, one.separation, one.witness_a, one.witness_b)))
     check = answer.cross_check
@@ -175,20 +232,31 @@ def paper_tables(rows: Sequence[Comparison]) -> list[Part]:
     return parts
 
 
-def report_tables(report: Report, benches: int) -> list[Part]:
-    """The verdict, what fails in order of time, and what was measured. benches: of the dragon"""
-    verdict = "Nothing fails." if report.passed else "What fails, in order of time:"
+VERDICTS = {
+    Judgement.PASSES: "Passes. Nothing fails.",
+    Judgement.FAILS: "Fails. What fails, in order of time:",
+    Judgement.UNDECIDED: "Undecided. Nothing is known to fail, but this is not decided:",
+}
+
+
+def report_tables(report: Report, *, margin: float, benches: int) -> list[Part]:
+    """The verdict, what fails in order of time, and what was measured. margin: [m]; benches: of the dragon"""
+    verdict = VERDICTS[report.verdict]
     facts = _table(f"From {report.start:.3f} to {report.stop:.3f} s", "what", "value", "at", "who")
-    for name, value, time, who in _measured(report, benches):
+    for name, value, time, who in _measured(report, margin, benches):
         facts.add_row(name, value, "" if time is None else f"{time:.6f} s", who)
-    return [Text(verdict, style="bold"), *(f"  {one.message}" for one in report.failures), "", facts]
+    origin = report.origin
+    words = "x = y = 0 is longitude {:.6f}, latitude {:.6f}: the middle of the square."
+    where = [words.format(origin.longitude, origin.latitude)] if origin else []
+    return [Text(verdict, style="bold"), *(f"  {one.message}" for one in report.failures), "", facts, *where]
 
 
-def _measured(report: Report, benches: int) -> Iterator[tuple[str, str, float | None, str]]:
+def _measured(report: Report, margin: float, benches: int) -> Iterator[tuple[str, str, float | None, str]]:
     """What, how much, when, who."""
     contact = report.first_contact
     pair = f"benches {_shown(contact.benches)}" if contact.benches else ""
-    yield "first contact", contact.outcome.value, contact.time, pair
+    what = f"first nearer than {margin:g} m" if margin else "first contact"
+    yield what, _near(contact.outcome.value, margin), contact.time, pair
     if check := contact.cross_check:
         yield (
             "cross-check",

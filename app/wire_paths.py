@@ -6,8 +6,6 @@ curve through waypoints as the only piece of a route.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from contextlib import contextmanager
 from typing import Annotated, Any, Literal
 
 from pydantic import Discriminator, Field, Tag
@@ -30,15 +28,6 @@ Start = Annotated[
 EntryRadius = Annotated[
     float | None, Field(ge=1e-3, le=100, description="Where the turn begins; null: on the circle [m]")
 ]
-
-
-@contextmanager
-def placed(old: str, new: str) -> Iterator[None]:
-    """Name what core refuses by its place in the request: new instead of old."""
-    try:
-        yield
-    except InvalidValue as error:
-        raise InvalidValue(error.field.replace(old, new, 1), error.message.replace(old, new, 1)) from error
 
 
 class SpiralFields(Wire):
@@ -78,8 +67,10 @@ class TurnFields(TurnCircle):
 
     def to_path(self) -> Route:
         """raises: InvalidValue, named by the place in a body"""
-        with placed("", "path."):
+        try:
             return self.to_turn().path
+        except InvalidValue as error:
+            raise error.named(f"path.{error.field}") from error
 
 
 class SpiralPath(SpiralFields, strict=True):
@@ -153,8 +144,10 @@ class WaypointsPath(WaypointsPiece, strict=True):
 
     def to_path(self) -> Route:
         """raises: InvalidValue"""
-        with placed("path.pieces.0", "path"):
+        try:
             return Route((self.to_piece(),), self.start)
+        except InvalidValue as error:
+            raise error.named(error.field.replace("path.pieces.0", "path", 1)) from error
 
 
 def _point(value: list[float]) -> tuple[float, float]:

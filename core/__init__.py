@@ -1,7 +1,7 @@
 """Bench Dragon: where is everyone, when do two benches first touch, how tight may the curve be."""
 
 from core.bend import SharpestBend, sharpest_bend
-from core.check import Failure, FailureKind, Report, check
+from core.check import Failure, FailureKind, Judgement, Report, check
 from core.contact import (
     Certificate,
     ClearanceProfile,
@@ -50,6 +50,7 @@ __all__ = [
     "HeadState",
     "HighestSpeed",
     "InvalidValue",
+    "Judgement",
     "LeastClearance",
     "LimitedBy",
     "Line",

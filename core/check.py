@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
 
 from core.bend import SharpestBend, sharpest_bend
-from core.contact import FirstContact, Outcome, first_contact
-from core.dragon import Dragon, checked_number
-from core.errors import InvalidValue
+from core.contact import FirstContact, HeadState, Outcome, first_contact, head_state
+from core.dragon import Dragon, checked_number, checked_type
 from core.kinematics import (
-    HEAD_SPEED_MAX,
-    HEAD_SPEED_MIN,
+    TIME_MAX,
     EndReason,
     RunEnd,
     checked_head_speed,
@@ -22,34 +20,54 @@ from core.kinematics import (
 from core.least import LeastClearance, least_clearance
 from core.paths import Spiral
 from core.route import Route
-from core.speed import HighestSpeed, highest_speed
+from core.speed import (
+    SPEED_PROVEN,
+    SPEED_ROUNDING,
+    FirstExcess,
+    HighestSpeed,
+    checked_limit,
+    first_excess,
+    highest_speed,
+)
 from core.venue import AreaClearance, Venue, VenueClearance, is_clear_beyond, venue_clearance, venue_end
 
-# Speeds are good to this, so that the maximum head speed itself is allowed [1].
-SPEED_ROUNDING = 1e-12
-# A limit counts as kept if it is proven to within this [1].
-SPEED_PROVEN = 1e-6
+# A first excess over a speed limit that is not known as closely as this is told as the latest possible [s].
+EXCESS_KNOWN = 1e-6
 # A dance whose benches touch at its start is looked at for this long [s].
 MOMENT = 1e-3
 
 
 class FailureKind(StrEnum):
     """What fails: two benches come within the margin, or a bench and an edge of the venue; a bench starts outside the
-    square or in an obstacle; a handle is faster than the limit; a search gave up first."""
+    square or in an obstacle; a handle is faster than the limit; a bench can follow the path no further. UNDECIDED is
+    none of these for certain: a search gave up first."""
 
     CONTACT = "contact"
     VENUE = "venue"
     OUTSIDE = "outside"
     SPEED = "speed"
+    FOLDS = "folds"
+    UNDECIDED = "undecided"
+
+
+class Judgement(StrEnum):
+    """What a report comes to: nothing fails, something fails for certain, or neither is known."""
+
+    PASSES = "passes"
+    FAILS = "fails"
     UNDECIDED = "undecided"
 
 
 @dataclass(frozen=True, slots=True)
 class Failure:
-    """One thing that fails: time [s]; of a speed, when it is highest; of a search that gave up, proven good until then.
+    """One thing that fails: time [s], when it first does; of a search that gave up, proven good until then.
 
-    benches: those at fault (of a speed: the handles); area: the venue's polygon, None where it has no part
+    benches: those at fault (of a speed: the handle); area: the venue's polygon, None where it has no part
     message: one sentence
+    time_bracket: (proven not to fail up to, failing at) [s]; None where there is no search
+    head: the head at that time
+    peak_speed, peak_time: of a speed, the highest one and when it is reached [m/s], [s]; towards a fold speeds grow
+        without bound, then None and the time of the fold; None for what is no speed
     """
 
     kind: FailureKind
@@ -57,13 +75,18 @@ class Failure:
     benches: tuple[int, ...]
     area: str | None
     message: str
+    time_bracket: tuple[float, float] | None = None
+    head: HeadState | None = None
+    peak_speed: float | None = None
+    peak_time: float | None = None
 
 
 @dataclass(frozen=True, slots=True)
 class Report:
     """start, stop: of the stretch looked at [s]: where benches touch, the dance and everything else here stops
 
-    failures: in order of time; passed: there is none
+    verdict: what it comes to; passed: it passes
+    failures: in order of time, none after the stop; among them what is undecided
     first_contact: within the margin; least_clearance: of any two benches, None with fewer than three
     venue: None without one; sharpest_bend: None for a single bench
     highest_speed: None in a run to a fold, where speeds grow without bound
@@ -71,6 +94,7 @@ class Report:
 
     start: float
     stop: float
+    verdict: Judgement
     passed: bool
     failures: tuple[Failure, ...]
     first_contact: FirstContact
@@ -95,11 +119,19 @@ def check(
 
     margin: required between benches and to the venue [m]; speed_limit: of every handle [m/s]; head_speed: [m/s]
     start, stop: [s]; by default from 0 (on a route: from when all are on it) to the end of the run
-    raises: InvalidValue for what is no dance at all; OutsideRun for times that the run does not have
+    A dance that folds before its stop, or before the end of its path where none is given, fails. One that stops before,
+    because benches touch, is not followed to its fold.
+    raises: InvalidValue for what is no dance at all; OutsideRun for times that the run does not have, but not for a
+        stop after a fold
     """
     head_speed = checked_head_speed(head_speed)
-    limit = None if speed_limit is None else _checked_limit(speed_limit)
+    limit = None if speed_limit is None else checked_limit(speed_limit)
+    if venue is not None:
+        checked_type("venue", venue, Venue)
     end = run_end(dragon, path, head_speed=head_speed)
+    if stop is not None and end.reason is EndReason.FOLD:
+        stop = checked_number("stop", stop, "s", -TIME_MAX, TIME_MAX)
+        stop = None if stop >= end.time else stop
     if start is None:
         first = path.begin / head_speed if isinstance(path, Route) else 0.0
         start = max(first, earliest_time(dragon, path, head_speed))
@@ -111,40 +143,65 @@ def check(
     bend = sharpest_bend(dragon, path, head_speed=head_speed, start=begin, stop=until)
     square, seen = None, until
     if venue is not None:
-        seen = min(until, max(venue_end(dragon, path, head_speed=head_speed), begin + MOMENT))
-        square = venue_clearance(dragon, path, venue, head_speed=head_speed, margin=margin, start=begin, stop=seen)
-    speed = None
-    if until < end.time or end.reason is not EndReason.FOLD:
+        followed = venue_end(dragon, path, head_speed=head_speed)
+        seen = min(until, followed) if followed >= begin + MOMENT else begin
+        if seen > begin:
+            square = venue_clearance(dragon, path, venue, head_speed=head_speed, margin=margin, start=begin, stop=seen)
+    folds = until >= end.time and end.reason is EndReason.FOLD
+    speed, excess = None, None
+    if not folds:
         speed = highest_speed(dragon, path, head_speed=head_speed, start=begin, stop=until)
+    if limit is not None and not (speed and _keeps(speed, limit)):
+        excess = first_excess(dragon, path, limit, head_speed=head_speed, start=begin, stop=until)
     failures = _contact_failures(contact, margin) + _venue_failures(square, begin, margin)
-    failures += _speed_failures(speed, limit, end)
+    if limit is not None and excess:
+        failures.append(_speed_failure(excess, speed, limit, end))
+    if folds:
+        failures.append(_fold_failure(end, head_state(path, end.time * head_speed)))
     if venue is not None and isinstance(path, Spiral) and seen < until:
         span = {"start": begin, "seen": seen}
         if not is_clear_beyond(dragon, path, venue, head_speed=head_speed, margin=margin, **span):
             message = f"From {seen:.6f} s on the spiral is too tight to follow the benches against the venue."
             failures.append(Failure(FailureKind.UNDECIDED, seen, (), None, message))
     failures.sort(key=lambda failure: failure.time)
-    return Report(begin, until, not failures, tuple(failures), contact, least, square, speed, bend)
+    told = tuple(replace(failure, head=head_state(path, failure.time * head_speed)) for failure in failures)
+    verdict = _judgement(told)
+    passed = verdict is Judgement.PASSES
+    return Report(begin, until, verdict, passed, told, contact, least, square, speed, bend)
 
 
-def _checked_limit(speed_limit: object) -> float:
-    if isinstance(speed_limit, (int, float)) and speed_limit <= 0:
-        raise InvalidValue("speed_limit", f"speed_limit must be positive, got {speed_limit} m/s")
-    return checked_number("speed_limit", speed_limit, "m/s", HEAD_SPEED_MIN, HEAD_SPEED_MAX)
+def _judgement(failures: tuple[Failure, ...]) -> Judgement:
+    if not failures:
+        return Judgement.PASSES
+    undecided = all(failure.kind is FailureKind.UNDECIDED for failure in failures)
+    return Judgement.UNDECIDED if undecided else Judgement.FAILS
 
 
 def _contact_failures(contact: FirstContact, margin: float) -> list[Failure]:
     if contact.outcome is Outcome.UNDECIDED:
         assert contact.time_bracket is not None
         time = contact.time_bracket[0]
-        message = f"Whether benches come within {margin:g} m is not decided from {time:.6f} s on."
+        message = f"Whether benches {_meeting(margin, 'come', '')} is not decided from {time:.6f} s on."
         return [Failure(FailureKind.UNDECIDED, time, (), None, message)]
     if contact.time is None or contact.benches is None:
         return []
     a, b = contact.benches
-    words = f"come within {margin:g} m" if margin > 0.0 else "touch"
-    message = f"Benches {a} and {b} {words} at {contact.time:.6f} s."
-    return [Failure(FailureKind.CONTACT, contact.time, contact.benches, None, message)]
+    message = f"Benches {a} and {b} {_meeting(margin, 'come', '')} at {contact.time:.6f} s{_gap(contact.gap, margin)}."
+    return [Failure(FailureKind.CONTACT, contact.time, contact.benches, None, message, contact.time_bracket)]
+
+
+def _meeting(margin: float, come: str, near: str) -> str:
+    """What things nearer than the margin do, in words; near: to what, if it is not one another."""
+    if margin > 0.0:
+        return f"{come} nearer than {margin:g} m{near and ' to '}{near}"
+    return f"{'touches' if come == 'comes' else 'touch'}{near and ' '}{near}"
+
+
+def _gap(gap: float | None, margin: float) -> str:
+    """The gap that is left, where a margin makes it more than a touch."""
+    if gap is None or margin == 0.0:
+        return ""
+    return f", with a gap of {gap:.6f} m" if gap > 0.0 else f", and overlap by {-gap:.6f} m"
 
 
 def _venue_failures(venue: VenueClearance | None, begin: float, margin: float) -> list[Failure]:
@@ -162,28 +219,54 @@ def _area_failures(area: AreaClearance, margin: float) -> list[Failure]:
     if area.outcome is Outcome.UNDECIDED:
         assert area.time_bracket is not None
         time = area.time_bracket[0]
-        message = f"Whether a bench comes within {margin:g} m of {area.name!r} is not decided from {time:.6f} s on."
+        words = _meeting(margin, "comes", repr(area.name))
+        message = f"Whether a bench {words} is not decided from {time:.6f} s on."
         return [Failure(FailureKind.UNDECIDED, time, (), area.name, message)]
     if area.time is None or area.bench is None:
         return []
-    words = f"comes within {margin:g} m of" if margin > 0.0 else "touches"
-    message = f"Bench {area.bench} {words} {area.name!r} at {area.time:.6f} s."
-    return [Failure(FailureKind.VENUE, area.time, (area.bench,), area.name, message)]
+    words = _meeting(margin, "comes", repr(area.name))
+    message = f"Bench {area.bench} {words} at {area.time:.6f} s{_gap(area.gap, margin)}."
+    return [Failure(FailureKind.VENUE, area.time, (area.bench,), area.name, message, area.time_bracket)]
 
 
-def _speed_failures(speed: HighestSpeed | None, limit: float | None, end: RunEnd) -> list[Failure]:
-    if limit is None:
-        return []
+def _keeps(speed: HighestSpeed, limit: float) -> bool:
+    """Is the limit proven to be kept, to within SPEED_PROVEN?"""
+    highest = speed.speed_bracket[1]
+    kept = speed.speed <= limit * (1.0 + SPEED_ROUNDING)
+    return kept and highest is not None and highest <= limit * (1.0 + SPEED_PROVEN)
+
+
+def _speed_failure(excess: FirstExcess, speed: HighestSpeed | None, limit: float, end: RunEnd) -> Failure:
+    """The first excess, and the peak; speed: None towards a fold"""
+    proven, latest = excess.time_bracket
+    time, handle = excess.time, excess.handle
+    handles: tuple[int, ...] = ()
+    if time is None and speed is not None and speed.speed > limit * (1.0 + SPEED_ROUNDING):
+        time, handle = speed.time, speed.handles[0]
+    kept = f"{limit:g} m/s is proven to be kept up to {proven:.6f} s"
+    if time is None and speed is not None:
+        message = f"Whether a handle exceeds {limit:g} m/s is not decided; {kept}, and no higher speed was found."
+        return Failure(FailureKind.UNDECIDED, proven, (), None, message, (proven, latest))
     if speed is None:
-        message = f"Speeds grow without bound towards {end.time:.6f} s, when bench {end.bench} folds."
-        return [Failure(FailureKind.SPEED, end.time, (), None, message)]
-    if speed.speed <= limit * (1.0 + SPEED_ROUNDING):
-        highest = speed.speed_bracket[1]
-        if highest is not None and highest <= limit * (1.0 + SPEED_PROVEN):
-            return []
-        message = (
-            f"Whether a handle exceeds {limit:g} m/s is not decided; the highest speed found is {speed.speed:.6f} m/s."
-        )
-        return [Failure(FailureKind.UNDECIDED, speed.time, (), None, message)]
-    message = f"Handle {speed.handles[0]} reaches {speed.speed:.6f} m/s at {speed.time:.6f} s, above {limit:g} m/s."
-    return [Failure(FailureKind.SPEED, speed.time, speed.handles, None, message)]
+        peak = f"towards {end.time:.6f} s, when bench {end.bench} folds, speeds grow without bound"
+        speed_then, then = None, end.time
+    else:
+        peak = f"the highest speed is {speed.speed:.6f} m/s, of handle {speed.handles[0]} at {speed.time:.6f} s"
+        speed_then, then = speed.speed, speed.time
+    if time is None or handle is None:
+        time, message = end.time, f"A handle exceeds {limit:g} m/s: {peak}; {kept}."
+    elif time - proven > EXCESS_KNOWN:
+        handles = (handle,)
+        message = f"Handle {handle} exceeds {limit:g} m/s at {time:.6f} s at the latest ({kept}); {peak}."
+    else:
+        handles = (handle,)
+        message = f"Handle {handle} first exceeds {limit:g} m/s at {time:.6f} s; {peak}."
+    bracket = (proven, time)
+    return Failure(FailureKind.SPEED, time, handles, None, message, bracket, None, speed_then, then)
+
+
+def _fold_failure(end: RunEnd, head: HeadState) -> Failure:
+    assert end.bench is not None
+    where = f"the head at ({head.x:.6f}, {head.y:.6f}) m, theta = {head.theta:.6f} rad"
+    message = f"Bench {end.bench} folds at {end.time:.6f} s, {where}: it can follow the spiral no further."
+    return Failure(FailureKind.FOLDS, end.time, (end.bench,), None, message)

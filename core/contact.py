@@ -21,7 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from core import kernels
-from core.dragon import Dragon, Floats, checked_number
+from core.dragon import Dragon, Floats, checked_number, checked_type
 from core.errors import InvalidValue
 from core.kinematics import EndReason, RunEnd, checked_head_speed, checked_span, checked_times, run_end
 from core.paths import Spiral
@@ -99,6 +99,7 @@ class FirstContact:
         same, or up to the end of the run if no overlap is certain; None when clear or at the start
     head: the head at that time; benches: the pair (a, b), a < b; corner, edge: the features that meet;
     point: (x, y) [m] of the corner; end: where the run ends when clear
+    gap: separation of the pair at that time [m]: the margin to rounding, but for contact_at_start; None without a pair
     """
 
     outcome: Outcome
@@ -111,11 +112,15 @@ class FirstContact:
     point: tuple[float, float] | None
     end: RunEnd | None
     certificate: Certificate
+    gap: float | None = None
 
 
 @dataclass(frozen=True, slots=True)
 class ClearanceProfile:
-    """time (T,) [s], clearance (T,) [m], benches (T, 2), and the local minima between the first and last time."""
+    """time (...) [s], clearance (...) [m], benches (..., 2), and the local minima between the first and last time.
+
+    ... is (T,) for a list of times and nothing for one time.
+    """
 
     time: Floats
     clearance: Floats
@@ -204,31 +209,36 @@ def _result(
     at_start = state == "touched_at_start"
     travel = found["touching"] if at_start else found["touching"] - tolerance
     pair = (int(found["first"]), int(found["second"]))
+    corner, edge, point, gap = _touching_features(search, travel, pair)
     return FirstContact(
         Outcome.CONTACT_AT_START if at_start else Outcome.CONTACT,
         travel / head_speed,
         None if at_start else (proven, found["touching"] / head_speed),
-        _head(search, travel),
+        head_state(search.path, travel),
         pair,
-        *_touching_features(search, travel, pair),
+        corner,
+        edge,
+        point,
         None,
         certificate,
+        gap,
     )
 
 
-def _head(search: Search, travel: float) -> HeadState:
-    if isinstance(search.path, Spiral):
-        theta = search.theta_at(travel)
-        radius = search.growth * theta
+def head_state(path: Spiral | Route, travel: float) -> HeadState:
+    """The head after so much travel from time 0 [m]."""
+    if isinstance(path, Spiral):
+        theta = float(path.theta(travel))
+        radius = path.growth * theta
         return HeadState(theta, radius, radius * math.cos(theta), radius * math.sin(theta))
-    x, y = search.path.position(travel).tolist()
+    x, y = path.position(travel).tolist()
     return HeadState(None, math.hypot(x, y), x, y)
 
 
 def _touching_features(
     search: Search, travel: float, pair: tuple[int, int]
-) -> tuple[Feature | None, Feature | None, tuple[float, float]]:
-    """The corner and the edge that meet, and the corner's place in the world frame [m]."""
+) -> tuple[Feature | None, Feature | None, tuple[float, float], float]:
+    """The corner and the edge that meet, the corner's place in the world frame [m], and the separation [m]."""
     search.place_leaders(travel, pair[1] + 1)
     a, b = (search.rows[0, bench, 6:10] for bench in pair)
     out = np.empty(8)
@@ -243,20 +253,21 @@ def _touching_features(
     x, y = out[3:5] if corner and corner.bench == pair[1] else out[1:3]
     turned = search.theta_at(travel) if isinstance(search.path, Spiral) else 0.0
     cos, sin = math.cos(turned), math.sin(turned)
-    return corner, edge, (float(x * cos - y * sin), float(x * sin + y * cos))
+    return corner, edge, (float(x * cos - y * sin), float(x * sin + y * cos)), float(out[0])
 
 
 def clearance_profile(
-    dragon: Dragon, path: Spiral | Route, times: Floats | Sequence[float], *, head_speed: float = 1.0
+    dragon: Dragon, path: Spiral | Route, times: Floats | Sequence[float] | float, *, head_speed: float = 1.0
 ) -> ClearanceProfile:
     """Exact clearance and its pair at every time, and its local minima refined.
 
-    times: (T,) [s]; head_speed: [m/s]
+    times: (T,) or one [s]; head_speed: [m/s]
     grazes: looked for between the first and the last time in steps of PROFILE_STEP of the shortest chord (longer ones
         for thousands of benches on a long way), refined to rounding; a dip of a pair
         that is the nearest for less than a step may be missed here, never by first_contact()
     raises: OutsideRun after the end of the run; InvalidValue for fewer than three benches
     """
+    checked_type("dragon", dragon, Dragon)
     head_speed = checked_head_speed(head_speed)
     if dragon.benches < 3:
         raise InvalidValue(
@@ -271,9 +282,9 @@ def clearance_profile(
 
 def _sampled(search: Search, time: Floats, head_speed: float) -> tuple[Floats, NDArray[np.int64]]:
     clearance, benches = np.empty(time.size), np.empty((time.size, 2), dtype=np.int64)
-    for k, instant in enumerate(time.tolist()):
-        clearance[k], benches[k] = search.clearance(instant * head_speed)
-    return clearance, benches
+    for k, instant in enumerate(time.flat):
+        clearance[k], benches[k] = search.clearance(float(instant) * head_speed)
+    return clearance.reshape(time.shape), benches.reshape(*time.shape, 2)
 
 
 # Where the clearance passes from one pair to another it has a kink that points up, so each of its local minima is one

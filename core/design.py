@@ -9,7 +9,7 @@ from enum import StrEnum
 import numpy as np
 
 from core import kernels
-from core.dragon import SIZE_MAX, SIZE_MIN, Dragon, checked_number, checked_size
+from core.dragon import SIZE_MAX, SIZE_MIN, Dragon, checked_number, checked_size, checked_type
 from core.errors import InvalidValue
 from core.kinematics import EndReason, RunEnd, end_theta
 from core.paths import START_TURNS_MAX, Spiral
@@ -332,15 +332,13 @@ def minimum_pitch(
     >>> round(minimum_pitch(Dragon()).pitch, 9)
     0.450337393
     """
+    checked_type("dragon", dragon, Dragon)
     radius = checked_size("turning_radius", turning_radius)
     turns = checked_number("start_turns", start_turns, "turns", 0.0, START_TURNS_MAX, open_low=True)
+    if radius > SIZE_MAX * turns:
+        rule = f"must be at least {radius / SIZE_MAX:g} turns to start outside the circle at a pitch of {SIZE_MAX:g} m"
+        raise InvalidValue.of("start_turns", rule, turns, "turns")
     margin = checked_number("margin", margin, "m", 0.0, MARGIN_MAX)
-    if radius / turns > SIZE_MAX:
-        raise InvalidValue(
-            "start_turns",
-            f"start_turns must be at least {radius / SIZE_MAX:g} turns, or no pitch up to {SIZE_MAX:g} m lets a dance "
-            f"begin outside a turning circle of {radius:g} m radius, got {turns:g} turns",
-        )
     _check_straight(dragon, Straight(dragon), margin)
     search = _PitchSearch(dragon, radius, turns, margin)
     top, proven_up_to = search.top()

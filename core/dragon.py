@@ -44,6 +44,14 @@ def checked_number(name: str, value: object, unit: str, low: float, high: float,
     return number
 
 
+def checked_type(name: str, value: object, kinds: type | tuple[type, ...]) -> None:
+    """raises: InvalidValue naming the parameter when the value is none of the kinds"""
+    if not isinstance(value, kinds):
+        words = " or ".join(kind.__name__ for kind in (kinds if isinstance(kinds, tuple) else (kinds,)))
+        given = f"the class {value.__name__}" if isinstance(value, type) else f"{value!r:.60}"
+        raise InvalidValue(name, f"{name} must be a {words}, got {given}")
+
+
 def checked_size(name: str, value: object) -> float:
     """A positive length in [SIZE_MIN, SIZE_MAX] metres."""
     if isinstance(value, Real) and not isinstance(value, bool) and value <= 0.0:

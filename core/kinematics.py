@@ -10,7 +10,7 @@ from enum import StrEnum
 import numpy as np
 
 from core import kernels
-from core.dragon import Dragon, Floats, checked_number
+from core.dragon import Dragon, Floats, checked_number, checked_type
 from core.errors import InvalidValue, OutsideRun
 from core.paths import Spiral
 from core.route import Route
@@ -47,7 +47,10 @@ class RunEnd:
 
 @dataclass(frozen=True, slots=True)
 class Trajectory:
-    """time (T,) [s]; position (T, n + 1, 2) [m]; velocity (T, n + 1, 2) [m/s]; speed (T, n + 1) [m/s]."""
+    """time (...) [s]; position (..., n + 1, 2) [m]; velocity (..., n + 1, 2) [m/s]; speed (..., n + 1) [m/s].
+
+    ... is (T,) for a list of times and nothing for one time.
+    """
 
     time: Floats
     position: Floats
@@ -87,8 +90,10 @@ def run_end(dragon: Dragon, path: Spiral | Route, *, head_speed: float = 1.0) ->
 
     head_speed: [m/s]
     raises: InvalidValue when the dragon cannot even stand at the start (path.start_turns), or a bend of a route is too
-        tight for a chord (path)
+        tight for a chord (path), or for a dragon or a path that is none
     """
+    checked_type("dragon", dragon, Dragon)
+    checked_type("path", path, (Spiral, Route))
     head_speed = checked_head_speed(head_speed)
     if isinstance(path, Route):
         _check_bends(dragon, path)
@@ -129,12 +134,12 @@ def _check_bends(dragon: Dragon, path: Route) -> None:
 
 
 def trajectory(
-    dragon: Dragon, path: Spiral | Route, times: Floats | Sequence[float], *, head_speed: float = 1.0
+    dragon: Dragon, path: Spiral | Route, times: Floats | Sequence[float] | float, *, head_speed: float = 1.0
 ) -> Trajectory:
     """Position and velocity of every handle at every time.
 
-    times: (T,) [s], 0 at the start; at negative times the head is on the outward extension of the spiral, or on the
-        part of a route before its s = 0
+    times: (T,) or one [s], 0 at the start; at negative times the head is on the outward extension of the spiral, or on
+        the part of a route before its s = 0
     head_speed: [m/s], constant
     returns: see Trajectory; positions good to 1e-12 m, speeds from the rigid links, never from differences
     raises: OutsideRun (times) after the end of the run, or where the tail would stand before the beginning of a route
@@ -142,37 +147,44 @@ def trajectory(
 
     >>> trajectory(Dragon(), Spiral(), [0.0]).position[0, 1].round(6)
     array([8.363824, 2.826544])
+    >>> trajectory(Dragon(), Spiral(), 0.0).position.shape
+    (224, 2)
     """
     end = run_end(dragon, path, head_speed=head_speed)
-    time = checked_times(times, dragon, path, end, head_speed)
+    asked = checked_times(times, dragon, path, end, head_speed)
+    time = asked.reshape(-1)
     shape = (time.size, dragon.benches + 1)
-    position, velocity, speed = np.empty((*shape, 2)), np.empty((*shape, 2)), np.empty(shape)
+    columns = position, velocity, speed = np.empty((*shape, 2)), np.empty((*shape, 2)), np.empty(shape)
     if isinstance(path, Route):
         sizes = np.zeros((dragon.benches, kernels.SIZE_COLUMNS))
         sizes[:, 0] = dragon.chords
         chain = np.empty((dragon.benches + 1, kernels.CHAIN_COLUMNS))
         kernels.route_trajectory(path.table, time * head_speed, head_speed, sizes, chain, position, velocity, speed)
-        return Trajectory(time, position, velocity, speed)
+        return Trajectory(asked, *(column.reshape(*asked.shape, *column.shape[1:]) for column in columns))
     head = np.maximum(path.theta(time * head_speed), end.theta or 0.0)
     folded = kernels.spiral_trajectory(path.growth, head, dragon.chords, head_speed, position, velocity, speed)
     if folded >= 0:
-        raise _after_the_end(end, time, folded)
-    return Trajectory(time, position, velocity, speed)
+        raise _after_the_end(end, asked, folded)
+    return Trajectory(asked, *(column.reshape(*asked.shape, *column.shape[1:]) for column in columns))
 
 
 def checked_times(
-    times: Floats | Sequence[float], dragon: Dragon, path: Spiral | Route, end: RunEnd, head_speed: float
+    times: Floats | Sequence[float] | float, dragon: Dragon, path: Spiral | Route, end: RunEnd, head_speed: float
 ) -> Floats:
-    """times as a (T,) array of finite numbers [s], none after the end of the run or before a route has room."""
+    """times as a (T,) or () array of finite numbers [s], none after the end of the run or before a route has room."""
     try:
-        time = np.asarray(times, dtype=np.float64)
-    except (TypeError, ValueError) as error:
-        raise InvalidValue("times", "times must be a list of numbers in seconds") from error
-    if time.ndim != 1:
-        raise InvalidValue("times", "times must be a flat list of numbers in seconds")
+        given = np.asarray(times)
+    except ValueError as error:
+        raise InvalidValue("times", "times must be a list of numbers in seconds, or one number") from error
+    # numpy would read "1", True and None as numbers too
+    if given.dtype.kind not in "iuf":
+        raise InvalidValue("times", f"times must be a list of numbers in seconds, or one number, got {times!r:.60}")
+    if given.ndim > 1:
+        raise InvalidValue("times", "times must be a flat list of numbers in seconds, or one number")
+    time = np.array(given, dtype=np.float64, order="C")
     wrong = np.flatnonzero(~np.isfinite(time))
     if wrong.size:
-        raise InvalidValue(f"times.{wrong[0]}", f"times[{wrong[0]}] must be finite, got {time[wrong[0]]} s")
+        raise InvalidValue.of(_instant(time, int(wrong[0])), "must be finite", time.flat[wrong[0]], "s")
     earliest = earliest_time(dragon, path, head_speed)
     late = np.flatnonzero(time > end.time)
     if late.size:
@@ -180,11 +192,14 @@ def checked_times(
     early = np.flatnonzero(time < earliest)
     if early.size:
         k = int(early[0])
-        raise OutsideRun(
-            f"times.{k}",
-            f"times[{k}] must be at least {earliest:.6f} s, when the whole dragon is on the path, got {time[k]:g} s",
-        )
-    return np.ascontiguousarray(time)
+        rule = f"must be at least {earliest:.6f} s, when the whole dragon is on the path"
+        raise OutsideRun.of(_instant(time, k), rule, time.flat[k], "s")
+    return time
+
+
+def _instant(time: Floats, k: int) -> str:
+    """The field of one of the times."""
+    return f"times.{k}" if time.ndim else "times"
 
 
 def checked_span(
@@ -195,13 +210,14 @@ def checked_span(
     begin = checked_number("start", start, "s", -TIME_MAX, TIME_MAX)
     earliest = earliest_time(dragon, path, head_speed)
     if begin < earliest:
-        raise OutsideRun(
-            "start", f"start must be at least {earliest:.6f} s, when the whole dragon is on the path, got {begin:g} s"
-        )
+        rule = f"must be at least {earliest:.6f} s, when the whole dragon is on the path"
+        raise OutsideRun.of("start", rule, begin, "s")
     if until > end.time:
-        raise OutsideRun("stop", f"stop must be at most {end.time:.9f} s, when {_why(end)}, got {until:g} s")
+        raise OutsideRun.of("stop", f"must be at most {end.time:.9f} s, when {_why(end)}", until, "s")
     if until <= begin:
-        raise InvalidValue("stop", f"stop must be after start ({begin:g} s), got {until:g} s")
+        if stop is None:
+            raise OutsideRun.of("start", f"must be before {until:.9f} s, when {_why(end)}", begin, "s")
+        raise InvalidValue.of("stop", f"must be after start ({begin:g} s)", until, "s")
     return begin, until
 
 
@@ -268,10 +284,8 @@ def _why(end: RunEnd) -> str:
 
 
 def _after_the_end(end: RunEnd, time: Floats, index: int) -> OutsideRun:
-    return OutsideRun(
-        f"times.{index}",
-        f"times[{index}] must be at most {end.time:.9f} s, when {_why(end)}, got {time[index]:g} s",
-    )
+    rule = f"must be at most {end.time:.9f} s, when {_why(end)}"
+    return OutsideRun.of(_instant(time, index), rule, time.flat[index], "s")
 
 
 def bench_poses(handles: Floats) -> Floats:
@@ -280,12 +294,25 @@ def bench_poses(handles: Floats) -> Floats:
     handles: (..., n + 1, 2) [m], head first, world frame
     returns: (..., n, 3) x [m], y [m], heading [rad] in [-pi, pi], from rear to front handle
     source:  Yang et al., section 2.4.1, steps 1-2
+    raises:  InvalidValue (handles)
 
     >>> bench_poses(np.array([[2.0, 0.0], [0.0, 0.0]]))
     array([[1., 0., 0.]])
     """
+    handles = _checked_handles(handles)
     front, rear = handles[..., :-1, :], handles[..., 1:, :]
     middle = 0.5 * (front + rear)
     along = front - rear
     heading = np.arctan2(along[..., 1], along[..., 0])
     return np.concatenate([middle, heading[..., None]], axis=-1)
+
+
+def _checked_handles(handles: object) -> Floats:
+    try:
+        places = np.asarray(handles)
+    except ValueError as error:
+        raise InvalidValue("handles", "handles must be places of shape (..., n + 1, 2) in metres") from error
+    if places.dtype.kind not in "iuf" or places.ndim < 2 or places.shape[-1] != 2:
+        words = "handles must be places of shape (..., n + 1, 2) in metres"
+        raise InvalidValue("handles", f"{words}, got {places.dtype.name} of shape {places.shape}")
+    return places.astype(np.float64, copy=False)

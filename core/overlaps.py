@@ -58,13 +58,16 @@ def overlaps(
     misses rectangles that cross without a corner inside, and knows no margin; the other three miss none.
 
     poses: (n, 3) x [m], y [m], heading [rad]; lengths, widths: (n,) [m]
-    raises: InvalidValue with the field benches.K.x, y, heading, length or width, or margin; TooLarge with the
+    raises: InvalidValue with the field benches.K.x, y, heading, length or width, margin or engine; TooLarge with the
         field benches when so many overlap that the pairs are beyond PAIRS_MAX or the work beyond CANDIDATES_MAX
 
     >>> overlaps([[0, 0, 0], [3, 0, 0], [1, 0, 1.57]], [2.2] * 3, [0.3] * 3).pairs
     array([[0, 2]])
     """
     pose, size, margin = checked_benches(poses, lengths, widths, margin)
+    if not isinstance(engine, str) or engine not in list(Engine):
+        words = ", ".join(Engine)
+        raise InvalidValue("engine", f"engine must be one of {words}, got {engine!r:.60}")
     (pairs,) = found_pairs(engine, pose[None], size, margin, chained=chained)
     frame = frames(pose, size)
     return Overlaps(pairs, frames_separation(frame[pairs[:, 0]], frame[pairs[:, 1]]))

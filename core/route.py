@@ -22,6 +22,8 @@ JOINT_GAP = 1e-9
 JOINT_KINK = 1e-9
 # Waypoints nearer to each other than this are one [m]: a slip of the hand, no step of a dance.
 WAYPOINT_GAP = 1e-3
+# A piece shorter than this has no direction to speak of [m].
+LENGTH_MIN = 1e-6
 # Angles beyond this lose the digits that the joints need [rad].
 ANGLE_MAX = 1e6
 
@@ -177,8 +179,8 @@ Piece = Line | Arc | Coil | Waypoints
 
 
 def _check_length(name: str, length: float) -> None:
-    if length < 1e-6:
-        raise InvalidValue(name, f"{name} must be at least 1e-06 m long, got {length:g} m")
+    if length < LENGTH_MIN:
+        raise InvalidValue(name, f"{name} must be at least {LENGTH_MIN:g} m long, got {length:g} m")
 
 
 class Route:

@@ -10,7 +10,8 @@ import numpy as np
 
 from core.contact import Outcome, first_contact
 from core.design import MinimumPitch, minimum_pitch
-from core.dragon import Dragon, Floats
+from core.dragon import SIZE_MIN, Dragon, Floats
+from core.errors import InvalidValue
 from core.kinematics import trajectory
 from core.paths import Spiral
 
@@ -105,8 +106,14 @@ def scan_near_minimum(
     samples: int,
     progress: Callable[[float], None] = lambda share: None,
 ) -> tuple[PitchScan, MinimumPitch]:
-    """The scan from SCAN_FROM to SCAN_TO times the minimum pitch at so many samples, and that minimum."""
+    """The scan from SCAN_FROM to SCAN_TO times the minimum pitch at so many samples, and that minimum.
+
+    raises: InvalidValue as minimum_pitch()
+    """
     least = minimum_pitch(dragon, turning_radius=turning_radius, start_turns=start_turns, margin=margin)
+    if SCAN_FROM * least.pitch < SIZE_MIN:
+        rule = f"must allow pitches of {SIZE_MIN / SCAN_FROM:g} m and more"
+        raise InvalidValue.of("turning_radius", rule, turning_radius, "m")
     pitches = np.linspace(SCAN_FROM * least.pitch, SCAN_TO * least.pitch, samples)
     pitches = np.sort(np.append(pitches, least.pitch_bracket))
     return pitch_scan(dragon, pitches, start_turns=start_turns, margin=margin, progress=progress), least

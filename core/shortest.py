@@ -22,7 +22,7 @@ import numpy as np
 from core import kernels
 from core.coils import STRETCH, TwoCoils, beyond, way_out
 from core.contact import FirstContact, Outcome, first_contact
-from core.dragon import Dragon, checked_number, checked_size
+from core.dragon import Dragon, checked_number, checked_size, checked_type
 from core.errors import InvalidValue
 from core.kinematics import follows
 from core.paths import Spiral
@@ -89,6 +89,7 @@ def shortest_turn(
     >>> round(shortest_turn(Dragon(), 1.7).turn.entry_radius, 6)
     4.285762
     """
+    checked_type("dragon", dragon, Dragon)
     radius = checked_size("turning_radius", turning_radius)
     margin = checked_number("margin", margin, "m", 0.0, MARGIN_MAX)
 
@@ -101,7 +102,7 @@ def shortest_turn(
     bend, floor = _bend(dragon, turned, radius)
     evaluations, limit = 1, touching(radius, None)
     if limit is not None:
-        raise InvalidValue("turning_radius", _refusal(radius, limit, margin))
+        raise InvalidValue.of("turning_radius", _refusal(limit, margin), radius, "m")
     feasible = infeasible = radius
     while limit is None and infeasible > floor:
         feasible, infeasible = infeasible, max(infeasible - ENTRY_STEP * radius, floor)
@@ -128,11 +129,11 @@ def _bend(dragon: Dragon, turned: Callable[[float], Turn], radius: float) -> tup
     """
     if not follows(dragon, turned(radius).path):
         bend = 1.0 / turned(radius).path.sharpest[0]
-        raise InvalidValue(
-            "turning_radius",
-            f"turning_radius must be larger: with the entry at {radius:g} m it bends to a radius of {bend:.4g} m, too "
-            f"tight for the longest chord ({float(dragon.chords.max()):g} m)",
+        rule = (
+            f"must be larger: a turn that begins on the circle bends to a radius of {bend:.4g} m, too tight for the "
+            f"longest chord ({float(dragon.chords.max()):g} m)"
         )
+        raise InvalidValue.of("turning_radius", rule, radius, "m")
     low, high = min(max(ENTRY_STEP * radius, ENTRY_MIN), radius), radius
     if follows(dragon, turned(low).path):
         return None, low
@@ -188,12 +189,13 @@ def _coils(danced: Turn) -> TwoCoils:
     return TwoCoils(danced.pitch / (2.0 * math.pi), math.pi, extent, danced.length, danced.entry_radius)
 
 
-def _refusal(radius: float, touch: Touch, margin: float) -> str:
+def _refusal(touch: Touch, margin: float) -> str:
+    """What is wrong with a circle on which no turn can begin."""
     benches, time = touch
     if benches is None or time is None:
-        what = f"too close to the margin of {margin:g} m to tell"
+        what = f"benches come so near to the margin of {margin:g} m that it is not decided whether they keep it"
     else:
-        near = f"come within the margin of {margin:g} m" if margin else "touch"
+        near = f"come nearer than {margin:g} m" if margin else "touch"
         side = f"{time:.6f} s after" if time >= 0.0 else f"{-time:.6f} s before"
         what = f"benches {benches[0]} and {benches[1]} {near} {side} the entry at 1 m/s"
-    return f"turning_radius must be larger, or the pitch: with the entry at {radius:g} m {what}"
+    return f"must be larger, or the pitch: in a turn that begins on the circle {what}"

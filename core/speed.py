@@ -7,9 +7,19 @@ from dataclasses import dataclass
 import numpy as np
 
 from core import kernels
-from core.dragon import Dragon, checked_number
+from core.dragon import Dragon, Floats, checked_number
 from core.errors import InvalidValue
-from core.kinematics import HEAD_SPEED_MAX, EndReason, checked_head_speed, checked_span, earliest_time, run_end
+from core.kinematics import (
+    HEAD_SPEED_MAX,
+    HEAD_SPEED_MIN,
+    TIME_MAX,
+    EndReason,
+    checked_head_speed,
+    checked_span,
+    earliest_time,
+    run_end,
+    trajectory,
+)
 from core.paths import Spiral
 from core.route import Route
 from core.search import Search
@@ -29,6 +39,19 @@ LINKS_BUDGET = 250_000
 LOOSEST_TOLERANCE = 1e-2
 # Handles whose rates differ by less share the highest one [1].
 TIED = 1e-9
+# Speeds are good to this, so that the maximum head speed itself is allowed [1].
+SPEED_ROUNDING = 1e-12
+# A limit counts as kept if it is proven to within this [1].
+SPEED_PROVEN = 1e-6
+# The first excess over a limit is narrowed down to this [s], or [m] of head travel at more than 1 m/s, as far as a
+# travel is good to: TRAVEL_WIDTH of the longest one [1].
+EXCESS_WIDTH = 5e-10
+TRAVEL_WIDTH = 1e-14
+# And given up after so many links of chains: about a second.
+EXCESS_LINKS = 1_000_000
+# Then instants are tried ever nearer to the end of the stretch, where the fold may be: so many, each at half the
+# distance of the one before.
+HALVINGS = 50
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,6 +80,22 @@ class MaximumHeadSpeed:
     time_at_unit_head_speed: float
 
 
+@dataclass(frozen=True, slots=True)
+class FirstExcess:
+    """When a handle is first faster than a limit.
+
+    time_bracket: (proven to keep the limit up to, found faster at) [s], no wider than EXCESS_WIDTH but where the proof
+        was given up: near a fold, or after EXCESS_LINKS. Kept means to within SPEED_PROVEN of the limit.
+    time: its second end, the latest that the first excess can be; None where the proof was given up and no excess was
+        found, then the bracket ends with the stretch
+    handle: the fastest then, None likewise
+    """
+
+    time: float | None
+    time_bracket: tuple[float, float]
+    handle: int | None
+
+
 def highest_speed(
     dragon: Dragon,
     path: Spiral | Route,
@@ -76,14 +115,12 @@ def highest_speed(
     """
     head_speed = checked_head_speed(head_speed)
     end = run_end(dragon, path, head_speed=head_speed)
+    stop = None if stop is None else checked_number("stop", stop, "s", -TIME_MAX, TIME_MAX)
     if end.reason is EndReason.FOLD and (stop is None or stop >= end.time):
         raise InvalidValue(
             "stop", f"stop must be before {end.time:.9f} s, when bench {end.bench} folds and speeds grow without bound"
         )
-    if start is None:
-        begin = path.begin / head_speed if isinstance(path, Route) else 0.0
-        start = max(begin, earliest_time(dragon, path, head_speed))
-    begin, until = checked_span(dragon, path, start, stop, end, head_speed)
+    begin, until = checked_span(dragon, path, _start(dragon, path, start, head_speed), stop, end, head_speed)
     search = Search(dragon, path, 0.0)
     search.resize(dragon.benches)
     rate, upper, travel, _ = peak_over(search, begin * head_speed, until * head_speed)
@@ -139,11 +176,95 @@ def maximum_head_speed(
     Speeds are proportional to the head's, so this is the limit over the highest rate.
     raises: InvalidValue
     """
-    if isinstance(speed_limit, (int, float)) and speed_limit <= 0:
-        raise InvalidValue("speed_limit", f"speed_limit must be positive, got {speed_limit} m/s")
-    limit = checked_number("speed_limit", speed_limit, "m/s", 1e-6, HEAD_SPEED_MAX)
+    limit = checked_limit(speed_limit)
     found = highest_speed(dragon, path, start=start, stop=stop)
     speed = limit / found.speed
     highest = found.speed_bracket[1]
     bracket = (None if highest is None else limit / highest, speed)
     return MaximumHeadSpeed(speed, bracket, found.speed, found.handles, found.time / speed, found.time)
+
+
+def first_excess(
+    dragon: Dragon,
+    path: Spiral | Route,
+    speed_limit: float,
+    *,
+    head_speed: float = 1.0,
+    start: float | None = None,
+    stop: float | None = None,
+) -> FirstExcess | None:
+    """When a handle is first faster than the limit; None if that is proven never to happen.
+
+    speed_limit: [m/s], exceeded by more than SPEED_ROUNDING of it
+    head_speed, start, stop: as in highest_speed(), but stop may be a fold, towards which speeds grow without bound
+    The proof that no handle was faster before is that of core/kernels/excess.py.
+    raises: InvalidValue; OutsideRun
+    """
+    limit = checked_limit(speed_limit)
+    head_speed = checked_head_speed(head_speed)
+    end = run_end(dragon, path, head_speed=head_speed)
+    begin, until = checked_span(dragon, path, _start(dragon, path, start, head_speed), stop, end, head_speed)
+    search = Search(dragon, path, 0.0)
+    search.resize(dragon.benches)
+    first, last = begin * head_speed, until * head_speed
+    out = np.empty(5)
+    kernels.first_excess(
+        search.growth,
+        search.pieces,
+        search.place,
+        first,
+        last,
+        SAMPLE_STEP * float(search.extremes[0]),
+        limit / head_speed * (1.0 + SPEED_ROUNDING),
+        limit / head_speed * (1.0 + SPEED_PROVEN),
+        max(EXCESS_WIDTH * min(1.0, head_speed), TRAVEL_WIDTH * max(abs(first), abs(last), search.place)),
+        EXCESS_LINKS,
+        dragon.benches,
+        _calm(search),
+        search.sizes,
+        search.rows,
+        search.motion,
+        out,
+    )
+    outcome, proven, found, handle, _ = out.tolist()
+    if outcome == 0.0:
+        return None
+    if outcome == 2.0:
+        return _late_excess(dragon, path, limit, head_speed, proven / head_speed, until)
+    return FirstExcess(found / head_speed, (proven / head_speed, found / head_speed), int(handle))
+
+
+def _late_excess(
+    dragon: Dragon, path: Spiral | Route, limit: float, head_speed: float, proven: float, until: float
+) -> FirstExcess:
+    """Some excess between where a proof was given up and the end [s], looked for ever nearer to that."""
+
+    def speeds(time: float) -> Floats:
+        return trajectory(dragon, path, time, head_speed=head_speed).speed
+
+    def is_over(time: float) -> bool:
+        return bool(speeds(time).max() > limit * (1.0 + SPEED_ROUNDING))
+
+    times = [until - (until - proven) * 0.5**k for k in range(HALVINGS)] + [until]
+    high = next((time for time in times if is_over(time)), None)
+    if high is None:
+        return FirstExcess(None, (proven, until), None)
+    low = max([proven, *(time for time in times if time < high)])
+    while low < (middle := 0.5 * (low + high)) < high:
+        low, high = (low, middle) if is_over(middle) else (middle, high)
+    return FirstExcess(high, (proven, high), int(speeds(high).argmax()))
+
+
+def checked_limit(speed_limit: object) -> float:
+    """speed_limit [m/s] if it lies in the range allowed."""
+    if isinstance(speed_limit, (int, float)) and speed_limit <= 0:
+        raise InvalidValue("speed_limit", f"speed_limit must be positive, got {speed_limit} m/s")
+    return checked_number("speed_limit", speed_limit, "m/s", HEAD_SPEED_MIN, HEAD_SPEED_MAX)
+
+
+def _start(dragon: Dragon, path: Spiral | Route, start: float | None, head_speed: float) -> float:
+    """start, or if nobody says, 0 (on a route: when it begins, or the whole dragon is on it) [s]."""
+    if start is not None:
+        return start
+    begin = path.begin / head_speed if isinstance(path, Route) else 0.0
+    return max(begin, earliest_time(dragon, path, head_speed))

@@ -7,9 +7,10 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from core.dragon import Floats, checked_number, checked_size
+from core import kernels
+from core.dragon import SIZE_MAX, SIZE_MIN, Floats, checked_number, checked_size
 from core.errors import InvalidValue
-from core.route import Arc, Coil, Point, Route
+from core.route import LENGTH_MIN, Arc, Coil, Point, Route
 
 RATIO_MIN = 0.01
 RATIO_MAX = 100.0
@@ -68,13 +69,11 @@ def turn(
     ratio = checked_number("ratio", ratio, "", RATIO_MIN, RATIO_MAX)
     inner = radius if entry_radius is None else checked_number("entry_radius", entry_radius, "m", 1e-3, radius)
     turns = checked_number("start_turns", start_turns, "turns", 0.0, 1e5, open_low=True)
-    if turns * pitch <= radius:
-        raise InvalidValue(
-            "start_turns",
-            f"start_turns must be more than {radius / pitch:.6g} turns, which is the turning circle, "
-            f"got {turns:g} turns",
-        )
-    theta = 2.0 * math.pi * inner / pitch
+    theta, outer = 2.0 * math.pi * inner / pitch, 2.0 * math.pi * turns
+    coil = pitch / (2.0 * math.pi) * (kernels.spiral_arc(outer) - kernels.spiral_arc(theta))
+    if turns * pitch <= radius or coil < LENGTH_MIN:
+        rule = f"must be more than {radius / pitch:.6g} turns, which is the turning circle"
+        raise InvalidValue.of("start_turns", rule, turns, "turns")
     cos, sin, stretch = math.cos(theta), math.sin(theta), math.hypot(1.0, theta)
     entry = inner * np.array([cos, sin])
     ahead = np.array([theta * sin - cos, -theta * cos - sin]) / stretch
@@ -86,6 +85,7 @@ def turn(
     start, end = _angle(entry - first), _angle(middle - first)
     begin, finish = _angle(middle - second), _angle(-entry - second)
     angles = ((start - end) % (2.0 * math.pi), (finish - begin) % (2.0 * math.pi))
+    _check_arcs(radii, angles, ratio, radius, entry_radius)
     here = inner / pitch
     pieces = (
         Coil(pitch, turns, here),
@@ -93,7 +93,11 @@ def turn(
         Arc(_point(second), radii[1], begin, angles[1]),
         Coil(pitch, here, turns, rotation=math.pi),
     )
-    route = Route(pieces)
+    try:
+        route = Route(pieces)
+    except InvalidValue as error:  # each piece is sound, so it is a joint
+        rule = "must be smaller: on so long a coil rounding of arc lengths opens the joints of the turn"
+        raise InvalidValue.of("start_turns", rule, turns, "turns") from error
     return Turn(
         pitch=pitch,
         turning_radius=radius,
@@ -108,6 +112,20 @@ def turn(
         length=radii[0] * angles[0] + radii[1] * angles[1],
         path=Route(pieces, start=route.joints[0]),
     )
+
+
+def _check_arcs(radii: Point, angles: Point, ratio: float, radius: float, entry_radius: float | None) -> None:
+    """Refuse arcs that are none, by the parameter that makes them so: the ratio if equal arcs would do."""
+    shorter = min(r * angle for r, angle in zip(radii, angles, strict=True))
+    if min(radii) >= SIZE_MIN and max(radii) <= SIZE_MAX and shorter >= LENGTH_MIN:
+        return
+    found = f"radii of {radii[0]:g} and {radii[1]:g} m and a shorter arc of {shorter:g} m"
+    rule = f"must leave arcs with radii from {SIZE_MIN:g} to {SIZE_MAX:g} m, {LENGTH_MIN:g} m long, not {found}"
+    equal = 0.5 * sum(radii)
+    if SIZE_MIN <= equal <= SIZE_MAX and equal * min(angles) >= LENGTH_MIN:
+        raise InvalidValue.of("ratio", rule, ratio, "")
+    name, given = ("turning_radius", radius) if entry_radius is None else ("entry_radius", entry_radius)
+    raise InvalidValue.of(name, rule, given, "m")
 
 
 def _angle(vector: Floats) -> float:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
@@ -12,7 +12,7 @@ import numpy as np
 
 from core import kernels
 from core.contact import Outcome
-from core.dragon import Dragon, Floats, checked_number
+from core.dragon import Dragon, Floats, checked_number, checked_type
 from core.engines import inside, polygon_fault
 from core.errors import InvalidValue
 from core.kinematics import bench_poses, checked_head_speed, checked_span, run_end, trajectory
@@ -22,6 +22,8 @@ from core.route import COORDINATE_MAX, Coil, Point, Route
 from core.search import MARGIN_MAX, NEAR_WORK_BUDGET, Search
 
 Ring = tuple[Point, ...]
+# Name and rings.
+Polygon = tuple[str, tuple[Ring, ...]]
 
 # Edges of one venue: each is followed like a bench, but it stands.
 EDGES_MAX = 2_000
@@ -52,6 +54,9 @@ class Area:
     rings: tuple[Ring, ...]
 
     def __post_init__(self) -> None:
+        if not isinstance(self.name, str):
+            raise InvalidValue("venue", f"venue: the name of a polygon must be a text, got {self.name!r:.60}")
+        _rings("venue", self.rings)
         for ring in self.rings:
             if len(ring) < 4 or ring[0] != ring[-1]:
                 words = f"venue: a ring of {self.name!r} must be closed and have at least 4 points"
@@ -82,6 +87,9 @@ class Venue:
     obstacles: tuple[Area, ...] = ()
 
     def __post_init__(self) -> None:
+        checked_type("venue", self.square, Area)
+        for area in _listed("venue", self.obstacles):
+            checked_type("venue", area, Area)
         edges = sum(len(area.edges) for area in self.areas)
         if edges > EDGES_MAX:
             raise InvalidValue("venue", f"venue must have at most {EDGES_MAX} edges, got {edges}")
@@ -104,15 +112,13 @@ class Venue:
             property `name`, else "obstacle 1" and so on. Heights are passed over.
         raises: InvalidValue naming the member at fault, or the polygon with the reason and the place
         """
-        named = _polygons("venue", geometry)
-        if not named:
-            raise InvalidValue("venue", "venue must hold at least one polygon, the square")
-        square = next((k for k, (name, _) in enumerate(named) if name == "square"), 0)
-        others = [polygon for k, polygon in enumerate(named) if k != square]
-        return cls(
-            Area(named[square][0] or "square", named[square][1]),
-            tuple(Area(name or f"obstacle {k}", rings) for k, (name, rings) in enumerate(others, start=1)),
-        )
+        return cls.of(geojson_polygons(geometry))
+
+    @classmethod
+    def of(cls, polygons: Sequence[Polygon]) -> Venue:
+        """The venue of some polygons in metres, the square first."""
+        square, *obstacles = (Area(*polygon) for polygon in polygons)
+        return cls(square, tuple(obstacles))
 
 
 @dataclass(frozen=True, slots=True)
@@ -140,6 +146,7 @@ class AreaClearance:
     time_bracket: (proven clear up to, within the margin at) [s]; for undecided up to the end; None when clear or at the
         start
     bench, point (x, y) [m]: the first one within the margin, and where it is nearest
+    gap: between that bench and the edge at that time [m]: the margin to rounding, but for contact_at_start
     """
 
     name: str
@@ -149,6 +156,7 @@ class AreaClearance:
     bench: int | None
     point: Point | None
     nearest: Nearest
+    gap: float | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -185,6 +193,7 @@ def venue_clearance(
     head_speed: [m/s]; margin: [m]; start, stop: [s], None for the end of the run
     raises: InvalidValue, also for a path that bends too tightly for a chord by the stop; OutsideRun
     """
+    checked_type("venue", venue, Venue)
     head_speed = checked_head_speed(head_speed)
     margin = checked_number("margin", margin, "m", 0.0, MARGIN_MAX)
     end = run_end(dragon, path, head_speed=head_speed)
@@ -245,7 +254,7 @@ def is_clear_beyond(
 
 def _area_clearance(search: Search, name: str, begin: float, until: float, head_speed: float) -> AreaClearance:
     state, found, tolerance = search.approach(begin * head_speed, until * head_speed, head_speed)
-    outcome, time, bracket, bench, point = Outcome.CLEAR, None, None, None, None
+    outcome, time, bracket, bench, point, gap = Outcome.CLEAR, None, None, None, None, None
     if state == "stuck":
         outcome, bracket = Outcome.UNDECIDED, (found["proven"] / head_speed, until)
     elif state != "reached":
@@ -254,19 +263,19 @@ def _area_clearance(search: Search, name: str, begin: float, until: float, head_
         outcome, time = Outcome.CONTACT_AT_START if at_start else Outcome.CONTACT, travel / head_speed
         bracket = None if at_start else (found["proven"] / head_speed, found["touching"] / head_speed)
         pair = first_pair(found)
-        bench, point = pair[0], _witnesses(search, travel, pair)[0]
+        bench, (point, _, gap) = pair[0], _witnesses(search, travel, pair)
     (distance, travel, pair), at_least = least_over(search, begin * head_speed, until * head_speed, head_speed)
-    nearest = Nearest(distance, at_least, travel / head_speed, pair[0], *_witnesses(search, travel, pair))
-    return AreaClearance(name, outcome, time, bracket, bench, point, nearest)
+    nearest = Nearest(distance, at_least, travel / head_speed, pair[0], *_witnesses(search, travel, pair)[:2])
+    return AreaClearance(name, outcome, time, bracket, bench, point, nearest, gap)
 
 
-def _witnesses(search: Search, travel: float, pair: Pair) -> tuple[Point, Point]:
-    """The points of a bench and an edge that are nearest to each other [m]."""
+def _witnesses(search: Search, travel: float, pair: Pair) -> tuple[Point, Point, float]:
+    """The points of a bench and an edge that are nearest to each other, and their separation [m]."""
     search.clearance(travel)
     a, b = (search.rows[0, k, 6:10] for k in pair)
     out = np.empty(8)
     kernels.pair_separation(*a, *search.sizes[pair[0], 1:3], *b, *search.sizes[pair[1], 1:3], out)
-    return (float(out[1]), float(out[2])), (float(out[3]), float(out[4]))
+    return (float(out[1]), float(out[2])), (float(out[3]), float(out[4])), float(out[0])
 
 
 def _stray(dragon: Dragon, route: Route, venue: Venue, begin: float, head_speed: float) -> Stray | None:
@@ -279,7 +288,29 @@ def _stray(dragon: Dragon, route: Route, venue: Venue, begin: float, head_speed:
     return None
 
 
-def _polygons(field: str, geometry: object, depth: int = 0) -> list[tuple[str | None, tuple[Ring, ...]]]:
+def geojson_polygons(
+    geometry: object, *, unit: str = "m", limits: Point = (COORDINATE_MAX, COORDINATE_MAX)
+) -> list[Polygon]:
+    """The polygons of a GeoJSON object as in Venue.from_geojson(), the square first.
+
+    unit: of its coordinates; limits: the largest |x| and |y| in that unit
+    raises: InvalidValue naming the member at fault
+    """
+    named = _polygons("venue", geometry, (unit, *limits))
+    if not named:
+        raise InvalidValue("venue", "venue must hold at least one polygon, the square")
+    square = next((k for k, (name, _) in enumerate(named) if name == "square"), 0)
+    others = [polygon for k, polygon in enumerate(named) if k != square]
+    obstacles = [(name or f"obstacle {k}", rings) for k, (name, rings) in enumerate(others, start=1)]
+    return [(named[square][0] or "square", named[square][1]), *obstacles]
+
+
+# Unit of coordinates, and the largest |x| and |y| in it.
+Scale = tuple[str, float, float]
+METRES: Scale = ("m", COORDINATE_MAX, COORDINATE_MAX)
+
+
+def _polygons(field: str, geometry: object, scale: Scale, depth: int = 0) -> list[tuple[str | None, tuple[Ring, ...]]]:
     """Name and rings of every polygon of a GeoJSON object, in its order."""
     if depth > DEPTH_MAX:
         raise InvalidValue("venue", f"venue must not nest objects deeper than {DEPTH_MAX}")
@@ -287,13 +318,13 @@ def _polygons(field: str, geometry: object, depth: int = 0) -> list[tuple[str | 
         raise InvalidValue(field, f"{field} must be a GeoJSON object, got {type(geometry).__name__}")
     kind = geometry.get("type")
     if kind == "Polygon":
-        return [(None, _rings(f"{field}.coordinates", geometry.get("coordinates")))]
+        return [(None, _rings(f"{field}.coordinates", geometry.get("coordinates"), scale))]
     if kind == "Feature":
         properties = geometry.get("properties")
         name = properties.get("name") if isinstance(properties, Mapping) else None
         if name is not None and not isinstance(name, str):
             raise InvalidValue(f"{field}.properties.name", f"{field}.properties.name must be a text, got {name!r}")
-        inner = _polygons(f"{field}.geometry", geometry.get("geometry"), depth + 1)
+        inner = _polygons(f"{field}.geometry", geometry.get("geometry"), scale, depth + 1)
         return [(name or own, rings) for own, rings in inner]
     members = {"FeatureCollection": "features", "GeometryCollection": "geometries"}.get(str(kind))
     if members is None:
@@ -302,24 +333,27 @@ def _polygons(field: str, geometry: object, depth: int = 0) -> list[tuple[str | 
             f"{field}.type must be Polygon, Feature, FeatureCollection or GeometryCollection, got {kind!r}",
         )
     items = _listed(f"{field}.{members}", geometry.get(members))
-    return [found for k, item in enumerate(items) for found in _polygons(f"{field}.{members}.{k}", item, depth + 1)]
+    each = [_polygons(f"{field}.{members}.{k}", item, scale, depth + 1) for k, item in enumerate(items)]
+    return [found for polygons in each for found in polygons]
 
 
-def _rings(field: str, value: object) -> tuple[Ring, ...]:
+def _rings(field: str, value: object, scale: Scale = METRES) -> tuple[Ring, ...]:
     rings = _listed(field, value)
     if not rings:
         raise InvalidValue(field, f"{field} must hold at least one ring")
     return tuple(
-        tuple(_place(f"{field}.{k}.{i}", point) for i, point in enumerate(_listed(f"{field}.{k}", ring)))
+        tuple(_place(f"{field}.{k}.{i}", point, scale) for i, point in enumerate(_listed(f"{field}.{k}", ring)))
         for k, ring in enumerate(rings)
     )
 
 
-def _place(field: str, value: object) -> Point:
+def _place(field: str, value: object, scale: Scale) -> Point:
+    unit, *limits = scale
     numbers = _listed(field, value)
     if len(numbers) not in (2, 3):
-        raise InvalidValue(field, f"{field} must be a position [x, y] in metres, got {len(numbers)} numbers")
-    x, y = (checked_number(f"{field}.{k}", numbers[k], "m", -COORDINATE_MAX, COORDINATE_MAX) for k in range(2))
+        words = "[x, y] in metres" if scale == METRES else f"[longitude, latitude] in {unit}"
+        raise InvalidValue(field, f"{field} must be a position {words}, got {len(numbers)} numbers")
+    x, y = (checked_number(f"{field}.{k}", numbers[k], unit, -limits[k], limits[k]) for k in range(2))
     return x, y
 
 

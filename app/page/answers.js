@@ -1,22 +1,24 @@
 /** The answers, and for each how it is known. */
 
 import { make } from "./elements.js";
-import { handleName, say } from "./text.js";
+import { handleName, say, sayNear } from "./text.js";
 
-const MARKS = { contact: "✕", contact_at_start: "✕", clear: "✓", undecided: "?" };
+/** What a dance comes to: it fails with a contact or a fold, passes, or is undecided. */
+const MARKS = { contact: "✕", contact_at_start: "✕", folds: "!", clear: "✓", undecided: "?" };
 
 /** Metres in millimetres; what rounds to zero has no sign. */
 export const millimetres = (metres) => (1000 * metres).toFixed(3).replace(/^-(0\.0+)$/, "$1");
 const paragraph = (textContent, more) => make("p", { textContent, ...more });
 const pair = ([a, b], benches) => ({ a: handleName(a, benches), b: handleName(b, benches) });
-const bracket = (key, [low, high], decimals) => [say("bracket"), say(key, { low: low.toFixed(decimals), high: high.toFixed(decimals) })];
+const ends = ([low, high], decimals) => ({ low: low.toFixed(decimals), high: high.toFixed(decimals) });
+const bracket = (key, both, decimals) => [say("bracket"), say(key, ends(both, decimals))];
 
-/** Replace what a box shows, but keep its details open. known: elements; outcome: colours the box */
+/** Replace what a box shows, but keep its details open. title: words; known: elements; outcome: colours the box */
 function show(box, title, value, lines, known = [], outcome = "") {
   const open = box.querySelector("details")?.open ?? false;
   const details = known.length ? [make("details", { open }, make("summary", { textContent: say("how") }), ...known)] : [];
   box.dataset.outcome = outcome;
-  const heading = make("h3", { textContent: say(title) });
+  const heading = make("h3", { textContent: title });
   box.replaceChildren(heading, make("p", { className: "value" }, ...[value].flat()), ...lines.map((line) => paragraph(line)), ...details);
 }
 
@@ -31,9 +33,10 @@ function judgedWords({ judged }, benches) {
   return count === 2 ? say("judgedPair", pair(judged, benches)) : say("judgedNear", { count, benches });
 }
 
-function engines(check, benches) {
+function engines(check, benches, margin) {
   if (!check) return paragraph(say("noEngines"));
-  const cell = (overlaps) => make("td", { textContent: say(overlaps === null ? "noBefore" : overlaps ? "overlapping" : "apart") });
+  const word = (overlaps) => (overlaps === null ? say("noBefore") : sayNear(overlaps ? "overlapping" : "apart", margin));
+  const cell = (overlaps) => make("td", { textContent: word(overlaps) });
   const head = (key, scope) => make("th", { scope, textContent: say(key) });
   const rows = Object.entries(check.engines).map(([name, { before, after }]) =>
     make("tr", {}, head(name, "row"), cell(before), cell(after)),
@@ -46,40 +49,53 @@ function engines(check, benches) {
   return make("table", {}, caption, make("thead", {}, heads), make("tbody", {}, ...rows));
 }
 
-function contactLine({ outcome, time_bracket, point, benches: both, head, end }, benches) {
-  if (outcome === "undecided") return say("undecidedFrom", { time: time_bracket[0].toFixed(9) });
-  if (outcome === "clear") return end ? say("clearUntil", { time: end.time.toFixed(6) }) : say("clearAll");
+/** The outcome, or that a dance on which nothing touches folds. */
+const stateOf = ({ outcome, end }) => (outcome === "clear" && end?.reason === "fold" ? "folds" : outcome);
+
+/** The outcome in a few words. answer: of /collision-time */
+export function outcomeWords(answer, margin) {
+  const time = answer.time ?? answer.end?.time;
+  return sayNear(stateOf(answer), margin, { time: time?.toFixed(6) });
+}
+
+function contactLine(answer, { benches, margin }) {
+  const { time_bracket, point, benches: both, head, end, gap } = answer;
+  const state = stateOf(answer);
+  if (state === "undecided") return say("undecidedFrom", { time: time_bracket[0].toFixed(9) });
+  if (state === "folds") return sayNear("foldsUntil", margin, { name: handleName(end.bench, benches) });
+  if (state === "clear") return end ? sayNear("clearUntil", margin, { time: end.time.toFixed(6) }) : sayNear("clearAll", margin);
   const [x, y, radius] = [...point, head.radius].map((one) => one.toFixed(6));
-  return say("pairMeets", { ...pair(both, benches), x, y, radius });
+  return sayNear("pairMeets", margin, { ...pair(both, benches), x, y, radius, gap: millimetres(gap) });
 }
 
 /** answer: of /collision-time */
 export function showFirstContact(box, answer, { benches, margin }) {
-  const { outcome, time, time_bracket, certificate } = answer;
-  const lines = [contactLine(answer, benches)];
-  if (margin > 0) lines.push(say("nearMargin", { margin }));
-  const rows = time_bracket ? [bracket("bracketTime", time_bracket, 10)] : [];
+  const { time_bracket, certificate } = answer;
+  const lines = [contactLine(answer, { benches, margin })];
+  const rows = time_bracket ? [[say("bracket"), sayNear("bracketTime", margin, ends(time_bracket, 10))]] : [];
   const proven = { steps: certificate.steps, until: certificate.clear_until.toFixed(10) };
-  rows.push([say("certificate"), say("certificateSteps", proven)]);
+  rows.push([say("certificate"), sayNear("certificateSteps", margin, proven)]);
   const least = certificate.least_clearance;
   if (least) {
     const values = { ...pair(least.benches, benches), gap: millimetres(least.clearance), time: least.time.toFixed(6) };
     rows.push([say("leastBefore"), say("leastBeforeIs", values)]);
   }
   const method = paragraph(certificate.method, { lang: "en", className: "method" });
-  const mark = make("span", { className: "mark", "aria-hidden": "true", textContent: MARKS[outcome] });
-  const value = [mark, say(outcome, { time: time?.toFixed(6) })];
-  show(box, "firstContact", value, lines, [facts(...rows), method, engines(answer.cross_check, benches)], outcome);
+  const state = stateOf(answer);
+  const mark = make("span", { className: "mark", "aria-hidden": "true", textContent: MARKS[state] });
+  const value = [mark, outcomeWords(answer, margin)];
+  const known = [facts(...rows), method, engines(answer.cross_check, benches, margin)];
+  show(box, sayNear("firstContact", margin), value, lines, known, state);
 }
 
 /** answer: of /minimum-pitch; use(pitch) sets it */
-export function showMinimumPitch(box, answer, { benches, turning_diameter: diameter }, use) {
+export function showMinimumPitch(box, answer, { benches, turning_diameter: diameter, margin }, use) {
   const names = answer.benches ? pair(answer.benches, Number(benches)) : {};
-  const limit = say(`limited_${answer.limited_by}`, { ...names, radius: answer.head_radius?.toFixed(6) });
+  const limit = sayNear(`limited_${answer.limited_by}`, margin, { ...names, radius: answer.head_radius?.toFixed(6) });
   const { scan_step: step, proven_up_to: upTo } = answer;
   const all = step === null && upTo === null;
   const from = answer.proven_from.toFixed(9);
-  const lines = [say(all ? "toCircle" : "toCircleTried", { diameter }), limit];
+  const lines = [sayNear(all ? "toCircle" : "toCircleTried", margin, { diameter }), limit];
   const islands = answer.other_feasible_intervals.map(([low, high]) => `${low.toFixed(6)}–${high.toFixed(6)} m`);
   if (islands.length) lines.push(say("islands", { list: islands.join(", ") }));
   const rows = [
@@ -88,47 +104,51 @@ export function showMinimumPitch(box, answer, { benches, turning_diameter: diame
     [say("proven"), say(upTo === null ? "provenToAll" : "provenTo", { from, upTo })],
     [say("evaluations"), answer.evaluations],
   ];
-  show(box, "minimumPitch", `${answer.pitch.toFixed(9)} m`, lines, [facts(...rows), engines(answer.cross_check, Number(benches))]);
+  const known = [facts(...rows), engines(answer.cross_check, Number(benches), margin)];
+  show(box, say("minimumPitch"), `${answer.pitch.toFixed(9)} m`, lines, known);
   const button = make("button", { type: "button", textContent: say("usePitch") });
   button.addEventListener("click", () => use(answer.pitch_bracket[1]));
   box.querySelector("details").before(button);
 }
 
 /** answer: of /shortest-turn */
-export function showShortestTurn(box, answer, { benches }) {
+export function showShortestTurn(box, answer, { benches, margin }) {
   const { entry_radius, length, limited_by, scan_step, evaluations } = answer;
   const names = answer.benches ? pair(answer.benches, Number(benches)) : {};
-  const lines = [say("entryIs", { length: length.toFixed(6) }), say(`entry_${limited_by}`, names)];
+  const limit = limited_by === "contact" ? sayNear("entry_contact", margin, names) : say(`entry_${limited_by}`);
+  const lines = [say("entryIs", { length: length.toFixed(6) }), limit];
   const scanned = [say("scanned"), say("scannedEntries", { evaluations, step: 1000 * scan_step })];
   const known = facts(bracket("bracketEntry", answer.entry_bracket, 9), scanned);
-  show(box, "shortestTurn", `${entry_radius.toFixed(6)} m`, lines, [known]);
+  show(box, say("shortestTurn"), `${entry_radius.toFixed(6)} m`, lines, [known]);
 }
 
 /** fastest: of /check; null in a run to a fold */
 export function showHighestSpeed(box, fastest, { benches }) {
-  if (!fastest) return show(box, "highest", say("unbounded"), [say("towardsFold")], [paragraph(say("foldKnown"))]);
+  if (!fastest) return show(box, say("highest"), say("unbounded"), [say("towardsFold")], [paragraph(say("foldKnown"))]);
   const { speed, speed_bracket, time, handles } = fastest;
   const name = handles.map((handle) => handleName(handle, benches)).join(", ");
   const whose = handles.includes(0) ? say("headFastest") : say("whose", { name, time: time.toFixed(6) });
   const known = speed_bracket[1] === null ? [] : [facts(bracket("bracketSpeed", speed_bracket, 9))];
-  show(box, "highest", `${speed.toFixed(6)} m/s`, [whose], known);
+  show(box, say("highest"), `${speed.toFixed(6)} m/s`, [whose], known);
 }
 
-export function showEnd(box, answer, time) {
+export function showEnd(box, answer, time, { benches, margin }) {
   const reason = answer.end?.reason ?? { undecided: "undecided", clear: "turn" }[answer.outcome] ?? "contact";
-  show(box, "end", `${time.toFixed(6)} s`, [say(`end_${reason}`)], [paragraph(say("endKnown"))]);
+  const name = reason === "fold" ? handleName(answer.end.bench, benches) : "";
+  const words = reason === "contact" ? sayNear("end_contact", margin) : say(`end_${reason}`, { name });
+  show(box, say("end"), `${time.toFixed(6)} s`, [words], [paragraph(say("endKnown"))]);
 }
 
 export function showRefusal(box, title, words) {
-  show(box, title, say("unanswered"), [words]);
+  show(box, say(title), say("unanswered"), [words]);
 }
 
 /** What stands under the enlarged view. gap: [m] between the two benches, null while unknown */
-export function insetWords({ benches: [a, b], corner, edge }, gap, benches) {
+export function insetWords({ benches: [a, b], corner, edge }, gap, { benches, margin }) {
   const name = (bench) => handleName(bench, benches);
   const words =
     corner && edge
-      ? say("insetMeet", { corner: say(corner.name), a: name(corner.bench), edge: say(edge.name), b: name(edge.bench) })
+      ? sayNear("insetMeet", margin, { corner: say(corner.name), a: name(corner.bench), edge: say(edge.name), b: name(edge.bench) })
       : `${name(a)}, ${name(b)}`;
   return gap === null ? words : `${words}; ${say("gap", { gap: millimetres(gap) })}`;
 }

@@ -11,7 +11,7 @@ import { Player } from "./player.js";
 import { Questions } from "./questions.js";
 import { FIELDS, State } from "./state.js";
 import { Table } from "./table.js";
-import { handleName, say, setLanguage } from "./text.js";
+import { handleName, say, sayNear, setLanguage } from "./text.js";
 
 const NUMBERS = [...FIELDS.map((field) => field.name), "path"];
 /** Which boxes wait for which answers. */
@@ -92,7 +92,7 @@ function showPose(pose) {
   $("#inset").hidden = !contact?.point;
   const { answer: touching, dance: of } = questions.answers.gap ?? {};
   const gap = of === questions.dance ? touching.clearance[0] : null;
-  if (contact) $("#inset figcaption").textContent = answers.insetWords(contact, gap, numbers.benches);
+  if (contact) $("#inset figcaption").textContent = answers.insetWords(contact, gap, numbers);
   const [low, high] = speedRange(pose);
   const [least, largest] = $$("#legend span");
   least.textContent = low === null ? say("allEqual") : low.toFixed(6);
@@ -141,7 +141,7 @@ function showPitch() {
   const { pitch } = numbers;
   const words = answer.head
     ? say("scanAt", { pitch, radius: answer.head.radius.toFixed(6) })
-    : `${say("pitch")} ${pitch} m: ${say(answer.outcome)}`;
+    : `${say("pitch")} ${pitch} m: ${answers.outcomeWords(answer, numbers.margin)}`;
   $("#scan .reading").textContent = kind === "spiral" ? words : "";
 }
 
@@ -151,7 +151,7 @@ const SHOW = {
     const { answer, numbers, begin, end } = questions.dance;
     Object.assign($("#time"), { min: begin, max: end });
     answers.showFirstContact($("#first-contact"), answer, numbers);
-    answers.showEnd($("#run-end"), answer, end);
+    answers.showEnd($("#run-end"), answer, end, numbers);
     showPitch();
     keep.show();
     player.update();
@@ -180,6 +180,7 @@ const SHOW = {
   scan() {
     const { answer, query } = questions.answers.scan;
     charts.scan.show({ ...answer, circle: Number(query.turning_diameter) / 2 });
+    $("#scan .hint").textContent = sayNear("scanHelp", query.margin);
     showPitch();
   },
 };

@@ -14,7 +14,7 @@ route        points and chain on a table of pieces             chain       on ei
 bounds       how fast handles and benches move at most         pairs       how near two come at most
 rings        benches too far out to touch                      clearance   at one instant
 marching     to first contact                                  strips      all pitches between two at once
-speed        the highest speed
+speed        the highest speed                                 excess       when a limit is first exceeded
 """
 
 from core.kernels.bounds import motion_bounds
@@ -37,6 +37,7 @@ from core.kernels.constants import (
     SIZE_COLUMNS,
     SPIRAL_CURVATURE_MOST,
 )
+from core.kernels.excess import first_excess
 from core.kernels.fold import fold_theta, previous_theta
 from core.kernels.marching import march
 from core.kernels.pairs import axis_bend, pair_bends, pair_least

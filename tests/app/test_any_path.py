@@ -89,7 +89,7 @@ def test_the_check_of_the_turn_meets_the_known_clearance_and_passes(client: http
     assert (got["passed"], got["failures"], got["venue"]) == (True, [], None)
     assert got["least_clearance"]["distance"] == pytest.approx(known["least"], abs=REFERENCE_TOLERANCE)
     assert got["least_clearance"]["at_least"] <= got["least_clearance"]["distance"]
-    assert got["first_contact"]["end"] == {"reason": "stop", "time": 100.0}
+    assert got["first_contact"]["end"] == {"reason": "stop", "time": 100.0, "theta": None, "bench": None}
 
 
 def test_a_spiral_as_a_route_gives_the_answers_of_the_spiral(client: httpx.Client) -> None:
@@ -269,7 +269,7 @@ BAD_DANCES = {
     "deep_venue": ({"venue": {"a": json.loads("[" * 900 + "]" * 900)}}, "/venue", ("at most 20",)),
     "same_name_twice": ({"venue": venue(box("a", -9, -9, 99, 9), box("a", 0, 5, 1, 6))}, "/venue", ("'a' twice",)),
     "many_edges": (
-        {"venue": polygon("ring", *[(math.cos(k / 400), math.sin(k / 400)) for k in range(2400)])},
+        {"venue": polygon("ring", *[(9 * math.cos(k / 400), 9 * math.sin(k / 400)) for k in range(2400)])},
         "/venue", ("at most 2000 edges", "2400"),
     ),
     "long_dragon": ({"dragon": {"benches": 2_001}}, "/dragon/benches", ("at most 2000", "got 2001")),

@@ -67,7 +67,7 @@ BAD_BODIES = [
     Bad("text_among_times", '{"times": [0, "1"]}', "/times/1", ("number", '"1"')),
     Bad("times_as_text", '{"times": "all"}', "/times", ("JSON object", "list")),
     Bad("after_the_fold", '{"times": [0, 500]}', "/times/1", ("432.9179", "folds", "got 500 s")),
-    Bad("range_after_the_fold", '{"times": {"stop": 600}}', "/times", ("432.9179", "folds")),
+    Bad("range_after_the_fold", '{"times": {"stop": 600}}', "/times/stop", ("432.9179", "folds", "got 600 s")),
     Bad("missing_lists", '{"dragon": {"lengths": [2]}}', "/dragon/widths", ("missing",)),
     Bad(
         "uneven_lists",

@@ -5,15 +5,18 @@ from __future__ import annotations
 import contextlib
 import csv
 import doctest
+import fcntl
 import json
 import os
 import pty
 import re
 import signal
 import socket
+import struct
 import subprocess
 import sys
 import tempfile
+import termios
 import time
 from collections.abc import Iterator
 from pathlib import Path
@@ -139,12 +142,12 @@ def test_tables_for_people_hold_the_numbers_with_their_units(arguments: list[str
         ("collision-time --benches 0", "benches must be at least 1, got 0"),
         (
             "minimum-pitch --overhang 1.2",
-            "dragon.overhang must be less than half of dragon.body_length (2.2 m / 2 = 1.1 m), got 1.2 m",
+            "overhang must be less than half of body_length (2.2 m / 2 = 1.1 m), got 1.2 m",
         ),
-        ("trajectory --stop 440", "times[433] must be at most 432.917924228 s, when bench 0 folds, got 433 s"),
+        ("trajectory --stop 440", "stop must be at most 432.917924228 s, when bench 0 folds, got 440 s"),
         ("trajectory --decimals 16", "decimals must be at most 15, got 16"),
         ("trajectory --output dance.doc", "--output must end in .csv, .xlsx, .arrow or .json, got .doc"),
-        ("trajectory --output /no/such/dance.csv", "/no/such/dance.csv: No such file or directory"),
+        ("trajectory --output /no/such/dance.csv", "--output must be in a folder that exists, got /no/such/dance.csv"),
         ("overlaps /no/such/file", "/no/such/file: No such file or directory"),
     ],
 )
@@ -208,6 +211,98 @@ def test_figures_writes_the_files_that_were_asked_for(tmp_path: Path) -> None:
     done = run("figures", str(tmp_path / "one"), "--kind", "contact", "--format", "svg", "--benches", "20")
     assert (done.returncode, done.stderr) == (0, f"{tmp_path / 'one' / 'contact.svg'}\n")
     assert b"<svg" in (tmp_path / "one" / "contact.svg").read_bytes()
+
+
+def headings(said: str) -> list[list[str]]:
+    """The instants above each table of a trajectory."""
+    return [line.split()[1::2] for line in said.splitlines() if line.split()[:1] == ["handle"]]
+
+
+def test_up_to_seven_instants_are_shown_and_none_is_dropped_among_them() -> None:
+    six = answer_of("trajectory", "--stop", "300", "--step", "60")
+    assert headings(six) == [["0", "60", "120", "180", "240", "300"]] * 3
+    assert "7 of 224 handles, 6 of 6 instants" in six
+    seven = answer_of("trajectory", "--benches", "5", "--stop", "6")
+    assert headings(seven) == [["0", "1", "2", "3", "4", "5", "6"]] * 3
+    assert (
+        headings(answer_of("trajectory", "--benches", "5", "--stop", "7")) == [["0", "1", "2", "4", "5", "6", "7"]] * 3
+    )
+
+
+def test_as_many_instants_are_shown_as_fit_the_width() -> None:
+    leader, follower = pty.openpty()
+    fcntl.ioctl(follower, termios.TIOCSWINSZ, struct.pack("HHHH", 40, 60, 0, 0))
+    environment = {name: value for name, value in ENVIRONMENT.items() if name not in ("COLUMNS", "LINES")}
+    command = [COMMAND, "trajectory", "--stop", "300", "--step", "60"]
+    with subprocess.Popen(command, stdout=follower, stderr=subprocess.DEVNULL, env=environment) as process:
+        os.close(follower)
+        seen = b""
+        with contextlib.suppress(OSError):  # what reads a terminal without a writer gets an error, not an end of file
+            while chunk := os.read(leader, 65_536):
+                seen += chunk
+        os.close(leader)
+        assert process.wait(PATIENCE) == 0
+    said = re.sub(r"\x1b\[[0-9;]*m", "", seen.decode())
+    assert headings(said) == [["0", "120", "300"]] * 3
+    assert max(len(line) for line in said.splitlines() if not line.endswith("choose.")) <= 60
+    assert "3 of 6 instants" in said.replace("\r\n", " ")
+
+
+def test_handles_and_times_choose_what_is_shown() -> None:
+    said = answer_of("trajectory", "--times", "0,60,120", "--handles", "51,0,1")
+    assert headings(said) == [["0", "60", "120"]] * 3
+    rows = [line.split()[0] for line in said.splitlines() if re.match(r"  \d+ (head|body)", line)]
+    assert rows == ["51", "0", "1"] * 3
+    assert "3 of 224 handles, 3 of 3 instants" in said
+
+
+def test_times_that_were_asked_for_are_all_shown_in_as_many_tables_as_they_take() -> None:
+    times = [str(k) for k in range(20)]
+    found = headings(answer_of("trajectory", "--benches", "3", "--handles", "0", "--times", ",".join(times)))
+    assert [instant for heading in found[: len(found) // 3] for instant in heading] == times
+    assert found == found[: len(found) // 3] * 3
+
+
+def test_times_are_the_list_of_the_service(client: httpx.Client) -> None:
+    told = served(client, "POST", "/trajectory", {"times": [0.0, 12.5, -3.0]})
+    assert json.loads(answer_of("trajectory", "--times", "0,12.5,-3", "--json")) == told
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (["--times", "0,1", "--stop", "300"], "--times takes the place of --stop: give one of the two"),
+        (["--times", "0,1", "--start", "0"], "--times takes the place of --start: give one of the two"),
+        (["--step", "1", "--times", "0,1"], "--times takes the place of --step: give one of the two"),
+        (["--times", ""], "times[0] must be a number, as in --times 0,1,2, got ''"),
+        (["--times", "0,soon"], "times[1] must be a number, as in --times 0,1,2, got 'soon'"),
+        (["--times", "0,nan"], "times[1] must be a finite number [s], got NaN"),
+        (["--times", "0,2e6"], "times[1] must be at most 1000000 s, got 2000000.0 s"),
+        (["--handles", "0,224"], "handles[1] must be from 0 to 223 for this dragon, got 224"),
+        (["--handles", "-1"], "handles[0] must be from 0 to 223 for this dragon, got -1"),
+        (["--handles", "0.5"], "handles[0] must be a whole number, as in --handles 0,1,2, got '0.5'"),
+        (["--handles", "0", "--json"], "--handles chooses rows of the table: leave it out with --output or --json"),
+        (["--handles", "0", "--output", "a.csv"], "--handles chooses rows of the table: leave it out with --output or"),
+    ],
+    ids=lambda value: " ".join(value) if isinstance(value, list) else None,
+)
+def test_times_and_handles_that_cannot_be_are_refused(arguments: list[str], words: str) -> None:
+    done = run("trajectory", *arguments)
+    assert (done.returncode, done.stdout) == (2, "")
+    assert words in done.stderr
+    assert len(done.stderr.splitlines()) == 1
+
+
+def test_with_a_margin_the_command_says_nearer_than_it_and_the_gap() -> None:
+    for command in ("collision-time", "minimum-pitch", "shortest-turn"):
+        said = " ".join(answer_of(command, "--benches", "40", "--margin", "0.05").split())
+        assert "nearer than 0.05 m" in said
+        assert not re.search(r"touch|meet|outcome contact", said)
+    said = answer_of("collision-time", "--margin", "0.2")
+    assert "nearer than 0.2 m from the start on" in said
+    assert re.search(r"gap +0\.169278671 m", said)
+    assert "never nearer than 0.05 m" in answer_of("collision-time", "--pitch", "1.2", "--margin", "0.05")
+    assert "First contact" in answer_of("collision-time", "--benches", "20")
 
 
 @pytest.mark.parametrize("flags", [[], ["--json"]], ids=["table", "json"])

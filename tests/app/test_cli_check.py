@@ -11,6 +11,7 @@ import pytest
 
 from tests.app.test_cli import answer_of, run, served
 
+ROUNDING = 1e-12  # of an angle [1]
 DANCE = """
 margin = 0.9
 speed_limit = 0.5
@@ -98,7 +99,7 @@ def test_check_has_the_engines_judge_whom_the_option_says_or_else_the_file(
 
 def test_a_failed_check_is_an_answer_that_says_what_fails(dance: Path) -> None:
     said = answer_of("check", str(dance))
-    for word in ("What fails", "'square'", "above 0.5 m/s", "nearest to square", "proven: at least", "highest speed"):
+    for word in ("What fails", "'square'", "exceeds 0.5 m/s", "nearest to square", "proven: at least", "highest speed"):
         assert word in said
 
 
@@ -109,13 +110,53 @@ def test_a_dance_that_passes_says_so(dance: Path) -> None:
     assert "handles 0, 1, 2, 3, 4" in said
 
 
+def test_a_dance_that_folds_is_no_dance_of_which_nothing_fails(client: httpx.Client, tmp_path: Path) -> None:
+    body = {"dragon": {"benches": 40}, "path": {"pitch": 1.2, "start_turns": 8}}
+    told = served(client, "POST", "/check", body)
+    assert (told["verdict"], told["passed"]) == ("fails", False)
+    (fold,) = told["failures"]
+    assert (fold["kind"], fold["benches"], fold["area"]) == ("folds", [0], None)
+    assert fold["time"] == told["stop"] == told["first_contact"]["end"]["time"]
+    assert fold["head"]["theta"] == pytest.approx(told["first_contact"]["end"]["theta"], rel=ROUNDING)
+    assert told["first_contact"]["end"]["bench"] == 0
+    file = tmp_path / "dance.json"
+    file.write_text(json.dumps(body))
+    said = answer_of("check", str(file))
+    assert said.startswith("Fails. What fails, in order of time:\n  Bench 0 folds at 238.214985 s, the head at (1.0120")
+    assert "Nothing fails" not in said
+    file.write_text(json.dumps(body | {"stop": 238.0}))
+    assert answer_of("check", str(file)).startswith("Passes. Nothing fails.")
+
+
+def test_what_is_not_decided_is_no_failure(tmp_path: Path) -> None:
+    yard = [[-70, -9], [70, -9], [70, 0.35 + 1e-14], [-70, 0.35 + 1e-14], [-70, -9]]
+    lane = {"kind": "route", "pieces": [{"kind": "line", "start": [-60, 0], "end": [60, 0]}], "start": 60}
+    venue = {"type": "Polygon", "coordinates": [yard]}
+    body = {"dragon": {"benches": 5}, "path": lane, "venue": venue, "margin": 0.2, "start": 0}
+    file = tmp_path / "dance.json"
+    file.write_text(json.dumps(body))
+    told = json.loads(answer_of("check", str(file), "--json"))
+    assert (told["verdict"], told["passed"]) == ("undecided", False)
+    said = answer_of("check", str(file))
+    assert said.startswith("Undecided. Nothing is known to fail, but this is not decided:\n")
+    assert "fails" not in said
+
+
+def test_a_margin_of_a_check_is_told_in_every_line(dance: Path) -> None:
+    said = answer_of("check", str(dance))
+    assert "comes nearer than 0.9 m to 'square'" in said
+    assert "never nearer than 0.9 m" in said
+    assert "first nearer than 0.9 m" in said
+    assert "contact" not in said
+
+
 def test_a_single_handle_is_no_handles(dance: Path) -> None:
     # While the head alone is on the arc, it turns away from the lane, along which the others follow more slowly.
     bend = 'kind = "arc"\ncentre = [60, 20]\nradius = 20\nstart_angle = -1.5707963267948966\nsweep = 1.5'
     times = DANCE.replace("start = 15", "start = 60.5").replace('venue = "yard.geojson"', "stop = 61")
     dance.write_text(f"{times}\n[[path.pieces]]\n{bend}")
     words = answer_of("check", str(dance)).splitlines()
-    (row,) = [line for line in words if "highest speed" in line]
+    (row,) = [line for line in words if line.lstrip().startswith("highest speed")]
     assert row.rstrip().endswith("handle 0")
 
 

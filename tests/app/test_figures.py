@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import struct
 import threading
 from xml.etree import ElementTree
@@ -43,7 +44,12 @@ def test_contact_figure_states_the_time_pair_and_features_that_core_found() -> N
 
 def test_contact_figure_of_a_clear_run_says_that_it_is_clear() -> None:
     words = texts(figures.contact_figure(SMALL, Spiral(pitch=0.8)))
-    assert "No contact: the run ends clear at the fold, " in words
+    assert "No contact, but bench 0 folds at 637.66" in words
+
+
+def test_contact_figure_of_a_run_to_the_centre_says_that_it_is_clear() -> None:
+    words = texts(figures.contact_figure(Dragon(benches=5), Spiral(9.0, 3.0)))
+    assert "No contact: the run ends clear at the centre, 257.4268" in words
 
 
 def test_contact_figure_at_the_start_says_so() -> None:
@@ -51,7 +57,18 @@ def test_contact_figure_at_the_start_says_so() -> None:
 
 
 def test_contact_figure_with_a_margin_states_it() -> None:
-    assert "First approach to 0.05 m" in texts(figures.contact_figure(SMALL, Spiral(), margin=0.05))
+    near = texts(figures.contact_figure(SMALL, Spiral(), margin=0.05))
+    assert "First nearer than 0.05 m: " in near
+    assert "Nearer than 0.05 m: a gap of 0.050000 m at (" in near
+    from_start = texts(figures.contact_figure(Dragon(), Spiral(), margin=0.2))
+    assert "Nearer than 0.2 m from the start on" in from_start
+    assert "a gap of 0.169279 m" in from_start
+    scan = texts(figures.pitch_scan_figure(Dragon(benches=8), margin=0.05, samples=5))
+    assert "radius of the head when two benches are first nearer than 0.05 m [m]" in scan
+    never = texts(figures.contact_figure(Dragon(benches=5), Spiral(9.0, 3.0), margin=0.1))
+    assert "Never nearer than 0.1 m: the run ends clear at the centre" in never
+    for words in (near, from_start, scan, never):
+        assert not re.search("contact|touch|meet|overlap", words, re.IGNORECASE)
 
 
 def test_contact_figure_of_two_corners_that_come_near_names_no_edge() -> None:

@@ -450,3 +450,26 @@ def test_a_margin_beyond_its_limits_is_refused(margin: object) -> None:
     with pytest.raises(InvalidValue) as refused:
         first_contact(Dragon(5), Spiral(), margin=margin)  # type: ignore[arg-type]
     assert refused.value.field == "margin"
+
+
+def test_the_profile_of_one_time_is_that_instant() -> None:
+    many = clearance_profile(Dragon(30), Spiral(), [400.0, 410.0])
+    for k, time in enumerate([400.0, 410.0]):
+        one = clearance_profile(Dragon(30), Spiral(), time)
+        assert (one.time.shape, one.clearance.shape, one.benches.shape, one.grazes) == ((), (), (2,), ())
+        assert one.clearance == many.clearance[k]
+        assert one.benches.tolist() == many.benches[k].tolist()
+
+
+def test_the_gap_of_a_contact_is_the_margin_and_at_the_start_what_there_is() -> None:
+    for margin in (0.0, 0.05, 0.15):
+        found = first_contact(Dragon(), Spiral(), margin=margin)
+        assert found.outcome is Outcome.CONTACT
+        assert found.gap == pytest.approx(margin, abs=ACCURACY)
+    at_start = first_contact(Dragon(), Spiral(), margin=0.2)
+    assert at_start.outcome is Outcome.CONTACT_AT_START
+    assert at_start.benches is not None
+    profile = clearance_profile(Dragon(), Spiral(), [0.0])
+    assert at_start.gap is not None
+    assert profile.clearance[0] - ROUNDING <= at_start.gap <= 0.2
+    assert first_contact(Dragon(), Spiral(0.8)).gap is None

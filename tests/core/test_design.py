@@ -312,6 +312,7 @@ def test_benches_that_cannot_touch_are_limited_by_the_start(benches: int) -> Non
         ("turning_radius", 1.1e4),
         ("turning_radius", "4.5"),
         ("start_turns", 0.0),
+        ("start_turns", 1e-4),
         ("start_turns", float("inf")),
         ("margin", -0.01),
         ("margin", 1.1e4),

@@ -12,7 +12,20 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from core import Dragon, EndReason, InvalidValue, OutsideRun, Spiral, bench_poses, kernels, run_end, trajectory
+from core import (
+    BenchDragonError,
+    Dragon,
+    EndReason,
+    InvalidValue,
+    OutsideRun,
+    Route,
+    Spiral,
+    bench_poses,
+    kernels,
+    run_end,
+    trajectory,
+    turn,
+)
 from core.kernels import LANES_PER_BLOCK
 from core.kinematics import HEAD_SPEED_MAX, HEAD_SPEED_MIN
 from tests.core.slow_search import SlowDance
@@ -330,12 +343,44 @@ def test_a_head_speed_beyond_its_limits_is_refused(head_speed: object) -> None:
 
 @pytest.mark.parametrize(
     ("times", "field"),
-    [([[0.0]], "times"), (0.0, "times"), (["soon"], "times"), ([0.0, math.nan], "times.1"), ([math.inf], "times.0")],
+    [([[0.0]], "times"), ("0", "times"), (["soon"], "times"), ([0.0, math.nan], "times.1"), ([math.inf], "times.0")],
 )
 def test_times_that_are_no_flat_list_of_numbers_are_refused(times: object, field: str) -> None:
     with pytest.raises(InvalidValue) as refused:
         trajectory(Dragon(), Spiral(), times)  # type: ignore[arg-type]
     assert refused.value.field == field
+
+
+@pytest.mark.parametrize("path", [Spiral(), turn(1.7).path], ids=["spiral", "turn"])
+def test_one_time_answers_one_instant_and_a_list_is_a_loop_over_its_times(path: Spiral | Route) -> None:
+    dragon, times = Dragon(30), [0.0, 12.5, 40.0]
+    many = trajectory(dragon, path, times)
+    for k, time in enumerate(times):
+        one = trajectory(dragon, path, time)
+        assert one.time.shape == ()
+        assert one.position.shape == one.velocity.shape == (31, 2)
+        assert one.speed.shape == (31,)
+        for name in ("time", "position", "velocity", "speed"):
+            assert np.array_equal(getattr(one, name), getattr(many, name)[k])
+
+
+@pytest.mark.parametrize(
+    ("times", "words"),
+    [
+        (500.0, r"^times must be at most 432\.917924228 s, when bench 0 folds, got 500 s$"),
+        ([0, 500], r"^times\[1\] must be at most 432\.917924228 s, when bench 0 folds, got 500 s$"),
+        (math.inf, r"^times must be finite, got inf s$"),
+    ],
+)
+def test_a_time_that_is_refused_is_named_as_it_was_given(times: object, words: str) -> None:
+    with pytest.raises(BenchDragonError, match=words):
+        trajectory(Dragon(), Spiral(), times)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("handles", [None, 1.0, [[0.0, 0.0, 0.0]], [0.0, 0.0], "handles", [["a", "b"]]])
+def test_handles_that_are_no_places_are_refused(handles: object) -> None:
+    with pytest.raises(InvalidValue, match=r"^handles must be places of shape"):
+        bench_poses(handles)  # type: ignore[arg-type]
 
 
 def test_no_times_give_an_empty_table() -> None:

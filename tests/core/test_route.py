@@ -253,6 +253,31 @@ def test_a_path_a_hair_longer_than_the_dragon_has_room() -> None:
 # -- the reference turn --------------------------------------------------------------------------------------
 
 
+@pytest.mark.parametrize(
+    ("asked", "field", "got"),
+    [
+        ({"pitch": 1.7, "start_turns": 2.0}, "start_turns", 2.0),
+        ({"pitch": 1.7, "turning_radius": 4.5, "start_turns": 4.5 / 1.7 * (1 + 1e-12)}, "start_turns", None),
+        (
+            {"pitch": 1e-3, "turning_radius": 0.1, "start_turns": 200, "entry_radius": 3e-3, "ratio": 0.01},
+            "ratio",
+            0.01,
+        ),
+        ({"pitch": 1e-3, "turning_radius": 1e-3}, "turning_radius", 1e-3),
+        ({"pitch": 1e-3, "turning_radius": 0.01, "entry_radius": 1e-3}, "entry_radius", 1e-3),
+        ({"pitch": 1e4, "start_turns": 200.0}, "start_turns", 200.0),
+    ],
+    ids=["inside the circle", "on the circle", "an arc too small", "the circle", "the entry", "a coil too long"],
+)
+def test_a_turn_that_is_none_names_what_was_asked_and_never_a_piece(asked: dict, field: str, got: float | None) -> None:
+    with pytest.raises(InvalidValue) as refused:
+        turn(**asked)
+    assert refused.value.field == field
+    assert got is None or refused.value.got == got
+    assert refused.value.message.startswith(f"{field} must ")
+    assert "path" not in refused.value.message
+
+
 def test_the_turn_has_the_reference_arcs() -> None:
     known = REFERENCE["turn"]
     assert TURN.length == pytest.approx(known["length"], abs=REFERENCE_ERROR)

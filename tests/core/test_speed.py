@@ -187,4 +187,8 @@ def test_a_proof_that_takes_too_long_is_given_up_and_said_so(monkeypatch: pytest
     report = check(Dragon(), TURN, speed_limit=2.0, **span)
     assert report.highest_speed is not None
     assert report.highest_speed.speed_bracket[1] is None
+    # the limit is far above, and proven on its own
+    assert report.passed
+    monkeypatch.setattr(core.speed, "EXCESS_LINKS", 20)
+    report = check(Dragon(), TURN, speed_limit=2.0, **span)
     assert [failure.kind for failure in report.failures] == [FailureKind.UNDECIDED]

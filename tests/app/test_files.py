@@ -1,0 +1,164 @@
+"""Files that the command writes: refused before any work, there whole or not at all."""
+
+from __future__ import annotations
+
+import errno
+import os
+import re
+import resource
+import signal
+import subprocess
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from app.files import checked_output, write_whole
+from core import InvalidValue
+from tests.app.test_cli import COMMAND, ENVIRONMENT, PATIENCE, run
+
+OLD, NEW = b"what stood here before", b"what is written now"
+# A file may grow to this in the tests of a full disk [bytes].
+ROOM = 500
+# Each command that writes a file, with its option last.
+WRITERS = [
+    ("trajectory", "--output", "dance.csv"),
+    ("trajectory", "--output", "dance.xlsx"),
+    ("check", "examples/paper_dance.toml", "--figure", "dance.svg"),
+    ("prove", "collision-time", "--benches", "9", "--time", "412.4738376821", "--output", "dance.proof.json"),
+    ("figures", "--kind", "contact", "--benches", "20", "FOLDER"),
+]
+QUICK = [WRITERS[0], WRITERS[2], WRITERS[4]]
+
+
+def with_target(arguments: tuple[str, ...], folder: Path) -> tuple[list[str], Path]:
+    """The command writing into a folder, and the file."""
+    *before, last = arguments
+    if last == "FOLDER":
+        return [*before, str(folder)], folder / "contact.png"
+    return [*before, str(folder / last)], folder / last
+
+
+def limited(arguments: list[str]) -> subprocess.CompletedProcess[str]:
+    """The command where a file cannot grow beyond ROOM, as on a full disk."""
+
+    def limit() -> None:
+        signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+        resource.setrlimit(resource.RLIMIT_FSIZE, (ROOM, ROOM))
+
+    return subprocess.run(
+        [COMMAND, *arguments], capture_output=True, text=True, env=ENVIRONMENT, timeout=PATIENCE, preexec_fn=limit
+    )
+
+
+@pytest.mark.parametrize("ending", ["", ".doc", ".csvx", ".CSV.txt", "."])
+def test_another_ending_is_refused_and_nothing_is_written(tmp_path: Path, ending: str) -> None:
+    for command in (["trajectory", "--output"], ["check", "examples/paper_dance.toml", "--figure"]):
+        done = run(*command, str(tmp_path / f"foo{ending}"))
+        assert (done.returncode, done.stdout) == (2, "")
+        assert re.fullmatch(r"Error: --(output|figure) must end in .*, got (no ending|\.\w+)\n", done.stderr)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_an_ending_is_refused_before_the_file_of_the_dance_is_read(tmp_path: Path) -> None:
+    done = run("check", str(tmp_path / "missing.toml"), "--figure", str(tmp_path / "dance.gif"))
+    assert done.stderr == "Error: --figure must end in .svg or .png, got .gif\n"
+
+
+@pytest.mark.parametrize("arguments", WRITERS[:4], ids=" ".join)
+def test_a_folder_that_does_not_exist_is_refused_in_one_line(tmp_path: Path, arguments: tuple[str, ...]) -> None:
+    command, file = with_target(arguments, tmp_path / "missing")
+    done = run(*command)
+    assert (done.returncode, done.stdout) == (2, "")
+    assert done.stderr == f"Error: {command[-2]} must be in a folder that exists, got {file}\n"
+
+
+@pytest.mark.parametrize("arguments", QUICK, ids=" ".join)
+def test_a_folder_in_which_nobody_may_write_is_told_in_one_line(arguments: tuple[str, ...]) -> None:
+    command, file = with_target(arguments, Path("/proc"))
+    done = run(*command)
+    assert (done.returncode, done.stdout) == (2, "")
+    assert re.fullmatch(rf"Error: {file}: (No such file or directory|Permission denied)\n", done.stderr)
+
+
+@pytest.mark.parametrize("arguments", QUICK, ids=" ".join)
+def test_a_folder_in_the_place_of_the_file_is_told_in_one_line(tmp_path: Path, arguments: tuple[str, ...]) -> None:
+    command, file = with_target(arguments, tmp_path)
+    file.mkdir()
+    done = run(*command)
+    assert (done.returncode, done.stdout, done.stderr) == (2, "", f"Error: {file}: Is a directory\n")
+
+
+@pytest.mark.parametrize("arguments", WRITERS, ids=" ".join)
+def test_a_full_disk_leaves_what_was_there_and_nothing_else(tmp_path: Path, arguments: tuple[str, ...]) -> None:
+    command, file = with_target(arguments, tmp_path)
+    file.write_bytes(OLD)
+    done = limited(command)
+    assert (done.returncode, done.stdout) == (2, "")
+    assert done.stderr == f"Error: {file}: File too large\n"
+    assert [path.name for path in tmp_path.iterdir()] == [file.name]
+    assert file.read_bytes() == OLD
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="no /dev/full here")
+def test_a_device_is_written_to_and_never_replaced(tmp_path: Path) -> None:
+    link = tmp_path / "dance.csv"
+    link.symlink_to("/dev/full")
+    done = run("trajectory", "--stop", "2", "--output", str(link))
+    assert (done.returncode, done.stderr) == (2, f"Error: {link}: No space left on device\n")
+    assert Path("/dev/full").is_char_device()
+
+
+@pytest.mark.parametrize("arguments", QUICK, ids=" ".join)
+def test_an_existing_file_is_replaced_and_keeps_its_mode(tmp_path: Path, arguments: tuple[str, ...]) -> None:
+    command, file = with_target(arguments, tmp_path)
+    file.write_bytes(OLD)
+    file.chmod(0o640)
+    assert run(*command).returncode == 0
+    assert len(file.read_bytes()) > ROOM
+    assert file.stat().st_mode & 0o777 == 0o640
+    assert [path.name for path in tmp_path.iterdir()] == [file.name]
+
+
+def test_a_new_file_has_the_mode_that_the_users_mask_leaves(tmp_path: Path) -> None:
+    before = os.umask(0o027)
+    try:
+        write_whole(tmp_path / "new", NEW)
+    finally:
+        os.umask(before)
+    assert (tmp_path / "new").stat().st_mode & 0o777 == 0o640
+
+
+def test_a_link_is_followed(tmp_path: Path) -> None:
+    (tmp_path / "there").write_bytes(OLD)
+    (tmp_path / "here").symlink_to(tmp_path / "there")
+    write_whole(tmp_path / "here", NEW)
+    assert (tmp_path / "here").is_symlink()
+    assert (tmp_path / "there").read_bytes() == NEW
+
+
+def test_a_long_name_leaves_room_for_the_temporary_one(tmp_path: Path) -> None:
+    file = tmp_path / ("n" * 250 + ".csv")
+    write_whole(file, NEW)
+    assert file.read_bytes() == NEW
+
+
+def test_a_relative_name_is_written_beside_where_one_stands(tmp_path: Path) -> None:
+    done = subprocess.run(
+        [COMMAND, "trajectory", "--stop", "2", "--output", "dance.csv"],
+        capture_output=True, text=True, env=ENVIRONMENT, cwd=tmp_path, timeout=PATIENCE,
+    )  # fmt: skip
+    assert (done.returncode, done.stderr) == (0, "dance.csv: 224 handles at 3 instants\n")
+    assert (tmp_path / "dance.csv").read_bytes().startswith(b"time,handle,x,y,speed\n")
+
+
+@pytest.mark.parametrize("broken", [lambda: errno.ENOENT, lambda: errno.ENOTDIR], ids=["missing", "a file"])
+def test_a_writer_alone_names_the_file_that_it_was_given(tmp_path: Path, broken: Callable[[], int]) -> None:
+    folder = tmp_path / "folder"
+    if broken() == errno.ENOTDIR:
+        folder.write_bytes(b"")
+    with pytest.raises(OSError, match="dance") as refused:
+        write_whole(folder / "dance", NEW)
+    assert (refused.value.errno, refused.value.filename) == (broken(), str(folder / "dance"))
+    with pytest.raises(InvalidValue, match="--output must be in a folder that exists"):
+        checked_output("output", folder / "dance")

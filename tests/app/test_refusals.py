@@ -1,0 +1,171 @@
+"""Each error that core raises reaches whoever asked by a name that they gave or can give, with the value they gave."""
+
+from __future__ import annotations
+
+import json
+import re
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import httpx
+import pytest
+
+from tests.app.test_cli import run
+
+# Names of core that no request has.
+INSIDE = re.compile(r"turning_radius|path\.path|pieces|times\[|dragon\.|path\.")
+
+
+class Asked(NamedTuple):
+    """A question with one wrong value, the name of that value, and what the refusal says."""
+
+    call: str
+    query: dict[str, Any]
+    name: str
+    words: str
+
+
+FLAT = [
+    Asked("collision-time", {"start_turns": 0.5}, "start_turns", "must be more than 2.345"),
+    Asked("collision-time", {"overhang": 1.1}, "overhang", "must be less than half of body_length (2.2 m / 2 = 1.1 m)"),
+    Asked("collision-time", {"head_length": 0.5, "overhang": 0.25}, "overhang", "less than half of head_length"),
+    Asked("collision-time", {"benches": 100_001}, "benches", "must be at most 100000 here, got 100001"),
+    Asked("minimum-pitch", {"turning_diameter": 0.1}, "turning_diameter", "must be larger for this dragon"),
+    Asked("minimum-pitch", {"turning_diameter": 0.1}, "turning_diameter", "got 0.1 m"),
+    Asked("minimum-pitch", {"turning_diameter": 0.002}, "turning_diameter", "must allow pitches of 0.001 m and more"),
+    Asked("minimum-pitch", {"start_turns": 1e-5}, "start_turns", "must be at least 0.00045 turns"),
+    Asked("shortest-turn", {"turning_diameter": 8}, "turning_diameter", "bends to a radius of 1.336 m, too tight"),
+    Asked("shortest-turn", {"turning_diameter": 8}, "turning_diameter", "got 8 m"),
+    Asked("shortest-turn", {"margin": 0.4}, "turning_diameter", "come nearer than 0.4 m"),
+    Asked("shortest-turn", {"pitch": 0.8}, "turning_diameter", "benches 0 and 15 touch 13.286258 s after the entry"),
+    Asked("shortest-turn", {"start_turns": 2}, "start_turns", "must be more than 2.64706 turns, which is the turning"),
+    Asked("turn", {"start_turns": 2}, "start_turns", "must be more than 2.64706 turns, which is the turning circle"),
+    Asked("turn", {"entry_radius": 5}, "entry_radius", "must be at most 4.5 m, got 5.0 m"),
+    Asked("turn", {"pitch": 0.001, "turning_diameter": 0.002}, "turning_diameter", "must leave arcs with radii from"),
+    Asked("turn", {"pitch": 0.001, "turning_diameter": 0.01, "ratio": 0.01}, "ratio", "must leave arcs with radii"),
+    Asked("maximum-head-speed", {"turning_diameter": 4}, "turning_diameter", "must be larger than 4 m, or the ratio"),
+    Asked("maximum-head-speed", {"turning_diameter": 4}, "turning_diameter", "the turn must not bend tighter than"),
+    Asked("maximum-head-speed", {"entry_radius": 2}, "entry_radius", "must be larger than 2 m, or the ratio nearer"),
+    Asked("maximum-head-speed", {"start_turns": 2}, "start_turns", "must be more than 2.64706 turns"),
+]
+FLAT_GET = [
+    Asked("clearance", {"stop": 440.5}, "stop", "must be at most 432.917924228 s, when bench 0 folds, got 440.5 s"),
+    Asked("clearance", {"start": 435, "stop": 440}, "start", "must be at most 432.917924228 s"),
+    Asked("clearance", {"start": 5, "stop": 1}, "stop", "must not be before start (5 s), got 1 s"),
+    Asked("clearance", {"step": 1e-4}, "step", "instants x handles must be at most 1000000 here"),
+    Asked("clearance", {"benches": 2}, "benches", "must be at least 3 for two to share no handle, got 2"),
+    Asked("pitch-scan", {"turning_diameter": 0.1}, "turning_diameter", "must be larger for this dragon"),
+    Asked("pitch-scan", {"turning_diameter": 0.036, "benches": 1, "head_length": 0.005, "overhang": 0},
+          "turning_diameter", "must allow pitches of 0.00125 m and more, got 0.036 m"),
+    Asked("figures/trajectory.svg", {"time": 440}, "time", "must be at most 432.917924228 s, when bench 0"),
+    Asked("figures/contact.svg", {"start_turns": 0.5}, "start_turns", "must be more than 2.345"),
+]  # fmt: skip
+LINE = {"kind": "line", "start": [0, 0], "end": [60, 0]}
+ROUTE = {"kind": "route", "pieces": [LINE]}
+BODIES = [
+    Asked("trajectory", {"path": {"start_turns": 0.5}}, "/path/start_turns", "path.start_turns must be more than 2.3"),
+    Asked("trajectory", {"dragon": {"overhang": 1.1}}, "/dragon/overhang", "dragon.overhang must be less than half of"),
+    Asked("trajectory", {"times": {"stop": 440.5}}, "/times/stop", "times.stop must be at most 432.917924228 s"),
+    Asked("trajectory", {"times": {"stop": 440.5}}, "/times/stop", "got 440.5 s"),
+    Asked("trajectory", {"times": {"start": 435, "stop": 440}}, "/times/start", "times.start must be at most 432.9179"),
+    Asked("trajectory", {"times": [0, 440]}, "/times/1", "times[1] must be at most 432.917924228 s"),
+    Asked("trajectory", {"path": {"pitch": 0.3, "start_turns": 12}}, "/times/stop", "times.stop must be at most"),
+    Asked("trajectory", {"path": {"pitch": 0.3, "start_turns": 12}}, "/times/stop", "got 300 s"),
+    Asked("trajectory", {"path": ROUTE, "times": {"stop": 5}, "dragon": {"benches": 9}}, "/times/start",
+          "times.start must be at least 16.0"),
+    Asked("trajectory", {"path": ROUTE, "times": [-1e5], "dragon": {"benches": 9}}, "/times/0", "times[0] must be"),
+    Asked("trajectory", {"path": {"kind": "turn", "start_turns": 2}}, "/path/start_turns", "path.start_turns must be"),
+    Asked("trajectory", {"path": {"kind": "turn", "turning_diameter": 0.002, "pitch": 0.001}},
+          "/path/turning_diameter", "path.turning_diameter must leave arcs with radii from"),
+    Asked("trajectory", {"path": {"kind": "turn", "turning_diameter": 0.002, "pitch": 0.001}},
+          "/path/turning_diameter", "got 0.002 m"),
+    Asked("trajectory", {"path": {"kind": "turn", "entry_radius": 9}}, "/path/entry_radius", "path.entry_radius must"),
+    Asked("trajectory", {"path": {"kind": "turn", "turning_diameter": 4}}, "/path", "path must not bend tighter than"),
+    Asked("trajectory", {"path": {"kind": "waypoints", "points": [[0, 0], [9, 0], [9, 0]]}}, "/path/points/2",
+          "path.points[2] must be at least 0.001 m from the point before it"),
+    Asked("trajectory", {"path": {"kind": "route", "pieces": [LINE, LINE]}}, "/path/pieces/1", "must close"),
+    Asked("trajectory", {"path": ROUTE}, "/path", "path is too short for the whole dragon"),
+    Asked("clearance", {"dragon": {"benches": 2}}, "/dragon/benches", "dragon.benches must be at least 3"),
+    Asked("check", {"start": 500}, "/start", "start must be before 432.917924228 s, when bench 0 folds, got 500 s"),
+    Asked("check", {"start": 5, "stop": 5}, "/stop", "stop must be after start (5 s), got 5 s"),
+    Asked("check", {"path": ROUTE, "dragon": {"benches": 9}, "stop": 1e4}, "/stop", "stop must be at most 60.0"),
+    Asked("check", {"path": {"kind": "turn"}, "stop": 1e5}, "/stop", "stop must be at most"),
+    Asked("check", {"path": {"kind": "turn", "turning_diameter": 0.002, "pitch": 0.001, "entry_radius": 0.001}},
+          "/path/entry_radius", "path.entry_radius must leave arcs"),
+    Asked("figures/trajectory.svg", {"time": 440}, "/time", "time must be at most 432.917924228 s, when bench 0"),
+    Asked("figures/contact.svg", {"path": {"kind": "turn"}, "stop": 1e5}, "/stop", "stop must be at most"),
+]  # fmt: skip
+
+
+def named(asked: Asked) -> str:
+    return f"{asked.call} {asked.name} {asked.words[:30]}"
+
+
+@pytest.mark.parametrize("asked", FLAT + FLAT_GET, ids=named)
+def test_a_query_is_refused_by_its_own_name_and_value(client: httpx.Client, asked: Asked) -> None:
+    answer = client.get(f"/{asked.call}", params=asked.query)
+    assert answer.status_code == 422
+    ((item,), detail) = answer.json()["errors"], answer.json()["detail"]
+    assert (item["name"], item["detail"]) == (asked.name, detail)
+    assert asked.words in detail
+    assert not INSIDE.search(detail)
+    calls = client.get("/openapi.json").json()["paths"]
+    parameters = calls[f"/{asked.call.replace('.svg', '.{format}')}"]["get"]["parameters"]
+    assert asked.name in {parameter["name"] for parameter in parameters}
+
+
+@pytest.mark.parametrize("asked", FLAT, ids=named)
+def test_an_option_is_refused_in_the_same_words(client: httpx.Client, asked: Asked) -> None:
+    options = [f"--{name.replace('_', '-')}={value}" for name, value in asked.query.items()]
+    done = run(asked.call, *options)
+    assert (done.returncode, done.stdout) == (2, "")
+    assert done.stderr == f"Error: {client.get(f'/{asked.call}', params=asked.query).json()['detail']}\n"
+
+
+@pytest.mark.parametrize("asked", BODIES, ids=named)
+def test_a_body_is_refused_by_a_place_in_it(client: httpx.Client, asked: Asked) -> None:
+    answer = client.post(f"/{asked.call}", json=asked.query)
+    assert answer.status_code == 422
+    ((item,), detail) = answer.json()["errors"], answer.json()["detail"]
+    assert (item["pointer"], item["detail"]) == (asked.name, detail)
+    assert asked.words in detail
+    assert not re.search(r"turning_radius|path\.path", detail)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (["trajectory", "--stop", "440.5"], "stop must be at most 432.917924228 s, when bench 0 folds, got 440.5 s"),
+        (
+            ["trajectory", "--start", "435", "--stop", "440"],
+            "start must be at most 432.917924228 s, when bench 0 folds",
+        ),
+        (["trajectory", "--times", "0,440"], "times[1] must be at most 432.917924228 s, when bench 0 folds, got 440 s"),
+        (["overlaps", "--time", "440"], "time must be at most 432.917924228 s, when bench 0 folds, got 440 s"),
+        (["figures", ".", "--kind", "trajectory", "--time", "440"], "time must be at most 432.917924228 s, when bench"),
+    ],
+    ids=lambda value: " ".join(value) if isinstance(value, list) else None,
+)
+def test_an_instant_is_refused_by_the_option_that_asked_for_it(arguments: list[str], words: str) -> None:
+    done = run(*arguments)
+    assert (done.returncode, done.stdout) == (2, "")
+    assert done.stderr.startswith(f"Error: {words}")
+    assert len(done.stderr.splitlines()) == 1
+
+
+@pytest.mark.parametrize("asked", [one for one in BODIES if one.call == "check"], ids=named)
+def test_a_file_of_a_dance_is_refused_as_a_body_is(client: httpx.Client, tmp_path: Path, asked: Asked) -> None:
+    file = tmp_path / "dance.json"
+    file.write_text(json.dumps(asked.query))
+    done = run("check", str(file))
+    assert (done.returncode, done.stdout) == (2, "")
+    assert done.stderr == f"Error: {client.post('/check', json=asked.query).json()['detail']}\n"
+
+
+def test_the_instant_of_a_drawn_check_is_named(tmp_path: Path) -> None:
+    file = tmp_path / "dance.json"
+    file.write_text('{"dragon": {"benches": 5}, "stop": 100}')
+    done = run("check", str(file), "--figure", str(tmp_path / "dance.svg"), "--time", "1000")
+    assert (done.returncode, done.stdout) == (2, "")
+    assert done.stderr.startswith("Error: time must be at most 432.917924228 s, when bench 0 folds, got 1000 s")
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["dance.json"]

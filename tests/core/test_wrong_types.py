@@ -1,0 +1,121 @@
+"""Every public function of core refuses what is of a wrong type by the name of its parameter."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+
+import core
+from core import Dragon, InvalidValue, Line, Spiral, Venue
+
+DRAGON, SPIRAL = Dragon(benches=5), Spiral()
+SQUARE = Venue.from_geojson(
+    {"type": "Polygon", "coordinates": [[[-30, -30], [30, -30], [30, 30], [-30, 30], [-30, -30]]]}
+)
+POSES, COLUMN = [[0.0, 0.0, 0.0], [0.0, 1.0, 0.0]], [2.0, 2.0]
+# How each is called when all is well; the names are those of its parameters.
+CALLS: dict[Callable[..., Any], dict[str, Any]] = {
+    core.bench_poses: {"handles": np.zeros((3, 2)) + np.arange(3)[:, None]},
+    core.check: {"dragon": DRAGON, "path": SPIRAL, "venue": SQUARE, "margin": 0.0, "speed_limit": 2.0, "stop": 9.0},
+    core.clearance_profile: {"dragon": DRAGON, "path": SPIRAL, "times": [0.0], "head_speed": 1.0},
+    core.cross_check: {"poses": POSES, "lengths": COLUMN, "widths": COLUMN, "margin": 0.0},
+    core.first_contact: {"dragon": DRAGON, "path": SPIRAL, "head_speed": 1.0, "margin": 0.0, "start": 0.0, "stop": 9.0},
+    core.highest_speed: {"dragon": DRAGON, "path": SPIRAL, "head_speed": 1.0, "start": 0.0, "stop": 9.0},
+    core.least_clearance: {"dragon": DRAGON, "path": SPIRAL, "head_speed": 1.0, "start": 0.0, "stop": 9.0},
+    core.maximum_head_speed: {"dragon": DRAGON, "path": SPIRAL, "speed_limit": 2.0, "start": 0.0, "stop": 9.0},
+    core.minimum_pitch: {"dragon": DRAGON, "turning_radius": 4.5, "start_turns": 16.0, "margin": 0.0},
+    core.overlaps: {"poses": POSES, "lengths": COLUMN, "widths": COLUMN, "engine": core.Engine.FCL, "margin": 0.0},
+    core.run_end: {"dragon": DRAGON, "path": SPIRAL, "head_speed": 1.0},
+    core.separation: {"poses_a": POSES, "sizes_a": [2.0, 1.0], "poses_b": POSES, "sizes_b": [2.0, 1.0]},
+    core.sharpest_bend: {"dragon": DRAGON, "path": SPIRAL, "head_speed": 1.0, "start": 0.0, "stop": 9.0},
+    core.shortest_turn: {"dragon": DRAGON, "pitch": 1.7, "turning_radius": 4.5, "ratio": 2.0, "margin": 0.0},
+    core.trajectory: {"dragon": DRAGON, "path": SPIRAL, "times": [0.0], "head_speed": 1.0},
+    core.turn: {"pitch": 1.7, "turning_radius": 4.5, "ratio": 2.0, "start_turns": 16.0, "entry_radius": 4.0},
+    core.venue_clearance: {"dragon": DRAGON, "path": SPIRAL, "venue": SQUARE, "margin": 0.0, "stop": 9.0},
+    core.verdicts: {"before": POSES, "after": POSES, "lengths": COLUMN, "widths": COLUMN, "margin": 0.0},
+    core.Area: {"name": "square", "rings": SQUARE.square.rings},
+    core.Dragon: {"benches": 5, "head_length": 3.0, "body_length": 2.0, "width": 0.3, "overhang": 0.2},
+    core.Dragon.of: {"lengths": COLUMN, "widths": COLUMN, "overhangs": [0.2, 0.2]},
+    core.Route: {"pieces": [Line((0, 0), (60, 0))], "start": 0.0},
+    core.Spiral: {"pitch": 0.55, "start_turns": 16.0},
+    core.Venue: {"square": SQUARE.square, "obstacles": ()},
+    core.Venue.from_geojson: {"geometry": {"type": "Polygon", "coordinates": [SQUARE.square.rings[0]]}},
+}
+# What the refusal calls a parameter where not by its own name: as part of the whole, or by its columns.
+SPOKEN = {
+    core.Area: {"name": "venue", "rings": "venue"},
+    core.Dragon: dict.fromkeys(CALLS[core.Dragon], "dragon."),
+    core.Dragon.of: dict.fromkeys(CALLS[core.Dragon.of], "dragon."),
+    core.Route: {"pieces": "path.pieces", "start": "path.start"},
+    core.Spiral: {"pitch": "path.pitch", "start_turns": "path.start_turns"},
+    core.Venue: {"square": "venue", "obstacles": "venue"},
+    core.Venue.from_geojson: {"geometry": "venue"},
+    core.cross_check: {"poses": "benches"},
+    core.overlaps: {"poses": "benches"},
+    core.verdicts: {"before": "benches", "after": "benches"},
+}
+WRONG = {
+    "nothing": None,
+    "number": 0.55j,
+    "text": "0.55",
+    "class": Dragon,
+    "function": core.trajectory,
+    "mapping": {"pitch": 0.55},
+    "path": SPIRAL,
+    "dragon": DRAGON,
+    "ragged": [[1.0], [1.0, 2.0]],
+}
+# None stands for a default there, and these are right there.
+ALLOWED = {("nothing", name) for name in ("venue", "speed_limit", "start", "stop", "entry_radius")}
+ALLOWED |= {("path", "path"), ("dragon", "dragon"), ("text", "name")}
+CASES = [
+    (call, name, kind)
+    for call, good in CALLS.items()
+    for name in good
+    for kind in WRONG
+    if (kind, name) not in ALLOWED or (call in (core.first_contact, core.Route) and name == "start")
+]
+
+
+def spoken(call: Callable[..., Any]) -> str:
+    return getattr(call, "__qualname__", str(call))
+
+
+@pytest.mark.parametrize("call", CALLS, ids=spoken)
+def test_the_good_call_is_good(call: Callable[..., Any]) -> None:
+    call(**CALLS[call])
+
+
+def test_every_public_function_is_called() -> None:
+    functions = {one for one in vars(core).values() if callable(one) and not isinstance(one, type)}
+    assert functions - set(CALLS) == set()
+
+
+@pytest.mark.parametrize(("call", "name", "kind"), CASES, ids=lambda value: value if isinstance(value, str) else None)
+def test_a_wrong_type_is_refused_by_name(call: Callable[..., Any], name: str, kind: str) -> None:
+    with pytest.raises(InvalidValue) as refused:
+        call(**{**CALLS[call], name: WRONG[kind]})
+    expected = SPOKEN.get(call, {}).get(name, name)
+    assert refused.value.field.startswith(expected)
+    assert expected in refused.value.message
+
+
+@pytest.mark.parametrize("path", [0.55, None, Spiral, "spiral", DRAGON])
+def test_a_path_that_is_none_says_what_it_must_be(path: Any) -> None:
+    with pytest.raises(InvalidValue, match=r"^path must be a Spiral or Route, got "):
+        core.first_contact(DRAGON, path)
+
+
+@pytest.mark.parametrize("engine", ["sat", None, 3])
+def test_an_engine_that_is_none_is_refused(engine: Any) -> None:
+    with pytest.raises(InvalidValue, match=r"^engine must be one of separating_axis, fcl, shapely, angle_sum, got "):
+        core.overlaps(POSES, COLUMN, COLUMN, engine=engine)
+
+
+@pytest.mark.parametrize("times", [["1"], [None], None, [True], "1", [[0.0]], [0j], [[0.0], [1.0, 2.0]]])
+def test_times_are_numbers_and_never_read_from_something_else(times: Any) -> None:
+    with pytest.raises(InvalidValue, match=r"^times must be "):
+        core.trajectory(DRAGON, SPIRAL, times)
