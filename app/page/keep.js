@@ -77,9 +77,12 @@ export class Keep {
     return ["first-contact.svg", blob];
   }
 
+  /** What the command gives: of the answer that is shown the engines may have judged the pair alone. */
   async json() {
-    const { answer, report } = this.questions.dance;
-    const text = JSON.stringify(report ?? answer, null, 2);
-    return [report ? "check.json" : "collision-time.json", new Blob([text], { type: "application/json" })];
+    const { dance } = this.questions;
+    const path = dance.kind === "spiral" ? "collision-time" : "check";
+    const asked = dance.kind === "spiral" ? { query: dance.query } : { body: this.questions.checkBody(dance) };
+    const text = JSON.stringify(await this.service.ask("json", path, asked), null, 2);
+    return [`${path}.json`, new Blob([text], { type: "application/json" })];
   }
 }
