@@ -186,7 +186,7 @@ class MinimumPitch(Answer):
         "is null, a start inside the circle; or a fold: a bench cannot follow the head as far as the circle"
     )
     benches: Pair | None = Field(
-        description="The pair that is nearer than the margin, or touches, just below; null at a fold and without contact"
+        description="The pair that touches, or is nearer than the margin, just below; null at a fold or without one"
     )
     head_radius: float | None = Field(description="Where the head is then [m]")
     other_feasible_intervals: list[Point] = Field(description="Feasible islands below [m]")

@@ -181,7 +181,7 @@ def shortest_turn(asked: schemas.ShortestTurnQuery, json: Json = False) -> None:
     with show.waiting("shortest turn"):
         found = asked.to_shortest_turn(Settings().checked_benches_max)
     gap = f" with no bench nearer than {asked.margin:g} m to another" if asked.margin else ""
-    show.print_answer(f"Shortest turn{gap}", report.ShortestTurn.of_shortest(found), json, asked.margin)
+    show.print_answer(f"Shortest turn{gap}", report.ShortestTurn.of_shortest(found), json, margin=asked.margin)
 
 
 @app.command()
