@@ -102,7 +102,7 @@ class PitchScanTable(Answer):
 class Certificate(Answer):
     """How the answer is known."""
 
-    method: str = Field(description="In one sentence")
+    method: str = Field(description="The whole claim, and how it is proven, in sentences")
     steps: int = Field(description="Proven steps taken")
     clear_until: float = Field(description="Nothing comes nearer than the margin, or touches, from 0 to here [s]")
     bound: float = Field(description="Largest bound on the second derivative of a gap that a step used [1/m]")

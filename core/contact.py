@@ -1,12 +1,12 @@
 """First contact and clearance along time, with a certificate.
 
-The proof is written above the loops that carry it out: `core/kernels/bounds.py`, `pairs.py` and `rings.py`. In short:
-the head advances from L to R only if, for every pair that can be near, one axis fixed in one of the two benches
-separates them by more than the margin over all of [L, R], because the gap along that axis is known at both ends and
-its second derivative is bounded in between. What lies further out than a radius known in closed form cannot touch.
-In a dragon whose body benches are alike, pair (i, j) repeats, in place, what pair (m, m + j - i) met when handle m
-stood where handle i stands (m the first of the equal benches), so once every bench has passed the start of the one
-before it, only the pairs of the first m + 1 benches are followed.
+The proof is written above the loops that carry it out: `core/kernels/bounds.py`, `pairs.py`, `rings.py` and
+`marching.py`. In short: the head advances from L to R only if, for every pair that can be near, one axis fixed in one
+of the two benches separates them by more than the margin over all of [L, R], because the gap along that axis is known
+at both ends and its second derivative is bounded in between. What lies further out than a radius known in closed form
+cannot touch. In a dragon whose body benches are alike, pair (i, j) repeats, in place, what pair (m, m + j - i) met when
+handle m stood where handle i stands (m the first of the equal benches), so once every bench has passed the start of the
+one before it, only the pairs of the first m + 1 benches are followed.
 """
 
 from __future__ import annotations
@@ -21,6 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from core import kernels
+from core.claim import ENDS, UNDECIDED_THEN, claim, claim_at_start, contact_then
 from core.dragon import Dragon, Floats, checked_number, checked_type
 from core.errors import InvalidValue
 from core.kinematics import EndReason, RunEnd, checked_head_speed, checked_span, checked_times, run_end
@@ -78,7 +79,8 @@ class Graze:
 class Certificate:
     """How the answer is known.
 
-    method: one sentence; steps: proven steps taken; clear_until: nothing touches in [0, clear_until] [s]
+    method: the whole claim and how it is proven, in sentences (core/claim.py)
+    steps: proven steps taken; clear_until: nothing touches from the start to then [s]
     bound: the largest bound on the second derivative of a gap along the head's way that a step used [1/m]
     least_clearance: the narrowest graze met before the contact (or over the whole run), None if none
     """
@@ -128,10 +130,6 @@ class ClearanceProfile:
     grazes: tuple[Graze, ...]
 
 
-METHOD = (
-    "proven steps: second-derivative bound on the gap along a body axis between both ends of each step; "
-    "closed-form ring bound further out"
-)
 # By the kernels' codes, which count front-left, front-right, rear-right, rear-left and front, right, rear, left: first
 # for a bench that has the centre on its right, then for one that has it on its left.
 CORNERS = (
@@ -183,7 +181,7 @@ def first_contact(
         until = _known_overlap(search, found["proven"], last, head_speed, until)
     if stop is not None and state == "reached":
         end = RunEnd(EndReason.STOP, until, None, None)
-    return _result(search, state, found, end, until, tolerance, head_speed)
+    return _result(search, state, found, end, (begin, until), tolerance, head_speed)
 
 
 def _known_overlap(search: Search, proven: float, last: float, head_speed: float, until: float) -> float:
@@ -193,25 +191,34 @@ def _known_overlap(search: Search, proven: float, last: float, head_speed: float
 
 
 def _result(
-    search: Search, state: str, found: dict[str, float], end: RunEnd, until: float, tolerance: float, head_speed: float
+    search: Search,
+    state: str,
+    found: dict[str, float],
+    end: RunEnd,
+    span: tuple[float, float],
+    tolerance: float,
+    head_speed: float,
 ) -> FirstContact:
     graze = None
     if found["graze_gap"] < NO_GRAZE:
         pair = (int(found["graze_first"]), int(found["graze_second"]))
         graze = Graze(found["graze_travel"] / head_speed, found["graze_gap"], pair)
     proven = end.time if state == "reached" else found["proven"] / head_speed
-    certificate = Certificate(METHOD, int(found["steps"]), proven, found["bend"], graze)
-    if state == "reached":
-        return FirstContact(Outcome.CLEAR, None, None, None, None, None, None, None, end, certificate)
-    if state == "stuck":
-        bracket = (proven, until)
-        return FirstContact(Outcome.UNDECIDED, None, bracket, None, None, None, None, None, None, certificate)
-    at_start = state == "touched_at_start"
+    outcome = {"reached": Outcome.CLEAR, "stuck": Outcome.UNDECIDED, "touched": Outcome.CONTACT}.get(
+        state, Outcome.CONTACT_AT_START
+    )
+    method = _method(search, outcome, found, end, (span[0], proven), head_speed)
+    certificate = Certificate(method, int(found["steps"]), proven, found["bend"], graze)
+    if outcome is Outcome.CLEAR:
+        return FirstContact(outcome, None, None, None, None, None, None, None, end, certificate)
+    if outcome is Outcome.UNDECIDED:
+        return FirstContact(outcome, None, (proven, span[1]), None, None, None, None, None, None, certificate)
+    at_start = outcome is Outcome.CONTACT_AT_START
     travel = found["touching"] if at_start else found["touching"] - tolerance
     pair = (int(found["first"]), int(found["second"]))
     corner, edge, point, gap = _touching_features(search, travel, pair)
     return FirstContact(
-        Outcome.CONTACT_AT_START if at_start else Outcome.CONTACT,
+        outcome,
         travel / head_speed,
         None if at_start else (proven, found["touching"] / head_speed),
         head_state(search.path, travel),
@@ -223,6 +230,25 @@ def _result(
         certificate,
         gap,
     )
+
+
+def _method(
+    search: Search,
+    outcome: Outcome,
+    found: dict[str, float],
+    end: RunEnd,
+    span: tuple[float, float],
+    head_speed: float,
+) -> str:
+    asked = (search.dragon, search.path, head_speed, search.margin)
+    if outcome is Outcome.CLEAR:
+        return claim(*asked, span, ENDS[end.reason])
+    if outcome is Outcome.UNDECIDED:
+        return claim(*asked, span, UNDECIDED_THEN)
+    pair = (int(found["first"]), int(found["second"]))
+    if outcome is Outcome.CONTACT_AT_START:
+        return claim_at_start(*asked, span[0], pair)
+    return claim(*asked, span, contact_then(pair, search.margin, found["touching"] / head_speed))
 
 
 def head_state(path: Spiral | Route, travel: float) -> HeadState:

@@ -46,6 +46,7 @@ ORDER = (
     "core.coils",
     "core.search",
     "core.precise",
+    "core.claim",
     "core.contact",
     "core.strips",
     "core.design",

@@ -11,11 +11,34 @@ if not cython.compiled:  # for the compiler the same stands in the .pxd
 # upper (or _low lower) bound over the whole interval, from the curvature range [k_low, k_high] of the stretch
 # that the two handles of a link (a leads, b follows, chord c, unit vector u from b to a) sweep.
 #
-# Chord lemma. Let the arc from b to a have curvature in [k_low, k_high], 0 <= k_low, and k_high c < 2. A chord of
-# an arc of length l, curvature at most k and k l <= pi is at least (2 / k) sin(k l / 2) (Schur), and the first
-# root is met before k l = pi; so l lies between those of circles of curvature k_low and k_high. The direction of
-# the chord is the average of the tangents, so the angles alpha between tangents and chord lie in
-# [k_low l / 2, k_high l / 2]: k_low c / 2 <= sin alpha <= k_high c / 2 at both ends.
+# Chord lemma. Let b be the first point behind a at the chord c, l the length of the arc between them, and its curvature
+# in [k_low, k_high], 0 <= k_low, k_high c < 2. Then k_high l < pi; the angles alpha_a from the chord to the tangent at
+# a and alpha_b from the tangent at b to the chord lie in [k_low l / 2, k_high l / 2]; and
+#   k_low c / 2 <= sin alpha <= k_high c / 2 at both ends.
+# If the curvature lies in [-k, k] instead, k c < 2, the same holds with -k for k_low and k for k_high.
+#
+# Proof. Let phi(t) be the direction of the tangent at arc t in front of b, beta that of the chord, D the distance of
+# both ends, as functions of l while b moves back from a (D = 0 and both angles 0 at first). Along the chord direction
+#   D' = cos alpha_b,   and across it   0 = integral of sin(phi - beta) over the arc.
+# Upper bounds, with k = k_high or the two-sided k, as long as k l < pi. Suppose the first l at which one of |alpha_a|,
+# |alpha_b| is about to exceed k l / 2; say alpha_a > 0 does, the other cases are mirror images. Up to there D' >=
+# cos(k l / 2) > 0, so D > 0 and the angles are continuous in l: just beyond it k l / 2 < alpha_a <= pi / 2. With t
+# counted back from a, y(t) = phi - beta has y(0) = alpha_a and |y'| <= k, so |y - alpha_a| <= k l < pi, and z =
+# pi / 2 - |y - pi / 2| has sin z = sin y, z(0) = alpha_a, |z'| <= k too: pi / 2 >= z >= alpha_a - k t >= -pi / 2. As
+# sine rises there,
+#   integral of sin y >= integral of sin(alpha_a - k t) = (cos(alpha_a - k l) - cos alpha_a) / k > 0,
+# since |alpha_a - k l| < alpha_a: a contradiction. Hence also D >= integral of cos(k l / 2) = (2 / k) sin(k l / 2),
+# which reaches 2 / k > c before k l = pi, and D grows until then: so a first point at the chord c exists there, it is
+# the only one, and k c / 2 >= sin(k l / 2) >= sin alpha.
+# Lower bounds, k_low >= 0. Now y falls from alpha_a to -alpha_b, both at most pi / 2. If alpha_a < k_low l / 2, then
+# -pi / 2 <= y <= alpha_a - k_low t, and integral of sin y <= (cos(alpha_a - k_low l) - cos alpha_a) / k_low < 0, again
+# a contradiction; alpha_b likewise. So D' <= cos(k_low l / 2), and k_low c / 2 <= sin(k_low l / 2) <= sin alpha.
+# Vogt. Where curvature grows in the direction of travel, alpha_a >= alpha_b >= 0. For let x(t) = phi(t) - phi(0) at t
+# in front of b; the turn over the last t before a is no less, so y there is at most alpha_a - x, while t in front of b
+# phi - beta = x - alpha_b. If alpha_a < alpha_b, the sum of both sines is at most sin(alpha_a - x) + sin(x - alpha_b)
+# < 0 for every t, all four angles being in [-pi / 2, pi / 2], but its integral is 0.
+#
+# With omega the rate at which u turns, in the sense in which the path bends:
 #   rigid link        b' cos alpha_b = a' cos alpha_a                      (b', a' the rates ds / d sigma)
 #   turning of u      omega = (a' sin alpha_a + b' sin alpha_b) / c        in [k_low b'_low, k_high a'_high]
 #   angles            alpha_a' = k_a a' - omega, alpha_b' = omega - k_b b' so |alpha'| <= k_high a' - k_low b'_low
@@ -24,7 +47,9 @@ if not cython.compiled:  # for the compiler the same stands in the .pxd
 #   link, once more   b''' cos alpha_b = a''' cos alpha_a - 2 a'' alpha_a' sin alpha_a + 2 b'' alpha_b' sin alpha_b
 #                       - a' (alpha_a'^2 cos alpha_a + alpha_a'' sin alpha_a) + b' (the same of b),
 #                     alpha_a'' = k_a' a'^2 + k_a a'' - omega', alpha_b'' = omega' - k_b' b'^2 - k_b b'', k' = dk / ds
-# On an inward spiral curvature grows in the direction of travel, so alpha_a >= alpha_b (Vogt) and |b'| <= |a'|.
+# omega = (a' sin alpha_a + b' sin alpha_b) / c, which is k (a' + b') / 2 for a k in [k_low, k_high]: the bounds of the
+# second line hold where 0 <= b' <= a'. On an inward spiral that is so, by Vogt; on a route, where b' may exceed a',
+# route_bounds() takes the larger of both.
 #
 # Where k_high c >= 2 (near the centre) the angles are followed from the nearer end of the interval instead: with a
 # trial bound on b', |alpha'| <= k_high max(a', b') + omega bounds the cosines half an interval away, these bound b',

@@ -51,12 +51,20 @@ def leaders_reach(growth, lead, rear, ring):
 # |dE / dy| <= sqrt(1 + (growth / rho)^2).
 # Hence -I <= E <= O with the bows O and I below, both falling as 1 / r. Points X, Y of two benches whose polar angles
 # differ by 2 pi m + x, m >= 1, |x| <= pi, are apart radially by at least G + growth x, G = pitch - O - I, and sideways
-# by at least 2 rho |x| / pi: together G / sqrt(1 + (pi growth / 2 rho)^2). With m = 0 at least one bench lies between
-# them: its angle less the two overhangs' angles remains, each at most (o + x_b w / 2 d) / (d - w / 2), and a chord
-# spans at least c / sqrt(growth^2 + r_b^2); at an angle x they are at least 2 rho sin(x / 2) apart. No angle is larger
-# than that of the whole dragon, overhangs included, where a chord spans at most 2 asin(c / 2 r): while that is less
-# than 2 pi, 2 rho sin(x / 2) at that angle takes the place of the bound with m >= 1. Every term grows with r, so the
-# bound holds from r outwards.
+# by at least 2 rho |x| / pi: together by L = G / sqrt(1 + (pi growth / 2 rho)^2), if G > 0 (proof below). With m = 0 at
+# least one bench lies between them: its angle less the two overhangs' angles remains, each at most
+# (o + x_b w / 2 d) / (d - w / 2), and a chord spans at least c / sqrt(growth^2 + r_b^2); at an angle x they are at
+# least 2 rho sin(x / 2) apart. No angle is larger than that of the whole dragon, overhangs included, where a chord
+# spans at most 2 asin(c / 2 r): while that is less than 2 pi, 2 rho sin(x / 2) at that angle takes the place of the
+# bound with m >= 1. Every term grows with r, so the bound holds from r outwards.
+#
+# Why together. Let Y be the outer point, |Y| - |X| = u >= U = G + growth x, and V = 2 rho |x| / pi. As |X|, |Y| >= rho
+# and sin(|x| / 2) >= |x| / pi,
+#     |X - Y|^2 = u^2 + 4 |X| |Y| sin^2(x / 2) >= u^2 + V^2.
+# (U, V) lies on one of the lines U -+ (pi growth / 2 rho) V = G, according to the sign of x, whose distance from the
+# origin is L. Where U >= 0, u^2 >= U^2, so |X - Y| >= L. Where U < 0 nothing is known of u. But then x < -G / growth,
+# so V > 2 rho G / (pi growth): that is V at the point of its line with U = 0, whose distance from the origin, again at
+# least L, is this V. So |X - Y| >= V > L.
 
 
 # For a range of growths: G is concave in growth (its only curved terms are -growth^2 and -sqrt(1 + growth^2 /

@@ -17,6 +17,7 @@ from core import (
     InvalidValue,
     Outcome,
     OutsideRun,
+    Route,
     Spiral,
     clearance_profile,
     first_contact,
@@ -394,6 +395,61 @@ def test_a_faster_head_meets_the_same_contact_sooner(dance: tuple[Dragon, Spiral
 def test_the_bracket_is_as_narrow_as_promised() -> None:
     low, high = first_contact(Dragon(), Spiral()).time_bracket
     assert 0.0 < high - low <= 2.1 * BRACKET
+
+
+# -- the claim in sentences --
+
+
+PROVEN = " Proven in steps,"
+TOUCHING = (
+    "30 benches (head 3.41 m, body 2.2 m, width 0.3 m, overhang 0.275 m) on a spiral of 0.6 m pitch from 8 turns, the "
+    "head at 1 m/s: from 0 s to {clear} s no two benches that share no handle touch, and at {within} s benches 0 and "
+    "{b} overlap."
+)
+NEAR = (
+    "the head at 0.5 m/s: from 10 s to {clear} s no two benches that share no handle come within 0.05 m of each other, "
+    "and at {within} s benches 0 and {b} are within 0.05 m."
+)
+STOPPED = (
+    "3 benches given one by one on a route from s = {begin} m to {end} m (coil, arc, arc, coil), the head at 1 m/s: "
+    "from 0 s to 20 s no two benches that share no handle touch, where the search was to stop."
+)
+FOLDED = "no two benches that share no handle touch, where a bench folds and the run ends."
+
+
+@pytest.mark.parametrize(
+    ("dragon", "path", "asked", "words"),
+    [
+        (Dragon(30), Spiral(0.6, 8.0), {}, TOUCHING),
+        (Dragon(30), Spiral(0.6, 8.0), {"margin": 0.05, "head_speed": 0.5, "start": 10.0}, NEAR),
+        (Dragon.of([3.0, 2.0, 2.5], [0.3] * 3, [0.2] * 3), turn(1.7).path, {"stop": 20.0}, STOPPED),
+        (Dragon(12), Spiral(0.9, 4.0), {}, FOLDED),
+    ],
+    ids=["contact", "margin", "clear", "fold"],
+)
+def test_the_certificate_names_the_whole_claim_in_a_few_sentences(
+    dragon: Dragon, path: Spiral | Route, asked: dict[str, float], words: str
+) -> None:
+    found = first_contact(dragon, path, **asked)
+    claim, proof = found.certificate.method.split(PROVEN)
+    if found.time_bracket is not None:
+        clear, within = found.time_bracket
+        words = words.format(clear=clear, within=within, b=found.benches[1])
+    if isinstance(path, Route):
+        words = words.format(begin=path.begin, end=path.end)
+    assert claim.endswith(words)
+    assert "doubles" in proof
+    assert proof.count(".") == 1
+
+
+def test_a_claim_says_what_is_seen_at_the_start_and_what_is_not_decided() -> None:
+    at_start = first_contact(Dragon(), Spiral(0.35))
+    assert "at 0 s benches {} and {} touch.".format(*at_start.benches) in at_start.certificate.method
+    undecided = first_contact(Dragon(60), Spiral(minimum_pitch(Dragon(60)).pitch_bracket[0]))
+    clear, _ = undecided.time_bracket
+    assert f"to {clear} s no two benches that share no handle touch; whether any do after that is not decided." in (
+        undecided.certificate.method
+    )
 
 
 # -- clearance along time --------------------------------------------------------------------------------

@@ -1,0 +1,79 @@
+"""What a search for first contact proved, in sentences that name all of it.
+
+Numbers have all their digits: a rounded one would name another dance, or an instant beyond what is proven.
+"""
+
+from __future__ import annotations
+
+from core.dragon import Dragon
+from core.kinematics import EndReason
+from core.paths import Spiral
+from core.route import Route
+
+# Kinds of pieces are listed one by one up to so many [1].
+PIECES_LISTED = 6
+PROOF = (
+    "Proven in steps, each by a bound on the second derivative of the gap along an axis fixed in a bench, and further "
+    "out by ring bounds in closed form; computed in doubles, with allowances for their rounding."
+)
+MEASURED = "Measured at that instant, in doubles."
+ENDS = {
+    EndReason.FOLD: ", where a bench folds and the run ends.",
+    EndReason.CENTRE: ", where the head is at the centre.",
+    EndReason.END: ", where the path ends.",
+    EndReason.STOP: ", where the search was to stop.",
+}
+
+
+def claim(
+    dragon: Dragon, path: Spiral | Route, head_speed: float, margin: float, span: tuple[float, float], then: str
+) -> str:
+    """Dragon, path, head speed, margin, and in which span of time [s] no two benches come within it; then: what follows
+    that, to the end of the sentence."""
+    start, stop = map(_number, span)
+    near = f"come within {_number(margin)} m of each other" if margin else "touch"
+    never = f"from {start} s to {stop} s no two benches that share no handle {near}"
+    return f"{_dance(dragon, path, head_speed)}: {never}{then} {PROOF}"
+
+
+def claim_at_start(
+    dragon: Dragon, path: Spiral | Route, head_speed: float, margin: float, start: float, pair: tuple[int, int]
+) -> str:
+    """claim() where two benches come within the margin at the very start [s]."""
+    near = f"are within {_number(margin)} m of each other" if margin else "touch"
+    touching = f"at {_number(start)} s benches {pair[0]} and {pair[1]} {near}."
+    return f"{_dance(dragon, path, head_speed)}: {touching} {MEASURED}"
+
+
+def contact_then(pair: tuple[int, int], margin: float, time: float) -> str:
+    """The end of a claim's sentence where a contact follows, certain at a time [s]."""
+    near = f"are within {_number(margin)} m" if margin else "overlap"
+    return f", and at {_number(time)} s benches {pair[0]} and {pair[1]} {near}."
+
+
+UNDECIDED_THEN = "; whether any do after that is not decided."
+
+
+def _dance(dragon: Dragon, path: Spiral | Route, head_speed: float) -> str:
+    return f"{_dragon(dragon)} on {_path(path)}, the head at {_number(head_speed)} m/s"
+
+
+def _dragon(dragon: Dragon) -> str:
+    count = f"{dragon.benches} bench{'es' if dragon.benches > 1 else ''}"
+    widths, overhangs = dragon.widths, dragon.overhangs
+    if dragon.uniform_from > 1 or widths[0] != widths[-1] or overhangs[0] != overhangs[-1]:
+        return f"{count} given one by one"
+    head, body, width, overhang = map(_number, (dragon.lengths[0], dragon.lengths[-1], widths[0], overhangs[0]))
+    return f"{count} (head {head} m, body {body} m, width {width} m, overhang {overhang} m)"
+
+
+def _path(path: Spiral | Route) -> str:
+    if isinstance(path, Spiral):
+        return f"a spiral of {_number(path.pitch)} m pitch from {_number(path.start_turns)} turns"
+    kinds = [type(piece).__name__.lower() for piece in path.pieces]
+    listed = kinds if len(kinds) <= PIECES_LISTED else sorted(set(kinds))
+    return f"a route from s = {_number(path.begin)} m to {_number(path.end)} m ({', '.join(listed)})"
+
+
+def _number(value: float) -> str:
+    return repr(float(value)).removesuffix(".0")

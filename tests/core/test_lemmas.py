@@ -1,0 +1,170 @@
+"""The lemmas under the searches, each against dense random samples of what it claims."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from core import Dragon, EndReason, Outcome, Route, Spiral, first_contact, run_end, turn
+from core.kinematics import trajectory
+from core.search import NO_BOUND, Search
+from tests.core.test_contact import ACCURACY
+
+# Points of a random curve; its angles and chords are sums of that many terms, good to this [rad], relative [1].
+POINTS = 20_001
+SUMMED = 2e-4
+# Two poses of one bench at one place of a path, found by two ways of the head [m].
+SAME = 1e-9
+# Rounding of a distance beside its lower bound, relative [1].
+ROUNDING = 1e-12
+
+
+def random_curve(rng: np.random.Generator, k_low: float, k_high: float, growing: bool) -> tuple[np.ndarray, np.ndarray]:
+    """Tangent angle and points of a curve a little longer than pi / k_high, curvature within both and linear between
+    random places."""
+    most = max(abs(k_low), abs(k_high))
+    t = np.linspace(0.0, 1.05 * math.pi / most, POINTS)
+    knots = int(rng.integers(2, 12))
+    values = rng.choice([k_low, k_high, rng.uniform(k_low, k_high)], knots)
+    values = np.sort(values) if growing else values
+    bend = np.interp(t, np.sort(rng.uniform(0.0, t[-1], knots)), values)
+    step = t[1]
+    phi = np.concatenate([[0.0], np.cumsum(0.5 * (bend[1:] + bend[:-1]) * step)])
+    middle = 0.5 * (phi[1:] + phi[:-1])
+    along = np.stack([np.cos(middle), np.sin(middle)], axis=-1) * step
+    return phi, np.concatenate([[[0.0, 0.0]], np.cumsum(along, axis=0)])
+
+
+@pytest.mark.parametrize("seed", range(60))
+def test_angles_of_a_chord_lie_between_those_of_two_circles(seed: int) -> None:
+    """The chord lemma, one-sided and two-sided, and Vogt's theorem: core/kernels/bounds.py."""
+    rng = np.random.default_rng(seed)
+    k_high = 10 ** rng.uniform(-1.0, 1.0)
+    two_sided, growing = seed % 3 == 0, seed % 3 == 1
+    k_low = -k_high if two_sided else k_high * rng.uniform(0.0, 1.0)
+    phi, points = random_curve(rng, k_low, k_high, growing)
+    chord = 2.0 * rng.uniform(0.05, 0.999) / k_high
+    a = points.shape[0] - 1
+    step = 1.05 * math.pi / k_high / (POINTS - 1)
+    far = np.linalg.norm(points[a] - points[a::-1], axis=-1)
+    back = int(np.argmax(far >= chord))
+    assert back > 0
+    assert back * step <= math.pi / k_high
+    b, length = a - back, back * step
+    rows = np.diff(far[: int(math.pi / k_high / step)])
+    assert (rows > 0.0).all()
+    beta = math.atan2(*(points[a] - points[b])[::-1])
+    turned = math.remainder(phi[a] - beta, 2.0 * math.pi), math.remainder(beta - phi[b], 2.0 * math.pi)
+    least = -k_high if two_sided else k_low
+    for angle in turned:
+        assert 0.5 * least * length - SUMMED <= angle <= 0.5 * k_high * length + SUMMED
+        assert 0.5 * least * chord - SUMMED <= math.sin(angle) <= 0.5 * k_high * chord + SUMMED
+    if growing:
+        assert turned[0] >= turned[1] - SUMMED
+
+
+def test_points_of_two_rings_are_apart_as_said_wherever_they_stand_to_each_other() -> None:
+    """The radial gap G + growth x may be negative: core/kernels/rings.py."""
+    rng = np.random.default_rng(7)
+    count, negative = 400_000, 0
+    growth, rho = 10 ** rng.uniform(-2.0, 1.0, count), 10 ** rng.uniform(-1.0, 1.5, count)
+    gap = 2.0 * math.pi * growth * rng.uniform(0.0, 1.0, count)
+    x = rng.uniform(-math.pi, math.pi, count)
+    radial = gap + growth * x
+    negative = int((radial < 0.0).sum())
+    inner = rho * (1.0 + rng.exponential(0.3, count) * rng.integers(0, 2, count))
+    between = radial + rng.exponential(0.3, count) * rng.integers(0, 2, count) * rho
+    outer = np.maximum(inner + between, rho)  # where the bound says nothing of the radii, only that both reach rho
+    distance = np.sqrt((outer - inner) ** 2 + 4.0 * outer * inner * np.sin(0.5 * x) ** 2)
+    least = gap / np.sqrt(1.0 + (0.5 * math.pi * growth / rho) ** 2)
+    assert negative > count // 20
+    assert (distance >= least * (1.0 - ROUNDING)).all()
+
+
+@pytest.mark.parametrize("path", [Spiral(0.8, 8.0), turn(1.7).path], ids=["spiral", "turn"])
+@pytest.mark.parametrize("first", [0, 1, 3])
+def test_a_pair_of_equal_benches_repeats_in_place_what_the_first_of_them_met(path: Spiral | Route, first: int) -> None:
+    """The family lemma: core/kernels/marching.py."""
+    lengths = np.full(40, 2.2)
+    lengths[:first] = np.linspace(3.0, 2.5, first)
+    dragon = Dragon.of(lengths, np.full(40, 0.3), np.full(40, 0.275))
+    assert dragon.uniform_from == first
+    rng = np.random.default_rng(first)
+    search = Search(dragon, path, 0.0)
+
+    def place(handle: int, time: float) -> float:
+        search.place_leaders(time, 40)
+        return float(search.rows[0, handle, 4])
+
+    for time in rng.uniform(20.0, 100.0, 8):
+        i = int(rng.integers(first + 1, 30))
+        here, low, high = place(i, time), time - 2.0 * float(dragon.chords[:i].sum()), time
+        while high - low > SAME * 1e-3:
+            middle = 0.5 * (low + high)
+            low, high = (middle, high) if place(first, middle) > here else (low, middle)
+        now, then = trajectory(dragon, path, [high, time]).position[::-1]
+        np.testing.assert_allclose(then[first : first + 41 - i], now[i:], rtol=0, atol=SAME)
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_a_body_that_slides_back_behind_its_start_has_the_contacts_of_the_general_way(seed: int) -> None:
+    """A head chord far longer than the body's: near its fold the body goes back by many links. The last bench is longer
+    by a nanometre in the second dragon, so that all pairs are followed there."""
+    rng = np.random.default_rng(seed)
+    while True:
+        chord, head = 10 ** rng.uniform(-1.0, -0.3), 10 ** rng.uniform(0.6, 1.0)
+        dragon = Dragon(int(rng.integers(6, 30)), head, chord, 0.3 * chord, 0.0)
+        spiral = Spiral(10 ** rng.uniform(0.5, 1.0), rng.uniform(2.0, 4.0))
+        end = run_end(dragon, spiral)
+        if end.reason is not EndReason.FOLD:
+            continue
+        start = end.time - 10 ** rng.uniform(-0.5, 0.5)
+        times = end.time - (end.time - start) * np.linspace(1.0, 0.0, 200) ** 2
+        radii = np.linalg.norm(trajectory(dragon, spiral, times).position, axis=-1)[:, 3]
+        if start > 0.0 and radii[-1] > radii[0] > radii.min() + chord:
+            break
+    lengths = np.array(dragon.lengths)
+    lengths[-1] += 1e-9
+    general = Dragon.of(lengths, dragon.widths, dragon.overhangs)
+    family, every = (first_contact(each, spiral, start=start) for each in (dragon, general))
+    assert family.outcome is every.outcome
+    if family.outcome is Outcome.CONTACT:
+        assert family.time == pytest.approx(every.time, rel=0, abs=ACCURACY)
+
+
+# -- what is dismissed on coils: core/kernels/rings.py, core/coils.py --
+
+
+@pytest.mark.parametrize("seed", range(40))
+def test_on_a_turn_the_search_finds_what_it_finds_when_all_benches_are_followed(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    benches, overhang = int(rng.integers(4, 120)), rng.uniform(0.0, 0.3)
+    body = 2.0 * overhang + rng.uniform(0.8, 1.8)
+    dragon = Dragon(benches, body * rng.uniform(0.7, 1.3), body, rng.uniform(0.1, 0.5), overhang)
+    if seed % 4 == 0:
+        widths = np.array(dragon.widths)
+        widths[: int(rng.integers(1, benches))] *= 0.9
+        dragon = Dragon.of(dragon.lengths, widths, dragon.overhangs)
+    path = turn(rng.uniform(0.9, 2.0), 5.0, rng.uniform(0.8, 1.5), start_turns=8.0).path
+    margin, start = rng.choice([0.0, 0.1]), rng.choice([-60.0, 0.0, rng.uniform(0.0, 120.0)])
+    found = Search(dragon, path, margin).approach(start, path.end, 1.0)
+    every = Search(dragon, path, margin)
+    assert every.ring[10] < NO_BOUND
+    every.ring[10:] = NO_BOUND, -NO_BOUND
+    every.resize(benches)
+    slow = every.approach(start, path.end, 1.0)
+    assert found[0] == slow[0]
+    if found[0] == "touched":
+        assert found[1]["touching"] == pytest.approx(slow[1]["touching"], rel=0, abs=ACCURACY)
+        assert (found[1]["first"], found[1]["second"]) == (slow[1]["first"], slow[1]["second"])
+
+
+def test_ten_thousand_benches_through_the_turn_are_decided_as_two_hundred_are() -> None:
+    few, many = (first_contact(Dragon(benches), turn(1.7).path) for benches in (223, 10_000))
+    assert (few.outcome, many.outcome) == (Outcome.CLEAR, Outcome.CLEAR)
+    assert many.end == few.end
+    assert many.certificate.steps == few.certificate.steps
+    touching = [first_contact(Dragon(benches), turn(1.0).path) for benches in (223, 10_000)]
+    assert touching[0].time == touching[1].time
