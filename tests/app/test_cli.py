@@ -108,7 +108,7 @@ def test_overlaps_of_the_dance_before_and_after_first_contact() -> None:
         (["trajectory"], ["handle", "223 tail (rear)", "speed [m/s]", "300 s", "0.996478"]),
         (["collision-time"], ["412.473837682 s", "0, 8", "front-outer", "412.473837682"]),
         (["collision-time", "--pitch", "0.8"], ["clear", "fold", "637.66"]),
-        (["minimum-pitch"], ["0.450337393 m", "graze", "0, 19"]),
+        (["minimum-pitch"], ["0.450337393 m", "graze", "0, 19", "every larger pitch", "no scan"]),
         (["overlaps", "--time", "413"], ["0, 8", "All four engines agree"]),
         (["paper"], ["442.590256", "406.43", "412.473837", "2.883", "0.474924", "0.450337"]),
     ],
@@ -132,6 +132,14 @@ def test_tables_for_people_hold_the_numbers_with_their_units(arguments: list[str
         (
             "minimum-pitch --overhang 1.2",
             "dragon.overhang must be less than half of dragon.body_length (2.2 m / 2 = 1.1 m), got 1.2 m",
+        ),
+        (
+            "minimum-pitch --benches 5 --head-length 2.2 --body-length 2.2 --overhang 0.6 --turning-diameter 2",
+            (
+                "dragon.overhang must be less than a quarter of dragon.body_length (2.2 m / 4 = 0.55 m), got 0.6 m: on a "
+                "straight line, and so on every wide enough spiral, benches 0 and 2 touch: the chord of bench 1 between "
+                "them is 1 m, their overhangs 0.6 m and 0.6 m"
+            ),
         ),
         ("trajectory --stop 440", "times[433] must be at most 432.917924228 s, when bench 0 folds, got 433 s"),
         ("trajectory --decimals 16", "decimals must be at most 15, got 16"),
