@@ -136,9 +136,9 @@ def test_tables_for_people_hold_the_numbers_with_their_units(arguments: list[str
         (
             "minimum-pitch --benches 5 --head-length 2.2 --body-length 2.2 --overhang 0.6 --turning-diameter 2",
             (
-                "dragon.overhang must be less than a quarter of dragon.body_length (2.2 m / 4 = 0.55 m), got 0.6 m: on a "
-                "straight line, and so on every wide enough spiral, benches 0 and 2 touch: the chord of bench 1 between "
-                "them is 1 m, their overhangs 0.6 m and 0.6 m"
+                "dragon.overhang must be less than a quarter of dragon.body_length (2.2 m / 4 = 0.55 m), got 0.6 m: "
+                "on a straight line, and so on every wide enough spiral, benches 0 and 2 touch: the chord of bench 1 "
+                "between them is 1 m, their overhangs 0.6 m and 0.6 m"
             ),
         ),
         ("trajectory --stop 440", "times[433] must be at most 432.917924228 s, when bench 0 folds, got 433 s"),
