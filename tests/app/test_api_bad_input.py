@@ -150,6 +150,7 @@ def test_another_content_type_is_a_problem(client: httpx.Client, kind: str) -> N
     [
         ("/minimum-pitch?turning_diameter=900", "turning_diameter", ("at most 200 m", "metres", "9 m")),
         ("/minimum-pitch?turning_diameter=0", "turning_diameter", ("at least",)),
+        ("/minimum-pitch?overhang=0.6&body_length=2.2", "overhang", ("0.55 m", "0.6 m", "straight line")),
         ("/pitch-scan?benches=10001", "benches", ("at most 10000", "got 10001")),
         ("/clearance?step=0", "step", ("at least",)),
         ("/clearance?stop=433", "stop", ("432.9179", "folds")),

@@ -104,3 +104,17 @@ def test_minimum_pitch_meets_the_reference(client: httpx.Client, case: dict[str,
         assert got["head_radius"] == pytest.approx(case["head_radius"], rel=0, abs=GRAZE_RADIUS_TOLERANCE)
         assert got["cross_check"]["agree"]
         assert all(word == {"before": False, "after": True} for word in got["cross_check"]["engines"].values())
+
+
+def test_a_minimum_pitch_says_from_where_and_up_to_where_every_pitch_is_proven(client: httpx.Client) -> None:
+    """The head of the second dragon folds on its circle: below some pitch only single ones are proven."""
+    got = client.get("/minimum-pitch").raise_for_status().json()
+    assert (got["justified_by"], got["proven_from"], got["proven_up_to"]) == ("bound", got["pitch"], None)
+    assert got["scan_step"] is None
+    folding = {"benches": 14, "head_length": 2.21, "body_length": 1.47, "width": 0.06, "overhang": 0.12}
+    query = folding | {"turning_diameter": 1.7, "start_turns": 5}
+    got = client.get("/minimum-pitch", params=query).raise_for_status().json()
+    assert got["pitch"] == pytest.approx(0.525552677857343, rel=0, abs=PITCH_TOLERANCE)
+    assert (got["limited_by"], got["benches"], got["justified_by"]) == ("fold", None, "scan")
+    assert got["pitch"] < got["proven_from"] - got["scan_step"]
+    assert got["proven_up_to"] is None

@@ -119,7 +119,7 @@ def test_overlaps_of_the_dance_before_and_after_first_contact() -> None:
         (["collision-time", "--benches", "3000"], ["benches from 0 to 287, of 3,000: those near the pair"]),
         (["collision-time", "--pitch", "0.25", "--start-turns", "8"], ["contact_at_start", "   after yes"]),
         (["collision-time", "--pitch", "0.8"], ["clear", "fold", "637.66"]),
-        (["minimum-pitch"], ["0.450337393 m", "graze", "0, 19"]),
+        (["minimum-pitch"], ["0.450337393 m", "graze", "0, 19", "every larger pitch", "no scan"]),
         (["overlaps", "--time", "413"], ["0, 8", "All four engines agree"]),
         (["paper"], ["442.590256", "406.43", "412.473837", "2.883", "0.474924", "0.450337"]),
     ],
@@ -145,6 +145,14 @@ def test_tables_for_people_hold_the_numbers_with_their_units(arguments: list[str
             "overhang must be less than half of body_length (2.2 m / 2 = 1.1 m), got 1.2 m",
         ),
         ("trajectory --stop 440", "stop must be at most 432.917924228 s, when bench 0 folds, got 440 s"),
+        (
+            "minimum-pitch --benches 5 --head-length 2.2 --body-length 2.2 --overhang 0.6 --turning-diameter 2",
+            (
+                "overhang must be less than a quarter of body_length (2.2 m / 4 = 0.55 m), got 0.6 m: "
+                "on a straight line, and so on every wide enough spiral, benches 0 and 2 touch: the chord of bench 1 "
+                "between them is 1 m, their overhangs 0.6 m and 0.6 m"
+            ),
+        ),
         ("trajectory --decimals 16", "decimals must be at most 15, got 16"),
         ("trajectory --output dance.doc", "--output must end in .csv, .xlsx, .arrow or .json, got .doc"),
         ("trajectory --output /no/such/dance.csv", "--output must be in a folder that exists, got /no/such/dance.csv"),

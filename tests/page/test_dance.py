@@ -72,6 +72,7 @@ def test_every_answer_stands_with_how_it_is_known(open_page: Any, settled: Any, 
     least = httpx.get(f"{server}/minimum-pitch").json()
     text_of(page, "#minimum-pitch .value", f"{least['pitch']:.9f} m")
     page.locator("#minimum-pitch summary").click()
+    assert f"from {least['proven_from']:.9f} m on, without end" in page.locator("#minimum-pitch dl").inner_text()
     assert page.locator("#minimum-pitch dt").last.inner_text() == "Ways to the circle and strips of pitches marched"
     assert page.locator("#minimum-pitch dd").last.inner_text() == str(least["evaluations"])
     assert page.locator(".answer details").count() == page.locator(".answer:not([hidden])").count() == 4
