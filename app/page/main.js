@@ -133,6 +133,11 @@ function showTime() {
   $("#clearance .reading").textContent = say("clearanceAt", { time: answer.time[k].toFixed(2), gap, a, b });
 }
 
+/** What the pitch chart shows depends on the margin. */
+function showScanHelp() {
+  $("#scan .hint").textContent = sayNear("scanHelp", state.get("margin"));
+}
+
 /** Where the dance that is shown stands on the pitch chart. */
 function showPitch() {
   const { answer, numbers, kind } = questions.dance ?? {};
@@ -180,7 +185,6 @@ const SHOW = {
   scan() {
     const { answer, query } = questions.answers.scan;
     charts.scan.show({ ...answer, circle: Number(query.turning_diameter) / 2 });
-    $("#scan .hint").textContent = sayNear("scanHelp", query.margin);
     showPitch();
   },
 };
@@ -216,6 +220,7 @@ const SHOW_STATE = {
   rate: (rate) => ($("#rate").value = rate),
   handle: () => announce(showHandle()),
   view: (view) => (view ? dance.view.set(...view) : (dance.view.fitted = true)),
+  margin: showScanHelp,
   turning_diameter: (diameter) => (dance.scene.circle = Number(diameter) / 2),
   path(path) {
     press("path", path);
@@ -240,6 +245,7 @@ function press(name, value) {
 
 function translate() {
   press("lang", setLanguage(state.get("lang")));
+  showScanHelp();
   controls.translate(limits);
   player.translate();
   for (const [kind, show] of Object.entries(SHOW)) if (kind === "dance" ? questions.dance : questions.answers[kind]) show();

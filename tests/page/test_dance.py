@@ -183,10 +183,10 @@ def test_a_click_on_the_pitch_chart_sets_the_pitch(open_page: Any, settled: Any,
     text_of(page, "#first-contact .value", f"{collision_time(server, pitch=pitch)['time']:.6f} s")
 
 
-def test_that_nothing_touches_is_as_clear_as_a_contact(open_page: Any, server: str) -> None:
+def test_a_fold_is_as_clear_as_a_contact(open_page: Any, server: str) -> None:
     page = open_page("?pitch=2&start_turns=8")
-    text_of(page, "#first-contact .value", "Nothing touches")
-    assert page.locator("#first-contact").get_attribute("data-outcome") == "clear"
+    text_of(page, "#first-contact .value", "The dragon folds at")
+    assert page.locator("#first-contact").get_attribute("data-outcome") == "folds"
     text_of(page, "#first-contact p", f"{collision_time(server, pitch=2, start_turns=8)['end']['time']:.6f} s")
     text_of(page, "#run-end", "the chain folds")
     text_of(page, "#highest-speed .value", "Grows without bound")
@@ -202,7 +202,7 @@ def test_contact_at_the_start_has_its_picture_and_its_depth(open_page: Any) -> N
 
 def test_two_benches_cannot_touch_and_the_chart_says_so_in_the_services_words(open_page: Any, server: str) -> None:
     page = open_page("?benches=2", failing=True)
-    text_of(page, "#first-contact .value", "Nothing touches")
+    text_of(page, "#first-contact p", "Not one pair of benches touches before.")
     words = httpx.get(f"{server}/clearance?benches=2").json()["detail"]
     text_of(page, "#clearance .reading", words)
 

@@ -1,0 +1,81 @@
+"""What the page says of a dance: it passes in green, fails in red or amber; and the words of a margin."""
+
+from __future__ import annotations
+
+import re
+from typing import Any
+
+import pytest
+
+MARKS = {"clear": "✓", "folds": "!", "contact": "✕", "contact_at_start": "✕"}
+TOUCHING = re.compile(r"touch|meet|contact|overlap|碰|重叠", re.IGNORECASE)
+
+
+def tone(page: Any, name: str) -> str:
+    """A colour of the page as the browser writes it."""
+    probe = f"(() => {{ const one = document.createElement('i'); one.style.color = 'var(--{name})'; "
+    probe += "document.body.append(one); const seen = getComputedStyle(one).color; one.remove(); return seen; })()"
+    return str(page.evaluate(probe))
+
+
+def verdict(page: Any) -> tuple[str, str, str]:
+    """Outcome, mark and words of the first answer."""
+    box = page.locator("#first-contact")
+    box.locator(".value").wait_for()
+    words = box.locator(".value").inner_text().strip()
+    return str(box.get_attribute("data-outcome")), words[0], words[1:].strip()
+
+
+@pytest.mark.parametrize(
+    ("query", "outcome", "colour", "words"),
+    [
+        ("?benches=40&pitch=1.2&start_turns=8", "folds", "undecided", "The dragon folds at 238.214985 s"),
+        ("?benches=40&pitch=1.2&start_turns=8&margin=0.1", "folds", "undecided", "The dragon folds at 238.214985 s"),
+        ("?benches=5&pitch=9&start_turns=3", "clear", "clear", "Nothing touches"),
+        ("?benches=5&pitch=9&start_turns=3&margin=0.1", "clear", "clear", "Never nearer than 0.1 m"),
+        ("?benches=20", "contact", "contact", "Contact at "),
+        ("?benches=20&margin=0.05", "contact", "contact", "Nearer than 0.05 m at "),
+        ("?margin=0.2", "contact_at_start", "contact", "Nearer than 0.2 m from the start on"),
+    ],
+    ids=["fold", "fold with a margin", "centre", "centre with a margin", "contact", "margin", "margin at the start"],
+)
+def test_a_dance_passes_in_green_alone(open_page: Any, query: str, outcome: str, colour: str, words: str) -> None:
+    page = open_page(query)
+    page.locator(f"#first-contact[data-outcome={outcome}]").wait_for()
+    assert verdict(page)[:2] == (outcome, MARKS[outcome])
+    assert verdict(page)[2].startswith(words)
+    shown = page.locator("#first-contact .value").evaluate("value => getComputedStyle(value).color")
+    assert shown == tone(page, colour)
+
+
+def test_a_fold_says_in_both_languages_that_the_dance_fails_and_who_folds(open_page: Any) -> None:
+    page = open_page("?benches=40&pitch=1.2&start_turns=8")
+    page.locator("#run-end .value").wait_for()
+    said = page.locator("#first-contact").inner_text()
+    assert "The dance fails there, where head can no longer follow the spiral." in said
+    assert "Head cannot follow any more: the chain folds." in page.locator("#run-end").inner_text()
+    page.get_by_role("button", name="中文").click()
+    page.locator("#first-contact .value", has_text="238.214985 s 时队伍折叠").wait_for()
+    assert "舞龙在此失败" in page.locator("#first-contact").inner_text()
+
+
+@pytest.mark.parametrize(
+    "query", ["?benches=12&margin=0.05", "?benches=12&margin=0.2", "?path=turn&benches=20&margin=0.35"]
+)
+def test_with_a_margin_no_answer_speaks_of_a_touch(open_page: Any, server: str, query: str) -> None:
+    page = open_page("?benches=9", failing=True)  # with such a margin no turn can begin on the circle, as it then says
+    page.route("**/pitch-scan*", lambda route: None)  # with a margin a scan takes many seconds, and adds no words
+    page.goto(f"{server}/{query}")
+    margin = query.rpartition("=")[2]
+    page.locator("#inset figcaption", has_text="mm").wait_for()
+    page.locator("#minimum-pitch .value").wait_for()
+    for language, near in (("English", f"earer than {margin} m"), ("中文", f"间距小于 {margin} m")):
+        page.get_by_role("button", name=language).click()
+        page.locator("#first-contact h3", has_text=near).wait_for()
+        page.evaluate("document.querySelectorAll('#answers details').forEach((one) => (one.open = true))")
+        for place in ("#answers", "#inset figcaption", "#scan", "#clearance"):
+            said = page.locator(place).inner_text()
+            assert not TOUCHING.search(said), TOUCHING.search(said)
+        for place in ("#inset figcaption", "#scan .hint", "#first-contact"):
+            assert near in page.locator(place).inner_text()
+        assert "mm" in page.locator("#first-contact").inner_text()
