@@ -59,8 +59,19 @@ from core.proof.certificate import (
     Proof,
     check,
     digest,
+    prove_clear,
     prove_collision_time,
+    prove_contact,
     prove_minimum_pitch,
 )
 
-__all__ = ["Certificate", "Proof", "check", "digest", "prove_collision_time", "prove_minimum_pitch"]
+__all__ = [
+    "Certificate",
+    "Proof",
+    "check",
+    "digest",
+    "prove_clear",
+    "prove_collision_time",
+    "prove_contact",
+    "prove_minimum_pitch",
+]

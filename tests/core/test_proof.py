@@ -21,8 +21,8 @@ from flint import arb, ctx
 from core import Dragon, Spiral, bench_poses, first_contact, trajectory
 from core.errors import InvalidValue, ProofRefused
 from core.proof import Certificate, check, digest, prove_collision_time, prove_minimum_pitch
-from core.proof.chain import Chain, Pose, Unproven, _newton, bend
-from core.proof.sweeps import Stretch, _stays_positive
+from core.proof.chain import Chain, Pose, Stretch, bend, newton
+from core.proof.pairs import Unproven, stays_positive
 from core.rectangles import corners
 
 ROOT = Path(__file__).parents[2]
@@ -468,10 +468,10 @@ def test_there_is_no_bend_past_the_fold_and_one_beyond_pi_just_before() -> None:
 
 def test_a_newton_step_that_leaves_its_ball_or_finds_no_slope_proves_nothing() -> None:
     near = arb(2.0, 1e-8)
-    assert _newton(arb(2.0), near, arb(1e-9), arb(4.0, 1e-7)).contains(2.0 - 2.5e-10)
+    assert newton(arb(2.0), near, arb(1e-9), arb(4.0, 1e-7)).contains(2.0 - 2.5e-10)
     for value, slope in ((arb(1e-7), arb(4.0, 1e-7)), (arb(1e-9), arb(0.0, 1e-7))):
         with pytest.raises(Unproven):
-            _newton(arb(2.0), near, value, slope)
+            newton(arb(2.0), near, value, slope)
 
 
 def test_the_bound_on_a_stretch_never_calls_a_dip_positive() -> None:
@@ -482,7 +482,7 @@ def test_the_bound_on_a_stretch_never_calls_a_dip_positive() -> None:
         end, end_rate = at + rate * width + bow * width**2, rate + 2 * bow * width
         inside = -rate / (2 * bow) if 0.0 < -rate / (2 * bow) < width else 0.0
         least = min(at, end, at + rate * inside + bow * inside**2)
-        positive = _stays_positive(arb(at), arb(end), arb(rate).union(arb(end_rate)), arb(width))
+        positive = stays_positive(arb(at), arb(end), arb(rate).union(arb(end_rate)), arb(width))
         assert not positive or least > 0.0
         proven += positive
     assert proven > 1000
