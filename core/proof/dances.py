@@ -67,7 +67,8 @@ class Clear:
         return {}
 
     def check_overlap(self, overlap: dict[str, Any]) -> str:
-        return f"{_dance_words(self)}: {apart_words(self.margin)} from {self.start!r} s to {self.stop!r} s{self._ending()}."
+        span = f"from {self.start!r} s to {self.stop!r} s{self._ending()}"
+        return f"{_dance_words(self)}: {apart_words(self.margin)} {span}."
 
     def _ending(self) -> str:
         if self.until == "stop":
