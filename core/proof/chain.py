@@ -55,10 +55,6 @@ class Chain(Follower):
         """The benches from one on when its front handle is there [rad]."""
         return Pose(self, bench, theta)
 
-    def all_far(self, pose: Pose, count: int) -> bool:
-        """Are all benches from the one that so many stand before apart from the pose's first one (5.)?"""
-        return self.far(pose.bench, pose.thetas[1], pose.thetas[count])
-
     def pose(self, bench: int, theta: float) -> Pose:
         """The benches from one on when its front handle is there [rad]; neighbouring stretches share one."""
         if (bench, theta) not in self._poses:
@@ -163,6 +159,10 @@ class Pose(Benches):
     def places(self) -> list[arb]:
         """Of the handles [rad]."""
         return self.thetas
+
+    def far_from(self, count: int) -> bool:
+        """Are all benches behind so many apart from the first one (5.)?"""
+        return self.chain.far(self.bench, self.thetas[1], self.thetas[count])
 
     def grow_to(self, count: int) -> None:
         """Have at least so many benches, as far as there are any."""
@@ -276,4 +276,4 @@ class Stretch:
             to, axis = limit.turn * to, limit.turn * axis
             gaps.append([(to + axis * corner).real - limit.support for corner in limit.other.corners])
         slopes = [(to_move + axis_move * corner).real for corner in limit.other.corners]
-        return stays_above(*gaps, slopes, self.width, self.chain.margin)
+        return stays_above(gaps[0], gaps[1], slopes, self.width, self.chain.margin)

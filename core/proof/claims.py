@@ -172,7 +172,7 @@ def near_pair(chain: AnyChain, head: arb, when: str) -> list[int]:
         pose = chain.pose_at(bench, place)
         pose.grow_to(2)
         for partner in range(2, chain.count - bench):
-            if chain.all_far(pose, partner):
+            if pose.far_from(partner):
                 break
             pose.grow_to(partner + 1)
             if pose.within(partner, chain.margin):

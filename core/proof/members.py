@@ -29,8 +29,8 @@ def check_members(certificate: Any) -> None:
 
     raises: ProofRefused naming the member, what it must be and what it is
     """
-    claim = certificate.get("claim") if isinstance(certificate, dict) else None
-    kind = claim.get("kind") if isinstance(claim, dict) else None
+    claim: Any = certificate.get("claim") if isinstance(certificate, dict) else None
+    kind: Any = claim.get("kind") if isinstance(claim, dict) else None
     without = {} if kind == Clear.kind else {"overlap": _any_object}
     _object("", certificate, MEMBERS | without)
     if not isinstance(kind, str) or kind not in CLAIMS:
@@ -112,7 +112,7 @@ def _number(name: str, value: Any) -> None:
 def _positive(name: str, value: Any) -> None:
     _number(name, value)
     if not value > 0:
-        raise _malformed(name, "must be positive, or no member where there is none", value)
+        raise _malformed(name, "must be positive (no margin, no such member)", value)
 
 
 def _whole(name: str, value: Any) -> None:

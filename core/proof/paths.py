@@ -1,8 +1,9 @@
 """Paths of a certificate: how each is written down, what core makes of it, and the path in balls.
 
 A spiral and the turn are exactly what their numbers say: the turn's arcs are found in balls. The pieces of a route meet
-to within 1e-9 m and 1e-9 rad only, so the route of a proof is joined exactly: each piece keeps its shape and is moved to
-where, and turned to whither, the one before it ends. The first piece goes on backwards and the last one forwards.
+to within 1e-9 m and 1e-9 rad only, so the route of a proof is joined exactly: each piece keeps its shape and is moved
+and turned so that it goes on where and in the direction in which the one before it ends. The first piece goes on
+backwards and the last one forwards.
 """
 
 from __future__ import annotations
@@ -100,9 +101,8 @@ def described(record: Record) -> str:
             f"0 s, between spirals of pitch {record['pitch']!r} m and {record['start_turns']!r} turns"
         )
     kinds = ", ".join(piece["kind"] for piece in record["pieces"])
-    return (
-        f"the route of {len(record['pieces'])} pieces ({kinds}), joined exactly, its s = 0 {record['start']!r} m along"
-    )
+    place = f"its s = 0 at {record['start']!r} m from its beginning"
+    return f"the route of {len(record['pieces'])} pieces ({kinds}), joined exactly, {place}"
 
 
 def chain_on(dragon: Dragon, record: Record, margin: float) -> Chain | RouteChain:

@@ -10,7 +10,7 @@ from flint import acb, arb
 
 from core.dragon import Dragon
 from core.proof.chain import GUESS_RADIUS, POSES_KEPT, Follower, bend, newton
-from core.proof.pairs import Benches, Unproven
+from core.proof.pairs import Benches, Unproven, above
 
 # Newton's steps towards a guess in doubles: each doubles the digits.
 GUESS_STEPS = 40
@@ -256,10 +256,6 @@ class RouteChain(Follower):
         """The benches from one on when its front handle is there [m]."""
         return RoutePose(self, bench, place)
 
-    def all_far(self, pose: RoutePose, count: int) -> bool:
-        """Are all benches from the one that so many stand before apart from the pose's first one? 10. tells quickly."""
-        return False
-
     def pose(self, bench: int, place: float) -> RoutePose:
         """The benches from one on when its front handle is there [m]; neighbouring stretches share one."""
         if (bench, place) not in self._poses:
@@ -272,7 +268,7 @@ class RouteChain(Follower):
         """P[bench], ..., P[n - 3] of 6., rounded up. highest: P[bench] [m]"""
         pose = RoutePose(self, bench, arb(highest))
         pose.grow_to(self.count - 3 - bench)
-        return [highest, *(pose.above(k) for k in range(1, self.count - 2 - bench))]
+        return [highest, *(above(pose.places[k]) for k in range(1, self.count - 2 - bench))]
 
     @property
     def centre(self) -> acb | None:
@@ -321,9 +317,9 @@ class RoutePose(Benches):
             self.centres.append((self.points[k] + self.points[k + 1]) / 2)
             self.along.append((self.points[k] - self.points[k + 1]) / self.sizes[k].chord)
 
-    def above(self, k: int) -> float:
-        """A double above the place of a handle [m]."""
-        return math.nextafter(float(self.places[k].upper()), math.inf)
+    def far_from(self, count: int) -> bool:
+        """Are all benches behind so many apart from the first one? Pair by pair they are quickly told apart (10.)."""
+        return False
 
     def angles(self, k: int) -> tuple[arb, arb]:
         """From bench k's direction to the path's at its front and its rear handle [rad]."""

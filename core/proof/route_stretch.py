@@ -162,7 +162,7 @@ class RouteStretch:
             to, axis = pose.seen(a, b)
             to, axis = limit.turn * to, limit.turn * axis
             gaps.append([(to + axis * corner).real - limit.support for corner in limit.other.corners])
-        return stays_above(*gaps, slopes, self.width, self.chain.margin)
+        return stays_above(gaps[0], gaps[1], slopes, self.width, self.chain.margin)
 
 
 def _half_turn(low: arb, high: arb, chord: arb) -> arb:

@@ -258,15 +258,22 @@ def at(*place: str | int, put: Any) -> Callable[[dict[str, Any]], None]:
 
 MALFORMED = {
     "an unknown member": (at("note", put="x"), "note", "note is no member of it"),
-    "an unknown member of the claim": (at("claim", "margin", put=0), "claim.margin", "claim.margin is no member of it"),
+    "an unknown member of the claim": (at("claim", "x", put=0), "claim.x", "claim.x is no member of it"),
+    "a margin of nothing": (
+        at("claim", "margin", put=0), "claim.margin", "claim.margin must be positive (no margin, no such member), got 0",
+    ),
     "an unknown member of a sweep": (at("sweeps", 1, "x", put=0), "sweeps.1.x", "sweeps.1.x is no member of it"),
     "a missing member": (lambda c: c.pop("sweeps"), "sweeps", "sweeps is missing"),
     "a claim without time": (lambda c: c["claim"].pop("time"), "claim.time", "claim.time is missing"),
     "a claim of another kind": (
-        at("claim", "kind", put="x"), "claim.kind", 'claim.kind must be collision-time or minimum-pitch, got "x"',
+        at("claim", "kind", put="x"),
+        "claim.kind",
+        'claim.kind must be collision-time, minimum-pitch, clear or contact, got "x"',
     ),
     "a claim without a kind": (
-        lambda c: c["claim"].pop("kind"), "claim.kind", "claim.kind must be collision-time or minimum-pitch, got null",
+        lambda c: c["claim"].pop("kind"),
+        "claim.kind",
+        "claim.kind must be collision-time, minimum-pitch, clear or contact, got null",
     ),
     "a claim that is none": (at("claim", put=[]), "claim", "claim must be an object, got a list of 0"),
     "a time in words": (at("claim", "time", put="51"), "claim.time", 'claim.time must be a number, got "51"'),
