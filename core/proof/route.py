@@ -301,6 +301,7 @@ class RoutePose(Benches):
         self.chain, self.bench = chain, bench
         self.handles = [chain.path.at(z)]
         self.points, self.places = [self._point(0)], [z]
+        self._tangents: list[acb] = []
 
     def _point(self, k: int) -> acb:
         piece, t = self.handles[k]
@@ -323,6 +324,7 @@ class RoutePose(Benches):
 
     def angles(self, k: int) -> tuple[arb, arb]:
         """From bench k's direction to the path's at its front and its rear handle [rad]."""
+        for piece, t in self.handles[len(self._tangents) : k + 2]:
+            self._tangents.append(piece.tangent(t))
         turned = self.along[k].conjugate()
-        front, rear = ((turned * piece.tangent(t)).arg() for piece, t in self.handles[k : k + 2])
-        return front, rear
+        return (turned * self._tangents[k]).arg(), (turned * self._tangents[k + 1]).arg()

@@ -47,9 +47,7 @@ class RouteStretch:
             return
         low, high = self.chain.path.curvature(front, rear)
         alpha = _half_turn(low, high, chord)
-        beta = -alpha
-        if front[0] is not rear[0]:
-            alpha, beta = self._from_ends(k, alpha, abs(low).max(abs(high)))
+        alpha, beta = self._from_ends(k, alpha, low.union(high))
         (sine, cosine), (rear_sine, rear_cosine) = alpha.sin_cos(), beta.sin_cos()
         if not (cosine > 0 and rear_cosine > 0):
             raise Unproven(f"handle {self.bench + k + 1} is not enclosed")
@@ -58,7 +56,7 @@ class RouteStretch:
         self.placed.append((speed * acb(cosine, (sine + across) / 2), speed * (sine - across) / chord))
         self.speeds.append(speed * ratio)
 
-    def _from_ends(self, k: int, alpha: arb, sharpest: arb) -> tuple[arb, arb]:
+    def _from_ends(self, k: int, alpha: arb, bend: arb) -> tuple[arb, arb]:
         """alpha and beta of bench k, enclosed from their values at both ends too (8.)."""
         after, before = self.ends
         half_way = (before.places[k] - after.places[k]) / 2
@@ -67,7 +65,6 @@ class RouteStretch:
             raise Unproven(f"handle {self.bench + k + 1} is not enclosed")
         ratio = cosine / (-alpha).cos()
         turning = (alpha.sin() - ratio * (-alpha).sin()) / after.sizes[k].chord
-        bend = arb(0, 1) * sharpest
         found = []
         for last, first, wide, rate in zip(
             after.angles(k), before.angles(k), (alpha, -alpha), (bend - turning, ratio * bend - turning), strict=True
