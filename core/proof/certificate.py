@@ -14,7 +14,7 @@ from core.dragon import BENCHES_MAX, Dragon
 from core.errors import InvalidValue, OutsideRun, ProofRefused
 from core.paths import Spiral
 from core.proof.claims import CollisionTime, MinimumPitch, refusing
-from core.proof.dances import Clear, Contact
+from core.proof.dances import Clear, Contact, last_stop
 from core.proof.members import CLAIMS, SHOWN_MOST, check_members
 from core.proof.paths import AnyPath, recorded_path
 from core.proof.sweeps import Progress, found, recorded, swept
@@ -81,11 +81,10 @@ def prove_minimum_pitch(
 def prove_clear(
     dragon: Dragon,
     path: AnyPath,
-    stop: float,
+    stop: float | None = None,
     *,
     head_speed: float = 1.0,
     start: float = 0.0,
-    until: str = "stop",
     margin: float = 0.0,
     every_pair: bool = False,
     progress: Progress = lambda share: None,
@@ -93,11 +92,14 @@ def prove_clear(
     """A certificate that nothing touches in [start, stop] [s], or comes within the margin [m].
 
     path: a spiral, a turn, or a route of lines, arcs and coils
-    until: "stop"; or "fold", "centre" (of a spiral), "end" (of a route): that the run has ended so at stop + 1e-9 s
+    stop: None for the end of the run: then the certificate also says what the run has come to 1e-9 s after its stop,
+        a fold, the centre of the spiral, or the end of the route
     every_pair, progress, returns, raises: as prove_collision_time(); OutsideRun for times that the dance has not
     """
-    claim = Clear(dragon, recorded_path(path), head_speed, start, stop, until, margin)
-    return _proven(claim, every_pair, progress)
+    record, until = recorded_path(path), "stop"
+    if stop is None:
+        stop, until = last_stop(dragon, record, head_speed)
+    return _proven(Clear(dragon, record, head_speed, start, stop, until, margin), every_pair, progress)
 
 
 def prove_contact(

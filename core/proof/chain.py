@@ -11,6 +11,10 @@ from core.proof.pairs import Benches, Limit, Size, Unproven, above, below, stays
 
 # A guess from doubles is within this of its root [rad]; an interval Newton step verifies it.
 GUESS_RADIUS = 1e-8
+# The longest step of Newton's towards a guess [rad]: near the centre the first ones lead too far.
+STEP_MOST = 1.0
+# Pieces of [pi, d] over which F_d > 0 is shown, near the centre.
+PIECES_PAST_PI = 32
 # Poses that a chain remembers: the one that two stretches share, and those of tries that failed.
 POSES_KEPT = 16
 
@@ -111,9 +115,9 @@ def bend_guess(theta: float, needed: float) -> float:
         rest, outer = 1.0 - math.cos(found), 2.0 * theta * (theta + found)
         slope = 2.0 * (found + theta * rest) + outer * math.sin(found)
         step = (found * found + outer * rest - needed) / slope if slope > 0.0 else math.inf
-        if not abs(step) < 1.0:
+        if not math.isfinite(step):
             raise Unproven("no next handle: the chain folds")
-        found -= step
+        found -= max(-STEP_MOST, min(STEP_MOST, step))
         if abs(step) < 1e-14:
             break
     return found
@@ -134,13 +138,28 @@ def bend(theta: arb, needed: arb) -> arb:
     found = newton(guess, around, value, slopes(theta, around)[1])
     if not found > 0:
         raise Unproven("a next handle is not behind")
-    if not found < arb.pi():
-        past = found.union(arb.pi())
-        sine, cosine = past.sin_cos()
-        # F_d > 0 at the root is what the Newton step has shown.
-        if not 2 + 4 * theta * sine + 2 * theta * (theta + past) * cosine < 0:
-            raise Unproven("a next handle is not shown to be the nearest behind")
+    if not found < arb.pi() and not _rises_to(theta, found):
+        raise Unproven("a next handle is not shown to be the nearest behind")
     return found
+
+
+def _rises_to(theta: arb, d: arb) -> bool:
+    """Is F(theta, .) < F(theta, d) before d > pi (1.)? Where F_d > 0 at d is known."""
+    start, step = arb.pi(), (d - arb.pi()) / PIECES_PAST_PI
+    for k in range(PIECES_PAST_PI):
+        if _falls_later(theta, start.union(d)):
+            return True
+        end = arb.pi() + (k + 1) * step
+        if not slopes(theta, start.union(end))[1] > 0:
+            return False
+        start = end
+    return True
+
+
+def _falls_later(theta: arb, past: arb) -> bool:
+    """Is F_dd < 0 over a ball of bends?"""
+    sine, cosine = past.sin_cos()
+    return bool(2 + 4 * theta * sine + 2 * theta * (theta + past) * cosine < 0)
 
 
 class Pose(Benches):

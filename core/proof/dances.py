@@ -11,8 +11,8 @@ from flint import arb
 
 from core.dragon import Dragon
 from core.errors import InvalidValue
-from core.kinematics import checked_head_speed, checked_span, run_end
-from core.proof.chain import Chain, Stretch, bend, slopes
+from core.kinematics import EndReason, checked_head_speed, checked_span, run_end
+from core.proof.chain import Chain, Stretch, slopes
 from core.proof.claims import TIME_BRACKET, check_near, checked_margin, near_pair, settle
 from core.proof.pairs import Unproven, above, below
 from core.proof.paths import chain_on, core_path, described
@@ -132,6 +132,13 @@ class Contact:
         )
 
 
+def last_stop(dragon: Dragon, path: Mapping[str, Any], head_speed: float) -> tuple[float, str]:
+    """When a clear run is to stop for a claim that includes its end [s], and which end that is."""
+    end = run_end(dragon, core_path(path), head_speed=head_speed)
+    at_once = end.reason is EndReason.END  # every place up to the end of a route has its chain
+    return end.time - (0.0 if at_once else float(END_BRACKET) / 2), end.reason.value
+
+
 def _settle_span(claim: Clear | Contact, last: float) -> None:
     path, speed = core_path(claim.path), checked_head_speed(claim.head_speed)
     settle(claim, head_speed=speed, margin=checked_margin(claim.margin))
@@ -167,8 +174,10 @@ def folding(chain: Chain, before: arb, after: arb) -> int:
             stretch.grow()
         highest = stretch.thetas[bench]
     needed, lowest = chain.needed[bench], pose.thetas[bench]
-    wall = _wall(float(lowest), float(bend(highest.upper(), needed)))
-    if not (bend(highest.upper(), needed) < wall and _moved(highest, arb(wall)) < needed):
+    start = chain.pose_at(0, before)
+    start.grow(bench + 1)
+    wall = _wall(float(lowest), float(start.bends[bench]))
+    if not (start.bends[bench] < wall and _moved(highest, arb(wall)) < needed):
         raise Unproven(f"no wall is found behind bench {bench}")
     if not _stays_short(lowest, wall, needed):
         raise Unproven(f"bench {bench} is not shown to fold")

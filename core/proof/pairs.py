@@ -15,7 +15,7 @@ class Unproven(Exception):
 # Turns that bring the faces +x, +y, -x, -y of a bench's own frame to +x.
 FACES = (acb(1), acb(0, -1), acb(-1), acb(0, 1))
 # What shows a pair apart, one letter each: a face of the first bench (0 to 3) or of the second (4 to 7), a direction
-# fixed in the first bench (9.), or the circles around both (10.).
+# fixed in the first bench (7.), or the circles around both (10.).
 DIRECTION, CIRCLES = "8", "9"
 ALL_FACES = "01234567"
 
@@ -115,7 +115,7 @@ class Benches:
         return all(gap < 0 for gap in self.gaps(partner))
 
     def within(self, partner: int, margin: arb) -> bool:
-        """Are they strictly nearer than the margin, or strictly overlapping where it is 0 (9.)? margin: [m]"""
+        """Are they strictly nearer than the margin, or strictly overlapping where it is 0 (7.)? margin: [m]"""
         around = self.sizes[0].diagonal + self.sizes[partner].diagonal + margin
         if abs(self.centres[partner] - self.centres[0]) > around or not all(gap < margin for gap in self.gaps(partner)):
             return False

@@ -47,23 +47,22 @@ def recorded_path(path: AnyPath) -> dict[str, Any]:
         assert isinstance(first, route.Coil)
         values = {name: getattr(path, name) for name in TURN if name != "start_turns"}
         return {"kind": "turn"} | values | {"start_turns": first.start_turns}
-    pieces = [_recorded_piece(k, piece) for k, piece in enumerate(path.pieces)]
+    pieces = []
+    for k, piece in enumerate(path.pieces):
+        if isinstance(piece, route.Waypoints):
+            where = f"path.pieces[{k}]" if len(path.pieces) > 1 else "path"
+            words = f"{where} must be of lines, arcs and coils for a proof in ball arithmetic, got waypoints"
+            raise InvalidValue(f"path.pieces.{k}", words)
+        pieces.append(_recorded_piece(piece))
     return {"kind": "route", "start": path.start, "pieces": pieces}
 
 
-def _recorded_piece(k: int, piece: route.Piece) -> dict[str, Any]:
-    for kind, (made, names) in PIECES.items():
-        if isinstance(piece, made):
-            values = {name: getattr(piece, name) for name in names}
-            return {"kind": kind} | {
-                name: [float(part) for part in value] if name in POINTS else float(value)
-                for name, value in values.items()
-            }
-    raise InvalidValue(
-        f"path.pieces.{k}",
-        f"path.pieces[{k}] must be a line, an arc or a coil for a proof in ball arithmetic, got waypoints: "
-        "no proof follows a dragon along a spline",
-    )
+def _recorded_piece(piece: route.Line | route.Arc | route.Coil) -> dict[str, Any]:
+    kind, names = next((kind, names) for kind, (made, names) in PIECES.items() if isinstance(piece, made))
+    values = {name: getattr(piece, name) for name in names}
+    return {"kind": kind} | {
+        name: [float(part) for part in value] if name in POINTS else float(value) for name, value in values.items()
+    }
 
 
 def core_path(record: Record) -> Spiral | route.Route:

@@ -260,7 +260,9 @@ MALFORMED = {
     "an unknown member": (at("note", put="x"), "note", "note is no member of it"),
     "an unknown member of the claim": (at("claim", "x", put=0), "claim.x", "claim.x is no member of it"),
     "a margin of nothing": (
-        at("claim", "margin", put=0), "claim.margin", "claim.margin must be positive (no margin, no such member), got 0",
+        at("claim", "margin", put=0),
+        "claim.margin",
+        "claim.margin must be positive (no margin, no such member), got 0",
     ),
     "an unknown member of a sweep": (at("sweeps", 1, "x", put=0), "sweeps.1.x", "sweeps.1.x is no member of it"),
     "a missing member": (lambda c: c.pop("sweeps"), "sweeps", "sweeps is missing"),
