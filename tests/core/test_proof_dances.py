@@ -38,6 +38,8 @@ OFF = 1e-8
 MARGIN_OFF = 1e-6
 # Half of what a run may last beyond the stop of a claim that includes its end [s].
 HALF_BRACKET = 5e-10
+# Instants of the dance through the turn [s].
+INSTANTS = np.linspace(-7.9, 39.9, 60)
 # An integral over so many samples is this near to the true one [m], [rad].
 SAMPLES, SAMPLED = 4001, 1e-5
 
@@ -347,26 +349,36 @@ def test_benches_are_within_a_margin_exactly_when_shapely_says_so(seed: int) -> 
 
 
 def test_at_every_instant_each_letter_of_the_turn_s_certificate_keeps_its_pair_apart(turning: Certificate) -> None:
-    route, margin = turn(1.7).path, turning["claim"]["margin"]
-    handles = trajectory(SMALL, route, np.linspace(-7.9, 39.9, 60)).position
+    chain, margin, times = chain_on(SMALL, recorded_path(turn(1.7)), 0.0), turning["claim"]["margin"], INSTANTS
     sizes = np.stack([SMALL.lengths, SMALL.widths], axis=-1)
     used = set()
-    for time, poses in zip(np.linspace(-7.9, 39.9, 60), bench_poses(handles), strict=True):
-        all_corners = corners(poses, sizes)
-        _, _, faces, *rest = next(tile for tile in stretches(turning) if tile[1] <= -time <= tile[0])
-        directions = iter(rest[0] if rest else [])
-        used.update(faces)
-        for b, face in enumerate(faces, 2):
-            if face == "9":
-                reach = (math.hypot(*sizes[0]) + math.hypot(*sizes[b])) / 2
-                assert math.dist(poses[0, :2], poses[b, :2]) > reach + margin
-                continue
-            owner, other = (b, 0) if face in "4567" else (0, b)
-            angle = next(directions) if face == "8" else int(face) % 4 * math.pi / 2
-            normal = np.array([math.cos(poses[owner, 2] + angle), math.sin(poses[owner, 2] + angle)])
-            gap = (all_corners[other] @ normal).min() - (all_corners[owner] @ normal).max()
-            assert gap > margin
-    assert len(used) > 2
+    for time, poses in zip(times, bench_poses(trajectory(SMALL, turn(1.7).path, times).position), strict=True):
+        shapes, chained = corners(poses, sizes), chain.pose_at(0, arb(-time))
+        chained.grow_to(SMALL.benches)
+        for a in range(SMALL.benches - 2):
+            place = float(chained.places[a])
+            tiles = stretches(turning, min(a, 1))
+            _, _, faces, *rest = next(tile for tile in tiles if tile[1] - DOUBLES <= place <= tile[0] + DOUBLES)
+            directions = iter(rest[0] if rest else [])
+            used.update(faces)
+            for b in range(a + 2, SMALL.benches):
+                face = faces[b - a - 2] if b - a - 2 < len(faces) else "far"
+                direction = next(directions) if face == "8" else 0.0
+                assert gap_by(face, direction, poses, sizes, shapes, a, b) > margin
+    assert {"8", "9"} < used
+
+
+def gap_by(face: str, direction: float, poses: Any, sizes: Any, shapes: Any, a: int, b: int) -> float:
+    """The distance that a letter of a certificate leaves between two benches [m]."""
+    if face == "far":
+        inner = shapely.Polygon(shapes[b]).distance(shapely.Point(0.0, 0.0))
+        return float(inner - np.hypot(*shapes[a].T).max())
+    if face == "9":
+        return math.dist(poses[a, :2], poses[b, :2]) - (math.hypot(*sizes[a]) + math.hypot(*sizes[b])) / 2
+    owner, other = (b, a) if face in "4567" else (a, b)
+    angle = poses[owner, 2] + (direction if face == "8" else int(face) % 4 * math.pi / 2)
+    normal = np.array([math.cos(angle), math.sin(angle)])
+    return float((shapes[other] @ normal).min() - (shapes[owner] @ normal).max())
 
 
 def swapped(content: dict[str, Any]) -> None:
