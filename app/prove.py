@@ -20,14 +20,18 @@ from rich.progress import Progress
 
 import core
 from app import schemas
-from app.files import checked_output, write_whole
+from app.files import checked_output, read_dance, write_whole
+from app.options import checked
 from app.settings import Settings
-from app.wire import StartTurns, TurningDiameter, Wire
-from core import InvalidValue
+from app.wire import Instant, Margin, StartTurns, TurningDiameter, Wire
+from app.wire_paths import TurnFields, TurnPath
+from core import Dragon, InvalidValue, Outcome
 from core.errors import ProofRefused
+from core.kinematics import first_time
 
 if TYPE_CHECKING:
     from core.proof import Proof
+    from core.proof.paths import AnyPath
 
 # Exit codes.
 REFUSED = 1
@@ -45,6 +49,7 @@ class CollisionClaim(_Thorough, schemas.DanceQuery):
     """When two benches first touch."""
 
     time: float | None = Field(None, ge=0, description="The claim; else what collision-time answers [s]")
+    margin: Margin = 0.0
 
 
 class PitchClaim(_Thorough, schemas.UniformDragon):
@@ -53,6 +58,23 @@ class PitchClaim(_Thorough, schemas.UniformDragon):
     pitch: float | None = Field(None, ge=1e-3, le=10, description="The claim; else what minimum-pitch answers [m]")
     turning_diameter: TurningDiameter = Field(9.0, description="Diameter of the circle that the head must reach [m]")
     start_turns: StartTurns = 16.0
+    margin: Margin = 0.0
+
+
+class ClearClaim(_Thorough, schemas.DanceQuery):
+    """A run on the spiral without a contact."""
+
+    start: Instant = Field(0.0, description="From when [s]")
+    stop: Instant | None = Field(None, description="Until when; else the end of the run, which is proven too [s]")
+    margin: Margin = 0.0
+
+
+class TurnClaim(_Thorough, schemas.HeadSpeed, TurnFields, schemas.UniformDragon):
+    """A dance through the turn."""
+
+    start: Instant = Field(-100.0, description="From when; 0 is the entry into the turn [s]")
+    stop: Instant = Field(100.0, description="Until when [s]")
+    margin: Margin = 0.0
 
 
 @contextmanager
@@ -79,7 +101,7 @@ def prove(
     context: typer.Context,
     check: Annotated[Path | None, typer.Option(help="Verify this certificate, without a search; - reads it.")] = None,
 ) -> None:
-    """Prove a first contact or a minimum pitch in ball arithmetic, or check a certificate; needs python-flint."""
+    """Prove a contact, a clear run or a minimum pitch in ball arithmetic, or check a proof; needs python-flint."""
     if (check is None) == (context.invoked_subcommand is None):
         raise typer.BadParameter("give either a claim to prove or --check FILE")
     if check is None:
@@ -96,18 +118,28 @@ def collision_time(
     asked: CollisionClaim,
     output: Annotated[Path, typer.Option(help="The certificate.")] = Path("collision-time.proof.json"),
 ) -> None:
-    """Nothing touches up to 1e-10 s before this time, and two benches overlap 1e-10 s after it."""
+    """Nothing touches up to 1e-10 s before this time, and two benches overlap 1e-10 s after it.
+
+    With a margin: nothing comes within it, and two benches are nearer.
+    """
     checked_output("output", output)
     dragon, path, time = asked.to_dragon(Settings().benches_max), asked.to_path(), asked.time
     with _working("proof") as progress:
         from core.proof import prove_collision_time
 
         if time is None:
-            time = core.first_contact(dragon, path, head_speed=asked.head_speed).time
+            time = core.first_contact(dragon, path, head_speed=asked.head_speed, margin=asked.margin).time
         if time is None:
-            raise ProofRefused("time", "nothing touches, so there is no collision time to prove")
+            near = f"no two benches come within {asked.margin:g} m" if asked.margin else "nothing touches"
+            raise ProofRefused("time", f"{near}, so there is no collision time to prove: prove clear")
         certificate = prove_collision_time(
-            dragon, path, time, head_speed=asked.head_speed, every_pair=asked.every_pair, progress=progress
+            dragon,
+            path,
+            time,
+            head_speed=asked.head_speed,
+            margin=asked.margin,
+            every_pair=asked.every_pair,
+            progress=progress,
         )
     _finish(certificate, output)
 
@@ -116,24 +148,104 @@ def minimum_pitch(
     asked: PitchClaim,
     output: Annotated[Path, typer.Option(help="The certificate.")] = Path("minimum-pitch.proof.json"),
 ) -> None:
-    """Nothing touches on the way to the circle with this pitch; two benches overlap on it with 1e-6 m less."""
+    """Nothing touches on the way to the circle with this pitch; two benches overlap on it with 1e-6 m less.
+
+    With a margin: nothing comes within it, and two benches are nearer. Larger pitches are no part of the proof.
+    """
     checked_output("output", output)
     dragon, radius, pitch = asked.to_dragon(Settings().benches_max), asked.turning_diameter / 2, asked.pitch
     with _working("proof") as progress:
         from core.proof import prove_minimum_pitch
 
         if pitch is None:
-            found = core.minimum_pitch(dragon, turning_radius=radius, start_turns=asked.start_turns)
+            found = core.minimum_pitch(
+                dragon, turning_radius=radius, start_turns=asked.start_turns, margin=asked.margin
+            )
             pitch = found.pitch_bracket[1]
         certificate = prove_minimum_pitch(
             dragon,
             pitch,
             turning_radius=radius,
             start_turns=asked.start_turns,
+            margin=asked.margin,
             every_pair=asked.every_pair,
             progress=progress,
         )
     _finish(certificate, output)
+
+
+def clear(
+    asked: ClearClaim,
+    output: Annotated[Path, typer.Option(help="The certificate.")] = Path("clear.proof.json"),
+) -> None:
+    """Nothing touches on the spiral, or comes within the margin, until a time or the end of the run."""
+    checked_output("output", output)
+    dragon, path = asked.to_dragon(Settings().benches_max), asked.to_path()
+    with _working("proof") as progress:
+        from core.proof import prove_clear
+
+        certificate = prove_clear(
+            dragon,
+            path,
+            asked.stop,
+            head_speed=asked.head_speed,
+            start=asked.start,
+            margin=asked.margin,
+            every_pair=asked.every_pair,
+            progress=progress,
+        )
+    _finish(certificate, output)
+
+
+def turn(
+    asked: TurnClaim,
+    output: Annotated[Path, typer.Option(help="The certificate.")] = Path("turn.proof.json"),
+) -> None:
+    """The contest's turn between two spirals: clear from start to stop, or its first contact."""
+    checked_output("output", output)
+    dragon = asked.to_dragon(Settings().benches_max)
+    times = {"head_speed": asked.head_speed, "start": asked.start, "stop": asked.stop, "margin": asked.margin}
+    _finish(_dance_proven(dragon, asked.to_turn(), times, asked.every_pair), output)
+
+
+def dance(
+    file: Annotated[Path, typer.Argument(help="Dragon, path, margin and times as for check, .toml or .json.")],
+    every_pair: Annotated[bool, typer.Option(help="Prove each pair in its own right, also those that repeat.")] = False,
+    output: Annotated[Path, typer.Option(help="The certificate.")] = Path("dance.proof.json"),
+) -> None:
+    """A dance on any path but waypoints: clear from its start to its stop or end, or its first contact."""
+    checked_output("output", output)
+    asked = checked(schemas.CheckRequest, read_dance(file))
+    dragon = asked.dragon.to_dragon(Settings().checked_benches_max)
+    path = asked.path.to_turn() if isinstance(asked.path, TurnPath) else asked.path.to_path()
+    if asked.venue is not None or asked.speed_limit is not None:
+        print("The venue and the speed limit are no part of the proof.", file=sys.stderr)
+    start = asked.start
+    if start is None:
+        whole = path.path if isinstance(path, core.Turn) else path
+        start = first_time(dragon, whole, head_speed=asked.head_speed)
+    times = {"head_speed": asked.head_speed, "start": start, "stop": asked.stop, "margin": asked.margin}
+    _finish(_dance_proven(dragon, path, times, every_pair), output)
+
+
+def _dance_proven(dragon: Dragon, path: AnyPath, times: dict[str, Any], every_pair: bool) -> dict[str, Any]:
+    """A certificate for the first contact of a dance, or that it is clear."""
+    with _working("proof") as progress:
+        from core.proof import prove_clear, prove_contact
+
+        whole = path.path if isinstance(path, core.Turn) else path
+        found = core.first_contact(dragon, whole, **times)
+        stop = times.pop("stop")
+        asked: dict[str, Any] = {"every_pair": every_pair, "progress": progress}
+        if found.outcome is Outcome.CLEAR:
+            return prove_clear(dragon, path, stop, **times, **asked)
+        if found.outcome is Outcome.CONTACT and found.time is not None:
+            return prove_contact(dragon, path, found.time, **times, **asked)
+        if found.benches is None:
+            raise ProofRefused("time", "the search did not decide whether benches come within the margin")
+        a, b = found.benches
+        near = f"are within {times['margin']:g} m of one another" if times["margin"] else "overlap"
+        raise ProofRefused("start", f"benches {a} and {b} {near} at the start already, {times['start']:g} s")
 
 
 def _checked(certificate: Any) -> Proof:

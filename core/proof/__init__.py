@@ -1,16 +1,25 @@
-"""A first contact or a minimum pitch, proven in ball arithmetic, and checked again without a search.
+"""Contact and clear runs, proven in ball arithmetic, and checked again without a search.
 
-Two claims about a dragon on a spiral r = b theta, b = pitch / (2 pi), each number exactly the double given:
+Four claims about a dragon, each number exactly the double given:
 
-    collision time t   nothing touches in [0, t - 1e-10 s], and a pair strictly overlaps at t + 1e-10 s
+    collision time t   on a spiral r = b theta, b = pitch / (2 pi): nothing touches in [0, t - 1e-10 s], and a pair
+                       strictly overlaps at t + 1e-10 s
     minimum pitch p    nothing touches from the start until the head reaches the circle, and with p - 1e-6 m
-                       a pair strictly overlaps on that way, or the start lies within the circle
+                       a pair strictly overlaps on that way, or the start lies within the circle; larger pitches
+                       are no part of the claim
+    clear run          on a spiral, a turn or a route of lines, arcs and coils: nothing touches in [start, stop]; and
+                       if the claim says so, the run has ended by stop + 1e-9 s: a bench folds, the head is at the
+                       centre, or the route is at its end
+    contact t          a collision time on any of these paths, from a start on
+
+With a margin, "touches" is "comes within the margin", and "strictly overlaps" is "is strictly nearer than the margin".
 
 Handles. With chord c, the bend d from a handle at theta to the next one, at f(theta) = theta + d, is the first
 root of F(theta, d) = d^2 + 2 theta (theta + d) (1 - cos d) = (c / b)^2.
   1. F_d = 2 d + 2 theta (1 - cos d) + 2 theta (theta + d) sin d > 0 for 0 < d <= pi: a root there is the first.
-     A root d > pi is the first if F_dd = 2 + 4 theta sin d + 2 theta (theta + d) cos d < 0 on [pi, d] and
-     F_d > 0 at d, for then F_d falls from pi to d and stays positive.
+     A root d > pi is the first if F_d > 0 at d and F_dd = 2 + 4 theta sin d + 2 theta (theta + d) cos d < 0 on
+     [x, d], for then F_d falls from x to d and stays positive, and, where x > pi, if F_d > 0 on pieces that cover
+     [pi, x].
   2. F_theta = 2 (2 theta + d) (1 - cos d) > 0, so for theta in [m, M] nothing below d(M) is a root, and F has
      reached (c / b)^2 at d(m): the first root lies in [d(M), d(m)]. Where F_d > 0 on that box it is the only
      one there, with the derivative d' = -F_theta / F_d < 0.
@@ -42,9 +51,59 @@ head's way, sweep a + 1 all places where the stretches of sweep a have handle a 
      handle is below P[u + 1]. A stretch that begins above P[u], ..., P[u + s - 1] is passed only by handles
      from u + s on: in it, bench u needs its pairs with benches up to n - 1 - s.
 
-A certificate holds the parameters, the stretches as [highest theta, lowest theta, faces] and the overlap. The doubles
-and the faces are guesses, made in double precision; every inequality above is decided on balls, when a proof is made
-and when it is checked. The precision of flint is one for the process: prove and check in one thread at a time.
+Margin. Let the separation of two benches be the distance of two closest points, one of each.
+  7. A line of unit normal n with bench a behind it and all corners of b more than the margin beyond it keeps them
+     farther apart than the margin, for the separation is no less than the distance of the projections onto n.
+     Besides the eight faces, n may be any direction fixed in the first bench, which two corners that are nearest
+     to one another need; 4. holds for it as for a face. Two benches are nearer than the margin m when they strictly
+     overlap, or when some corner of one, with x and y its distances beyond the nearer of two opposite faces of the
+     other (0 between them), has x^2 + y^2 < m^2: the corner and the point of the other next to it are two such
+     points.
+
+Routes. Along a route the place of a handle is z = -s, so that it falls as theta does; f(z) is the place of the next
+handle, the first point behind at the chord c. Let the curvature be between k1 and k2 from there to here, K the larger
+of |k1| and |k2|, k0 the least |curvature| (0 where the sign may change), and l the length between. With the direction
+of travel phi and the direction psi of the chord, alpha = phi - psi at the front and beta = phi - psi at the rear.
+  8. If K l <= pi, then alpha and -beta lie in [k1 l / 2, k2 l / 2]. For put the rear at 0 with phi(0) = 0: the chord
+     is V = integral of exp(i phi) over [0, l]. With h = k2 l / 2, Im(V exp(-i h)) is the integral over [0, l / 2] of
+     sin(phi(t) - h) + sin(phi(l - t) - h) = 2 sin(M) cos(N), |N| = |phi(t) - phi(l - t)| / 2 <= K l / 2 <= pi / 2,
+     M = (phi(t) + phi(l - t)) / 2 - h between -K l / 2 - h >= -pi and k2 l / 2 - h = 0: it is 0 or less. Likewise
+     Im(V exp(-i k1 l / 2)) >= 0. So the argument of V, -beta, lies between the two; alpha by travelling backwards.
+     The distance D of the two points grows with l by cos(beta) >= cos(K l / 2), and by cos(beta) <= cos(k0 l / 2):
+         (2 / K) sin(K l / 2) <= D <= (2 / k0) sin(k0 l / 2)   while K l <= pi.
+     So a point behind at distance c with K l <= pi is the first, and where K c < 2 there is one, with
+     (2 / k0) asin(k0 c / 2) <= l <= (2 / K) asin(K c / 2) < pi / K. Over a stretch z in [m, M], with K the bound on
+     [m, f(M)] and K c < 2: seen from the fixed point R = f(M) the distance of the point at z falls with z while
+     K (R - z) <= pi, so at R it is c or more, and so it is at pi c / 2 behind z where R - z is more than pi / K: f(z)
+     does not exceed f(M). So f does not fall, the chains at the two ends enclose those between as in 3., and
+     f' = cos(alpha) / cos(beta) > 0, since the chord keeps its length.
+     alpha and beta change by k - psi' and f' k - psi' per length of the front handle's way, psi' = (sin(alpha) -
+     f' sin(beta)) / c. No place of the stretch is farther than half that way from the nearer end, so they are also
+     within that times these rates of their values at an end. On one line or arc l, alpha and beta do not change.
+  9. Seen from the first bench a, in its own frame, bench b has its centre at q and the direction e. With v the
+     velocity of a centre in its bench's own frame, (cos(alpha), (sin(alpha) + f' sin(beta)) / 2) times the speed
+     r of the front handle, and w = r psi' the turning rate,
+         e' = i (w_b - w_a) e,   q' = e v_b - v_a - i w_a q,   |q|' <= |e v_b - v_a|,
+     and r of the next handle is f' r. Each encloses e and q from either end of the stretch through half of it. So
+     4. applies with g' from e, e', q and q', and with a and b exchanged.
+ 10. Benches whose centres are farther apart than both half diagonals are apart; by the last of 9. the distance of
+     the centres is never less than half of: its values at both ends, less |e v_b - v_a| times the stretch.
+ 11. Where the first piece coils inwards and goes on outwards without end, 5. holds for all benches from a handle on
+     that stands on it, when bench a is inside the circle: a point of the way of its handle, of length w, is no
+     farther from the centre than half of: its distances at both ends and w.
+     The pieces are joined as core/proof/paths.py says.
+
+Fold. The claim that bench k folds while the head goes from theta = M in to m, its handle k being at t(m) at last:
+ 12. Until bench k folds, all handles up to k follow continuously, and so does the bend d of bench k, from d1 on. Let
+     T be above all places of handle k on the way. If F(T, D) < (c / b)^2 for some D > d1, then F(theta, D) < (c / b)^2
+     for all theta <= T by 2.: d never is D, and stays below. If moreover F(t(m), d) < (c / b)^2 for all d in [0, D],
+     then there is no bend left at m.
+
+A certificate holds the parameters, the stretches as [highest place, lowest place, faces] and the overlap. A face is a
+digit for each bench from the next but one on: 0 to 3 for the faces +x, +y, -x, -y of the first bench, 4 to 7 for those
+of the other one, 8 for a direction of 7. (then the directions [rad] stand fourth), 9 for 10. The doubles and the faces
+are guesses, made in double precision; every inequality above is decided on balls, when a proof is made and when it is
+checked. The precision of flint is one for the process: prove and check in one thread at a time.
 """
 
 from __future__ import annotations
@@ -59,8 +118,19 @@ from core.proof.certificate import (
     Proof,
     check,
     digest,
+    prove_clear,
     prove_collision_time,
+    prove_contact,
     prove_minimum_pitch,
 )
 
-__all__ = ["Certificate", "Proof", "check", "digest", "prove_collision_time", "prove_minimum_pitch"]
+__all__ = [
+    "Certificate",
+    "Proof",
+    "check",
+    "digest",
+    "prove_clear",
+    "prove_collision_time",
+    "prove_contact",
+    "prove_minimum_pitch",
+]

@@ -5,24 +5,27 @@ from __future__ import annotations
 import hashlib
 from collections.abc import Sequence
 from dataclasses import dataclass, fields
-from itertools import groupby
 from typing import Any
 
 import numpy as np
 from flint import __FLINT_VERSION__, __version__, ctx
 
 from core.dragon import BENCHES_MAX, Dragon
-from core.errors import InvalidValue, ProofRefused
+from core.errors import InvalidValue, OutsideRun, ProofRefused
 from core.paths import Spiral
-from core.proof.claims import Claim, CollisionTime, MinimumPitch, refusing
+from core.proof.claims import CollisionTime, MinimumPitch, refusing
+from core.proof.dances import Clear, Contact, last_stop
 from core.proof.members import CLAIMS, SHOWN_MOST, check_members
+from core.proof.paths import AnyPath, recorded_path
 from core.proof.sweeps import Progress, found, recorded, swept
+from core.proof.words import runs
 
 FORMAT = "bench-dragon proof 1"
 # Working precision [bits]: the claims decide gaps of about 1e-12 m; 96 bits leave 1e-24 m after 1e5 handles.
 PRECISION = 96
 
 Certificate = dict[str, Any]
+Claim = CollisionTime | MinimumPitch | Clear | Contact
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,17 +43,19 @@ def prove_collision_time(
     time: float,
     *,
     head_speed: float = 1.0,
+    margin: float = 0.0,
     every_pair: bool = False,
     progress: Progress = lambda share: None,
 ) -> Certificate:
     """A certificate that nothing touches in [0, time - 1e-10], and that a pair strictly overlaps at time + 1e-10 [s].
 
+    margin: [m]; with one, that nothing comes within it, and that a pair is strictly nearer then
     every_pair: prove each pair of the chain in its own right, without 6.: slower by the number of benches
     progress: called with the share done, 0 to 1
     returns: what json can write and check() verifies
     raises: ProofRefused when the claim is wrong, or nearer to wrong than the balls decide
     """
-    claim = CollisionTime(dragon, path.pitch, path.start_turns, head_speed, time)
+    claim = CollisionTime(dragon, path.pitch, path.start_turns, head_speed, time, margin)
     return _proven(claim, every_pair, progress)
 
 
@@ -60,15 +65,56 @@ def prove_minimum_pitch(
     *,
     turning_radius: float = 4.5,
     start_turns: float = 16.0,
+    margin: float = 0.0,
     every_pair: bool = False,
     progress: Progress = lambda share: None,
 ) -> Certificate:
     """A certificate that nothing touches on the way to the circle, and that with 1e-6 m less a pair overlaps on it.
 
-    pitch, turning_radius: [m]; every_pair, progress, returns, raises: as prove_collision_time()
-    With 1e-6 m less the start may also lie within the circle: then the certificate says that instead.
+    pitch, turning_radius: [m]; margin, every_pair, progress, returns, raises: as prove_collision_time()
+    With 1e-6 m less the start may also lie within the circle: then the certificate says that instead. It says nothing
+    of larger pitches.
     """
-    return _proven(MinimumPitch(dragon, pitch, start_turns, turning_radius), every_pair, progress)
+    return _proven(MinimumPitch(dragon, pitch, start_turns, turning_radius, margin), every_pair, progress)
+
+
+def prove_clear(
+    dragon: Dragon,
+    path: AnyPath,
+    stop: float | None = None,
+    *,
+    head_speed: float = 1.0,
+    start: float = 0.0,
+    margin: float = 0.0,
+    every_pair: bool = False,
+    progress: Progress = lambda share: None,
+) -> Certificate:
+    """A certificate that nothing touches in [start, stop] [s], or comes within the margin [m].
+
+    path: a spiral, a turn, or a route of lines, arcs and coils
+    stop: None for the end of the run: then the certificate also says what the run has come to 1e-9 s after its stop,
+        a fold, the centre of the spiral, or the end of the route
+    every_pair, progress, returns, raises: as prove_collision_time(); OutsideRun for times that the dance has not
+    """
+    record, until = recorded_path(path), "stop"
+    if stop is None:
+        stop, until = last_stop(dragon, record, head_speed)
+    return _proven(Clear(dragon, record, head_speed, start, stop, until, margin), every_pair, progress)
+
+
+def prove_contact(
+    dragon: Dragon,
+    path: AnyPath,
+    time: float,
+    *,
+    head_speed: float = 1.0,
+    start: float = 0.0,
+    margin: float = 0.0,
+    every_pair: bool = False,
+    progress: Progress = lambda share: None,
+) -> Certificate:
+    """As prove_collision_time(), in [start, time - 1e-10], on any path that prove_clear() takes."""
+    return _proven(Contact(dragon, recorded_path(path), head_speed, start, time, margin), every_pair, progress)
 
 
 def _proven(claim: Claim, every_pair: bool, progress: Progress) -> Certificate:
@@ -85,14 +131,21 @@ def _proven(claim: Claim, every_pair: bool, progress: Progress) -> Certificate:
         "format": FORMAT,
         "versions": {"python-flint": __version__, "flint": __FLINT_VERSION__},
         "precision": PRECISION,
-        "dragon": _runs(claim.dragon),
-        "claim": {"kind": claim.kind}
-        | {field.name: getattr(claim, field.name) for field in fields(claim) if field.name != "dragon"},
-        "overlap": overlap,
+        "dragon": runs(claim.dragon),
+        "claim": {"kind": claim.kind} | _values(claim),
+        **({"overlap": overlap} if overlap else {}),
         "repeats_from": repeats_from,
         "sweeps": sweeps,
     }
     return certificate | {"digest": digest(certificate)}
+
+
+def _values(claim: Claim) -> dict[str, Any]:
+    """The members of a claim; a margin only where there is one, so that a certificate without one stays as it was."""
+    values = {field.name: getattr(claim, field.name) for field in fields(claim) if field.name != "dragon"}
+    if not values["margin"]:
+        del values["margin"]
+    return values
 
 
 def check(certificate: Certificate, *, progress: Progress = lambda share: None) -> Proof:
@@ -111,8 +164,9 @@ def check(certificate: Certificate, *, progress: Progress = lambda share: None) 
     try:
         with ctx.workprec(certificate["precision"]), refusing("certificate"):
             return _verified(content, progress)
-    except InvalidValue as error:
-        place = error.field if error.field.startswith("dragon.") else f"claim.{error.field.removeprefix('path.')}"
+    except (InvalidValue, OutsideRun) as error:
+        field = error.field if "path" in content["claim"] else error.field.removeprefix("path.")
+        place = field if field.startswith("dragon.") else f"claim.{field}"
         words = error.message.replace(error.field, place, 1)
         raise ProofRefused(place, f"the certificate is malformed: {words}") from error
 
@@ -123,12 +177,12 @@ def _verified(content: Certificate, progress: Progress) -> Proof:
     chain, repeats_from, sweeps = claim.chain, content["repeats_from"], content["sweeps"]
     if not chain.repeats_from <= repeats_from <= max(0, chain.count - 3):
         raise ProofRefused("repeats_from", f"the benches from {repeats_from} on are not alike")
-    statement = claim.check_overlap(content["overlap"])
+    statement = claim.check_overlap(content.get("overlap", {}))
     proven = swept(chain, *claim.way, repeats_from, recorded(chain, sweeps), progress)
     if len(proven) != len(sweeps):
         raise ProofRefused("sweeps", f"the certificate has {len(sweeps)} sweeps, not {len(proven)}")
     tiles = [tile for sweep in proven for tile in sweep["stretches"]]
-    return Proof(statement, len(tiles), sum(len(faces) for _, _, faces in tiles))
+    return Proof(statement, len(tiles), sum(len(tile[2]) for tile in tiles))
 
 
 def digest(content: Any) -> str:
@@ -142,12 +196,6 @@ def _text(value: Any) -> str:
     if isinstance(value, list):
         return "[" + ",".join(map(_text, value)) + "]"
     return repr(value)
-
-
-def _runs(dragon: Dragon) -> list[list[float]]:
-    """Benches alike in a row as [count, length, width, overhang]."""
-    rows = zip(dragon.lengths.tolist(), dragon.widths.tolist(), dragon.overhangs.tolist(), strict=True)
-    return [[len(list(run)), *sizes] for sizes, run in groupby(rows)]
 
 
 def _dragon(runs: Sequence[Any]) -> Dragon:

@@ -1,4 +1,4 @@
-"""The dragon on its spiral in balls: bends, the chain at one exact place, and whether two benches strictly overlap."""
+"""The dragon on its spiral in balls: bends, the chain at one exact place, and over a stretch of places."""
 
 from __future__ import annotations
 
@@ -7,59 +7,71 @@ import math
 from flint import acb, arb
 
 from core.dragon import Dragon
+from core.proof.pairs import Benches, Limit, Size, Unproven, above, below, stays_above
 
 # A guess from doubles is within this of its root [rad]; an interval Newton step verifies it.
 GUESS_RADIUS = 1e-8
+# The longest step of Newton's towards a guess [rad]: near the centre the first ones lead too far.
+STEP_MOST = 1.0
+# Pieces of [pi, d] over which F_d > 0 is shown, near the centre.
+PIECES_PAST_PI = 32
+# Poses that a chain remembers: the one that two stretches share, and those of tries that failed.
+POSES_KEPT = 16
 
 
-class Unproven(Exception):
-    """Balls do not decide the question here; over a shorter stretch they may."""
-
-
-def below(ball: arb) -> float:
-    """A double below the whole ball."""
-    return math.nextafter(float(ball.lower()), -math.inf)
-
-
-def above(ball: arb) -> float:
-    """A double above the whole ball."""
-    return math.nextafter(float(ball.upper()), math.inf)
-
-
-class Size:
-    """One kind of bench [m]: chord, halves, reach = h of 5., corners in its own frame; needed = (chord / b)^2."""
-
-    def __init__(self, length: float, width: float, overhang: float, growth: arb) -> None:
-        x, y = arb(length) / 2, arb(width) / 2
-        self.half_length, self.half_width = x, y
-        self.chord = arb(length) - 2 * arb(overhang)
-        self.reach = (arb(overhang) ** 2 + y**2).sqrt()
-        self.needed = (self.chord / growth) ** 2
-        self.corners = (acb(x, y), acb(x, -y), acb(-x, -y), acb(-x, y))
-
-
-class Chain:
-    """A dragon on a spiral: growth b [m/rad], start [rad], the size of every bench.
+class Follower:
+    """A dragon on some path, and the margin that its benches keep [m]. A place falls as the dance goes on.
 
     repeats_from: u of 6., from where one sweep does for all, at most the last bench that has a pair
+    longest, reach: the longest chord, the largest h of 5. [m]
     """
 
-    def __init__(self, dragon: Dragon, pitch: arb, start_turns: float) -> None:
-        self.growth = pitch / (2 * arb.pi())
-        self.start = 2 * arb.pi() * start_turns
+    def __init__(self, dragon: Dragon, margin: float) -> None:
         table = list(zip(dragon.lengths.tolist(), dragon.widths.tolist(), dragon.overhangs.tolist(), strict=True))
-        kinds = {sizes: Size(*sizes, self.growth) for sizes in set(table)}
+        kinds = {sizes: Size(*sizes) for sizes in set(table)}
         self.sizes = [kinds[sizes] for sizes in table]
         self.count = len(table)
         self.repeats_from = max(0, min(dragon.uniform_from, self.count - 3))
-        self._longest = max(above(kind.chord) for kind in kinds.values())
-        self._reach = max(above(kind.reach) for kind in kinds.values())
+        self.margin = arb(margin)
+        self.longest = max(above(kind.chord) for kind in kinds.values())
+        self.reach = max(above(kind.reach) for kind in kinds.values())
+
+
+class Chain(Follower):
+    """A dragon on a spiral: growth b [m/rad], start [rad]. Its places are theta [rad], always above the floor."""
+
+    floor = 0.0
+
+    def __init__(self, dragon: Dragon, pitch: arb, start_turns: float, margin: float = 0.0) -> None:
+        super().__init__(dragon, margin)
+        self.growth = pitch / (2 * arb.pi())
+        self.start = 2 * arb.pi() * start_turns
+        kinds = {size: (size.chord / self.growth) ** 2 for size in set(self.sizes)}
+        self.needed = [kinds[size] for size in self.sizes]
+        self._poses: dict[tuple[int, float], Pose] = {}
+
+    @staticmethod
+    def named(theta: float) -> str:
+        """A place in words."""
+        return f"theta = {theta!r} rad"
+
+    def pose_at(self, bench: int, theta: arb) -> Pose:
+        """The benches from one on when its front handle is there [rad]."""
+        return Pose(self, bench, theta)
+
+    def pose(self, bench: int, theta: float) -> Pose:
+        """The benches from one on when its front handle is there [rad]; neighbouring stretches share one."""
+        if (bench, theta) not in self._poses:
+            if len(self._poses) >= POSES_KEPT:
+                self._poses.clear()
+            self._poses[bench, theta] = Pose(self, bench, arb(theta))
+        return self._poses[bench, theta]
 
     def arc(self, theta: arb) -> arb:
         """Arc length from the centre [m]."""
         return self.growth / 2 * (theta * (1 + theta**2).sqrt() + theta.asinh())
 
-    def theta_after(self, way: arb) -> arb:
+    def place_after(self, way: arb) -> arb:
         """Where the head is after this way from the start. way: [m], negative outside the start; returns [rad]."""
         left = self.arc(self.start) - way
         if not left > 0:
@@ -68,24 +80,24 @@ class Chain:
         for _ in range(20):  # Newton's steps, quadratic from the first on: arc is convex
             theta = (theta - (self.arc(theta) - left) / (self.growth * (1 + theta**2).sqrt())).mid()
         around = theta + arb(0, GUESS_RADIUS)
-        return _newton(theta, around, self.arc(theta) - left, self.growth * (1 + around**2).sqrt())
+        return newton(theta, around, self.arc(theta) - left, self.growth * (1 + around**2).sqrt())
 
     def far(self, bench: int, rear: arb, theta: arb) -> bool:
         """Is every bench from a handle at theta on apart from this one, whose rear handle is at rear (5.)? [rad]"""
-        inner = (self.growth * theta.lower()) ** 2 - arb(self._longest) ** 2 / 4
+        inner = (self.growth * theta.lower()) ** 2 - arb(self.longest) ** 2 / 4
         outer = self.growth * rear.upper() + self.sizes[bench].reach
-        return bool(inner > 0 and inner.sqrt() - self._reach > outer)
+        return bool(inner > 0 and inner.sqrt() - self.reach > outer + self.margin)
 
     def outermost(self, bench: int, highest: float) -> list[float]:
         """P[bench], ..., P[n - 3] of 6., rounded up. highest: P[bench] [rad]"""
         places, theta = [highest], arb(highest)
-        for size in self.sizes[bench : self.count - 3]:
-            theta += bend(theta, size.needed)
+        for needed in self.needed[bench : self.count - 3]:
+            theta += bend(theta, needed)
             places.append(above(theta))
         return places
 
 
-def _newton(guess: arb, around: arb, value: arb, slope: arb) -> arb:
+def newton(guess: arb, around: arb, value: arb, slope: arb) -> arb:
     """The one root in a ball around a guess, from the value at the guess and the slope over the ball."""
     if not slope > 0:
         raise Unproven("a function is not shown to rise")
@@ -103,9 +115,9 @@ def bend_guess(theta: float, needed: float) -> float:
         rest, outer = 1.0 - math.cos(found), 2.0 * theta * (theta + found)
         slope = 2.0 * (found + theta * rest) + outer * math.sin(found)
         step = (found * found + outer * rest - needed) / slope if slope > 0.0 else math.inf
-        if not abs(step) < 1.0:
+        if not math.isfinite(step):
             raise Unproven("no next handle: the chain folds")
-        found -= step
+        found -= max(-STEP_MOST, min(STEP_MOST, step))
         if abs(step) < 1e-14:
             break
     return found
@@ -123,57 +135,164 @@ def bend(theta: arb, needed: arb) -> arb:
     guess = arb(bend_guess(float(theta), float(needed)))
     around = guess + arb(0, GUESS_RADIUS)
     value = guess**2 + 2 * theta * (theta + guess) * (1 - guess.cos()) - needed
-    found = _newton(guess, around, value, slopes(theta, around)[1])
+    found = newton(guess, around, value, slopes(theta, around)[1])
     if not found > 0:
         raise Unproven("a next handle is not behind")
-    if not found < arb.pi():
-        past = found.union(arb.pi())
-        sine, cosine = past.sin_cos()
-        # F_d > 0 at the root is what the Newton step has shown.
-        if not 2 + 4 * theta * sine + 2 * theta * (theta + past) * cosine < 0:
-            raise Unproven("a next handle is not shown to be the nearest behind")
+    if not found < arb.pi() and not _rises_to(theta, found):
+        raise Unproven("a next handle is not shown to be the nearest behind")
     return found
 
 
-class Pose:
+def _rises_to(theta: arb, d: arb) -> bool:
+    """Is F(theta, .) < F(theta, d) before d > pi (1.)? Where F_d > 0 at d is known."""
+    start, step = arb.pi(), (d - arb.pi()) / PIECES_PAST_PI
+    for k in range(PIECES_PAST_PI):
+        if _falls_later(theta, start.union(d)):
+            return True
+        end = arb.pi() + (k + 1) * step
+        if not slopes(theta, start.union(end))[1] > 0:
+            return False
+        start = end
+    return True
+
+
+def _falls_later(theta: arb, past: arb) -> bool:
+    """Is F_dd < 0 over a ball of bends?"""
+    sine, cosine = past.sin_cos()
+    return bool(2 + 4 * theta * sine + 2 * theta * (theta + past) * cosine < 0)
+
+
+class Pose(Benches):
     """The benches from one on when its front handle is at theta, in the frame that turns with that handle.
 
-    thetas, turns [rad], points [m]: of the handles; bends, centres, along: of the benches, grown one by one
+    thetas, turns [rad], points [m]: of the handles; bends: of the benches, grown one by one
     """
 
     def __init__(self, chain: Chain, bench: int, theta: arb) -> None:
+        super().__init__(chain.sizes[bench:])
         self.chain, self.bench = chain, bench
         self.thetas, self.turns, self.points = [theta], [arb(0)], [acb(chain.growth * theta)]
         self.bends: list[arb] = []
-        self.centres: list[acb] = []
-        self.along: list[acb] = []
+
+    @property
+    def places(self) -> list[arb]:
+        """Of the handles [rad]."""
+        return self.thetas
+
+    def far_from(self, count: int) -> bool:
+        """Are all benches behind so many apart from the first one (5.)?"""
+        return self.chain.far(self.bench, self.thetas[1], self.thetas[count])
+
+    def grow_to(self, count: int) -> None:
+        """Have at least so many benches, as far as there are any."""
+        self.grow(count - len(self.bends))
 
     def grow(self, benches: int = 1) -> None:
-        """Add the next benches."""
+        """Add the next benches, as far as there are any."""
         first = self.bench + len(self.bends)
-        for size in self.chain.sizes[first : first + benches]:
-            self.bends.append(bend(self.thetas[-1], size.needed))
+        for k in range(first, min(first + benches, self.chain.count)):
+            self.bends.append(bend(self.thetas[-1], self.chain.needed[k]))
             self.thetas.append(self.thetas[-1] + self.bends[-1])
             self.turns.append(self.turns[-1] + self.bends[-1])
             sine, cosine = self.turns[-1].sin_cos()
             radius = self.chain.growth * self.thetas[-1]
             self.points.append(acb(radius * cosine, radius * sine))
             self.centres.append((self.points[-1] + self.points[-2]) / 2)
-            self.along.append((self.points[-2] - self.points[-1]) / size.chord)
+            self.along.append((self.points[-2] - self.points[-1]) / self.chain.sizes[k].chord)
 
-    def gaps(self, partner: int) -> list[arb]:
-        """How far each is beyond each face of the other: four of bench, four of partner (counted from bench) [m]."""
-        found = []
-        for a, b in ((0, partner), (partner, 0)):
-            own, other = self.chain.sizes[self.bench + a], self.chain.sizes[self.bench + b]
-            turn = self.along[a].conjugate()
-            to, axis = turn * (self.centres[b] - self.centres[a]), turn * self.along[b]
-            cosine, sine = abs(axis.real), abs(axis.imag)
-            x = own.half_length + other.half_length * cosine + other.half_width * sine
-            y = own.half_width + other.half_length * sine + other.half_width * cosine
-            found += [to.real - x, to.imag - y, -to.real - x, -to.imag - y]
-        return found
 
-    def overlapping(self, partner: int) -> bool:
-        """Do bench and partner strictly overlap? Two rectangles that do not lie apart along a face of one of them."""
-        return all(gap < 0 for gap in self.gaps(partner))
+class Stretch:
+    """The benches from one on while its front handle goes through [low, high] rad: at both ends, and all between.
+
+    thetas, rates: of the handles, and their derivatives by the front handle's theta, enclosed over the stretch
+    placed: of the benches, grown one by one: centre, direction, and their derivatives, enclosed over the stretch
+    rising: 3. holds for the first link; last: one more than the last bench that counts
+    """
+
+    def __init__(self, chain: Chain, bench: int, low: float, high: float, last: int) -> None:
+        self.chain, self.bench, self.low, self.high, self.last = chain, bench, low, high, last
+        self.ends = chain.pose(bench, low), chain.pose(bench, high)
+        self.width = arb(high) - arb(low)
+        self.thetas, self.rates = [arb(low).union(arb(high))], [arb(1)]
+        self.points, self.moves = [acb(chain.growth * self.thetas[0])], [acb(chain.growth)]
+        self.placed: list[tuple[acb, acb, acb, acb]] = []
+        self.rising = self._hull = True
+        self.grow()
+
+    def grow(self) -> None:
+        """Add the next bench: between the ends by 3., or by the mean value once a handle may turn back."""
+        k = len(self.placed)
+        size, theta = self.chain.sizes[self.bench + k], self.thetas[k]
+        before, after = self.ends
+        before.grow_to(k + 1)
+        after.grow_to(k + 1)
+        needed = self.chain.needed[self.bench + k]
+        if self._hull:
+            bends = after.bends[k].union(before.bends[k])
+        else:
+            bends = bend(theta.upper(), needed).union(bend(theta.lower(), needed))
+        by_theta, by_bend = slopes(theta, bends)
+        if not by_bend > 0:
+            raise Unproven(f"handle {self.bench + k + 1} is not enclosed")
+        rise = 1 - by_theta / by_bend
+        self.rates.append(self.rates[k] * rise)
+        self._hull = self._hull and bool(rise > 0)
+        if self._hull:
+            self.thetas.append(before.thetas[k + 1].union(after.thetas[k + 1]))
+            turn = before.turns[k + 1].union(after.turns[k + 1])
+        else:
+            self.rising = self.rising and k > 0
+            passed = arb(0).union(self.width)
+            self.thetas.append(before.thetas[k + 1] + self.rates[-1] * passed)
+            turn = before.turns[k + 1] + (self.rates[-1] - 1) * passed
+        self._place(turn, size.chord)
+
+    def _place(self, turn: arb, chord: arb) -> None:
+        theta, rate = self.thetas[-1], self.rates[-1]
+        sine, cosine = turn.sin_cos()
+        outwards = self.chain.growth * acb(cosine, sine)
+        self.points.append(outwards * theta)
+        self.moves.append(outwards * acb(rate, theta * (rate - 1)))
+        front, rear, front_move, rear_move = *self.points[-2:], *self.moves[-2:]
+        self.placed.append(
+            ((front + rear) / 2, (front - rear) / chord, (front_move + rear_move) / 2, (front_move - rear_move) / chord)
+        )
+
+    @property
+    def complete(self) -> bool:
+        """Are all benches that are not placed either far (5.) or none of this stretch's (6.)?"""
+        count = len(self.placed)
+        return self.bench + count >= self.last or (
+            count >= 2 and self.chain.far(self.bench, self.thetas[1], self.thetas[-1])
+        )
+
+    @property
+    def rear(self) -> tuple[float, float]:
+        """Between which thetas the next handle stays [rad]; when it rises, to the last digit of a double."""
+        first, last = (pose.thetas[1] for pose in self.ends) if self.rising else (self.thetas[1], self.thetas[1])
+        return below(first), above(last)
+
+    def within_circles(self, partner: int) -> bool:
+        """Spirals do without 10.: beyond the next ring or two 5. has them all."""
+        return False
+
+    def apart(self, partner: int, face: str, direction: float) -> bool:
+        """Is one of the two more than the margin beyond this line of the other, all over the stretch (4.)?
+
+        partner: counted from bench; face, direction: see Limit
+        """
+        first, second = (self.chain.sizes[self.bench + k] for k in (0, partner))
+        limit = Limit(face, direction, first, second)
+        a, b = (partner, 0) if limit.by_partner else (0, partner)
+        centre_a, along_a, centre_move_a, along_move_a = self.placed[a]
+        centre_b, along_b, centre_move_b, along_move_b = self.placed[b]
+        turn, turning = limit.turn * along_a.conjugate(), limit.turn * along_move_a.conjugate()
+        to_move = turn * (centre_move_b - centre_move_a) + turning * (centre_b - centre_a)
+        axis_move = turn * along_move_b + turning * along_b
+        gaps = []
+        for pose in self.ends:
+            to, axis = pose.seen(a, b)
+            to, axis = limit.turn * to, limit.turn * axis
+            gaps.append([(to + axis * corner).real - limit.support for corner in limit.other.corners])
+        slopes = [(to_move + axis_move * corner).real for corner in limit.other.corners]
+        return stays_above(gaps[0], gaps[1], slopes, self.width, self.chain.margin)

@@ -1,4 +1,4 @@
-"""The two claims: what each says, which way has to be swept, and which overlap has to be shown."""
+"""The claims about the spiral, collision time and minimum pitch: what each says, its way, and its overlap."""
 
 from __future__ import annotations
 
@@ -14,8 +14,11 @@ from core.dragon import Dragon, checked_number, checked_size
 from core.errors import ProofRefused
 from core.kinematics import checked_head_speed
 from core.paths import Spiral
-from core.proof.chain import Chain, Pose, Unproven, above, below, bend_guess
-from core.proof.sweeps import Overlap, Progress, found, swept
+from core.proof.chain import Chain, bend_guess
+from core.proof.pairs import Unproven, above, below
+from core.proof.sweeps import AnyChain, Overlap, Progress, found, swept
+from core.proof.words import apart_words, dragon_words, near_words
+from core.search import MARGIN_MAX
 
 # Half the bracket around a collision time [s], and the step below a minimum pitch [m]: exact decimals, in balls.
 TIME_BRACKET = "1e-10"
@@ -28,6 +31,7 @@ HALVINGS = 60
 class CollisionTime:
     """Nothing touches in [0, time - 1e-10], and one pair strictly overlaps at time + 1e-10 [s].
 
+    margin: [m]; where it is more than 0, nothing comes within it, and one pair is strictly nearer
     way: (highest, lowest) theta of the head between which nothing may touch [rad]
     find_overlap(): the record of an overlap that check_overlap() verifies, returning the whole claim in words
     search_share: how much of the work of a proof find_overlap() is
@@ -40,45 +44,37 @@ class CollisionTime:
     start_turns: float
     head_speed: float
     time: float
+    margin: float = 0.0
 
     def __post_init__(self) -> None:
         path, speed = Spiral(self.pitch, self.start_turns), checked_head_speed(self.head_speed)
         time = checked_number("time", self.time, "s", 0.0, path.length / speed)
-        _set(self, pitch=path.pitch, start_turns=path.start_turns, head_speed=speed, time=time)
+        settle(self, pitch=path.pitch, start_turns=path.start_turns, head_speed=speed, time=time)
+        settle(self, margin=checked_margin(self.margin))
 
     @cached_property
     def chain(self) -> Chain:
-        return Chain(self.dragon, arb(self.pitch), self.start_turns)
+        return Chain(self.dragon, arb(self.pitch), self.start_turns, self.margin)
 
     @property
     def _after(self) -> arb:
-        return self.chain.theta_after((self.time + arb(TIME_BRACKET)) * self.head_speed)
+        return self.chain.place_after((self.time + arb(TIME_BRACKET)) * self.head_speed)
 
     @property
     def way(self) -> tuple[float, float]:
-        before = self.chain.theta_after((self.time - arb(TIME_BRACKET)) * self.head_speed)
+        before = self.chain.place_after((self.time - arb(TIME_BRACKET)) * self.head_speed)
         return above(self.chain.start), below(before)
 
     def find_overlap(self, progress: Progress) -> dict[str, Any]:
-        chain, theta = self.chain, self._after
-        for bench in range(chain.count - 2):
-            pose = Pose(chain, bench, theta)
-            pose.grow(2)
-            while bench + len(pose.bends) < chain.count and not chain.far(bench, pose.thetas[1], pose.thetas[-1]):
-                pose.grow()
-                partner = len(pose.bends) - 1
-                if pose.overlapping(partner):
-                    return {"benches": [bench, bench + partner]}
-            theta = pose.thetas[1]
-        raise ProofRefused("claim", f"no two benches overlap at {self.time!r} + {TIME_BRACKET} s")
+        return {"benches": near_pair(self.chain, self._after, f"at {self.time!r} + {TIME_BRACKET} s")}
 
     def check_overlap(self, overlap: dict[str, Any]) -> str:
         a, b = overlap["benches"]
-        if not overlapping(self.chain, self._after, a, b):
-            raise Unproven(f"benches {a} and {b} are not shown to overlap at {self.time!r} + {TIME_BRACKET} s")
+        check_near(self.chain, self._after, a, b, f"at {self.time!r} + {TIME_BRACKET} s")
         return (
-            f"Of {self.chain.count} benches no two but neighbours touch before {self.time!r} - {TIME_BRACKET} s, "
-            f"and benches {a} and {b} overlap at {self.time!r} + {TIME_BRACKET} s."
+            f"{dragon_words(self.dragon)}, its head at {self.head_speed!r} m/s on the spiral of pitch {self.pitch!r} m "
+            f"inwards from {self.start_turns!r} turns: {apart_words(self.margin)} from 0 s to {self.time!r} - "
+            f"{TIME_BRACKET} s, and {near_words([a, b], self.margin)} at {self.time!r} + {TIME_BRACKET} s."
         )
 
 
@@ -86,7 +82,7 @@ class CollisionTime:
 class MinimumPitch:
     """Nothing touches on the head's way from the start to the circle; with 1e-6 m less one pair overlaps on it.
 
-    way, find_overlap(), check_overlap(), search_share: as of CollisionTime
+    margin, way, find_overlap(), check_overlap(), search_share: as of CollisionTime
     """
 
     kind: ClassVar[str] = "minimum-pitch"
@@ -95,18 +91,20 @@ class MinimumPitch:
     pitch: float
     start_turns: float
     turning_radius: float
+    margin: float = 0.0
 
     def __post_init__(self) -> None:
         path, radius = Spiral(self.pitch, self.start_turns), checked_size("turning_radius", self.turning_radius)
-        _set(self, pitch=path.pitch, start_turns=path.start_turns, turning_radius=radius)
+        settle(self, pitch=path.pitch, start_turns=path.start_turns, turning_radius=radius)
+        settle(self, margin=checked_margin(self.margin))
 
     @cached_property
     def chain(self) -> Chain:
-        return Chain(self.dragon, arb(self.pitch), self.start_turns)
+        return Chain(self.dragon, arb(self.pitch), self.start_turns, self.margin)
 
     @cached_property
     def _less(self) -> Chain:
-        return Chain(self.dragon, self.pitch - arb(PITCH_STEP), self.start_turns)
+        return Chain(self.dragon, self.pitch - arb(PITCH_STEP), self.start_turns, self.margin)
 
     @property
     def way(self) -> tuple[float, float]:
@@ -126,51 +124,86 @@ class MinimumPitch:
         try:
             swept(less, *self._way(less), less.repeats_from, found(less), progress)
         except Overlap as overlap:
-            theta = head_theta(less, overlap.a, overlap.theta, below(circle), above(less.start))
+            theta = head_theta(less, overlap.a, overlap.place, below(circle), above(less.start))
             theta = max(min(theta, below(less.start)), above(circle))
             return {"benches": [overlap.a, overlap.b], "head_theta": theta}
-        raise ProofRefused("claim", f"{PITCH_STEP} m less than pitch {self.pitch!r} m is free of contact too")
+        free = f"keeps the margin of {self.margin!r} m too" if self.margin else "is free of contact too"
+        raise ProofRefused("claim", f"{PITCH_STEP} m less than pitch {self.pitch!r} m {free}")
 
     def check_overlap(self, overlap: dict[str, Any]) -> str:
         less = self._less
         circle = self.turning_radius / less.growth
         if "benches" in overlap:
             (a, b), theta = overlap["benches"], overlap["head_theta"]
-            if not (circle <= theta <= less.start and overlapping(less, arb(theta), a, b)):
-                raise Unproven(f"benches {a} and {b} are not shown to overlap on the way with {PITCH_STEP} m less")
-            why = f"benches {a} and {b} overlap on the way"
+            where = f"on the way with {PITCH_STEP} m less"
+            if not circle <= theta <= less.start:
+                raise Unproven(f"benches {a} and {b} are not shown to overlap {where}")
+            check_near(less, arb(theta), a, b, where)
+            why = f"{near_words([a, b], self.margin)} on the way"
         else:
             if not circle > less.start:
                 raise Unproven(f"the start is not shown to lie within the circle with {PITCH_STEP} m less")
             why = "the start lies within the circle"
         return (
-            f"With pitch {self.pitch!r} m no two of {less.count} benches but neighbours touch until the head is "
-            f"{self.turning_radius!r} m from the centre, and with {PITCH_STEP} m less {why}."
+            f"{dragon_words(self.dragon)} on the spiral inwards from {self.start_turns!r} turns: with pitch "
+            f"{self.pitch!r} m {apart_words(self.margin)} until the head is {self.turning_radius!r} m from the centre, "
+            f"and with {PITCH_STEP} m less {why}. This says nothing of larger pitches."
         )
 
 
-def _set(claim: object, **checked: float) -> None:
+def checked_margin(margin: float) -> float:
+    """margin [m] if it lies in the range allowed."""
+    return checked_number("margin", margin, "m", 0.0, MARGIN_MAX)
+
+
+def settle(claim: object, **checked: float) -> None:
+    """Put checked values into a claim."""
     for name, value in checked.items():
         object.__setattr__(claim, name, value)
 
 
-def overlapping(chain: Chain, head: arb, a: int, b: int) -> bool:
-    """Do benches a < b, no neighbours, strictly overlap when the head is there? head: [rad]"""
+def near_pair(chain: AnyChain, head: arb, when: str) -> list[int]:
+    """Two benches a < b, no neighbours, that strictly overlap, or are nearer than the margin, when the head is there.
+
+    head: its place [rad], [m]; raises: ProofRefused when there are none
+    """
+    place = head
+    for bench in range(chain.count - 2):
+        pose = chain.pose_at(bench, place)
+        pose.grow_to(2)
+        for partner in range(2, chain.count - bench):
+            if pose.far_from(partner):
+                break
+            pose.grow_to(partner + 1)
+            if pose.within(partner, chain.margin):
+                return [bench, bench + partner]
+        place = pose.places[1]
+    how = f"come within {float(chain.margin)!r} m of one another" if chain.margin > 0 else "overlap"
+    raise ProofRefused("claim", f"no two benches {how} {when}")
+
+
+def check_near(chain: AnyChain, head: arb, a: int, b: int, when: str) -> None:
+    """Check that benches a < b, no neighbours, strictly overlap, or are nearer than the margin, when the head is there.
+
+    head: its place [rad], [m]; raises: Unproven
+    """
     if not 0 <= a < b - 1 < chain.count - 1:
         raise Unproven(f"benches {a} and {b} are no pair")
-    pose = Pose(chain, 0, head)
-    pose.grow(a)
-    pose = Pose(chain, a, pose.thetas[-1])
-    pose.grow(b - a + 1)
-    return pose.overlapping(b - a)
+    pose = chain.pose_at(0, head)
+    pose.grow_to(a)
+    pose = chain.pose_at(a, pose.places[a])
+    pose.grow_to(b - a + 1)
+    if not pose.within(b - a, chain.margin):
+        how = f"be nearer than {float(chain.margin)!r} m" if chain.margin > 0 else "overlap"
+        raise Unproven(f"benches {a} and {b} are not shown to {how} {when}")
 
 
 def head_theta(chain: Chain, handle: int, theta: float, low: float, high: float) -> float:
     """Where the head is, between low and high, when a handle is at theta, about [rad]."""
     for _ in range(HALVINGS if handle else 0):
         theta_handle = middle = (low + high) / 2
-        for size in chain.sizes[:handle]:
-            theta_handle += bend_guess(theta_handle, float(size.needed))
+        for needed in chain.needed[:handle]:
+            theta_handle += bend_guess(theta_handle, float(needed))
         low, high = (low, middle) if theta_handle > theta else (middle, high)
     return high if handle else theta
 
@@ -182,6 +215,3 @@ def refusing(field: str) -> Iterator[None]:
         yield
     except (Overlap, Unproven) as why:
         raise ProofRefused(field, f"not proven: {why}") from None
-
-
-Claim = CollisionTime | MinimumPitch

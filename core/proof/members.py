@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import fields
+from collections.abc import Callable, Mapping
 from typing import Any
 
 from core.errors import ProofRefused
 from core.proof.claims import CollisionTime, MinimumPitch
+from core.proof.dances import ENDINGS, Clear, Contact
+from core.proof.pairs import ALL_FACES, CIRCLES, DIRECTION
+from core.proof.paths import PIECES, POINTS, TURN
 
 # The fewest and the most bits that a certificate may ask for. Its numbers are doubles, of 53 bits; the default dragon's
 # certificate is checked in 0.9 s with 96 bits, in 7.5 s with 4,096 (measured 2026-11-21).
@@ -17,8 +19,7 @@ PRECISION_LEAST, PRECISION_MOST = 53, 4096
 NUMBER_MOST = 1e15
 # A value that is longer is shortened in messages [characters].
 SHOWN_MOST = 40
-FACES = frozenset("01234567")
-CLAIMS = {kind.kind: kind for kind in (CollisionTime, MinimumPitch)}
+CLAIMS = {kind.kind: kind for kind in (CollisionTime, MinimumPitch, Clear, Contact)}
 
 Check = Callable[[str, Any], None]
 
@@ -28,19 +29,21 @@ def check_members(certificate: Any) -> None:
 
     raises: ProofRefused naming the member, what it must be and what it is
     """
-    _object("", certificate, MEMBERS)
-    claim = certificate["claim"]
-    if not isinstance(claim, dict) or claim.get("kind") not in list(CLAIMS):
-        got = claim.get("kind") if isinstance(claim, dict) else claim
-        raise _malformed("claim.kind", f"must be {' or '.join(CLAIMS)}", got)
-    names = [field.name for field in fields(CLAIMS[claim["kind"]]) if field.name != "dragon"]
-    _object("claim", claim, {"kind": _text} | dict.fromkeys(names, _number))
-    within = claim["kind"] == MinimumPitch.kind and certificate["overlap"].keys() == {"start_within_circle"}
-    if within:
-        _object("overlap", certificate["overlap"], {"start_within_circle": _true})
-    else:
-        theta = {"head_theta": _number} if claim["kind"] == MinimumPitch.kind else {}
-        _object("overlap", certificate["overlap"], {"benches": _each(_whole, 2)} | theta)
+    claim: Any = certificate.get("claim") if isinstance(certificate, dict) else None
+    kind: Any = claim.get("kind") if isinstance(claim, dict) else None
+    without = {} if kind == Clear.kind else {"overlap": _any_object}
+    _object("", certificate, MEMBERS | without)
+    if not isinstance(kind, str) or kind not in CLAIMS:
+        names = list(CLAIMS)
+        raise _malformed("claim.kind", f"must be {', '.join(names[:-1])} or {names[-1]}", kind)
+    optional = {"margin": _positive} if "margin" in claim else {}
+    _object("claim", claim, CLAIM_MEMBERS[kind] | optional)
+    if kind != Clear.kind:
+        _overlap(kind, certificate["overlap"])
+    on_spiral = kind in (CollisionTime.kind, MinimumPitch.kind) or claim["path"]["kind"] == "spiral"
+    letters = ALL_FACES + (DIRECTION if optional else "") + ("" if on_spiral else CIRCLES)
+    if certificate["sweeps"] != []:  # A contact at the very start leaves nothing to sweep.
+        _each(_sweep(letters, on_spiral))("sweeps", certificate["sweeps"])
 
 
 def _malformed(name: str, must: str, got: Any) -> ProofRefused:
@@ -106,6 +109,12 @@ def _number(name: str, value: Any) -> None:
         raise _malformed(name, f"must be a number from {-NUMBER_MOST:g} to {NUMBER_MOST:g}", value)
 
 
+def _positive(name: str, value: Any) -> None:
+    _number(name, value)
+    if not value > 0:
+        raise _malformed(name, "must be positive (no margin, no such member)", value)
+
+
 def _whole(name: str, value: Any) -> None:
     if not isinstance(value, int) or isinstance(value, bool):
         raise _malformed(name, "must be a whole number", value)
@@ -119,32 +128,72 @@ def _precision(name: str, value: Any) -> None:
         raise _malformed(name, f"must be from {PRECISION_LEAST} to {PRECISION_MOST} bits", value)
 
 
+def _one_of(*words: str) -> Check:
+    def checked(name: str, value: Any) -> None:
+        if not isinstance(value, str) or value not in words:
+            raise _malformed(name, f"must be {', '.join(words[:-1])} or {words[-1]}", value)
+
+    return checked
+
+
 def _run(name: str, value: Any) -> None:
     """[count, length, width, overhang] of benches alike."""
     _each(_number, 4)(name, value)
     _whole(f"{name}.0", value[0])
 
 
-def _sweep(name: str, value: Any) -> None:
-    _object(name, value, {"bench": _whole, "stretches": _each(_stretch)})
+def _overlap(kind: str, value: Mapping[str, Any]) -> None:
+    if kind == MinimumPitch.kind and value.keys() == {"start_within_circle"}:
+        _object("overlap", value, {"start_within_circle": _true})
+        return
+    theta: dict[str, Check] = {"head_theta": _number} if kind == MinimumPitch.kind else {}
+    _object("overlap", value, {"benches": _each(_whole, 2)} | theta)
 
 
-def _stretch(name: str, value: Any) -> None:
-    if not isinstance(value, list) or len(value) != 3:
-        raise _malformed(name, "must be [highest theta, lowest theta, faces]", value)
-    high, low, faces = value
-    _number(f"{name}.0", high)
-    _number(f"{name}.1", low)
-    _text(f"{name}.2", faces)
-    if not 0.0 < low < high:
-        raise _malformed(f"{name}.1", f"must lie between 0 and {name}.0, {high!r} rad", low)
-    if not FACES.issuperset(faces):
-        raise _malformed(f"{name}.2", "must be faces, digits from 0 to 7", faces)
+def _path(name: str, value: Any) -> None:
+    """A path as paths.py writes it."""
+    _any_object(name, value)
+    _one_of(*PATHS)(f"{name}.kind", value.get("kind"))
+    _object(name, value, {"kind": _text} | PATHS[value["kind"]])
 
 
-def _sweeps(name: str, value: Any) -> None:
-    if value != []:  # A contact at the very start leaves nothing to sweep.
-        _each(_sweep)(name, value)
+def _piece(name: str, value: Any) -> None:
+    _any_object(name, value)
+    _one_of(*PIECES)(f"{name}.kind", value.get("kind"))
+    names = PIECES[value["kind"]][1]
+    members: dict[str, Check] = {name: _each(_number, 2) if name in POINTS else _number for name in names}
+    _object(name, value, {"kind": _text} | members)
+
+
+def _sweep(letters: str, positive: bool) -> Check:
+    stretches = _each(_stretch(letters, positive))
+    return lambda name, value: _object(name, value, {"bench": _whole, "stretches": stretches})
+
+
+def _stretch(letters: str, positive: bool) -> Check:
+    """[highest place, lowest place, faces], and the directions where faces has some. positive: are the places?"""
+    place, last = "theta" if positive else "place", max(letters)
+
+    def checked(name: str, value: Any) -> None:
+        lengths = (3, 4) if DIRECTION in letters else (3,)
+        if not isinstance(value, list) or len(value) not in lengths:
+            directions = " or [..., directions]" if len(lengths) == 2 else ""
+            raise _malformed(name, f"must be [highest {place}, lowest {place}, faces]{directions}", value)
+        high, low, faces, *rest = value
+        _number(f"{name}.0", high)
+        _number(f"{name}.1", low)
+        _text(f"{name}.2", faces)
+        if positive and not 0.0 < low < high:
+            raise _malformed(f"{name}.1", f"must lie between 0 and {name}.0, {high!r} rad", low)
+        if not low < high:
+            raise _malformed(f"{name}.1", f"must be less than {name}.0, {high!r} m", low)
+        if not set(letters).issuperset(faces):
+            skipped = "" if DIRECTION in letters or last < DIRECTION else f" but {DIRECTION}"
+            raise _malformed(f"{name}.2", f"must be faces, digits from 0 to {last}{skipped}", faces)
+        if faces.count(DIRECTION) or rest:
+            _each(_number, faces.count(DIRECTION))(f"{name}.3", rest[0] if rest else None)
+
+    return checked
 
 
 MEMBERS: dict[str, Check] = {
@@ -153,8 +202,19 @@ MEMBERS: dict[str, Check] = {
     "precision": _precision,
     "dragon": _each(_run),
     "claim": _any_object,
-    "overlap": _any_object,
     "repeats_from": _whole,
-    "sweeps": _sweeps,
+    "sweeps": lambda name, value: None,  # once the claim is known
     "digest": _text,
+}
+PATHS: dict[str, dict[str, Check]] = {
+    "spiral": dict.fromkeys(("pitch", "start_turns"), _number),
+    "turn": dict.fromkeys(TURN, _number),
+    "route": {"start": _number, "pieces": _each(_piece)},
+}
+_DANCE: dict[str, Check] = {"kind": _text, "path": _path, "head_speed": _number, "start": _number}
+CLAIM_MEMBERS: dict[str, dict[str, Check]] = {
+    CollisionTime.kind: {"kind": _text} | dict.fromkeys(("pitch", "start_turns", "head_speed", "time"), _number),
+    MinimumPitch.kind: {"kind": _text} | dict.fromkeys(("pitch", "start_turns", "turning_radius"), _number),
+    Clear.kind: _DANCE | {"stop": _number, "until": _one_of(*ENDINGS)},
+    Contact.kind: _DANCE | {"time": _number},
 }

@@ -95,12 +95,87 @@ def test_a_minimum_pitch_is_proven_and_checked(tmp_path: Path) -> None:
 
 def test_a_dance_without_contact_has_no_collision_time_to_prove(tmp_path: Path) -> None:
     done = run("collision-time", "--benches", "4", "--output", str(tmp_path / "none.json"))
-    assert (done.returncode, done.stderr) == (1, "Refused: nothing touches, so there is no collision time to prove\n")
+    assert (done.returncode, done.stderr) == (
+        1,
+        "Refused: nothing touches, so there is no collision time to prove: prove clear\n",
+    )
+
+
+LINES = """
+margin = 0.2
+dragon = {{benches = 6}}
+[path]
+kind = "route"
+pieces = [
+  {{kind = "line", start = [0, 0], end = [30, 0]}},
+  {{kind = "arc", centre = [30, 3], radius = 3, start_angle = -1.5707963267948966, sweep = {sweep}}},
+]
+"""
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (("collision-time", *FIVE, "--margin", "0.1"), "are nearer than 0.1 m at"),
+        (("minimum-pitch", "--turning-diameter", "4", "--benches", "11", "--start-turns", "5", "--margin", "0.05"),
+         "come within 0.05 m of one another until the head is 2.0 m from the centre"),
+        (("clear", "--benches", "4"), "bench 0 cannot follow any more (it folds) before 432.9179242"),
+        (("clear", *FIVE, "--stop", "20", "--margin", "0.1"), "from 0.0 s to 20.0 s."),
+        (("turn", "--benches", "14", "--start", "-5", "--stop", "20"), "touch from -5.0 s to 20.0 s."),
+        (("turn", "--benches", "20", "--start", "-5", "--stop", "20", "--margin", "0.34"), "nearer than 0.34 m at 13."),
+    ],
+    ids=["time with a margin", "pitch with a margin", "to the fold", "to a stop", "turn", "turn with a margin"],
+)  # fmt: skip
+def test_every_claim_is_proven_and_its_certificate_checked(
+    arguments: tuple[str, ...], words: str, tmp_path: Path
+) -> None:
+    path = tmp_path / "claim.json"
+    done = run(*arguments, "--output", str(path))
+    assert done.returncode == 0, done.stderr
+    assert words in done.stdout
+    assert run("--check", str(path)).stdout == done.stdout
+
+
+def test_a_dance_from_a_file_is_proven_to_its_end(tmp_path: Path) -> None:
+    file, path = tmp_path / "dance.toml", tmp_path / "dance.json"
+    file.write_text(LINES.format(sweep=3.0))
+    done = run("dance", str(file), "--output", str(path))
+    assert done.returncode == 0, done.stderr
+    assert "the route of 2 pieces (line, arc), joined exactly" in done.stdout
+    assert "come within 0.2 m of one another" in done.stdout
+    assert "and the route ends before" in done.stdout
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (("clear", *FIVE), "Refused: not proven: benches 0 and 4 overlap when handle 0 is at theta = "),
+        (("turn", "--margin", "1.2"), "Refused: benches 0 and "),
+        (("collision-time", "--benches", "3", "--margin", "0.01"), "Refused: no two benches come within 0.01 m, so "),
+    ],
+)
+def test_a_claim_that_is_wrong_is_refused_in_one_line(arguments: tuple[str, ...], words: str, tmp_path: Path) -> None:
+    done = run(*arguments, "--output", str(tmp_path / "wrong.json"))
+    assert (done.returncode, done.stdout) == (1, "")
+    assert done.stderr.startswith(words)
+    assert done.stderr.count("\n") == 1
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_dance_along_waypoints_has_no_proof(tmp_path: Path) -> None:
+    file = tmp_path / "dance.toml"
+    file.write_text('dragon = {benches = 3}\npath = {kind = "waypoints", points = [[0, 0], [20, 1], [40, 0]]}\n')
+    done = run("dance", str(file))
+    assert (done.returncode, done.stdout) == (2, "")
+    assert done.stderr == "Error: path must be of lines, arcs and coils for a proof in ball arithmetic, got waypoints\n"
 
 
 @pytest.mark.parametrize(
     ("arguments", "text", "words"),
     [
+        (("clear", "--stop", "1000"), None, "stop must be at most 432.917924"),
+        (("turn", "--start", "5", "--stop", "2"), None, "stop must be after start"),
+        (("collision-time", "--margin", "-1"), None, "margin"),
         ((), None, "either a claim to prove or --check FILE"),
         (("--check", "x", "collision-time"), None, "either a claim to prove or --check FILE"),
         (("--check", "nowhere.json"), None, "nowhere.json: No such file"),

@@ -21,8 +21,8 @@ from flint import arb, ctx
 from core import Dragon, Spiral, bench_poses, first_contact, trajectory
 from core.errors import InvalidValue, ProofRefused
 from core.proof import Certificate, check, digest, prove_collision_time, prove_minimum_pitch
-from core.proof.chain import Chain, Pose, Unproven, _newton, bend
-from core.proof.sweeps import Stretch, _stays_positive
+from core.proof.chain import Chain, Pose, Stretch, bend, newton
+from core.proof.pairs import Unproven, stays_positive
 from core.rectangles import corners
 
 ROOT = Path(__file__).parents[2]
@@ -258,15 +258,24 @@ def at(*place: str | int, put: Any) -> Callable[[dict[str, Any]], None]:
 
 MALFORMED = {
     "an unknown member": (at("note", put="x"), "note", "note is no member of it"),
-    "an unknown member of the claim": (at("claim", "margin", put=0), "claim.margin", "claim.margin is no member of it"),
+    "an unknown member of the claim": (at("claim", "x", put=0), "claim.x", "claim.x is no member of it"),
+    "a margin of nothing": (
+        at("claim", "margin", put=0),
+        "claim.margin",
+        "claim.margin must be positive (no margin, no such member), got 0",
+    ),
     "an unknown member of a sweep": (at("sweeps", 1, "x", put=0), "sweeps.1.x", "sweeps.1.x is no member of it"),
     "a missing member": (lambda c: c.pop("sweeps"), "sweeps", "sweeps is missing"),
     "a claim without time": (lambda c: c["claim"].pop("time"), "claim.time", "claim.time is missing"),
     "a claim of another kind": (
-        at("claim", "kind", put="x"), "claim.kind", 'claim.kind must be collision-time or minimum-pitch, got "x"',
+        at("claim", "kind", put="x"),
+        "claim.kind",
+        'claim.kind must be collision-time, minimum-pitch, clear or contact, got "x"',
     ),
     "a claim without a kind": (
-        lambda c: c["claim"].pop("kind"), "claim.kind", "claim.kind must be collision-time or minimum-pitch, got null",
+        lambda c: c["claim"].pop("kind"),
+        "claim.kind",
+        "claim.kind must be collision-time, minimum-pitch, clear or contact, got null",
     ),
     "a claim that is none": (at("claim", put=[]), "claim", "claim must be an object, got a list of 0"),
     "a time in words": (at("claim", "time", put="51"), "claim.time", 'claim.time must be a number, got "51"'),
@@ -468,10 +477,10 @@ def test_there_is_no_bend_past_the_fold_and_one_beyond_pi_just_before() -> None:
 
 def test_a_newton_step_that_leaves_its_ball_or_finds_no_slope_proves_nothing() -> None:
     near = arb(2.0, 1e-8)
-    assert _newton(arb(2.0), near, arb(1e-9), arb(4.0, 1e-7)).contains(2.0 - 2.5e-10)
+    assert newton(arb(2.0), near, arb(1e-9), arb(4.0, 1e-7)).contains(2.0 - 2.5e-10)
     for value, slope in ((arb(1e-7), arb(4.0, 1e-7)), (arb(1e-9), arb(0.0, 1e-7))):
         with pytest.raises(Unproven):
-            _newton(arb(2.0), near, value, slope)
+            newton(arb(2.0), near, value, slope)
 
 
 def test_the_bound_on_a_stretch_never_calls_a_dip_positive() -> None:
@@ -482,7 +491,7 @@ def test_the_bound_on_a_stretch_never_calls_a_dip_positive() -> None:
         end, end_rate = at + rate * width + bow * width**2, rate + 2 * bow * width
         inside = -rate / (2 * bow) if 0.0 < -rate / (2 * bow) < width else 0.0
         least = min(at, end, at + rate * inside + bow * inside**2)
-        positive = _stays_positive(arb(at), arb(end), arb(rate).union(arb(end_rate)), arb(width))
+        positive = stays_positive(arb(at), arb(end), arb(rate).union(arb(end_rate)), arb(width))
         assert not positive or least > 0.0
         proven += positive
     assert proven > 1000

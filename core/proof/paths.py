@@ -1,0 +1,153 @@
+"""Paths of a certificate: how each is written down, what core makes of it, and the path in balls.
+
+A spiral and the turn are exactly what their numbers say: the turn's arcs are found in balls. The pieces of a route meet
+to within 1e-9 m and 1e-9 rad only, so the route of a proof is joined exactly: each piece keeps its shape and is moved
+and turned so that it goes on where and in the direction in which the one before it ends. The first piece goes on
+backwards and the last one forwards.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from flint import acb, arb
+
+from core import route
+from core.dragon import Dragon
+from core.errors import InvalidValue
+from core.paths import Spiral
+from core.proof.chain import Chain
+from core.proof.route import Coil, Path, Piece, RouteChain
+from core.turn import Turn, turn
+
+AnyPath = Spiral | route.Route | Turn
+Record = Mapping[str, Any]
+
+# The members of each kind of path and of piece, in words that InvalidValue and the check of members share.
+TURN = ("pitch", "turning_radius", "ratio", "start_turns", "entry_radius")
+PIECES: dict[str, tuple[type[route.Line | route.Arc | route.Coil], tuple[str, ...]]] = {
+    "line": (route.Line, ("start", "end")),
+    "arc": (route.Arc, ("centre", "radius", "start_angle", "sweep")),
+    "coil": (route.Coil, ("pitch", "start_turns", "end_turns", "centre", "rotation")),
+}
+# Those of them that are points, [x, y].
+POINTS = frozenset({"start", "end", "centre"})
+
+
+def recorded_path(path: AnyPath) -> dict[str, Any]:
+    """A path as a certificate has it.
+
+    raises: InvalidValue for waypoints
+    """
+    if isinstance(path, Spiral):
+        return {"kind": "spiral", "pitch": path.pitch, "start_turns": path.start_turns}
+    if isinstance(path, Turn):
+        first = path.path.pieces[0]
+        assert isinstance(first, route.Coil)
+        values = {name: getattr(path, name) for name in TURN if name != "start_turns"}
+        return {"kind": "turn"} | values | {"start_turns": first.start_turns}
+    pieces = []
+    for k, piece in enumerate(path.pieces):
+        if isinstance(piece, route.Waypoints):
+            where = f"path.pieces[{k}]" if len(path.pieces) > 1 else "path"
+            words = f"{where} must be of lines, arcs and coils for a proof in ball arithmetic, got waypoints"
+            raise InvalidValue(f"path.pieces.{k}", words)
+        pieces.append(_recorded_piece(piece))
+    return {"kind": "route", "start": path.start, "pieces": pieces}
+
+
+def _recorded_piece(piece: route.Line | route.Arc | route.Coil) -> dict[str, Any]:
+    kind, names = next((kind, names) for kind, (made, names) in PIECES.items() if isinstance(piece, made))
+    values = {name: getattr(piece, name) for name in names}
+    return {"kind": kind} | {
+        name: [float(part) for part in value] if name in POINTS else float(value) for name, value in values.items()
+    }
+
+
+def core_path(record: Record) -> Spiral | route.Route:
+    """The path as the rest of core knows it.
+
+    raises: InvalidValue
+    """
+    if record["kind"] == "spiral":
+        return Spiral(record["pitch"], record["start_turns"])
+    if record["kind"] == "turn":
+        try:
+            return _turn(record).path
+        except InvalidValue as error:  # turn() knows no path around its fields
+            raise InvalidValue(f"path.{error.field}", f"path.{error.message}") from error
+    pieces = [PIECES[piece["kind"]][0](**_arguments(piece)) for piece in record["pieces"]]
+    return route.Route(pieces, record["start"])
+
+
+def _arguments(piece: Record) -> dict[str, Any]:
+    return {name: tuple(piece[name]) if name in POINTS else piece[name] for name in PIECES[piece["kind"]][1]}
+
+
+def _turn(record: Record) -> Turn:
+    values = {name: record[name] for name in ("pitch", "turning_radius", "ratio")}
+    return turn(**values, start_turns=record["start_turns"], entry_radius=record["entry_radius"])
+
+
+def described(record: Record) -> str:
+    """The path in words, with every number of it that is no piece's."""
+    if record["kind"] == "spiral":
+        return f"the spiral of pitch {record['pitch']!r} m inwards from {record['start_turns']!r} turns"
+    if record["kind"] == "turn":
+        return (
+            f"the turn of ratio {record['ratio']!r}, which it enters {record['entry_radius']!r} m from the centre at "
+            f"0 s, between spirals of pitch {record['pitch']!r} m and {record['start_turns']!r} turns"
+        )
+    kinds = ", ".join(piece["kind"] for piece in record["pieces"])
+    place = f"its s = 0 at {record['start']!r} m from its beginning"
+    return f"the route of {len(record['pieces'])} pieces ({kinds}), joined exactly, {place}"
+
+
+def chain_on(dragon: Dragon, record: Record, margin: float) -> Chain | RouteChain:
+    """The dragon on the path, in balls."""
+    if record["kind"] == "spiral":
+        return Chain(dragon, arb(record["pitch"]), record["start_turns"], margin)
+    return RouteChain(dragon, _turn_path(record) if record["kind"] == "turn" else _route_path(record), margin)
+
+
+# The arcs of turn(): S = R sqrt(1 + theta^2) / theta. With T the direction of travel at the entry E and n to the right
+# of it, E . T = -R sin gamma and E . n = -R cos gamma, tan gamma = 1 / theta. From C1 = E + r1 n to C2 = -E - r2 n goes
+# -2 E - S n = R / cos gamma (sin 2 gamma T + cos 2 gamma n), and from C1 to E goes -n. A clockwise turn by alpha brings
+# -n to sin alpha T - cos alpha n: alpha = pi - 2 gamma, on both arcs by symmetry.
+def _turn_path(record: Record) -> Path:
+    growth, radius = arb(record["pitch"]) / (2 * arb.pi()), arb(record["entry_radius"])
+    theta, start = radius / growth, 2 * arb.pi() * arb(record["start_turns"])
+    total, ratio = radius * (1 + theta**2).sqrt() / theta, arb(record["ratio"])
+    radii, angle = (total * ratio / (1 + ratio), total / (1 + ratio)), arb.pi() - 2 * (1 / theta).atan()
+    pieces = (
+        Coil.between(growth, start, theta),
+        Piece(-1 / radii[0], radii[0] * angle),
+        Piece(1 / radii[1], radii[1] * angle),
+        Coil.between(growth, -theta, -start),
+    )
+    return Path(pieces, (1, arb(0)), acb(0), acb(1))
+
+
+def _route_path(record: Record) -> Path:
+    given = [_piece(piece) for piece in record["pieces"]]
+    _, shift, turned = given[0]
+    return Path([piece for piece, _, _ in given], (0, arb(record["start"])), shift, turned)
+
+
+def _piece(record: Record) -> tuple[Piece, acb, acb]:
+    """A piece, and where it lies as given: its shift and turn."""
+    if record["kind"] == "line":
+        start, end = (acb(*record[name]) for name in ("start", "end"))
+        return Piece(arb(0), abs(end - start)), start, (end - start) / abs(end - start)
+    centre = acb(*record["centre"])
+    if record["kind"] == "arc":
+        radius, sweep = arb(record["radius"]), arb(record["sweep"])
+        sign = 1 if sweep > 0 else -1
+        outwards = (acb(0, 1) * arb(record["start_angle"])).exp()
+        return Piece(sign / radius, radius * abs(sweep)), centre + radius * outwards, acb(0, sign) * outwards
+    first, last = (2 * arb.pi() * arb(record[name]) for name in ("start_turns", "end_turns"))
+    if record["end_turns"] > record["start_turns"]:
+        first, last = -first, -last
+    growth = arb(record["pitch"]) / (2 * arb.pi())
+    return Coil.between(growth, first, last), centre, (acb(0, 1) * arb(record["rotation"])).exp()

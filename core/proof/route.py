@@ -1,0 +1,330 @@
+"""Routes in balls: lines, arcs and coils joined exactly, and the dragon at one exact place of them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+from flint import acb, arb
+
+from core.dragon import Dragon
+from core.proof.chain import GUESS_RADIUS, POSES_KEPT, Follower, bend, newton
+from core.proof.pairs import Benches, Unproven, above
+
+# Newton's steps towards a guess in doubles: each doubles the digits.
+GUESS_STEPS = 40
+
+
+@dataclass
+class Piece:
+    """A line or an arc of one curvature [1/m], length [m]; its parameter is the place z = -s [m] itself.
+
+    high, low: places where it begins and ends [m]; shift, turn: its beginning in the world; index: in the route
+    A place falls as the dance goes on: the point is at high - z along the piece.
+    """
+
+    curvature: arb
+    length: arb
+    high: arb = field(default_factory=arb)
+    low: arb = field(default_factory=arb)
+    shift: acb = field(default_factory=acb)
+    turn: acb = field(default_factory=lambda: acb(1))
+    index: int = 0
+
+    def param(self, z: arb) -> arb:
+        """The parameter at a place."""
+        return z
+
+    def place(self, t: arb) -> arb:
+        """The place at a parameter [m]."""
+        return t
+
+    def point(self, t: arb) -> acb:
+        """The point at a parameter [m]."""
+        way = self.high - t
+        if self.curvature == 0:
+            return self.shift + self.turn * way
+        turned = (acb(0, 1) * self.curvature * way).exp() - 1
+        return self.shift + self.turn * turned / (acb(0, 1) * self.curvature)
+
+    def tangent(self, t: arb) -> acb:
+        """The direction of the dance at a parameter."""
+        return self.turn * (acb(0, 1) * self.curvature * (self.high - t)).exp()
+
+    def slope(self, t: arb) -> arb:
+        """-ds / dt at a parameter [m]."""
+        return arb(1)
+
+    def bends(self, t: arb) -> arb:
+        """The curvature at a parameter [1/m]."""
+        return self.curvature
+
+    def behind(self, t: arb, chord: arb) -> arb:
+        """The parameter of the first point behind at a chord, if the piece goes on so far."""
+        half = abs(self.curvature) * chord / 2
+        if self.curvature == 0:
+            return t + chord
+        if not half < 1:
+            raise Unproven("a bend is too tight for a bench")
+        return t + 2 * half.asin() / abs(self.curvature)
+
+
+@dataclass
+class Coil(Piece):
+    """Part of the spiral r = growth |t|: inwards for t > 0, outwards for t < 0, so that t falls as the dance goes on.
+
+    growth [m/rad]; first, last: t where it begins and ends [rad]; it goes on beyond both, but not past its centre
+    """
+
+    growth: arb = field(default_factory=arb)
+    first: arb = field(default_factory=arb)
+    last: arb = field(default_factory=arb)
+
+    @classmethod
+    def between(cls, growth: arb, first: arb, last: arb) -> Coil:
+        """The coil from one t to another."""
+        coil = cls(arb(0), arb(0), growth=growth, first=first, last=last)
+        coil.length = coil._arc(first) - coil._arc(last)
+        return coil
+
+    @property
+    def inwards(self) -> bool:
+        """Is it danced towards its centre?"""
+        return bool(self.first > 0)
+
+    def _theta(self, t: arb) -> arb:
+        if not (t > 0 if self.inwards else t < 0):
+            raise Unproven("a handle is not shown to be short of the centre of a coil")
+        return abs(t)
+
+    def _arc(self, t: arb) -> arb:
+        return self.growth / 2 * (t * (1 + t**2).sqrt() + t.asinh())
+
+    def param(self, z: arb) -> arb:
+        left = z - self.high + self._arc(self.first)
+        sign = 1 if left > 0 else -1
+        t = (sign * (2 * abs(left) / self.growth).sqrt()).mid()
+        for _ in range(20):  # quadratic from the first on: the arc is convex on either side of the centre
+            t = (t - (self._arc(t) - left) / self.slope(t)).mid()
+        around = t + arb(0, GUESS_RADIUS)
+        return newton(t, around, self._arc(t) - left, self.slope(around))
+
+    def place(self, t: arb) -> arb:
+        return self.high + self._arc(t) - self._arc(self.first)
+
+    def point(self, t: arb) -> acb:
+        theta = self._theta(t)
+        return self.shift + self.turn * self.growth * theta * (acb(0, 1) * theta).exp()
+
+    def tangent(self, t: arb) -> acb:
+        theta = self._theta(t)
+        along = acb(1, theta) * (acb(0, 1) * theta).exp() / (1 + t**2).sqrt()
+        return -self.turn * along if self.inwards else self.turn * along
+
+    def slope(self, t: arb) -> arb:
+        return self.growth * (1 + t**2).sqrt()
+
+    def bends(self, t: arb) -> arb:
+        square = 1 + self._theta(t) ** 2
+        size = (square + 1) / (square * square.sqrt()) / self.growth
+        return -size if self.inwards else size
+
+    def behind(self, t: arb, chord: arb) -> arb:
+        return t + bend(t, (chord / self.growth) ** 2)
+
+
+class Path:
+    """Pieces in the order they are danced, each moved so that it goes on where and whither the one before ends.
+
+    anchor: (piece, place where it begins [m]); the first piece goes on backwards, and the last one forwards
+    """
+
+    def __init__(self, pieces: Sequence[Piece], anchor: tuple[int, arb], shift: acb, turn: acb) -> None:
+        self.pieces = list(pieces)
+        at, z = anchor
+        for k in range(at, len(self.pieces)):
+            self.pieces[k].high, self.pieces[k].low = z, z - self.pieces[k].length
+            z = self.pieces[k].low
+        z = anchor[1]
+        for k in range(at - 1, -1, -1):
+            self.pieces[k].low, self.pieces[k].high = z, z + self.pieces[k].length
+            z = self.pieces[k].high
+        for k, piece in enumerate(self.pieces):
+            piece.index = k
+            if k == 0:
+                piece.shift, piece.turn = shift, turn
+                continue
+            before, start, end = self.pieces[k - 1], *self.ends(k)
+            piece.turn = before.tangent(end) / piece.tangent(start)
+            piece.shift = before.point(end) - piece.point(start)
+
+    def ends(self, k: int) -> tuple[arb, arb]:
+        """The parameters on both sides of the joint before piece k: of k, and of the piece before it."""
+        after, before = self.pieces[k], self.pieces[k - 1]
+        start = after.first if isinstance(after, Coil) else after.high
+        return start, before.last if isinstance(before, Coil) else before.low
+
+    def holds(self, piece: Piece, z: arb) -> bool:
+        """Is this place on that piece for certain? z: [m]"""
+        first, last = piece.index == 0, piece.index == len(self.pieces) - 1
+        return (first or z <= piece.high) and (last or z >= piece.low)
+
+    def at(self, z: arb) -> tuple[Piece, arb]:
+        """The piece that holds a place, and the parameter there. z: [m]"""
+        for piece in self.pieces:
+            if self.holds(piece, z):
+                return piece, piece.param(z)
+        raise Unproven("a handle is on a joint to the last digit")
+
+    def curvature(self, front: tuple[Piece, arb], rear: tuple[Piece, arb]) -> tuple[arb, arb]:
+        """Between which values the curvature stays from a place back to another one [1/m]."""
+        found = [front[0].bends(front[1]), rear[0].bends(rear[1])]
+        for k in range(rear[0].index + 1, front[0].index + 1):
+            start, end = self.ends(k)
+            found += [self.pieces[k].bends(start), self.pieces[k - 1].bends(end)]
+        hull = found[0]
+        for other in found[1:]:
+            hull = hull.union(other)
+        return hull.lower(), hull.upper()
+
+    def behind(self, front: tuple[Piece, arb], chord: arb) -> tuple[Piece, arb]:
+        """The first place behind at a chord (8.), as piece and parameter."""
+        piece, t = front
+        rear = piece, piece.behind(t, chord)
+        if not self.holds(piece, piece.place(rear[1])):
+            rear = self._on_earlier(front, chord)
+        z = piece.place(t)
+        length = rear[0].place(rear[1]) - z
+        low, high = self.curvature(front, rear)
+        sharpest = abs(low).max(abs(high))
+        if not (length > 0 and sharpest * length < arb.pi()):
+            raise Unproven("a next handle is not shown to be the first behind")
+        return rear
+
+    def _on_earlier(self, front: tuple[Piece, arb], chord: arb) -> tuple[Piece, arb]:
+        """A point at a chord on a piece before that of the front handle."""
+        point, z = front[0].point(front[1]), front[0].place(front[1])
+        for k in range(front[0].index - 1, -1, -1):
+            piece, end = self.pieces[k], self.ends(k + 1)[1]
+            # From where it would be if path and chord were one.
+            t = (end + (z + chord - piece.low).nonnegative_part() / piece.slope(end)).mid()
+            t = self._meeting(piece, point, chord, t)
+            if self.holds(piece, piece.place(t)):
+                return piece, t
+            if not piece.place(t) > piece.high:
+                break
+        raise Unproven("no next handle is found across a joint")
+
+    def _meeting(self, piece: Piece, point: acb, chord: arb, t: arb) -> arb:
+        """Where |piece - point| = chord rises through it, near a guess: one interval Newton step."""
+        for _ in range(GUESS_STEPS):
+            to = piece.point(t) - point
+            slope = -2 * (to.conjugate() * piece.tangent(t)).real * piece.slope(t)
+            if not abs(slope) > 0:
+                break
+            step = (abs(to) ** 2 - chord**2) / slope
+            t = (t - step).mid()
+            if abs(step) < GUESS_RADIUS * GUESS_RADIUS:
+                break
+        around = t + arb(0, GUESS_RADIUS)
+        to_around = piece.point(around) - point
+        slope = -2 * (to_around.conjugate() * piece.tangent(around)).real * piece.slope(around)
+        return newton(t, around, abs(piece.point(t) - point) ** 2 - chord**2, slope)
+
+
+class RouteChain(Follower):
+    """A dragon on a route. Its places are z = -s [m]."""
+
+    floor = -math.inf
+
+    def __init__(self, dragon: Dragon, path: Path, margin: float = 0.0) -> None:
+        super().__init__(dragon, margin)
+        self.path = path
+        self._poses: dict[tuple[int, float], RoutePose] = {}
+
+    @staticmethod
+    def named(place: float) -> str:
+        """A place in words."""
+        return f"s = {-place!r} m"
+
+    def place_after(self, way: arb) -> arb:
+        """Where the head is after this way from s = 0. way: [m], negative before it; returns [m]."""
+        return -way
+
+    def pose_at(self, bench: int, place: arb) -> RoutePose:
+        """The benches from one on when its front handle is there [m]."""
+        return RoutePose(self, bench, place)
+
+    def pose(self, bench: int, place: float) -> RoutePose:
+        """The benches from one on when its front handle is there [m]; neighbouring stretches share one."""
+        if (bench, place) not in self._poses:
+            if len(self._poses) >= POSES_KEPT:
+                self._poses.clear()
+            self._poses[bench, place] = RoutePose(self, bench, arb(place))
+        return self._poses[bench, place]
+
+    def outermost(self, bench: int, highest: float) -> list[float]:
+        """P[bench], ..., P[n - 3] of 6., rounded up. highest: P[bench] [m]"""
+        pose = RoutePose(self, bench, arb(highest))
+        pose.grow_to(self.count - 3 - bench)
+        return [highest, *(above(pose.places[k]) for k in range(1, self.count - 2 - bench))]
+
+    @property
+    def centre(self) -> acb | None:
+        """The centre of the first piece where it coils inwards; else None."""
+        first = self.path.pieces[0]
+        return first.shift if isinstance(first, Coil) and first.inwards else None
+
+    def inner_circle(self, handle: tuple[Piece, arb]) -> arb | None:
+        """The circle around the first piece's centre that every bench from this handle on is outside of (11.) [m].
+
+        None where no such circle is known.
+        """
+        first, (piece, t) = self.path.pieces[0], handle
+        if not (
+            isinstance(first, Coil) and first.inwards and piece is first and abs(first.bends(t)) * self.longest < 2
+        ):
+            return None
+        inner = (first.growth * t.lower()) ** 2 - arb(self.longest) ** 2 / 4
+        return inner.sqrt() - self.reach if inner > 0 else None
+
+
+class RoutePose(Benches):
+    """The benches from one on when its front handle is at a place z [m], in the world frame.
+
+    handles: piece and parameter of each; points [m], places [m]; grown one by one
+    """
+
+    def __init__(self, chain: RouteChain, bench: int, z: arb) -> None:
+        super().__init__(chain.sizes[bench:])
+        self.chain, self.bench = chain, bench
+        self.handles = [chain.path.at(z)]
+        self.points, self.places = [self._point(0)], [z]
+        self._tangents: list[acb] = []
+
+    def _point(self, k: int) -> acb:
+        piece, t = self.handles[k]
+        return piece.point(t)
+
+    def grow_to(self, count: int) -> None:
+        """Have at least so many benches, as far as there are any."""
+        while len(self.centres) < min(count, len(self.sizes)):
+            k = len(self.centres)
+            self.handles.append(self.chain.path.behind(self.handles[k], self.sizes[k].chord))
+            piece, t = self.handles[-1]
+            self.points.append(self._point(k + 1))
+            self.places.append(piece.place(t))
+            self.centres.append((self.points[k] + self.points[k + 1]) / 2)
+            self.along.append((self.points[k] - self.points[k + 1]) / self.sizes[k].chord)
+
+    def far_from(self, count: int) -> bool:
+        """Are all benches behind so many apart from the first one? Pair by pair they are quickly told apart (10.)."""
+        return False
+
+    def angles(self, k: int) -> tuple[arb, arb]:
+        """From bench k's direction to the path's at its front and its rear handle [rad]."""
+        for piece, t in self.handles[len(self._tangents) : k + 2]:
+            self._tangents.append(piece.tangent(t))
+        turned = self.along[k].conjugate()
+        return (turned * self._tangents[k]).arg(), (turned * self._tangents[k + 1]).arg()

@@ -1,0 +1,179 @@
+"""A dragon on a route over a stretch of places: how every bench moves as seen from the first one."""
+
+from __future__ import annotations
+
+from flint import acb, arb
+
+from core.proof.pairs import Limit, Unproven, above, below, stays_above
+from core.proof.route import Coil, RouteChain
+
+# Times that q of 9. is enclosed anew from its own derivative: each takes the excess down by the angle turned in half
+# a stretch.
+ROUNDS = 3
+TO_LEFT = acb(0, 1)
+
+
+class RouteStretch:
+    """The benches from one on while its front handle goes from the place high to low [m]: at both ends, and between.
+
+    speeds: of the handles, for one of the front handle; placed: of the benches, grown one by one: velocity of the
+    centre in the bench's own frame, and turning rate [rad/m]; all enclosed over the stretch (8.)
+    last: one more than the last bench that counts
+    """
+
+    rising = True
+
+    def __init__(self, chain: RouteChain, bench: int, low: float, high: float, last: int) -> None:
+        self.chain, self.bench, self.low, self.high, self.last = chain, bench, low, high, last
+        self.ends = chain.pose(bench, low), chain.pose(bench, high)
+        self.width = arb(high) - arb(low)
+        self.speeds = [arb(1)]
+        self.placed: list[tuple[acb, arb]] = []
+        self._turned: tuple[int, acb, acb] | None = None
+        self.grow()
+        self._outermost = self._circle()
+
+    def grow(self) -> None:
+        """Add the next bench."""
+        k = len(self.placed)
+        for pose in self.ends:
+            pose.grow_to(k + 1)
+        after, before = self.ends
+        chord, front, rear, speed = after.sizes[k].chord, after.handles[k], before.handles[k + 1], self.speeds[k]
+        if front[0] is rear[0] and not isinstance(front[0], Coil):
+            bend = front[0].curvature
+            self.placed.append((acb(speed * (1 - (bend * chord / 2) ** 2).sqrt()), speed * bend))
+            self.speeds.append(speed)
+            return
+        low, high = self.chain.path.curvature(front, rear)
+        alpha = _half_turn(low, high, chord)
+        alpha, beta = self._from_ends(k, alpha, low.union(high))
+        (sine, cosine), (rear_sine, rear_cosine) = alpha.sin_cos(), beta.sin_cos()
+        if not (cosine > 0 and rear_cosine > 0):
+            raise Unproven(f"handle {self.bench + k + 1} is not enclosed")
+        ratio = cosine / rear_cosine
+        across = ratio * rear_sine
+        self.placed.append((speed * acb(cosine, (sine + across) / 2), speed * (sine - across) / chord))
+        self.speeds.append(speed * ratio)
+
+    def _from_ends(self, k: int, alpha: arb, bend: arb) -> tuple[arb, arb]:
+        """alpha and beta of bench k, enclosed from their values at both ends too (8.)."""
+        after, before = self.ends
+        half_way = (before.places[k] - after.places[k]) / 2
+        cosine = alpha.cos()
+        if not cosine > 0:
+            raise Unproven(f"handle {self.bench + k + 1} is not enclosed")
+        ratio = cosine / (-alpha).cos()
+        turning = (alpha.sin() - ratio * (-alpha).sin()) / after.sizes[k].chord
+        found = []
+        for last, first, wide, rate in zip(
+            after.angles(k), before.angles(k), (alpha, -alpha), (bend - turning, ratio * bend - turning), strict=True
+        ):
+            near = first.union(last) + arb(0, 1) * abs(rate).upper() * half_way
+            found.append(near.intersection(wide))
+        return found[0], found[1]
+
+    def _circle(self) -> arb | None:
+        """The circle around the first piece's centre that the first bench stays in [m], where a tail may be beyond."""
+        centre = self.chain.centre
+        if centre is None:
+            return None
+        after, before = self.ends
+        radii = []
+        for k in range(2):
+            (piece, t), first = before.handles[k], self.chain.path.pieces[0]
+            if piece is first and after.handles[k][0] is first and isinstance(piece, Coil):
+                radii.append(piece.growth * t)
+                continue
+            distances = abs(before.points[k] - centre) + abs(after.points[k] - centre)
+            radii.append((distances + before.places[k] - after.places[k]) / 2)
+        return radii[0].max(radii[1]) + after.sizes[0].reach
+
+    @property
+    def complete(self) -> bool:
+        """Are all benches that are not placed either far (11.) or none of this stretch's (6.)?"""
+        count = len(self.placed)
+        if self.bench + count >= self.last:
+            return True
+        if count < 2 or self._outermost is None:
+            return False
+        inner = self.chain.inner_circle(self.ends[0].handles[count])
+        return inner is not None and bool(inner > self._outermost + self.chain.margin)
+
+    @property
+    def rear(self) -> tuple[float, float]:
+        """Between which places the next handle stays [m], to the last digit of a double."""
+        first, last = (pose.places[1] for pose in self.ends)
+        return below(first), above(last)
+
+    def within_circles(self, partner: int) -> bool:
+        """Are the circles around both benches more than the margin apart all over the stretch (10.)?"""
+        sizes = self.ends[0].sizes
+        (before, _), (after, _) = self.ends[1].seen(0, partner), self.ends[0].seen(0, partner)
+        passed = abs(self._relative(partner)[1]) * self.width
+        needed = sizes[0].diagonal + sizes[partner].diagonal + self.chain.margin
+        return bool(abs(before) + abs(after) - passed > 2 * needed)
+
+    def _relative(self, partner: int) -> tuple[acb, acb]:
+        """e and v of 9.: partner's direction and velocity seen from the first bench, its turning left out."""
+        if self._turned is None or self._turned[0] != partner:
+            (velocity, rate), (velocity_b, rate_b) = self.placed[0], self.placed[partner]
+            turned = (TO_LEFT * (rate_b - rate) * arb(0).union(self.width / 2)).exp()
+            (_, after), (_, before) = (pose.seen(0, partner) for pose in self.ends)
+            along = (before * turned).union(after * turned.conjugate())
+            self._turned = partner, along, along * velocity_b - velocity
+        return self._turned[1:]
+
+    def _between(self, partner: int, along: acb, velocity: acb) -> acb:
+        """q of 9.: partner's centre seen from the first bench."""
+        (after, _), (before, _) = (pose.seen(0, partner) for pose in self.ends)
+        half = arb(0).union(self.width / 2)
+        most = abs(before).max(abs(after)) + abs(velocity) * self.width / 2
+        place = acb(arb(0, 1) * most, arb(0, 1) * most)
+        for _ in range(ROUNDS):
+            move = velocity - TO_LEFT * self.placed[0][1] * place
+            place = (before + move * half).union(after - move * half)
+        return place
+
+    def apart(self, partner: int, face: str, direction: float) -> bool:
+        """Is one of the two more than the margin beyond this line of the other, all over the stretch (4., 9.)?
+
+        partner: counted from bench; face, direction: see Limit
+        """
+        sizes = self.ends[0].sizes
+        limit = Limit(face, direction, sizes[0], sizes[partner])
+        along, velocity = self._relative(partner)
+        place = self._between(partner, along, velocity)
+        (velocity_a, rate_a), (velocity_b, rate_b) = self.placed[0], self.placed[partner]
+        a, b = 0, partner
+        if limit.by_partner:
+            a, b = b, a
+            place, along = -along.conjugate() * place, along.conjugate()
+            velocity = along * velocity_a - velocity_b
+            rate_a, rate_b = rate_b, rate_a
+        to_move = limit.turn * (velocity - TO_LEFT * rate_a * place)
+        axis_move = limit.turn * TO_LEFT * (rate_b - rate_a) * along
+        slopes = [(to_move + axis_move * corner).real for corner in limit.other.corners]
+        gaps = []
+        for pose in reversed(self.ends):
+            to, axis = pose.seen(a, b)
+            to, axis = limit.turn * to, limit.turn * axis
+            gaps.append([(to + axis * corner).real - limit.support for corner in limit.other.corners])
+        return stays_above(gaps[0], gaps[1], slopes, self.width, self.chain.margin)
+
+
+def _half_turn(low: arb, high: arb, chord: arb) -> arb:
+    """Between which angles alpha and -beta of 8. lie, for a curvature between low and high [1/m]. chord: [m]"""
+    gentlest = arb(0)
+    if low > 0 or high < 0:
+        gentlest = abs(low).min(abs(high))
+    sharpest = abs(low).max(abs(high))
+    if not sharpest * chord < 2:
+        raise Unproven("a bend is too tight for a bench")
+    length = _arc(gentlest, chord).union(_arc(sharpest, chord))
+    return low.union(high) * length / 2
+
+
+def _arc(curvature: arb, chord: arb) -> arb:
+    """The arc of a circle of this curvature [1/m] over a chord [m]."""
+    return 2 * (curvature * chord / 2).asin() / curvature if curvature > 0 else chord

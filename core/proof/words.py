@@ -1,0 +1,36 @@
+"""Claims in words, each number as it stands in the certificate."""
+
+from __future__ import annotations
+
+from itertools import groupby
+
+from core.dragon import Dragon
+
+# So many kinds of benches in a row are listed; of more only their number.
+RUNS_SHOWN = 4
+
+
+def runs(dragon: Dragon) -> list[list[float]]:
+    """Benches alike in a row as [count, length, width, overhang]."""
+    rows = zip(dragon.lengths.tolist(), dragon.widths.tolist(), dragon.overhangs.tolist(), strict=True)
+    return [[len(list(run)), *sizes] for sizes, run in groupby(rows)]
+
+
+def dragon_words(dragon: Dragon) -> str:
+    """A dragon in words."""
+    rows = runs(dragon)
+    if len(rows) > RUNS_SHOWN:
+        return f"A dragon of {dragon.benches} benches with the sizes that the certificate lists"
+    sizes = "; ".join(f"{n} of {length!r} m by {width!r} m, overhang {over!r} m" for n, length, width, over in rows)
+    return f"A dragon of {dragon.benches} benches ({sizes})"
+
+
+def apart_words(margin: float) -> str:
+    """What no two benches do."""
+    touch = f"come within {margin!r} m of one another" if margin else "touch"
+    return f"no two benches but neighbours {touch}"
+
+
+def near_words(benches: list[int], margin: float) -> str:
+    """What two benches do."""
+    return f"benches {benches[0]} and {benches[1]} " + (f"are nearer than {margin!r} m" if margin else "overlap")

@@ -1,0 +1,490 @@
+"""Proofs with a margin, of clear runs, and on routes: what holds is proven and checked, what does not is refused."""
+
+from __future__ import annotations
+
+import itertools
+import json
+import math
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import shapely
+from flint import acb, arb, ctx
+
+from core import Arc, Coil, Dragon, Line, Route, Spiral, Waypoints, bench_poses, first_contact, trajectory, turn
+from core.errors import InvalidValue, OutsideRun, ProofRefused
+from core.least import least_clearance
+from core.proof import Certificate, check, prove_clear, prove_collision_time, prove_contact, prove_minimum_pitch
+from core.proof.chain import bend
+from core.proof.pairs import Benches, Size, Unproven
+from core.proof.paths import chain_on, recorded_path
+from core.proof.route import RouteChain
+from core.proof.route_stretch import RouteStretch, _half_turn
+from core.rectangles import corners
+from tests.core.test_proof import at, edit, places, refusal, stretches, through_json
+
+ROOT = Path(__file__).parents[2]
+CONTACTS = {
+    case["name"]: case for case in json.loads((ROOT / "tests/reference/first_contact.json").read_text())["cases"]
+}
+TURN = json.loads((ROOT / "tests/reference/turn.json").read_text())
+# Chains in doubles, as trajectory() has them, are this near to the true ones [m].
+DOUBLES = 1e-11
+# A time that is so much off a contact is refused [s], and a margin so much off the least clearance [m].
+OFF = 1e-8
+MARGIN_OFF = 1e-6
+# Half of what a run may last beyond the stop of a claim that includes its end [s].
+HALF_BRACKET = 5e-10
+# Instants of the dance through the turn [s].
+INSTANTS = np.linspace(-7.9, 39.9, 60)
+# An integral over so many samples is this near to the true one [m], [rad].
+SAMPLES, SAMPLED = 4001, 1e-5
+
+LOOP = Route(
+    [
+        Line((-90.0, 0.0), (0.0, 0.0)),
+        Arc((0.0, 5.0), 5.0, -math.pi / 2, 1.5 * math.pi),
+        Line((-5.0, 5.0), (-5.0, -20.0)),
+    ]
+)
+HAIRPIN = Route(
+    [Line((0.0, 0.0), (40.0, 0.0)), Arc((40.0, 1.5), 1.5, -math.pi / 2, math.pi), Line((40.0, 3.0), (0.0, 3.0))]
+)
+OUTWARDS = Route([Coil(0.9, 3.0, 9.0)])
+TURNED = Route([Coil(0.7, 9.0, 3.5, centre=(2.0, -1.0), rotation=0.4)], start=10.0)
+SMALL = Dragon(14)
+SHORT = Dragon(10, 2.0, 1.4, 0.3, 0.2)
+ROUTES = {"loop": LOOP, "hairpin": HAIRPIN, "outwards": OUTWARDS, "inwards": TURNED, "turn": turn(1.7)}
+
+
+@pytest.fixture(scope="module")
+def turning() -> Certificate:
+    """A clear dance through the turn, with a margin."""
+    return through_json(prove_clear(SMALL, turn(1.7), 40.0, start=-8.0, margin=0.5))
+
+
+@pytest.fixture(scope="module")
+def touching() -> Certificate:
+    """A contact on a route: the head meets its own tail."""
+    dragon = Dragon(30)
+    time = first_contact(dragon, LOOP, start=60.0).time
+    assert time is not None
+    return through_json(prove_contact(dragon, LOOP, time, start=60.0))
+
+
+@pytest.mark.parametrize(
+    ("dragon", "path", "margin"),
+    [
+        (Dragon(5), Spiral(), 0.03),
+        (Dragon(5), Spiral(), 0.1),
+        (Dragon(40), Spiral(0.55, 9.0), 0.05),
+        (Dragon(12, 1.8, 2.2, 0.25, 0.15), Spiral(0.5, 6.0), 0.03),
+        (Dragon.of([3.0, 1.5, 2.5, 1.2, 2.0], [0.3] * 5, [0.2] * 5), Spiral(0.6, 6.0), 0.1),
+    ],
+    ids=["five", "five, wider", "forty", "longer body", "bench by bench"],
+)
+def test_a_contact_within_a_margin_is_proven_and_its_neighbourhood_refused(
+    dragon: Dragon, path: Spiral, margin: float
+) -> None:
+    found = first_contact(dragon, path, margin=margin)
+    assert found.time
+    certificate = through_json(prove_collision_time(dragon, path, found.time, margin=margin))
+    assert certificate["claim"]["margin"] == margin
+    a, b = certificate["overlap"]["benches"]
+    assert f"benches {a} and {b} are nearer than {margin!r} m" in check(certificate).statement
+    for wrong in (found.time - OFF, found.time + OFF):
+        with pytest.raises(ProofRefused):
+            prove_collision_time(dragon, path, wrong, margin=margin)
+
+
+def test_two_corners_within_a_margin_need_a_direction_and_are_proven() -> None:
+    dragon, margin = Dragon(18), 1.05
+    found = first_contact(dragon, LOOP, start=60.0, margin=margin)
+    assert found.time is not None
+    assert found.edge is None
+    certificate = through_json(prove_contact(dragon, LOOP, found.time, start=60.0, margin=margin))
+    check(certificate)
+    assert stretches(certificate)[-1][2][0] == "8"
+    for wrong in (found.time - OFF, found.time + OFF):
+        with pytest.raises(ProofRefused):
+            prove_contact(dragon, LOOP, wrong, start=60.0, margin=margin)
+
+
+def test_a_minimum_pitch_with_a_margin_is_proven_and_one_off_it_refused() -> None:
+    from core import minimum_pitch
+
+    dragon = Dragon(27)
+    pitch = minimum_pitch(dragon, turning_radius=6.0, margin=0.1).pitch_bracket[1]
+    certificate = through_json(prove_minimum_pitch(dragon, pitch, turning_radius=6.0, margin=0.1))
+    assert "says nothing of larger pitches" in check(certificate).statement
+    with pytest.raises(ProofRefused, match="within the margin"):
+        prove_minimum_pitch(dragon, pitch - OFF, turning_radius=6.0, margin=0.1)
+    with pytest.raises(ProofRefused, match="keeps the margin"):
+        prove_minimum_pitch(dragon, pitch + 1.1e-6, turning_radius=6.0, margin=0.1)
+
+
+@pytest.mark.parametrize("name", ["pitch_0.80", "n_4"])
+def test_a_reference_run_is_clear_to_its_fold_and_it_folds(name: str) -> None:
+    case = CONTACTS[name]
+    dragon, path = Dragon(**case["dragon"]), Spiral(case["pitch"], case["start_turns"])
+    certificate = through_json(prove_clear(dragon, path))
+    claim = certificate["claim"]
+    assert (claim["until"], "overlap" in certificate) == ("fold", False)
+    assert claim["stop"] < case["end"]["time"] < claim["stop"] + 2 * HALF_BRACKET
+    assert "it folds" in check(certificate).statement
+    for change, reason in (
+        (at("claim", "stop", put=claim["stop"] - 2 * HALF_BRACKET), "every bench is shown to follow"),
+        (at("claim", "stop", put=case["end"]["time"] + HALF_BRACKET), "claim.stop must be at most"),
+        (at("claim", "until", put="centre"), "not shown to reach the centre"),
+        (at("claim", "until", put="end"), "until must be stop or fold or centre on a spiral, got end"),
+    ):
+        with pytest.raises(ProofRefused, match=reason):
+            check(edit(change)(certificate))
+
+
+def test_the_reference_run_to_the_centre_is_clear() -> None:
+    case = CONTACTS["combo_d"]
+    certificate = prove_clear(Dragon(**case["dragon"]), Spiral(case["pitch"], case["start_turns"]))
+    assert certificate["claim"]["until"] == "centre"
+    assert "the head reaches the centre before" in check(through_json(certificate)).statement
+
+
+@pytest.mark.parametrize("seed", [0, 1, 2, 3])
+def test_a_run_to_the_centre_or_a_fold_beside_it_is_clear(seed: int) -> None:
+    random = np.random.default_rng(seed)
+    for _ in range(5):
+        benches = int(random.integers(3, 8))
+        sizes = random.uniform(0.5, 2.0, benches), random.uniform(0.05, 0.2, benches), random.uniform(0.0, 0.1, benches)
+        dragon, path = Dragon.of(*sizes), Spiral(random.uniform(1.2, 3.5), random.uniform(4.0, 7.0))
+        found = first_contact(dragon, path)
+        if found.end is not None:
+            certificate = through_json(prove_clear(dragon, path))
+            assert certificate["claim"]["until"] == found.end.reason
+            check(certificate)
+
+
+def test_a_run_that_is_not_clear_or_not_there_is_refused() -> None:
+    case = CONTACTS["n_5"]
+    dragon, path = Dragon(**case["dragon"]), Spiral(case["pitch"], case["start_turns"])
+    with pytest.raises(ProofRefused, match="benches 0 and 4 overlap"):
+        prove_clear(dragon, path, case["time"] + OFF)
+    check(prove_clear(dragon, path, case["time"] - OFF))
+    with pytest.raises(OutsideRun, match="stop must be at most"):
+        prove_clear(dragon, path, 1e4)
+    with pytest.raises(OutsideRun, match="start must be at least"):
+        prove_clear(SMALL, HAIRPIN, 50.0, start=5.0)
+    with pytest.raises(InvalidValue, match="margin must be zero or more"):
+        prove_clear(dragon, path, 1.0, margin=-0.1)
+    with pytest.raises(InvalidValue, match="path must not bend tighter"):
+        prove_clear(
+            SMALL,
+            Route(
+                [
+                    Arc((0.0, 0.0), 1.2, 0.0, 6.0),
+                ]
+            ),
+            5.0,
+            start=2.0,
+        )
+
+
+def test_waypoints_have_no_proof() -> None:
+    curve = Waypoints(((0.0, 0.0), (20.0, 1.0), (40.0, 0.0)))
+    with pytest.raises(InvalidValue, match="path must be of lines, arcs and coils for a proof in ball arithmetic"):
+        prove_clear(Dragon(3), Route([curve]), 30.0, start=20.0)
+    with pytest.raises(InvalidValue, match=r"path.pieces\[1\] must be"):
+        recorded_path(Route([Line((-9.0, -0.45), (0.0, 0.0)), Waypoints(curve.points, math.atan2(0.45, 9.0))]))
+
+
+@pytest.mark.parametrize("name", ROUTES)
+@pytest.mark.parametrize("dragon", [SMALL, SHORT], ids=["contest", "short"])
+def test_a_route_is_proven_with_a_margin_up_to_its_least_clearance_and_not_beyond(name: str, dragon: Dragon) -> None:
+    path = ROUTES[name]
+    route = path if isinstance(path, Route) else path.path
+    start, stop = (-8.0, 40.0) if name == "turn" else (30.0, 60.0)
+    found = least_clearance(dragon, route, start=start, stop=stop)
+    assert found is not None
+    certificate = through_json(prove_clear(dragon, path, stop, start=start, margin=found.distance - MARGIN_OFF))
+    assert f"come within {certificate['claim']['margin']!r} m" in check(certificate).statement
+    with pytest.raises(ProofRefused, match="within the margin"):
+        prove_clear(dragon, path, stop, start=start, margin=found.distance + MARGIN_OFF)
+
+
+def test_the_turn_of_the_contest_is_clear_and_within_its_margin_at_the_reference_time() -> None:
+    certificate = through_json(prove_clear(Dragon(), turn(1.7), 100.0, start=-100.0))
+    assert "no two benches but neighbours touch from -100.0 s to 100.0 s" in check(certificate).statement
+    time = first_contact(Dragon(), turn(1.7).path, start=-100.0, margin=0.33).time
+    assert time is not None
+    check(through_json(prove_contact(Dragon(), turn(1.7), time, start=-100.0, margin=0.33)))
+    for wrong in (time - OFF, time + OFF):
+        with pytest.raises(ProofRefused):
+            prove_contact(Dragon(), turn(1.7), wrong, start=-100.0, margin=0.33)
+
+
+def test_a_route_is_clear_to_its_end() -> None:
+    certificate = through_json(prove_clear(SMALL, HAIRPIN, start=30.0))
+    assert certificate["claim"]["stop"] == HAIRPIN.end
+    assert "the route ends before" in check(certificate).statement
+    with pytest.raises(ProofRefused, match="not shown to end"):
+        check(edit(at("claim", "stop", put=HAIRPIN.end - 2e-9))(certificate))
+
+
+def test_every_pair_in_its_own_right_proves_the_same_on_the_turn() -> None:
+    once, each = (
+        prove_clear(SMALL, turn(1.7), 30.0, start=-8.0, every_pair=every_pair) for every_pair in (False, True)
+    )
+    assert (len(once["sweeps"]), len(each["sweeps"])) == (2, 12)
+    assert check(once).statement == check(each).statement
+
+
+@pytest.mark.parametrize("name", ROUTES)
+def test_the_chain_in_balls_is_the_dance_of_core(name: str) -> None:
+    path = ROUTES[name]
+    route = path if isinstance(path, Route) else path.path
+    chain = chain_on(SMALL, recorded_path(path), 0.0)
+    assert isinstance(chain, RouteChain)
+    with ctx.workprec(128):
+        for time in np.linspace(30.0, 55.0, 26) - (35.0 if name == "turn" else 0.0):
+            pose = chain.pose_at(0, arb(-time))
+            pose.grow_to(SMALL.benches)
+            there = trajectory(SMALL, route, [float(time)]).position[0]
+            away = np.array([complex(point) for point in pose.points]) - there @ [1.0, 1.0j]
+            assert np.abs(away).max() < DOUBLES
+            for (piece, t), place in zip(pose.handles, pose.places, strict=True):
+                assert abs(float(piece.bends(t)) - float(route.curvature(-float(place)))) < DOUBLES
+
+
+@pytest.mark.parametrize("name", ROUTES)
+@pytest.mark.parametrize("width", [0.1, 1.0])
+def test_a_stretch_of_a_route_encloses_every_pose_in_it_and_every_velocity(name: str, width: float) -> None:
+    chain = chain_on(SMALL, recorded_path(ROUTES[name]), 0.0)
+    assert isinstance(chain, RouteChain)
+    start = 0.0 if name == "turn" else 42.0
+    with ctx.workprec(128):
+        for high in np.arange(-start, -start - 8.0, -1.3):
+            stretch = RouteStretch(chain, 0, float(high) - width, float(high), SMALL.benches)
+            poses = [chain.pose_at(0, arb(place)) for place in np.linspace(high, high - width, 6)]
+            for pose in poses:
+                pose.grow_to(9)
+            while len(stretch.placed) < 9:
+                stretch.grow()
+            for before, after in itertools.pairwise(poses):
+                step = before.places[0] - after.places[0]
+                for k, (velocity, rate) in enumerate(stretch.placed):
+                    assert stretch.speeds[k + 1].overlaps((before.places[k + 1] - after.places[k + 1]) / step)
+                    # A difference quotient is a velocity somewhere between.
+                    assert rate.overlaps((after.along[k] * before.along[k].conjugate()).arg() / step)
+                    if k >= 2:
+                        assert_seen(stretch, before, after, k, step)
+                    middle = (after.centres[k] - before.centres[k]) / step
+                    assert (abs(velocity) - abs(middle)).upper() >= 0
+
+
+def assert_seen(stretch: RouteStretch, before: Benches, after: Benches, k: int, step: arb) -> None:
+    """Bench k as seen from the first one: place, direction and velocity are enclosed."""
+    along, velocity = stretch._relative(k)
+    place = stretch._between(k, along, velocity)
+    (there, turned), (then, _) = before.seen(0, k), after.seen(0, k)
+    assert along.overlaps(turned)
+    assert place.overlaps(there)
+    move = velocity - acb(0, 1) * stretch.placed[0][1] * place
+    assert move.overlaps((then - there) / step)
+
+
+def test_the_angles_of_a_chord_stay_within_those_that_the_curvature_allows() -> None:
+    random = np.random.default_rng(7)
+    for _ in range(300):
+        bends = np.sort(random.uniform(-1.0, 1.0, 2))
+        length = random.uniform(0.1, math.pi) / np.abs(bends).max()
+        s = np.linspace(0.0, length, SAMPLES)
+        curvature = bends[random.integers(0, 2, 6)][np.minimum((s / length * 6).astype(int), 5)]
+        turned = np.concatenate([[0.0], np.cumsum((curvature[1:] + curvature[:-1]) / 2 * np.diff(s))])
+        steps = np.exp(1j * (turned[1:] + turned[:-1]) / 2) * np.diff(s)
+        chord = steps.sum()
+        if np.abs(bends).max() * abs(chord) >= 2.0 - SAMPLED:
+            continue
+        allowed = _half_turn(arb(float(bends[0])), arb(float(bends[1])), arb(float(abs(chord))))
+        heading = float(np.angle(chord))
+        for angle in (turned[-1] - heading, heading):
+            assert float(allowed.lower()) - SAMPLED <= angle <= float(allowed.upper()) + SAMPLED
+
+
+def test_on_a_circle_the_angles_are_exact() -> None:
+    angle = _half_turn(arb("0.5"), arb("0.5"), arb("1.65"))
+    assert angle.contains((arb("0.5") * arb("1.65") / 2).asin())
+    assert float(angle.rad()) < DOUBLES
+
+
+@pytest.mark.parametrize("theta", [0.01, 0.3, 0.8, 1.0, 2.0])
+@pytest.mark.parametrize("chord", [1.65, 4.0, 6.0])
+def test_a_bend_beyond_pi_near_the_centre_is_the_first_root_or_unproven(theta: float, chord: float) -> None:
+    needed = arb(chord) ** 2
+    try:
+        found = float(bend(arb(theta), needed))
+    except Unproven:
+        return
+    before = np.linspace(0.0, found - DOUBLES, 100_000)
+    assert np.all(before**2 + 2 * theta * (theta + before) * (1 - np.cos(before)) < float(needed))
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_benches_are_within_a_margin_exactly_when_shapely_says_so(seed: int) -> None:
+    random = np.random.default_rng(seed)
+    for _ in range(60):
+        sizes = [Size(*random.uniform([0.5, 0.1, 0.0], [3.0, 0.6, 0.2])) for _ in range(2)]
+        benches, shapes = Benches(sizes), []
+        for size in sizes:
+            angle, place = random.uniform(0.0, 7.0), complex(*random.uniform(-1.6, 1.6, 2))
+            benches.centres.append(acb(place.real, place.imag))
+            benches.along.append((acb(0, 1) * arb(angle)).exp())
+            shapes.append([complex(benches.centres[-1] + benches.along[-1] * corner) for corner in size.corners])
+        polygons = [shapely.Polygon([(z.real, z.imag) for z in shape]) for shape in shapes]
+        distance = polygons[0].distance(polygons[1])
+        assert benches.nearest(1)[0] == pytest.approx(distance, abs=DOUBLES) or distance == 0.0
+        assert benches.within(1, arb(distance + MARGIN_OFF))
+        assert distance < MARGIN_OFF or not benches.within(1, arb(distance - MARGIN_OFF))
+
+
+def test_at_every_instant_each_letter_of_the_turn_s_certificate_keeps_its_pair_apart(turning: Certificate) -> None:
+    chain, margin, times = chain_on(SMALL, recorded_path(turn(1.7)), 0.0), turning["claim"]["margin"], INSTANTS
+    sizes = np.stack([SMALL.lengths, SMALL.widths], axis=-1)
+    used = set()
+    for time, poses in zip(times, bench_poses(trajectory(SMALL, turn(1.7).path, times).position), strict=True):
+        shapes, chained = corners(poses, sizes), chain.pose_at(0, arb(-time))
+        chained.grow_to(SMALL.benches)
+        for a in range(SMALL.benches - 2):
+            place = float(chained.places[a])
+            tiles = stretches(turning, min(a, 1))
+            _, _, faces, *rest = next(tile for tile in tiles if tile[1] - DOUBLES <= place <= tile[0] + DOUBLES)
+            directions = iter(rest[0] if rest else [])
+            used.update(faces)
+            for b in range(a + 2, SMALL.benches):
+                face = faces[b - a - 2] if b - a - 2 < len(faces) else "far"
+                direction = next(directions) if face == "8" else 0.0
+                assert gap_by(face, direction, poses, sizes, shapes, a, b) > margin
+    assert {"8", "9"} < used
+
+
+def gap_by(face: str, direction: float, poses: Any, sizes: Any, shapes: Any, a: int, b: int) -> float:
+    """The distance that a letter of a certificate leaves between two benches [m]."""
+    if face == "far":
+        inner = shapely.Polygon(shapes[b]).distance(shapely.Point(0.0, 0.0))
+        return float(inner - np.hypot(*shapes[a].T).max())
+    if face == "9":
+        return math.dist(poses[a, :2], poses[b, :2]) - (math.hypot(*sizes[a]) + math.hypot(*sizes[b])) / 2
+    owner, other = (b, a) if face in "4567" else (a, b)
+    angle = poses[owner, 2] + (direction if face == "8" else int(face) % 4 * math.pi / 2)
+    normal = np.array([math.cos(angle), math.sin(angle)])
+    return float((shapes[other] @ normal).min() - (shapes[owner] @ normal).max())
+
+
+def swapped(content: dict[str, Any]) -> None:
+    pieces = content["claim"]["path"]["pieces"]
+    pieces[0], pieces[2] = pieces[2], pieces[0]
+
+
+def straightened(content: dict[str, Any]) -> None:
+    """The same length of path, without its bend."""
+    path = content["claim"]["path"]
+    path["pieces"] = [{"kind": "line", "start": [-90.0, 0.0], "end": [60.0, 0.0]}]
+
+
+def with_direction(content: dict[str, Any], turned: float) -> None:
+    tile = next(tile for tile in stretches(content) if "8" in tile[2])
+    tile[3][0] += turned
+
+
+Forgery = tuple[Callable[[dict[str, Any]], Any], str]
+TURN_FORGERIES: dict[str, Forgery] = {
+    "a stretch dropped": (lambda c: stretches(c).pop(5), "do not join"),
+    "the last stretch dropped": (lambda c: stretches(c).pop(), "short of"),
+    "the first stretch of the body dropped": (lambda c: stretches(c, 1).pop(0), "do not join"),
+    "a pair left out": (lambda c: stretches(c)[5].__setitem__(2, stretches(c)[5][2][:-1]), "pairs are missing"),
+    "circles for all": (lambda c: stretches(c)[-1].__setitem__(2, "9" * 12), "not apart by face 9"),
+    "another face": (lambda c: stretches(c)[5].__setitem__(2, "0" + stretches(c)[5][2][1:]), "not apart by face 0"),
+    "a direction turned": (lambda c: with_direction(c, 1.0), "not apart by face 8"),
+    "a direction missing": (
+        lambda c: next(tile for tile in stretches(c) if "8" in tile[2])[3].clear(),
+        "must be a list of 1, got a list of 0",
+    ),
+    "a stretch moved": (lambda c: stretches(c)[5].__setitem__(0, stretches(c)[5][0] - 1e-9), "do not join"),
+    "a later stop": (at("claim", "stop", put=40.001), "short of"),
+    "an earlier start": (at("claim", "start", put=-8.001), "do not join"),
+    "a wider margin": (at("claim", "margin", put=0.7), "not apart by face"),
+    "no margin": (
+        lambda c: c["claim"].pop("margin"),
+        r"must be \[highest place, lowest place, faces\], got a list of 4",
+    ),
+    "a tighter spiral": (at("claim", "path", "pitch", put=1.3), "not proven"),
+    "another ratio": (at("claim", "path", "ratio", put=1.0), "not proven"),
+    "a deeper entry": (at("claim", "path", "entry_radius", put=3.5), "must not bend tighter"),
+    "a spiral for the turn": (
+        at("claim", "path", put={"kind": "spiral", "pitch": 1.7, "start_turns": 16.0}),
+        "digits from 0 to 8",
+    ),
+    "a run to its end": (at("claim", "until", put="end"), "not shown to end"),
+    "wider benches": (at("dragon", 1, 2, put=0.6), "not apart by face"),
+    "an overlap": (at("overlap", put={"benches": [0, 8]}), "overlap is no member of it"),
+    "the head taken for a body bench": (at("repeats_from", put=0), "not alike"),
+}
+ROUTE_FORGERIES: dict[str, Forgery] = {
+    "pieces exchanged": (swapped, "must close"),
+    "a straight path": (straightened, "not apart by face|not shown to overlap"),
+    "a wider loop": (at("claim", "path", "pieces", 1, "radius", put=6.0), "must close"),
+    "another start": (at("claim", "path", "start", put=0.5), "not apart by face"),
+    "a later time": (lambda c: c["claim"].__setitem__("time", c["claim"]["time"] + 1e-9), "short of"),
+    "an earlier time": (lambda c: c["claim"].__setitem__("time", c["claim"]["time"] - 1e-9), "not shown to overlap"),
+    "another pair": (at("overlap", "benches", put=[0, 15]), "not shown to overlap"),
+    "neighbours as the pair": (at("overlap", "benches", put=[0, 1]), "no pair"),
+    "a margin": (at("claim", "margin", put=0.05), "not apart by face"),
+    "a faster head": (at("claim", "head_speed", put=1.0001), "short of|not shown"),
+    "a clear run": (lambda c: c["claim"].__setitem__("kind", "clear"), "overlap is no member of it"),
+    "a piece of another kind": (at("claim", "path", "pieces", 0, "kind", put="waypoints"), "must be line, arc or coil"),
+    "a line to nowhere": (at("claim", "path", "pieces", 0, "end", put=[0.0]), "must be a list of 2"),
+    "no pieces": (at("claim", "path", "pieces", put=[]), "must be a list with entries"),
+}
+
+
+@pytest.mark.parametrize("name", TURN_FORGERIES)
+def test_a_forged_certificate_of_a_clear_turn_is_refused(turning: Certificate, name: str) -> None:
+    change, reason = TURN_FORGERIES[name]
+    check(turning)
+    with pytest.raises(ProofRefused, match=reason):
+        check(edit(change)(turning))
+
+
+@pytest.mark.parametrize("name", ROUTE_FORGERIES)
+def test_a_forged_certificate_of_a_contact_on_a_route_is_refused(touching: Certificate, name: str) -> None:
+    change, reason = ROUTE_FORGERIES[name]
+    assert "benches 0 and 19 overlap" in check(touching).statement
+    with pytest.raises(ProofRefused, match=reason):
+        check(edit(change)(touching))
+
+
+@pytest.mark.parametrize(
+    ("kind", "word"), [("a smaller margin", "not shown to be nearer"), ("a wider margin", "not apart by face")]
+)
+def test_a_wrong_margin_of_a_contact_is_refused(kind: str, word: str) -> None:
+    case = CONTACTS["n_5"]
+    dragon, path = Dragon(**case["dragon"]), Spiral(case["pitch"], case["start_turns"])
+    time = first_contact(dragon, path, margin=0.2).time
+    assert time is not None
+    certificate = through_json(prove_collision_time(dragon, path, time, margin=0.2))
+    check(certificate)
+    off = -MARGIN_OFF if kind == "a smaller margin" else MARGIN_OFF
+    with pytest.raises(ProofRefused, match=word):
+        check(edit(at("claim", "margin", put=0.2 + off))(certificate))
+
+
+@pytest.mark.parametrize(
+    "put", [None, "x", [], {}, -1, 0, 0.5, 1e15, 1e-300, math.nan, True, 10**20, [1], {"a": 1}], ids=repr
+)
+def test_no_change_of_any_member_escapes_or_shows_python(turning: Certificate, touching: Certificate, put: Any) -> None:
+    for certificate in (turning, touching):
+        content = {name: value for name, value in certificate.items() if name not in ("digest", "sweeps")}
+        messages = [refusal(edit(at(*place, put=put))(certificate)) for place in places(content)[1:]]
+        assert [m for m in messages if any(word in m for word in ("Error(", "None", "True", "False", "\n"))] == []
+        assert sum(map(bool, messages)) > 10
