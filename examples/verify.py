@@ -122,6 +122,7 @@ import json
 import math
 from bisect import bisect_left
 from fractions import Fraction
+from functools import lru_cache
 
 BITS, UNIT = 128, 1 << 128
 COSINE_ERROR = 1 << 12  # [units]
@@ -295,17 +296,19 @@ def bend(theta, bench):
     """d of 1., for every theta of an interval."""
     if theta.lo < 0 or next(BENDS_LEFT, None) is None:
         raise Loose("not proven: a handle may be past the centre, or this is too much work for this verifier")
-    return hull(*(bend_at(Interval(end, end), bench.needed) for end in (theta.lo, theta.hi)))
+    return hull(bend_at(theta.lo, bench), bend_at(theta.hi, bench))
 
 
-def bend_at(theta, needed):
-    t, goal = float(theta), float(needed)
+@lru_cache(1 << 12)  # Stretches that join have a place in common.
+def bend_at(place, bench):
+    """d of 1., at theta = place / UNIT."""
+    theta, t, goal = Interval(place, place), place / UNIT, float(bench.needed)
 
     def reached(d):
         passed = d > math.pi and d + 2.0 * t * math.sin(d / 2.0) ** 2 + t * (t + d) * math.sin(d) < 0.0
         return passed or d * d + 4.0 * t * (t + d) * math.sin(d / 2.0) ** 2 >= goal
 
-    d = root(lambda d: d * d + TWO * theta * (theta + d) * (ONE - cos(d)), needed, reached, 4.5)
+    d = root(lambda d: d * d + TWO * theta * (theta + d) * (ONE - cos(d)), bench.needed, reached, 4.5)
     if not (d < PI or (curving(theta, hull(PI, d)) < ZERO and slopes(theta, Interval(d.hi, d.hi))[1] > ZERO)):
         raise Refused("not proven: the next handle is not shown to be the first behind")
     return d
@@ -389,8 +392,7 @@ def covered(chain, bench, low, high, faces, places, halvings=3):
     except Loose:
         if not halvings:
             raise
-    middle = (low + high) * HALF
-    halves = (low, middle), (middle, high)
+    halves = (low, (low + high) * HALF), ((low + high) * HALF, high)
     return hull(*(covered(chain, bench, *half, faces, places, halvings - 1) for half in halves))
 
 
