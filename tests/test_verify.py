@@ -212,7 +212,7 @@ MORE_FORGERIES: dict[str, tuple[Callable[[dict[str, Any]], Any], str]] = {
     "an overhang": (lambda c: c["dragon"][0].__setitem__(3, 0.2751), "not proven"),
     "one bench of the body another": (lambda c: c["dragon"].append([1, 2.2, 0.31, 0.275]), "not alike"),
     "benches swapped": (lambda c: c["dragon"].reverse(), "not"),
-    "a longer dragon": (put_at("dragon", 1, 0, put=5), "do not join"),
+    "a longer dragon": (put_at("dragon", 1, 0, put=5), "pairs are missing"),
     "two benches": (put_at("dragon", put=[[2, 2.2, 0.3, 0.275]]), "no pair"),
     "the overlap the other way round": (put_at("overlap", "benches", put=[4, 0]), "no pair"),
     "an overlap behind the tail": (put_at("overlap", "benches", put=[0, 5]), "no pair"),
