@@ -1,0 +1,412 @@
+"""examples/verify.py, run as a reader runs it: alone, without site packages, on certificates that are files."""
+
+from __future__ import annotations
+
+import ast
+import copy
+import importlib.util
+import io
+import itertools
+import json
+import random
+import re
+import subprocess
+import sys
+import tokenize
+from collections.abc import Callable
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+import numpy as np
+import pytest
+from flint import arb, ctx, fmpz
+
+from core import Dragon, Spiral, first_contact
+from core.errors import ProofRefused
+from core.proof import Certificate, chain, check, prove_collision_time, prove_minimum_pitch
+from tests.core.forgeries import FORGERIES, edit, put_at, stretches
+
+ROOT = Path(__file__).parents[1]
+VERIFY = ROOT / "examples" / "verify.py"
+CASES = {
+    case["name"]: case
+    for file in ("first_contact", "minimum_pitch")
+    for case in json.loads((ROOT / "tests/reference" / f"{file}.json").read_text())["cases"]
+}
+PITCH_ROUNDING = 1e-9  # the reference pitches are rounded: this much more is free of contact [m]
+CODE_LINES_MOST = 300  # of code: what has a token besides docstrings and comments
+PATIENCE = 600.0  # [s]: only against a run that would hang
+ARITHMETIC_CASES = 300
+FUZZED = 60
+BEND_WIDTH_MOST = 1e-20  # far below what the proofs need, about 1e-14 [rad]
+
+
+def run(path: Path | str) -> subprocess.CompletedProcess[str]:
+    """verify.py alone: -I and -S leave no path to any package but the standard library."""
+    command = [sys.executable, "-I", "-S", str(VERIFY), str(path)]
+    return subprocess.run(command, capture_output=True, text=True, timeout=PATIENCE)
+
+
+@pytest.fixture
+def judged(tmp_path: Path) -> Callable[[Any], subprocess.CompletedProcess[str]]:
+    """Runs verify.py on a certificate, or on a text or bytes that are none."""
+
+    def judge(content: Any) -> subprocess.CompletedProcess[str]:
+        data = json.dumps(content) if isinstance(content, dict | list) else content
+        path = tmp_path / "certificate.json"
+        path.write_bytes(data if isinstance(data, bytes) else data.encode())
+        return run(path)
+
+    return judge
+
+
+def refusal(done: subprocess.CompletedProcess[str]) -> str:
+    """The reason of a refusal, which is one line."""
+    assert (done.returncode, done.stdout) == (1, "")
+    line, end, more = done.stderr.partition("\n")
+    assert (line[:9], end, more) == ("Refused: ", "\n", "")
+    return line
+
+
+def collision(name: str, **changes: Any) -> Certificate:
+    case = CASES[name]
+    path = Spiral(case["pitch"], case["start_turns"])
+    dragon = Dragon(**case["dragon"])
+    return prove_collision_time(dragon, path, case["time"], head_speed=case["head_speed"], **changes)
+
+
+def pitch(name: str, benches: int, start_turns: float = 16.0) -> Certificate:
+    case = CASES[name]
+    dragon = Dragon(**(case["dragon"] | {"benches": benches}))
+    radius = case["turning_diameter"] / 2
+    return prove_minimum_pitch(dragon, case["pitch"] + PITCH_ROUNDING, turning_radius=radius, start_turns=start_turns)
+
+
+def bench_by_bench(seed: int) -> Certificate:
+    random = np.random.default_rng(seed)
+    benches = int(random.integers(4, 12))
+    lengths, overhangs = random.uniform(1.2, 3.6, benches), random.uniform(0.0, 0.4, benches)
+    dragon = Dragon.of(lengths, random.uniform(0.1, 0.4, benches), overhangs)
+    path = Spiral(random.uniform(0.5, 0.8), random.uniform(5.0, 9.0))
+    time = first_contact(dragon, path).time
+    assert time is not None
+    return prove_collision_time(dragon, path, time)
+
+
+def every_pair() -> Certificate:
+    """Twelve equal benches, each pair proven in its own right."""
+    case = CASES["combo_e_body_longer_than_head"]
+    dragon, path = Dragon(**(case["dragon"] | {"benches": 12})), Spiral(case["pitch"], 4.0)
+    time = first_contact(dragon, path).time
+    assert time is not None
+    return prove_collision_time(dragon, path, time, every_pair=True)
+
+
+def near_the_fold() -> Certificate:
+    """Handle 1 turns back, and the head's bend grows beyond half a turn."""
+    dragon, path = Dragon(12, 3.61, 2.4, 0.12, 0.1), Spiral(0.48, 4.0)
+    time = first_contact(dragon, path, head_speed=0.7).time
+    assert time is not None
+    return prove_collision_time(dragon, path, time, head_speed=0.7)
+
+
+@pytest.fixture(scope="module")
+def small() -> Certificate:
+    return json.loads(json.dumps(collision("n_5")))  # type: ignore[no-any-return]
+
+
+@pytest.fixture(scope="module")
+def verify() -> ModuleType:
+    """verify.py as a module, to look inside."""
+    spec = importlib.util.spec_from_file_location("verify", VERIFY)
+    assert spec is not None
+    assert spec.loader is not None
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+def test_it_is_at_most_300_lines_of_code_that_import_the_standard_library_alone() -> None:
+    source = VERIFY.read_text(encoding="utf-8")
+    tree = ast.parse(source)
+    described = [tree, *(node for node in ast.walk(tree) if isinstance(node, ast.ClassDef | ast.FunctionDef))]
+    documents = [node.body[0] for node in described if ast.get_docstring(node) is not None]
+    spoken = {line for node in documents for line in range(node.lineno, (node.end_lineno or 0) + 1)}
+    silent = {tokenize.COMMENT, tokenize.NL, tokenize.NEWLINE, tokenize.INDENT, tokenize.DEDENT, tokenize.ENDMARKER}
+    tokens = [token for token in tokenize.generate_tokens(io.StringIO(source).readline) if token.type not in silent]
+    code = {line for token in tokens for line in range(token.start[0], token.end[0] + 1)} - spoken
+    assert 100 < len(code) <= CODE_LINES_MOST
+    names = {alias.name for node in ast.walk(tree) if isinstance(node, ast.Import) for alias in node.names}
+    names |= {str(node.module) for node in ast.walk(tree) if isinstance(node, ast.ImportFrom)}
+    assert names
+    assert names - set(sys.stdlib_module_names) == set()
+    assert not re.search(r"\b(__import__|importlib|exec|eval)\b", source)
+
+
+def test_the_default_collision_time_is_verified_in_words_that_name_dragon_path_and_speed(
+    judged: Callable[[Any], subprocess.CompletedProcess[str]],
+) -> None:
+    done = judged(collision("default"))
+    assert (done.returncode, done.stderr) == (0, "")
+    time = CASES["default"]["time"]
+    for words in (
+        "Verified: dragon [[1, 3.41, 0.3, 0.275], [222, 2.2, 0.3, 0.275]]",
+        "spiral of pitch 0.55 m, from 16.0 turns inwards, the head at 1.0 m/s",
+        f"nothing touches up to {time!r} s - 1e-10 s, and benches 0 and 8 overlap at {time!r} s + 1e-10 s",
+    ):
+        assert words in done.stdout
+    assert done.stdout.count("\n") == 1
+
+
+CERTIFICATES: dict[str, tuple[Callable[[], Certificate], str]] = {
+    "five benches": (lambda: collision("n_5"), "benches 0 and 4 overlap"),
+    "near the fold, with a slow head": (near_the_fold, "the head at 0.7 m/s: nothing touches"),
+    "each pair in its own right": (every_pair, "dragon [[1, 1.5, 0.3, 0.15], [11, 2.7, 0.3, 0.15]]"),
+    "bench by bench": (lambda: bench_by_bench(17), "overlap at"),
+    "bench by bench, another": (lambda: bench_by_bench(42), "overlap at"),
+    "a contact at the start": (lambda: bench_by_bench(7), "nothing touches up to 0.0 s - 1e-10 s"),
+    "a pitch limited by a graze": (
+        lambda: pitch("default R=6.36", 27), "with a pitch 1e-6 m smaller benches 0 and 26 overlap on that way",
+    ),
+    "a pitch limited by the start": (lambda: pitch("default R=7", 11), "1e-6 m smaller the start lies within it"),
+    "a pitch limited on the circle": (lambda: pitch("default R=2", 11, 5.0), "nothing touches till the head is 2.0 m"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", CERTIFICATES)
+def test_certificates_of_all_kinds_are_verified(
+    judged: Callable[[Any], subprocess.CompletedProcess[str]], name: str
+) -> None:
+    make, words = CERTIFICATES[name]
+    done = judged(make())
+    assert (done.returncode, done.stderr) == (0, "")
+    assert words in done.stdout
+
+
+# Where verify.py has other words than core.proof.
+OWN_WORDS = dict.fromkeys(("a sweep dropped", "a sweep too many", "sweeps exchanged"), "the sweeps are not those of")
+
+
+@pytest.mark.parametrize("name", FORGERIES)
+def test_a_forged_certificate_is_refused(
+    judged: Callable[[Any], subprocess.CompletedProcess[str]], small: Certificate, name: str
+) -> None:
+    change, reason = FORGERIES[name]
+    assert re.search(OWN_WORDS.get(name, reason), refusal(judged(edit(change)(small))))
+
+
+MORE_FORGERIES: dict[str, tuple[Callable[[dict[str, Any]], Any], str]] = {
+    "faces turned by half a turn": (
+        lambda c: stretches(c)[5].__setitem__(2, "".join(str(int(f) ^ 2) for f in stretches(c)[5][2])), "not apart by",
+    ),
+    "no faces": (lambda c: stretches(c)[5].__setitem__(2, ""), "pairs are missing"),
+    "the way in one stretch, ends kept": (
+        lambda c: c["sweeps"][0].__setitem__("stretches", [[stretches(c)[0][0], stretches(c)[-1][1], "333"]]), "apart",
+    ),
+    "a stretch turned round": (lambda c: stretches(c)[5].__setitem__(slice(0, 2), stretches(c)[5][1::-1]), "malformed"),
+    "a sweep of nothing": (lambda c: c["sweeps"][1].__setitem__("stretches", []), "short of"),
+    "no sweep": (lambda c: c.__setitem__("sweeps", []), "the sweeps are not those"),
+    "an outer bench that is longer": (lambda c: c["dragon"][1].__setitem__(1, 2.3), "not proven"),
+    "a shorter head": (lambda c: c["dragon"][0].__setitem__(1, 3.40), "not shown to overlap"),
+    "an overhang": (lambda c: c["dragon"][0].__setitem__(3, 0.2751), "not proven"),
+    "one bench of the body another": (lambda c: c["dragon"].append([1, 2.2, 0.31, 0.275]), "not alike"),
+    "benches swapped": (lambda c: c["dragon"].reverse(), "not"),
+    "a longer dragon": (put_at("dragon", 1, 0, put=5), "pairs are missing"),
+    "two benches": (put_at("dragon", put=[[2, 2.2, 0.3, 0.275]]), "no pair"),
+    "the overlap the other way round": (put_at("overlap", "benches", put=[4, 0]), "no pair"),
+    "an overlap behind the tail": (put_at("overlap", "benches", put=[0, 5]), "no pair"),
+    "another overlap": (put_at("overlap", "benches", put=[1, 4]), "not shown to overlap"),
+    "a time of nothing": (put_at("claim", "time", put=0), "not shown to overlap"),
+    "a time past the centre": (put_at("claim", "time", put=1e6), "past the centre"),
+    "a head that stands": (put_at("claim", "head_speed", put=0), "not shown to overlap"),
+    "a negative zero": (put_at("claim", "head_speed", put=-0.0), "not shown to overlap"),
+    "a pitch of nothing": (put_at("claim", "pitch", put=0.0), "not proven"),
+    "the least pitch": (put_at("claim", "pitch", put=5e-324), "not proven"),
+    "the largest pitch": (put_at("claim", "pitch", put=1e15), "not proven"),
+    "the most turns": (put_at("claim", "start_turns", put=1e15), "not proven"),
+    "a large number": (put_at("claim", "start_turns", put=1e308), "claim.start_turns must be a number from 0 to 1e15"),
+    "a whole number of 400 digits": (put_at("claim", "pitch", put=10**400), "claim.pitch must be a number from 0"),
+    "a bench that is true": (put_at("overlap", "benches", 0, put=True), "overlap.benches.0 must be a whole number"),
+    "a count that is true": (put_at("dragon", 0, 0, put=True), "dragon.0.0 must be a whole number"),
+    "a tenth face": (lambda c: stretches(c)[5].__setitem__(2, "09"), "sweeps.0.stretches.5"),
+    "faces for benches that are none": (lambda c: stretches(c)[5].__setitem__(2, "3333"), "sweeps.0.stretches.5"),
+    "a margin": (put_at("claim", "margin", put=0.05), "claim.margin is no member of it: this verifier knows"),
+    "another kind": (put_at("claim", "kind", put="clear"), "claim.kind is unknown: this verifier knows collision"),
+    "a kind that is a list": (put_at("claim", "kind", put=[]), "claim.kind is unknown"),
+    "an unknown member with a line break": (put_at("a\nb\ud800", put=1), r"a\\nb\\ud800 is no member"),
+    "a chord of nothing": (put_at("dragon", 1, put=[4, 2.2, 0.3, 1.1]), "room for a chord"),
+    "no bench": (put_at("dragon", 0, 0, put=0), "room for a chord"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", MORE_FORGERIES)
+def test_a_forgery_of_its_own_kind_is_refused(
+    judged: Callable[[Any], subprocess.CompletedProcess[str]], small: Certificate, name: str
+) -> None:
+    change, reason = MORE_FORGERIES[name]
+    assert re.search(reason, refusal(judged(edit(change)(small))))
+
+
+def test_a_stretch_too_wide_to_be_shown_at_once_is_halved(verify: ModuleType, small: Certificate) -> None:
+    """Neighbouring stretches with the same faces may be joined: what is claimed stays true."""
+    alike = [k for k, (one, after) in enumerate(itertools.pairwise(stretches(small))) if one[2] == after[2]]
+    refused_by_core = 0
+    for k in alike[::4]:
+        joined = edit(lambda c, k=k: stretches(c)[k].__setitem__(1, stretches(c).pop(k + 1)[1]))(small)
+        assert "benches 0 and 4 overlap" in verify.verified(copy.deepcopy(joined))
+        try:
+            check(joined)
+        except ProofRefused:
+            refused_by_core += 1
+    assert refused_by_core > 0
+
+
+def test_an_accident_is_refused_by_the_digest(
+    judged: Callable[[Any], subprocess.CompletedProcess[str]], small: Certificate
+) -> None:
+    assert "changed after it was made" in refusal(judged(small | {"precision": 97}))
+
+
+@pytest.mark.parametrize(
+    ("overlap", "reason"),
+    [
+        ({"benches": [0, 26], "head_theta": 97.0}, "on the way"),  # within the circle
+        ({"benches": [0, 26], "head_theta": 100.0}, "not shown to overlap"),
+        ({"benches": [0, 26], "head_theta": 101.0}, "on the way"),  # before the start
+        ({"start_within_circle": True}, "does not lie within it"),
+        ({"benches": [0, 26]}, "head_theta is missing"),
+    ],
+)
+def test_a_forged_overlap_on_the_way_to_the_circle_is_refused(
+    judged: Callable[[Any], subprocess.CompletedProcess[str]], overlap: dict[str, Any], reason: str
+) -> None:
+    assert reason in refusal(judged(edit(put_at("overlap", put=overlap))(pitch("default R=6.36", 27))))
+
+
+@pytest.mark.parametrize(
+    ("change", "value"),
+    [("pitch", -1e-8), ("pitch", 1.1e-6), ("turning_radius", -1e-3)],
+)
+def test_a_pitch_or_a_circle_that_the_stretches_do_not_show_is_refused(
+    judged: Callable[[Any], subprocess.CompletedProcess[str]], change: str, value: float
+) -> None:
+    certificate = pitch("default R=6.36", 27)
+    forged = edit(put_at("claim", change, put=certificate["claim"][change] + value))(certificate)
+    assert "not proven" in refusal(judged(forged))
+
+
+@pytest.mark.parametrize(
+    ("data", "reason"),
+    [
+        (b"", "Expecting value"),
+        (b"\xff\xfe\x00", "malformed"),
+        (b"{", "Expecting property name"),
+        (b"[" * 200_000, "recursion"),
+        (b'{"a":' * 200_000, "recursion"),
+        (b" " * ((1 << 24) + 1), "16 MB"),
+        (b"null", "it must be an object, got null"),
+        (b"[]", "it must be an object, got a list"),
+        (b"{}", "format is missing"),
+        (b'{"format": "bench-dragon proof 2"}', "is missing"),
+        (b'{"format": 1, "format": 1}', "a name stands twice"),
+        (b"9" * 5000, "malformed"),
+        (b'"\\ud800"', "must be an object"),
+    ],
+    ids=range(13),
+)
+def test_what_is_no_certificate_is_refused_in_one_line(
+    judged: Callable[[Any], subprocess.CompletedProcess[str]], data: bytes, reason: str
+) -> None:
+    line = refusal(judged(data))
+    assert "malformed" in line
+    assert reason in line
+
+
+def test_wrong_usage_gets_exit_code_2(tmp_path: Path) -> None:
+    for arguments in ([], ["a", "b"], [str(tmp_path / "nowhere")], [str(tmp_path)], ["--other"]):
+        done = subprocess.run([sys.executable, "-I", "-S", str(VERIFY), *arguments], capture_output=True, text=True)
+        assert (done.returncode, done.stdout) == (2, "")
+        assert "usage: verify.py" in done.stderr
+        assert "Traceback" not in done.stderr
+
+
+def cut(content: dict[str, Any]) -> None:
+    """Every stretch in eight, as verify.py may halve it three times."""
+    for sweep in content["sweeps"]:
+        tiles = sweep["stretches"]
+        sweep["stretches"] = []
+        for high, low, faces in tiles:
+            places = [high, *(high + (low - high) * k / 8 for k in range(1, 8)), low]
+            sweep["stretches"] += [[start, end, faces] for start, end in itertools.pairwise(places)]
+
+
+def test_what_it_accepts_of_random_edits_core_proof_accepts_too(verify: ModuleType, small: Certificate) -> None:
+    """A digit of the text is changed, and the digest made to fit: refused by both, or proven by both."""
+    dice = random.Random(7)
+    text = json.dumps({name: value for name, value in small.items() if name not in ("digest", "precision", "versions")})
+    digits = [place for place, sign in enumerate(text) if sign.isdigit()]
+    accepted = 0
+    for place in dice.sample(digits, FUZZED):
+        other = dice.choice([digit for digit in "0123456789" if digit != text[place]])
+        try:
+            content = small | json.loads(text[:place] + other + text[place + 1 :])
+        except json.JSONDecodeError:  # a number does not begin with 0
+            continue
+        try:
+            verify.verified(edit(lambda c: None)(content))
+        except verify.Refused:
+            continue
+        accepted += 1
+        try:
+            check(edit(lambda c: None)(content))
+        except ProofRefused:
+            check(edit(cut)(content))
+    assert 0 < accepted < FUZZED / 2
+
+
+def inside(verify: ModuleType, found: Any, true: arb) -> bool:
+    return bool(arb(fmpz(found.lo)) / verify.UNIT <= true and true <= arb(fmpz(found.hi)) / verify.UNIT)
+
+
+def test_its_arithmetic_encloses_that_of_flint(verify: ModuleType) -> None:
+    dice = random.Random(1)
+    with ctx.workprec(400):
+        assert inside(verify, verify.PI, arb.pi())
+        for _ in range(ARITHMETIC_CASES):
+            size = dice.choice([1e-20, 1e-6, 1.0, 4.0, 40.0, 900.0])
+            low = int(dice.uniform(-size, size) * verify.UNIT)
+            high = low + int(dice.choice([0.0, 1e-25, 1e-10, 0.1, 3.0, 5.9, 7.0]) * dice.random() * verify.UNIT)
+            found = verify.Interval(low, high)
+            for place in (low, high, dice.randint(low, high)):
+                x = arb(fmpz(place)) / verify.UNIT
+                assert inside(verify, verify.cos(found), x.cos())
+                assert inside(verify, verify.sin(found), x.sin())
+            y = int(dice.choice([1.0, 1.5, 2.0, 10.0, 1e6, 1e15]) * (1.0 + dice.random()) * verify.UNIT)
+            point = verify.Interval(y, y)
+            assert inside(verify, verify.log(point), (arb(fmpz(y)) / verify.UNIT).log())
+            assert inside(verify, verify.sqrt(point), (arb(fmpz(y)) / verify.UNIT).sqrt())
+            assert inside(verify, found * point, x * (arb(fmpz(y)) / verify.UNIT)) or place != high
+            assert (found / point).lo <= (found / point).hi
+
+
+@pytest.mark.parametrize("theta", [14.735, 15.0, 30.0, 100.0, 6e5])
+@pytest.mark.parametrize("chord", [0.1, 1.65, 2.86])
+def test_its_bends_are_those_of_core_proof(verify: ModuleType, theta: float, chord: float) -> None:
+    growth = verify.exactly(0.55) / (verify.TWO * verify.PI)
+    bench = verify.Bench(chord, 0.3, 0.0, growth)
+    found = verify.bend(verify.exactly(theta), bench)
+    assert found.hi - found.lo < BEND_WIDTH_MOST * verify.UNIT
+    with ctx.workprec(400):
+        b = arb(0.55) / (2 * arb.pi())
+        needed, low, high = (arb(chord) / b) ** 2, *(arb(fmpz(end)) / verify.UNIT for end in (found.lo, found.hi))
+        for end, side in ((low, -1), (high, 1)):
+            reached = end**2 + 2 * arb(theta) * (arb(theta) + end) * (1 - end.cos())
+            assert side * (reached - needed) > 0
+        assert chain.bend(arb(theta), needed).overlaps(low.union(high))
+
+
+def test_past_the_fold_there_is_no_bend(verify: ModuleType) -> None:
+    growth = verify.exactly(0.55) / (verify.TWO * verify.PI)
+    with pytest.raises(verify.Refused, match="no root"):
+        verify.bend(verify.exactly(14.73), verify.Bench(2.86, 0.3, 0.0, growth))
