@@ -19,13 +19,12 @@ from typer.core import TyperGroup
 
 import core
 from app import answers, prove, report, schemas, show, tables
+from app.extras import require
 from app.files import read_dance, read_json, trajectory_writer
 from app.options import asks, checked
-from app.settings import Settings
+from app.settings import WORKERS_MAX, Settings
 from core import BenchDragonError, Dragon, InvalidValue, Route, Spiral
 
-# Processes of the service, about 100 MB each.
-WORKERS_MAX = 64
 Json = Annotated[bool, typer.Option("--json", help="The service's JSON instead of a table.")]
 
 
@@ -50,10 +49,24 @@ app = typer.Typer(
     cls=_Commands,
     help="Where every bench of a dancing dragon is, when two first touch, and how tight the spiral may be.",
     no_args_is_help=True,
-    add_completion=False,
     pretty_exceptions_enable=False,
     context_settings={"help_option_names": ["-h", "--help"]},
 )
+
+
+def _print_version(asked: bool) -> None:
+    if asked:
+        print(f"bench-dragon {core.__version__}")
+        raise typer.Exit
+
+
+@app.callback()
+def bench_dragon(
+    version: Annotated[
+        bool, typer.Option("--version", callback=_print_version, is_eager=True, help="Print the version and exit.")
+    ] = False,
+) -> None:
+    """The options that stand before a command."""
 
 
 class TrajectoryOptions(schemas.TimeRange, schemas.DanceQuery):
@@ -170,6 +183,8 @@ def check(
     json: Json = False,
 ) -> None:
     """Can the dragon dance this path here? What fails is an answer: the exit code is 0."""
+    if figure:
+        require("figures", "figure", "--figure")
     asked = checked(schemas.CheckRequest, read_dance(file))
     dragon, path = asked.dragon.to_dragon(Settings().checked_benches_max), asked.path.to_path()
     with show.waiting("check"):
@@ -243,6 +258,7 @@ def figures(
     format: Annotated[Format, typer.Option(help="File format.")] = Format.PNG,
 ) -> None:
     """The paper's figures 6, 7 and 8 from live numbers, as files."""
+    require("figures", "format", "A figure")
     folder.mkdir(parents=True, exist_ok=True)
     for one in kind or list(Kind):
         with show.waiting(f"figure {one.value}") as progress:
@@ -298,10 +314,12 @@ def serve(
     ] = None,
 ) -> None:
     """The HTTP service."""
+    require("service", "serve", "serve")
     from app import workers as processes
 
+    count = processes.process_count(workers)
     try:
-        processes.serve(host, port, workers or min(processes.usable_cores(), WORKERS_MAX))
+        processes.serve(host, port, count)
     except OSError as taken:
         print(f"Error: cannot listen on {host}:{port}: {taken.strerror}", file=sys.stderr)
         raise typer.Exit(2) from taken

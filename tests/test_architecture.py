@@ -62,6 +62,7 @@ ORDER = (
     "core.proof.certificate",
     "core.proof",
     "app",
+    "app.extras",
     "app.settings",
     "app.wire",
     "app.wire_paths",

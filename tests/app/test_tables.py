@@ -13,6 +13,7 @@ import pyarrow
 import pytest
 
 from app import tables
+from app.extras import MissingPackage
 from app.tables import Language
 from core import Dragon, Spiral, TooLarge, Trajectory, trajectory
 from core.dragon import Floats
@@ -77,7 +78,7 @@ def test_arrow_reads_back_as_the_same_numbers(dance: Trajectory) -> None:
 
 def test_arrow_without_pyarrow_says_what_to_install(dance: Trajectory, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "pyarrow", None)
-    with pytest.raises(tables.MissingPackage, match=r"pip install 'bench-dragon\[arrow\]'"):
+    with pytest.raises(MissingPackage, match=r"pip install 'bench-dragon\[arrow\]'"):
         tables.trajectory_arrow(dance)
 
 
