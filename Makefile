@@ -42,6 +42,7 @@ serve: setup
 	@$(BIN)/bench-dragon serve --host $(HOST) --port $(PORT)
 
 test: setup
+	@$(BIN)/python tests/page/browser.py
 	@$(BIN)/python -m pytest $(ARGS)
 
 lint: setup

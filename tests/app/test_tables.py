@@ -18,6 +18,8 @@ from app.tables import Language
 from core import Dragon, Spiral, TooLarge, Trajectory, trajectory
 from core.dragon import Floats
 
+pytestmark = pytest.mark.uncompiled
+
 SIX_DECIMALS = 0.5e-6  # [m and m/s]: half of the last digit written
 ROUNDING = 1e-15  # [m and m/s]: of the decimal text itself
 

@@ -253,6 +253,7 @@ def test_a_path_a_hair_longer_than_the_dragon_has_room() -> None:
 # -- the reference turn --------------------------------------------------------------------------------------
 
 
+@pytest.mark.uncompiled
 def test_the_turn_has_the_reference_arcs() -> None:
     known = REFERENCE["turn"]
     assert TURN.length == pytest.approx(known["length"], abs=REFERENCE_ERROR)
@@ -261,6 +262,7 @@ def test_the_turn_has_the_reference_arcs() -> None:
     assert np.array(TURN.centres) == pytest.approx(np.array(known["centres"]), abs=REFERENCE_ERROR)
 
 
+@pytest.mark.uncompiled
 @pytest.mark.parametrize("table", REFERENCE["tables"], ids=lambda table: f"{table['time']:g} s")
 def test_every_handle_on_the_turn_is_the_reference_one(table: dict) -> None:
     found = trajectory(Dragon(), TURN.path, [table["time"]])
@@ -271,6 +273,7 @@ def test_every_handle_on_the_turn_is_the_reference_one(table: dict) -> None:
     assert np.abs(found.speed[0, handles] - known[:, 2]).max() < REFERENCE_ERROR
 
 
+@pytest.mark.uncompiled
 def test_the_least_clearance_on_the_turn_is_the_reference_one() -> None:
     known = REFERENCE["clearance"]
     start, stop = known["interval"]
