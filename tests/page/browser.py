@@ -105,9 +105,11 @@ def get_packages(*packages: str) -> None:
 
 
 def get_download(is_root: bool) -> None:
-    """Let Playwright download a browser; as root also the libraries that it needs."""
+    """Let Playwright download a browser; as root also the libraries that it turns out to miss."""
     print("Downloading a Chromium for the tests of the page (once)", file=sys.stderr)
-    _succeeds(sys.executable, "-m", "playwright", "install", *(["--with-deps"] if is_root else []), "chromium")
+    playwright = (sys.executable, "-m", "playwright")
+    if _succeeds(*playwright, "install", "chromium") and is_root and not any(map(starts, _downloads())):
+        _succeeds(*playwright, "install-deps", "chromium")
     found.cache_clear()
 
 

@@ -90,15 +90,15 @@ def test_continuous_integration_refuses_to_leave_anything_out(tmp_path: Path) ->
     assert LEFT_OUT in done.stderr
 
 
-def got(folder: Path, user: int) -> tuple[str, str, list[str]]:
-    """What getting a browser prints, what it says on standard error, and what it ran, where apt-get is at hand."""
+def got(folder: Path, user: int, *, has_apt: bool = True) -> tuple[str, str, list[str]]:
+    """What getting a browser prints, what it says on standard error, and what it ran."""
     # The package of the system brings /usr/bin/chromium; here it goes into the folder of the test.
     installed = "/bin/printf '#!/bin/sh\\necho Chromium 1\\n' >$HOME/chromium; /bin/chmod +x $HOME/chromium"
     script = f"""#!/bin/sh
 echo ${{0##*/}} "$@" >>$HOME/log
 case "$*" in *"recommends chromium") {installed};; esac
 """
-    for name in ("apt-get", "python"):
+    for name in ("apt-get", "python") if has_apt else ("python",):
         (folder / name).write_text(script)
         (folder / name).chmod(0o755)
     pretend = f"import os, sys; os.geteuid = lambda: {user}; sys.executable = {str(folder / 'python')!r}"
@@ -126,8 +126,11 @@ def test_root_gets_the_browser_and_the_font_of_the_system(tmp_path: Path) -> Non
     ]
 
 
-def test_anyone_else_gets_the_browser_of_playwright(tmp_path: Path) -> None:
+@pytest.mark.parametrize(
+    ("user", "commands"), [(1000, ["install"]), (0, ["install", "install-deps"])], ids=["user", "root"]
+)
+def test_without_the_packages_of_a_system_playwright_is_asked(tmp_path: Path, user: int, commands: list[str]) -> None:
     program(tmp_path / "fc-list", "Noto Sans CJK SC")
-    found, told, ran = got(tmp_path, user=1000)
+    found, told, ran = got(tmp_path, user, has_apt=False)
     assert (found, told) == ("None\n", "Downloading a Chromium for the tests of the page (once)\n")
-    assert ran == ["python -m playwright install chromium"]
+    assert ran == [f"python -m playwright {command} chromium" for command in commands]
