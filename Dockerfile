@@ -10,7 +10,7 @@ RUN python -m venv /opt/bench-dragon
 COPY requirements.lock pyproject.toml setup.py README.md LICENSE /src/
 COPY core /src/core
 COPY app /src/app
-RUN /opt/bench-dragon/bin/pip install --no-cache-dir --disable-pip-version-check -c /src/requirements.lock /src \
+RUN /opt/bench-dragon/bin/pip install --no-cache-dir --disable-pip-version-check -c /src/requirements.lock '/src[service]' \
     && /opt/bench-dragon/bin/python -c "import core.kernels; assert core.kernels.COMPILED" \
     && /opt/bench-dragon/bin/python -m pip uninstall -y --quiet pip setuptools
 

@@ -1,7 +1,7 @@
 # The first `make` in a fresh clone makes .venv, installs the locked versions and compiles core/kernels.
 SHELL := /bin/bash
 .DEFAULT_GOAL := help
-.PHONY: help setup serve test lint sweep-pitch bench examples figures lock clean
+.PHONY: help setup serve test lint sweep-pitch bench examples figures dist lock clean
 
 VENV := .venv
 BIN := $(VENV)/bin
@@ -19,6 +19,7 @@ help:
 	@echo 'make bench    benchmarks against a plain SciPy baseline, into the table of README.md'
 	@echo 'make examples the answers that /docs shows, asked anew'
 	@echo 'make figures  the figures of README.md'
+	@echo 'make dist     the sdist and the wheel in dist/, checked'
 	@echo 'make lock     new exact versions in requirements.lock'
 	@echo 'make clean    remove everything that make made'
 
@@ -43,6 +44,7 @@ serve: setup
 	@$(BIN)/bench-dragon serve --host $(HOST) --port $(PORT)
 
 test: setup
+	@$(BIN)/python tests/page/browser.py
 	@$(BIN)/python -m pytest $(ARGS)
 
 lint: setup
@@ -62,6 +64,16 @@ examples: setup
 figures: setup
 	@$(BIN)/bench-dragon figures docs
 
+# The wheel is made from the sdist; both are checked as a package index does.
+dist: setup
+	@rm -rf dist
+	@$(BIN)/python -c 'from setuptools.build_meta import build_sdist; build_sdist("dist")' >build/sdist.log
+	@$(PIP) wheel --no-build-isolation --no-deps --wheel-dir dist dist/*.tar.gz
+	@PYTHON='$(PYTHON)' bash .ci/make-venv build/checks
+	@build/checks/bin/python -m pip --disable-pip-version-check --quiet --quiet install check-wheel-contents twine
+	@build/checks/bin/twine check --strict dist/*
+	@build/checks/bin/check-wheel-contents dist/*.whl
+
 # Resolved anew in an environment of its own; names and versions only.
 lock:
 	@$(PYTHON) -m venv build/lock
@@ -72,5 +84,5 @@ lock:
 	@rm -rf build/lock
 
 clean:
-	@rm -rf $(VENV) build *.egg-info core/kernels.*.so core/kernels/*.so .pytest_cache .hypothesis .mypy_cache .ruff_cache .benchmarks
+	@rm -rf $(VENV) build dist *.egg-info core/kernels.*.so core/kernels/*.so .pytest_cache .hypothesis .mypy_cache .ruff_cache .benchmarks
 	@find . -name __pycache__ -type d -prune -exec rm -rf {} +

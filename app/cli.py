@@ -19,15 +19,14 @@ from typer.core import TyperGroup
 
 import core
 from app import answers, prove, report, schemas, show, tables
+from app.extras import require
 from app.files import TABLE_ENDINGS, checked_output, read_dance, read_json, trajectory_writer, write_whole
 from app.options import asks, checked, given, numbers
 from app.refusals import refusing
-from app.settings import Settings
+from app.settings import WORKERS_MAX, Settings
 from core import BenchDragonError, Dragon, InvalidValue, Route, Spiral, Venue
 from core.dragon import Floats
 
-# Processes of the service, about 100 MB each.
-WORKERS_MAX = 64
 Json = Annotated[bool, typer.Option("--json", help="The service's JSON instead of a table.")]
 
 
@@ -52,10 +51,24 @@ app = typer.Typer(
     cls=_Commands,
     help="Where every bench of a dancing dragon is, when two first touch, and how tight the spiral may be.",
     no_args_is_help=True,
-    add_completion=False,
     pretty_exceptions_enable=False,
     context_settings={"help_option_names": ["-h", "--help"]},
 )
+
+
+def _print_version(asked: bool) -> None:
+    if asked:
+        print(f"bench-dragon {core.__version__}")
+        raise typer.Exit
+
+
+@app.callback()
+def bench_dragon(
+    version: Annotated[
+        bool, typer.Option("--version", callback=_print_version, is_eager=True, help="Print the version and exit.")
+    ] = False,
+) -> None:
+    """The options that stand before a command."""
 
 
 class TrajectoryOptions(schemas.TimeRange, schemas.DanceQuery):
@@ -209,6 +222,8 @@ def check(
     json: Json = False,
 ) -> None:
     """Can the dragon dance this path here? What fails is an answer: the exit code is 0."""
+    if figure:
+        require("figures", "figure", "--figure")
     ending = checked_output("figure", figure, (".svg", ".png")) if figure else ""
     told = read_dance(file)
     if cross_check and isinstance(told, dict):
@@ -290,6 +305,7 @@ def figures(
     format: Annotated[Format, typer.Option(help="File format.")] = Format.PNG,
 ) -> None:
     """The paper's figures 6, 7 and 8 from live numbers, as files."""
+    require("figures", "format", "A figure")
     folder.mkdir(parents=True, exist_ok=True)
     files = {one: folder / f"{one.value}.{format.value}" for one in kind or list(Kind)}
     for file in files.values():
@@ -347,10 +363,12 @@ def serve(
     ] = None,
 ) -> None:
     """The HTTP service."""
+    require("service", "serve", "serve")
     from app import workers as processes
 
+    count = processes.process_count(workers)
     try:
-        processes.serve(host, port, workers or min(processes.usable_cores(), WORKERS_MAX))
+        processes.serve(host, port, count)
     except OSError as taken:
         print(f"Error: cannot listen on {host}:{port}: {taken.strerror}", file=sys.stderr)
         raise typer.Exit(2) from taken

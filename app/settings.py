@@ -9,6 +9,8 @@ from core import TooLarge
 
 # Where prometheus_client keeps the counts of several processes; app/workers.py sets it for those that it starts.
 SHARED_COUNTS = "PROMETHEUS_MULTIPROC_DIR"
+# Most processes of one service, about 100 MB each.
+WORKERS_MAX = 64
 
 
 class Settings(BaseSettings):

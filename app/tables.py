@@ -8,15 +8,18 @@ from __future__ import annotations
 import io
 from datetime import datetime
 from enum import StrEnum
+from typing import TYPE_CHECKING
 
 import numpy as np
 import orjson
-import xlsxwriter
-from xlsxwriter.worksheet import Worksheet
 
 from app.answers import columns_json
-from core import BenchDragonError, TooLarge, Trajectory
+from app.extras import require
+from core import TooLarge, Trajectory
 from core.dragon import Floats
+
+if TYPE_CHECKING:
+    from xlsxwriter.worksheet import Worksheet
 
 COLUMNS = ("time", "handle", "x", "y", "speed")
 CSV_TYPE = "text/csv"
@@ -30,12 +33,6 @@ XLSX_ROWS_MAX = 1_048_576
 XLSX_COLUMNS_MAX = 16_384
 # Written into every workbook in place of the present moment, for equal bytes.
 XLSX_CREATED = datetime(2024, 9, 5)
-
-
-class MissingPackage(BenchDragonError):
-    """A format needs a package that is not installed."""
-
-    code = "missing-package"
 
 
 class Language(StrEnum):
@@ -103,12 +100,9 @@ def trajectory_arrow(result: Trajectory, *, decimals: int | None = None) -> byte
 
     raises: MissingPackage without pyarrow
     """
-    try:
-        import pyarrow
-    except ImportError as error:
-        raise MissingPackage(
-            "format", "Arrow needs the package pyarrow, which is not installed: pip install 'bench-dragon[arrow]'"
-        ) from error
+    require("arrow", "format", "Arrow")
+    import pyarrow
+
     table = pyarrow.table(_columns(result, decimals))
     sink = io.BytesIO()
     with pyarrow.ipc.new_file(sink, table.schema) as writer:
@@ -121,8 +115,11 @@ def trajectory_xlsx(result: Trajectory, *, decimals: int | None = None, language
 
     Positions have two rows for each handle, x above y.
     decimals: None gives XLSX_DECIMALS
-    raises: TooLarge when the format has too few rows or columns
+    raises: MissingPackage without xlsxwriter, TooLarge when the format has too few rows or columns
     """
+    require("xlsx", "format", "xlsx")
+    import xlsxwriter
+
     decimals = XLSX_DECIMALS if decimals is None else decimals
     instants, handles = result.speed.shape
     if 2 * handles + 1 > XLSX_ROWS_MAX or instants + 1 > XLSX_COLUMNS_MAX:

@@ -14,6 +14,7 @@ import multiprocessing
 import os
 import signal
 import socket
+import sys
 from tempfile import TemporaryDirectory
 from threading import Thread
 from typing import Literal
@@ -23,7 +24,8 @@ from fastapi import FastAPI
 from prometheus_client.multiprocess import mark_process_dead
 from uvicorn.supervisors import Multiprocess
 
-from app.settings import SHARED_COUNTS
+from app.settings import SHARED_COUNTS, WORKERS_MAX
+from core import InvalidValue
 
 logger = logging.getLogger("uvicorn.error")
 
@@ -34,8 +36,21 @@ BACKLOG = 2048  # connections that wait to be taken, uvicorn's own number
 
 
 def usable_cores() -> int:
-    """Number of cores that this process may run on."""
-    return len(os.sched_getaffinity(0))
+    """Number of cores that this process may run on; those of the machine where the system has no such limit."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+
+
+def process_count(asked: int | None, platform: str = sys.platform) -> int:
+    """Number of processes of the service: as asked, else one for each core.
+
+    platform: Python's name for the system
+    raises: InvalidValue for several on Windows, which has no signals to end them and lets two services take one port
+    """
+    if platform != "win32":
+        return asked or min(usable_cores(), WORKERS_MAX)
+    if asked not in (None, 1):
+        raise InvalidValue("workers", f"--workers must be 1 on Windows, where the service is one process, got {asked}")
+    return 1
 
 
 def listen(host: str, port: int) -> socket.socket:

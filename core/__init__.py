@@ -1,5 +1,7 @@
 """Bench Dragon: where is everyone, when do two benches first touch, how tight may the curve be."""
 
+from typing import TYPE_CHECKING
+
 from core.bend import SharpestBend, sharpest_bend
 from core.check import Failure, FailureKind, Judgement, Report, check
 from core.contact import (
@@ -98,3 +100,15 @@ __all__ = [
     "venue_clearance",
     "verdicts",
 ]
+
+if TYPE_CHECKING:
+    __version__: str
+else:
+
+    def __getattr__(name: str) -> str:
+        """__version__ of the installed distribution, read when somebody asks: it takes 20 ms."""
+        if name != "__version__":
+            raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+        from importlib.metadata import version
+
+        return version("bench-dragon")

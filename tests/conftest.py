@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import http.client
 import os
+import signal
 import socket
 import subprocess
 import sys
@@ -14,24 +15,48 @@ from pathlib import Path
 import pytest
 
 from core import kernels
+from tests.page import browser
 
 ROOT = Path(__file__).parent.parent
 START_TIMEOUT = 60.0  # [s] to the first answer; a cold start takes about one
 STOP_TIMEOUT = 30.0  # [s] from the signal to the end; uvicorn lets running computations finish
-# What takes seconds where there is no C compiler. The rest would take hours, as each search does: it needs the loops.
-UNCOMPILED = ("test_architecture", "test_dragon", "test_kinematics", "test_paths", "test_problems", "test_rectangles")
-UNCOMPILED += ("test_tables", "reference")
+# Set by continuous integration, where every test must run.
+STRICT = bool(os.environ.get("CI"))
+LEFT_OUT = pytest.StashKey[list[str]]()
+UNCOMPILED = "they would take hours with uncompiled loops: apt install gcc python3-dev, then make clean test"
 
 
-def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Without compiled loops, run what they are not needed for and the reference cases of first contact."""
-    if kernels.COMPILED:
-        return
-    slow = pytest.mark.skip(reason="needs the compiled loops; without a C compiler this suite would take hours")
+def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
+    """Leave out what this machine cannot run, told after the tests in one line a reason.
+
+    raises: UsageError where nothing may be left out
+    """
+    has_browser = not any(map(_needs_browser, items)) or browser.found()
+    kept: list[pytest.Item] = []
+    groups: dict[str, list[pytest.Item]] = {}
     for item in items:
-        quick = any(name in item.nodeid for name in UNCOMPILED)
-        if not quick or "test_design" in item.nodeid or "test_api" in item.nodeid:
-            item.add_marker(slow)
+        if not kernels.COMPILED and not item.get_closest_marker("uncompiled"):
+            groups.setdefault(UNCOMPILED, []).append(item)
+        elif not has_browser and _needs_browser(item):
+            groups.setdefault(browser.MISSING, []).append(item)
+        else:
+            kept.append(item)
+    lines = [f"{len(group)} tests are left out: {reason}" for reason, group in groups.items()]
+    if lines and STRICT:
+        raise pytest.UsageError("; ".join(lines))
+    config.stash[LEFT_OUT] = lines
+    for group in groups.values():
+        config.hook.pytest_deselected(items=group)
+    items[:] = kept
+
+
+def _needs_browser(item: pytest.Item) -> bool:
+    return "browser" in getattr(item, "fixturenames", ())
+
+
+def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter, config: pytest.Config) -> None:
+    for line in config.stash.get(LEFT_OUT, []):
+        terminalreporter.write_line(line, yellow=True)
 
 
 @pytest.fixture(scope="session")
@@ -56,6 +81,11 @@ def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
             process.kill()
             process.wait()
             raise
+
+
+def heed_ctrl_c() -> None:
+    """For preexec_fn of a child that a test interrupts: under a script's `make test &` it would ignore SIGINT."""
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
 
 
 def wait_until_live(process: subprocess.Popen[bytes], port: int, log: Path) -> None:

@@ -26,6 +26,9 @@ import httpx
 import openpyxl
 import pytest
 
+import core
+from tests.conftest import heed_ctrl_c
+
 COMMAND = str(Path(sys.executable).with_name("bench-dragon"))
 ENVIRONMENT = {
     name: value for name, value in os.environ.items() if not name.startswith(("BENCH_DRAGON_", "FORCE_COLOR"))
@@ -329,7 +332,9 @@ def test_a_long_wait_shows_a_bar_and_ctrl_c_ends_it_cleanly(tmp_path: Path) -> N
     leader, follower = pty.openpty()
     # A workbook of 670,000 cells takes several seconds.
     arguments = ["trajectory", "--step", "0.1", "--output", str(tmp_path / "dance.xlsx")]
-    process = subprocess.Popen([COMMAND, *arguments], stdout=subprocess.DEVNULL, stderr=follower, env=ENVIRONMENT)
+    process = subprocess.Popen(
+        [COMMAND, *arguments], stdout=subprocess.DEVNULL, stderr=follower, env=ENVIRONMENT, preexec_fn=heed_ctrl_c
+    )
     os.close(follower)
     seen = b""
     while b"trajectory" not in seen:
@@ -346,8 +351,13 @@ def test_a_long_wait_shows_a_bar_and_ctrl_c_ends_it_cleanly(tmp_path: Path) -> N
 
 
 @contextlib.contextmanager
-def serving(*options: str) -> Iterator[tuple[subprocess.Popen[str], str, list[str]]]:
-    """`bench-dragon serve`, its base URL, and the lines that it wrote up to when all its processes answer."""
+def serving(
+    *options: str, on_sigint: signal.Handlers = signal.SIG_DFL
+) -> Iterator[tuple[subprocess.Popen[str], str, list[str]]]:
+    """`bench-dragon serve`, its base URL, and the lines that it wrote up to when all its processes answer.
+
+    on_sigint: what its parent left it to do on Ctrl-C; a shell that starts it in the background has that ignored
+    """
     with socket.socket() as free:
         free.bind(("127.0.0.1", 0))
         port = free.getsockname()[1]
@@ -355,7 +365,13 @@ def serving(*options: str) -> Iterator[tuple[subprocess.Popen[str], str, list[st
     scratch = tempfile.TemporaryDirectory()  # what a killed service leaves behind goes with it
     environment = ENVIRONMENT | {"TMPDIR": scratch.name}
     process = subprocess.Popen(
-        command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, env=environment, start_new_session=True
+        command,
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.PIPE,
+        text=True,
+        env=environment,
+        start_new_session=True,
+        preexec_fn=lambda: signal.signal(signal.SIGINT, on_sigint),
     )
     assert process.stderr is not None
     lines: list[str] = []
@@ -397,6 +413,17 @@ def test_serve_answers_and_ctrl_c_ends_it(options: list[str]) -> None:
         _, rest = process.communicate(timeout=PATIENCE)
         assert process.returncode == 0
         assert "Traceback" not in rest
+
+
+@pytest.mark.parametrize("workers", ["1", "2"])
+def test_a_service_in_the_background_ends_on_sigterm(workers: str) -> None:
+    with serving("--workers", workers, on_sigint=signal.SIG_IGN) as (process, url, _):
+        assert httpx.get(f"{url}/healthz").json()["status"] == "ok"
+        process.terminate()
+        _, rest = process.communicate(timeout=PATIENCE)
+        assert process.returncode in (0, -signal.SIGTERM)
+        assert "Traceback" not in rest
+        assert refuses(url)
 
 
 def test_serve_replaces_a_process_that_dies_and_keeps_its_counts() -> None:
@@ -443,6 +470,22 @@ def test_help_names_every_command_and_unit() -> None:
     for name in ("trajectory", "collision-time", "minimum-pitch", "overlaps", "figures", "paper", "serve"):
         assert name in text
     assert "Radial advance of the spiral per full turn [m]" in answer_of("collision-time", "--help", COLUMNS="120")
+
+
+def test_the_version_is_one_line() -> None:
+    assert answer_of("--version") == f"bench-dragon {core.__version__}\n"
+
+
+def test_the_shell_completes_commands_and_options() -> None:
+    asked = {"_BENCH_DRAGON_COMPLETE": "complete_bash", "COMP_CWORD": "1"}
+    assert answer_of(**asked, COMP_WORDS="bench-dragon coll").split() == ["collision-time"]
+    asked["COMP_CWORD"] = "2"
+    assert answer_of(**asked, COMP_WORDS="bench-dragon collision-time --pi").split() == ["--pitch"]
+
+
+def test_completion_is_offered_once_and_not_by_each_command() -> None:
+    assert answer_of("--help", COLUMNS="100").count("--install-completion") == 1
+    assert "completion" not in answer_of("collision-time", "--help", COLUMNS="100")
 
 
 def test_the_python_session_of_the_readme_is_true() -> None:

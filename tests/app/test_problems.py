@@ -18,6 +18,8 @@ from app.reply import accepted
 from app.schemas import CollisionQuery, TrajectoryRequest
 from app.settings import Settings
 
+pytestmark = pytest.mark.uncompiled
+
 
 @pytest.mark.parametrize(
     ("place", "body", "expected"),

@@ -12,6 +12,8 @@ from pathlib import Path
 
 import pytest
 
+from tests.conftest import heed_ctrl_c
+
 COMMAND = [str(Path(sys.executable).with_name("bench-dragon")), "prove"]
 ENVIRONMENT = {
     name: value for name, value in os.environ.items() if not name.startswith(("BENCH_DRAGON_", "FORCE_COLOR"))
@@ -204,7 +206,13 @@ def test_a_bar_shows_and_ctrl_c_ends_the_proof_cleanly(tmp_path: Path) -> None:
     leader, follower = pty.openpty()
     # All pairs of 223 benches in their own right take most of a minute.
     arguments = ["collision-time", "--every-pair", "--output", str(tmp_path / "proof.json")]
-    process = subprocess.Popen([*COMMAND, *arguments], stdout=subprocess.DEVNULL, stderr=follower, env=ENVIRONMENT)
+    process = subprocess.Popen(
+        [*COMMAND, *arguments],
+        stdout=subprocess.DEVNULL,
+        stderr=follower,
+        env=ENVIRONMENT,
+        preexec_fn=heed_ctrl_c,
+    )
     os.close(follower)
     seen = b""
     while b"%" not in seen:

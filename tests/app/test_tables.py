@@ -13,9 +13,12 @@ import pyarrow
 import pytest
 
 from app import tables
+from app.extras import MissingPackage
 from app.tables import Language
 from core import Dragon, Spiral, TooLarge, Trajectory, trajectory
 from core.dragon import Floats
+
+pytestmark = pytest.mark.uncompiled
 
 SIX_DECIMALS = 0.5e-6  # [m and m/s]: half of the last digit written
 ROUNDING = 1e-15  # [m and m/s]: of the decimal text itself
@@ -77,7 +80,7 @@ def test_arrow_reads_back_as_the_same_numbers(dance: Trajectory) -> None:
 
 def test_arrow_without_pyarrow_says_what_to_install(dance: Trajectory, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "pyarrow", None)
-    with pytest.raises(tables.MissingPackage, match=r"pip install 'bench-dragon\[arrow\]'"):
+    with pytest.raises(MissingPackage, match=r"pip install 'bench-dragon\[arrow\]'"):
         tables.trajectory_arrow(dance)
 
 

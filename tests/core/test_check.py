@@ -72,6 +72,7 @@ def venue(*boxes: dict) -> Venue:
 # -- the verdict ---------------------------------------------------------------------------------------------
 
 
+@pytest.mark.uncompiled
 def test_the_turn_passes_with_the_reference_values() -> None:
     start, stop = CLEARANCE["interval"]
     report = check(Dragon(), TURN, venue=SQUARE, margin=0.25, speed_limit=1.7, start=start, stop=stop)

@@ -41,6 +41,7 @@ FOLD = 1e-7
 AROUND = 0.1
 
 
+@pytest.mark.uncompiled
 @pytest.mark.parametrize("case", CASES, ids=[case["name"] for case in CASES])
 def test_every_case_of_the_reference_is_met(case: dict[str, Any]) -> None:
     found = first_contact(

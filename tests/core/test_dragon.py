@@ -12,6 +12,8 @@ from hypothesis import strategies as st
 from core import Dragon, InvalidValue
 from core.dragon import BENCHES_MAX, SIZE_MAX, SIZE_MIN
 
+pytestmark = pytest.mark.uncompiled
+
 SIZES = st.floats(0.5, 10.0)
 
 

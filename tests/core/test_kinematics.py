@@ -30,6 +30,8 @@ from core.kernels import LANES_PER_BLOCK
 from core.kinematics import HEAD_SPEED_MAX, HEAD_SPEED_MIN
 from tests.core.slow_search import SlowDance
 
+pytestmark = pytest.mark.uncompiled
+
 REFERENCE = json.loads((Path(__file__).parents[1] / "reference" / "trajectory.json").read_text())
 # Positions and speeds are promised to this [m] and [m/s].
 ACCURACY = 1e-11

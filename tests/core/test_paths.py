@@ -14,6 +14,8 @@ from core import InvalidValue, Spiral
 from core.dragon import SIZE_MAX, SIZE_MIN
 from core.paths import START_TURNS_MAX
 
+pytestmark = pytest.mark.uncompiled
+
 SPIRALS = st.builds(Spiral, pitch=st.floats(0.01, 10.0), start_turns=st.floats(0.5, 50.0))
 # Of positions, relative to the radius of the start: a few ulp of the arc length, which is the longer [1].
 ROUNDING = 1e-12

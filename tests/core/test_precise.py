@@ -54,6 +54,7 @@ boxes = st.tuples(
 )
 
 
+@pytest.mark.uncompiled
 @settings(max_examples=200, deadline=None)
 @given(boxes, boxes)
 def test_rectangles_are_as_far_apart_as_in_doubles(a: tuple[float, ...], b: tuple[float, ...]) -> None:

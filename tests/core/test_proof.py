@@ -52,6 +52,7 @@ def small() -> Certificate:
     return through_json(proof_of(SMALL))
 
 
+@pytest.mark.uncompiled
 @pytest.mark.parametrize("name", ["default", "n_5", "head_spacing_1.00", "combo_b", "combo_e_body_longer_than_head"])
 def test_a_reference_contact_is_proven_and_checked(name: str) -> None:
     case = CONTACTS[name]
@@ -60,6 +61,7 @@ def test_a_reference_contact_is_proven_and_checked(name: str) -> None:
     assert f"benches {case['benches'][0]} and {case['benches'][1]} overlap" in check(certificate).statement
 
 
+@pytest.mark.uncompiled
 @pytest.mark.parametrize(
     ("name", "benches", "start_turns"),
     # Eleven benches that start nearer are limited by the same two as the whole dragon, exactly on the circle.

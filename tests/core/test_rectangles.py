@@ -16,6 +16,8 @@ from core.dragon import SIZE_MAX, SIZE_MIN
 from core.errors import InvalidValue
 from core.rectangles import POSITION_MAX, corners, frames, separation
 
+pytestmark = pytest.mark.uncompiled
+
 Floats = NDArray[np.float64]
 
 # Rounding of distances and points within ten metres of the origin: a few ulp of 10 m [m].

@@ -278,6 +278,7 @@ def test_a_turn_that_is_none_names_what_was_asked_and_never_a_piece(asked: dict,
     assert "path" not in refused.value.message
 
 
+@pytest.mark.uncompiled
 def test_the_turn_has_the_reference_arcs() -> None:
     known = REFERENCE["turn"]
     assert TURN.length == pytest.approx(known["length"], abs=REFERENCE_ERROR)
@@ -286,6 +287,7 @@ def test_the_turn_has_the_reference_arcs() -> None:
     assert np.array(TURN.centres) == pytest.approx(np.array(known["centres"]), abs=REFERENCE_ERROR)
 
 
+@pytest.mark.uncompiled
 @pytest.mark.parametrize("table", REFERENCE["tables"], ids=lambda table: f"{table['time']:g} s")
 def test_every_handle_on_the_turn_is_the_reference_one(table: dict) -> None:
     found = trajectory(Dragon(), TURN.path, [table["time"]])
@@ -296,6 +298,7 @@ def test_every_handle_on_the_turn_is_the_reference_one(table: dict) -> None:
     assert np.abs(found.speed[0, handles] - known[:, 2]).max() < REFERENCE_ERROR
 
 
+@pytest.mark.uncompiled
 def test_the_least_clearance_on_the_turn_is_the_reference_one() -> None:
     known = REFERENCE["clearance"]
     start, stop = known["interval"]

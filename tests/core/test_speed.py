@@ -43,6 +43,7 @@ def sampled(dragon: Dragon, path: Spiral | Route, start: float, stop: float, sam
     return float(trajectory(dragon, path, np.linspace(start, stop, samples)).speed.max())
 
 
+@pytest.mark.uncompiled
 def test_the_turn_has_the_reference_speed_proven_from_both_sides() -> None:
     found = maximum_head_speed(Dragon(), TURN, SPEED["speed_limit"], start=-100.0, stop=100.0)
     assert found.head_speed == pytest.approx(SPEED["head_speed"], abs=REFERENCE_ERROR)

@@ -1,0 +1,33 @@
+"""Packages that not every installation has, and the extra that brings each."""
+
+from __future__ import annotations
+
+from importlib.util import find_spec
+
+from core import BenchDragonError
+
+_FIGURES, _XLSX = ("matplotlib",), ("xlsxwriter",)
+# The modules that each extra of pyproject.toml brings and that its use needs.
+MODULES = {
+    "arrow": ("pyarrow",),
+    "figures": _FIGURES,
+    "proof": ("flint",),
+    "service": ("fastapi", "fastapi_swagger", "prometheus_client", "uplot", "uvicorn", *_FIGURES, *_XLSX),
+    "xlsx": _XLSX,
+}
+
+
+class MissingPackage(BenchDragonError):
+    """Something was asked for that needs a package which is not installed."""
+
+    code = "missing-package"
+
+
+def require(extra: str, field: str, what: str) -> None:
+    """raises: MissingPackage at the field when a module of the extra is missing, with what to install"""
+    for module in MODULES[extra]:
+        if find_spec(module) is None:
+            raise MissingPackage(
+                field,
+                f"{what} needs the package {module}, which is not installed: pip install 'bench-dragon[{extra}]'",
+            )

@@ -1,0 +1,121 @@
+"""What the plain installation can do, and what it says of the rest. The packages of all extras are hidden for this."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+import tomllib
+from importlib.metadata import packages_distributions
+from pathlib import Path
+
+import pytest
+from packaging.requirements import Requirement
+from packaging.utils import canonicalize_name
+
+from app.extras import MODULES
+from tests.app.test_cli import PATIENCE
+
+ROOT = Path(__file__).parents[2]
+PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+# Alone in the extra service: what the service also runs without.
+DISPENSABLE = {"uvloop"}
+# Python's search for modules, but for the ones that are hidden: they are not there, as before any extra.
+HIDDEN = f"""
+import sys
+from importlib.machinery import PathFinder
+
+class Plain(PathFinder):
+    @classmethod
+    def find_spec(cls, name, path=None, target=None):
+        hidden = name.partition(".")[0] in {sorted({*sum(MODULES.values(), ()), "starlette"})}
+        return None if hidden else super().find_spec(name, path, target)
+
+sys.meta_path[:] = [Plain if finder is PathFinder else finder for finder in sys.meta_path]
+sys.argv[0] = "bench-dragon"
+from app.cli import app
+app()
+"""
+
+
+def plain(*arguments: str, folder: Path = ROOT) -> subprocess.CompletedProcess[str]:
+    """The command as without any extra."""
+    environment = {**os.environ, "PYTHONPATH": str(ROOT)}
+    command = [sys.executable, "-c", HIDDEN, *arguments]
+    return subprocess.run(command, capture_output=True, text=True, timeout=PATIENCE, env=environment, cwd=folder)
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        "trajectory --stop 10",
+        "collision-time",
+        "minimum-pitch",
+        "check examples/paper_dance.toml",
+        "turn",
+        "shortest-turn --benches 20",
+        "maximum-head-speed --benches 20",
+        "overlaps --time 412.48",
+    ],
+)
+def test_every_question_is_answered_without_an_extra(line: str) -> None:
+    done = plain(*line.split(), "--json")
+    assert (done.returncode, done.stderr) == (0, "")
+    assert json.loads(done.stdout)
+
+
+@pytest.mark.parametrize(
+    ("line", "message"),
+    [
+        ("serve", "serve needs the package fastapi, which is not installed: pip install 'bench-dragon[service]'"),
+        (
+            "figures figures",
+            "A figure needs the package matplotlib, which is not installed: pip install 'bench-dragon[figures]'",
+        ),
+        (
+            "check no-such-file.toml --figure dance.svg",
+            "--figure needs the package matplotlib, which is not installed: pip install 'bench-dragon[figures]'",
+        ),
+        (
+            "trajectory --output dance.xlsx",
+            "xlsx needs the package xlsxwriter, which is not installed: pip install 'bench-dragon[xlsx]'",
+        ),
+        (
+            "trajectory --output dance.arrow",
+            "Arrow needs the package pyarrow, which is not installed: pip install 'bench-dragon[arrow]'",
+        ),
+        ("prove collision-time", "a proof needs python-flint: pip install 'bench-dragon[proof]'"),
+    ],
+)
+def test_what_needs_an_extra_names_it_in_one_line_and_leaves_nothing(line: str, message: str, tmp_path: Path) -> None:
+    done = plain(*line.split(), folder=tmp_path)
+    assert (done.returncode, done.stdout, done.stderr) == (2, "", f"Error: {message}\n")
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_the_command_starts_without_what_only_an_extra_brings() -> None:
+    names = sorted({*sum(MODULES.values(), ()), *DISPENSABLE, "starlette"})
+    code = f"import sys, app.cli; print(*(name for name in {names} if name in sys.modules))"
+    loaded = subprocess.check_output([sys.executable, "-c", code], cwd=ROOT, text=True)
+    assert loaded.split() == []
+
+
+def distributions(extra: str) -> set[str]:
+    """Names of what an extra installs by itself, also through other extras of ours."""
+    found: set[str] = set()
+    for requirement in map(Requirement, PROJECT["optional-dependencies"][extra]):
+        inner = [distributions(other) for other in requirement.extras]
+        found |= set().union(*inner) if requirement.name == PROJECT["name"] else {canonicalize_name(requirement.name)}
+    return found
+
+
+def test_every_extra_for_users_is_known_to_the_command() -> None:
+    assert set(MODULES) == set(PROJECT["optional-dependencies"]) - {"dev"}
+
+
+@pytest.mark.parametrize("extra", MODULES)
+def test_an_extra_brings_the_modules_that_it_is_asked_for(extra: str) -> None:
+    providers = packages_distributions()
+    brought = {canonicalize_name(name) for module in MODULES[extra] for name in providers[module]}
+    assert brought == distributions(extra) - DISPENSABLE

@@ -1,0 +1,129 @@
+"""A Chrome or Chromium for the tests of the page: found where one usually is, or else installed.
+
+`make test` runs this file before the tests. Where nothing can be installed, the tests of the page are left out, and the
+last lines of the run say so.
+"""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+import sys
+from collections.abc import Iterator
+from functools import cache
+from pathlib import Path
+
+# Commands that start one, in the order of preference.
+NAMES = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable", "chrome")
+# Where one is installed without being in PATH.
+PLACES = (
+    "/usr/bin/chromium",
+    "/usr/bin/chromium-browser",
+    "/usr/lib/chromium/chromium",
+    "/usr/lib/chromium-browser/chromium-browser",
+    "/opt/google/chrome/chrome",
+    "/snap/bin/chromium",
+    "/Applications/Google Chrome.app/Contents/MacOS/Google Chrome",
+    "/Applications/Chromium.app/Contents/MacOS/Chromium",
+    "C:/Program Files/Google/Chrome/Application/chrome.exe",
+)
+# Playwright's downloads inside its cache: the browser, or its shell without windows.
+DOWNLOADS = (
+    "chromium-*/chrome-linux*/chrome",
+    "chromium-*/chrome-mac*/*.app/Contents/MacOS/*",
+    "chromium-*/chrome-win*/chrome.exe",
+    "chromium_headless_shell-*/chrome*/*headless?shell",
+    "chromium_headless_shell-*/chrome*/*headless?shell.exe",
+)
+ANSWER_TIMEOUT = 20.0  # [s] for --version, which takes 0.05 s, and 0.4 s from a cold disk
+FONT = "fonts-noto-cjk"
+MISSING = "no Chrome or Chromium starts here: make test installs one where it can; else name one in CHROME"
+
+
+def _downloads() -> Iterator[str]:
+    """What Playwright has downloaded, the newest first."""
+    home = Path.home()
+    caches = {
+        "darwin": home / "Library/Caches",
+        "win32": Path(os.environ.get("LOCALAPPDATA") or home / "AppData/Local"),
+    }
+    usual = caches.get(sys.platform, Path(os.environ.get("XDG_CACHE_HOME") or home / ".cache")) / "ms-playwright"
+    folder = Path(os.environ.get("PLAYWRIGHT_BROWSERS_PATH") or usual)
+    for pattern in DOWNLOADS:
+        yield from map(str, sorted(folder.glob(pattern), key=lambda path: path.stat().st_mtime, reverse=True))
+
+
+def candidates() -> Iterator[str]:
+    """Programs that may be a Chrome or Chromium, the preferred first: CHROME, PATH, usual places, Playwright's."""
+    if chosen := os.environ.get("CHROME"):
+        yield chosen
+    yield from filter(None, map(shutil.which, NAMES))
+    yield from PLACES
+    yield from _downloads()
+
+
+def starts(program: str) -> bool:
+    """Does it run, and say that it is one? Ubuntu's /usr/bin/chromium-browser only says that a snap is missing."""
+    if not os.access(program, os.X_OK):
+        return False
+    if sys.platform == "win32":
+        return True  # There --version opens a window.
+    try:
+        asked = subprocess.run([program, "--version"], capture_output=True, text=True, timeout=ANSWER_TIMEOUT)
+    except (OSError, subprocess.TimeoutExpired):
+        return False
+    return asked.returncode == 0 and "Chrom" in asked.stdout
+
+
+@cache
+def found() -> str | None:
+    """Path of the first Chrome or Chromium that starts."""
+    return next(filter(starts, candidates()), None)
+
+
+def has_chinese() -> bool:
+    """Is there a font for the page in Chinese? Where no fontconfig tells, the system brings one."""
+    if not shutil.which("fc-list"):
+        return sys.platform != "linux"
+    return bool(subprocess.run(["fc-list", ":lang=zh", "family"], capture_output=True).stdout.strip())
+
+
+def _succeeds(*command: str) -> bool:
+    """Does the command end well? Its words go nowhere: what a failure leaves out is said once, after the tests."""
+    quiet = {**os.environ, "DEBIAN_FRONTEND": "noninteractive"}
+    return subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, env=quiet).returncode == 0
+
+
+def get_packages(*packages: str) -> None:
+    """Install packages of the system, each for itself: one that is unknown here must not keep the others away."""
+    print(f"Installing {' '.join(packages)} for the tests of the page (once)", file=sys.stderr)
+    _succeeds("apt-get", "update", "-qq")
+    for package in packages:
+        _succeeds("apt-get", "install", "-qq", "-y", "--no-install-recommends", package)
+    found.cache_clear()
+
+
+def get_download(is_root: bool) -> None:
+    """Let Playwright download a browser; as root also the libraries that it turns out to miss."""
+    print("Downloading a Chromium for the tests of the page (once)", file=sys.stderr)
+    playwright = (sys.executable, "-m", "playwright")
+    if _succeeds(*playwright, "install", "chromium") and is_root and not any(map(starts, _downloads())):
+        _succeeds(*playwright, "install-deps", "chromium")
+    found.cache_clear()
+
+
+def main() -> None:
+    chosen = os.environ.get("CHROME")
+    if chosen and not starts(chosen):
+        print(f"CHROME={chosen} is no Chrome or Chromium that starts: looking for another one", file=sys.stderr)
+    is_root = hasattr(os, "geteuid") and os.geteuid() == 0
+    wanted = ([] if found() else ["chromium"]) + ([] if has_chinese() else [FONT])
+    if wanted and is_root and shutil.which("apt-get"):
+        get_packages(*wanted)
+    if found() is None:
+        get_download(is_root)
+
+
+if __name__ == "__main__":
+    main()

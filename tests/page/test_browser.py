@@ -1,0 +1,136 @@
+"""Where the tests of the page look for a browser, and what a run without one says."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from tests.page.browser import NAMES, PLACES, candidates, starts
+
+ROOT = Path(__file__).parents[2]
+# As on a machine where nothing that draws a page is installed.
+WITHOUT = "from tests.page import browser; browser.PLACES = ()"
+LEFT_OUT = "tests are left out: no Chrome or Chromium starts here"
+COLLECT = f"{WITHOUT}; import sys, pytest; sys.exit(pytest.main(['tests/page', '-q', '--collect-only']))"
+
+pytestmark = pytest.mark.uncompiled
+
+
+def program(path: Path, says: str, code: int = 0) -> str:
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(f"#!/bin/sh\nprintf '%s' '{says}'\nexit {code}\n")
+    path.chmod(0o755)
+    return str(path)
+
+
+def bare(folder: Path) -> dict[str, str]:
+    """An environment that names no browser."""
+    unset = ("CHROME", "CI", "PLAYWRIGHT_BROWSERS_PATH", "XDG_CACHE_HOME")
+    kept = {name: value for name, value in os.environ.items() if name not in unset}
+    return {**kept, "HOME": str(folder), "PATH": str(folder)}
+
+
+def test_the_chosen_one_comes_first_then_the_path_then_usual_places_then_a_download(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    for name in NAMES:
+        program(tmp_path / name, "Chromium 1")
+    downloaded = program(tmp_path / "ms-playwright/chromium-1200/chrome-linux64/chrome", "Chromium 1")
+    shell = program(tmp_path / "ms-playwright/chromium_headless_shell-1200/chrome-linux/headless_shell", "Chromium 1")
+    monkeypatch.setenv("PATH", str(tmp_path))
+    monkeypatch.setenv("PLAYWRIGHT_BROWSERS_PATH", str(tmp_path / "ms-playwright"))
+    monkeypatch.setenv("CHROME", "/my/chrome")
+    in_path = [str(tmp_path / name) for name in NAMES]
+    assert list(candidates()) == ["/my/chrome", *in_path, *PLACES, downloaded, shell]
+
+
+@pytest.mark.parametrize(
+    ("says", "code", "works"),
+    [
+        ("Chromium 131.0.6778.85 built on Debian", 0, True),
+        ("Google Chrome 131.0.6778.85", 0, True),
+        ("requires the chromium snap to be installed", 1, False),
+        ("Firefox 140", 0, False),
+    ],
+    ids=["chromium", "chrome", "stub", "another"],
+)
+def test_a_browser_is_what_says_that_it_is_one(tmp_path: Path, says: str, code: int, works: bool) -> None:
+    assert starts(program(tmp_path / "chromium", says, code)) is works
+
+
+def test_what_is_missing_or_cannot_run_is_no_browser(tmp_path: Path) -> None:
+    (tmp_path / "text").write_text("no program")
+    assert not starts(str(tmp_path / "text"))
+    assert not starts(str(tmp_path / "nothing"))
+    assert not starts(str(tmp_path))
+
+
+def collected(environment: dict[str, str]) -> subprocess.CompletedProcess[str]:
+    """The tests of the page as pytest finds them on a machine without a browser."""
+    return subprocess.run([sys.executable, "-c", COLLECT], cwd=ROOT, env=environment, capture_output=True, text=True)
+
+
+def test_a_run_without_a_browser_says_once_what_it_leaves_out(tmp_path: Path) -> None:
+    done = collected(bare(tmp_path))
+    told = [line for line in done.stdout.splitlines() if LEFT_OUT in line]
+    assert len(told) == 1
+    count = told[0].split()[0]
+    assert int(count) > 40
+    assert f"{count} deselected" in done.stdout
+    assert "test_everyone.py" not in done.stdout
+
+
+def test_continuous_integration_refuses_to_leave_anything_out(tmp_path: Path) -> None:
+    done = collected(bare(tmp_path) | {"CI": "true"})
+    assert done.returncode == pytest.ExitCode.USAGE_ERROR
+    assert LEFT_OUT in done.stderr
+
+
+def got(folder: Path, user: int, *, has_apt: bool = True) -> tuple[str, str, list[str]]:
+    """What getting a browser prints, what it says on standard error, and what it ran."""
+    # The package of the system brings /usr/bin/chromium; here it goes into the folder of the test.
+    installed = "/bin/printf '#!/bin/sh\\necho Chromium 1\\n' >$HOME/chromium; /bin/chmod +x $HOME/chromium"
+    script = f"""#!/bin/sh
+echo ${{0##*/}} "$@" >>$HOME/log
+case "$*" in *"recommends chromium") {installed};; esac
+"""
+    for name in ("apt-get", "python") if has_apt else ("python",):
+        (folder / name).write_text(script)
+        (folder / name).chmod(0o755)
+    pretend = f"import os, sys; os.geteuid = lambda: {user}; sys.executable = {str(folder / 'python')!r}"
+    code = f"{WITHOUT}; {pretend}; browser.main(); print(browser.found())"
+    done = subprocess.run([sys.executable, "-c", code], cwd=ROOT, env=bare(folder), capture_output=True, text=True)
+    log = folder / "log"
+    return done.stdout, done.stderr, log.read_text().splitlines() if log.exists() else []
+
+
+def test_nothing_is_got_and_nothing_said_where_all_is_there(tmp_path: Path) -> None:
+    browser = program(tmp_path / "chromium", "Chromium 1")
+    program(tmp_path / "fc-list", "Noto Sans CJK SC")
+    assert got(tmp_path, user=0) == (f"{browser}\n", "", [])
+
+
+def test_root_gets_the_browser_and_the_font_of_the_system(tmp_path: Path) -> None:
+    program(tmp_path / "fc-list", "")
+    found, told, ran = got(tmp_path, user=0)
+    assert found == f"{tmp_path / 'chromium'}\n"
+    assert told == "Installing chromium fonts-noto-cjk for the tests of the page (once)\n"
+    assert [(line.split()[1], line.split()[-1]) for line in ran] == [
+        ("update", "-qq"),
+        ("install", "chromium"),
+        ("install", "fonts-noto-cjk"),
+    ]
+
+
+@pytest.mark.parametrize(
+    ("user", "commands"), [(1000, ["install"]), (0, ["install", "install-deps"])], ids=["user", "root"]
+)
+def test_without_the_packages_of_a_system_playwright_is_asked(tmp_path: Path, user: int, commands: list[str]) -> None:
+    program(tmp_path / "fc-list", "Noto Sans CJK SC")
+    found, told, ran = got(tmp_path, user, has_apt=False)
+    assert (found, told) == ("None\n", "Downloading a Chromium for the tests of the page (once)\n")
+    assert ran == [f"python -m playwright {command} chromium" for command in commands]

@@ -1,0 +1,167 @@
+"""What the distribution promises: versions, requirements by system, compiler flags, types, and the lock."""
+
+from __future__ import annotations
+
+import ast
+import runpy
+import subprocess
+import sys
+import tomllib
+from importlib.metadata import version
+from pathlib import Path
+from typing import Any
+
+import pytest
+from packaging.markers import default_environment
+from packaging.requirements import Requirement
+from packaging.utils import canonicalize_name
+
+import core
+from app.settings import WORKERS_MAX
+from app.workers import process_count, usable_cores
+from core import InvalidValue
+
+ROOT = Path(__file__).parent.parent
+SETTINGS = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
+PROJECT = SETTINGS["project"]
+LOCK = [line for line in (ROOT / "requirements.lock").read_text().splitlines() if not line.startswith("#")]
+BUILD = runpy.run_path(str(ROOT / "setup.py"))
+# What every package may need alike, whatever the system.
+SYSTEMS = {"linux": "Linux", "darwin": "Darwin", "win32": "Windows"}
+# In Python's library on POSIX systems alone.
+POSIX_ONLY = {"fcntl", "grp", "posix", "pty", "pwd", "resource", "syslog", "termios", "tty"}
+# Flags that let a compiler give other digits than the uncompiled files, or than another machine.
+OTHER_DIGITS = ("-ffast-math", "-Ofast", "-march", "-mtune", "/fp:fast", "/fp:contract", "/arch")
+GCC = "gcc (Debian 12.2.0-14) 12.2.0\nCopyright (C) 2022 Free Software Foundation, Inc.\n"
+APPLE = "Apple clang version 16.0.0 (clang-1600.0.26.6)\nTarget: arm64-apple-darwin24.3.0\n"
+
+pytestmark = pytest.mark.uncompiled
+
+
+def requirements(system: str, extra: str = "") -> set[str]:
+    """Names of what is required on a system, for an extra or without one."""
+    environment = {**default_environment(), "sys_platform": system, "platform_system": SYSTEMS[system]}
+    wanted = map(Requirement, PROJECT["optional-dependencies"][extra] if extra else PROJECT["dependencies"])
+    return {one.name for one in wanted if not one.marker or one.marker.evaluate({**environment, "extra": extra})}
+
+
+def test_the_version_is_that_of_the_installed_distribution() -> None:
+    assert core.__version__ == version("bench-dragon") == PROJECT["version"]
+
+
+def test_core_has_no_names_that_it_does_not_have() -> None:
+    with pytest.raises(AttributeError, match="module 'core' has no attribute '__versions__'"):
+        core.__versions__  # type: ignore[attr-defined] # noqa: B018
+
+
+def test_asking_for_the_version_alone_reads_it() -> None:
+    code = "import sys, core; print('importlib.metadata' in sys.modules); core.__version__"
+    assert subprocess.check_output([sys.executable, "-c", code], cwd=ROOT, text=True) == "False\n"
+
+
+@pytest.mark.parametrize("package", ["app", "core"])
+def test_types_and_data_go_with_the_package(package: str) -> None:
+    told = SETTINGS["tool"]["setuptools"]["package-data"]
+    folders = {ROOT / name.replace(".", "/"): patterns for name, patterns in told.items()}
+    packaged = {path for folder, patterns in folders.items() for pattern in patterns for path in folder.glob(pattern)}
+    files = {path for path in (ROOT / package).rglob("*") if path.is_file()}
+    data = {path for path in files if path.suffix not in (".py", ".pyc", ".so", ".pyd")}
+    assert ROOT / package / "py.typed" in data
+    assert data - packaged == set()
+
+
+@pytest.mark.parametrize("system", SYSTEMS)
+def test_the_plain_installation_is_the_same_on_every_system(system: str) -> None:
+    names = requirements(system)
+    assert names == requirements("linux")
+    assert "numpy" in names
+    assert names & {"fastapi", "matplotlib", "starlette", "uvicorn", "uvloop", "XlsxWriter"} == set()
+
+
+@pytest.mark.parametrize(("system", "has_uvloop"), [("linux", True), ("darwin", True), ("win32", False)])
+def test_the_service_takes_uvloop_where_there_is_one(system: str, has_uvloop: bool) -> None:
+    names = requirements(system, "service")
+    assert {"fastapi", "uvicorn"} < names
+    assert ("uvloop" in names) is has_uvloop
+
+
+def test_the_lock_holds_a_version_that_fits_of_every_requirement() -> None:
+    locked = dict(line.split("==") for line in LOCK)
+    assert all(name.strip() == name and version[0].isdigit() for name, version in locked.items())
+    versions = {canonicalize_name(name): version for name, version in locked.items()}
+    every = [PROJECT["dependencies"], *PROJECT["optional-dependencies"].values()]
+    wanted = [one for group in every for one in map(Requirement, group) if one.name != PROJECT["name"]]
+    assert len(wanted) > 20
+    unfit = [one for one in wanted if not one.specifier.contains(versions.get(canonicalize_name(one.name), ""))]
+    assert unfit == []
+
+
+@pytest.mark.parametrize("compiler", BUILD["FLAGS"])
+def test_no_flag_changes_a_digit(compiler: str) -> None:
+    flags = BUILD["FLAGS"][compiler]
+    assert [flag for flag in flags if flag.startswith(OTHER_DIGITS)] == []
+    assert "/fp:precise" in flags if compiler == "msvc" else "-ffp-contract=off" in flags
+
+
+@pytest.mark.parametrize("compiler", BUILD["FLAGS"])
+def test_every_compiler_gets_flags_of_its_own_kind(compiler: str) -> None:
+    flags = BUILD["FLAGS"][compiler]
+    assert {flag[0] for flag in flags} == {"/" if compiler == "msvc" else "-"}
+    assert any(flag.startswith("-finline-limit") for flag in flags) is (compiler == "gcc")
+
+
+@pytest.mark.parametrize(
+    ("kind", "says", "compiler"),
+    [
+        ("unix", GCC, "gcc"),
+        ("mingw32", GCC, "gcc"),
+        ("unix", APPLE, "clang"),
+        ("unix", "icx 2025.0\n", "clang"),
+        ("msvc", "", "msvc"),
+    ],
+    ids=["gcc", "mingw", "apple", "another", "msvc"],
+)
+def test_a_compiler_is_known_by_what_it_says(kind: str, says: str, compiler: str) -> None:
+    speaks = [sys.executable, "-c", f"print({says!r})"]
+    assert BUILD["family"](kind, speaks) == compiler
+
+
+def test_without_a_compiler_the_build_goes_on() -> None:
+    assert BUILD["family"]("unix", ["no-such-compiler"]) == "clang"
+
+
+@pytest.mark.parametrize(
+    ("platform", "asked", "count"),
+    [
+        ("linux", 3, 3),
+        ("darwin", 3, 3),
+        ("win32", 1, 1),
+        ("win32", None, 1),
+        ("linux", None, min(usable_cores(), WORKERS_MAX)),
+    ],
+)
+def test_the_service_has_as_many_processes_as_asked_or_as_cores(platform: str, asked: int | None, count: int) -> None:
+    assert process_count(asked, platform) == count
+
+
+def test_windows_is_told_that_it_has_one_process() -> None:
+    with pytest.raises(InvalidValue, match="--workers must be 1 on Windows, where the service is one process, got 4"):
+        process_count(4, "win32")
+
+
+def test_cores_are_counted_where_the_system_has_no_affinity() -> None:
+    code = "import os; del os.sched_getaffinity; from app.workers import usable_cores; print(usable_cores())"
+    assert int(subprocess.check_output([sys.executable, "-c", code], cwd=ROOT)) >= 1
+
+
+def imported(tree: ast.AST) -> set[str]:
+    """First parts of all imported names."""
+    nodes: list[Any] = [node for node in ast.walk(tree) if isinstance(node, (ast.Import, ast.ImportFrom))]
+    names = [[node.module] if isinstance(node, ast.ImportFrom) else [one.name for one in node.names] for node in nodes]
+    return {name.partition(".")[0] for group in names for name in group if name}
+
+
+def test_nothing_is_imported_that_windows_lacks() -> None:
+    files = [path for package in ("app", "core") for path in (ROOT / package).rglob("*.py")]
+    assert len(files) > 50
+    assert {path for path in files if imported(ast.parse(path.read_text(encoding="utf-8"))) & POSIX_ONLY} == set()
