@@ -122,7 +122,7 @@ class Verdict(Answer):
     )
 
 
-class ContactCheck(Answer):
+class PairCheck(Answer):
     """Independent engines on the dance just before and just after; nearer than the margin counts as overlapping."""
 
     agree: bool = Field(description="Every engine asked finds nothing before, and after the reported pair alone")
@@ -159,7 +159,7 @@ class CollisionTime(Answer):
     point: Point | None = Field(description="Where that corner is, x and y [m]")
     end: End | None = Field(description="Where the run ends, when clear")
     certificate: Certificate = Field(description="How the answer is known")
-    cross_check: ContactCheck | None = Field(
+    cross_check: PairCheck | None = Field(
         description="Engines on the dance 1e-6 m of travel before and after, at the start at once and after; null "
         "without a contact, and when not asked for"
     )
@@ -200,7 +200,7 @@ class MinimumPitch(Answer):
     proven_up_to: float | None = Field(description="Up to here; null: every larger pitch, without end [m]")
     scan_step: float | None = Field(description="How far apart the pitches of a scan are at most; null: no scan [m]")
     evaluations: int = Field(description="Ways to the circle, and strips of pitches at once, that were marched")
-    cross_check: ContactCheck | None = Field(
+    cross_check: PairCheck | None = Field(
         description="Engines on the dance at a pitch 1e-6 m larger and smaller, the head where the pair meets; null "
         "without a pair, and when not asked for"
     )

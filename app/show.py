@@ -99,7 +99,7 @@ def _flat(answer: BaseModel, prefix: str = "", *, benches: int) -> Iterator[tupl
         label = prefix + name.replace("_", " ")
         if isinstance(value, answers.Feature):
             yield label, ", ".join(f"{word} {_shown(said)}" for word, said in value)
-        elif isinstance(value, answers.ContactCheck):
+        elif isinstance(value, answers.PairCheck):
             yield from ((f"{label}: {word}", said) for word, said in _check_words(value, benches))
         elif isinstance(value, BaseModel):
             yield from _flat(value, f"{label}: ", benches=benches)
@@ -110,7 +110,7 @@ def _flat(answer: BaseModel, prefix: str = "", *, benches: int) -> Iterator[tupl
             yield label, SAID_BY_NULL[name]
 
 
-def _check_words(check: answers.ContactCheck, benches: int) -> Iterator[tuple[str, str]]:
+def _check_words(check: answers.PairCheck, benches: int) -> Iterator[tuple[str, str]]:
     yield "agree", _shown(check.agree)
     yield "judged", judged_words(check.judged, benches)
     for engine, verdict in check.engines.items():
