@@ -68,6 +68,8 @@ class Search:
     sizes: (rows, 4) of the leading benches; edges: (E, 4) x, y, x, y of edges at rest [m], on routes only; with
         edges, the pairs are bench and edge alone: edge e is bench number room + 1 + e of a pair
     clear_radius: on a spiral, no pair whose inner bench leads at this radius or further out comes within the margin [m]
+    ring[10], ring[11]: on a route that begins (and ends) with a coil the same as places, see RING_PLACE and RING_END of
+        the kernels; where they are known there is room for the leading benches only, as on a spiral
     work: what its marches may still do, see WORK_BUDGET
     place: what the kernels count places from, at time 0: arc length from the centre of a spiral, minus s on a route [m]
     """
@@ -395,7 +397,7 @@ class Search:
         a bench that has no place in rows[0] could come near one that leads a pair.
         """
         gap, _ = self.clearance(travel)
-        arcs, moved = self._moved_until(theta)
+        arcs, moved = self.moved_until(theta)
         radii = self.growth * self.rows[0, : self.room + 1, 4]
         outside = np.flatnonzero(radii[:-1] - arcs[:-1] >= self.clear_radius)
         leaders = int(outside[0]) if outside.size else self.room
@@ -409,7 +411,7 @@ class Search:
             least = kernels.clearance_left(leaders, self.room, self.sizes, self.rows[0], moved)
         return float(least) - self.rounding
 
-    def _moved_until(self, theta: float) -> tuple[Floats, Floats]:
+    def moved_until(self, theta: float) -> tuple[Floats, Floats]:
         """How far each handle in rows[0], and any point of each bench, moves until the head is at theta at most [m]."""
         growth, benches = self.growth, self.room
         chords = self.sizes[:benches, 0]

@@ -236,12 +236,20 @@ def is_clear_beyond(
 
     No head or bench before the first of the equal ones leaves the disc around the centre that its chords span from the
     head, which goes inwards. Every other bench stands where the one before it stood since the start, once it has passed
-    where that one began; so it has met nothing new, if all edges lie outside the disc by more than the margin.
+    where that one began, unless it slides back behind its own start (family lemma, core/kernels/marching.py); so it has
+    met nothing new, if all edges lie outside the disc by more than the margin.
     """
     ends = np.linalg.norm(trajectory(dragon, path, [start, seen], head_speed=head_speed).position, axis=-1)
     if (ends[1, 1:] > ends[0, :-1]).any():
         return False
     alike = dragon.uniform_from + 1
+    search = Search(dragon, path, margin)
+    search.resize(dragon.benches)
+    search.place_leaders(seen * head_speed, dragon.benches)
+    arcs, _ = search.moved_until(run_end(dragon, path).theta or 0.0)
+    outwards = arcs / np.hypot(1.0, search.rows[0, : dragon.benches + 1, 4])  # radii grow by this part of an arc
+    if (ends[1] + outwards > ends[0])[alike:].any():
+        return False
     reach = (
         ends[1, 0] + dragon.chords[:alike].sum() + dragon.overhangs[:alike].max() + 0.5 * dragon.widths[:alike].max()
     )
