@@ -136,7 +136,8 @@ def _shown(value: Any, decimals: int = 9) -> str:
         return ", ".join(_shown(entry, 12) for entry in value) or "none"
     if isinstance(value, bool):
         return "yes" if value else "no"
-    return f"{value:.{decimals}f}" if isinstance(value, float) else str(value)
+    # Adding 0.0 turns a rounded -0.0 into 0.0.
+    return f"{round(value, decimals) + 0.0:.{decimals}f}" if isinstance(value, float) else str(value)
 
 
 def _table(title: str, *columns: str, header: bool = True) -> Table:

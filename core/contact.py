@@ -101,7 +101,7 @@ class FirstContact:
         same, or up to the end of the run if no overlap is certain; None when clear or at the start
     head: the head at that time; benches: the pair (a, b), a < b; corner, edge: the features that meet;
     point: (x, y) [m] of the corner; end: where the run ends when clear
-    gap: separation of the pair at that time [m]: the margin to rounding, but for contact_at_start; None without a pair
+    gap: separation of the pair at that time [m]: the margin, or what it is at the start; None without a pair
     """
 
     outcome: Outcome
@@ -228,7 +228,7 @@ def _result(
         point,
         None,
         certificate,
-        gap,
+        gap if at_start else search.margin,
     )
 
 
