@@ -44,6 +44,7 @@ ORDER = (
     "core.search",
     "core.precise",
     "core.contact",
+    "core.straight",
     "core.strips",
     "core.design",
     "core.scan",
