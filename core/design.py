@@ -190,9 +190,8 @@ class _PitchSearch:
             step = max(BORDER_WIDTH, 2.0 * math.ulp(pitch))
             while step <= max(PASSED_OVER, PASSED_OVER_WIDE * pitch) and pitch - step > self.lowest:
                 if self.grazes(pitch - step) or self.is_clear(pitch - step) is False:
-                    return *(
-                        self.bisect(pitch - step, pitch) if step <= PASSED_OVER else (pitch - step, pitch)
-                    ), "bound"
+                    # single pitches below the strips may be clear too, but are not proven with all between
+                    return self.bisect(pitch - step, pitch)[0] if step <= PASSED_OVER else pitch - step, pitch, "bound"
                 step *= 2.0
         # strips are proven however far outside a way starts; this one may begin inside what stops them
         return *self.scan(pitch), "scan"

@@ -49,6 +49,7 @@ ORDER = (
     "core.precise",
     "core.claim",
     "core.contact",
+    "core.straight",
     "core.strips",
     "core.design",
     "core.cross",

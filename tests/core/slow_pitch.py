@@ -16,11 +16,13 @@ from tests.core.slow_search import arc_length, chord_squared, rectangles_gap
 BISECTIONS = 48
 # The range of delta beyond half a turn is looked at on so many points, three times around the largest value [1].
 CREST_POINTS, CREST_ROUNDS = 200, 3
-# The way is sampled in such steps, in shortest chords, for so many chords out from the circle; then further apart [1].
-NEAR_STEP, NEAR_CHORDS = 0.2, 30.0
+# The way is sampled in such steps, in shortest chords, up to so many chords out from the circle, near which small
+# circles have two dips within a tenth of a chord; then further apart [1].
+STEPS = ((0.02, 2.0), (0.2, 30.0))
 FAR_SAMPLES = 120
-# The deepest dips are looked at again, in so many rounds of so many samples.
-DIPS, ROUNDS, SPLIT = 4, 3, 24
+# The deepest dips, and the steepest stretches, as towards a fold, are looked at again, in so many rounds of so many
+# samples.
+DIPS, STEEPEST, ROUNDS, SPLIT = 4, 3, 3, 24
 
 
 def next_delta(theta, chord):
@@ -77,8 +79,8 @@ class SlowWay:
         if start <= circle:
             return np.array([circle])
         inner, outer = arc_length(circle), arc_length(start)
-        step = NEAR_STEP * self.chords.min() / self.growth
-        near = inner + step * np.arange(int(NEAR_CHORDS / NEAR_STEP))
+        near = np.concatenate([np.arange(0.0, end, step) for step, end in STEPS])
+        near = inner + np.unique(near) * self.chords.min() / self.growth
         arcs = np.concatenate([near, np.geomspace(near[-1], max(outer, near[-1]), FAR_SAMPLES)[1:], [outer]])
         arcs = np.unique(arcs[arcs <= outer])
         theta = np.sqrt(2.0 * arcs)
@@ -126,6 +128,8 @@ class SlowWay:
             if not dips.size:
                 break
             ends = [(heads[max(k - 1, 0)], heads[min(k + 1, heads.size - 1)]) for k in dips]
+            steps = np.abs(np.diff(np.where(np.isfinite(gaps), gaps, 0.0)))
+            ends += [(heads[k], heads[k + 1]) for k in steps.argsort()[-STEEPEST:]]
             finer = np.concatenate([np.linspace(low, high, SPLIT) for low, high in ends])
             more = self.clearance(finer)
             heads, first = np.unique(np.append(heads, finer), return_index=True)
