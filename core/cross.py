@@ -14,13 +14,14 @@ from numpy.typing import NDArray
 from core.broad_phase import Pairs, meeting_pairs
 from core.contact import FirstContact, Outcome
 from core.design import LimitedBy, MinimumPitch
-from core.dragon import Dragon, Floats
+from core.dragon import Dragon, Floats, checked_number, checked_type
 from core.engines import JUDGES, Engine, able, found_pairs
-from core.kinematics import bench_poses, earliest_time, run_end, trajectory
+from core.kinematics import bench_poses, checked_head_speed, earliest_time, run_end, trajectory
 from core.overlaps import Verdict
 from core.paths import Spiral
 from core.rectangles import frames, frames_separation
 from core.route import Route
+from core.search import MARGIN_MAX
 
 Pair = tuple[int, int]
 Indices = NDArray[np.int64]
@@ -80,12 +81,18 @@ def contact_check(
     A contact at the start has no before: it is judged at the start and CHECK_TRAVEL after it, and counts where either
     finds it.
     whole: judge the whole dragon, else the reported pair alone; None where nothing touches or nothing is decided
+    raises: InvalidValue
 
     >>> from core import first_contact
     >>> check = contact_check(first_contact(Dragon(), Spiral()), Dragon(), Spiral())
     >>> check.agree, len(check.judged)
     (True, 223)
     """
+    checked_type("contact", contact, FirstContact)
+    checked_type("dragon", dragon, Dragon)
+    checked_type("path", path, (Spiral, Route))
+    head_speed = checked_head_speed(head_speed)
+    margin = checked_number("margin", margin, "m", 0.0, MARGIN_MAX)
     if contact.time is None or contact.benches is None:
         return None
     at_start = contact.outcome is Outcome.CONTACT_AT_START
@@ -105,7 +112,11 @@ def pitch_check(found: MinimumPitch, dragon: Dragon, *, margin: float = 0.0, who
 
     The head stands where the pair meets just below that pitch, or at the start where that is what limits it.
     whole: judge the whole dragon, else the reported pair alone; None where no pair limits the pitch
+    raises: InvalidValue
     """
+    checked_type("found", found, MinimumPitch)
+    checked_type("dragon", dragon, Dragon)
+    margin = checked_number("margin", margin, "m", 0.0, MARGIN_MAX)
     if found.benches is None or found.head_radius is None:
         return None
     poses = []

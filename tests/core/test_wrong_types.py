@@ -16,11 +16,13 @@ SQUARE = Venue.from_geojson(
     {"type": "Polygon", "coordinates": [[[-30, -30], [30, -30], [30, 30], [-30, 30], [-30, -30]]]}
 )
 POSES, COLUMN = [[0.0, 0.0, 0.0], [0.0, 1.0, 0.0]], [2.0, 2.0]
+CONTACT, PITCH = core.first_contact(DRAGON, SPIRAL), core.minimum_pitch(DRAGON)
 # How each is called when all is well; the names are those of its parameters.
 CALLS: dict[Callable[..., Any], dict[str, Any]] = {
     core.bench_poses: {"handles": np.zeros((3, 2)) + np.arange(3)[:, None]},
     core.check: {"dragon": DRAGON, "path": SPIRAL, "venue": SQUARE, "margin": 0.0, "speed_limit": 2.0, "stop": 9.0},
     core.clearance_profile: {"dragon": DRAGON, "path": SPIRAL, "times": [0.0], "head_speed": 1.0},
+    core.contact_check: {"contact": CONTACT, "dragon": DRAGON, "path": SPIRAL, "head_speed": 1.0, "margin": 0.0},
     core.cross_check: {"poses": POSES, "lengths": COLUMN, "widths": COLUMN, "margin": 0.0},
     core.first_contact: {"dragon": DRAGON, "path": SPIRAL, "head_speed": 1.0, "margin": 0.0, "start": 0.0, "stop": 9.0},
     core.highest_speed: {"dragon": DRAGON, "path": SPIRAL, "head_speed": 1.0, "start": 0.0, "stop": 9.0},
@@ -28,6 +30,7 @@ CALLS: dict[Callable[..., Any], dict[str, Any]] = {
     core.maximum_head_speed: {"dragon": DRAGON, "path": SPIRAL, "speed_limit": 2.0, "start": 0.0, "stop": 9.0},
     core.minimum_pitch: {"dragon": DRAGON, "turning_radius": 4.5, "start_turns": 16.0, "margin": 0.0},
     core.overlaps: {"poses": POSES, "lengths": COLUMN, "widths": COLUMN, "engine": core.Engine.FCL, "margin": 0.0},
+    core.pitch_check: {"found": PITCH, "dragon": DRAGON, "margin": 0.0},
     core.run_end: {"dragon": DRAGON, "path": SPIRAL, "head_speed": 1.0},
     core.separation: {"poses_a": POSES, "sizes_a": [2.0, 1.0], "poses_b": POSES, "sizes_b": [2.0, 1.0]},
     core.sharpest_bend: {"dragon": DRAGON, "path": SPIRAL, "head_speed": 1.0, "start": 0.0, "stop": 9.0},
@@ -90,7 +93,8 @@ def test_the_good_call_is_good(call: Callable[..., Any]) -> None:
 
 
 def test_every_public_function_is_called() -> None:
-    functions = {one for one in vars(core).values() if callable(one) and not isinstance(one, type)}
+    functions = {vars(core)[name] for name in core.__all__ if callable(vars(core).get(name))}
+    functions = {one for one in functions if not isinstance(one, type)}
     assert functions - set(CALLS) == set()
 
 
