@@ -130,7 +130,7 @@ def collision_time(
         if time is None:
             time = core.first_contact(dragon, path, head_speed=asked.head_speed, margin=asked.margin).time
         if time is None:
-            near = f"no two benches come within {asked.margin:g} m" if asked.margin else "nothing touches"
+            near = f"no two benches come nearer than {asked.margin:g} m" if asked.margin else "nothing touches"
             raise ProofRefused("time", f"{near}, so there is no collision time to prove: prove clear")
         certificate = prove_collision_time(
             dragon,
@@ -242,9 +242,9 @@ def _dance_proven(dragon: Dragon, path: AnyPath, times: dict[str, Any], every_pa
         if found.outcome is Outcome.CONTACT and found.time is not None:
             return prove_contact(dragon, path, found.time, **times, **asked)
         if found.benches is None:
-            raise ProofRefused("time", "the search did not decide whether benches come within the margin")
+            raise ProofRefused("time", "the search did not decide whether benches come nearer than the margin")
         a, b = found.benches
-        near = f"are within {times['margin']:g} m of one another" if times["margin"] else "overlap"
+        near = f"are nearer than {times['margin']:g} m" if times["margin"] else "overlap"
         raise ProofRefused("start", f"benches {a} and {b} {near} at the start already, {times['start']:g} s")
 
 

@@ -105,7 +105,7 @@ def _flat(answer: BaseModel, prefix: str = "", *, benches: int) -> Iterator[tupl
             yield from _flat(value, f"{label}: ", benches=benches)
         elif value is not None:
             unit = re.search(r"\[([^\]]+)\]$", field.description or "")
-            yield label, f"{_shown(value)} {unit[1] if unit else ''}".rstrip()
+            yield label, f"{_shown(value)} {unit[1] if unit and value != [] else ''}".rstrip()
         elif name in SAID_BY_NULL:
             yield label, SAID_BY_NULL[name]
 

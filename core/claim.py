@@ -31,7 +31,7 @@ def claim(
     """Dragon, path, head speed, margin, and in which span of time [s] no two benches come within it; then: what follows
     that, to the end of the sentence."""
     start, stop = map(_number, span)
-    near = f"come within {_number(margin)} m of each other" if margin else "touch"
+    near = f"are nearer to each other than {_number(margin)} m" if margin else "touch"
     never = f"from {start} s to {stop} s no two benches that share no handle {near}"
     return f"{_dance(dragon, path, head_speed)}: {never}{then} {PROOF}"
 
@@ -40,14 +40,14 @@ def claim_at_start(
     dragon: Dragon, path: Spiral | Route, head_speed: float, margin: float, start: float, pair: tuple[int, int]
 ) -> str:
     """claim() where two benches come within the margin at the very start [s]."""
-    near = f"are within {_number(margin)} m of each other" if margin else "touch"
+    near = f"are nearer to each other than {_number(margin)} m" if margin else "touch"
     touching = f"at {_number(start)} s benches {pair[0]} and {pair[1]} {near}."
     return f"{_dance(dragon, path, head_speed)}: {touching} {MEASURED}"
 
 
 def contact_then(pair: tuple[int, int], margin: float, time: float) -> str:
     """The end of a claim's sentence where a contact follows, certain at a time [s]."""
-    near = f"are within {_number(margin)} m" if margin else "overlap"
+    near = f"are nearer than {_number(margin)} m" if margin else "overlap"
     return f", and at {_number(time)} s benches {pair[0]} and {pair[1]} {near}."
 
 

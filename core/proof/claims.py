@@ -178,7 +178,7 @@ def near_pair(chain: AnyChain, head: arb, when: str) -> list[int]:
             if pose.within(partner, chain.margin):
                 return [bench, bench + partner]
         place = pose.places[1]
-    how = f"come within {float(chain.margin)!r} m of one another" if chain.margin > 0 else "overlap"
+    how = f"come nearer to one another than {float(chain.margin)!r} m" if chain.margin > 0 else "overlap"
     raise ProofRefused("claim", f"no two benches {how} {when}")
 
 

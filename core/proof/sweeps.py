@@ -32,7 +32,7 @@ class Overlap(Exception):
     """Benches a < b strictly overlap, or are nearer than the margin, when the front handle of a is at this place."""
 
     def __init__(self, chain: AnyChain, a: int, b: int, place: float) -> None:
-        how = "are within the margin" if chain.margin > 0 else "overlap"
+        how = "are nearer than the margin" if chain.margin > 0 else "overlap"
         super().__init__(f"benches {a} and {b} {how} when handle {a} is at {chain.named(place)}")
         self.a, self.b, self.place = a, b, place
 

@@ -27,7 +27,7 @@ def dragon_words(dragon: Dragon) -> str:
 
 def apart_words(margin: float) -> str:
     """What no two benches do."""
-    touch = f"come within {margin!r} m of one another" if margin else "touch"
+    touch = f"come nearer to one another than {margin!r} m" if margin else "touch"
     return f"no two benches but neighbours {touch}"
 
 

@@ -120,7 +120,7 @@ pieces = [
     [
         (("collision-time", *FIVE, "--margin", "0.1"), "are nearer than 0.1 m at"),
         (("minimum-pitch", "--turning-diameter", "4", "--benches", "11", "--start-turns", "5", "--margin", "0.05"),
-         "come within 0.05 m of one another until the head is 2.0 m from the centre"),
+         "come nearer to one another than 0.05 m until the head is 2.0 m from the centre"),
         (("clear", "--benches", "4"), "bench 0 cannot follow any more (it folds) before 432.9179242"),
         (("clear", *FIVE, "--stop", "20", "--margin", "0.1"), "from 0.0 s to 20.0 s."),
         (("turn", "--benches", "14", "--start", "-5", "--stop", "20"), "touch from -5.0 s to 20.0 s."),
@@ -144,7 +144,7 @@ def test_a_dance_from_a_file_is_proven_to_its_end(tmp_path: Path) -> None:
     done = run("dance", str(file), "--output", str(path))
     assert done.returncode == 0, done.stderr
     assert "the route of 2 pieces (line, arc), joined exactly" in done.stdout
-    assert "come within 0.2 m of one another" in done.stdout
+    assert "come nearer to one another than 0.2 m" in done.stdout
     assert "and the route ends before" in done.stdout
 
 
@@ -153,7 +153,7 @@ def test_a_dance_from_a_file_is_proven_to_its_end(tmp_path: Path) -> None:
     [
         (("clear", *FIVE), "Refused: not proven: benches 0 and 4 overlap when handle 0 is at theta = "),
         (("turn", "--margin", "1.2"), "Refused: benches 0 and "),
-        (("collision-time", "--benches", "3", "--margin", "0.01"), "Refused: no two benches come within 0.01 m, so "),
+        (("collision-time", "--benches", "3", "--margin", "0.01"), "Refused: no two benches come nearer than 0.01 m, so "),
     ],
 )
 def test_a_claim_that_is_wrong_is_refused_in_one_line(arguments: tuple[str, ...], words: str, tmp_path: Path) -> None:

@@ -120,7 +120,7 @@ def test_a_minimum_pitch_with_a_margin_is_proven_and_one_off_it_refused() -> Non
     pitch = minimum_pitch(dragon, turning_radius=6.0, margin=0.1).pitch_bracket[1]
     certificate = through_json(prove_minimum_pitch(dragon, pitch, turning_radius=6.0, margin=0.1))
     assert "says nothing of larger pitches" in check(certificate).statement
-    with pytest.raises(ProofRefused, match="within the margin"):
+    with pytest.raises(ProofRefused, match="nearer than the margin"):
         prove_minimum_pitch(dragon, pitch - OFF, turning_radius=6.0, margin=0.1)
     with pytest.raises(ProofRefused, match="keeps the margin"):
         prove_minimum_pitch(dragon, pitch + 1.1e-6, turning_radius=6.0, margin=0.1)
@@ -208,8 +208,8 @@ def test_a_route_is_proven_with_a_margin_up_to_its_least_clearance_and_not_beyon
     found = least_clearance(dragon, route, start=start, stop=stop)
     assert found is not None
     certificate = through_json(prove_clear(dragon, path, stop, start=start, margin=found.distance - MARGIN_OFF))
-    assert f"come within {certificate['claim']['margin']!r} m" in check(certificate).statement
-    with pytest.raises(ProofRefused, match="within the margin"):
+    assert f"nearer to one another than {certificate['claim']['margin']!r} m" in check(certificate).statement
+    with pytest.raises(ProofRefused, match="nearer than the margin"):
         prove_clear(dragon, path, stop, start=start, margin=found.distance + MARGIN_OFF)
 
 
