@@ -163,11 +163,8 @@ class _PitchSearch:
         clears = self.strips.straight.clears
         if not clears(growth, self.radius, self.margin):
             if not self.is_clear(SIZE_MAX):
-                raise InvalidValue(
-                    "turning_radius",
-                    f"turning_radius must be larger for this dragon: up to a pitch of {SIZE_MAX:g} m it cannot dance "
-                    f"down to {self.radius:g} m",
-                )
+                rule = f"must be larger for this dragon, which gets to such a circle at no pitch up to {SIZE_MAX:g} m"
+                raise InvalidValue.of("turning_radius", rule, self.radius, "m")
             return SIZE_MAX, SIZE_MAX
         beyond = 0.5 * lowest
         while growth > lowest and growth - beyond > TOP_WIDTH * growth:

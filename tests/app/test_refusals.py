@@ -25,14 +25,17 @@ class Asked(NamedTuple):
     words: str
 
 
+# Benches i and i + 2 are 4e-9 m apart on a straight line, and overlap on the widest spiral that is allowed.
+HARDLY_APART = {"benches": 5, "head_length": 2.2, "overhang": 0.549999999}
 FLAT = [
     Asked("collision-time", {"start_turns": 0.5}, "start_turns", "must be more than 2.345"),
     Asked("collision-time", {"overhang": 1.1}, "overhang", "must be less than half of body_length (2.2 m / 2 = 1.1 m)"),
     Asked("collision-time", {"head_length": 0.5, "overhang": 0.25}, "overhang", "less than half of head_length"),
     Asked("collision-time", {"benches": 100_001}, "benches", "must be at most 100000 here, got 100001"),
-    Asked("minimum-pitch", {"turning_diameter": 0.1}, "turning_diameter", "must be larger for this dragon"),
-    Asked("minimum-pitch", {"turning_diameter": 0.1}, "turning_diameter", "got 0.1 m"),
-    Asked("minimum-pitch", {"turning_diameter": 0.002}, "turning_diameter", "must allow pitches of 0.001 m and more"),
+    Asked("minimum-pitch", HARDLY_APART, "turning_diameter", "must be larger for this dragon"),
+    Asked("minimum-pitch", HARDLY_APART, "turning_diameter", "got 9 m"),
+    Asked("minimum-pitch", {"overhang": 0.56}, "overhang", "must be less than a quarter of body_length (2.2 m / 4 = "),
+    Asked("minimum-pitch", {"margin": 1.2}, "margin", "must be less than 1.1 m, got 1.2 m"),
     Asked("minimum-pitch", {"start_turns": 1e-5}, "start_turns", "must be at least 0.00045 turns"),
     Asked("shortest-turn", {"turning_diameter": 8}, "turning_diameter", "bends to a radius of 1.336 m, too tight"),
     Asked("shortest-turn", {"turning_diameter": 8}, "turning_diameter", "got 8 m"),
@@ -54,7 +57,7 @@ FLAT_GET = [
     Asked("clearance", {"start": 5, "stop": 1}, "stop", "must not be before start (5 s), got 1 s"),
     Asked("clearance", {"step": 1e-4}, "step", "instants x handles must be at most 1000000 here"),
     Asked("clearance", {"benches": 2}, "benches", "must be at least 3 for two to share no handle, got 2"),
-    Asked("pitch-scan", {"turning_diameter": 0.1}, "turning_diameter", "must be larger for this dragon"),
+    Asked("pitch-scan", HARDLY_APART, "turning_diameter", "must be larger for this dragon"),
     Asked("pitch-scan", {"turning_diameter": 0.036, "benches": 1, "head_length": 0.005, "overhang": 0},
           "turning_diameter", "must allow pitches of 0.00125 m and more, got 0.036 m"),
     Asked("figures/trajectory.svg", {"time": 440}, "time", "must be at most 432.917924228 s, when bench 0"),

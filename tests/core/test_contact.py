@@ -408,8 +408,8 @@ TOUCHING = (
     "{b} overlap."
 )
 NEAR = (
-    "the head at 0.5 m/s: from 10 s to {clear} s no two benches that share no handle are nearer to each other than 0.05 m, "
-    "and at {within} s benches 0 and {b} are nearer than 0.05 m."
+    "the head at 0.5 m/s: from 10 s to {clear} s no two benches that share no handle are nearer to each other "
+    "than 0.05 m, and at {within} s benches 0 and {b} are nearer than 0.05 m."
 )
 STOPPED = (
     "3 benches given one by one on a route from s = {begin} m to {end} m (coil, arc, arc, coil), the head at 1 m/s: "
