@@ -180,7 +180,9 @@ class MinimumPitch(Answer):
     than the margin, or touching if it is 0."""
 
     pitch: float = Field(description="[m]")
-    pitch_bracket: Point = Field(description="Infeasible, feasible [m]")
+    pitch_bracket: Point = Field(
+        description="Infeasible, feasible; twice the same where smaller pitches would begin inside the circle [m]"
+    )
     limited_by: core.LimitedBy = Field(
         description="Just below: a graze on the way; contact on the circle; the start: contact there or, where benches "
         "is null, a start inside the circle; or a fold: a bench cannot follow the head as far as the circle"

@@ -31,7 +31,7 @@ def checked_output(option: str, file: Path, endings: Sequence[str] = ()) -> str:
     ending = file.suffix.lower()
     if endings and ending not in endings:
         *most, last = endings
-        words = f"{', '.join(most)} or {last}"
+        words = f"{', '.join(most)} or {last}" if most else last
         raise InvalidValue(option, f"--{option} must end in {words}, got {ending or 'no ending'}")
     if file.is_dir():
         raise _refused(errno.EISDIR, file)

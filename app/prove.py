@@ -122,7 +122,7 @@ def collision_time(
 
     With a margin: nothing comes within it, and two benches are nearer.
     """
-    checked_output("output", output)
+    checked_output("output", output, (".json",))
     dragon, path, time = asked.to_dragon(Settings().benches_max), asked.to_path(), asked.time
     with _working("proof") as progress:
         from core.proof import prove_collision_time
@@ -152,7 +152,7 @@ def minimum_pitch(
 
     With a margin: nothing comes within it, and two benches are nearer. Larger pitches are no part of the proof.
     """
-    checked_output("output", output)
+    checked_output("output", output, (".json",))
     dragon, radius, pitch = asked.to_dragon(Settings().benches_max), asked.turning_diameter / 2, asked.pitch
     with _working("proof") as progress:
         from core.proof import prove_minimum_pitch
@@ -179,7 +179,7 @@ def clear(
     output: Annotated[Path, typer.Option(help="The certificate.")] = Path("clear.proof.json"),
 ) -> None:
     """Nothing touches on the spiral, or comes within the margin, until a time or the end of the run."""
-    checked_output("output", output)
+    checked_output("output", output, (".json",))
     dragon, path = asked.to_dragon(Settings().benches_max), asked.to_path()
     with _working("proof") as progress:
         from core.proof import prove_clear
@@ -202,7 +202,7 @@ def turn(
     output: Annotated[Path, typer.Option(help="The certificate.")] = Path("turn.proof.json"),
 ) -> None:
     """The contest's turn between two spirals: clear from start to stop, or its first contact."""
-    checked_output("output", output)
+    checked_output("output", output, (".json",))
     dragon = asked.to_dragon(Settings().benches_max)
     times = {"head_speed": asked.head_speed, "start": asked.start, "stop": asked.stop, "margin": asked.margin}
     _finish(_dance_proven(dragon, asked.to_turn(), times, asked.every_pair), output)
@@ -214,7 +214,7 @@ def dance(
     output: Annotated[Path, typer.Option(help="The certificate.")] = Path("dance.proof.json"),
 ) -> None:
     """A dance on any path but waypoints: clear from its start to its stop or end, or its first contact."""
-    checked_output("output", output)
+    checked_output("output", output, (".json",))
     asked = checked(schemas.CheckRequest, read_dance(file))
     dragon = asked.dragon.to_dragon(Settings().checked_benches_max)
     path = asked.path.to_turn() if isinstance(asked.path, TurnPath) else asked.path.to_path()

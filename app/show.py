@@ -25,6 +25,8 @@ from core import Judgement, Trajectory
 # A trajectory on a terminal: the handles that the contest asks for, at this many instants, or as many as fit.
 SHOWN_HANDLES = (0, 1, 51, 101, 151, 201)
 SHOWN_INSTANTS = 7
+# So many or more are shown at equal distances where that is possible, rather than one or two more.
+EVEN_INSTANTS = 5
 # What a table takes beside its entries: for each column, and at its sides [characters].
 COLUMN_SPACE, TABLE_SPACE = 3, 1
 # Width of a table where standard output is no terminal [characters].
@@ -184,7 +186,9 @@ def _blocks(result: Trajectory, rows: Sequence[int], labels: Sequence[str], all_
         return COLUMN_SPACE + max(map(len, [_instant(result, t), *map(_entry, values[t])]))
 
     if not all_instants:
-        for count in range(min(SHOWN_INSTANTS, instants), 1, -1):
+        counts = range(min(SHOWN_INSTANTS, instants), 1, -1)
+        even = [count for count in counts if count >= EVEN_INSTANTS and (instants - 1) % (count - 1) == 0]
+        for count in (*even, *counts):
             spaced = np.linspace(0, instants - 1, count).round().astype(int).tolist()
             if sum(map(width, spaced)) <= room:
                 return [spaced]

@@ -156,6 +156,7 @@ def check(
     failures = _contact_failures(contact, margin) + _venue_failures(square, begin, margin)
     if limit is not None and excess:
         failures.append(_speed_failure(excess, speed, limit, end))
+    failures += _touch_failures(contact, least, margin)
     if folds:
         failures.append(_fold_failure(end, head_state(path, end.time * head_speed)))
     if venue is not None and isinstance(path, Spiral) and seen < until:
@@ -175,6 +176,16 @@ def _judgement(failures: tuple[Failure, ...]) -> Judgement:
         return Judgement.PASSES
     undecided = all(failure.kind is FailureKind.UNDECIDED for failure in failures)
     return Judgement.UNDECIDED if undecided else Judgement.FAILS
+
+
+def _touch_failures(contact: FirstContact, least: LeastClearance | None, margin: float) -> list[Failure]:
+    """Where two benches touch that came nearer than a margin before: there the dance stops."""
+    told = margin == 0.0 or (contact.gap is not None and contact.gap <= 0.0)
+    if told or least is None or least.distance > 0.0:
+        return []
+    a, b = least.benches
+    message = f"Benches {a} and {b} touch at {least.time:.6f} s, where the dance stops."
+    return [Failure(FailureKind.CONTACT, least.time, least.benches, None, message)]
 
 
 def _contact_failures(contact: FirstContact, margin: float) -> list[Failure]:

@@ -129,7 +129,7 @@ COSINE_ERROR = 1 << 12  # [units]
 # Limits on the work: of the bytes and benches of a certificate, and of the bends (1.) that it needs.
 BYTES_MOST, BENCHES_MOST, BENDS_LEFT = 1 << 24, 10_000_000, iter(range(5_000_000))
 TIME_BRACKET, PITCH_STEP = Fraction(1, 10**10), Fraction(1, 10**6)
-KNOWN = "this verifier knows collision times and minimum pitches at margin 0 on a spiral"
+KNOWN = "this verifier knows collision times and minimum pitches at margin 0 on a spiral, no other form of certificate"
 
 
 class Refused(ValueError):
@@ -478,16 +478,16 @@ def check_form(value, form, place):
         for name in [*form, *value]:
             inside = f"{place}.{json.dumps(name)[1:-1][:40]}".removeprefix(".")
             if name not in value or name not in form:
-                why = f"no member of it: {KNOWN}" if name in value else "missing"
-                raise Refused(f"the certificate is malformed: {inside} is {why}")
+                why = "no member of it" if name in value else "missing"
+                raise Refused(f"{KNOWN}: {inside} is {why}")
             check_form(value[name], form[name], inside)
     elif type(value) is list and (type(form) is list or (type(form) is tuple and len(form) == len(value))):
         for k, entry in enumerate(value):
             check_form(entry, form[k % len(form)], f"{place}.{k}")
     elif type(value) not in (form, int if form is float else form) or not (form in (str, dict) or 0 <= value <= 1e15):
-        form = form if isinstance(form, type) else type(form)
-        got = {dict: "an object", list: "a list"}.get(type(value)) or json.dumps(value)[:40]
-        raise Refused(f"the certificate is malformed: {place or 'it'} must be {WORDS[form]}, got {got}")
+        want = f"a list of {len(form)}" if type(form) is tuple else WORDS[form if type(form) is type else type(form)]
+        got = {dict: "an object", list: "another list"}.get(type(value)) or json.dumps(value)[:40]
+        raise Refused(f"{KNOWN}: {place or 'it'} must be {want}, got {got}")
 
 
 def verified(certificate):
@@ -495,7 +495,7 @@ def verified(certificate):
     check_form(certificate, MEMBERS, "")
     runs, claim, overlap = (certificate[name] for name in ("dragon", "claim", "overlap"))
     if certificate["format"] != "bench-dragon proof 1" or claim.get("kind") not in list(CLAIMS):
-        raise Refused(f"the certificate is malformed: its format or claim.kind is unknown: {KNOWN}")
+        raise Refused(f"{KNOWN}: its format or claim.kind is another")
     prove, claim_form, overlap_form = CLAIMS[claim["kind"]]
     check_form(claim, claim_form, "claim")
     within = prove is minimum_pitch and "start_within_circle" in overlap

@@ -42,7 +42,7 @@ function engines(check, benches, margin) {
     make("tr", {}, head(name, "row"), cell(before), cell(after)),
   );
   const heads = make("tr", {}, ...["engine", "before", "after"].map((key) => head(key, "col")));
-  const words = [`${say("engines")}${judgedWords(check, benches)}`, say(check.agree ? "agree" : "disagree")];
+  const words = [`${say("engines", { count: rows.length })}${judgedWords(check, benches)}`, say(check.agree ? "agree" : "disagree")];
   const list = check.together.map((both) => Object.values(pair(both, benches)).join(", ")).join("; ");
   if (list) words.push(say("together", { list }));
   const caption = make("caption", { textContent: words.join(" ") });
@@ -99,7 +99,9 @@ export function showMinimumPitch(box, answer, { benches, turning_diameter: diame
   const islands = answer.other_feasible_intervals.map(([low, high]) => `${low.toFixed(6)}–${high.toFixed(6)} m`);
   if (islands.length) lines.push(say("islands", { list: islands.join(", ") }));
   const rows = [
-    bracket("bracketPitch", answer.pitch_bracket, 10),
+    answer.pitch_bracket[0] < answer.pitch_bracket[1]
+      ? bracket("bracketPitch", answer.pitch_bracket, 13)
+      : [say("bracket"), say("bracketNone")],
     [say("justified"), say(`justified_${answer.justified_by}`, { from, step: step === null ? "" : millimetres(step) })],
     [say("proven"), say(upTo === null ? "provenToAll" : "provenTo", { from, upTo })],
     [say("evaluations"), answer.evaluations],
