@@ -27,7 +27,7 @@ from core.kinematics import EndReason, RunEnd, checked_head_speed, checked_span,
 from core.paths import Spiral
 from core.precise import narrowed
 from core.route import Route
-from core.search import BRACKETS_GRAZING, MARGIN_MAX, NO_GRAZE, TRAVEL_ROUNDING, Search
+from core.search import BRACKETS_GRAZING, MARGIN_MAX, NO_GRAZE, Search
 
 # Grazes of a profile are looked for in steps of this fraction of the shortest chord [1], longer ones where the work is
 # too much (Search.samples()), and refined to this width [s].
@@ -168,7 +168,7 @@ def first_contact(
     last = search.last_travel(until * head_speed, to_fold)
     state, found, tolerance = search.approach(begin * head_speed, last, head_speed)
     narrow = BRACKETS_GRAZING[0] * min(1.0, head_speed)
-    if state == "touched" and tolerance > narrow >= TRAVEL_ROUNDING * abs(found["touching"]):
+    if state == "touched" and tolerance > narrow >= 2.0 * search.travel_rounding(found["touching"]):
         narrower = narrowed(search, found, narrow)
         if narrower is not None:
             found, tolerance = narrower, narrow

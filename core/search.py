@@ -35,8 +35,9 @@ BRACKET_MIN = 2e-11
 # graze: the first one is 1e-9 s in all at 1 m/s, and core/precise.py narrows the wider ones to it [m of head travel].
 # Below 1 m/s the same in seconds come first.
 BRACKETS_GRAZING = (4.9e-10, 5e-9, 5e-8, 5e-7, 5e-6, 5e-5)
-# Travels are doubles: steps and brackets cannot be finer than this part of them [1].
-TRAVEL_ROUNDING = 1e-15
+# What a travel may be off by, of the way [1], u = 2^-53: on a spiral its length to 5 u, two differences from it and the
+# polar angle there 10 u (spiral_theta() ends within 7 u of the arc length left), a time from a travel and back 2 u.
+TRAVEL_ROUNDING = 2e-15
 # The last stretch before a fold, where handle speeds grow without bound: dismissed by a bound on the motion left [m].
 FOLD_SLIVER = 1e-9
 # No radius is known to be clear [m].
@@ -47,11 +48,10 @@ NO_PIECES = np.empty((0, kernels.PIECE_COLUMNS))
 NO_GRAZE = 1e150
 # A march leaves out no pair.
 NO_PAIR = (-1.0, -1.0)
-# Rounding of a gap, relative to the largest coordinate and two bench lengths [1]: more than twice the largest of 1,187
-# gaps after chains of up to 38 benches of 400 dragons against 48-digit arithmetic, 1.13e-15, 2026-11-21.
-GAP_ROUNDING = 2.5e-15
-# Places on a route are rounded as arc lengths are; in units of the coordinates' rounding [1].
-ARC_ROUNDING = 0.1
+# What the ring bound may be off by, of the lengths in it [1]: sums, products and roots, 64 of them at most, with d^2 =
+# radius^2 - foot^2 good to 4 u radius^2 and d > 2 growth, or for long chords d^2 far less than radius^2 only where the bows,
+# falling with d, are so large that the bound says nothing.
+RING_ROUNDING = 1e-12
 
 
 class Search:
@@ -68,7 +68,6 @@ class Search:
 
     margin: float
     clear_radius: float
-    rounding: float
 
     def __init__(
         self,
@@ -102,14 +101,16 @@ class Search:
         if isinstance(path, Route):
             self.growth, self.pieces, self.place = 1.0, path.table, 0.0
             self.clear_radius = NO_BOUND
-            seen = path.position(np.linspace(path.begin, path.end, 256))
-            largest = float(np.abs(seen).max()) + ARC_ROUNDING * max(abs(path.begin), abs(path.end))
         else:
             self.growth, self.pieces, self.place = path.growth, NO_PIECES, path.length
             self.clear_radius = self._clear_radius()
-            largest = min(path.growth * path.start_theta, self.clear_radius)
         self.ring[0] = self.clear_radius
-        self.rounding = GAP_ROUNDING * (largest + 2.0 * self.longest)
+
+    def travel_rounding(self, *travels: float) -> float:
+        """What travels up to these may be off by, in the kernels and as times [m]."""
+        if isinstance(self.path, Route):
+            return self.path.slide + TRAVEL_ROUNDING * max(map(abs, travels))
+        return TRAVEL_ROUNDING * max(self.place, *(self.place - travel for travel in travels), *map(abs, travels))
 
     def resize(self, benches: int) -> None:
         """Room for so many leading benches, and the edges at rest after the row of the last handle."""
@@ -144,7 +145,8 @@ class Search:
 
     def ring_least(self, radius: float) -> float:
         """Lower bound of the separation of pairs whose inner bench leads at this radius or further out [m]."""
-        return float(kernels.ring_least(self.growth, self.growth, radius, *self.ring_extremes))
+        least = float(kernels.ring_least(self.growth, self.growth, radius, *self.ring_extremes))
+        return least - RING_ROUNDING * (radius + 2.0 * math.pi * self.growth + self.longest)
 
     @cached_property
     def ring_extremes(self) -> tuple[float, ...]:
@@ -164,7 +166,7 @@ class Search:
         while high - low > 1e-3 * high:
             middle = 0.5 * (low + high)
             low, high = (low, middle) if self.ring_least(middle) > self.margin else (middle, high)
-        return high
+        return high * (1.0 + RING_ROUNDING)
 
     def travel_at(self, theta: float) -> float:
         """Head travel from the start of a spiral to theta [m]."""
@@ -180,7 +182,12 @@ class Search:
         """kernels.march from start, or from where the ring bound ends, to stop [m of travel]: state, result by name.
 
         opening: nothing before the start was cleared, so all pairs are followed until the body repeats itself
+        The way marched begins and ends beyond both by what a travel may be off by, so that what is said of travels, and
+        of times, holds for the true ones.
         """
+        rounding, asked = self.travel_rounding(start, stop), (start, stop)
+        start -= rounding
+        stop = min(stop + rounding, max(stop, self.place)) if isinstance(self.path, Spiral) else stop + rounding
         if isinstance(self.path, Spiral):
             clear_until = self.travel_at(self.clear_radius / self.growth) if self.clear_radius < NO_BOUND else start
             if clear_until > start:
@@ -188,7 +195,7 @@ class Search:
                 start = clear_until
         nothing = self.dragon.benches < 3 and not len(self.edges)
         if nothing or (start >= stop and not opening):
-            return "reached", dict.fromkeys(kernels.MARCH_FIELDS, 0.0) | {"proven": stop, "graze_gap": NO_GRAZE}
+            return "reached", dict.fromkeys(kernels.MARCH_FIELDS, 0.0) | {"proven": asked[1], "graze_gap": NO_GRAZE}
         out = np.empty(32)
         while True:
             budget = min(float(STEP_BUDGET), max(self.work / self._step_work, 1.0))
@@ -202,7 +209,7 @@ class Search:
                 opening,
                 self.margin,
                 tolerance,
-                self.rounding,
+                rounding,
                 int(budget),
                 self.dragon.benches,
                 self.statics,
@@ -216,7 +223,11 @@ class Search:
             state = kernels.MARCH_STATES[code]
             self.work -= out[4] * self._step_work
             if state != "capacity":
-                return state, dict(zip(kernels.MARCH_FIELDS, out.tolist(), strict=False))
+                found = dict(zip(kernels.MARCH_FIELDS, out.tolist(), strict=False))
+                found["proven"] = asked[1] if state == "reached" else max(found["proven"] - rounding, asked[0])
+                if state == "touched_at_start":
+                    found["touching"] = asked[0]
+                return state, found
             self.resize(min(4 * self.room, self.dragon.benches))
 
     def others_clear(self, pair: tuple[int, int], start: float, stop: float) -> bool:
@@ -229,11 +240,11 @@ class Search:
     @staticmethod
     def last_travel(until: float, to_fold: bool) -> float:
         """How far to march for a run until a travel [m]: short of a fold by a sliver, see clear_to_fold()."""
-        return until - (FOLD_SLIVER + 1e3 * TRAVEL_ROUNDING * until if to_fold else 0.0)
+        return until - (FOLD_SLIVER + 5e2 * TRAVEL_ROUNDING * until if to_fold else 0.0)
 
     def approach(self, begin: float, until: float, head_speed: float) -> tuple[str, dict[str, float], float]:
         """march() between two travels [m] with the bracket of a contact: state, result by name, its half width [m]."""
-        tolerance = max(BRACKET * min(1.0, head_speed), BRACKET_MIN, TRAVEL_ROUNDING * abs(until))
+        tolerance = max(BRACKET * min(1.0, head_speed), BRACKET_MIN, 2.0 * self.travel_rounding(begin, until))
         state, found = self.march(until, tolerance, start=begin)
         slowed = [wider * min(1.0, head_speed) for wider in BRACKETS_GRAZING]
         for wider in sorted({*slowed, *BRACKETS_GRAZING}):

@@ -11,10 +11,11 @@ import numpy as np
 
 from core import kernels
 from core.paths import Spiral
-from core.search import GAP_ROUNDING, NO_BOUND, NO_PIECES, Search
+from core.search import NO_BOUND, NO_PIECES, TRAVEL_ROUNDING, Search
 
-# Half width of the bracket around the border of what is feasible [m of pitch]; rounding of a clearance is near 1e-14 m.
-BORDER_WIDTH = 1e-13
+# Half width of the bracket around the border of what is feasible [m of pitch]: a graze this far above its border must exceed
+# what gaps are proven good to, 3e-13 m for benches 0 and 19 of the default (pair_rounding()).
+BORDER_WIDTH = 5e-13
 # A strip narrower than this that is neither proven nor touched ends the descent [m of pitch].
 STRIP_MIN = 1e-11
 # A strip is not cut into steps finer than this part of its width, for it is too wide rather than its steps too long
@@ -87,7 +88,7 @@ class Strips:
                 self.radius,
                 min(search.dragon.uniform_from + 1, search.dragon.benches),
                 self.margin,
-                GAP_ROUNDING * (outer + 2.0 * search.longest),
+                TRAVEL_ROUNDING * outer * max(outer / (low / turn), 1.0),
                 max(STEP_MIN, STEP_PER_WIDTH * (high - low)),
                 STRIP_BUDGET - self.steps,
                 search.dragon.benches,

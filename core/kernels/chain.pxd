@@ -8,7 +8,7 @@ cdef Py_ssize_t extend(
     double[:, ::1] chain
 ) noexcept nogil
 
-cdef Py_ssize_t place_chain(
+cpdef Py_ssize_t place_chain(
     double growth, const double[:, ::1] pieces, double place, Py_ssize_t last, double[:, ::1] sizes,
     double[:, ::1] chain
 ) noexcept nogil

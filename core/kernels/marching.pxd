@@ -3,7 +3,7 @@ from core.kernels.constants cimport *
 from core.kernels.spiral cimport extend_chain, spiral_theta, start_chain
 from core.kernels.chain cimport extend, place_chain
 from core.kernels.rings cimport drift, leaders_reach, radius_beyond
-from core.kernels.pairs cimport interval_least
+from core.kernels.pairs cimport interval_least, pair_most
 from core.kernels.clearance cimport crossing, gap_at, row_clearance, row_gap
 
 cdef double DIP_WIDTH
@@ -11,6 +11,7 @@ cdef double LEAST_STEP
 cdef double LEAST_WAY
 cdef double ALLOWANCE
 cdef double CROSSING_WIDTH
+cdef double WIDTH_ROUNDING
 
 @cython.locals(k=cython.Py_ssize_t)
 cdef Py_ssize_t chain_between(

@@ -7,7 +7,7 @@ if not cython.compiled:  # for the compiler the same stands in the .pxd
     from core.kernels.chain import extend, place_chain
     from core.kernels.clearance import crossing, gap_at, row_clearance, row_gap
     from core.kernels.constants import *
-    from core.kernels.pairs import interval_least
+    from core.kernels.pairs import interval_least, pair_most
     from core.kernels.rings import drift, leaders_reach, radius_beyond
     from core.kernels.spiral import extend_chain, spiral_theta, start_chain
 
@@ -19,6 +19,8 @@ LEAST_STEP = 0.05
 LEAST_WAY = 1e-7
 # The chain is laid out so many drifts further than the pose needs; if that is too little the step is halved [1].
 ALLOWANCE = 2.0
+# Widths are widened by this part of them, for the roundings of what a step computes once [1].
+WIDTH_ROUNDING = 1e-12
 # A crossing is found this much closer than the bracket that is proven around it [1].
 CROSSING_WIDTH = 1e-3
 
@@ -80,7 +82,7 @@ def march(
     place: at travel 0, see chain.py [m]; leaders: benches whose pairs must be followed; at_start: follow all pairs
     until every bench has passed the start of the one before it; tolerance: half width of the bracket around a
     contact [m], 0 or less for none: to end at any instant found to be within the margin, and with 0 without looking
-    for grazes; rounding: what a computed gap may be off by [m]; budget: steps; benches: n; statics: edges at rest in
+    for grazes; rounding: what a travel may be off by [m]; budget: steps; benches: n; statics: edges at rest in
     the rows after the last handle's, on a route only; negative: these alone, without pairs of benches
     sizes: (R - 1, SIZE_COLUMNS) at least; rows: (4, R, CHAIN_COLUMNS), motion: (R, MOTION_COLUMNS) scratch; out:
         (MARCH_ENTRIES,)
@@ -125,7 +127,14 @@ def march(
             out[PROVEN] = out[TOUCHING] = start
             out[FIRST] = pair[1]
             out[SECOND] = pair[2]
-            return TOUCHED_AT_START
+            least = pair_most(
+                growth, pieces, place - start + rounding, 2.0 * rounding, pair[1], pair[2], benches, sizes, spare, after,
+                motion, scratch,
+            )  # fmt: skip
+            if least <= margin:
+                return TOUCHED_AT_START
+            out[TOUCHING] = -1.0
+            return STUCK
         while travel < stop:
             out[PROVEN] = travel
             if out[STEPS] >= budget or h < rounding or h < (LEAST_STEP * tolerance if tolerance > 0.0 else LEAST_WAY):
@@ -162,7 +171,7 @@ def march(
                     growth,
                     pieces,
                     statics,
-                    h,
+                    h * (1.0 + WIDTH_ROUNDING) + 2.0 * rounding,
                     active,
                     handles,
                     benches,
@@ -175,7 +184,7 @@ def march(
                     scratch,
                 )
                 room = 0.95 * scratch[3]
-            if least <= margin + rounding:
+            if least <= margin:
                 if least == -FREE:
                     h *= 0.5
                     target = -1.0
@@ -187,6 +196,13 @@ def march(
                     target = -1.0
                     continue
                 if tolerance <= 0.0:
+                    clearance = pair_most(
+                        growth, pieces, place - travel - h + rounding, 2.0 * rounding, a, b, benches, sizes, spare, after,
+                        motion, scratch,
+                    )  # fmt: skip
+                    if clearance > margin:
+                        h *= 0.5
+                        continue
                     out[TOUCHING] = travel + h
                     out[FIRST] = a
                     out[SECOND] = b
@@ -213,12 +229,14 @@ def march(
                 if target - tolerance - travel > rounding and target - tolerance - travel < h:
                     h = target - tolerance - travel
                     continue
-                if (
-                    target - tolerance <= travel
-                    and gap_at(growth, pieces, place - target - tolerance, benches, a, b, sizes, spare) <= margin
-                ):
-                    out[TOUCHING] = target + tolerance
-                    return TOUCHED
+                if target - tolerance <= travel:
+                    clearance = pair_most(
+                        growth, pieces, place - target - tolerance + rounding, 2.0 * rounding, a, b, benches, sizes,
+                        spare, after, motion, scratch,
+                    )  # fmt: skip
+                    if clearance <= margin:
+                        out[TOUCHING] = target + tolerance
+                        return TOUCHED
                 h *= 0.5
                 target = -1.0
                 continue
@@ -227,23 +245,16 @@ def march(
             before, after = after, before
             if scratch[0] > out[BEND] and active > 0:
                 out[BEND] = scratch[0]
-            if (
-                target > 0.0
-                and gap_at(
-                    growth,
-                    pieces,
-                    place - target - tolerance,
-                    benches,
-                    cython.cast(cython.Py_ssize_t, out[FIRST]),
-                    cython.cast(cython.Py_ssize_t, out[SECOND]),
-                    sizes,
-                    spare,
-                )
-                <= margin
-            ):
-                out[PROVEN] = travel
-                out[TOUCHING] = target + tolerance
-                return TOUCHED
+            if target > 0.0:
+                clearance = pair_most(
+                    growth, pieces, place - target - tolerance + rounding, 2.0 * rounding,
+                    cython.cast(cython.Py_ssize_t, out[FIRST]), cython.cast(cython.Py_ssize_t, out[SECOND]), benches,
+                    sizes, spare, after, motion, scratch,
+                )  # fmt: skip
+                if clearance <= margin:
+                    out[PROVEN] = travel
+                    out[TOUCHING] = target + tolerance
+                    return TOUCHED
             target = -1.0
             clearance = FREE
             if tolerance != 0.0:

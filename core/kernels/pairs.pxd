@@ -5,6 +5,8 @@ from core.kernels.chain cimport place_chain
 from core.kernels.bounds cimport motion_bounds, route_bounds
 from core.kernels.rings cimport drift, leaders_reach, radius_beyond
 
+cdef double STRIP_ROUNDING
+
 cdef void row_separation(
     Py_ssize_t i, Py_ssize_t j, double[:, ::1] sizes, double[:, ::1] chain, double[::1] out
 ) noexcept nogil
@@ -38,14 +40,51 @@ cpdef bint pair_bends(
     double[:, ::1] sizes, double[:, :, ::1] rows, double[:, ::1] motion, double[::1] out
 ) noexcept nogil
 
+cdef bint lay_out(
+    double growth, const double[:, ::1] pieces, double place, double h, Py_ssize_t last, double[:, ::1] sizes,
+    double[:, ::1] before, double[:, ::1] after, double[:, ::1] motion
+) noexcept nogil
+
+@cython.locals(corner=cython.int)
+cdef double corner_most(
+    Py_ssize_t i, Py_ssize_t j, double bend, double h, double[:, ::1] sizes, double[:, ::1] before,
+    double[:, ::1] after
+) noexcept nogil
+
+cdef (double, double) corner_in(
+    Py_ssize_t i, Py_ssize_t j, double length, double width, double[:, ::1] chain
+) noexcept nogil
+
+@cython.locals(last=cython.Py_ssize_t)
+cpdef double pair_most(
+    double growth, const double[:, ::1] pieces, double place, double h, Py_ssize_t a, Py_ssize_t b,
+    Py_ssize_t benches, double[:, ::1] sizes, double[:, ::1] before, double[:, ::1] after, double[:, ::1] motion,
+    double[::1] out
+) noexcept nogil
+
+cpdef double pair_rounding(
+    Py_ssize_t i, Py_ssize_t j, double distance, double[:, ::1] sizes, double[:, ::1] before, double[:, ::1] after
+) noexcept nogil
+
+@cython.locals(k=cython.Py_ssize_t)
+cdef double worst_rounding(
+    double h, Py_ssize_t handles, double margin, double[:, ::1] sizes, double[:, ::1] before, double[:, ::1] after,
+    double[:, ::1] motion
+) noexcept nogil
+
 cdef double axis_least(
     Py_ssize_t i, Py_ssize_t j, bint after_decides, double bend, double h, double[:, ::1] sizes,
     double[:, ::1] before, double[:, ::1] after
 ) noexcept nogil
 
+cpdef double near(
+    Py_ssize_t i, Py_ssize_t j, double reach, double h, double[:, ::1] sizes, double[:, ::1] before,
+    double[:, ::1] motion
+) noexcept nogil
+
 cpdef double pair_least(
-    double growth, Py_ssize_t i, Py_ssize_t j, double margin, double h, double[:, ::1] sizes, double[:, ::1] before,
-    double[:, ::1] after, double[:, ::1] motion, double[::1] out
+    double growth, Py_ssize_t i, Py_ssize_t j, double margin, double rounding, double distance, double h,
+    double[:, ::1] sizes, double[:, ::1] before, double[:, ::1] after, double[:, ::1] motion, double[::1] out
 ) noexcept nogil
 
 @cython.locals(
@@ -59,7 +98,7 @@ cdef double interval_least(
 
 cdef double strip_along(
     Py_ssize_t i, Py_ssize_t j, double along, double left, (double, double, double) bends,
-    (double, double, double) widths, double[:, ::1] sizes, double[:, ::1] before, double[:, ::1] after,
+    (double, double, double, double) widths, double[:, ::1] sizes, double[:, ::1] before, double[:, ::1] after,
     double[:, ::1] before_high, double[:, ::1] after_high
 ) noexcept nogil
 

@@ -22,6 +22,14 @@ if not cython.compiled:  # for the compiler the same stands in the .pxd
 # The smaller of the two bounds is used.
 # A function with |g''| <= K stays above its chord minus K x (h - x) / 2, so its least value follows from both ends:
 # two benches do not touch on [L, R] if that exceeds the margin for one axis. No step size is guessed.
+#
+# Rounding. The centre of bench i is the mean of two handles, each good to E_i = ERROR, its direction is good to W_i =
+# SWAY. So a gap along an axis fixed in bench i, and the separation of two benches, is good to
+#     G = E_i + E_j + u (|M_i| + |M_j|) + W_i (D + rho_j) + W_j (D + rho_i) + 40 u (D + rho_i + rho_j),  D = |M_j - M_i|,
+# as each corner of j is within rho_j of M_j, and so within D + rho_j of M_i. (Where D is the smaller, corners of the
+# longer bench need rho of its own: D + rho_i + rho_j serves always.) The last term has room for the operations of
+# gap_along() and pair_gap(), fewer than 32 on sizes in all, and for a corner axis whose length is 1 +- 8 u. An interval
+# proves nothing unless what it leaves exceeds the margin by G.
 
 
 def row_separation(i, j, sizes, chain, out):
@@ -125,6 +133,20 @@ def plain_bend(i, j, distance, sizes, motion):
     )
 
 
+def lay_out(growth, pieces, place, h, last, sizes, before, after, motion):
+    """The chains up to handle `last` with the head at a place and h further on, and bounds on the motion between them.
+
+    False where no bound is known
+    """
+    if place_chain(growth, pieces, place, last, sizes, before) < 0:
+        return False
+    if place_chain(growth, pieces, place - h, last, sizes, after) < 0:
+        return False
+    if pieces.shape[0] > 0:
+        return route_bounds(pieces, h, last, sizes, before, after, False, motion)
+    return motion_bounds(growth, h, last, sizes, before, after, motion)
+
+
 def pair_bends(growth, pieces, place, h, a, b, sizes, rows, motion, out):
     """Bounds on the second derivative of gaps of two benches while the head travels h from a place [1/m].
 
@@ -132,14 +154,7 @@ def pair_bends(growth, pieces, place, h, a, b, sizes, rows, motion, out):
     """
     before: cython.double[:, ::1] = rows[0]
     after: cython.double[:, ::1] = rows[1]
-    if place_chain(growth, pieces, place, b + 1, sizes, before) < 0:
-        return False
-    if place_chain(growth, pieces, place - h, b + 1, sizes, after) < 0:
-        return False
-    if pieces.shape[0] > 0:
-        if not route_bounds(pieces, h, b + 1, sizes, before, after, False, motion):
-            return False
-    elif not motion_bounds(growth, h, b + 1, sizes, before, after, motion):
+    if not lay_out(growth, pieces, place, h, b + 1, sizes, before, after, motion):
         return False
     dx = before[b, MX] - before[a, MX]
     dy = before[b, MY] - before[a, MY]
@@ -147,6 +162,85 @@ def pair_bends(growth, pieces, place, h, a, b, sizes, rows, motion, out):
     out[0] = axis_bend(growth, a, b, dx, sizes, motion)
     out[1] = axis_bend(growth, b, a, dx, sizes, motion)
     return True
+
+
+# Within the margin for certain. Over an interval too short to matter, so that both benches hardly move:
+#   any points of the two approach or part by no more than their speeds together, so no separation, nor depth, exceeds
+#   the mean of those at both ends by more than half of that times h;
+#   the coordinates p, q of a corner X of j in the frame of i are gaps along axes fixed in i, so |p| stays below the larger
+#   of its ends plus K h^2 / 8. Where both stay within i's half length and width X lies in i all along; else X is no
+#   further from i than the two excesses make it.
+# The first serves benches that overlap deep or without a corner, the second ones that touch, slowly too.
+
+
+def corner_most(i, j, bend, h, sizes, before, after):
+    """No more than this lies between bench i and the nearest corner of bench j over an interval; inside, 0 or less [m]."""
+    best = FREE
+    for corner in range(4):
+        length = sizes[j, HALF_LENGTH] if corner < 2 else -sizes[j, HALF_LENGTH]
+        width = sizes[j, HALF_WIDTH] if corner % 2 == 0 else -sizes[j, HALF_WIDTH]
+        p, q = corner_in(i, j, length, width, before)
+        p_end, q_end = corner_in(i, j, length, width, after)
+        p = max(fabs(p), fabs(p_end)) + 0.125 * bend * h * h - sizes[i, HALF_LENGTH]
+        q = max(fabs(q), fabs(q_end)) + 0.125 * bend * h * h - sizes[i, HALF_WIDTH]
+        p_end = max(p, 0.0)
+        q_end = max(q, 0.0)
+        best = min(best, max(p, q) if p <= 0.0 and q <= 0.0 else sqrt(p_end * p_end + q_end * q_end))
+    return best
+
+
+def corner_in(i, j, length, width, chain):
+    """A corner of bench j, given along and left of its centre, in the frame of bench i [m]."""
+    x = chain[j, MX] - chain[i, MX] + length * chain[j, UX] - width * chain[j, UY]
+    y = chain[j, MY] - chain[i, MY] + length * chain[j, UY] + width * chain[j, UX]
+    return x * chain[i, UX] + y * chain[i, UY], y * chain[i, UX] - x * chain[i, UY]
+
+
+def pair_most(growth, pieces, place, h, a, b, benches, sizes, before, after, motion, out):
+    """Where this is at most a margin >= 0, benches a and b stay within it while the head travels h from a place [m].
+
+    b: beyond `benches` an edge at rest; before, after: scratch rows; out: (8,) scratch; FREE where no bound is known
+    """
+    last = b + 1 if b < benches else a + 1
+    if not lay_out(growth, pieces, place, h, last, sizes, before, after, motion):
+        return FREE
+    dx = before[b, MX] - before[a, MX]
+    dy = before[b, MY] - before[a, MY]
+    dx = sqrt(dx * dx + dy * dy) + (motion[a, CENTRE_SPEED] + motion[b, CENTRE_SPEED]) * h
+    row_separation(a, b, sizes, before, out)
+    most = out[0] + (motion[a, CORNER_SPEED] + motion[b, CORNER_SPEED]) * h
+    row_separation(a, b, sizes, after, out)
+    most = 0.5 * (most + out[0])
+    most = min(most, corner_most(a, b, axis_bend(growth, a, b, dx, sizes, motion), h, sizes, before, after))
+    most = min(most, corner_most(b, a, axis_bend(growth, b, a, dx, sizes, motion), h, sizes, before, after))
+    return most + pair_rounding(a, b, dx, sizes, before, after)
+
+
+def pair_rounding(i, j, distance, sizes, before, after):
+    """G above: computed gaps of benches i and j at either end are off by no more than this [m]; distance: of centres."""
+    around = fabs(before[i, MX]) + fabs(before[i, MY]) + fabs(before[j, MX]) + fabs(before[j, MY]) + distance
+    turned = max(before[i, SWAY], after[i, SWAY]) + max(before[j, SWAY], after[j, SWAY])
+    return (
+        max(before[i, ERROR], after[i, ERROR])
+        + max(before[j, ERROR], after[j, ERROR])
+        + ULP * around
+        + (turned + 40.0 * ULP) * (distance + sizes[i, RADIUS] + sizes[j, RADIUS])
+    )
+
+
+def worst_rounding(h, handles, margin, sizes, before, after, motion):
+    """pair_rounding() of any pair of benches before handle `handles` that is not far apart, or more [m]."""
+    widest = 0.0
+    fastest = 0.0
+    sway = 0.0
+    for k in range(handles):
+        widest = max(widest, sizes[k, RADIUS])
+        fastest = max(fastest, motion[k, CENTRE_SPEED])
+        sway = max(sway, max(before[k, SWAY], after[k, SWAY]))
+    widest = 4.0 * widest + margin + 4.0 * fastest * h
+    if sway > 0.1:
+        return FREE
+    return 2.0 * (8.0 * max(before[handles - 1, ERROR], after[handles - 1, ERROR]) + (2.0 * sway + 50.0 * ULP) * widest)
 
 
 def axis_least(i, j, after_decides, bend, h, sizes, before, after):
@@ -158,39 +252,49 @@ def axis_least(i, j, after_decides, bend, h, sizes, before, after):
     return least_between(gap, gap_along(i, j, along, left, sizes, after), bend, h)
 
 
-def pair_least(growth, i, j, margin, h, sizes, before, after, motion, out):
-    """A proven lower bound of the separation of benches i and j over the interval [m]; FREE when they are far.
-
-    Tries axes until one exceeds the margin; out[0] is the bound K of the last one.
-    """
+def near(i, j, reach, h, sizes, before, motion):
+    """Largest distance of the centres of benches i and j over the interval [m]; FREE if they stay further apart than their
+    half diagonals and the reach."""
     dx = before[j, MX] - before[i, MX]
     dy = before[j, MY] - before[i, MY]
     drift = (motion[i, CENTRE_SPEED] + motion[j, CENTRE_SPEED]) * h
     square = dx * dx + dy * dy
-    far = sizes[i, RADIUS] + sizes[j, RADIUS] + margin + drift
-    if square > far * far:
-        return FREE
-    distance = sqrt(square) + drift
+    far = sizes[i, RADIUS] + sizes[j, RADIUS] + reach + drift
+    return FREE if square > far * far else sqrt(square) + drift
+
+
+def pair_least(growth, i, j, margin, rounding, distance, h, sizes, before, after, motion, out):
+    """A proven lower bound of the separation of benches i and j over the interval [m].
+
+    Tries axes until one exceeds the margin; out[0] is the bound K of the last one. distance: of near(); rounding: of
+    worst_rounding(); 0 for pair_rounding() alone
+    """
+    if rounding <= 0.0:
+        rounding = pair_rounding(i, j, distance, sizes, before, after)
+    enough = margin + rounding
     out[0] = axis_bend(growth, j, i, distance, sizes, motion)
     best = axis_least(j, i, True, out[0], h, sizes, before, after)
-    if best > margin:
-        return best
+    if best > enough:
+        return best - rounding
     least = axis_least(j, i, False, out[0], h, sizes, before, after)
     if least > best:
         best = least
-    if best > margin:
-        return best
+    if best > enough:
+        return best - rounding
     out[0] = axis_bend(growth, i, j, distance, sizes, motion)
     least = axis_least(i, j, True, out[0], h, sizes, before, after)
     if least > best:
         best = least
-    if best > margin:
-        return best
+    if best > enough:
+        return best - rounding
     least = axis_least(i, j, False, out[0], h, sizes, before, after)
     if least > best:
         best = least
-    if best > margin or margin <= 0.0:
-        return best
+    if best > enough:
+        return best - rounding
+    rounding = pair_rounding(i, j, distance, sizes, before, after)
+    if best > margin + rounding or margin <= 0.0:
+        return best - rounding
     # two corners nearest each other: the direction between them, fixed in bench i
     row_separation(i, j, sizes, after, out[1:])
     turn_x = out[6] * after[i, UX] + out[7] * after[i, UY]
@@ -198,7 +302,7 @@ def pair_least(growth, i, j, margin, h, sizes, before, after, motion, out):
     least = least_between(
         gap_along(i, j, turn_x, turn_y, sizes, before), gap_along(i, j, turn_x, turn_y, sizes, after), out[0], h
     )
-    return least if least > best else best
+    return least - rounding if least > best else best - rounding
 
 
 def interval_least(
@@ -210,6 +314,7 @@ def interval_least(
     [4] the least gap at the far end; the rest is scratch
     """
     edges = statics if statics >= 0 else -statics
+    error = max(before[handles - 1, ERROR], after[handles - 1, ERROR])
     best = FREE
     bend = 0.0
     room = FREE
@@ -223,18 +328,21 @@ def interval_least(
     if handles < benches:  # those left out must stay outside the reach of the leaders
         high = before[active, THETA] if before[active, THETA] > after[active, THETA] else after[active, THETA]
         high *= growth
-        high += drift(motion[active - 1, HANDLE_SPEED], h, growth, high)
+        high += drift(motion[active - 1, HANDLE_SPEED], h, growth, high) + error
         low = before[0, THETA] if before[0, THETA] < after[0, THETA] else after[0, THETA]
         high = leaders_reach(growth, growth * low, high, ring)
         low = before[handles, THETA] if before[handles, THETA] < after[handles, THETA] else after[handles, THETA]
-        low *= growth
+        low = growth * low - error
         if low - drift(motion[handles - 1, HANDLE_SPEED], h, growth, low) < radius_beyond(growth, high + margin, ring):
             return -FREE
+    rounding = worst_rounding(h, handles, margin, sizes, before, after, motion) if statics == 0 else 0.0
+    # of centres; an edge at rest that is near has coordinates hardly larger than the bench, whose rounding ERROR covers
+    reach = margin * (1.0 + 1e-12) + 16.0 * error
     for i in range(active):
         far = FREE
         if pieces.shape[0] == 0:
             far = before[i + 1, THETA] if before[i + 1, THETA] > after[i + 1, THETA] else after[i + 1, THETA]
-            far = growth * far + drift(motion[i, HANDLE_SPEED], h, growth, growth * far)
+            far = growth * far + drift(motion[i, HANDLE_SPEED], h, growth, growth * far) + error
             low = before[i, THETA] if before[i, THETA] < after[i, THETA] else after[i, THETA]
             low = growth * low - drift(motion[i, HANDLE_SPEED], h, growth, growth * low)
             far = radius_beyond(growth, leaders_reach(growth, low, far, ring) + margin, ring)
@@ -243,11 +351,12 @@ def interval_least(
                 continue
             if far < FREE:
                 low = before[j, THETA] if before[j, THETA] < after[j, THETA] else after[j, THETA]
-                if growth * low - drift(motion[j, HANDLE_SPEED], h, growth, growth * low) > far:
+                if growth * low - drift(motion[j, HANDLE_SPEED], h, growth, growth * low) - error > far:
                     break  # handles stand in order, so all further ones lie outside too
-            least = pair_least(growth, i, j, margin, h, sizes, before, after, motion, out)
-            if least >= FREE or (i == ring[LEFT_OUT] and j == ring[LEFT_OUT_TOO]):
+            distance = near(i, j, reach, h, sizes, before, motion)
+            if distance >= FREE or (i == ring[LEFT_OUT] and j == ring[LEFT_OUT_TOO]):
                 continue
+            least = pair_least(growth, i, j, margin, rounding, distance, h, sizes, before, after, motion, out)
             width = 8.0 * (least - margin) / out[0] + h * h
             width = sqrt(width) if width > 0.0 else 0.0
             if width < room:
@@ -264,20 +373,21 @@ def interval_least(
     return best
 
 
-# What a strip of pitches needs of its pairs, see strips.py.
+# What a strip of pitches needs of its pairs, see strips.py: shift_bounds() adds up terms >= 0, at most 60 roundings a
+# bench, which this part of the strip's width makes up for [1].
+STRIP_ROUNDING = 1e-9
 
 
 def strip_along(i, j, along, left, bends, widths, sizes, before, after, before_high, after_high):
     """Proven least gap along an axis of bench i over a rectangle of (r_0, b) [m]."""
-    low = least_between(
-        gap_along(i, j, along, left, sizes, before), gap_along(i, j, along, left, sizes, after), bends[0], widths[0]
-    )
-    high = least_between(
-        gap_along(i, j, along, left, sizes, before_high),
-        gap_along(i, j, along, left, sizes, after_high),
-        bends[1],
-        widths[1],
-    )
+    start = gap_along(i, j, along, left, sizes, before)
+    end = gap_along(i, j, along, left, sizes, after)
+    low = least_between(start, end, bends[0], widths[0])
+    low -= widths[3] * (fabs(end - start) / widths[0] + bends[0] * widths[0])
+    start = gap_along(i, j, along, left, sizes, before_high)
+    end = gap_along(i, j, along, left, sizes, after_high)
+    high = least_between(start, end, bends[1], widths[1])
+    high -= widths[3] * (fabs(end - start) / widths[1] + bends[1] * widths[1])
     return least_between(low, high, bends[2], widths[2])
 
 
@@ -290,8 +400,15 @@ def strip_pair(
     distance: no further are their centres apart [m]; out[0]: the bend along the path of the last axis tried
     """
     best = -FREE
+    rounding = pair_rounding(i, j, distance, sizes, before, after)
+    rounding = max(rounding, pair_rounding(i, j, distance, sizes, before_high, after_high))
     bends: tuple[cython.double, cython.double, cython.double]
-    widths: tuple[cython.double, cython.double, cython.double] = (h_low, h_high, high - low)
+    widths: tuple[cython.double, cython.double, cython.double, cython.double] = (
+        h_low,
+        h_high,
+        (high - low) * (1.0 + STRIP_ROUNDING),
+        4.0 * ULP * low * before[0, THETA] * before[0, THETA],
+    )
     for trial in range(4):
         a = j if trial < 2 else i
         b = i if trial < 2 else j
@@ -310,8 +427,8 @@ def strip_pair(
         out[0] = bends[0]
         least, along, left = best_axis(a, b, sizes, after if trial % 2 == 0 else after_high)
         least = strip_along(a, b, along, left, bends, widths, sizes, before, after, before_high, after_high)
-        if least > best:
-            best = least
+        if least - rounding > best:
+            best = least - rounding
         if best > margin:
             return best
     if margin <= 0.0:
@@ -321,7 +438,7 @@ def strip_pair(
     along = out[6] * after[i, UX] + out[7] * after[i, UY]
     left = out[7] * after[i, UX] - out[6] * after[i, UY]
     least = strip_along(i, j, along, left, bends, widths, sizes, before, after, before_high, after_high)
-    return least if least > best else best
+    return least - rounding if least - rounding > best else best
 
 
 def strip_least(
@@ -329,13 +446,14 @@ def strip_least(
     motion_high, shifts, out
 ):  # fmt: skip
     """interval_least() over a rectangle of (r_0, b), of pairs led by the first `leaders` benches; out: [1] to [3]."""
+    error = max(after[handles - 1, ERROR], before_high[handles - 1, ERROR])
     best = FREE
     room = FREE
     a = 0
     b = 0
     for i in range(leaders):
         beyond = leaders_reach(high, low * after[i, THETA], high * before_high[i + 1, THETA], ring)
-        beyond = radius_beyond(high, beyond + margin, ring)
+        beyond = radius_beyond(high, beyond + 2.0 * error + margin, ring) + error
         for j in range(i + 2, handles):
             if low * after[j, THETA] > beyond:
                 break  # handles stand in order, so all further ones lie outside too
@@ -343,8 +461,9 @@ def strip_least(
             dy = after[j, MY] - after[i, MY]
             distance = sqrt(dx * dx + dy * dy)
             slack = (motion[i, CENTRE_SPEED] + motion[j, CENTRE_SPEED]) * h_low
-            slack += (shifts[i, SHIFT_CENTRE] + shifts[j, SHIFT_CENTRE]) * (high - low)
-            if distance - slack > sizes[i, RADIUS] + sizes[j, RADIUS] + margin:
+            slack += (shifts[i, SHIFT_CENTRE] + shifts[j, SHIFT_CENTRE]) * (high - low) * (1.0 + STRIP_ROUNDING)
+            slack += 4.0 * (before[j, ERROR] + after[j, ERROR] + before_high[j, ERROR] + after_high[j, ERROR])
+            if distance - slack > (sizes[i, RADIUS] + sizes[j, RADIUS] + margin) * (1.0 + 1e-12):
                 continue  # far apart
             least = strip_pair(
                 low, high, i, j, distance + slack, margin, h_low, h_high, sizes, before, after, before_high,

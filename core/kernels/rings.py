@@ -15,6 +15,11 @@ if not cython.compiled:  # for the compiler the same stands in the .pxd
 # delta <= theta. Otherwise the triangle inequality serves.
 
 
+# Rounding. The two bounds below are sums, products and roots of terms >= 0, good to 10 u together: RING_ROUNDING makes
+# up for it. What the radii of handles lack is added where they are compared.
+RING_ROUNDING = 1e-12  # [1]
+
+
 def settled(growth, radius, ring):
     """Do all benches led from this radius outwards have 0 <= x0 <= 1.67 growth <= c?"""
     return (
@@ -29,9 +34,9 @@ def radius_beyond(growth, radius, ring):
     target = radius + ring[RING_HALF_WIDTH]
     beyond = sqrt(target * target + 0.25 * ring[RING_CHORD] * ring[RING_CHORD])
     if settled(growth, beyond, ring):
-        return beyond
+        return beyond * (1.0 + RING_ROUNDING)
     beyond = 0.5 * ring[RING_CHORD]
-    return target + (beyond if beyond > ring[RING_OVERHANG] else ring[RING_OVERHANG])
+    return (target + (beyond if beyond > ring[RING_OVERHANG] else ring[RING_OVERHANG])) * (1.0 + RING_ROUNDING)
 
 
 def leaders_reach(growth, lead, rear, ring):

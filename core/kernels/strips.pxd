@@ -6,6 +6,8 @@ from core.kernels.rings cimport leaders_reach, radius_beyond
 from core.kernels.pairs cimport strip_least
 from core.kernels.clearance cimport row_gap
 
+cdef double WIDTH_ROUNDING
+
 @cython.locals(k=cython.Py_ssize_t)
 cdef void shift_bounds(
     double low, double high, Py_ssize_t benches, double[:, ::1] sizes, double[:, ::1] inner, double[:, ::1] outer,

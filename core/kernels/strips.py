@@ -51,6 +51,13 @@ if not cython.compiled:  # for the compiler the same stands in the .pxd
 # these come from both ends of the step in r_0 by pairs.py. Four gaps prove a whole rectangle of (r_0, b).
 
 
+# Rounding. Gaps are as good as pairs.py says, and widths widened by what a travel may be off by and by WIDTH_ROUNDING of
+# them, for the bounds above. The radii at which the chains of b_L and of b_R begin and end a step are the same to a
+# rounding of theta, a travel of theta u r each: so the least values on b = b_L and on b = b_R are lowered by what the gaps
+# can change over 4 theta u r beyond both ends, no faster than their mean slope and the bend over the step.
+WIDTH_ROUNDING = 1e-9  # [1]
+
+
 def shift_bounds(low, high, benches, sizes, inner, outer, shifts):
     """Bounds on how the first benches shift with the growth; inner: the chain at (r_L, b_L), outer: at (r_R, b_R)."""
     psi = 0.0
@@ -110,7 +117,7 @@ def strip(
     """Prove, for all growths in [low, high] at once, that nothing touches while the head goes from `outer` to `inner`.
 
     Of pairs led by the first `leaders` benches; outer, inner: head radii [m]. No chord may be so long that
-    SPIRAL_CURVATURE_MOST chord / (2 inner) reaches 1.
+    SPIRAL_CURVATURE_MOST chord / (2 inner) reaches 1. rounding: what a travel of the head may be off by [m]
     least_step: head travel below which it gives up [m]; budget: steps; others as for march(), motions: (2, R,
     MOTION_COLUMNS), shifts: (R, SHIFT_COLUMNS) scratch; out: (MARCH_ENTRIES,) and scratch, PROVEN and TOUCHING as head
     radii [m]
@@ -152,8 +159,9 @@ def strip(
             start_chain(next_radius / low, after)
             start_chain(next_radius / high, after_high)
             extend_chain(low, 0, leaders, FREE, sizes, after)
-            beyond = leaders_reach(high, next_radius, high * before_high[leaders, THETA], ring) + margin
-            beyond = radius_beyond(high, beyond, ring)
+            beyond = 2.0 * before_high[leaders - 1, ERROR]
+            beyond = leaders_reach(high, next_radius, high * before_high[leaders, THETA] + beyond, ring) + margin
+            beyond = radius_beyond(high, beyond, ring) + 2.0 * before_high[leaders - 1, ERROR]
             handles = extend_chain(low, leaders, cap, beyond, sizes, after)
             if handles < 0:
                 return STUCK
@@ -164,19 +172,21 @@ def strip(
                 extend_chain(low, placed, handles, FREE, sizes, before)
                 extend_chain(high, placed, handles, FREE, sizes, before_high)
                 placed = handles
+            width = h * (1.0 + WIDTH_ROUNDING) + 2.0 * rounding
+            h_high = h_high * (1.0 + WIDTH_ROUNDING) + 2.0 * rounding
             if not (
-                motion_bounds(low, h, handles, sizes, before, after, motion)
+                motion_bounds(low, width, handles, sizes, before, after, motion)
                 and motion_bounds(high, h_high, handles, sizes, before_high, after_high, motion_high)
             ):
                 h *= 0.5
                 continue
             shift_bounds(low, high, handles, sizes, after, before_high, shifts)
             best = strip_least(
-                low, high, leaders, handles, margin, h, h_high, ring, sizes, before, after, before_high, after_high,
+                low, high, leaders, handles, margin, width, h_high, ring, sizes, before, after, before_high, after_high,
                 motion, motion_high, shifts, scratch,
             )  # fmt: skip
             room = 0.95 * scratch[3]
-            if best <= margin + rounding:
+            if best <= margin:
                 a = cython.cast(cython.Py_ssize_t, scratch[1])
                 b = cython.cast(cython.Py_ssize_t, scratch[2])
                 if row_gap(a, b, sizes, after) <= margin:
