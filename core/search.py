@@ -91,7 +91,9 @@ class Search:
         shortest, outer_shortest = columns[0].min(), outer[0].min()
         self.extremes = (longest, shortest, overhang, half_width, outer_chord, outer_half_width)
         ring = (0.0, outer_chord, outer_shortest, outer_overhang, outer_half_width)
-        self.ring = np.array([*ring, longest, overhang, half_width, *NO_PAIR])
+        self.ring = np.array(
+            [*ring, longest, overhang, half_width, shortest, math.hypot(0.5 * self.longest, half_width), *NO_PAIR]
+        )
         self.resize(dragon.benches if isinstance(path, Route) else min(dragon.benches, 255))
         self.use(path, margin)
 

@@ -19,7 +19,7 @@ speed        the highest speed
 
 from core.kernels.bounds import motion_bounds, route_bounds
 from core.kernels.boxes import BOXES_PER_LEAF, grow_tree, meeting_pairs
-from core.kernels.chain import place_chain, route_tail, route_trajectory
+from core.kernels.chain import chain_rounding, place_chain, route_tail, route_trajectory
 from core.kernels.clearance import clearance_at, crossing, gap_at, gap_rate_at
 from core.kernels.constants import (
     BEND_LIMIT,
@@ -46,7 +46,7 @@ from core.kernels.constants import (
 )
 from core.kernels.fold import fold_theta, previous_theta
 from core.kernels.marching import march
-from core.kernels.pairs import axis_bend, near, pair_bends, pair_least, pair_most, pair_rounding
+from core.kernels.pairs import axis_bend, pair_bends, pair_least, pair_most, pair_rounding
 from core.kernels.rectangles import pair_gap, pair_gap_within, pair_separation, pair_separations
 from core.kernels.rings import leaders_reach, radius_beyond, ring_least
 from core.kernels.route import cubic_arcs, joint_misses, piece_slides, route_points

@@ -1,6 +1,6 @@
 cimport cython
 from core.kernels.constants cimport *
-from core.kernels.spiral cimport spiral_curvature, steepest_bend
+from core.kernels.spiral cimport spiral_curvature, spiral_rounding, steepest_bend
 
 cdef double TRIAL
 cdef double RATIO_FOLLOWED

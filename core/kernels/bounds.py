@@ -5,7 +5,7 @@ from cython.cimports.libc.math import fabs, sqrt
 
 if not cython.compiled:  # for the compiler the same stands in the .pxd
     from core.kernels.constants import *
-    from core.kernels.spiral import spiral_curvature, steepest_bend
+    from core.kernels.spiral import spiral_curvature, spiral_rounding, steepest_bend
 
 # The head's travel sigma [m] is the variable; ' is d / d sigma. On [L, R] of width h every quantity below is an
 # upper (or _low lower) bound over the whole interval, from the curvature range [k_low, k_high] of the stretch
@@ -44,6 +44,7 @@ RATIO_FOLLOWED = 1.001
 # out bounds the truth, for any number of links:
 #   curvature    of a handle that is SLIP along the path from its true place: on a spiral |d k / d s| <= 2 k / growth, as
 #                theta (4 + theta^2) / ((2 + theta^2) (1 + theta^2)^(3/2)) <= 2, so k is good to 2 SLIP / growth of itself
+#                (up to the first handle that is followed SLIP <= spiral_error() with chords up to 2 r)
 #                besides a few u; on a route to K_SLOPE SLIP + BENT. `widened` adds 32 u (benches + 8), and so k_high
 #                and k_low also make up for the few u of sin_high, cos_low, cos_high and of differences like swing,
 #                wherever these are small against what they are differences of: d (1 - sin^2) = 2 sin^2 widened is
@@ -80,8 +81,11 @@ def motion_bounds(growth, h, benches, sizes, before, after, motion):
     second_a = 0.0
     motion[0, RATE_HIGH] = motion[0, RATE_LOW] = 1.0
     motion[0, RATE_RATE] = 0.0
-    widened = max(before[benches, SLIP], after[benches, SLIP])
-    widened = 32.0 * ULP * (benches + 8.0) + 2.0 * widened / growth
+    widened = max(before[benches, THETA], after[benches, THETA])
+    widened = 2.0 * (widened + 1.0) * (66.0 * benches + 16.0 * (widened - after[0, THETA]) + 5.0)
+    widened = ULP * (32.0 * (benches + 8.0) + widened)
+    outwards = (1.0 - widened) / growth
+    inwards = (1.0 + widened) / growth
     for k in range(benches):
         chord = sizes[k, CHORD]
         stand_between(k, before, after, widened, motion)
@@ -92,10 +96,10 @@ def motion_bounds(growth, h, benches, sizes, before, after, motion):
             inner = inner - swing_a if swing_a <= 0.5 * inner else inner - rate_a * h / growth
             if inner < 0.0:
                 inner = 0.0
-        k_high = spiral_curvature(inner) * (1.0 + widened) / growth
+        k_high = spiral_curvature(inner) * inwards
         sin_high = 0.5 * k_high * chord
         if sin_high <= BEND_LIMIT:
-            k_low = 0.0 if followed else spiral_curvature(outer) * (1.0 - widened) / growth
+            k_low = 0.0 if followed else spiral_curvature(outer) * outwards
             cos_low = sqrt(1.0 - sin_high * sin_high)
             cos_high = sqrt(1.0 - 0.25 * k_low * k_low * chord * chord)
             rate_low *= TIGHTEN * cos_low / cos_high
@@ -103,6 +107,13 @@ def motion_bounds(growth, h, benches, sizes, before, after, motion):
             swing_a = swing_b = k_high * rate_a - k_low * rate_low
             omega = k_high * rate_a
         else:
+            if not followed:  # the sums that spiral_error() takes the place of are needed themselves
+                spiral_rounding(growth, benches, sizes, before)
+                spiral_rounding(growth, benches, sizes, after)
+                widened = max(before[benches, SLIP], after[benches, SLIP])
+                widened = 32.0 * ULP * (benches + 8.0) + 2.0 * widened / growth
+                inwards = (1.0 + widened) / growth
+                k_high = spiral_curvature(inner) * inwards
             followed = True
             rate_low = 0.0
             swing_a = before[k, TX] * before[k, UX] + before[k, TY] * before[k, UY]

@@ -33,7 +33,7 @@ CURVATURE = 10
 PIECE = 11
 PIECE_THETA = 12
 CLIMB = 13  # d rate / d sigma [1/m], where climbs() filled it in
-# Rounding, see spiral.py and route.py: how far along the path from its true place the handle may be,
+# Rounding, where chain_rounding() filled it in: how far along the path from its true place the handle may be,
 SLIP = 14
 # and how far from its true point any of the two handles of the bench behind it [m]
 ERROR = 15
@@ -123,10 +123,12 @@ RING_HALF_WIDTH = 4
 ALL_CHORD = 5
 ALL_OVERHANG = 6
 ALL_HALF_WIDTH = 7
+ALL_SHORT = 8  # shortest chord
+ALL_RADIUS = 9  # largest half diagonal
 # and a pair that a march leaves out, -1 for none
-LEFT_OUT = 8
-LEFT_OUT_TOO = 9
-RING_ENTRIES = 10
+LEFT_OUT = 10
+LEFT_OUT_TOO = 11
+RING_ENTRIES = 12
 
 # Entries of march()'s result.
 PROVEN = 0  # nothing touches up to here [m of head travel]

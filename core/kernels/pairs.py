@@ -5,10 +5,11 @@ from cython.cimports.libc.math import fabs, sqrt
 
 if not cython.compiled:  # for the compiler the same stands in the .pxd
     from core.kernels.bounds import motion_bounds, route_bounds
-    from core.kernels.chain import place_chain
+    from core.kernels.chain import chain_rounding, place_chain
     from core.kernels.constants import *
     from core.kernels.rectangles import pair_separation
     from core.kernels.rings import drift, leaders_reach, radius_beyond
+    from core.kernels.spiral import spiral_error, spiral_rounding
 
 # Gap of bench i along an axis e fixed in bench j: g = min over corners X of i of e . (X - M_j) - support of j, and
 #   |(e . p)''| <= |X''| + |M_j''| + 2 omega_j |X' - M_j'| + (omega_j^2 + omega_j') |p|,  p = X - M_j:  call it K.
@@ -142,6 +143,8 @@ def lay_out(growth, pieces, place, h, last, sizes, before, after, motion):
         return False
     if place_chain(growth, pieces, place - h, last, sizes, after) < 0:
         return False
+    chain_rounding(growth, pieces, last, sizes, before)
+    chain_rounding(growth, pieces, last, sizes, after)
     if pieces.shape[0] > 0:
         return route_bounds(pieces, h, last, sizes, before, after, False, motion)
     return motion_bounds(growth, h, last, sizes, before, after, motion)
@@ -228,19 +231,11 @@ def pair_rounding(i, j, distance, sizes, before, after):
     )
 
 
-def worst_rounding(h, handles, margin, sizes, before, after, motion):
-    """pair_rounding() of any pair of benches before handle `handles` that is not far apart, or more [m]."""
-    widest = 0.0
-    fastest = 0.0
-    sway = 0.0
-    for k in range(handles):
-        widest = max(widest, sizes[k, RADIUS])
-        fastest = max(fastest, motion[k, CENTRE_SPEED])
-        sway = max(sway, max(before[k, SWAY], after[k, SWAY]))
-    widest = 4.0 * widest + margin + 4.0 * fastest * h
-    if sway > 0.1:
-        return FREE
-    return 2.0 * (8.0 * max(before[handles - 1, ERROR], after[handles - 1, ERROR]) + (2.0 * sway + 50.0 * ULP) * widest)
+def any_rounding(error, h, margin, ring):
+    """pair_rounding() of any pair that is not far apart, or more, from spiral_error() [m]; 0 if that does not serve."""
+    if error > 1e-3 * ring[ALL_SHORT]:
+        return 0.0
+    return 4.0 * error + (4.0 * error / ring[ALL_SHORT] + 60.0 * ULP) * (4.0 * ring[ALL_RADIUS] + margin + 4.0 * h)
 
 
 def axis_least(i, j, after_decides, bend, h, sizes, before, after):
@@ -252,49 +247,32 @@ def axis_least(i, j, after_decides, bend, h, sizes, before, after):
     return least_between(gap, gap_along(i, j, along, left, sizes, after), bend, h)
 
 
-def near(i, j, reach, h, sizes, before, motion):
-    """Largest distance of the centres of benches i and j over the interval [m]; FREE if they stay further apart than their
-    half diagonals and the reach."""
-    dx = before[j, MX] - before[i, MX]
-    dy = before[j, MY] - before[i, MY]
-    drift = (motion[i, CENTRE_SPEED] + motion[j, CENTRE_SPEED]) * h
-    square = dx * dx + dy * dy
-    far = sizes[i, RADIUS] + sizes[j, RADIUS] + reach + drift
-    return FREE if square > far * far else sqrt(square) + drift
+def pair_least(growth, i, j, margin, enough, distance, h, sizes, before, after, motion, out):
+    """A proven lower bound of the separation of benches i and j over the interval, but for rounding [m].
 
-
-def pair_least(growth, i, j, margin, rounding, distance, h, sizes, before, after, motion, out):
-    """A proven lower bound of the separation of benches i and j over the interval [m].
-
-    Tries axes until one exceeds the margin; out[0] is the bound K of the last one. distance: of near(); rounding: of
-    worst_rounding(); 0 for pair_rounding() alone
+    Tries axes until one exceeds what is enough, the margin and more; out[0] is the bound K of the last one. distance: no
+    further are their centres apart [m]
     """
-    if rounding <= 0.0:
-        rounding = pair_rounding(i, j, distance, sizes, before, after)
-    enough = margin + rounding
     out[0] = axis_bend(growth, j, i, distance, sizes, motion)
     best = axis_least(j, i, True, out[0], h, sizes, before, after)
     if best > enough:
-        return best - rounding
+        return best
     least = axis_least(j, i, False, out[0], h, sizes, before, after)
     if least > best:
         best = least
     if best > enough:
-        return best - rounding
+        return best
     out[0] = axis_bend(growth, i, j, distance, sizes, motion)
     least = axis_least(i, j, True, out[0], h, sizes, before, after)
     if least > best:
         best = least
     if best > enough:
-        return best - rounding
+        return best
     least = axis_least(i, j, False, out[0], h, sizes, before, after)
     if least > best:
         best = least
-    if best > enough:
-        return best - rounding
-    rounding = pair_rounding(i, j, distance, sizes, before, after)
-    if best > margin + rounding or margin <= 0.0:
-        return best - rounding
+    if best > enough or margin <= 0.0:
+        return best
     # two corners nearest each other: the direction between them, fixed in bench i
     row_separation(i, j, sizes, after, out[1:])
     turn_x = out[6] * after[i, UX] + out[7] * after[i, UY]
@@ -302,7 +280,7 @@ def pair_least(growth, i, j, margin, rounding, distance, h, sizes, before, after
     least = least_between(
         gap_along(i, j, turn_x, turn_y, sizes, before), gap_along(i, j, turn_x, turn_y, sizes, after), out[0], h
     )
-    return least - rounding if least > best else best - rounding
+    return least if least > best else best
 
 
 def interval_least(
@@ -314,7 +292,6 @@ def interval_least(
     [4] the least gap at the far end; the rest is scratch
     """
     edges = statics if statics >= 0 else -statics
-    error = max(before[handles - 1, ERROR], after[handles - 1, ERROR])
     best = FREE
     bend = 0.0
     room = FREE
@@ -325,6 +302,21 @@ def interval_least(
             return -FREE
     elif not motion_bounds(growth, h, handles, sizes, before, after, motion):
         return -FREE
+    # What points and gaps may be off by: roughly for all, where no handle had to be followed, or pair by pair.
+    error = 0.0
+    rounding = 0.0
+    if pieces.shape[0] == 0 and motion[handles, RATE_LOW] > 0.0:
+        error = spiral_error(growth, handles, ring[ALL_CHORD], before)
+        error = max(error, spiral_error(growth, handles, ring[ALL_CHORD], after))
+        rounding = any_rounding(error, h, margin, ring)
+    roughly = rounding > 0.0
+    filled = not roughly
+    if filled:
+        chain_rounding(growth, pieces, handles, sizes, before)
+        chain_rounding(growth, pieces, handles, sizes, after)
+        error = max(before[handles - 1, ERROR], after[handles - 1, ERROR])
+    # of centres; an edge at rest that is near has coordinates hardly larger than the bench, whose rounding ERROR covers
+    reach = margin * (1.0 + 1e-12) + 16.0 * error
     if handles < benches:  # those left out must stay outside the reach of the leaders
         high = before[active, THETA] if before[active, THETA] > after[active, THETA] else after[active, THETA]
         high *= growth
@@ -335,9 +327,6 @@ def interval_least(
         low = growth * low - error
         if low - drift(motion[handles - 1, HANDLE_SPEED], h, growth, low) < radius_beyond(growth, high + margin, ring):
             return -FREE
-    rounding = worst_rounding(h, handles, margin, sizes, before, after, motion) if statics == 0 else 0.0
-    # of centres; an edge at rest that is near has coordinates hardly larger than the bench, whose rounding ERROR covers
-    reach = margin * (1.0 + 1e-12) + 16.0 * error
     for i in range(active):
         far = FREE
         if pieces.shape[0] == 0:
@@ -353,10 +342,24 @@ def interval_least(
                 low = before[j, THETA] if before[j, THETA] < after[j, THETA] else after[j, THETA]
                 if growth * low - drift(motion[j, HANDLE_SPEED], h, growth, growth * low) - error > far:
                     break  # handles stand in order, so all further ones lie outside too
-            distance = near(i, j, reach, h, sizes, before, motion)
-            if distance >= FREE or (i == ring[LEFT_OUT] and j == ring[LEFT_OUT_TOO]):
+            dx = before[j, MX] - before[i, MX]
+            dy = before[j, MY] - before[i, MY]
+            distance = (motion[i, CENTRE_SPEED] + motion[j, CENTRE_SPEED]) * h
+            square = dx * dx + dy * dy
+            width = sizes[i, RADIUS] + sizes[j, RADIUS] + reach + distance
+            if square > width * width or (i == ring[LEFT_OUT] and j == ring[LEFT_OUT_TOO]):
                 continue
-            least = pair_least(growth, i, j, margin, rounding, distance, h, sizes, before, after, motion, out)
+            distance += sqrt(square)
+            least = rounding if roughly else pair_rounding(i, j, distance, sizes, before, after)
+            least = pair_least(growth, i, j, margin, margin + least, distance, h, sizes, before, after, motion, out)
+            if roughly and not (margin < least <= margin + rounding):
+                least -= rounding
+            else:
+                if not filled:
+                    chain_rounding(growth, pieces, handles, sizes, before)
+                    chain_rounding(growth, pieces, handles, sizes, after)
+                    filled = True
+                least -= pair_rounding(i, j, distance, sizes, before, after)
             width = 8.0 * (least - margin) / out[0] + h * h
             width = sqrt(width) if width > 0.0 else 0.0
             if width < room:
@@ -392,16 +395,14 @@ def strip_along(i, j, along, left, bends, widths, sizes, before, after, before_h
 
 
 def strip_pair(
-    low, high, i, j, distance, margin, h_low, h_high, sizes, before, after, before_high, after_high, motion,
+    low, high, i, j, distance, margin, enough, h_low, h_high, sizes, before, after, before_high, after_high, motion,
     motion_high, shifts, out
 ):  # fmt: skip
-    """A proven lower bound of the separation of benches i and j over a rectangle of (r_0, b) [m].
+    """A proven lower bound of the separation of benches i and j over a rectangle of (r_0, b), but for rounding [m].
 
-    distance: no further are their centres apart [m]; out[0]: the bend along the path of the last axis tried
+    enough: as for pair_least(); distance: no further are their centres apart [m]; out[0]: the bend along the path of the last axis tried
     """
     best = -FREE
-    rounding = pair_rounding(i, j, distance, sizes, before, after)
-    rounding = max(rounding, pair_rounding(i, j, distance, sizes, before_high, after_high))
     bends: tuple[cython.double, cython.double, cython.double]
     widths: tuple[cython.double, cython.double, cython.double, cython.double] = (
         h_low,
@@ -427,9 +428,9 @@ def strip_pair(
         out[0] = bends[0]
         least, along, left = best_axis(a, b, sizes, after if trial % 2 == 0 else after_high)
         least = strip_along(a, b, along, left, bends, widths, sizes, before, after, before_high, after_high)
-        if least - rounding > best:
-            best = least - rounding
-        if best > margin:
+        if least > best:
+            best = least
+        if best > enough:
             return best
     if margin <= 0.0:
         return best
@@ -438,7 +439,7 @@ def strip_pair(
     along = out[6] * after[i, UX] + out[7] * after[i, UY]
     left = out[7] * after[i, UX] - out[6] * after[i, UY]
     least = strip_along(i, j, along, left, bends, widths, sizes, before, after, before_high, after_high)
-    return least - rounding if least - rounding > best else best
+    return least if least > best else best
 
 
 def strip_least(
@@ -446,7 +447,12 @@ def strip_least(
     motion_high, shifts, out
 ):  # fmt: skip
     """interval_least() over a rectangle of (r_0, b), of pairs led by the first `leaders` benches; out: [1] to [3]."""
-    error = max(after[handles - 1, ERROR], before_high[handles - 1, ERROR])
+    error = max(spiral_error(low, handles, ring[ALL_CHORD], after), spiral_error(high, handles, ring[ALL_CHORD], after_high))
+    error = max(error, spiral_error(high, handles, ring[ALL_CHORD], before_high))
+    rounding = any_rounding(error, max(h_low, h_high), margin, ring)
+    filled = False
+    if rounding <= 0.0:
+        return -FREE
     best = FREE
     room = FREE
     a = 0
@@ -462,13 +468,27 @@ def strip_least(
             distance = sqrt(dx * dx + dy * dy)
             slack = (motion[i, CENTRE_SPEED] + motion[j, CENTRE_SPEED]) * h_low
             slack += (shifts[i, SHIFT_CENTRE] + shifts[j, SHIFT_CENTRE]) * (high - low) * (1.0 + STRIP_ROUNDING)
-            slack += 4.0 * (before[j, ERROR] + after[j, ERROR] + before_high[j, ERROR] + after_high[j, ERROR])
+            slack += 16.0 * error
             if distance - slack > (sizes[i, RADIUS] + sizes[j, RADIUS] + margin) * (1.0 + 1e-12):
                 continue  # far apart
+            distance += slack
             least = strip_pair(
-                low, high, i, j, distance + slack, margin, h_low, h_high, sizes, before, after, before_high,
+                low, high, i, j, distance, margin, margin + rounding, h_low, h_high, sizes, before, after, before_high,
                 after_high, motion, motion_high, shifts, out,
             )  # fmt: skip
+            if not (margin < least <= margin + rounding):
+                least -= rounding
+            else:
+                if not filled:
+                    spiral_rounding(low, handles, sizes, before)
+                    spiral_rounding(low, handles, sizes, after)
+                    spiral_rounding(high, handles, sizes, before_high)
+                    spiral_rounding(high, handles, sizes, after_high)
+                    filled = True
+                least -= max(
+                    pair_rounding(i, j, distance, sizes, before, after),
+                    pair_rounding(i, j, distance, sizes, before_high, after_high),
+                )
             if least < best:
                 best = least
                 a = i

@@ -60,6 +60,12 @@ cdef Py_ssize_t extend_route(
     double[:, ::1] chain
 ) noexcept nogil
 
-cdef void finish_link(
-    Py_ssize_t k, double chord, double missed, double moved, double spots, double[:, ::1] chain
+cdef void finish_link(Py_ssize_t k, double chord, double[:, ::1] chain) noexcept nogil
+
+@cython.locals(k=cython.Py_ssize_t)
+cpdef void route_rounding(
+    const double[:, ::1] pieces, Py_ssize_t last, double[:, ::1] sizes, double[:, ::1] chain
 ) noexcept nogil
+
+@cython.locals(p=cython.Py_ssize_t)
+cdef double chain_spot(const double[:, ::1] pieces, Py_ssize_t k, double[:, ::1] chain) noexcept nogil

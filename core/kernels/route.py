@@ -141,7 +141,6 @@ def start_route(pieces, s, chain):
     chain[0, PLACE] = -s
     chain[0, PIECE] = p
     chain[0, RATE] = 1.0
-    chain[0, SLIP] = 0.0
     set_piece_theta(pieces, p, 0, chain)
 
 
@@ -154,11 +153,9 @@ def start_route(pieces, s, chain):
 #   arc      cos and sin 2 u each, a product, the sum:                            u (|x| + |y| + 5 radius)
 #   spiral   the same, growth theta, and theta + rotation to u unless that is 0:  u (|x| + |y| + r (6 + |angle|))
 #   cubic    the sum of |c_k| end^k, k >= 1, of both coordinates =: C:            u (|x| + |y| + 12 C)
-# From link to link:
-#   by the equation of the spiral, as in spiral.py, but theta itself is rounded, a displacement of growth length u theta:
-#            local = 7 u chord / cos alpha_b + growth length u (2.5 delta + 0.05 + theta_b)
-#   by iteration the distance of the computed points misses the chord by what is seen, however the iteration ended, and
-#            the points' own errors: local = (|distance - chord| + (E - SLIP)[a] + (E - SLIP)[b] + 4 u chord) / cos alpha_b
+# From link to link the distance of the computed points misses the chord by what is seen, however the search for it
+# ended, and by the points' own errors:
+#     local = (|distance - chord| + (E - SLIP)[a] + (E - SLIP)[b] + 8 u chord) / cos alpha_b.
 # A place that is rounded beyond a joint stands on the piece before it, produced by as little: its point is off by the
 # square of that.
 # The head's double is not quite that of its s: slide_error() below, an error of the travel, not of the shape.
@@ -270,15 +267,12 @@ def extend_route(pieces, first, last, calm, sizes, chain):
 
     returns: last, or where calm > 0 a handle before it that stands on the first piece
     """
-    p = cython.cast(cython.Py_ssize_t, chain[first, PIECE])
-    spot = spot_error(pieces, p, -chain[first, PLACE], chain[first, PIECE_THETA], chain[first, PX], chain[first, PY])
     for k in range(first, last):
         if calm > 0.0 and chain[k, PIECE] <= 0.0:
             return k
         s = -chain[k, PLACE]
         p = cython.cast(cython.Py_ssize_t, chain[k, PIECE])
         chord = sizes[k, CHORD]
-        spot_a = spot
         low = chord
         high = 0.5 * PI * chord
         step = chord
@@ -307,13 +301,7 @@ def extend_route(pieces, first, last, calm, sizes, chain):
                     ) = spiral_point(pieces, p, fabs(theta + delta))
                     chain[k + 1, PLACE] = step - s
                     chain[k + 1, PIECE] = p
-                    theta = fabs(theta + delta)
-                    spot = spot_error(pieces, p, s - step, theta, chain[k + 1, PX], chain[k + 1, PY])
-                    distance = pieces[p, 7] * sqrt(1.0 + theta * theta) * (2.5 * delta + 0.05 + theta)
-                    arc = 7.0 * ULP * chord
-                    if s - step < pieces[p, S_START] + BLEND or s > pieces[p, S_END] - BLEND:
-                        arc += 2.0 * pieces[p, LOOSE]
-                    finish_link(k, chord, arc, ULP * distance, spot_a + spot, chain)
+                    finish_link(k, chord, chain)
                     continue
         for i in range(80):
             if not (low <= step <= high):
@@ -339,28 +327,46 @@ def extend_route(pieces, first, last, calm, sizes, chain):
         chain[k + 1, PLACE] = step - s
         chain[k + 1, PIECE] = p
         set_piece_theta(pieces, p, k + 1, chain)
-        spot = spot_error(pieces, p, s - step, chain[k + 1, PIECE_THETA], chain[k + 1, PX], chain[k + 1, PY])
-        finish_link(k, chord, fabs(distance - chord) + spot_a + spot + 4.0 * ULP * chord, 0.0, spot_a + spot, chain)
+        finish_link(k, chord, chain)
     return last
 
 
-def finish_link(k, chord, missed, moved, spots, chain):
-    """Bench k between its placed handles, the rate of the rear one by the rigid link, and rounding.
-
-    missed: by how much the chord may be [m]; moved: where else the rear handle is displaced [m]; spots: E - SLIP of both
-    """
+def finish_link(k, chord, chain):
+    """Bench k between its placed handles, and the rate of the rear one by the rigid link."""
     ux = (chain[k, PX] - chain[k + 1, PX]) / chord
     uy = (chain[k, PY] - chain[k + 1, PY]) / chord
     chain[k, MX] = 0.5 * (chain[k, PX] + chain[k + 1, PX])
     chain[k, MY] = 0.5 * (chain[k, PY] + chain[k + 1, PY])
     chain[k, UX] = ux
     chain[k, UY] = uy
-    slope = 1.0 / (chain[k + 1, TX] * ux + chain[k + 1, TY] * uy)
-    ratio = (chain[k, TX] * ux + chain[k, TY] * uy) * slope
-    chain[k + 1, RATE] = chain[k, RATE] * ratio
-    local = missed * slope + moved
-    slope = slipped(chain[k, SLIP], ratio, slope, local, spots, 1.0 / chord)
-    chain[k + 1, SLIP] = slope
-    slope += spots
-    chain[k, ERROR] = slope if k == 0 else max(slope, chain[k - 1, ERROR])
-    chain[k, SWAY] = swayed(k, chain, ratio, local, spots, 1.0 / chord)
+    chain[k + 1, RATE] = (
+        chain[k, RATE] * (chain[k, TX] * ux + chain[k, TY] * uy) / (chain[k + 1, TX] * ux + chain[k + 1, TY] * uy)
+    )
+
+
+def route_rounding(pieces, last, sizes, chain):
+    """Fills in SLIP, ERROR and SWAY of a chain up to handle `last`."""
+    spot = chain_spot(pieces, 0, chain)
+    chain[0, SLIP] = 0.0
+    for k in range(last):
+        chord = sizes[k, CHORD]
+        inverse = 1.0 / chord
+        spots = spot
+        spot = chain_spot(pieces, k + 1, chain)
+        spots += spot
+        slope = 1.0 / (chain[k + 1, TX] * chain[k, UX] + chain[k + 1, TY] * chain[k, UY])
+        ratio = (chain[k, TX] * chain[k, UX] + chain[k, TY] * chain[k, UY]) * slope
+        # u is the difference of the points over the chord, so its length tells their distance
+        local = chain[k, UX] * chain[k, UX] + chain[k, UY] * chain[k, UY]
+        local = (chord * (fabs(sqrt(local) - 1.0) + 8.0 * ULP) + spots) * slope
+        chain[k + 1, SLIP] = slipped(chain[k, SLIP], ratio, slope, local, spots, inverse)
+        chain[k, ERROR] = chain[k + 1, SLIP] + spots
+        if k > 0:
+            chain[k, ERROR] = max(chain[k, ERROR], chain[k - 1, ERROR])
+        chain[k, SWAY] = swayed(k, chain, ratio, local, spots, inverse)
+
+
+def chain_spot(pieces, k, chain):
+    """spot_error() of handle k."""
+    p = cython.cast(cython.Py_ssize_t, chain[k, PIECE])
+    return spot_error(pieces, p, -chain[k, PLACE], chain[k, PIECE_THETA], chain[k, PX], chain[k, PY])

@@ -445,14 +445,43 @@ def extend_chain(growth, first, last, radius, sizes, chain):
         chain[k, MY] = 0.5 * (y + s)
         chain[k, UX] = (x - c) * inverse
         chain[k, UY] = (y - s) * inverse
-        slope = 1.0 / (chain[k + 1, TX] * chain[k, UX] + chain[k + 1, TY] * chain[k, UY])
-        ratio = (chain[k, TX] * chain[k, UX] + chain[k, TY] * chain[k, UY]) * slope
-        chain[k + 1, RATE] = chain[k, RATE] * ratio
-        turned = ULP * (k + 5.0 + 12.0 * (theta - chain[0, THETA]))
-        radius_b = growth * theta
-        local = ULP * (7.0 * chord * slope + growth * length * (2.5 * delta + 0.05))
-        chain[k + 1, SLIP] = slipped(chain[k, SLIP], ratio, slope, local, 2.0 * radius_b * turned, inverse)
-        chain[k, ERROR] = chain[k + 1, SLIP] + radius_b * turned
-        chain[k, SWAY] = turned + swayed(k, chain, ratio, local, radius_b * ULP * (7.0 + 12.0 * delta), inverse)
+        chain[k + 1, RATE] = (
+            chain[k, RATE]
+            * (chain[k, TX] * chain[k, UX] + chain[k, TY] * chain[k, UY])
+            / (chain[k + 1, TX] * chain[k, UX] + chain[k + 1, TY] * chain[k, UY])
+        )
         k += 1
     return k
+
+
+def spiral_rounding(growth, last, sizes, chain):
+    """Fills in SLIP, ERROR and SWAY of a chain up to handle `last`."""
+    chain[0, SLIP] = 0.0
+    for k in range(last):
+        chord = sizes[k, CHORD]
+        inverse = 1.0 / chord
+        theta = chain[k + 1, THETA]
+        delta = theta - chain[k, THETA]
+        slope = 1.0 / (chain[k + 1, TX] * chain[k, UX] + chain[k + 1, TY] * chain[k, UY])
+        ratio = (chain[k, TX] * chain[k, UX] + chain[k, TY] * chain[k, UY]) * slope
+        turned = ULP * (k + 5.0 + 12.0 * (theta - chain[0, THETA]))
+        local = ULP * (7.0 * chord * slope + growth * sqrt(1.0 + theta * theta) * (2.5 * delta + 0.05))
+        theta *= growth
+        chain[k + 1, SLIP] = slipped(chain[k, SLIP], ratio, slope, local, 2.0 * theta * turned, inverse)
+        chain[k, ERROR] = chain[k + 1, SLIP] + theta * turned
+        chain[k, SWAY] = turned + swayed(k, chain, ratio, local, theta * ULP * (7.0 + 12.0 * delta), inverse)
+
+
+# Where no angle between a tangent and a chord exceeds asin(BEND_LIMIT), out from near the centre, cos alpha_b >= 0.243
+# and the ratios are at most 1 (bounds.py), so after n links with chords up to c, at r = r[n], with growth length <= r +
+# growth and nu small (E below 1e-3 of the shortest chord), the sums above are at most
+#     E = u (32 n c + (r + growth) (16 (theta[n] - theta[0]) + 1.1 n + 5)),  SWAY <= 2 E / shortest + 8 u,
+# without a look at the chain: enough for all but the few pairs that come near the margin.
+
+
+def spiral_error(growth, last, longest, chain):
+    """E above, for the handles up to `last` [m]."""
+    theta = chain[last, THETA]
+    return ULP * (
+        32.0 * last * longest + growth * (theta + 1.0) * (16.0 * (theta - chain[0, THETA]) + 1.1 * last + 5.0)
+    )

@@ -9,7 +9,7 @@ if not cython.compiled:  # for the compiler the same stands in the .pxd
     from core.kernels.constants import *
     from core.kernels.pairs import strip_least
     from core.kernels.rings import leaders_reach, radius_beyond
-    from core.kernels.spiral import extend_chain, spiral_arc, spiral_theta, start_chain
+    from core.kernels.spiral import extend_chain, spiral_arc, spiral_error, spiral_theta, start_chain
 
 # The separation of two benches is now a function of the head's radius r_0 and of the growth b. Below, ' is d / db at a
 # fixed r_0, seen in the frame in which the head stands at angle 0: handle k stands at rho = r_0 + b psi, angle psi,
@@ -159,9 +159,9 @@ def strip(
             start_chain(next_radius / low, after)
             start_chain(next_radius / high, after_high)
             extend_chain(low, 0, leaders, FREE, sizes, after)
-            beyond = 2.0 * before_high[leaders - 1, ERROR]
-            beyond = leaders_reach(high, next_radius, high * before_high[leaders, THETA] + beyond, ring) + margin
-            beyond = radius_beyond(high, beyond, ring) + 2.0 * before_high[leaders - 1, ERROR]
+            slack = 2.0 * spiral_error(high, leaders, ring[ALL_CHORD], before_high)
+            beyond = leaders_reach(high, next_radius, high * before_high[leaders, THETA] + slack, ring) + margin
+            beyond = radius_beyond(high, beyond, ring) + slack
             handles = extend_chain(low, leaders, cap, beyond, sizes, after)
             if handles < 0:
                 return STUCK
