@@ -48,10 +48,9 @@ NO_PIECES = np.empty((0, kernels.PIECE_COLUMNS))
 NO_GRAZE = 1e150
 # A march leaves out no pair.
 NO_PAIR = (-1.0, -1.0)
-# What the ring bound may be off by, of the lengths in it [1]: sums, products and roots, 64 of them at most, with d^2 =
-# radius^2 - foot^2 good to 4 u radius^2 and d > 2 growth, or for long chords d^2 far less than radius^2 only where the bows,
-# falling with d, are so large that the bound says nothing.
-RING_ROUNDING = 1e-12
+# What the ring bound may be off by, of the lengths in it [1]: at most 64 sums, products and roots, with d^2 = radius^2 -
+# foot^2 at least a thousandth of radius^2 (core/kernels/rings.py), so that d is good to 2,000 u.
+RING_ROUNDING = 1e-11
 
 
 class Search:
@@ -148,7 +147,11 @@ class Search:
     def ring_least(self, radius: float) -> float:
         """Lower bound of the separation of pairs whose inner bench leads at this radius or further out [m]."""
         least = float(kernels.ring_least(self.growth, self.growth, radius, *self.ring_extremes))
-        return least - RING_ROUNDING * (radius + 2.0 * math.pi * self.growth + self.longest)
+        return least - self.ring_rounding(radius, self.growth)
+
+    def ring_rounding(self, radius: float, growth: float) -> float:
+        """What kernels.ring_least() may be off by for growths up to this one [m]."""
+        return RING_ROUNDING * (radius + 2.0 * math.pi * growth + float(self.longest))
 
     @cached_property
     def ring_extremes(self) -> tuple[float, ...]:
@@ -332,7 +335,16 @@ class Search:
         """Is the clearance after a travel more than what is left of the motion to the fold can use up?"""
         if self.dragon.benches < 3:
             return True
-        return self.clearance(travel)[0] > self.margin + self.motion_left(travel, end)
+        left = self.margin + self.motion_left(travel, end)
+        return self.clearance(travel)[0] > left + self.gap_rounding(travel, left)
+
+    def gap_rounding(self, travel: float, within: float) -> float:
+        """What gaps of up to `within` [m] may be off by after a travel, see core/kernels/pairs.py [m]."""
+        self.place_leaders(travel, self.room)
+        kernels.chain_rounding(self.growth, self.pieces, self.room, self.sizes, self.rows[0])
+        error, sway = self.rows[0, : self.room, kernels.ERROR].max(), self.rows[0, : self.room, kernels.SWAY].max()
+        reach = 4.0 * float(self.ring[9]) + within
+        return float(2.0 * (2.0 * error + (2.0 * sway + 50.0 * kernels.ULP) * reach))
 
     def motion_left(self, travel: float, end: RunEnd) -> float:
         """Bound on how far any two points of two benches approach each other from a travel to the fold [m].

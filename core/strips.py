@@ -13,8 +13,8 @@ from core import kernels
 from core.paths import Spiral
 from core.search import NO_BOUND, NO_PIECES, TRAVEL_ROUNDING, Search
 
-# Half width of the bracket around the border of what is feasible [m of pitch]: a graze this far above its border must exceed
-# what gaps are proven good to, 3e-13 m for benches 0 and 19 of the default (pair_rounding()).
+# Half width of the bracket around the border of what is feasible [m of pitch]: a graze this far above its border must
+# exceed what gaps are proven good to, 3e-13 m for benches 0 and 19 of the default (pair_rounding()).
 BORDER_WIDTH = 5e-13
 # A strip narrower than this that is neither proven nor touched ends the descent [m of pitch].
 STRIP_MIN = 1e-11
@@ -59,7 +59,8 @@ class Strips:
 
     def ring_clears(self, low: float, high: float, radius: float) -> bool:
         """Does the ring bound clear all from a head radius outwards for all growths in [low, high]?"""
-        return float(kernels.ring_least(low, high, radius, *self.search.ring_extremes, self.total)) > self.margin
+        least = float(kernels.ring_least(low, high, radius, *self.search.ring_extremes, self.total))
+        return least > self.margin + self.search.ring_rounding(radius, high)
 
     def _make_room(self, benches: int) -> None:
         self.rows = np.zeros((4, benches + 1, kernels.CHAIN_COLUMNS))

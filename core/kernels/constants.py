@@ -38,7 +38,8 @@ SLIP = 14
 # and how far from its true point any of the two handles of the bench behind it [m]
 ERROR = 15
 SWAY = 16  # and how far its direction from the true one [1]
-CHAIN_COLUMNS = 17
+FILLED = 17  # in row 0: up to which handle
+CHAIN_COLUMNS = 18
 
 # Columns of a motion row, one for each bench: bounds over an interval.
 CENTRE_SPEED = 0
@@ -60,7 +61,9 @@ RATE_JERK = 14  # |s'''| on a route, where no handle up to it crosses into anoth
 CURVATURE_LOW = 15  # on a spiral, times its growth
 CURVATURE_HIGH = 16
 CROSSED = 17  # how many joints between the parts of a route the handles up to it cross, all told
-RATE_ERROR = 18  # rounding of RATE [1] and of CLIMB [1/m] at either end of the interval, on a route where climbs() was asked
+RATE_ERROR = (
+    18  # rounding of RATE [1] and of CLIMB [1/m] at either end of the interval, on a route where climbs() was asked
+)
 CLIMB_ERROR = 19
 MOTION_COLUMNS = 20
 

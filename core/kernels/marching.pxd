@@ -12,6 +12,8 @@ cdef double LEAST_WAY
 cdef double ALLOWANCE
 cdef double CROSSING_WIDTH
 cdef double WIDTH_ROUNDING
+cdef double PASSED_BY
+cdef double PEEK
 
 @cython.locals(k=cython.Py_ssize_t)
 cdef Py_ssize_t chain_between(

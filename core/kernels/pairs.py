@@ -24,13 +24,12 @@ if not cython.compiled:  # for the compiler the same stands in the .pxd
 # A function with |g''| <= K stays above its chord minus K x (h - x) / 2, so its least value follows from both ends:
 # two benches do not touch on [L, R] if that exceeds the margin for one axis. No step size is guessed.
 #
-# Rounding. The centre of bench i is the mean of two handles, each good to E_i = ERROR, its direction is good to W_i =
+# Rounding. The centre of bench i is the mean of two handles, each good to E_i = ERROR; its direction is good to W_i =
 # SWAY. So a gap along an axis fixed in bench i, and the separation of two benches, is good to
-#     G = E_i + E_j + u (|M_i| + |M_j|) + W_i (D + rho_j) + W_j (D + rho_i) + 40 u (D + rho_i + rho_j),  D = |M_j - M_i|,
-# as each corner of j is within rho_j of M_j, and so within D + rho_j of M_i. (Where D is the smaller, corners of the
-# longer bench need rho of its own: D + rho_i + rho_j serves always.) The last term has room for the operations of
-# gap_along() and pair_gap(), fewer than 32 on sizes in all, and for a corner axis whose length is 1 +- 8 u. An interval
-# proves nothing unless what it leaves exceeds the margin by G.
+#     G = E_i + E_j + u (|M_i| + |M_j| + D) + (W_i + W_j + 40 u) (D + rho_i + rho_j),  D = |M_j - M_i|,
+# as each corner of j is within rho_j of M_j, and within D + rho_j of M_i. The last term has room for the operations of
+# gap_along(), pair_gap() and least_between(), fewer than 32 on lengths up to D + rho_i + rho_j in all, and for a corner
+# axis whose length is 1 +- 8 u. An interval proves nothing unless what it leaves exceeds the margin by G.
 
 
 def row_separation(i, j, sizes, chain, out):
@@ -170,14 +169,14 @@ def pair_bends(growth, pieces, place, h, a, b, sizes, rows, motion, out):
 # Within the margin for certain. Over an interval too short to matter, so that both benches hardly move:
 #   any points of the two approach or part by no more than their speeds together, so no separation, nor depth, exceeds
 #   the mean of those at both ends by more than half of that times h;
-#   the coordinates p, q of a corner X of j in the frame of i are gaps along axes fixed in i, so |p| stays below the larger
-#   of its ends plus K h^2 / 8. Where both stay within i's half length and width X lies in i all along; else X is no
-#   further from i than the two excesses make it.
+#   the coordinates p, q of a corner X of j in the frame of i are gaps along axes fixed in i, so |p| stays below the
+#   larger of its ends plus K h^2 / 8. Where both stay within i's half length and width X lies in i all along; else X is
+#   no further from i than the two excesses make it.
 # The first serves benches that overlap deep or without a corner, the second ones that touch, slowly too.
 
 
 def corner_most(i, j, bend, h, sizes, before, after):
-    """No more than this lies between bench i and the nearest corner of bench j over an interval; inside, 0 or less [m]."""
+    """No more than this lies between bench i and a corner of bench j over an interval; 0 or less: inside [m]."""
     best = FREE
     for corner in range(4):
         length = sizes[j, HALF_LENGTH] if corner < 2 else -sizes[j, HALF_LENGTH]
@@ -220,7 +219,7 @@ def pair_most(growth, pieces, place, h, a, b, benches, sizes, before, after, mot
 
 
 def pair_rounding(i, j, distance, sizes, before, after):
-    """G above: computed gaps of benches i and j at either end are off by no more than this [m]; distance: of centres."""
+    """G above: computed gaps of two benches at either end are off by no more than this [m]; distance: of centres."""
     around = fabs(before[i, MX]) + fabs(before[i, MY]) + fabs(before[j, MX]) + fabs(before[j, MY]) + distance
     turned = max(before[i, SWAY], after[i, SWAY]) + max(before[j, SWAY], after[j, SWAY])
     return (
@@ -235,7 +234,9 @@ def any_rounding(error, h, margin, ring):
     """pair_rounding() of any pair that is not far apart, or more, from spiral_error() [m]; 0 if that does not serve."""
     if error > 1e-3 * ring[ALL_SHORT]:
         return 0.0
-    return 4.0 * error + (4.0 * error / ring[ALL_SHORT] + 60.0 * ULP) * (4.0 * ring[ALL_RADIUS] + margin + 4.0 * h)
+    return 4.0 * error + (4.0 * error / ring[ALL_SHORT] + 60.0 * ULP) * (
+        4.0 * ring[ALL_RADIUS] + fabs(margin) + 4.0 * h
+    )
 
 
 def axis_least(i, j, after_decides, bend, h, sizes, before, after):
@@ -250,8 +251,8 @@ def axis_least(i, j, after_decides, bend, h, sizes, before, after):
 def pair_least(growth, i, j, margin, enough, distance, h, sizes, before, after, motion, out):
     """A proven lower bound of the separation of benches i and j over the interval, but for rounding [m].
 
-    Tries axes until one exceeds what is enough, the margin and more; out[0] is the bound K of the last one. distance: no
-    further are their centres apart [m]
+    Tries axes until one exceeds what is enough, the margin and more; out[0] is the bound K of the last one.
+    distance: no further are their centres apart [m]
     """
     out[0] = axis_bend(growth, j, i, distance, sizes, motion)
     best = axis_least(j, i, True, out[0], h, sizes, before, after)
@@ -400,7 +401,8 @@ def strip_pair(
 ):  # fmt: skip
     """A proven lower bound of the separation of benches i and j over a rectangle of (r_0, b), but for rounding [m].
 
-    enough: as for pair_least(); distance: no further are their centres apart [m]; out[0]: the bend along the path of the last axis tried
+    enough: as for pair_least(); distance: no further are their centres apart [m]; out[0]: the bend along the path of
+    the last axis tried
     """
     best = -FREE
     bends: tuple[cython.double, cython.double, cython.double]
@@ -447,7 +449,9 @@ def strip_least(
     motion_high, shifts, out
 ):  # fmt: skip
     """interval_least() over a rectangle of (r_0, b), of pairs led by the first `leaders` benches; out: [1] to [3]."""
-    error = max(spiral_error(low, handles, ring[ALL_CHORD], after), spiral_error(high, handles, ring[ALL_CHORD], after_high))
+    error = max(
+        spiral_error(low, handles, ring[ALL_CHORD], after), spiral_error(high, handles, ring[ALL_CHORD], after_high)
+    )
     error = max(error, spiral_error(high, handles, ring[ALL_CHORD], before_high))
     rounding = any_rounding(error, max(h_low, h_high), margin, ring)
     filled = False

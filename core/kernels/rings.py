@@ -64,6 +64,9 @@ def leaders_reach(growth, lead, rear, ring):
 # bound holds from r outwards.
 
 
+# d^2 is a difference: where it is less than this part of radius^2 nothing is said, so that rounding stays small [1].
+DISCERNED = 1e-3
+
 # For a range of growths: G is concave in growth (its only curved terms are -growth^2 and -sqrt(1 + growth^2 /
 # rho^2)), so it is at least the lesser of its values at both ends; everything else falls with growth.
 
@@ -81,7 +84,7 @@ def ring_least(
     d2 = radius * radius - foot * foot
     gap = FREE
     at = growth_low
-    if d2 <= 0.0 or radius * radius < 1.5708 * chord * growth:
+    if d2 <= DISCERNED * radius * radius or radius * radius < 1.5708 * chord * growth:
         return -FREE
     d = sqrt(d2)
     rho = d - (half_width if half_width > outer_half_width else outer_half_width)

@@ -62,7 +62,7 @@ cdef Py_ssize_t extend_route(
 
 cdef void finish_link(Py_ssize_t k, double chord, double[:, ::1] chain) noexcept nogil
 
-@cython.locals(k=cython.Py_ssize_t)
+@cython.locals(k=cython.Py_ssize_t, first=cython.Py_ssize_t)
 cpdef void route_rounding(
     const double[:, ::1] pieces, Py_ssize_t last, double[:, ::1] sizes, double[:, ::1] chain
 ) noexcept nogil

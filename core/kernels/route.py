@@ -141,6 +141,7 @@ def start_route(pieces, s, chain):
     chain[0, PLACE] = -s
     chain[0, PIECE] = p
     chain[0, RATE] = 1.0
+    chain[0, FILLED] = chain[0, SLIP] = 0.0
     set_piece_theta(pieces, p, 0, chain)
 
 
@@ -219,11 +220,11 @@ def piece_end(pieces, p, s):
 
 
 def joint_misses(pieces, out):
-    """By how much every piece misses the one before it at most: across and along the path [m], in direction [rad] and in
+    """By how much every piece misses the one before it at most: across and along the path [m], direction [rad],
     curvature [1/m]. out: (rows, 4), of which the first row is left alone
 
-    A tangent is good to 10 u, and to u |angle| more on a turned spiral; on a cubic to 15 u C / (|r'| end), its curvature
-    to 72 u (C / (|r'| end))^2 / C.
+    A tangent is good to 10 u, and to u |angle| more on a turned spiral; on a cubic to 15 u C / (|r'| end), where
+    curvature is good to 72 u (C / (|r'| end))^2 / C.
     """
     for p in range(1, pieces.shape[0]):
         s = pieces[p, S_START]
@@ -346,9 +347,9 @@ def finish_link(k, chord, chain):
 
 def route_rounding(pieces, last, sizes, chain):
     """Fills in SLIP, ERROR and SWAY of a chain up to handle `last`."""
-    spot = chain_spot(pieces, 0, chain)
-    chain[0, SLIP] = 0.0
-    for k in range(last):
+    first = cython.cast(cython.Py_ssize_t, chain[0, FILLED])
+    spot = chain_spot(pieces, first, chain)
+    for k in range(first, last):
         chord = sizes[k, CHORD]
         inverse = 1.0 / chord
         spots = spot
@@ -356,14 +357,15 @@ def route_rounding(pieces, last, sizes, chain):
         spots += spot
         slope = 1.0 / (chain[k + 1, TX] * chain[k, UX] + chain[k + 1, TY] * chain[k, UY])
         ratio = (chain[k, TX] * chain[k, UX] + chain[k, TY] * chain[k, UY]) * slope
-        # u is the difference of the points over the chord, so its length tells their distance
+        # u is the difference of the points over the chord; | |u| - 1 | <= 0.6 | |u|^2 - 1 | unless all is lost anyway
         local = chain[k, UX] * chain[k, UX] + chain[k, UY] * chain[k, UY]
-        local = (chord * (fabs(sqrt(local) - 1.0) + 8.0 * ULP) + spots) * slope
+        local = (chord * (0.6 * fabs(local - 1.0) + 8.0 * ULP) + spots) * slope
         chain[k + 1, SLIP] = slipped(chain[k, SLIP], ratio, slope, local, spots, inverse)
         chain[k, ERROR] = chain[k + 1, SLIP] + spots
         if k > 0:
             chain[k, ERROR] = max(chain[k, ERROR], chain[k - 1, ERROR])
         chain[k, SWAY] = swayed(k, chain, ratio, local, spots, inverse)
+    chain[0, FILLED] = max(first, last)
 
 
 def chain_spot(pieces, k, chain):

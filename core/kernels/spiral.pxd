@@ -69,7 +69,7 @@ cpdef Py_ssize_t extend_chain(
     double growth, Py_ssize_t first, Py_ssize_t last, double radius, double[:, ::1] sizes, double[:, ::1] chain
 ) noexcept nogil
 
-@cython.locals(k=cython.Py_ssize_t)
+@cython.locals(k=cython.Py_ssize_t, first=cython.Py_ssize_t)
 cpdef void spiral_rounding(double growth, Py_ssize_t last, double[:, ::1] sizes, double[:, ::1] chain) noexcept nogil
 
 cdef double spiral_error(double growth, Py_ssize_t last, double longest, double[:, ::1] chain) noexcept nogil

@@ -336,7 +336,7 @@ def start_chain(theta, chain):
     chain[0, THETA] = theta
     chain[0, REST] = 0.0
     chain[0, RATE] = 1.0
-    chain[0, SLIP] = 0.0
+    chain[0, FILLED] = chain[0, SLIP] = 0.0
 
 
 # Rounding. u = ULP is the unit of rounding: each operation and square root errs by a factor within 1 +- u, each sin and
@@ -351,11 +351,11 @@ def start_chain(theta, chain):
 # by T_b . u = cos alpha_b for each metre that b falls back, f_delta = 2 (chord / growth) length cos alpha_b with length
 # = sqrt(1 + theta_b^2): b is displaced by growth length 14 u chord^2 / (growth^2 f_delta) = 7 u chord / cos alpha_b.
 # Halley: with w = f f_delta_delta / f_delta^2 the residual after a step is f_delta step w^2 / 4 (1 +- w) and
-# f_delta_delta_delta step^3 / 6. |w| <= HALLEY_STEP =: q, |step| <= q delta. From h'' above |f_delta_delta_delta| delta^2
-# / (6 f_delta) <= (3 theta + theta (theta + delta) sin delta) delta^2 / (6 h) <= pi^2 / 4 + pi^2 / 6, for h >= delta +
-# theta (1 - cos delta) >= theta delta^2 2 / pi^2: so delta is off by at most q^3 delta (1/4 + 4.2) = 3.6e-17 delta.
-# The bisection of first_root() ends in a bracket of 2 pi / 2^60 = 0.05 u. Rounding of delta itself, of its steps and of
-# the sum with REST: 2.1 u delta.
+# f_delta_delta_delta step^3 / 6. |w| <= HALLEY_STEP =: q, |step| <= q delta. From h'' above |f_delta_delta_delta|
+# delta^2 / (6 f_delta) <= (3 theta + theta (theta + delta) sin delta) delta^2 / (6 h) <= pi^2 / 4 + pi^2 / 6, for h >=
+# delta + theta (1 - cos delta) >= theta delta^2 2 / pi^2: so delta is off by at most q^3 delta (1/4 + 4.2) = 3.6e-17
+# delta. The bisection of first_root() ends in a bracket of 2 pi / 2^60 = 0.05 u. Rounding of delta itself, of its steps
+# and of the sum with REST: 2.1 u delta.
 #     local = 7 u chord / cos alpha_b + growth length u (2.5 delta + 0.05).
 # 2. From link to link a displacement is multiplied by the rate ratio cos alpha_a / cos alpha_b: at most 1 out on the
 # spiral, more towards the fold. The larger of it and 1 is taken, so that SLIP never falls from handle to handle.
@@ -363,8 +363,9 @@ def start_chain(theta, chain):
 # ones: T_b turns by at most 2.2 / chord per metre (curvature <= 1.0887 / r_b and chord <= 2 r_b), u by 1 / chord per
 # metre of either handle, and both are computed from points that are off by E, see 4, so
 #     nu = (SLIP[a] + 3.2 SLIP[b] + E[a] + E[b]) / chord + 8 u.
-# While nu <= cos alpha_b / 6 a factor 1 + 3 nu / cos alpha_b covers that, as (|cos alpha_a| + nu) / (cos alpha_b - nu) <=
-# max(1, |ratio|) (1 + 1.2 * 2 nu / cos alpha_b); SLIP[b] without that factor is at most 1.5 times less. Beyond: FREE.
+# While nu <= cos alpha_b / 6 a factor 1 + 3 nu / cos alpha_b covers that, as (|cos alpha_a| + nu) / (cos alpha_b - nu)
+# <= max(1, |ratio|) (1 + 1.2 * 2 nu / cos alpha_b); SLIP[b] without that factor is at most 1.5 times less. Beyond:
+# FREE.
 # 4. Turning. e[k] turns by delta with s, c to 3.75 u s, 1.75 u (4 u s, 4 u where the library serves). For m = 2 s the
 # matrix (rise, turn) is then good to 7.7 u m (12.2 u m), the four products and sums add 2.83 u m + u: per link e is off
 # by at most u (1 + 12 delta). A point growth THETA e has two more products and no REST, 3 u:
@@ -374,7 +375,8 @@ def start_chain(theta, chain):
 # with its leader displaced by x <= SLIP[a] along the path the whole link moves on and turns at omega = (|sin alpha_a| +
 # |ratio sin alpha_b|) / chord =: lean / chord, then its rear handle is off by `local` (2 and 3 included), the frame by
 # that of e[a], and what is left are the rotation of one link and the points' own 3 u each:
-#     SWAY[k] = u (k + 12 (theta[k] - theta[0])) + 4 u + (lean SLIP[a] + 2 local + (what 3 added) + r_b u (7 + 12 delta)) / chord
+#     SWAY[k] = u (k + 12 (theta[k] - theta[0])) + 4 u + (lean SLIP[a] + 2 local + (what 3 added) + r_b u (7 + 12
+#     delta)) / chord
 
 
 def slipped(slip, ratio, slope, local, spots, inverse):
@@ -456,8 +458,8 @@ def extend_chain(growth, first, last, radius, sizes, chain):
 
 def spiral_rounding(growth, last, sizes, chain):
     """Fills in SLIP, ERROR and SWAY of a chain up to handle `last`."""
-    chain[0, SLIP] = 0.0
-    for k in range(last):
+    first = cython.cast(cython.Py_ssize_t, chain[0, FILLED])
+    for k in range(first, last):
         chord = sizes[k, CHORD]
         inverse = 1.0 / chord
         theta = chain[k + 1, THETA]
@@ -470,6 +472,7 @@ def spiral_rounding(growth, last, sizes, chain):
         chain[k + 1, SLIP] = slipped(chain[k, SLIP], ratio, slope, local, 2.0 * theta * turned, inverse)
         chain[k, ERROR] = chain[k + 1, SLIP] + theta * turned
         chain[k, SWAY] = turned + swayed(k, chain, ratio, local, theta * ULP * (7.0 + 12.0 * delta), inverse)
+    chain[0, FILLED] = max(first, last)
 
 
 # Where no angle between a tangent and a chord exceeds asin(BEND_LIMIT), out from near the centre, cos alpha_b >= 0.243

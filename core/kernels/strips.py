@@ -51,10 +51,10 @@ if not cython.compiled:  # for the compiler the same stands in the .pxd
 # these come from both ends of the step in r_0 by pairs.py. Four gaps prove a whole rectangle of (r_0, b).
 
 
-# Rounding. Gaps are as good as pairs.py says, and widths widened by what a travel may be off by and by WIDTH_ROUNDING of
-# them, for the bounds above. The radii at which the chains of b_L and of b_R begin and end a step are the same to a
-# rounding of theta, a travel of theta u r each: so the least values on b = b_L and on b = b_R are lowered by what the gaps
-# can change over 4 theta u r beyond both ends, no faster than their mean slope and the bend over the step.
+# Rounding. Gaps are as good as pairs.py says, and widths widened by what a travel may be off by and by WIDTH_ROUNDING
+# of them, for the bounds above. The radii at which the chains of b_L and of b_R begin and end a step are the same to a
+# rounding of theta, a travel of theta u r each: so the least values on b = b_L and on b = b_R are lowered by what the
+# gaps can change over 4 theta u r beyond both ends, no faster than their mean slope and the bend over the step.
 WIDTH_ROUNDING = 1e-9  # [1]
 
 

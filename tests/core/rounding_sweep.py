@@ -10,6 +10,7 @@ import math
 import sys
 from collections.abc import Iterator
 from dataclasses import dataclass, field
+from itertools import pairwise
 
 import numpy as np
 from flint import arb
@@ -79,7 +80,9 @@ def random_route(rng: np.random.Generator) -> tuple[Search, float]:
     while True:
         links = links_of(rng) if rng.random() < 0.5 else int(rng.integers(3, 20))
         path = ROUTES[int(rng.integers(len(ROUTES)))](rng)
-        dragon = random_dragon(rng, links, float(10 ** rng.uniform(-0.7, 0.0) / path.sharpest[0] if path.sharpest[0] else 1.0))
+        dragon = random_dragon(
+            rng, links, float(10 ** rng.uniform(-0.7, 0.0) / path.sharpest[0] if path.sharpest[0] else 1.0)
+        )
         try:
             end = run_end(dragon, path).time
             begin = max(earliest_time(dragon, path, 1.0), path.begin)
@@ -141,7 +144,7 @@ def compare(errors: Errors, search: Search, head: float, rng: np.random.Generato
     kernels.chain_rounding(growth, pieces, dragon.benches, sizes, chain)
     if chain[dragon.benches - 1, ERROR] >= kernels.FREE:  # within about 1e-12 m of a fold, where nothing is claimed
         return
-    benches = list(zip(handles, handles[1:], strict=False))
+    benches = list(pairwise(handles))
     for k in rng.integers(0, dragon.benches, PAIRS).tolist():
         _compare_bench(errors, chain[k], benches[k], dragon.chords[k])
     for a, b in _pairs(rng, dragon.benches, PAIRS):
@@ -181,7 +184,9 @@ if __name__ == "__main__":
     found = sweep(int(sys.argv[1]), int(sys.argv[2]) if len(sys.argv) > 2 else 0)
     for name in ("gaps", "points", "directions", "slides"):
         ratios = np.array(getattr(found, name))
-        print(f"{name:>10}: {ratios.size} compared; error over bound {ratios.max():.3g} at most, median {np.median(ratios):.3g}")
-    print(f"    bounds: {np.median(found.bounds):.3g} m in the median, {min(found.bounds):.3g} to {max(found.bounds):.3g} m")
+        print(
+            f"{name:>10}: {ratios.size} compared, error over bound {ratios.max():.3g}, median {np.median(ratios):.3g}"
+        )
+    print(f"    bounds: {min(found.bounds):.3g} to {max(found.bounds):.3g} m, median {np.median(found.bounds):.3g} m")
     largest = max(*found.gaps, *found.points, *found.directions, *found.slides)
     sys.exit(int(largest > 1.0))
