@@ -12,6 +12,7 @@ import numpy as np
 
 from core import kernels
 from core.dragon import Dragon, Floats
+from core.kernels.constants import ALL_HALF_WIDTH, RING_ENTRIES
 from core.route import Route
 
 # Where the rings are clear is looked for in radii that grow by this factor [1], up to this one [m].
@@ -138,7 +139,8 @@ def wholly_outside(dragon: Dragon, growth: float, radius: float) -> float:
     chords = dragon.chords[: dragon.uniform_from + 1]
     longest, shortest = float(chords.max()), float(chords.min())
     overhang, half = _sideways(dragon)
-    ring = np.array([0.0, longest, shortest, overhang, half, longest, overhang, half, -1.0, -1.0, 0.0, 0.0])
+    ring = np.zeros(RING_ENTRIES)
+    ring[: ALL_HALF_WIDTH + 1] = 0.0, longest, shortest, overhang, half, longest, overhang, half
     return float(kernels.radius_beyond(growth, radius, ring))
 
 

@@ -14,6 +14,7 @@ import numpy as np
 from core import kernels
 from core.coils import two_coils, way_out
 from core.dragon import Dragon, Floats
+from core.kernels.constants import ALL_RADIUS, LEFT_OUT, LEFT_OUT_TOO, RING_END, RING_PLACE
 from core.kinematics import RunEnd
 from core.paths import Spiral
 from core.route import Route
@@ -37,8 +38,9 @@ BRACKET_MIN = 2e-11
 # graze: the first one is 1e-9 s in all at 1 m/s, and core/precise.py narrows the wider ones to it [m of head travel].
 # Below 1 m/s the same in seconds come first.
 BRACKETS_GRAZING = (4.9e-10, 5e-9, 5e-8, 5e-7, 5e-6, 5e-5)
-# Travels are doubles: steps and brackets cannot be finer than this part of them [1].
-TRAVEL_ROUNDING = 1e-15
+# What a travel may be off by, of the way [1], u = 2^-53: on a spiral its length to 5 u, two differences from it and the
+# polar angle there 10 u (spiral_theta() ends within 7 u of the arc length left), a time from a travel and back 2 u.
+TRAVEL_ROUNDING = 2e-15
 # The last stretch before a fold, where handle speeds grow without bound: dismissed by a bound on the motion left [m].
 FOLD_SLIVER = 1e-9
 # What is left is cut into so many stretches at most, 0.1 to 0.3 ms each.
@@ -53,11 +55,9 @@ NO_PIECES = np.empty((0, kernels.PIECE_COLUMNS))
 NO_GRAZE = 1e150
 # A march leaves out no pair.
 NO_PAIR = (-1.0, -1.0)
-# Rounding of a gap, relative to the largest coordinate and two bench lengths [1]: more than twice the largest of 1,187
-# gaps after chains of up to 38 benches of 400 dragons against 48-digit arithmetic, 1.13e-15, 2026-11-21.
-GAP_ROUNDING = 2.5e-15
-# Places on a route are rounded as arc lengths are; in units of the coordinates' rounding [1].
-ARC_ROUNDING = 0.1
+# What the ring bound may be off by, of the lengths in it [1]: at most 64 sums, products and roots, with d^2 = radius^2
+# - foot^2 at least a thousandth of radius^2 (core/kernels/rings.py), so that d is good to 2,000 u.
+RING_ROUNDING = 1e-11
 
 
 class Search:
@@ -68,7 +68,7 @@ class Search:
     sizes: (rows, 4) of the leading benches; edges: (E, 4) x, y, x, y of edges at rest [m], on routes only; with
         edges, the pairs are bench and edge alone: edge e is bench number room + 1 + e of a pair
     clear_radius: on a spiral, no pair whose inner bench leads at this radius or further out comes within the margin [m]
-    ring[10], ring[11]: on a route that begins (and ends) with a coil the same as places, see RING_PLACE and RING_END of
+    ring[RING_PLACE], ring[RING_END]: on a route that begins (and ends) with a coil the same as places, see those of
         the kernels; where they are known there is room for the leading benches only, as on a spiral
     work: what its marches may still do, see WORK_BUDGET
     place: what the kernels count places from, at time 0: arc length from the centre of a spiral, minus s on a route [m]
@@ -76,7 +76,6 @@ class Search:
 
     margin: float
     clear_radius: float
-    rounding: float
 
     def __init__(
         self,
@@ -100,7 +99,12 @@ class Search:
         shortest, outer_shortest = columns[0].min(), outer[0].min()
         self.extremes = (longest, shortest, overhang, half_width, outer_chord, outer_half_width)
         ring = (0.0, outer_chord, outer_shortest, outer_overhang, outer_half_width)
-        self.ring = np.array([*ring, longest, overhang, half_width, *NO_PAIR, NO_BOUND, -NO_BOUND])
+        self.ring = np.array(
+            [
+                *ring, longest, overhang, half_width, shortest, math.hypot(0.5 * self.longest, half_width), *NO_PAIR,
+                NO_BOUND, -NO_BOUND,
+            ]
+        )  # fmt: skip
         self.use(path, margin)
         self.resize(dragon.benches if self.follows_all else min(dragon.benches, 255))
 
@@ -110,15 +114,17 @@ class Search:
         if isinstance(path, Route):
             self.growth, self.pieces, self.place = 1.0, path.table, 0.0
             self.clear_radius = NO_BOUND
-            self.ring[10:] = self._clear_places(path)
-            seen = path.position(np.linspace(path.begin, path.end, 256))
-            largest = float(np.abs(seen).max()) + ARC_ROUNDING * max(abs(path.begin), abs(path.end))
+            self.ring[RING_PLACE], self.ring[RING_END] = self._clear_places(path)
         else:
             self.growth, self.pieces, self.place = path.growth, NO_PIECES, path.length
             self.clear_radius = self._clear_radius(path.growth)
-            largest = min(path.growth * path.start_theta, self.clear_radius)
         self.ring[0] = self.clear_radius
-        self.rounding = GAP_ROUNDING * (largest + 2.0 * self.longest)
+
+    def travel_rounding(self, *travels: float) -> float:
+        """What travels up to these may be off by, in the kernels and as times [m]."""
+        if isinstance(self.path, Route):
+            return self.path.slide + TRAVEL_ROUNDING * max(map(abs, travels))
+        return TRAVEL_ROUNDING * max(self.place, *(self.place - travel for travel in travels), *map(abs, travels))
 
     def resize(self, benches: int) -> None:
         """Room for so many leading benches, and the edges at rest after the row of the last handle."""
@@ -153,7 +159,12 @@ class Search:
 
     def ring_least(self, radius: float) -> float:
         """Lower bound of the separation of pairs whose inner bench leads at this radius or further out [m]."""
-        return float(kernels.ring_least(self.growth, self.growth, radius, *self.ring_extremes))
+        least = float(kernels.ring_least(self.growth, self.growth, radius, *self.ring_extremes))
+        return least - self.ring_rounding(radius, self.growth)
+
+    def ring_rounding(self, radius: float, growth: float) -> float:
+        """What kernels.ring_least() may be off by for growths up to this one [m]."""
+        return RING_ROUNDING * (radius + 2.0 * math.pi * growth + float(self.longest))
 
     @cached_property
     def ring_extremes(self) -> tuple[float, ...]:
@@ -165,14 +176,14 @@ class Search:
     @property
     def follows_all(self) -> bool:
         """Must a march follow all benches: on a route that says of none that it is out of reach?"""
-        return isinstance(self.path, Route) and float(self.ring[10]) >= NO_BOUND
+        return isinstance(self.path, Route) and float(self.ring[RING_PLACE]) >= NO_BOUND
 
     def _clear_radius(self, growth: float) -> float:
         """The least radius, within 1e-3, from which the ring bound exceeds the margin; 1e150 if none."""
 
         def clear(radius: float) -> bool:
-            least: float = kernels.ring_least(growth, growth, radius, *self.ring_extremes)
-            return least > self.margin
+            least = float(kernels.ring_least(growth, growth, radius, *self.ring_extremes))
+            return least > self.margin + self.ring_rounding(radius, growth)
 
         high = 1.0
         while not clear(high):
@@ -183,7 +194,7 @@ class Search:
         while high - low > 1e-3 * high:
             middle = 0.5 * (low + high)
             low, high = (low, middle) if clear(middle) else (middle, high)
-        return high
+        return high * (1.0 + RING_ROUNDING)
 
     def _clear_places(self, path: Route) -> tuple[float, float]:
         """RING_PLACE and RING_END of the kernels [m]: 1e150 and -1e150 if not known, or where edges at rest may lie
@@ -213,7 +224,12 @@ class Search:
         """kernels.march from start, or from where the ring bound ends, to stop [m of travel]: state, result by name.
 
         opening: nothing before the start was cleared, so all pairs are followed until the body repeats itself
+        The way marched begins and ends beyond both by what a travel may be off by, so that what is said of travels, and
+        of times, holds for the true ones.
         """
+        rounding, asked = self.travel_rounding(start, stop), (start, stop)
+        start -= rounding
+        stop = min(stop + rounding, max(stop, self.place)) if isinstance(self.path, Spiral) else stop + rounding
         if isinstance(self.path, Spiral):
             clear_until = self.travel_at(self.clear_radius / self.growth) if self.clear_radius < NO_BOUND else start
             if clear_until > start:
@@ -221,7 +237,7 @@ class Search:
                 start = clear_until
         nothing = self.dragon.benches < 3 and not len(self.edges)
         if nothing or (start >= stop and not opening):
-            return "reached", dict.fromkeys(kernels.MARCH_FIELDS, 0.0) | {"proven": stop, "graze_gap": NO_GRAZE}
+            return "reached", dict.fromkeys(kernels.MARCH_FIELDS, 0.0) | {"proven": asked[1], "graze_gap": NO_GRAZE}
         out = np.empty(32)
         while True:
             budget = min(float(STEP_BUDGET), max(self.work / self._step_work, 1.0))
@@ -235,7 +251,7 @@ class Search:
                 opening,
                 self.margin,
                 tolerance,
-                self.rounding,
+                rounding,
                 int(budget),
                 self.dragon.benches,
                 self.statics,
@@ -249,24 +265,28 @@ class Search:
             state = kernels.MARCH_STATES[code]
             self.work -= out[4] * self._step_work
             if state != "capacity":
-                return state, dict(zip(kernels.MARCH_FIELDS, out.tolist(), strict=False))
+                found = dict(zip(kernels.MARCH_FIELDS, out.tolist(), strict=False))
+                found["proven"] = asked[1] if state == "reached" else max(found["proven"] - rounding, asked[0])
+                if state == "touched_at_start":
+                    found["touching"] = asked[0]
+                return state, found
             self.resize(min(4 * self.room, self.dragon.benches))
 
     def others_clear(self, pair: tuple[int, int], start: float, stop: float) -> bool:
         """Are all pairs but one proven to be clear between two travels [m]?"""
-        self.ring[8:10] = pair
+        self.ring[LEFT_OUT], self.ring[LEFT_OUT_TOO] = pair
         state, _ = self.march(stop, 0.0, start=start)
-        self.ring[8:10] = NO_PAIR
+        self.ring[LEFT_OUT], self.ring[LEFT_OUT_TOO] = NO_PAIR
         return state == "reached"
 
     @staticmethod
     def last_travel(until: float, to_fold: bool) -> float:
         """How far to march for a run until a travel [m]: short of a fold by a sliver, see clear_to_fold()."""
-        return until - (FOLD_SLIVER + 1e3 * TRAVEL_ROUNDING * until if to_fold else 0.0)
+        return until - (FOLD_SLIVER + 5e2 * TRAVEL_ROUNDING * until if to_fold else 0.0)
 
     def approach(self, begin: float, until: float, head_speed: float) -> tuple[str, dict[str, float], float]:
         """march() between two travels [m] with the bracket of a contact: state, result by name, its half width [m]."""
-        tolerance = max(BRACKET * min(1.0, head_speed), BRACKET_MIN, TRAVEL_ROUNDING * abs(until))
+        tolerance = max(BRACKET * min(1.0, head_speed), BRACKET_MIN, 2.0 * self.travel_rounding(begin, until))
         state, found = self.march(until, tolerance, start=begin)
         slowed = [wider * min(1.0, head_speed) for wider in BRACKETS_GRAZING]
         for wider in sorted({*slowed, *BRACKETS_GRAZING}):
@@ -353,6 +373,14 @@ class Search:
         least = self.least_to_fold(travel, end)
         return least is not None and least > self.margin
 
+    def gap_rounding(self, travel: float, within: float) -> float:
+        """What gaps of up to `within` [m] may be off by after a travel, see core/kernels/pairs.py [m]."""
+        self.place_leaders(travel, self.room)
+        kernels.chain_rounding(self.growth, self.pieces, self.room, self.sizes, self.rows[0])
+        error, sway = self.rows[0, : self.room, kernels.ERROR].max(), self.rows[0, : self.room, kernels.SWAY].max()
+        reach = 4.0 * float(self.ring[ALL_RADIUS]) + within
+        return float(2.0 * (2.0 * error + (2.0 * sway + 50.0 * kernels.ULP) * reach))
+
     # Towards the fold handles move as the square root of what is left of the travel, so a stretch whose bound is too
     # low is split where a quarter of it is left: about half of its motion lies on each side.
     def least_to_fold(self, travel: float, end: RunEnd) -> float | None:
@@ -409,7 +437,7 @@ class Search:
         least = gap - 2.0 * float(moved.max())
         if least <= self.margin:
             least = kernels.clearance_left(leaders, self.room, self.sizes, self.rows[0], moved)
-        return float(least) - self.rounding
+        return float(least) - self.gap_rounding(travel, gap + 2.0 * float(moved.max()))
 
     def moved_until(self, theta: float) -> tuple[Floats, Floats]:
         """How far each handle in rows[0], and any point of each bench, moves until the head is at theta at most [m]."""

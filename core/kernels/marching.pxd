@@ -4,15 +4,17 @@ from core.kernels.spiral cimport extend_chain, spiral_curvature, spiral_theta, s
 from core.kernels.chain cimport extend
 from core.kernels.rings cimport coil_radius, coil_reach, drift, leaders_reach, radius_beyond
 from core.kernels.route cimport extend_route, start_route
-from core.kernels.pairs cimport interval_least
+from core.kernels.pairs cimport interval_least, pair_most
 from core.kernels.clearance cimport crossing, gap_at, row_clearance, row_gap
 
 cdef double DIP_WIDTH
 cdef double LEAST_STEP
 cdef double LEAST_WAY
 cdef double ALLOWANCE
-cdef double PASSED
 cdef double CROSSING_WIDTH
+cdef double WIDTH_ROUNDING
+cdef double PASSED_BY
+cdef double PEEK
 
 @cython.locals(k=cython.Py_ssize_t)
 cdef Py_ssize_t chain_between(

@@ -7,10 +7,59 @@ if not cython.compiled:  # for the compiler the same stands in the .pxd
     from core.kernels.chain import extend
     from core.kernels.clearance import crossing, gap_at, row_clearance, row_gap
     from core.kernels.constants import *
-    from core.kernels.pairs import interval_least
+    from core.kernels.pairs import interval_least, pair_most
     from core.kernels.rings import coil_radius, coil_reach, drift, leaders_reach, radius_beyond
     from core.kernels.route import extend_route, start_route
     from core.kernels.spiral import extend_chain, spiral_curvature, spiral_theta, start_chain
+
+# March.
+#
+# Input. A chain for every head travel (growth or pieces, place, sizes), the margin, start and stop, which pairs must be
+# followed (leaders, at_start, statics), the ring bound (ring), and how near a contact is to be bracketed (tolerance).
+# State. `travel`; `before` and `after`, the chains at travel and at travel + h, of all handles that matter there;
+# h, the step to try; `target`, the crossing that this step stops short of, -1 for none.
+# Output. One of five ends, and in out what is known then.
+#
+# Invariant, whenever the loop begins: no two benches that share no handle come within the margin in [start, travel].
+# 1. A step is taken only if interval_least() leaves more than the margin, rounding allowed for, for every pair led by
+# the first `active` benches at every instant of [travel, travel + h] (pairs.py). It needs no step small enough: between
+# two ends a gap along an axis cannot fall further below its chord than K x (h - x) / 2, with K bounded over the very
+# interval (bounds.py). So a graze cannot be stepped over: a dip within the interval that reached the margin would need
+# a larger second derivative. Where the bound does not reach, the step is shortened, never taken.
+# 2. Of the other pairs, those whose inner bench leads at ring[RING_CLEAR] or further out are clear by the ring bound,
+# and those whose outer bench stands beyond radius_beyond(leaders_reach()) lie outside all that the leaders can touch
+# over the interval, which interval_least() checks with the handles' drift (rings.py). On a route all handles are laid
+# out.
+# 3. While at_start all benches are followed. Then only the pairs of the first `leaders` benches, of which the last, m =
+# leaders - 1, is the first of the alike: bench i > m at a place, and all behind it, stand as bench i - 1 and all behind
+# that did when handle i - 1 stood there, in the same benches (family lemma, core/contact.py). passed() says that every
+# handle i has come to where handle i - 1 began; so that was after the start, and clear by the invariant for i - 1, down
+# to m. From there on it stays so, as no handle turns back before the one ahead does. A handle that began beyond
+# `opened` is led by benches that 2 clears, until it is where a predecessor has been.
+# 4. Consecutive steps share a chain to the last bit, so the intervals tile the way of the true head without a gap. What
+# is not the same to the last bit is the travel: the head of the chain at `travel` has truly travelled within `rounding`
+# of it. So h, which the bounds take for its true way, is widened by twice that, and the caller begins and ends the
+# march beyond what it says of it by as much.
+#
+# How h is chosen only decides how soon a proof succeeds: at most twice the last step, and at most 0.95 of the width at
+# which the same bounds would just have proven the pairs of the last interval (`room`), both after a step taken and,
+# where that is a shorter one, after a step refused; else half.
+#
+# Ends.
+# REACHED: travel >= stop, so the invariant is the claim.
+# TOUCHED: the pair of the least bound is within the margin at the far end of a refused step; crossing() finds a
+# `target` up to there (or, where steps are short already, up to PEEK on) where its gap falls to the margin. The next
+# step ends at target - tolerance. If it is proven, for all pairs, and the pair is within the margin for certain around
+# target + tolerance, for all true travels within `rounding` of it (pair_most()), the first contact of all lies between:
+# PROVEN = travel, TOUCHING = target + tolerance. If travel is beyond target - tolerance already, the second condition
+# suffices. An earlier crossing, of this pair or another, makes the step fail and is found instead. Without a bracket
+# (tolerance <= 0) TOUCHING is the far end itself, if it is certain.
+# TOUCHED_AT_START: the nearest pair is within the margin at the start, for certain. Where rounding hides that: STUCK.
+# STUCK: h is below what could help (LEAST_STEP of the bracket, or rounding), the budget is spent, or the chain folds at
+# the start. PROVEN = travel still holds. TOUCHING >= 0 is a crossing that could not be bracketed this narrowly, a
+# pair that closes slowly: a wider bracket may do. -1: none was found.
+# CAPACITY: more handles matter than there are rows; nothing is claimed.
+# GRAZE_...: what was seen on the way, refined but not proven to be the least.
 
 # Width to which the place of a graze is found [m]: 1e-10 s at 1 m/s.
 DIP_WIDTH = 1e-10
@@ -20,8 +69,13 @@ LEAST_STEP = 0.05
 LEAST_WAY = 1e-7
 # The chain is laid out so many drifts further than the pose needs; if that is too little the step is halved [1].
 ALLOWANCE = 2.0
-# Handles count as having passed a place when they are beyond it by this, far above their rounding: of the places [1].
-PASSED = 1e-12
+# Widths are widened by this part of them, for the roundings of what a step computes once [1].
+WIDTH_ROUNDING = 1e-12
+# How far ahead a contact is looked for whose beginning rounding hides [m]: the widest bracket of core/search.py, twice.
+PEEK = 1e-4
+# Handles have passed a place when they are this much beyond it, of 1 + |theta| or 1 + |s| [1]: SLIP is far less, on a
+# spiral u (32 n c + 16 r (theta - theta_0)) at most, with n c <= r theta.
+PASSED_BY = 1e-9
 # A crossing is found this much closer than the bracket that is proven around it [1].
 CROSSING_WIDTH = 1e-3
 
@@ -97,7 +151,7 @@ def route_between(pieces, place, leaders, benches, margin, allowance, ring, size
 def passed(first, last, placed, opening, chain):
     """Has every handle from `first` to `last` passed where its predecessor began?"""
     for i in range(first, last + 1):
-        if i > placed or chain[i, THETA] > opening[i - 1, THETA] - PASSED * (1.0 + fabs(opening[i - 1, THETA])):
+        if i > placed or chain[i, THETA] + PASSED_BY * (1.0 + fabs(chain[i, THETA])) > opening[i - 1, THETA]:
             return False
     return True
 
@@ -150,7 +204,7 @@ def march(
     place: at travel 0, see chain.py [m]; leaders: benches whose pairs must be followed; at_start: follow all pairs
     until every bench has passed the start of the one before it; tolerance: half width of the bracket around a
     contact [m], 0 or less for none: to end at any instant found to be within the margin, and with 0 without looking
-    for grazes; rounding: what a computed gap may be off by [m]; budget: steps; benches: n; statics: edges at rest in
+    for grazes; rounding: what a travel may be off by [m]; budget: steps; benches: n; statics: edges at rest in
     the rows after the last handle's, on a route only; negative: these alone, without pairs of benches
     sizes: (R - 1, SIZE_COLUMNS) at least; rows: (4, R, CHAIN_COLUMNS), motion: (R, MOTION_COLUMNS) scratch; out:
         (MARCH_ENTRIES,)
@@ -199,7 +253,14 @@ def march(
             out[PROVEN] = out[TOUCHING] = start
             out[FIRST] = pair[1]
             out[SECOND] = pair[2]
-            return TOUCHED_AT_START
+            least = pair_most(
+                growth, pieces, place - start + rounding, 2.0 * rounding, pair[1], pair[2], benches, sizes, spare,
+                after, motion, scratch,
+            )  # fmt: skip
+            if least <= margin:
+                return TOUCHED_AT_START
+            out[TOUCHING] = -1.0
+            return STUCK
         while travel < stop and (at_start or place - travel > ring[RING_END]):
             out[PROVEN] = travel
             if out[STEPS] >= budget or h < rounding or h < (LEAST_STEP * tolerance if tolerance > 0.0 else LEAST_WAY):
@@ -237,7 +298,7 @@ def march(
                     growth,
                     pieces,
                     statics,
-                    h,
+                    h * (1.0 + WIDTH_ROUNDING) + 2.0 * rounding,
                     active,
                     handles,
                     benches,
@@ -250,18 +311,36 @@ def march(
                     scratch,
                 )
                 room = 0.95 * scratch[3]
-            if least <= margin + rounding:
+            if least <= margin:
                 if least == -FREE:
                     h *= 0.5
                     target = -1.0
                     continue
                 a = cython.cast(cython.Py_ssize_t, scratch[1])
                 b = cython.cast(cython.Py_ssize_t, scratch[2])
+                far = travel + h
                 if row_gap(a, b, sizes, after) > margin:
                     h *= 0.5 if room < 0.5 * h or room >= h else room / h
                     target = -1.0
-                    continue
+                    if h >= tolerance:
+                        continue
+                    # within what rounding hides of a slow contact; the pair may be within the margin a little on
+                    width = 2.0 * tolerance
+                    while width <= PEEK and (
+                        gap_at(growth, pieces, place - travel - width, benches, a, b, sizes, spare) > margin
+                    ):
+                        width *= 4.0
+                    far = travel + width
+                    if width > PEEK or far > stop:
+                        continue
                 if tolerance <= 0.0:
+                    clearance = pair_most(
+                        growth, pieces, place - travel - h + rounding, 2.0 * rounding, a, b, benches, sizes, spare,
+                        after, motion, scratch,
+                    )  # fmt: skip
+                    if clearance > margin:
+                        h *= 0.5
+                        continue
                     out[TOUCHING] = travel + h
                     out[FIRST] = a
                     out[SECOND] = b
@@ -272,7 +351,7 @@ def march(
                     place,
                     benches,
                     travel,
-                    travel + h,
+                    far,
                     a,
                     b,
                     margin,
@@ -288,12 +367,14 @@ def march(
                 if target - tolerance - travel > rounding and target - tolerance - travel < h:
                     h = target - tolerance - travel
                     continue
-                if (
-                    target - tolerance <= travel
-                    and gap_at(growth, pieces, place - target - tolerance, benches, a, b, sizes, spare) <= margin
-                ):
-                    out[TOUCHING] = target + tolerance
-                    return TOUCHED
+                if target - tolerance <= travel:
+                    clearance = pair_most(
+                        growth, pieces, place - target - tolerance + rounding, 2.0 * rounding, a, b, benches, sizes,
+                        spare, after, motion, scratch,
+                    )  # fmt: skip
+                    if clearance <= margin:
+                        out[TOUCHING] = target + tolerance
+                        return TOUCHED
                 h *= 0.5
                 target = -1.0
                 continue
@@ -315,23 +396,16 @@ def march(
             before, after = after, before
             if scratch[0] > out[BEND] and active > 0:
                 out[BEND] = scratch[0]
-            if (
-                target > 0.0
-                and gap_at(
-                    growth,
-                    pieces,
-                    place - target - tolerance,
-                    benches,
-                    cython.cast(cython.Py_ssize_t, out[FIRST]),
-                    cython.cast(cython.Py_ssize_t, out[SECOND]),
-                    sizes,
-                    spare,
-                )
-                <= margin
-            ):
-                out[PROVEN] = travel
-                out[TOUCHING] = target + tolerance
-                return TOUCHED
+            if target > 0.0:
+                clearance = pair_most(
+                    growth, pieces, place - target - tolerance + rounding, 2.0 * rounding,
+                    cython.cast(cython.Py_ssize_t, out[FIRST]), cython.cast(cython.Py_ssize_t, out[SECOND]), benches,
+                    sizes, spare, after, motion, scratch,
+                )  # fmt: skip
+                if clearance <= margin:
+                    out[PROVEN] = travel
+                    out[TOUCHING] = target + tolerance
+                    return TOUCHED
             target = -1.0
             clearance = FREE
             if tolerance != 0.0:

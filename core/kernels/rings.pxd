@@ -1,6 +1,9 @@
 cimport cython
 from core.kernels.constants cimport *
 
+cdef double RING_ROUNDING
+cdef double DISCERNED
+
 cdef bint settled(double growth, double radius, double[::1] ring) noexcept nogil
 cpdef double radius_beyond(double growth, double radius, double[::1] ring) noexcept nogil
 cpdef double leaders_reach(double growth, double lead, double rear, double[::1] ring) noexcept nogil

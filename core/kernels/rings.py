@@ -15,6 +15,11 @@ if not cython.compiled:  # for the compiler the same stands in the .pxd
 # delta <= theta. Otherwise the triangle inequality serves.
 
 
+# Rounding. The two bounds below are sums, products and roots of terms >= 0, good to 10 u together: RING_ROUNDING makes
+# up for it. What the radii of handles lack is added where they are compared.
+RING_ROUNDING = 1e-12  # [1]
+
+
 def settled(growth, radius, ring):
     """Do all benches led from this radius outwards have 0 <= x0 <= 1.67 growth <= c?"""
     return (
@@ -29,9 +34,9 @@ def radius_beyond(growth, radius, ring):
     target = radius + ring[RING_HALF_WIDTH]
     beyond = sqrt(target * target + 0.25 * ring[RING_CHORD] * ring[RING_CHORD])
     if settled(growth, beyond, ring):
-        return beyond
+        return beyond * (1.0 + RING_ROUNDING)
     beyond = 0.5 * ring[RING_CHORD]
-    return target + (beyond if beyond > ring[RING_OVERHANG] else ring[RING_OVERHANG])
+    return (target + (beyond if beyond > ring[RING_OVERHANG] else ring[RING_OVERHANG])) * (1.0 + RING_ROUNDING)
 
 
 def leaders_reach(growth, lead, rear, ring):
@@ -67,6 +72,9 @@ def leaders_reach(growth, lead, rear, ring):
 # least L, is this V. So |X - Y| >= V > L.
 
 
+# d^2 is a difference: where it is less than this part of radius^2 nothing is said, so that rounding stays small [1].
+DISCERNED = 1e-3
+
 # For a range of growths: G is concave in growth (its only curved terms are -growth^2 and -sqrt(1 + growth^2 /
 # rho^2)), so it is at least the lesser of its values at both ends; everything else falls with growth.
 
@@ -84,7 +92,7 @@ def ring_least(
     d2 = radius * radius - foot * foot
     gap = FREE
     at = growth_low
-    if d2 <= 0.0 or radius * radius < 1.5708 * chord * growth:
+    if d2 <= DISCERNED * radius * radius or radius * radius < 1.5708 * chord * growth:
         return -FREE
     d = sqrt(d2)
     rho = d - (half_width if half_width > outer_half_width else outer_half_width)

@@ -2,8 +2,8 @@ cimport cython
 from core.kernels.constants cimport *
 from core.kernels.spiral cimport extend_chain, spiral_curvature, spiral_theta, start_chain, steepest_bend
 from core.kernels.route cimport extend_route, start_route
-from core.kernels.chain cimport extend
-from core.kernels.bounds cimport motion_bounds, route_bounds
+from core.kernels.chain cimport chain_rounding, extend
+from core.kernels.bounds cimport blur_of, link_cosines, motion_bounds, route_bounds
 from core.kernels.rings cimport drift
 
 cdef double APPROACH
@@ -11,6 +11,7 @@ cdef double LAST_SAMPLE
 cdef double NOISE
 cdef double PEAK_WIDTH
 cdef Py_ssize_t INTERVAL_LINKS
+cdef double BOUND_ROUNDING
 
 cdef Py_ssize_t lively_chain(
     double growth, const double[:, ::1] pieces, double place, Py_ssize_t last, double calm, double[:, ::1] sizes,
@@ -27,7 +28,7 @@ cdef (double, Py_ssize_t) top_rate(
 ) noexcept nogil
 
 @cython.locals(i=cython.Py_ssize_t)
-cdef void climbs(
+cpdef void climbs(
     double growth, const double[:, ::1] pieces, Py_ssize_t last, double[:, ::1] sizes, double[:, ::1] chain
 ) noexcept nogil
 
@@ -50,6 +51,10 @@ cdef double smooth_bound(
 cdef double rate_bound(
     double growth, const double[:, ::1] pieces, double h, Py_ssize_t handles, Py_ssize_t benches, double calm,
     double[:, ::1] sizes, double[:, ::1] before, double[:, ::1] after, double[:, ::1] motion
+) noexcept nogil
+
+cdef double followed_error(
+    Py_ssize_t k, double error, double[:, ::1] sizes, double[:, ::1] before, double[:, ::1] after
 ) noexcept nogil
 
 @cython.locals(a=cython.Py_ssize_t, b=cython.Py_ssize_t)

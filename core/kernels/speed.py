@@ -4,8 +4,8 @@ import cython
 from cython.cimports.libc.math import fabs
 
 if not cython.compiled:  # for the compiler the same stands in the .pxd
-    from core.kernels.bounds import motion_bounds, route_bounds
-    from core.kernels.chain import extend
+    from core.kernels.bounds import blur_of, link_cosines, motion_bounds, route_bounds
+    from core.kernels.chain import chain_rounding, extend
     from core.kernels.constants import *
     from core.kernels.rings import drift
     from core.kernels.route import extend_route, start_route
@@ -156,6 +156,12 @@ def smooth_bound(start, start_slope, end, end_slope, jerk, h, kink):
     return most + 0.5 * jerk * h * h
 
 
+# Rounding. Rates and slopes at the ends are good to RATE_ERROR and CLIMB_ERROR on a route (route_bounds()); on a
+# spiral, where no rate exceeds 1 unless a handle is followed, e_b cos alpha_b <= e_a cos alpha_a + 2 blur b' likewise,
+# as both cosines are good to `blur`. What is computed from them once is good to BOUND_ROUNDING of itself.
+BOUND_ROUNDING = 1e-14  # [1]
+
+
 def rate_bound(growth, pieces, h, handles, benches, calm, sizes, before, after, motion):
     """No |rate| exceeds this over an interval, between two chains placed up to `handles`; FREE when it is too wide."""
     upper = 1.0
@@ -164,6 +170,8 @@ def rate_bound(growth, pieces, h, handles, benches, calm, sizes, before, after, 
     climbs(growth, pieces, handles, sizes, before)
     climbs(growth, pieces, handles, sizes, after)
     if pieces.shape[0] > 0:
+        chain_rounding(growth, pieces, handles, sizes, before)
+        chain_rounding(growth, pieces, handles, sizes, after)
         if not route_bounds(pieces, h, handles, sizes, before, after, True, motion):
             return FREE
     elif not motion_bounds(growth, h, handles, sizes, before, after, motion):
@@ -175,8 +183,13 @@ def rate_bound(growth, pieces, h, handles, benches, calm, sizes, before, after, 
             return FREE
     if pieces.shape[0] == 0:
         spiral_jerks(growth, h, handles, before, after, motion)
+    error = 0.0
     for k in range(1, handles + 1):
-        bound = 0.5 * (fabs(before[k, RATE]) + fabs(after[k, RATE]) + motion[k, RATE_RATE] * h)
+        if pieces.shape[0] > 0:
+            error = motion[k, RATE_ERROR]
+        elif motion[handles, RATE_LOW] <= 0.0:
+            error = followed_error(k, error, sizes, before, after)
+        bound = 0.5 * (fabs(before[k, RATE]) + fabs(after[k, RATE]) + motion[k, RATE_RATE] * h) + error
         if motion[k, RATE_HIGH] < bound:
             bound = motion[k, RATE_HIGH]
         if pieces.shape[0] == 0:
@@ -184,16 +197,28 @@ def rate_bound(growth, pieces, h, handles, benches, calm, sizes, before, after, 
                 fabs(before[k, RATE]), before[k, CLIMB], fabs(after[k, RATE]), after[k, CLIMB],
                 motion[k, RATE_JERK], h, False,
             )  # fmt: skip
-            bound = min(bound, smooth)
+            bound = min(bound, smooth + error)
         elif bound > upper and motion[k, CROSSED] <= 1.0:
             smooth = smooth_bound(
                 before[k, RATE], before[k, CLIMB], after[k, RATE], after[k, CLIMB], motion[k, RATE_JERK], h,
                 motion[k, CROSSED] > 0.0,
             )  # fmt: skip
-            bound = min(bound, smooth)
+            bound = min(bound, smooth + error + motion[k, CLIMB_ERROR] * h)
         if bound > upper:
             upper = bound
-    return upper
+    return upper * (1.0 + BOUND_ROUNDING) if upper > 1.0 else upper
+
+
+def followed_error(k, error, sizes, before, after):
+    """Rounding of the rate of handle k of a spiral at either end of an interval, from that of the one before [1]."""
+    blur = blur_of(k - 1, sizes[k - 1, CHORD], before, after)
+    front, rear = link_cosines(k - 1, before)
+    front_end, rear_end = link_cosines(k - 1, after)
+    rear = min(rear, rear_end) - blur
+    if rear <= 0.0:
+        return FREE
+    error *= max(fabs(front), fabs(front_end)) + blur
+    return (error + 2.0 * blur * max(fabs(before[k, RATE]), fabs(after[k, RATE]))) / rear
 
 
 def peaks_between(placed, handles, before, after):

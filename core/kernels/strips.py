@@ -9,7 +9,8 @@ if not cython.compiled:  # for the compiler the same stands in the .pxd
     from core.kernels.constants import *
     from core.kernels.pairs import strip_least
     from core.kernels.rings import leaders_reach, radius_beyond
-    from core.kernels.spiral import extend_chain, spiral_arc, spiral_theta, start_chain
+    from core.kernels.spiral import extend_chain, spiral_arc, spiral_error, spiral_theta, start_chain
+
 # A strip is given up where handles may turn back in steps shorter than this part of the head's radius [1].
 TURNED_WITHIN = 1e-3
 
@@ -64,6 +65,13 @@ TURNED_WITHIN = 1e-3
 #     |(e . p)''| <= |X''| + |Y''| + 2 kappa (|X'| + |Y'|) + kappa^2 |p|  =: K,
 # so the gap is at least what least_between() makes of its least values on b = b_L and on b = b_R, K and b_R - b_L;
 # these come from both ends of the step in r_0 by pairs.py. Four gaps prove a whole rectangle of (r_0, b).
+
+
+# Rounding. Gaps are as good as pairs.py says, and widths widened by what a travel may be off by and by WIDTH_ROUNDING
+# of them, for the bounds above. The radii at which the chains of b_L and of b_R begin and end a step are the same to a
+# rounding of theta, a travel of theta u r each: so the least values on b = b_L and on b = b_R are lowered by what the
+# gaps can change over 4 theta u r beyond both ends, no faster than their mean slope and the bend over the step.
+WIDTH_ROUNDING = 1e-9  # [1]
 
 
 def shift_bounds(low, high, benches, sizes, inner, outer, shifts):
@@ -154,7 +162,8 @@ def strip(
 ):
     """Prove, for all growths in [low, high] at once, that nothing touches while the head goes from `outer` to `inner`.
 
-    Of pairs led by the first `leaders` benches; outer, inner: head radii [m].
+    Of pairs led by the first `leaders` benches; outer, inner: head radii [m]. rounding: what a travel of the head may
+    be off by [m]
     least_step: head travel below which it gives up [m]; budget: steps; others as for march(), motions: (2, R,
     MOTION_COLUMNS), shifts: (R, SHIFT_COLUMNS) scratch; out: (MARCH_ENTRIES,) and scratch, PROVEN and TOUCHING as head
     radii [m]
@@ -203,8 +212,9 @@ def strip(
             start_chain(next_radius / low, after)
             start_chain(next_radius / high, after_high)
             extend_chain(low, 0, leaders, FREE, sizes, after)
-            beyond = leaders_reach(high, next_radius, high * before_high[leaders, THETA], ring) + margin
-            beyond = radius_beyond(high, beyond, ring)
+            slack = 2.0 * spiral_error(high, leaders, ring[ALL_CHORD], before_high)
+            beyond = leaders_reach(high, next_radius, high * before_high[leaders, THETA] + slack, ring) + margin
+            beyond = radius_beyond(high, beyond, ring) + slack
             handles = extend_chain(low, leaders, cap, beyond, sizes, after)
             if handles < 0:
                 return TURNED
@@ -218,8 +228,10 @@ def strip(
                 if extend_chain(high, placed, handles, FREE, sizes, before_high) < 0:
                     return TURNED
                 placed = handles
+            width = h * (1.0 + WIDTH_ROUNDING) + 2.0 * rounding
+            h_high = h_high * (1.0 + WIDTH_ROUNDING) + 2.0 * rounding
             bounded = (
-                motion_bounds(low, h, handles, sizes, before, after, motion)
+                motion_bounds(low, width, handles, sizes, before, after, motion)
                 and motion_bounds(high, h_high, handles, sizes, before_high, after_high, motion_high)
                 and shift_bounds(low, high, handles, sizes, after, before_high, shifts)
             )
@@ -227,11 +239,11 @@ def strip(
                 h *= 0.5
                 continue
             best = strip_least(
-                low, high, leaders, handles, margin, h, h_high, ring, sizes, before, after, before_high, after_high,
+                low, high, leaders, handles, margin, width, h_high, ring, sizes, before, after, before_high, after_high,
                 motion, motion_high, shifts, scratch,
             )  # fmt: skip
             room = 0.95 * scratch[3]
-            if best <= margin + rounding:
+            if best <= margin:
                 a = cython.cast(cython.Py_ssize_t, scratch[1])
                 b = cython.cast(cython.Py_ssize_t, scratch[2])
                 if row_gap(a, b, sizes, after) <= margin:
