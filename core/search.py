@@ -48,8 +48,8 @@ NO_PIECES = np.empty((0, kernels.PIECE_COLUMNS))
 NO_GRAZE = 1e150
 # A march leaves out no pair.
 NO_PAIR = (-1.0, -1.0)
-# What the ring bound may be off by, of the lengths in it [1]: at most 64 sums, products and roots, with d^2 = radius^2 -
-# foot^2 at least a thousandth of radius^2 (core/kernels/rings.py), so that d is good to 2,000 u.
+# What the ring bound may be off by, of the lengths in it [1]: at most 64 sums, products and roots, with d^2 = radius^2
+# - foot^2 at least a thousandth of radius^2 (core/kernels/rings.py), so that d is good to 2,000 u.
 RING_ROUNDING = 1e-11
 
 
@@ -120,13 +120,14 @@ class Search:
         columns = [dragon.chords[:benches], 0.5 * lengths, 0.5 * widths, 0.5 * np.hypot(lengths, widths)]
         self.sizes = np.zeros((benches + 1 + len(edges), kernels.SIZE_COLUMNS))
         self.sizes[:benches] = np.stack(columns, axis=1)
-        self.rows = np.zeros((4, benches + 1 + len(edges), kernels.CHAIN_COLUMNS))
+        self.rows = np.empty((4, benches + 1 + len(edges), kernels.CHAIN_COLUMNS))  # a chain writes what it reads
         self.motion = np.zeros((benches + 1 + len(edges), kernels.MOTION_COLUMNS))
         self.pair = np.zeros(3, dtype=np.intp)
         if len(edges):
             along = edges[:, 2:4] - edges[:, 0:2]
             half = 0.5 * np.hypot(along[:, 0], along[:, 1])
             self.sizes[benches + 1 :, 1] = self.sizes[benches + 1 :, 3] = half
+            self.rows[:, benches + 1 :] = 0.0
             self.rows[:, benches + 1 :, 6:8] = 0.5 * (edges[:, 0:2] + edges[:, 2:4])
             self.rows[:, benches + 1 :, 8:10] = along / (2.0 * half)[:, None]
 
