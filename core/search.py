@@ -31,7 +31,7 @@ SAMPLED_SHARE = 0.1
 # rounding of the travel allows at lower ones.
 BRACKET = 1e-10
 BRACKET_MIN = 2e-11
-# The same where benches meet so slowly that rounding hides the gap that near, for contacts within about 1e-6 m of a
+# The same where benches meet so slowly that rounding hides the gap that near, for contacts within about 5e-5 m of a
 # graze: the first one is 1e-9 s in all at 1 m/s, and core/precise.py narrows the wider ones to it [m of head travel].
 # Below 1 m/s the same in seconds come first.
 BRACKETS_GRAZING = (4.9e-10, 5e-9, 5e-8, 5e-7, 5e-6, 5e-5)
@@ -252,6 +252,7 @@ class Search:
         """march() between two travels [m] with the bracket of a contact: state, result by name, its half width [m]."""
         tolerance = max(BRACKET * min(1.0, head_speed), BRACKET_MIN, 2.0 * self.travel_rounding(begin, until))
         state, found = self.march(until, tolerance, start=begin)
+        proven = found["proven"]
         slowed = [wider * min(1.0, head_speed) for wider in BRACKETS_GRAZING]
         for wider in sorted({*slowed, *BRACKETS_GRAZING}):
             if state != "stuck" or found["touching"] < 0.0:
@@ -259,7 +260,8 @@ class Search:
             if wider > tolerance:
                 tolerance = wider
                 state, found = self.march(until, tolerance, start=begin)
-        return state, found, tolerance
+                proven = max(proven, found["proven"])
+        return state, found | {"proven": proven}, tolerance
 
     def place_leaders(self, travel: float, leaders: int) -> None:
         """Put so many leading benches, and no pair of them, into rows[0] as they are after a travel [m]."""

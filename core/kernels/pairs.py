@@ -299,6 +299,8 @@ def interval_least(
     a = 0
     b = 0
     if pieces.shape[0] > 0:
+        chain_rounding(growth, pieces, handles, sizes, before)
+        chain_rounding(growth, pieces, handles, sizes, after)
         if not route_bounds(pieces, h, handles, sizes, before, after, False, motion):
             return -FREE
     elif not motion_bounds(growth, h, handles, sizes, before, after, motion):
@@ -361,6 +363,8 @@ def interval_least(
                     chain_rounding(growth, pieces, handles, sizes, after)
                     filled = True
                 least -= pair_rounding(i, j, distance, sizes, before, after)
+            if least != least:  # no number is no bound
+                return -FREE
             width = 8.0 * (least - margin) / out[0] + h * h
             width = sqrt(width) if width > 0.0 else 0.0
             if width < room:
@@ -493,6 +497,8 @@ def strip_least(
                     pair_rounding(i, j, distance, sizes, before, after),
                     pair_rounding(i, j, distance, sizes, before_high, after_high),
                 )
+            if least != least:
+                return -FREE
             if least < best:
                 best = least
                 a = i
