@@ -154,7 +154,7 @@ def first_contact(
     start, stop: the times between which to look [s]; None for the end of the run
     returns: see FirstContact; times good to 1e-10 s at 1 m/s, bracketed by [proven clear up to, overlapping at], no
         wider than 1e-9 s but where an arc length or a time itself is not that good (beyond 1e5 m, below 1e-3 m/s), and
-        within about 1e-5 m of a graze along waypoints, behind bench 60, or where a second pair meets at once; both
+        within about 5e-5 m of a graze along waypoints, behind bench 60, or where a second pair meets at once; both
         ends hold whatever rounding does (core/kernels/spiral.py, route.py, pairs.py), and what it hides is undecided:
         benches whose clearance at the start is the margin to about 1e-12 m
     raises: InvalidValue; OutsideRun for a stop after the end of the run

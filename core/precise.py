@@ -106,6 +106,22 @@ class Pair:
         """By how much the two are further apart than the margin [m]."""
         return separation(*self.benches(travel))[0] - Decimal(self.search.margin)
 
+    def crossing(self, low: Decimal, high: Decimal, above: Decimal, below: Decimal, width: Decimal) -> Decimal:
+        """Travel at which the gap falls to 0, from above at one to below at another, no earlier and within a width [m].
+
+        By the false position, halved now and then.
+        """
+        looks = 0
+        while high - low > width:
+            looks += 1
+            middle = (low + high) / 2
+            if looks % 3:  # aimed a little beyond the crossing, then before it, so that both ends come near
+                middle = low + (high - low) * above / (above - below) + (width / 3 if looks % 3 == 1 else -width / 3)
+                middle = min(max(middle, low + width / 4), high - width / 4)
+            gap = self.gap(middle)
+            low, above, high, below = (middle, gap, high, below) if gap > 0 else (low, above, middle, gap)
+        return high
+
     def stays_apart(self, start: float, stop: float) -> bool:
         """Are the two proven to be further apart than the margin from one travel to another [m]?"""
         search, bends, margin = self.search, np.empty(2), Decimal(self.search.margin)
@@ -254,12 +270,10 @@ def narrowed(search: Search, found: dict[str, float], half: float, head_speed: f
     with localcontext() as context:
         context.prec = DIGITS
         low, high = Decimal(found["proven"]), Decimal(found["touching"])
-        if not pair.gap(low) > GAP_ROUNDING or not pair.gap(high) < -GAP_ROUNDING:
+        above, below = pair.gap(low), pair.gap(high)
+        if not above > GAP_ROUNDING or not below < -GAP_ROUNDING:
             return None
-        while high - low > Decimal(half) / 1000:
-            middle = (low + high) / 2
-            low, high = (middle, high) if pair.gap(middle) > 0 else (low, middle)
-        contact = float(high)
+        contact = float(pair.crossing(low, high, above, below, Decimal(half) / 1000))
         clear, touching = contact - half, contact + half
         later = Decimal(touching / head_speed) * Decimal(head_speed)
         beyond = clear + abs(clear) * TIME_ROUNDING

@@ -224,11 +224,11 @@ class Route:
             self._check_joint(k, s, row)
 
     # Pieces that miss each other are led together, on the longer of the two, by a polynomial of degree 5 over a length
-    # l of at most 1 m (BLEND in core/kernels/route.py): from a gap g across the path, a kink k and a step of curvature
-    # d inside a part to none, it lies within g + k l + d l^2 of the piece, its second derivative within 10 g / l^2 + 6
-    # k / l + 3 d, its third within 60 g / l^3 + 36 k / l^2 + 9 d / l. Both ends of a piece may do so, hence twice that;
-    # and a curve beside a bend is more curved by the square of the bend times its distance. Gaps along the path
-    # displace the head alone.
+    # l of at most 1 m (BLEND in core/kernels/constants.py): from a gap g across the path, a kink k and a step of
+    # curvature d inside a part to none, it lies within g + k l + d l^2 of the piece, its second derivative within 10 g
+    # / l^2 + 6 k / l + 3 d, its third within 60 g / l^3 + 36 k / l^2 + 9 d / l. Both ends of a piece may do so, hence
+    # twice that; and a curve beside a bend is more curved by the square of the bend times its distance. Gaps along the
+    # path displace the head alone.
     def _smooth(self) -> float:
         """Fills in how near the pieces are to a smooth path; how far the head's point is from its s at most [m]."""
         table, misses, slides = self.table, np.zeros((len(self.table), 4)), np.zeros(len(self.table))
@@ -236,7 +236,7 @@ class Route:
         kernels.piece_slides(table, slides)
         across, along, kink, step = misses[1:].T
         lengths = table[:, 2] - table[:, 1]
-        over = np.minimum(1.0, np.maximum(lengths[1:], lengths[:-1]))
+        over = np.minimum(kernels.BLEND, np.maximum(lengths[1:], lengths[:-1]))
         step = np.where(table[1:, kernels.PART] == table[:-1, kernels.PART], step, 0.0)
         sharpest = np.abs(table[:, 3:5]).max()
         loose = 2.0 * np.max(across + (kink + step * over) * over, initial=0.0)

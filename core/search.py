@@ -14,7 +14,7 @@ import numpy as np
 from core import kernels
 from core.coils import two_coils, way_out
 from core.dragon import Dragon, Floats
-from core.kernels.constants import ALL_RADIUS, LEFT_OUT, LEFT_OUT_TOO, RING_END, RING_PLACE
+from core.kernels.constants import ALL_RADIUS, ERROR, LEFT_OUT, LEFT_OUT_TOO, RING_END, RING_PLACE
 from core.kinematics import RunEnd
 from core.paths import Spiral
 from core.route import Route
@@ -34,7 +34,7 @@ SAMPLED_SHARE = 0.1
 # rounding of the travel allows at lower ones.
 BRACKET = 1e-10
 BRACKET_MIN = 2e-11
-# The same where benches meet so slowly that rounding hides the gap that near, for contacts within about 1e-6 m of a
+# The same where benches meet so slowly that rounding hides the gap that near, for contacts within about 5e-5 m of a
 # graze: the first one is 1e-9 s in all at 1 m/s, and core/precise.py narrows the wider ones to it [m of head travel].
 # Below 1 m/s the same in seconds come first.
 BRACKETS_GRAZING = (4.9e-10, 5e-9, 5e-8, 5e-7, 5e-6, 5e-5)
@@ -45,7 +45,8 @@ TRAVEL_ROUNDING = 2e-15
 FOLD_SLIVER = 1e-9
 # What is left is cut into so many stretches at most, 0.1 to 0.3 ms each.
 FOLD_STRETCHES = 200
-# Angles of handles are good to far less than this, relative [1].
+# Angles at which dragons fold, and those of handles from leader to follower, are good to far less than this part [1]:
+# see _least_left().
 THETA_ROUNDING = 1e-12
 # No radius is known to be clear [m].
 NO_BOUND = 1e150
@@ -133,13 +134,14 @@ class Search:
         columns = [dragon.chords[:benches], 0.5 * lengths, 0.5 * widths, 0.5 * np.hypot(lengths, widths)]
         self.sizes = np.zeros((benches + 1 + len(edges), kernels.SIZE_COLUMNS))
         self.sizes[:benches] = np.stack(columns, axis=1)
-        self.rows = np.zeros((4, benches + 1 + len(edges), kernels.CHAIN_COLUMNS))
+        self.rows = np.empty((4, benches + 1 + len(edges), kernels.CHAIN_COLUMNS))  # a chain writes what it reads
         self.motion = np.zeros((benches + 1 + len(edges), kernels.MOTION_COLUMNS))
         self.pair = np.zeros(3, dtype=np.intp)
         if len(edges):
             along = edges[:, 2:4] - edges[:, 0:2]
             half = 0.5 * np.hypot(along[:, 0], along[:, 1])
             self.sizes[benches + 1 :, 1] = self.sizes[benches + 1 :, 3] = half
+            self.rows[:, benches + 1 :] = 0.0
             self.rows[:, benches + 1 :, 6:8] = 0.5 * (edges[:, 0:2] + edges[:, 2:4])
             self.rows[:, benches + 1 :, 8:10] = along / (2.0 * half)[:, None]
 
@@ -179,7 +181,8 @@ class Search:
         return isinstance(self.path, Route) and float(self.ring[RING_PLACE]) >= NO_BOUND
 
     def _clear_radius(self, growth: float) -> float:
-        """The least radius, within 1e-3, from which the ring bound exceeds the margin; 1e150 if none."""
+        """The least radius, within 1e-3, from which the ring bound exceeds the margin, and CLEAR_SPARE more, so that a
+        handle which is computed to be there is; 1e150 if none."""
 
         def clear(radius: float) -> bool:
             least = float(kernels.ring_least(growth, growth, radius, *self.ring_extremes))
@@ -194,21 +197,30 @@ class Search:
         while high - low > 1e-3 * high:
             middle = 0.5 * (low + high)
             low, high = (low, middle) if clear(middle) else (middle, high)
-        return high * (1.0 + RING_ROUNDING)
+        return float(high * (1.0 + kernels.CLEAR_SPARE))
 
     def _clear_places(self, path: Route) -> tuple[float, float]:
         """RING_PLACE and RING_END of the kernels [m]: 1e150 and -1e150 if not known, or where edges at rest may lie
-        anywhere."""
+        anywhere.
+
+        Both are PLACE_SPARE further than their bounds ask, for the rounding of handles, and RING_END beyond what
+        travels may be off by; RING_PLACE is BLEND behind where the coil ends, which is where it may be led to the next
+        piece.
+        """
         if path.tail_begin is not None or len(self.edges) or self.dragon.benches < 3:
             return NO_BOUND, -NO_BOUND
         first = path.table[0].tolist()
         radius = self._clear_radius(first[7])
         if radius >= NO_BOUND:
             return NO_BOUND, -NO_BOUND
-        clear = min(first[2], first[1] + first[10] - first[7] * float(kernels.spiral_arc(radius / first[7])))
+        arc = first[7] * float(kernels.spiral_arc(radius / first[7])) * (1.0 + TRAVEL_ROUNDING)
+        clear = min(first[2] - kernels.BLEND, first[1] + first[10] - arc) - kernels.PLACE_SPARE
         coils = two_coils(path)
         out = None if coils is None else way_out(self.dragon, coils, self.margin)
-        return -clear, -NO_BOUND if out is None else -float(path.table[-1, 1]) - out
+        if out is None:
+            return -clear, -NO_BOUND
+        end = float(path.table[-1, 1]) + out + kernels.PLACE_SPARE
+        return -clear, -end - self.travel_rounding(end)
 
     def travel_at(self, theta: float) -> float:
         """Head travel from the start of a spiral to theta [m]."""
@@ -234,7 +246,7 @@ class Search:
             clear_until = self.travel_at(self.clear_radius / self.growth) if self.clear_radius < NO_BOUND else start
             if clear_until > start:
                 opening = False
-                start = clear_until
+                start = max(start, clear_until - rounding)
         nothing = self.dragon.benches < 3 and not len(self.edges)
         if nothing or (start >= stop and not opening):
             return "reached", dict.fromkeys(kernels.MARCH_FIELDS, 0.0) | {"proven": asked[1], "graze_gap": NO_GRAZE}
@@ -288,6 +300,7 @@ class Search:
         """march() between two travels [m] with the bracket of a contact: state, result by name, its half width [m]."""
         tolerance = max(BRACKET * min(1.0, head_speed), BRACKET_MIN, 2.0 * self.travel_rounding(begin, until))
         state, found = self.march(until, tolerance, start=begin)
+        proven = found["proven"]
         slowed = [wider * min(1.0, head_speed) for wider in BRACKETS_GRAZING]
         for wider in sorted({*slowed, *BRACKETS_GRAZING}):
             if state != "stuck" or found["touching"] < 0.0:
@@ -295,7 +308,16 @@ class Search:
             if wider > tolerance:
                 tolerance = wider
                 state, found = self.march(until, tolerance, start=begin)
-        return state, found, tolerance
+                proven = max(proven, found["proven"])
+        return state, found | {"proven": proven}, tolerance
+
+    def surely_within(self, travel: float, pair: tuple[int, int]) -> bool:
+        """Are two benches within the margin after a travel [m], whatever rounding does?"""
+        slack, rows = self.travel_rounding(travel), self.rows
+        place = self.place - travel + slack
+        chains = (self.sizes, rows[1], rows[2], self.motion, np.empty(8))
+        most = kernels.pair_most(self.growth, self.pieces, place, 2.0 * slack, *pair, self.dragon.benches, *chains)
+        return float(most) <= self.margin
 
     def place_leaders(self, travel: float, leaders: int) -> None:
         """Put so many leading benches, and no pair of them, into rows[0] as they are after a travel [m]."""
@@ -391,7 +413,7 @@ class Search:
         assert end.theta is not None
         if self.dragon.benches < 3:
             return NO_GRAZE
-        last = self.travel_at(end.theta)
+        travel, last = travel - self.travel_rounding(travel), self.travel_at(end.theta)
         stretches = [(self._least_left(travel, end.theta), travel, last)]
         while stretches[0][0] <= self.margin and len(stretches) < FOLD_STRETCHES:
             _, start, stop = heapq.heappop(stretches)
@@ -418,6 +440,17 @@ class Search:
     # handle by o at most and sideways by w / 2, moves by no more than
     #     max(D_a, D_b) + (o + w / 2) turn.
     # Where delta folds for low_k, or rounds to a fold, the delta of the fold itself takes its place, which is larger.
+    #
+    # Rounding. Stretches meet at the same computed theta, so that they leave no gap; the first one begins before its
+    # travel by what that may be off by, and every interval is wider at both ends by w = THETA_ROUNDING of theta. That
+    # covers delta, near the fold too. A computed delta is the root for a chord^2 = f that is off by 14 u f (spiral.py).
+    # Where theta f_theta >= 0.03 f, that is a theta off by less than 500 u, far less than w. Else 4 theta (theta +
+    # delta) s^2 < 0.03 f, s = sin(delta / 2), and delta^2 > 0.97 f; up to delta = pi f_delta / 2 >= delta, and from
+    # there to the crest s >= 0.64 and theta (theta + delta) |sin delta| <= 2 theta (theta + delta) s <= 0.12 delta, so
+    # f_delta / 2 >= 0.88 delta: delta is off by 9 u of itself, far less than w again. The arcs, widened by growth w
+    # theta sqrt(1 + theta^2), and what follows from them are products and sums of terms >= 0. Gaps are good to
+    # gap_rounding(): that grows with a gap by far less than the gap itself, so it need only reach as far as any pair
+    # that can be the least.
     def _least_left(self, travel: float, theta: float) -> float:
         """No two benches come nearer than this, or than the margin, from a travel until the head is at theta [m].
 
@@ -426,6 +459,9 @@ class Search:
         """
         gap, _ = self.clearance(travel)
         arcs, moved = self.moved_until(theta)
+        reached = 2.0 * float(moved.max())
+        rounding = self.gap_rounding(travel, min(gap, NO_BOUND) + reached)
+        arcs += self.rows[0, self.room - 1, ERROR]
         radii = self.growth * self.rows[0, : self.room + 1, 4]
         outside = np.flatnonzero(radii[:-1] - arcs[:-1] >= self.clear_radius)
         leaders = int(outside[0]) if outside.size else self.room
@@ -434,10 +470,10 @@ class Search:
             reach = kernels.leaders_reach(self.growth, *reach) + self.margin
             if radii[-1] - arcs[-1] < kernels.radius_beyond(self.growth, reach, self.ring):
                 return -NO_BOUND
-        least = gap - 2.0 * float(moved.max())
+        least = gap - reached
         if least <= self.margin:
             least = kernels.clearance_left(leaders, self.room, self.sizes, self.rows[0], moved)
-        return float(least) - self.gap_rounding(travel, gap + 2.0 * float(moved.max()))
+        return float(least) - rounding
 
     def moved_until(self, theta: float) -> tuple[Floats, Floats]:
         """How far each handle in rows[0], and any point of each bench, moves until the head is at theta at most [m]."""
@@ -457,7 +493,7 @@ class Search:
             inner, outer = self._deltas(low, high, float(chords[k]))
             if 0.5 * curvature * chords[k] <= kernels.BEND_LIMIT:
                 inner, outer, bends[k] = outer, inner, curvature
-            low, high = low + inner, high + outer
+            low, high = (low + inner) * (1.0 - THETA_ROUNDING), (high + outer) * (1.0 + THETA_ROUNDING)
         both = arcs[:-1] + arcs[1:]
         turned = both * np.minimum(1.0 / chords, 0.5 * bends)
         over = self.sizes[:benches, 1] - 0.5 * chords + self.sizes[:benches, 2]

@@ -24,8 +24,10 @@ from core.kernels.clearance import clearance_at, clearance_left, crossing, gap_a
 from core.kernels.constants import (
     BEND_LIMIT,
     BENT,
+    BLEND,
     CENTRE_SPEED,
     CHAIN_COLUMNS,
+    CLEAR_SPARE,
     ERROR,
     FREE,
     HANDLE_SPEED,
@@ -37,6 +39,7 @@ from core.kernels.constants import (
     PART,
     PIECE_COLUMNS,
     PIECE_KINDS,
+    PLACE_SPARE,
     ROUTE_BEND_LIMIT,
     SHIFT_COLUMNS,
     SIZE_COLUMNS,

@@ -52,3 +52,7 @@ cpdef bint route_bounds(
     const double[:, ::1] pieces, double h, Py_ssize_t benches, double[:, ::1] sizes, double[:, ::1] before,
     double[:, ::1] after, bint climbing, double[:, ::1] motion
 ) noexcept nogil
+
+cdef double followed_error(
+    Py_ssize_t k, double error, double[:, ::1] sizes, double[:, ::1] before, double[:, ::1] after
+) noexcept nogil

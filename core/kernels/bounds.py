@@ -354,3 +354,19 @@ def route_bounds(pieces, h, benches, sizes, before, after, climbing, motion):
         second_a = second_b
         third_a = third_b
     return True
+
+
+# Rates of followed handles. e_b cos alpha_b <= e_a cos alpha_a + 2 blur |b'| bounds the rounding e of a rate, as both
+# cosines are good to `blur`.
+
+
+def followed_error(k, error, sizes, before, after):
+    """Rounding of the rate of handle k of a spiral at either end of an interval, from that of the one before [1]."""
+    blur = blur_of(k - 1, sizes[k - 1, CHORD], before, after)
+    front, rear = link_cosines(k - 1, before)
+    front_end, rear_end = link_cosines(k - 1, after)
+    rear = min(rear, rear_end) - blur
+    if rear <= 0.0:
+        return FREE
+    error *= max(fabs(front), fabs(front_end)) + blur
+    return (error + 2.0 * blur * max(fabs(before[k, RATE]), fabs(after[k, RATE]))) / rear

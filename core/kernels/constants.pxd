@@ -8,6 +8,9 @@ cdef extern from *:
     const double BEND_LIMIT "0.97"
     const double ROUTE_BEND_LIMIT "0.999"
     const double FREE "1e150"
+    const double BLEND "1.0"
+    const double CLEAR_SPARE "1e-09"
+    const double PLACE_SPARE "1e-06"
     const double SPIRAL_CURVATURE_MOST "1.0887"
 
 cdef enum:

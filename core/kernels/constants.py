@@ -99,6 +99,8 @@ K_START = 3
 K_END = 4
 K_SLOPE = 14  # bound on |d curvature / d s| [1/m^2]
 PART = 15  # within a part of the route curvature has no jump
+# Pieces that miss each other are led together within so much of their joint [m].
+BLEND = 1.0
 LOOSE = 16  # the pieces join to a path with a continuous tangent that is nowhere further from them than this [m]
 BENT = 17  # nor its curvature from theirs [1/m]
 PIECE_COLUMNS = 18
@@ -137,6 +139,12 @@ RING_PLACE = 12
 # and once a body repeats itself, nothing touches while the head is beyond this place
 RING_END = 13
 RING_ENTRIES = 14
+
+# What follows from a bound that holds from a radius or a place on is used only beyond it, by this part of the radius
+# [1]
+CLEAR_SPARE = 1e-9
+# or by this along a route [m], far more than handles are off by, which is checked where it is used.
+PLACE_SPARE = 1e-6
 
 # Entries of march()'s result.
 PROVEN = 0  # nothing touches up to here [m of head travel]

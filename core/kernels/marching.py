@@ -4,12 +4,13 @@ import cython
 from cython.cimports.libc.math import fabs
 
 if not cython.compiled:  # for the compiler the same stands in the .pxd
-    from core.kernels.chain import extend
+    from core.kernels.bounds import followed_error
+    from core.kernels.chain import chain_rounding, extend
     from core.kernels.clearance import crossing, gap_at, row_clearance, row_gap
     from core.kernels.constants import *
     from core.kernels.pairs import interval_least, pair_most
     from core.kernels.rings import coil_radius, coil_reach, drift, leaders_reach, radius_beyond
-    from core.kernels.route import extend_route, start_route
+    from core.kernels.route import extend_route, stands_first, start_route
     from core.kernels.spiral import extend_chain, spiral_curvature, spiral_theta, start_chain
 
 # March.
@@ -73,8 +74,9 @@ ALLOWANCE = 2.0
 WIDTH_ROUNDING = 1e-12
 # How far ahead a contact is looked for whose beginning rounding hides [m]: the widest bracket of core/search.py, twice.
 PEEK = 1e-4
-# Handles have passed a place when they are this much beyond it, of 1 + |theta| or 1 + |s| [1]: SLIP is far less, on a
-# spiral u (32 n c + 16 r (theta - theta_0)) at most, with n c <= r theta.
+# Handles have passed a place when they are this much beyond it, of 1 + |theta| or 1 + |s| [1], and beyond what both may
+# be off by. On a spiral where no handle is followed it is more than SLIP alone: u (32 n c + 16 r (theta - theta_0) +
+# 2 r n) at most (spiral_error()), with n c <= r theta, which is an angle below u (48 theta + 2 n), n < 1e6.
 PASSED_BY = 1e-9
 # A crossing is found this much closer than the bracket that is proven around it [1].
 CROSSING_WIDTH = 1e-3
@@ -112,7 +114,9 @@ def route_between(pieces, place, leaders, benches, margin, allowance, ring, size
     if k == 0:
         return 0
     radius = radius_beyond(pieces[0, 7], coil_reach(pieces, k, sizes, chain) + margin + allowance, ring) + allowance
-    while k < benches and (chain[k, PIECE] > 0.0 or coil_radius(pieces, chain[k, PX], chain[k, PY]) < radius):
+    while k < benches and (
+        not stands_first(pieces, k, chain) or coil_radius(pieces, chain[k, PX], chain[k, PY]) < radius
+    ):
         k = extend_route(pieces, k, k + 1, 0.0, sizes, chain)
     return k
 
@@ -148,28 +152,60 @@ def route_between(pieces, place, leaders, benches, margin, allowance, ring, size
 # With edges at rest in place of the second bench the same holds of g(place_i), the separation of a bench and an edge.
 
 
-def passed(first, last, placed, opening, chain):
-    """Has every handle from `first` to `last` passed where its predecessor began?"""
+def passed(growth, pieces, first, last, placed, sizes, opening, chain):
+    """Has every handle from `first` to `last` passed where its predecessor began, by more than rounding?
+
+    A handle that is SLIP from its true place along a spiral is off by SLIP / growth in theta at most.
+    """
     for i in range(first, last + 1):
         if i > placed or chain[i, THETA] + PASSED_BY * (1.0 + fabs(chain[i, THETA])) > opening[i - 1, THETA]:
+            return False
+    chain_rounding(growth, pieces, last, sizes, opening)
+    if first <= last:
+        chain_rounding(growth, pieces, last, sizes, chain)
+    for i in range(first, last + 1):
+        if chain[i, THETA] + (chain[i, SLIP] + opening[i - 1, SLIP]) / growth > opening[i - 1, THETA]:
             return False
     return True
 
 
-def turns_back(k, h, before, after, motion):
-    """May handle k go backwards during an interval? Its rate is never below this mean by more than |s''| h / 2."""
-    return before[k, RATE] + after[k, RATE] <= motion[k, RATE_RATE] * h
+# A rate is never below the mean of those at both ends by more than |s''| h / 2, and these are good to followed_error().
+# Where no handle is followed none turns back (RATE_LOW > 0).
 
 
-def slid_back(growth, first, last, placed, h, ring, opening, before, after, motion):
+def turns_back(k, h, error, before, after, motion):
+    """May handle k of a spiral go backwards during an interval? error: of its rates at both ends [1]"""
+    return motion[k, RATE_LOW] <= 0.0 and before[k, RATE] + after[k, RATE] <= motion[k, RATE_RATE] * h + 2.0 * error
+
+
+def may_turn(k, h, sizes, before, after, motion):
+    """turns_back() without the error of the rates, which follows from link to link."""
+    error = 0.0
+    if motion[k, RATE_LOW] > 0.0:
+        return False
+    for i in range(1, k + 1):
+        error = followed_error(i, error, sizes, before, after)
+    return turns_back(k, h, error, before, after, motion)
+
+
+def slid_back(growth, first, last, placed, h, ring, sizes, opening, before, after, motion):
     """May a handle of a spiral from `first` to before `last` have stood behind its own start during an interval?
 
     Behind the last handle placed every other moves in the direction of its leader, where links bend no more than the
-    chord lemma asks (bounds.py): then what holds of that one holds of them.
+    chord lemma asks (bounds.py): then what holds of that one holds of them. Radii are off by less than SLIP, and by
+    less than PASSED_BY of 1 + theta where no handle is followed.
     """
-    for k in range(min(first, placed), min(last, placed + 1)):
+    error = 0.0
+    for k in range(min(last, placed + 1)):
+        if k > 0 and motion[k, RATE_LOW] <= 0.0:
+            error = followed_error(k, error, sizes, before, after)
+        if k < first and k < placed:
+            continue
         low = growth * max(before[k, THETA], after[k, THETA])
-        if k > 0 and turns_back(k, h, before, after, motion):
+        low += PASSED_BY * (growth + low) + opening[k, SLIP]
+        if motion[k, RATE_LOW] <= 0.0:
+            low += max(before[k, SLIP], after[k, SLIP])
+        if k > 0 and turns_back(k, h, error, before, after, motion):
             low += drift(motion[k - 1, HANDLE_SPEED], h, growth, low)
         if low > growth * opening[k, THETA]:
             return True
@@ -230,6 +266,9 @@ def march(
     last_a = 0
     last_b = 0
     turning = False
+    allowed = CLEAR_SPARE * ring[RING_CLEAR]
+    if pieces.shape[0] > 0:
+        allowed = 0.5 * PLACE_SPARE if ring[RING_PLACE] < FREE else FREE
     opens = at_start and solo > 0.0
     if cap > benches:
         cap = benches
@@ -275,7 +314,13 @@ def march(
                 followers,
                 cap,
                 margin,
-                ALLOWANCE * drift(fabs(before[1, RATE]) + 1.0, h, growth, solo * before[1, THETA]),
+                ALLOWANCE
+                * drift(
+                    (fabs(before[1, RATE]) if placed > 0 else 0.0) + 1.0,
+                    h,
+                    growth,
+                    solo * before[1, THETA] if placed > 0 else 0.0,
+                ),
                 turning,
                 ring,
                 sizes,
@@ -291,6 +336,7 @@ def march(
                 continue
             room = FREE
             least = FREE
+            wide = h * (1.0 + WIDTH_ROUNDING) + 2.0 * rounding
             if active > 0:
                 if placed < handles:
                     placed = extend(growth, pieces, placed, handles, sizes, before)
@@ -298,7 +344,7 @@ def march(
                     growth,
                     pieces,
                     statics,
-                    h * (1.0 + WIDTH_ROUNDING) + 2.0 * rounding,
+                    wide,
                     active,
                     handles,
                     benches,
@@ -311,6 +357,8 @@ def march(
                     scratch,
                 )
                 room = 0.95 * scratch[3]
+                if scratch[4] > allowed:  # a bench beyond the clear radius or place might not be there
+                    least = -FREE
             if least <= margin:
                 if least == -FREE:
                     h *= 0.5
@@ -378,15 +426,15 @@ def march(
                 h *= 0.5
                 target = -1.0
                 continue
-            if solo > 0.0 and 0 < active < followers and turns_back(active, h, before, after, motion):
+            if solo > 0.0 and 0 < active < followers and may_turn(active, wide, sizes, before, after, motion):
                 edge = growth * min(before[active, THETA], after[active, THETA])
-                if edge - drift(motion[active - 1, HANDLE_SPEED], h, growth, edge) < ring[RING_CLEAR]:
+                if edge - drift(motion[active - 1, HANDLE_SPEED], wide, growth, edge) < ring[RING_CLEAR]:
                     h *= 0.5 if turning else 1.0
                     turning = True
                     target = -1.0
                     continue
             if opens and not at_start and active > 0:
-                if slid_back(growth, first, opened, handles, h, ring, opening, before, after, motion):
+                if slid_back(growth, first, opened, handles, wide, ring, sizes, opening, before, after, motion):
                     at_start = True
                     followers = benches if benches < cap else cap
                     target = -1.0
@@ -442,7 +490,7 @@ def march(
             last_travel = travel
             last_a = pair[1]
             last_b = pair[2]
-            if at_start and passed(first, opened, placed, opening, before):
+            if at_start and passed(growth, pieces, first, opened, placed, sizes, opening, before):
                 at_start = False
                 followers = leaders if leaders < cap else cap
             h = room if room < 2.0 * h else 2.0 * h

@@ -103,8 +103,14 @@ cdef double strip_pair(
     double[::1] out
 ) noexcept nogil
 
+cdef void strip_rounding(
+    double low, double high, Py_ssize_t handles, double[:, ::1] sizes, double[:, ::1] before, double[:, ::1] after,
+    double[:, ::1] before_high, double[:, ::1] after_high
+) noexcept nogil
+
 @cython.locals(
-    i=cython.Py_ssize_t, j=cython.Py_ssize_t, a=cython.Py_ssize_t, b=cython.Py_ssize_t, filled=cython.bint
+    i=cython.Py_ssize_t, j=cython.Py_ssize_t, a=cython.Py_ssize_t, b=cython.Py_ssize_t, roughly=cython.bint,
+    filled=cython.bint
 )
 cdef double strip_least(
     double low, double high, Py_ssize_t leaders, Py_ssize_t handles, double margin, double h_low, double h_high,

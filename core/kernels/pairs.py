@@ -290,7 +290,7 @@ def interval_least(
     """Proven least separation over an interval of all pairs led by the first `active` benches [m]; -FREE: too wide.
 
     out: (14,) [0] K of the least pair, [1] and [2] that pair, [3] the widest interval the same pairs would allow [m],
-    [4] the least gap at the far end; the rest is scratch
+    [4] what points may be off by [m]; the rest is scratch
     """
     edges = statics if statics >= 0 else -statics
     best = FREE
@@ -299,6 +299,8 @@ def interval_least(
     a = 0
     b = 0
     if pieces.shape[0] > 0:
+        chain_rounding(growth, pieces, handles, sizes, before)
+        chain_rounding(growth, pieces, handles, sizes, after)
         if not route_bounds(pieces, h, handles, sizes, before, after, False, motion):
             return -FREE
     elif not motion_bounds(growth, h, handles, sizes, before, after, motion):
@@ -319,7 +321,7 @@ def interval_least(
     # of centres; an edge at rest that is near has coordinates hardly larger than the bench, whose rounding ERROR covers
     reach = margin * (1.0 + 1e-12) + 16.0 * error
     if handles < benches and pieces.shape[0] > 0:
-        if not stays_beyond(pieces, active, handles, h, margin, ring, sizes, before, after, motion):
+        if not stays_beyond(pieces, active, handles, h, margin, error, ring, sizes, before, after, motion):
             return -FREE
     elif handles < benches:  # those left out must stay outside the reach of the leaders
         high = before[active, THETA] if before[active, THETA] > after[active, THETA] else after[active, THETA]
@@ -364,6 +366,8 @@ def interval_least(
                     chain_rounding(growth, pieces, handles, sizes, after)
                     filled = True
                 least -= pair_rounding(i, j, distance, sizes, before, after)
+            if least != least:  # no number is no bound
+                return -FREE
             width = 8.0 * (least - margin) / out[0] + h * h
             width = sqrt(width) if width > 0.0 else 0.0
             if width < room:
@@ -377,6 +381,7 @@ def interval_least(
     out[1] = a
     out[2] = b
     out[3] = room
+    out[4] = error
     return best
 
 
@@ -447,18 +452,34 @@ def strip_pair(
     return least if least > best else best
 
 
+def strip_rounding(low, high, handles, sizes, before, after, before_high, after_high):
+    """chain_rounding() of the four chains of a rectangle."""
+    spiral_rounding(low, handles, sizes, before)
+    spiral_rounding(low, handles, sizes, after)
+    spiral_rounding(high, handles, sizes, before_high)
+    spiral_rounding(high, handles, sizes, after_high)
+
+
 def strip_least(
     low, high, leaders, handles, margin, h_low, h_high, ring, sizes, before, after, before_high, after_high, motion,
     motion_high, shifts, out
 ):  # fmt: skip
     """interval_least() over a rectangle of (r_0, b), of pairs led by the first `leaders` benches; out: [1] to [3]."""
-    error = max(
-        spiral_error(low, handles, ring[ALL_CHORD], after), spiral_error(high, handles, ring[ALL_CHORD], after_high)
-    )
-    error = max(error, spiral_error(high, handles, ring[ALL_CHORD], before_high))
-    rounding = any_rounding(error, max(h_low, h_high), margin, ring)
-    filled = False
-    if rounding <= 0.0:
+    error = 0.0
+    rounding = 0.0
+    if motion[handles, RATE_LOW] > 0.0 and motion_high[handles, RATE_LOW] > 0.0:
+        error = max(
+            spiral_error(low, handles, ring[ALL_CHORD], after), spiral_error(high, handles, ring[ALL_CHORD], after_high)
+        )
+        error = max(error, spiral_error(high, handles, ring[ALL_CHORD], before_high))
+        rounding = any_rounding(error, max(h_low, h_high), margin, ring)
+    roughly = rounding > 0.0
+    filled = not roughly
+    if filled:
+        strip_rounding(low, high, handles, sizes, before, after, before_high, after_high)
+        error = max(before[handles - 1, ERROR], after[handles - 1, ERROR])
+        error = max(error, max(before_high[handles - 1, ERROR], after_high[handles - 1, ERROR]))
+    if error > CLEAR_SPARE * low * after[leaders, THETA]:  # what strip() lays the chains out further by
         return -FREE
     best = FREE
     room = FREE
@@ -479,23 +500,28 @@ def strip_least(
             if distance - slack > (sizes[i, RADIUS] + sizes[j, RADIUS] + margin) * (1.0 + 1e-12):
                 continue  # far apart
             distance += slack
+            least = rounding
+            if not roughly:
+                least = max(
+                    pair_rounding(i, j, distance, sizes, before, after),
+                    pair_rounding(i, j, distance, sizes, before_high, after_high),
+                )
             least = strip_pair(
-                low, high, i, j, distance, margin, margin + rounding, h_low, h_high, sizes, before, after, before_high,
+                low, high, i, j, distance, margin, margin + least, h_low, h_high, sizes, before, after, before_high,
                 after_high, motion, motion_high, shifts, out,
             )  # fmt: skip
-            if not (margin < least <= margin + rounding):
+            if roughly and not (margin < least <= margin + rounding):
                 least -= rounding
             else:
                 if not filled:
-                    spiral_rounding(low, handles, sizes, before)
-                    spiral_rounding(low, handles, sizes, after)
-                    spiral_rounding(high, handles, sizes, before_high)
-                    spiral_rounding(high, handles, sizes, after_high)
+                    strip_rounding(low, high, handles, sizes, before, after, before_high, after_high)
                     filled = True
                 least -= max(
                     pair_rounding(i, j, distance, sizes, before, after),
                     pair_rounding(i, j, distance, sizes, before_high, after_high),
                 )
+            if least != least:
+                return -FREE
             if least < best:
                 best = least
                 a = i

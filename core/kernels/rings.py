@@ -5,6 +5,7 @@ from cython.cimports.libc.math import asin, sin, sqrt
 
 if not cython.compiled:  # for the compiler the same stands in the .pxd
     from core.kernels.constants import *
+    from core.kernels.route import stands_first
 
 
 # A point at distance x along the extended centre line of a bench from the foot of the perpendicular from the
@@ -127,7 +128,8 @@ def ring_least(
 
 # A route that begins with a coil inwards, which goes on outwards behind its beginning. On a route handles only go
 # forward (route.py), so a bench whose front handle stands on that coil has always been there, and so have all behind
-# it: they stand on one spiral, and all bounds above hold of them, around the coil's centre. Hence no two benches touch
+# it: they stand on one spiral (as long as it stays clear of where the coil is led together with the next piece, see
+# stands_first()), and all bounds above hold of them, around the coil's centre. Hence no two benches touch
 # of which the leading one's front handle stands at RING_PLACE or further back, from where ring_least() exceeds the
 # margin; and no bench that stands on the coil with its front handle at radius_beyond(X) or further out touches one
 # within X of the centre. So only benches before RING_PLACE lead pairs, and the chain need not be laid out further than
@@ -151,11 +153,12 @@ def coil_reach(pieces, leaders, sizes, chain):
     return reach
 
 
-def stays_beyond(pieces, leaders, handles, h, margin, ring, sizes, before, after, motion):
+def stays_beyond(pieces, leaders, handles, h, margin, error, ring, sizes, before, after, motion):
     """Do the benches behind handle `handles` of a route stay beyond the reach of those that lead pairs meanwhile?
 
     A leader's centre is at most h / 2 of travel from where it stands at one of the ends. That handle goes inwards, so
-    it is nearest to the centre at the far end.
+    it is nearest to the centre at the far end. error: of points of the chains [m], which has u (|x| + |y|) and more in
+    it (route.py), so that 8 times that covers the roundings of radii too
     """
     reach = 0.0
     for i in range(leaders):
@@ -163,9 +166,8 @@ def stays_beyond(pieces, leaders, handles, h, margin, ring, sizes, before, after
         far += sizes[i, RADIUS] + 0.5 * h * motion[i, CENTRE_SPEED]
         if far > reach:
             reach = far
-    return after[handles, PIECE] == 0.0 and coil_radius(pieces, after[handles, PX], after[handles, PY]) >= (
-        radius_beyond(pieces[0, 7], reach + margin, ring)
-    )
+    reach = radius_beyond(pieces[0, 7], (reach + margin) * (1.0 + RING_ROUNDING) + 8.0 * error, ring) + 8.0 * error
+    return stands_first(pieces, handles, after) and coil_radius(pieces, after[handles, PX], after[handles, PY]) >= reach
 
 
 def drift(rate, h, growth, radius):

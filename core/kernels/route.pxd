@@ -2,8 +2,6 @@ cimport cython
 from core.kernels.constants cimport *
 from core.kernels.spiral cimport next_arc, slipped, spiral_curvature, spiral_theta, swayed
 
-cdef double BLEND
-
 cdef double cubic_speed(const double[:, ::1] pieces, Py_ssize_t p, double t) noexcept nogil
 cdef double cubic_arc(const double[:, ::1] pieces, Py_ssize_t p, double t) noexcept nogil
 
@@ -50,6 +48,8 @@ cpdef void joint_misses(const double[:, ::1] pieces, double[:, ::1] out) noexcep
 
 @cython.locals(p=cython.Py_ssize_t)
 cpdef void piece_slides(const double[:, ::1] pieces, double[::1] out) noexcept
+
+cdef bint stands_first(const double[:, ::1] pieces, Py_ssize_t k, double[:, ::1] chain) noexcept nogil
 
 @cython.locals(p=cython.Py_ssize_t)
 cdef void start_route(const double[:, ::1] pieces, double s, double[:, ::1] chain) noexcept nogil

@@ -134,6 +134,11 @@ def set_piece_theta(pieces, p, k, chain):
         chain[k, PIECE_THETA] = theta_at(pieces, p, -chain[k, PLACE])
 
 
+def stands_first(pieces, k, chain):
+    """Does handle k stand on the first piece, where that is not led together with the next one?"""
+    return chain[k, PIECE] <= 0.0 and -chain[k, PLACE] <= pieces[0, S_END] - BLEND
+
+
 def start_route(pieces, s, chain):
     """Row 0 of a chain on a route: the head at s."""
     p = piece_of(pieces, s, 0)
@@ -167,9 +172,6 @@ def start_route(pieces, s, chain):
 #            steps that invert it end within 30 u C:                              100 u C
 # What the quadrature lacks to the true arc length of a cubic, 1e-13 of it (core/cubics.py), is left out: s on a cubic
 # is what the quadrature says.
-
-# Pieces that miss each other are led together within so much of their joint [m].
-BLEND = 1.0
 
 
 def cubic_size(pieces, p):
@@ -269,7 +271,7 @@ def extend_route(pieces, first, last, calm, sizes, chain):
     returns: last, or where calm > 0 a handle before it that stands on the first piece
     """
     for k in range(first, last):
-        if calm > 0.0 and chain[k, PIECE] <= 0.0:
+        if calm > 0.0 and stands_first(pieces, k, chain):
             return k
         s = -chain[k, PLACE]
         p = cython.cast(cython.Py_ssize_t, chain[k, PIECE])

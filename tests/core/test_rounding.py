@@ -22,6 +22,7 @@ from core import (
     kernels,
     minimum_pitch,
     run_end,
+    turn,
 )
 from core.kernels.constants import ERROR
 from core.search import Search
@@ -174,3 +175,14 @@ def test_pieces_that_miss_each_other_count_as_rounding(joined: Callable[[float],
     search.clearance(30.5)
     kernels.chain_rounding(search.growth, search.pieces, 3, search.sizes, search.rows[0])
     assert search.rows[0, 0, ERROR] >= abs(y)
+
+
+@pytest.mark.parametrize("path", [Spiral(), turn(1.7).path], ids=["spiral", "turn"])
+def test_what_a_chain_does_not_write_is_never_read(path: Spiral | Route) -> None:
+    """The same march from rows that hold no numbers, and from rows of zeros."""
+    found = []
+    for value in (math.nan, 0.0):
+        search = Search(Dragon(40), path, 0.05)
+        search.rows[:] = value
+        found.append(search.march(90.0 if isinstance(path, Route) else 400.0, 1e-10, start=-20.0))
+    assert found[0] == found[1]
