@@ -215,6 +215,7 @@ class Search:
             return NO_BOUND, -NO_BOUND
         arc = first[7] * float(kernels.spiral_arc(radius / first[7])) * (1.0 + TRAVEL_ROUNDING)
         clear = min(first[2] - kernels.BLEND, first[1] + first[10] - arc) - kernels.PLACE_SPARE
+        clear -= self.travel_rounding(clear)
         coils = two_coils(path)
         out = None if coils is None else way_out(self.dragon, coils, self.margin)
         if out is None:

@@ -55,7 +55,7 @@ from core.kernels.pairs import axis_bend, pair_bends, pair_least, pair_most, pai
 from core.kernels.rectangles import pair_gap, pair_gap_within, pair_separation, pair_separations
 from core.kernels.rings import leaders_reach, radius_beyond, ring_least
 from core.kernels.route import cubic_arcs, joint_misses, piece_slides, route_points
-from core.kernels.speed import climbs, peak_rate
+from core.kernels.speed import climbs, peak_rate, spiral_errors
 from core.kernels.spiral import (
     COMPILED,
     LANES_PER_BLOCK,

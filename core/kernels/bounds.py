@@ -68,16 +68,14 @@ RATIO_FOLLOWED = 1.001
 # is at least what these travel (marching.py). What enters the bounds is widened by what it may lack, so that what comes
 # out bounds the truth, for any number of links:
 #   curvature    of a handle that is SLIP along the path from its true place: on a spiral |d k / d s| <= 2 k / growth,
-#   as
-#                theta (4 + theta^2) / ((2 + theta^2) (1 + theta^2)^(3/2)) <= 2, so k is good to 2 SLIP / growth of
+#                as theta (4 + theta^2) / ((2 + theta^2) (1 + theta^2)^(3/2)) <= 2, so k is good to 2 SLIP / growth of
 #                itself (up to the first handle that is followed SLIP <= spiral_error() with chords up to 2 r) besides a
 #                few u; on a route to K_SLOPE SLIP + BENT. `widened` adds 32 u (benches + 8), and so k_high and k_low
 #                also make up for the few u of sin_high, cos_low, cos_high and of differences like swing, wherever these
 #                are small against what they are differences of: d (1 - sin^2) = 2 sin^2 widened is more than its
 #                rounding, 3 u, unless sin^2 < 1 / 170, where cos is good to 3 u of itself.
 #   cosines      followed from the ends: u of a link is off by SWAY or less, T by 2.2 SLIP / chord and by the rotation
-#   of
-#                the frame, which SWAY has in it too: `blur` = 2 SWAY + 2.2 SLIP / chord + 16 u.
+#                of the frame, which SWAY has in it too: `blur` = 2 SWAY + 2.2 SLIP / chord + 16 u.
 #   recurrences  from link to link sums, products and quotients of terms >= 0, each good to u: fewer than 30 a link, so
 #                a factor LOOSEN (for lower bounds TIGHTEN) a link keeps them above (below) the truth.
 # What is computed from a motion row once, and not from link to link, is good to 1e-13 of itself, which h makes up for.

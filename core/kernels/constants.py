@@ -140,10 +140,9 @@ RING_PLACE = 12
 RING_END = 13
 RING_ENTRIES = 14
 
-# What follows from a bound that holds from a radius or a place on is used only beyond it, by this part of the radius
-# [1]
+# A bound that holds from a radius or a place on is used only beyond it, by this part of the radius [1] or by this
+# along a route [m]: more than handles are off by, which is checked where it is used.
 CLEAR_SPARE = 1e-9
-# or by this along a route [m], far more than handles are off by, which is checked where it is used.
 PLACE_SPARE = 1e-6
 
 # Entries of march()'s result.

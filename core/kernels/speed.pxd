@@ -12,6 +12,7 @@ cdef double NOISE
 cdef double PEAK_WIDTH
 cdef Py_ssize_t INTERVAL_LINKS
 cdef double BOUND_ROUNDING
+cdef double WIDTH_ROUNDING
 
 cdef Py_ssize_t lively_chain(
     double growth, const double[:, ::1] pieces, double place, Py_ssize_t last, double calm, double[:, ::1] sizes,

@@ -163,7 +163,8 @@ def smooth_bound(start, start_slope, end, end_slope, jerk, h, kink):
 
 # Rounding. Rates and slopes at the ends are good to RATE_ERROR and CLIMB_ERROR: on a route by route_bounds(), on a
 # spiral by spiral_errors(). There no rate exceeds 1 unless a handle is followed. What is computed from them once is
-# good to BOUND_ROUNDING of itself, and h is widened by what both travels may be off by. A handle that is calm by less
+# good to BOUND_ROUNDING of itself, and h is widened by what both travels may be off by and by WIDTH_ROUNDING, for the
+# bounds (bounds.py). A handle that is calm by less
 # than rounding is calm: on a spiral the lemma holds up to a bend of 1, and calm is what bends by BEND_LIMIT at most, on
 # a route stands_first() leaves BLEND to spare.
 #
@@ -174,6 +175,7 @@ def smooth_bound(start, start_slope, end, end_slope, jerk, h, kink):
 #                        + for both (widened + 2 blur k) s'^2 + 4 k |s'| e.
 # Each product of two that are off counts twice: that covers both being off, and its own roundings, as blur >= 16 u.
 BOUND_ROUNDING = 1e-14  # [1]
+WIDTH_ROUNDING = 1e-12  # [1]
 
 
 def spiral_errors(growth, handles, sizes, before, after, motion):
@@ -212,7 +214,7 @@ def rate_bound(growth, pieces, h, rounding, handles, benches, calm, sizes, befor
     upper = 1.0
     if handles == 0:
         return upper
-    h = h * (1.0 + BOUND_ROUNDING) + 2.0 * rounding
+    h = h * (1.0 + WIDTH_ROUNDING) + 2.0 * rounding
     climbs(growth, pieces, handles, sizes, before)
     climbs(growth, pieces, handles, sizes, after)
     if pieces.shape[0] > 0:

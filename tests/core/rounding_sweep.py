@@ -16,7 +16,7 @@ import numpy as np
 from flint import arb
 
 from core import Arc, Coil, Dragon, InvalidValue, Line, Route, Spiral, Waypoints, kernels, run_end, turn
-from core.dragon import SIZE_MIN
+from core.dragon import SIZE_MAX, SIZE_MIN
 from core.kernels.constants import ERROR, MX, MY, PX, PY, SWAY, UX, UY
 from core.kinematics import earliest_time
 from core.search import Search
@@ -50,7 +50,7 @@ def random_dragon(rng: np.random.Generator, links: int, chord: float) -> Dragon:
         chords = chord * 10 ** rng.uniform(-0.7, 0.0, links)
     overhangs = chords * 10 ** rng.uniform(-2.0, 0.3) * (rng.random(links) < 0.8)
     if rng.random() < 0.2:
-        overhangs *= 20.0
+        overhangs = np.minimum(20.0 * overhangs, 0.49 * (SIZE_MAX - chords))
     width = max(10 ** rng.uniform(-1.5, 0.0) * chord, SIZE_MIN)
     return Dragon.of(chords + 2.0 * overhangs, np.full(links, width), overhangs)
 

@@ -22,10 +22,12 @@ from core import (
     kernels,
     minimum_pitch,
     run_end,
+    trajectory,
     turn,
 )
-from core.kernels.constants import ERROR
+from core.kernels.constants import CLIMB, CLIMB_ERROR, ERROR, RATE, RATE_ERROR
 from core.search import Search
+from core.speed import EXCEEDED, SPEED_ROUNDING, _excess
 from tests.core.exact_chain import BITS, middle, next_delta, separation, spiral_place
 from tests.core.rounding_sweep import Errors, compare, sweep
 
@@ -79,13 +81,19 @@ def test_towards_the_fold_the_bound_grows_with_the_error_until_nothing_is_claime
         assert search.rows[0, 0, ERROR] > bounds[-1]
 
 
-def exact_gap(dragon: Dragon, spiral: Spiral, time: float, head_speed: float, pair: tuple[int, int]) -> float:
-    """Separation of two benches at a time [s], a double taken as exact [m]."""
+def exact_theta(spiral: Spiral, time: float, head_speed: float = 1.0) -> arb:
+    """Where the head stands at a time [s], a double taken as exact."""
     flint.ctx.prec = BITS
     arc = spiral_place(arb(spiral.start_theta)) - arb(time) * head_speed / spiral.growth
     theta = arb(float(spiral.theta(time * head_speed)))
     for _ in range(STEPS):
         theta = middle(theta - (spiral_place(theta) - arc) / (1 + theta * theta).sqrt())
+    return theta
+
+
+def exact_gap(dragon: Dragon, spiral: Spiral, time: float, head_speed: float, pair: tuple[int, int]) -> float:
+    """Separation of two benches at a time [s], a double taken as exact [m]."""
+    theta = exact_theta(spiral, time, head_speed)
     at, handles = theta, [(spiral.growth * theta, arb(0))]
     for chord in dragon.chords[: pair[1] + 1].tolist():
         at = middle(at + next_delta(at, arb(chord) / spiral.growth))
@@ -186,3 +194,80 @@ def test_what_a_chain_does_not_write_is_never_read(path: Spiral | Route) -> None
         search.rows[:] = value
         found.append(search.march(90.0 if isinstance(path, Route) else 400.0, 1e-10, start=-20.0))
     assert found[0] == found[1]
+
+
+def exact_climbs(growth: float, theta: float | arb, chords: np.ndarray) -> tuple[list[arb], list[arb]]:
+    """Rates of the handles of a spiral and their slopes [1/m], by twice differentiating |P_a - P_b| = chord."""
+    flint.ctx.prec = BITS
+    at, rate, slope = arb(theta), arb(1), arb(0)
+    rates, slopes = [rate], [slope]
+
+    def handle(theta: arb) -> tuple[arb, ...]:
+        """Point, tangent along the way of the head, and curvature, which is to the right."""
+        length, cos, sin = (1 + theta * theta).sqrt(), theta.cos(), theta.sin()
+        x, y = growth * theta * cos, growth * theta * sin
+        return x, y, (theta * sin - cos) / length, -(theta * cos + sin) / length, -(2 + theta**2) / length**3 / growth
+
+    for chord in chords.tolist():
+        ax, ay, atx, aty, bend_a = handle(at)
+        at = middle(at + next_delta(at, arb(chord) / growth))
+        bx, by, btx, bty, bend_b = handle(at)
+        ux, uy = (ax - bx) / chord, (ay - by) / chord
+        front, rear = atx * ux + aty * uy, btx * ux + bty * uy
+        before, rate = rate, rate * front / rear
+        apart = (before * atx - rate * btx) ** 2 + (before * aty - rate * bty) ** 2
+        turned = before**2 * bend_a * (uy * atx - ux * aty) - rate**2 * bend_b * (uy * btx - ux * bty)
+        slope = (apart / chord + slope * front + turned) / rear
+        rates.append(rate)
+        slopes.append(slope)
+    return rates, slopes
+
+
+@pytest.mark.parametrize("beyond", [1e-7, 1e-5, 1e-3, 1e-1, 1.0])
+@pytest.mark.parametrize("seed", range(6))
+def test_rates_and_slopes_near_the_centre_are_good_to_what_is_said_of_them(seed: int, beyond: float) -> None:
+    rng = np.random.default_rng(seed)
+    dragon = Dragon.of(rng.uniform(1.0, 3.0, 9), np.full(9, 0.3), np.full(9, 0.1))
+    spiral = Spiral(rng.uniform(0.5, 1.2), 4.0)
+    theta = (run_end(dragon, spiral).theta or 0.0) + beyond
+    search = Search(dragon, spiral, 0.0)
+    chain, growth = search.rows[0], spiral.growth
+    kernels.start_chain(theta, chain)
+    assert kernels.extend_chain(growth, 0, 9, kernels.FREE, search.sizes, chain) == 9
+    kernels.climbs(growth, search.pieces, 9, search.sizes, chain)
+    kernels.chain_rounding(growth, search.pieces, 9, search.sizes, chain)
+    kernels.spiral_errors(growth, 9, search.sizes, chain, chain, search.motion)
+    rates, slopes = exact_climbs(growth, theta, dragon.chords)
+    for k in range(1, 10):
+        assert abs(float(rates[k] - chain[k, RATE])) <= search.motion[k, RATE_ERROR] < 1.0
+        assert abs(float(slopes[k] - chain[k, CLIMB])) <= search.motion[k, CLIMB_ERROR] < kernels.FREE
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_a_speed_that_is_said_to_exceed_a_limit_does(seed: int) -> None:
+    """Limits around the speed at an instant, down to its rounding: what is said to exceed them does to 50 digits."""
+    dragon, spiral = Dragon(5, 3.0, np.random.default_rng(seed).uniform(2.0, 2.6)), Spiral(1.2, 3.0)
+    search, end = Search(dragon, spiral, 0.0), run_end(dragon, spiral)
+    for left in (1e-1, 1e-3, 1e-5):
+        time, outcomes = end.time - left, set()
+        speed = float(trajectory(dragon, spiral, time).speed.max())
+        for above in (-1e-3, -1e-9, *(units * kernels.ULP for units in range(-6, 7, 2)), 1e-9):
+            limit = speed * (1.0 + above) / (1.0 + SPEED_ROUNDING)
+            outcome, _, found, handle = _excess(search, time, time, 1.0, limit)
+            outcomes.add(outcome)
+            if outcome == EXCEEDED:
+                rates, _ = exact_climbs(spiral.growth, exact_theta(spiral, found), dragon.chords)
+                assert abs(float(rates[handle])) > limit
+        assert outcomes > {EXCEEDED}
+
+
+def test_what_rounding_hides_of_a_minimum_pitch_is_in_its_bracket() -> None:
+    """At both ends of the bracket the graze is what it is said to be, to 50 digits."""
+    dragon = Dragon(60)
+    found = minimum_pitch(dragon)
+    for pitch, feasible in zip(found.pitch_bracket, (False, True), strict=True):
+        spiral = Spiral(pitch)
+        search = Search(dragon, spiral, 0.0)
+        near = search.travel_at(found.head_radius / spiral.growth)
+        bottom = search.bottom(near - 1e-2, near + 1e-2, found.benches, 1e-12)
+        assert (exact_gap(dragon, spiral, bottom, 1.0, found.benches) > 0.0) is feasible
