@@ -1,7 +1,7 @@
 # The first `make` in a fresh clone makes .venv, installs the locked versions and compiles core/kernels.
 SHELL := /bin/bash
 .DEFAULT_GOAL := help
-.PHONY: help setup serve test lint sweep-pitch bench examples figures dist lock clean
+.PHONY: help setup serve test rounding lint sweep-pitch bench examples figures dist lock clean
 
 VENV := .venv
 BIN := $(VENV)/bin
@@ -14,6 +14,7 @@ PYTHON ?= $(shell for p in python3 python3.13 python3.12 python3.11; do \
 help:
 	@echo 'make serve    the service on http://$(HOST):$(PORT) (HOST=, PORT=)'
 	@echo 'make test     all tests (ARGS= for pytest)'
+	@echo 'make rounding 10,000 computed gaps against 50-digit arithmetic and the bounds on rounding (ARGS="GAPS SEED")'
 	@echo 'make lint     ruff and mypy'
 	@echo 'make sweep-pitch  the minimum pitch of 2,000 random dragons against a slow scan, 10 minutes (DRAGONS=, FIRST=)'
 	@echo 'make bench    benchmarks against a plain SciPy baseline, into the table of README.md'
@@ -46,6 +47,9 @@ serve: setup
 test: setup
 	@$(BIN)/python tests/page/browser.py
 	@$(BIN)/python -m pytest $(ARGS)
+
+rounding: setup
+	@$(BIN)/python -m tests.core.rounding_sweep $(or $(ARGS),10000)
 
 lint: setup
 	@$(BIN)/ruff check .

@@ -12,6 +12,7 @@ import numpy as np
 
 from core import kernels
 from core.dragon import Dragon, Floats
+from core.kernels.constants import ALL_HALF_WIDTH, RING_ENTRIES
 from core.route import Route
 
 # Where the rings are clear is looked for in radii that grow by this factor [1], up to this one [m].
@@ -22,8 +23,14 @@ STRETCH = 0.5 * math.pi
 # The foot of the perpendicular from the centre on a chord lies no further than this times the growth from the middle of
 # the chord, where ring_least() says anything (core/kernels/rings.py) [1].
 FOOT = 1.67
-# Bounds must exceed the margin by this, far above their rounding [m].
+# Bounds must exceed the margin by this [m], far above their rounding: they add up lengths that all together are below 4
+# RADIUS_MAX (longer chords or a wider pitch are left out). ring_least() is good to 1e-11 of them (RING_ROUNDING of
+# core/search.py), 4e-7 m; where it says anything d is good to 2,000 u of itself, so what is divided by it is to 1e-12,
+# 4e-8 m; all else is good to 50 u, 2e-10 m. Where coils are led together with the next piece they run at most 1e-8 m
+# beside themselves: joints miss by 1e-9 m and rad at most (core/route.py).
 CLEARLY = 1e-6
+# Arc lengths from a centre, of which u = 2^-53 is the unit of rounding, are good to 10 u of themselves each [1].
+ARC_ROUNDING = 2e-15
 # Coils count as having one centre if theirs lie no further apart than this [m]; CLEARLY makes up for it.
 CENTRES_APART = 1e-9
 
@@ -44,10 +51,9 @@ class TwoCoils:
     radius: float
 
     def arc(self, radius: float) -> float:
-        """Arc of the coil outwards from its beginning to a radius [m]."""
-        return self.growth * float(
-            kernels.spiral_arc(radius / self.growth) - kernels.spiral_arc(self.radius / self.growth)
-        )
+        """Arc of the coil outwards from its beginning to a radius, or up to ARC_ROUNDING of all of it more [m]."""
+        end, begin = (float(kernels.spiral_arc(r / self.growth)) for r in (radius, self.radius))
+        return self.growth * (end - begin + ARC_ROUNDING * end)
 
 
 def two_coils(path: Route) -> TwoCoils | None:
@@ -98,10 +104,12 @@ def rings_clear(dragon: Dragon, coils: TwoCoils, margin: float) -> float | None:
     longest, shortest = float(chords.max()), float(chords.min())
     overhang, half = _sideways(dragon)
     foot = max(0.5 * longest, FOOT * growth)
+    if 2.0 * math.pi * growth + longest + 2.0 * (overhang + half) > RADIUS_MAX:
+        return None
     radius = coils.extent
     while radius <= RADIUS_MAX:
         sizes = (longest, shortest, overhang, half, longest, half)
-        if kernels.ring_least(growth, growth, radius, *sizes) > margin:
+        if kernels.ring_least(growth, growth, radius, *sizes) > margin + CLEARLY:
             d = math.sqrt(radius * radius - foot * foot)
             inner = d - half
             q = 1.0 / d + 2.0 * growth * (0.5 * longest + FOOT * growth + overhang) / d**3
@@ -138,7 +146,8 @@ def wholly_outside(dragon: Dragon, growth: float, radius: float) -> float:
     chords = dragon.chords[: dragon.uniform_from + 1]
     longest, shortest = float(chords.max()), float(chords.min())
     overhang, half = _sideways(dragon)
-    ring = np.array([0.0, longest, shortest, overhang, half, longest, overhang, half, -1.0, -1.0, 0.0, 0.0])
+    ring = np.zeros(RING_ENTRIES)
+    ring[: ALL_HALF_WIDTH + 1] = 0.0, longest, shortest, overhang, half, longest, overhang, half
     return float(kernels.radius_beyond(growth, radius, ring))
 
 

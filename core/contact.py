@@ -28,7 +28,7 @@ from core.kinematics import EndReason, RunEnd, checked_head_speed, checked_span,
 from core.paths import Spiral
 from core.precise import narrowed
 from core.route import Route
-from core.search import BRACKETS_GRAZING, MARGIN_MAX, NO_GRAZE, TRAVEL_ROUNDING, Search
+from core.search import BRACKETS_GRAZING, MARGIN_MAX, NO_GRAZE, Search
 
 # Grazes of a profile are looked for in steps of this fraction of the shortest chord [1], longer ones where the work is
 # too much (Search.samples()), and refined to this width [s].
@@ -153,8 +153,10 @@ def first_contact(
     head_speed: [m/s]; margin: [m], the clearance required; contact means separation <= margin
     start, stop: the times between which to look [s]; None for the end of the run
     returns: see FirstContact; times good to 1e-10 s at 1 m/s, bracketed by [proven clear up to, overlapping at], no
-        wider than 1e-9 s but where an arc length or a time itself is not that good (beyond 1e6 m, below 1e-3 m/s), and
-        within about 1e-6 m of a graze along waypoints, behind bench 60, or where a second pair meets at once
+        wider than 1e-9 s but where an arc length or a time itself is not that good (beyond 1e5 m, below 1e-3 m/s), and
+        within about 5e-5 m of a graze along waypoints, behind bench 60, or where a second pair meets at once; both
+        ends hold whatever rounding does (core/kernels/spiral.py, route.py, pairs.py), and what it hides is undecided:
+        benches whose clearance at the start is the margin to about 1e-12 m
     raises: InvalidValue; OutsideRun for a stop after the end of the run
     source: the model of Yang et al., sections 2.4 and 2.5, whose times differ: see app/paper.py
 
@@ -171,8 +173,8 @@ def first_contact(
     last = search.last_travel(until * head_speed, to_fold)
     state, found, tolerance = search.approach(begin * head_speed, last, head_speed)
     narrow = BRACKETS_GRAZING[0] * min(1.0, head_speed)
-    if state == "touched" and tolerance > narrow >= TRAVEL_ROUNDING * abs(found["touching"]):
-        narrower = narrowed(search, found, narrow)
+    if state == "touched" and tolerance > narrow >= 2.0 * search.travel_rounding(found["touching"]):
+        narrower = narrowed(search, found, narrow, head_speed)
         if narrower is not None:
             found, tolerance = narrower, narrow
     if to_fold and (state == "reached" or (state == "stuck" and found["touching"] < 0.0)):

@@ -13,7 +13,7 @@ from core.dragon import SIZE_MAX, SIZE_MIN, Dragon, checked_number, checked_size
 from core.errors import InvalidValue
 from core.kinematics import EndReason, RunEnd, end_theta
 from core.paths import START_TURNS_MAX, Spiral
-from core.search import MARGIN_MAX, NO_PIECES, Search
+from core.search import MARGIN_MAX, NO_PIECES, THETA_ROUNDING, Search
 from core.straight import Straight
 from core.strips import BORDER_WIDTH, Strips
 
@@ -24,8 +24,8 @@ PASSED_OVER = 1e-9
 # On spirals so wide that a clearance hardly changes with the pitch it is looked for down to this part of it, and the
 # bracket is as wide [1].
 PASSED_OVER_WIDE = 1e-6
-# The pitch is bisected to this width [m]; rounding of a clearance is near 1e-14 m.
-PITCH_WIDTH = 2e-13
+# The pitch is bisected to this width [m]; closer to a graze or a contact on the circle rounding hides which it is.
+PITCH_WIDTH = 2.0 * BORDER_WIDTH
 # A way that a march leaves undecided is marched once more, in finer steps and with so much work, see WORK_BUDGET of
 # core/search.py; so many pitches that stay undecided end a bisection [1].
 FINER_WORK = 1e6
@@ -44,6 +44,8 @@ NEAR_FOLD = 0.1
 BELOW = 1e-11
 # At both ends of a way the pairs led by so many benches are looked at before it is marched.
 LOOKED_AT = 2
+# A search that found no contact.
+NOWHERE = {"touching": -1.0}
 # A contact this close to the circle or the start, with the pair still approaching, is on it [m of head travel].
 ON_CIRCLE = 1e-4
 # From the instant found just below the minimum pitch, the bottom of the graze is within this [m of head travel].
@@ -125,12 +127,13 @@ class _PitchSearch:
         circle = self.radius / path.growth
         stop = max(search.travel_at(circle), 0.0)
         fold, bench = (0.0, None) if self.strips.bent_little else end_theta(search.dragon, path)
-        if fold > circle:
-            return "folded", dict.fromkeys(kernels.MARCH_FIELDS, 0.0)
+        if fold > circle * (1.0 - THETA_ROUNDING):
+            nothing = dict.fromkeys(kernels.MARCH_FIELDS, 0.0)
+            return ("folded", nothing) if fold > circle * (1.0 + THETA_ROUNDING) else ("stuck", nothing | NOWHERE)
         for state, travel in () if width else (("touched_at_start", 0.0), ("touched", stop)):
             # a look at both ends decides most ways that are not clear, without laying out a long dragon
             gap, pair = search.clearance(travel, min(LOOKED_AT, search.room))
-            if gap <= self.margin:
+            if gap <= self.margin and search.surely_within(travel, pair):
                 return state, {"touching": travel, "first": pair[0], "second": pair[1]}
         if bench is None or search.travel_at(fold) - stop > NEAR_FOLD:
             return search.march(stop, width)
@@ -184,7 +187,7 @@ class _PitchSearch:
         if stopped == "lowest":
             return pitch, pitch, "bound"
         if stopped != "unbounded":
-            step = max(BORDER_WIDTH, 2.0 * math.ulp(pitch))
+            step = max(PITCH_WIDTH, 2.0 * math.ulp(pitch))
             while step <= max(PASSED_OVER, PASSED_OVER_WIDE * pitch) and pitch - step > self.lowest:
                 if self.grazes(pitch - step) or self.is_clear(pitch - step) is False:
                     # single pitches below the strips may be clear too, but are not proven with all between
@@ -199,7 +202,9 @@ class _PitchSearch:
             return False
         pair, radius = self.strips.graze
         gap, radius = self.strips.dip(pitch, radius, pair)
-        return gap <= self.margin and radius <= pitch * self.start_turns
+        if gap > self.margin or radius > pitch * self.start_turns:
+            return False
+        return self.search.surely_within(self.search.travel_at(radius / self.search.growth), pair)
 
     def scan(self, pitch: float) -> tuple[float, float]:
         """(infeasible, feasible) by trying SCAN_SAMPLES pitches down to the lowest, then by bisection [m].

@@ -15,17 +15,25 @@ import numpy as np
 
 from core import kernels
 from core.kernels.constants import PIECE, PLACE, SPIRAL, TX, UX
+from core.paths import Spiral
 from core.search import Search
 
 DIGITS = 40
 # Series end with terms below this [1], and a chord is met within it [m].
 NEGLIGIBLE = Decimal("1e-34")
+# What a gap may be off by [m]: each of up to LAST_BENCH links is met within NEGLIGIBLE, which a fold may enlarge a
+# hundred million times and overhangs ten thousand times, and coordinates of up to 1e5 m have DIGITS digits.
+GAP_ROUNDING = Decimal("1e-20")
 # Intervals shorter than this prove nothing [m].
 SHORTEST = 1e-13
+# A travel divided by the head speed, in doubles, and multiplied again, is within this part of it [1].
+TIME_ROUNDING = 4.0 * kernels.ULP
 TWO_PI = Decimal("6.2831853071795864769252867665590057683943387987502")
 # Pairs up to this bench are followed, a third of a millisecond for each handle and instant [1], and so many intervals
 # are tried before a proof is given up: about a second in all.
 LAST_BENCH = 60
+# A bend computed once from bounds that hold, and its product with h^2, are good to this part of them [1].
+BEND_ROUNDING = 1e-12
 INTERVALS_MAX = 60
 # Columns of a chain row of the kernels that belong together.
 TANGENT, LINK = slice(TX, TX + 2), slice(UX, UX + 2)
@@ -66,6 +74,10 @@ class Pair:
         self.pieces: list[list[Decimal]] = [
             [Decimal(number) for number in row] for row in (search.pieces.tolist() or [spiral])
         ]
+        if isinstance(search.path, Spiral):  # its doubles are growth and start_theta; their arc length is not one
+            with localcontext() as context:
+                context.prec = DIGITS
+                self.pieces[0][10] = self.pieces[0][7] * _arc(Decimal(search.path.start_theta))
         names = {kernels.PIECE_KINDS[int(row[0])] for row in self.pieces}
         self.can_follow = pair[1] <= LAST_BENCH and not names & {"cubic", "crest"}
 
@@ -94,6 +106,22 @@ class Pair:
         """By how much the two are further apart than the margin [m]."""
         return separation(*self.benches(travel))[0] - Decimal(self.search.margin)
 
+    def crossing(self, low: Decimal, high: Decimal, above: Decimal, below: Decimal, width: Decimal) -> Decimal:
+        """Travel at which the gap falls to 0, from above at one to below at another, no earlier and within a width [m].
+
+        By the false position, halved now and then.
+        """
+        looks = 0
+        while high - low > width:
+            looks += 1
+            middle = (low + high) / 2
+            if looks % 3:  # aimed a little beyond the crossing, then before it, so that both ends come near
+                middle = low + (high - low) * above / (above - below) + (width / 3 if looks % 3 == 1 else -width / 3)
+                middle = min(max(middle, low + width / 4), high - width / 4)
+            gap = self.gap(middle)
+            low, above, high, below = (middle, gap, high, below) if gap > 0 else (low, above, middle, gap)
+        return high
+
     def stays_apart(self, start: float, stop: float) -> bool:
         """Are the two proven to be further apart than the margin from one travel to another [m]?"""
         search, bends, margin = self.search, np.empty(2), Decimal(self.search.margin)
@@ -103,13 +131,14 @@ class Pair:
             here = self.benches(Decimal(start))
             h = stop - start
             while True:
-                place = (search.growth, search.pieces, search.place - start, h, a, b)
+                slack = search.travel_rounding(start, stop)
+                place = (search.growth, search.pieces, search.place - start + slack, h + 2.0 * slack, a, b)
                 if not kernels.pair_bends(*place, search.sizes, search.rows, search.motion, bends):
                     return False
                 there = self.benches(Decimal(start + h))
                 axis = separation(*there)[1]
                 least = min(gap_along(*here, axis), gap_along(*there, axis)) - margin
-                if least > Decimal(bends[axis.owner] * h * h / 8.0):
+                if least > GAP_ROUNDING + Decimal((1.0 + BEND_ROUNDING) * bends[axis.owner] * h * h / 8.0):
                     break
                 h *= 0.5
                 tried += 1
@@ -196,8 +225,14 @@ def _theta(arc: Decimal) -> Decimal:
     theta = Decimal(kernels.spiral_theta(float(arc)))
     for _ in range(2):
         root = (1 + theta * theta).sqrt()
-        theta -= ((theta * root + (theta + root).ln()) / 2 - arc) / root
+        theta -= (_arc(theta) - arc) / root
     return theta
+
+
+def _arc(theta: Decimal) -> Decimal:
+    """Arc length of a spiral from its centre, in units of growth."""
+    root = (1 + theta * theta).sqrt()
+    return (theta * root + (theta + root).ln()) / 2
 
 
 def _cos_sin(angle: Decimal) -> Vector:
@@ -220,10 +255,14 @@ def _cos_sin(angle: Decimal) -> Vector:
 # an instant apart and one within, and what lies before t is proven as in the kernels: along an axis fixed in one of the
 # benches, its sign too, the gap falls below its chord by no more than K x (h - x) / 2, with the kernels' K, in as many
 # intervals as that takes. All other pairs are marched over the same stretch in doubles.
-def narrowed(search: Search, found: dict[str, float], half: float) -> dict[str, float] | None:
+#
+# What is said is said of times, travels over the head speed in doubles: the pair is within the margin at the true
+# travel of the later one, and apart a little beyond that of the earlier one.
+def narrowed(search: Search, found: dict[str, float], half: float, head_speed: float = 1.0) -> dict[str, float] | None:
     """A contact that was found in a wide bracket, in one of half width `half` [m]; None where that is not proven.
 
     found: of Search.march(): `proven`, `touching` and the pair; so is the result, with `touching` - `half` the contact
+    head_speed: by which travels are divided for times [m/s]
     """
     pair = Pair(search, (int(found["first"]), int(found["second"])))
     if not pair.can_follow or not search.others_clear(pair.pair, found["proven"], found["touching"]):
@@ -231,13 +270,13 @@ def narrowed(search: Search, found: dict[str, float], half: float) -> dict[str, 
     with localcontext() as context:
         context.prec = DIGITS
         low, high = Decimal(found["proven"]), Decimal(found["touching"])
-        if not pair.gap(low) > 0 >= pair.gap(high):
+        above, below = pair.gap(low), pair.gap(high)
+        if not above > GAP_ROUNDING or not below < -GAP_ROUNDING:
             return None
-        while high - low > Decimal(half) / 1000:
-            middle = (low + high) / 2
-            low, high = (middle, high) if pair.gap(middle) > 0 else (low, middle)
-        contact = float(high)
+        contact = float(pair.crossing(low, high, above, below, Decimal(half) / 1000))
         clear, touching = contact - half, contact + half
-        if pair.gap(Decimal(touching)) > 0 or not pair.stays_apart(found["proven"], clear):
+        later = Decimal(touching / head_speed) * Decimal(head_speed)
+        beyond = clear + abs(clear) * TIME_ROUNDING
+        if pair.gap(later) > -GAP_ROUNDING or not pair.stays_apart(found["proven"], beyond):
             return None
     return found | {"proven": clear, "touching": touching}

@@ -55,8 +55,10 @@ def _listed(name: str, value: Any, what: str) -> list[Any]:
 
 
 def _row(kind: str, start: float, end: float, curvature: Point, *parameters: float, slope: float = 0.0) -> Floats:
-    row = (_KINDS[kind], start, end, *curvature, *parameters)
-    return np.array([row + (0.0,) * (kernels.PIECE_COLUMNS - 2 - len(row)) + (slope, 0.0)])
+    row = np.zeros((1, kernels.PIECE_COLUMNS))
+    known = (_KINDS[kind], start, end, *curvature, *parameters)
+    row[0, : len(known)], row[0, kernels.K_SLOPE] = known, slope
+    return row
 
 
 @dataclass(frozen=True)
@@ -190,6 +192,7 @@ class Route:
     table: rows for the kernels; joints: s of every joint [m]; begin, end: s of both ends [m]. A first piece that coils
     inwards goes on outwards behind `begin`, so that the tail has a place: then tail_begin is None, else begin.
     calm_beginning: along the first piece curvature does not fall, so that no handle there is faster than its leader
+    slide: how far the head's point may be from its s along the path, by rounding and at joints [m]
     raises: InvalidValue naming the piece or the joint and its gap
     """
 
@@ -206,7 +209,7 @@ class Route:
                 raise InvalidValue(name, f"{name} must be a Line, Arc, Coil or Waypoints, got {piece!r}")
             joints.append((s, count))
             rows.append(piece.rows(f"path.pieces.{k}", s))
-            rows[-1][:, -1] = k
+            rows[-1][:, kernels.PART] = k
             count, s = count + len(rows[-1]), float(rows[-1][-1, 2])
         self.table = np.concatenate(rows)
         self.joints = tuple(s for s, _ in joints[1:])
@@ -215,9 +218,33 @@ class Route:
         inwards = isinstance(first, Coil) and first.start_turns > first.end_turns
         self.tail_begin = None if inwards else self.begin
         self.calm_beginning = inwards or isinstance(first, Line | Arc)
+        self.slide = self._smooth()
         self.table.flags.writeable = False
         for k, (s, row) in enumerate(joints[1:], start=1):
             self._check_joint(k, s, row)
+
+    # Pieces that miss each other are led together, on the longer of the two, by a polynomial of degree 5 over a length
+    # l of at most 1 m (BLEND in core/kernels/constants.py): from a gap g across the path, a kink k and a step of
+    # curvature d inside a part to none, it lies within g + k l + d l^2 of the piece, its second derivative within 10 g
+    # / l^2 + 6 k / l + 3 d, its third within 60 g / l^3 + 36 k / l^2 + 9 d / l. Both ends of a piece may do so, hence
+    # twice that; and a curve beside a bend is more curved by the square of the bend times its distance. Gaps along the
+    # path displace the head alone.
+    def _smooth(self) -> float:
+        """Fills in how near the pieces are to a smooth path; how far the head's point is from its s at most [m]."""
+        table, misses, slides = self.table, np.zeros((len(self.table), 4)), np.zeros(len(self.table))
+        kernels.joint_misses(table, misses)
+        kernels.piece_slides(table, slides)
+        across, along, kink, step = misses[1:].T
+        lengths = table[:, 2] - table[:, 1]
+        over = np.minimum(kernels.BLEND, np.maximum(lengths[1:], lengths[:-1]))
+        step = np.where(table[1:, kernels.PART] == table[:-1, kernels.PART], step, 0.0)
+        sharpest = np.abs(table[:, 3:5]).max()
+        loose = 2.0 * np.max(across + (kink + step * over) * over, initial=0.0)
+        bent = 2.0 * np.max((10.0 * across / over + 6.0 * kink) / over + 3.0 * step, initial=0.0)
+        slope = 2.0 * np.max(((60.0 * across / over + 36.0 * kink) / over + 9.0 * step) / over, initial=0.0)
+        table[:, kernels.LOOSE], table[:, kernels.BENT] = loose, bent + 2.0 * sharpest**2 * loose
+        table[:, kernels.K_SLOPE] += slope
+        return float(slides.max() + along.sum())
 
     def _check_joint(self, k: int, s: float, row: int) -> None:
         ends = np.empty((2, 5))

@@ -14,6 +14,7 @@ import numpy as np
 from core import kernels
 from core.coils import two_coils, way_out
 from core.dragon import Dragon, Floats
+from core.kernels.constants import ALL_RADIUS, ERROR, LEFT_OUT, LEFT_OUT_TOO, RING_END, RING_PLACE
 from core.kinematics import RunEnd
 from core.paths import Spiral
 from core.route import Route
@@ -33,17 +34,19 @@ SAMPLED_SHARE = 0.1
 # rounding of the travel allows at lower ones.
 BRACKET = 1e-10
 BRACKET_MIN = 2e-11
-# The same where benches meet so slowly that rounding hides the gap that near, for contacts within about 1e-6 m of a
+# The same where benches meet so slowly that rounding hides the gap that near, for contacts within about 5e-5 m of a
 # graze: the first one is 1e-9 s in all at 1 m/s, and core/precise.py narrows the wider ones to it [m of head travel].
 # Below 1 m/s the same in seconds come first.
 BRACKETS_GRAZING = (4.9e-10, 5e-9, 5e-8, 5e-7, 5e-6, 5e-5)
-# Travels are doubles: steps and brackets cannot be finer than this part of them [1].
-TRAVEL_ROUNDING = 1e-15
+# What a travel may be off by, of the way [1], u = 2^-53: on a spiral its length to 5 u, two differences from it and the
+# polar angle there 10 u (spiral_theta() ends within 7 u of the arc length left), a time from a travel and back 2 u.
+TRAVEL_ROUNDING = 2e-15
 # The last stretch before a fold, where handle speeds grow without bound: dismissed by a bound on the motion left [m].
 FOLD_SLIVER = 1e-9
 # What is left is cut into so many stretches at most, 0.1 to 0.3 ms each.
 FOLD_STRETCHES = 200
-# Angles of handles are good to far less than this, relative [1].
+# Angles at which dragons fold, and those of handles from leader to follower, are good to far less than this part [1]:
+# see _least_left().
 THETA_ROUNDING = 1e-12
 # No radius is known to be clear [m].
 NO_BOUND = 1e150
@@ -53,11 +56,9 @@ NO_PIECES = np.empty((0, kernels.PIECE_COLUMNS))
 NO_GRAZE = 1e150
 # A march leaves out no pair.
 NO_PAIR = (-1.0, -1.0)
-# Rounding of a gap, relative to the largest coordinate and two bench lengths [1]: more than twice the largest of 1,187
-# gaps after chains of up to 38 benches of 400 dragons against 48-digit arithmetic, 1.13e-15, 2026-11-21.
-GAP_ROUNDING = 2.5e-15
-# Places on a route are rounded as arc lengths are; in units of the coordinates' rounding [1].
-ARC_ROUNDING = 0.1
+# What the ring bound may be off by, of the lengths in it [1]: at most 64 sums, products and roots, with d^2 = radius^2
+# - foot^2 at least a thousandth of radius^2 (core/kernels/rings.py), so that d is good to 2,000 u.
+RING_ROUNDING = 1e-11
 
 
 class Search:
@@ -68,7 +69,7 @@ class Search:
     sizes: (rows, 4) of the leading benches; edges: (E, 4) x, y, x, y of edges at rest [m], on routes only; with
         edges, the pairs are bench and edge alone: edge e is bench number room + 1 + e of a pair
     clear_radius: on a spiral, no pair whose inner bench leads at this radius or further out comes within the margin [m]
-    ring[10], ring[11]: on a route that begins (and ends) with a coil the same as places, see RING_PLACE and RING_END of
+    ring[RING_PLACE], ring[RING_END]: on a route that begins (and ends) with a coil the same as places, see those of
         the kernels; where they are known there is room for the leading benches only, as on a spiral
     work: what its marches may still do, see WORK_BUDGET
     place: what the kernels count places from, at time 0: arc length from the centre of a spiral, minus s on a route [m]
@@ -76,7 +77,6 @@ class Search:
 
     margin: float
     clear_radius: float
-    rounding: float
 
     def __init__(
         self,
@@ -100,7 +100,12 @@ class Search:
         shortest, outer_shortest = columns[0].min(), outer[0].min()
         self.extremes = (longest, shortest, overhang, half_width, outer_chord, outer_half_width)
         ring = (0.0, outer_chord, outer_shortest, outer_overhang, outer_half_width)
-        self.ring = np.array([*ring, longest, overhang, half_width, *NO_PAIR, NO_BOUND, -NO_BOUND])
+        self.ring = np.array(
+            [
+                *ring, longest, overhang, half_width, shortest, math.hypot(0.5 * self.longest, half_width), *NO_PAIR,
+                NO_BOUND, -NO_BOUND,
+            ]
+        )  # fmt: skip
         self.use(path, margin)
         self.resize(dragon.benches if self.follows_all else min(dragon.benches, 255))
 
@@ -110,15 +115,17 @@ class Search:
         if isinstance(path, Route):
             self.growth, self.pieces, self.place = 1.0, path.table, 0.0
             self.clear_radius = NO_BOUND
-            self.ring[10:] = self._clear_places(path)
-            seen = path.position(np.linspace(path.begin, path.end, 256))
-            largest = float(np.abs(seen).max()) + ARC_ROUNDING * max(abs(path.begin), abs(path.end))
+            self.ring[RING_PLACE], self.ring[RING_END] = self._clear_places(path)
         else:
             self.growth, self.pieces, self.place = path.growth, NO_PIECES, path.length
             self.clear_radius = self._clear_radius(path.growth)
-            largest = min(path.growth * path.start_theta, self.clear_radius)
         self.ring[0] = self.clear_radius
-        self.rounding = GAP_ROUNDING * (largest + 2.0 * self.longest)
+
+    def travel_rounding(self, *travels: float) -> float:
+        """What travels up to these may be off by, in the kernels and as times [m]."""
+        if isinstance(self.path, Route):
+            return self.path.slide + TRAVEL_ROUNDING * max(map(abs, travels))
+        return TRAVEL_ROUNDING * max(self.place, *(self.place - travel for travel in travels), *map(abs, travels))
 
     def resize(self, benches: int) -> None:
         """Room for so many leading benches, and the edges at rest after the row of the last handle."""
@@ -127,13 +134,14 @@ class Search:
         columns = [dragon.chords[:benches], 0.5 * lengths, 0.5 * widths, 0.5 * np.hypot(lengths, widths)]
         self.sizes = np.zeros((benches + 1 + len(edges), kernels.SIZE_COLUMNS))
         self.sizes[:benches] = np.stack(columns, axis=1)
-        self.rows = np.zeros((4, benches + 1 + len(edges), kernels.CHAIN_COLUMNS))
+        self.rows = np.empty((4, benches + 1 + len(edges), kernels.CHAIN_COLUMNS))  # a chain writes what it reads
         self.motion = np.zeros((benches + 1 + len(edges), kernels.MOTION_COLUMNS))
         self.pair = np.zeros(3, dtype=np.intp)
         if len(edges):
             along = edges[:, 2:4] - edges[:, 0:2]
             half = 0.5 * np.hypot(along[:, 0], along[:, 1])
             self.sizes[benches + 1 :, 1] = self.sizes[benches + 1 :, 3] = half
+            self.rows[:, benches + 1 :] = 0.0
             self.rows[:, benches + 1 :, 6:8] = 0.5 * (edges[:, 0:2] + edges[:, 2:4])
             self.rows[:, benches + 1 :, 8:10] = along / (2.0 * half)[:, None]
 
@@ -153,7 +161,12 @@ class Search:
 
     def ring_least(self, radius: float) -> float:
         """Lower bound of the separation of pairs whose inner bench leads at this radius or further out [m]."""
-        return float(kernels.ring_least(self.growth, self.growth, radius, *self.ring_extremes))
+        least = float(kernels.ring_least(self.growth, self.growth, radius, *self.ring_extremes))
+        return least - self.ring_rounding(radius, self.growth)
+
+    def ring_rounding(self, radius: float, growth: float) -> float:
+        """What kernels.ring_least() may be off by for growths up to this one [m]."""
+        return RING_ROUNDING * (radius + 2.0 * math.pi * growth + float(self.longest))
 
     @cached_property
     def ring_extremes(self) -> tuple[float, ...]:
@@ -165,14 +178,15 @@ class Search:
     @property
     def follows_all(self) -> bool:
         """Must a march follow all benches: on a route that says of none that it is out of reach?"""
-        return isinstance(self.path, Route) and float(self.ring[10]) >= NO_BOUND
+        return isinstance(self.path, Route) and float(self.ring[RING_PLACE]) >= NO_BOUND
 
     def _clear_radius(self, growth: float) -> float:
-        """The least radius, within 1e-3, from which the ring bound exceeds the margin; 1e150 if none."""
+        """The least radius, within 1e-3, from which the ring bound exceeds the margin, and CLEAR_SPARE more, so that a
+        handle which is computed to be there is; 1e150 if none."""
 
         def clear(radius: float) -> bool:
-            least: float = kernels.ring_least(growth, growth, radius, *self.ring_extremes)
-            return least > self.margin
+            least = float(kernels.ring_least(growth, growth, radius, *self.ring_extremes))
+            return least > self.margin + self.ring_rounding(radius, growth)
 
         high = 1.0
         while not clear(high):
@@ -183,21 +197,31 @@ class Search:
         while high - low > 1e-3 * high:
             middle = 0.5 * (low + high)
             low, high = (low, middle) if clear(middle) else (middle, high)
-        return high
+        return float(high * (1.0 + kernels.CLEAR_SPARE))
 
     def _clear_places(self, path: Route) -> tuple[float, float]:
         """RING_PLACE and RING_END of the kernels [m]: 1e150 and -1e150 if not known, or where edges at rest may lie
-        anywhere."""
+        anywhere.
+
+        Both are PLACE_SPARE further than their bounds ask, for the rounding of handles, and RING_END beyond what
+        travels may be off by; RING_PLACE is BLEND behind where the coil ends, which is where it may be led to the next
+        piece.
+        """
         if path.tail_begin is not None or len(self.edges) or self.dragon.benches < 3:
             return NO_BOUND, -NO_BOUND
         first = path.table[0].tolist()
         radius = self._clear_radius(first[7])
         if radius >= NO_BOUND:
             return NO_BOUND, -NO_BOUND
-        clear = min(first[2], first[1] + first[10] - first[7] * float(kernels.spiral_arc(radius / first[7])))
+        arc = first[7] * float(kernels.spiral_arc(radius / first[7])) * (1.0 + TRAVEL_ROUNDING)
+        clear = min(first[2] - kernels.BLEND, first[1] + first[10] - arc) - kernels.PLACE_SPARE
+        clear -= self.travel_rounding(clear)
         coils = two_coils(path)
         out = None if coils is None else way_out(self.dragon, coils, self.margin)
-        return -clear, -NO_BOUND if out is None else -float(path.table[-1, 1]) - out
+        if out is None:
+            return -clear, -NO_BOUND
+        end = float(path.table[-1, 1]) + out + kernels.PLACE_SPARE
+        return -clear, -end - self.travel_rounding(end)
 
     def travel_at(self, theta: float) -> float:
         """Head travel from the start of a spiral to theta [m]."""
@@ -213,15 +237,20 @@ class Search:
         """kernels.march from start, or from where the ring bound ends, to stop [m of travel]: state, result by name.
 
         opening: nothing before the start was cleared, so all pairs are followed until the body repeats itself
+        The way marched begins and ends beyond both by what a travel may be off by, so that what is said of travels, and
+        of times, holds for the true ones.
         """
+        rounding, asked = self.travel_rounding(start, stop), (start, stop)
+        start -= rounding
+        stop = min(stop + rounding, max(stop, self.place)) if isinstance(self.path, Spiral) else stop + rounding
         if isinstance(self.path, Spiral):
             clear_until = self.travel_at(self.clear_radius / self.growth) if self.clear_radius < NO_BOUND else start
             if clear_until > start:
                 opening = False
-                start = clear_until
+                start = max(start, clear_until - rounding)
         nothing = self.dragon.benches < 3 and not len(self.edges)
         if nothing or (start >= stop and not opening):
-            return "reached", dict.fromkeys(kernels.MARCH_FIELDS, 0.0) | {"proven": stop, "graze_gap": NO_GRAZE}
+            return "reached", dict.fromkeys(kernels.MARCH_FIELDS, 0.0) | {"proven": asked[1], "graze_gap": NO_GRAZE}
         out = np.empty(32)
         while True:
             budget = min(float(STEP_BUDGET), max(self.work / self._step_work, 1.0))
@@ -235,7 +264,7 @@ class Search:
                 opening,
                 self.margin,
                 tolerance,
-                self.rounding,
+                rounding,
                 int(budget),
                 self.dragon.benches,
                 self.statics,
@@ -249,25 +278,30 @@ class Search:
             state = kernels.MARCH_STATES[code]
             self.work -= out[4] * self._step_work
             if state != "capacity":
-                return state, dict(zip(kernels.MARCH_FIELDS, out.tolist(), strict=False))
+                found = dict(zip(kernels.MARCH_FIELDS, out.tolist(), strict=False))
+                found["proven"] = asked[1] if state == "reached" else max(found["proven"] - rounding, asked[0])
+                if state == "touched_at_start":
+                    found["touching"] = asked[0]
+                return state, found
             self.resize(min(4 * self.room, self.dragon.benches))
 
     def others_clear(self, pair: tuple[int, int], start: float, stop: float) -> bool:
         """Are all pairs but one proven to be clear between two travels [m]?"""
-        self.ring[8:10] = pair
+        self.ring[LEFT_OUT], self.ring[LEFT_OUT_TOO] = pair
         state, _ = self.march(stop, 0.0, start=start)
-        self.ring[8:10] = NO_PAIR
+        self.ring[LEFT_OUT], self.ring[LEFT_OUT_TOO] = NO_PAIR
         return state == "reached"
 
     @staticmethod
     def last_travel(until: float, to_fold: bool) -> float:
         """How far to march for a run until a travel [m]: short of a fold by a sliver, see clear_to_fold()."""
-        return until - (FOLD_SLIVER + 1e3 * TRAVEL_ROUNDING * until if to_fold else 0.0)
+        return until - (FOLD_SLIVER + 5e2 * TRAVEL_ROUNDING * until if to_fold else 0.0)
 
     def approach(self, begin: float, until: float, head_speed: float) -> tuple[str, dict[str, float], float]:
         """march() between two travels [m] with the bracket of a contact: state, result by name, its half width [m]."""
-        tolerance = max(BRACKET * min(1.0, head_speed), BRACKET_MIN, TRAVEL_ROUNDING * abs(until))
+        tolerance = max(BRACKET * min(1.0, head_speed), BRACKET_MIN, 2.0 * self.travel_rounding(begin, until))
         state, found = self.march(until, tolerance, start=begin)
+        proven = found["proven"]
         slowed = [wider * min(1.0, head_speed) for wider in BRACKETS_GRAZING]
         for wider in sorted({*slowed, *BRACKETS_GRAZING}):
             if state != "stuck" or found["touching"] < 0.0:
@@ -275,7 +309,16 @@ class Search:
             if wider > tolerance:
                 tolerance = wider
                 state, found = self.march(until, tolerance, start=begin)
-        return state, found, tolerance
+                proven = max(proven, found["proven"])
+        return state, found | {"proven": proven}, tolerance
+
+    def surely_within(self, travel: float, pair: tuple[int, int]) -> bool:
+        """Are two benches within the margin after a travel [m], whatever rounding does?"""
+        slack, rows = self.travel_rounding(travel), self.rows
+        place = self.place - travel + slack
+        chains = (self.sizes, rows[1], rows[2], self.motion, np.empty(8))
+        most = kernels.pair_most(self.growth, self.pieces, place, 2.0 * slack, *pair, self.dragon.benches, *chains)
+        return float(most) <= self.margin
 
     def place_leaders(self, travel: float, leaders: int) -> None:
         """Put so many leading benches, and no pair of them, into rows[0] as they are after a travel [m]."""
@@ -353,6 +396,14 @@ class Search:
         least = self.least_to_fold(travel, end)
         return least is not None and least > self.margin
 
+    def gap_rounding(self, travel: float, within: float) -> float:
+        """What gaps of up to `within` [m] may be off by after a travel, see core/kernels/pairs.py [m]."""
+        self.place_leaders(travel, self.room)
+        kernels.chain_rounding(self.growth, self.pieces, self.room, self.sizes, self.rows[0])
+        error, sway = self.rows[0, : self.room, kernels.ERROR].max(), self.rows[0, : self.room, kernels.SWAY].max()
+        reach = 4.0 * float(self.ring[ALL_RADIUS]) + within
+        return float(2.0 * (2.0 * error + (2.0 * sway + 50.0 * kernels.ULP) * reach))
+
     # Towards the fold handles move as the square root of what is left of the travel, so a stretch whose bound is too
     # low is split where a quarter of it is left: about half of its motion lies on each side.
     def least_to_fold(self, travel: float, end: RunEnd) -> float | None:
@@ -363,7 +414,7 @@ class Search:
         assert end.theta is not None
         if self.dragon.benches < 3:
             return NO_GRAZE
-        last = self.travel_at(end.theta)
+        travel, last = travel - self.travel_rounding(travel), self.travel_at(end.theta)
         stretches = [(self._least_left(travel, end.theta), travel, last)]
         while stretches[0][0] <= self.margin and len(stretches) < FOLD_STRETCHES:
             _, start, stop = heapq.heappop(stretches)
@@ -390,6 +441,17 @@ class Search:
     # handle by o at most and sideways by w / 2, moves by no more than
     #     max(D_a, D_b) + (o + w / 2) turn.
     # Where delta folds for low_k, or rounds to a fold, the delta of the fold itself takes its place, which is larger.
+    #
+    # Rounding. Stretches meet at the same computed theta, so that they leave no gap; the first one begins before its
+    # travel by what that may be off by, and every interval is wider at both ends by w = THETA_ROUNDING of theta. That
+    # covers delta, near the fold too. A computed delta is the root for a chord^2 = f that is off by 14 u f (spiral.py).
+    # Where theta f_theta >= 0.03 f, that is a theta off by less than 500 u, far less than w. Else 4 theta (theta +
+    # delta) s^2 < 0.03 f, s = sin(delta / 2), and delta^2 > 0.97 f; up to delta = pi f_delta / 2 >= delta, and from
+    # there to the crest s >= 0.64 and theta (theta + delta) |sin delta| <= 2 theta (theta + delta) s <= 0.12 delta, so
+    # f_delta / 2 >= 0.88 delta: delta is off by 9 u of itself, far less than w again. The arcs, widened by growth w
+    # theta sqrt(1 + theta^2), and what follows from them are products and sums of terms >= 0. Gaps are good to
+    # gap_rounding(): that grows with a gap by far less than the gap itself, so it need only reach as far as any pair
+    # that can be the least.
     def _least_left(self, travel: float, theta: float) -> float:
         """No two benches come nearer than this, or than the margin, from a travel until the head is at theta [m].
 
@@ -398,6 +460,9 @@ class Search:
         """
         gap, _ = self.clearance(travel)
         arcs, moved = self.moved_until(theta)
+        reached = 2.0 * float(moved.max())
+        rounding = self.gap_rounding(travel, min(gap, NO_BOUND) + reached)
+        arcs += self.rows[0, self.room - 1, ERROR]
         radii = self.growth * self.rows[0, : self.room + 1, 4]
         outside = np.flatnonzero(radii[:-1] - arcs[:-1] >= self.clear_radius)
         leaders = int(outside[0]) if outside.size else self.room
@@ -406,10 +471,10 @@ class Search:
             reach = kernels.leaders_reach(self.growth, *reach) + self.margin
             if radii[-1] - arcs[-1] < kernels.radius_beyond(self.growth, reach, self.ring):
                 return -NO_BOUND
-        least = gap - 2.0 * float(moved.max())
+        least = gap - reached
         if least <= self.margin:
             least = kernels.clearance_left(leaders, self.room, self.sizes, self.rows[0], moved)
-        return float(least) - self.rounding
+        return float(least) - rounding
 
     def moved_until(self, theta: float) -> tuple[Floats, Floats]:
         """How far each handle in rows[0], and any point of each bench, moves until the head is at theta at most [m]."""
@@ -429,7 +494,7 @@ class Search:
             inner, outer = self._deltas(low, high, float(chords[k]))
             if 0.5 * curvature * chords[k] <= kernels.BEND_LIMIT:
                 inner, outer, bends[k] = outer, inner, curvature
-            low, high = low + inner, high + outer
+            low, high = (low + inner) * (1.0 - THETA_ROUNDING), (high + outer) * (1.0 + THETA_ROUNDING)
         both = arcs[:-1] + arcs[1:]
         turned = both * np.minimum(1.0 / chords, 0.5 * bends)
         over = self.sizes[:benches, 1] - 0.5 * chords + self.sizes[:benches, 2]

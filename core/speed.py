@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from core import kernels
-from core.dragon import Dragon, Floats, checked_number
+from core.dragon import Dragon, checked_number
 from core.errors import InvalidValue
 from core.kinematics import (
     HEAD_SPEED_MAX,
@@ -18,7 +18,6 @@ from core.kinematics import (
     checked_span,
     earliest_time,
     run_end,
-    trajectory,
 )
 from core.paths import Spiral
 from core.route import Route
@@ -52,6 +51,8 @@ EXCESS_LINKS = 1_000_000
 # Then instants are tried ever nearer to the end of the stretch, where the fold may be: so many, each at half the
 # distance of the one before.
 HALVINGS = 50
+# Outcomes of kernels.first_excess().
+KEPT, EXCEEDED = 0, 1
 
 
 @dataclass(frozen=True, slots=True)
@@ -143,6 +144,7 @@ def peak_over(search: Search, begin: float, until: float) -> tuple[float, float,
         max(SAMPLE_STEP * float(search.extremes[0]), (until - begin) / samples),
         RATE_TOLERANCE,
         LOOSEST_TOLERANCE,
+        search.travel_rounding(begin, until),
         LINKS_BUDGET,
         benches,
         _calm(search),
@@ -206,8 +208,19 @@ def first_excess(
     begin, until = checked_span(dragon, path, _start(dragon, path, start, head_speed), stop, end, head_speed)
     search = Search(dragon, path, 0.0)
     search.resize(dragon.benches)
-    first, last = begin * head_speed, until * head_speed
-    out = np.empty(5)
+    ratio = limit / head_speed
+    outcome, proven, found, handle = _excess(search, begin * head_speed, until * head_speed, head_speed, ratio)
+    if outcome == EXCEEDED:
+        return FirstExcess(found / head_speed, (proven / head_speed, found / head_speed), handle)
+    return None if outcome == KEPT else _late_excess(search, ratio, head_speed, proven / head_speed, until)
+
+
+def _excess(
+    search: Search, first: float, last: float, head_speed: float, ratio: float
+) -> tuple[int, float, float, int]:
+    """kernels.first_excess() between two travels of the head [m] for a limit of this rate: outcome, proven up to [m],
+    found at [m], handle."""
+    out, rounding = np.empty(5), search.travel_rounding(first, last)
     kernels.first_excess(
         search.growth,
         search.pieces,
@@ -215,11 +228,16 @@ def first_excess(
         first,
         last,
         SAMPLE_STEP * float(search.extremes[0]),
-        limit / head_speed * (1.0 + SPEED_ROUNDING),
-        limit / head_speed * (1.0 + SPEED_PROVEN),
-        max(EXCESS_WIDTH * min(1.0, head_speed), TRAVEL_WIDTH * max(abs(first), abs(last), search.place)),
+        ratio * (1.0 + SPEED_ROUNDING),
+        ratio * (1.0 + SPEED_PROVEN),
+        max(
+            EXCESS_WIDTH * min(1.0, head_speed),
+            TRAVEL_WIDTH * max(abs(first), abs(last), search.place),
+            4.0 * rounding,
+        ),
+        rounding,
         EXCESS_LINKS,
-        dragon.benches,
+        search.dragon.benches,
         _calm(search),
         search.sizes,
         search.rows,
@@ -227,32 +245,25 @@ def first_excess(
         out,
     )
     outcome, proven, found, handle, _ = out.tolist()
-    if outcome == 0.0:
-        return None
-    if outcome == 2.0:
-        return _late_excess(dragon, path, limit, head_speed, proven / head_speed, until)
-    return FirstExcess(found / head_speed, (proven / head_speed, found / head_speed), int(handle))
+    return int(outcome), proven, found, int(handle)
 
 
-def _late_excess(
-    dragon: Dragon, path: Spiral | Route, limit: float, head_speed: float, proven: float, until: float
-) -> FirstExcess:
+def _late_excess(search: Search, ratio: float, head_speed: float, proven: float, until: float) -> FirstExcess:
     """Some excess between where a proof was given up and the end [s], looked for ever nearer to that."""
 
-    def speeds(time: float) -> Floats:
-        return trajectory(dragon, path, time, head_speed=head_speed).speed
-
-    def is_over(time: float) -> bool:
-        return bool(speeds(time).max() > limit * (1.0 + SPEED_ROUNDING))
+    def faster(time: float) -> int | None:
+        """A handle that is faster than the limit at an instant for certain."""
+        outcome, *_, handle = _excess(search, time * head_speed, time * head_speed, head_speed, ratio)
+        return handle if outcome == EXCEEDED else None
 
     times = [until - (until - proven) * 0.5**k for k in range(HALVINGS)] + [until]
-    high = next((time for time in times if is_over(time)), None)
+    high = next((time for time in times if faster(time) is not None), None)
     if high is None:
         return FirstExcess(None, (proven, until), None)
     low = max([proven, *(time for time in times if time < high)])
     while low < (middle := 0.5 * (low + high)) < high:
-        low, high = (low, middle) if is_over(middle) else (middle, high)
-    return FirstExcess(high, (proven, high), int(speeds(high).argmax()))
+        low, high = (low, middle) if faster(middle) is not None else (middle, high)
+    return FirstExcess(high, (proven, high), faster(high))
 
 
 def checked_limit(speed_limit: object) -> float:

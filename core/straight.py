@@ -11,8 +11,12 @@ from core.dragon import Dragon, Floats
 
 # Where a dragon has no such pair, and where the bound says nothing, as a negative [m].
 NONE = 1e150
-# Rounding of the bound, in units of the lengths that it adds up; the formulas round some twenty times [1].
-STRAIGHT_ROUNDING = 1e-14
+# Rounding of the bound, in units of the lengths that it adds up, u = 2^-53 [1]. k is good to 8 u of itself, angles to
+# 14 u, 1 - cos phi to 12 u + 14 u phi sin phi; so what is multiplied by a length is good to fewer than 60 u, and the
+# lengths of one sum are, all together, at most 4 times those named in least(). Where `across` is longer than these it
+# exceeds every margin that the gap does. Angles at their limits need no more, as the bound goes on smoothly there;
+# whether a dragon is too short to go half around is asked with as much to spare.
+STRAIGHT_ROUNDING = 3e-14
 # S is such that benches further apart along the path are apart by the gap on a straight line, at least by this part of
 # what two benches can bridge [1].
 SPARE = 0.05
@@ -103,7 +107,8 @@ class Straight:
     def _further(self, growth: float, radius: float) -> float:
         """The same for benches with two others or more between them, rounding aside [m]; NONE without such benches."""
         width, diagonals = 2.0 * self.half_width, 2.0 * math.hypot(self.overhang, self.half_width)
-        if 2.0 * math.pi * growth <= diagonals and self.total >= math.pi * radius:  # a ring may lie on the next
+        half_around = (1.0 - STRAIGHT_ROUNDING) * math.pi * radius
+        if 2.0 * math.pi * growth <= diagonals and self.total >= half_around:  # a ring may lie on the next
             return -NONE
         curvature = curvature_most(growth, radius)
         sine = 0.5 * curvature * self.chord
@@ -114,7 +119,7 @@ class Straight:
         beta = math.asin(sine)
         bridged = max(diagonals, width + self.chord * math.tan(beta))
         least = self._along(curvature, beta, bridged)
-        if 2.0 * beta * self.total >= math.pi * radius * curvature * self.chord:  # it may go half around
+        if 2.0 * beta * self.total >= half_around * curvature * self.chord:  # it may go half around
             across = 2.0 * math.pi * growth / math.hypot(1.0, 0.5 * math.pi * growth / radius)
             least = min(least, max(across, math.pi * growth) - bridged)
         return least

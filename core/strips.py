@@ -11,14 +11,15 @@ import numpy as np
 
 from core import kernels
 from core.paths import Spiral
-from core.search import GAP_ROUNDING, NO_BOUND, NO_PIECES, Search
+from core.search import NO_BOUND, NO_PIECES, TRAVEL_ROUNDING, Search
 from core.straight import Straight
 
 # A descent first asks for a strip down to this part of the top, which is seldom far above the border, then for the
 # rest: 14.7 ms for the default and 5.9 ms for a circle of 4 m, without it 17.7 and 9.0 ms, 2026-11-21 [1].
 FIRST_STRIP = 0.9
-# Half width of the bracket around the border of what is feasible [m of pitch]; rounding of a clearance is near 1e-14 m.
-BORDER_WIDTH = 1e-13
+# Half width of the bracket around the border of what is feasible [m of pitch]: a graze this far above its border must
+# exceed what gaps are proven good to, 3e-13 m for benches 0 and 19 of the default (pair_rounding()).
+BORDER_WIDTH = 5e-13
 # A strip narrower than this that is neither proven nor touched ends the descent [m of pitch].
 STRIP_MIN = 1e-11
 # A strip is not cut into steps finer than this part of its width, for it is too wide rather than its steps too long
@@ -68,7 +69,8 @@ class Strips:
 
     def ring_clears(self, low: float, high: float, radius: float) -> bool:
         """Does the ring bound clear all from a head radius outwards for all growths in [low, high]?"""
-        return float(kernels.ring_least(low, high, radius, *self.search.ring_extremes, self.total)) > self.margin
+        least = float(kernels.ring_least(low, high, radius, *self.search.ring_extremes, self.total))
+        return least > self.margin + self.search.ring_rounding(radius, high)
 
     def _make_room(self, benches: int) -> None:
         self.rows = np.zeros((4, benches + 1, kernels.CHAIN_COLUMNS))
@@ -98,7 +100,7 @@ class Strips:
                 self.radius,
                 min(search.dragon.uniform_from + 1, search.dragon.benches),
                 self.margin,
-                GAP_ROUNDING * (outer + 2.0 * search.longest),
+                TRAVEL_ROUNDING * outer * max(outer / (low / turn), 1.0),
                 max(STEP_MIN, STEP_PER_WIDTH * (high - low)),
                 STRIP_BUDGET - self.steps,
                 search.dragon.benches,

@@ -31,6 +31,8 @@ EDGES_MAX = 2_000
 DEPTH_MAX = 8
 # A spiral is danced a little past the last instant, so that rounding does not leave it outside [m].
 SPARE = 1e-3
+# Places of handles are good to 1e-12 m (trajectory()): beyond a radius by this they are beyond it for sure [m].
+SURELY = 1e-9
 # What polygon_fault() calls a fault, in a sentence before its place.
 FAULTS = {
     "self-intersection": "a self-intersection",
@@ -240,7 +242,7 @@ def is_clear_beyond(
     met nothing new, if all edges lie outside the disc by more than the margin.
     """
     ends = np.linalg.norm(trajectory(dragon, path, [start, seen], head_speed=head_speed).position, axis=-1)
-    if (ends[1, 1:] > ends[0, :-1]).any():
+    if (ends[1, 1:] + SURELY > ends[0, :-1]).any():
         return False
     alike = dragon.uniform_from + 1
     search = Search(dragon, path, margin)
@@ -248,7 +250,7 @@ def is_clear_beyond(
     search.place_leaders(seen * head_speed, dragon.benches)
     arcs, _ = search.moved_until(run_end(dragon, path).theta or 0.0)
     outwards = arcs / np.hypot(1.0, search.rows[0, : dragon.benches + 1, 4])  # radii grow by this part of an arc
-    if (ends[1] + outwards > ends[0])[alike:].any():
+    if (ends[1] + outwards + SURELY > ends[0])[alike:].any():
         return False
     reach = (
         ends[1, 0] + dragon.chords[:alike].sum() + dragon.overhangs[:alike].max() + 0.5 * dragon.widths[:alike].max()
@@ -257,7 +259,7 @@ def is_clear_beyond(
     along = edges[:, 2:] - edges[:, :2]
     share = np.clip(-(edges[:, :2] * along).sum(axis=1) / (along**2).sum(axis=1), 0.0, 1.0)
     nearest = np.linalg.norm(edges[:, :2] + share[:, None] * along, axis=1).min()
-    return bool(nearest > reach + margin)
+    return bool(nearest > reach + margin + SURELY)
 
 
 def _area_clearance(search: Search, name: str, begin: float, until: float, head_speed: float) -> AreaClearance:

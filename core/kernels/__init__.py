@@ -17,34 +17,45 @@ marching     to first contact                                  strips      all p
 speed        the highest speed                                 excess       when a limit is first exceeded
 """
 
-from core.kernels.bounds import motion_bounds
+from core.kernels.bounds import motion_bounds, route_bounds
 from core.kernels.boxes import BOXES_PER_LEAF, grow_tree, meeting_pairs
-from core.kernels.chain import route_tail, route_trajectory
+from core.kernels.chain import chain_rounding, place_chain, route_tail, route_trajectory
 from core.kernels.clearance import clearance_at, clearance_left, crossing, gap_at, gap_rate_at
 from core.kernels.constants import (
     BEND_LIMIT,
+    BENT,
+    BLEND,
     CENTRE_SPEED,
     CHAIN_COLUMNS,
+    CLEAR_SPARE,
+    ERROR,
     FREE,
     HANDLE_SPEED,
+    K_SLOPE,
+    LOOSE,
     MARCH_FIELDS,
     MARCH_STATES,
     MOTION_COLUMNS,
+    PART,
     PIECE_COLUMNS,
     PIECE_KINDS,
+    PLACE_SPARE,
     ROUTE_BEND_LIMIT,
     SHIFT_COLUMNS,
     SIZE_COLUMNS,
+    SLIP,
     SPIRAL_CURVATURE_MOST,
+    SWAY,
+    ULP,
 )
 from core.kernels.excess import first_excess
 from core.kernels.fold import fold_theta, previous_theta
 from core.kernels.marching import march
-from core.kernels.pairs import axis_bend, pair_bends, pair_least
+from core.kernels.pairs import axis_bend, pair_bends, pair_least, pair_most, pair_rounding
 from core.kernels.rectangles import pair_gap, pair_gap_within, pair_separation, pair_separations
 from core.kernels.rings import leaders_reach, radius_beyond, ring_least
-from core.kernels.route import cubic_arcs, route_points
-from core.kernels.speed import peak_rate
+from core.kernels.route import cubic_arcs, joint_misses, piece_slides, route_points
+from core.kernels.speed import climbs, peak_rate, spiral_errors
 from core.kernels.spiral import (
     COMPILED,
     LANES_PER_BLOCK,

@@ -1,13 +1,18 @@
 cimport cython
 from core.kernels.constants cimport *
-from core.kernels.spiral cimport spiral_curvature, steepest_bend
+from core.kernels.spiral cimport spiral_curvature, spiral_rounding, steepest_bend
 
 cdef double TRIAL
 cdef double RATIO_FOLLOWED
+cdef double LOOSEN
+cdef double TIGHTEN
+cdef double ROUTE_BEND_ROUNDED
 
 cdef void stand_between(
-    Py_ssize_t k, double[:, ::1] before, double[:, ::1] after, double[:, ::1] motion
+    Py_ssize_t k, double[:, ::1] before, double[:, ::1] after, double widened, double[:, ::1] motion
 ) noexcept nogil
+
+cdef double blur_of(Py_ssize_t k, double chord, double[:, ::1] before, double[:, ::1] after) noexcept nogil
 
 @cython.locals(k=cython.Py_ssize_t, followed=cython.bint)
 cpdef bint motion_bounds(
@@ -20,9 +25,15 @@ cdef (double, double) stretch_curvature(
     const double[:, ::1] pieces, Py_ssize_t rear, double k_rear, Py_ssize_t front, double k_front
 ) noexcept nogil
 
-@cython.locals(rear=cython.Py_ssize_t, front=cython.Py_ssize_t, p=cython.Py_ssize_t)
+@cython.locals(p=cython.Py_ssize_t)
+cdef Py_ssize_t reached_piece(
+    const double[:, ::1] pieces, Py_ssize_t k, double way, double[:, ::1] chain
+) noexcept nogil
+
+@cython.locals(p=cython.Py_ssize_t)
 cdef double stretch_slope(
-    const double[:, ::1] pieces, Py_ssize_t k, double[:, ::1] before, double[:, ::1] after
+    const double[:, ::1] pieces, Py_ssize_t k, Py_ssize_t rear, Py_ssize_t front, double[:, ::1] before,
+    double[:, ::1] after
 ) noexcept nogil
 
 cdef (double, double) link_cosines(Py_ssize_t k, double[:, ::1] chain) noexcept nogil
@@ -36,8 +47,12 @@ cdef double parts_between(
     const double[:, ::1] pieces, Py_ssize_t k, double[:, ::1] before, double[:, ::1] after
 ) noexcept nogil
 
-@cython.locals(k=cython.Py_ssize_t)
-cdef bint route_bounds(
+@cython.locals(k=cython.Py_ssize_t, p=cython.Py_ssize_t, q=cython.Py_ssize_t)
+cpdef bint route_bounds(
     const double[:, ::1] pieces, double h, Py_ssize_t benches, double[:, ::1] sizes, double[:, ::1] before,
     double[:, ::1] after, bint climbing, double[:, ::1] motion
+) noexcept nogil
+
+cdef double followed_error(
+    Py_ssize_t k, double error, double[:, ::1] sizes, double[:, ::1] before, double[:, ::1] after
 ) noexcept nogil

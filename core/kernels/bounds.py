@@ -5,7 +5,7 @@ from cython.cimports.libc.math import fabs, sqrt
 
 if not cython.compiled:  # for the compiler the same stands in the .pxd
     from core.kernels.constants import *
-    from core.kernels.spiral import spiral_curvature, steepest_bend
+    from core.kernels.spiral import spiral_curvature, spiral_rounding, steepest_bend
 
 # The head's travel sigma [m] is the variable; ' is d / d sigma. On [L, R] of width h every quantity below is an
 # upper (or _low lower) bound over the whole interval, from the curvature range [k_low, k_high] of the stretch
@@ -64,13 +64,39 @@ TRIAL = 1.5
 # a ratio of more than this [1]: what it leaves multiplies from link to link.
 RATIO_FOLLOWED = 1.001
 
+# Rounding. The chains at both ends are those of heads that stand where their doubles say (spiral.py, route.py), and h
+# is at least what these travel (marching.py). What enters the bounds is widened by what it may lack, so that what comes
+# out bounds the truth, for any number of links:
+#   curvature    of a handle that is SLIP along the path from its true place: on a spiral |d k / d s| <= 2 k / growth,
+#                as theta (4 + theta^2) / ((2 + theta^2) (1 + theta^2)^(3/2)) <= 2, so k is good to 2 SLIP / growth of
+#                itself (up to the first handle that is followed SLIP <= spiral_error() with chords up to 2 r) besides a
+#                few u; on a route to K_SLOPE SLIP + BENT. `widened` adds 32 u (benches + 8), and so k_high and k_low
+#                also make up for the few u of sin_high, cos_low, cos_high and of differences like swing, wherever these
+#                are small against what they are differences of: d (1 - sin^2) = 2 sin^2 widened is more than its
+#                rounding, 3 u, unless sin^2 < 1 / 170, where cos is good to 3 u of itself.
+#   cosines      followed from the ends: u of a link is off by SWAY or less, T by 2.2 SLIP / chord and by the rotation
+#                of the frame, which SWAY has in it too: `blur` = 2 SWAY + 2.2 SLIP / chord + 16 u.
+#   recurrences  from link to link sums, products and quotients of terms >= 0, each good to u: fewer than 30 a link, so
+#                a factor LOOSEN (for lower bounds TIGHTEN) a link keeps them above (below) the truth.
+# What is computed from a motion row once, and not from link to link, is good to 1e-13 of itself, which h makes up for.
+LOOSEN = 1.0 + 4e-15
+TIGHTEN = 1.0 - 4e-15
+# A bend just at the limit of what a chord can follow, widened.
+ROUTE_BEND_ROUNDED = ROUTE_BEND_LIMIT * (1.0 + 1e-9)
 
-def stand_between(k, before, after, motion):
+
+def stand_between(k, before, after, widened, motion):
     """Where on the spiral handle k stands during an interval, if it does not turn back, and how curved that is."""
     motion[k, THETA_LOW] = after[k, THETA]
     motion[k, THETA_HIGH] = before[k, THETA]
-    motion[k, CURVATURE_LOW] = spiral_curvature(before[k, THETA])
-    motion[k, CURVATURE_HIGH] = spiral_curvature(after[k, THETA])
+    motion[k, CURVATURE_LOW] = spiral_curvature(before[k, THETA]) * (1.0 - widened)
+    motion[k, CURVATURE_HIGH] = spiral_curvature(after[k, THETA]) * (1.0 + widened)
+
+
+def blur_of(k, chord, before, after):
+    """How far the cosines of a link's angles may be from the true ones at either end of an interval [1]."""
+    slip = max(before[k + 1, SLIP], after[k + 1, SLIP])
+    return 2.0 * max(before[k, SWAY], after[k, SWAY]) + 2.2 * slip / chord + 16.0 * ULP
 
 
 def motion_bounds(growth, h, benches, sizes, before, after, motion):
@@ -81,9 +107,14 @@ def motion_bounds(growth, h, benches, sizes, before, after, motion):
     second_a = 0.0
     motion[0, RATE_HIGH] = motion[0, RATE_LOW] = 1.0
     motion[0, RATE_RATE] = 0.0
+    widened = max(before[benches, THETA], after[benches, THETA])
+    widened = 2.0 * (widened + 1.0) * (66.0 * benches + 16.0 * (widened - after[0, THETA]) + 5.0)
+    widened = ULP * (32.0 * (benches + 8.0) + widened)
+    outwards = (1.0 - widened) / growth
+    inwards = (1.0 + widened) / growth
     for k in range(benches):
         chord = sizes[k, CHORD]
-        stand_between(k, before, after, motion)
+        stand_between(k, before, after, widened, motion)
         inner = after[k, THETA] if after[k, THETA] < before[k, THETA] else before[k, THETA]
         outer = before[k + 1, THETA] if after[k + 1, THETA] < before[k + 1, THETA] else after[k + 1, THETA]
         if followed:  # the handle may turn back between the ends: it goes no further in than its rate allows
@@ -91,17 +122,24 @@ def motion_bounds(growth, h, benches, sizes, before, after, motion):
             inner = inner - swing_a if swing_a <= 0.5 * inner else inner - rate_a * h / growth
             if inner < 0.0:
                 inner = 0.0
-        k_high = spiral_curvature(inner) / growth
+        k_high = spiral_curvature(inner) * inwards
         sin_high = 0.5 * k_high * chord
         if sin_high <= BEND_LIMIT:
-            k_low = 0.0 if followed else spiral_curvature(outer) / growth
+            k_low = 0.0 if followed else spiral_curvature(outer) * outwards
             cos_low = sqrt(1.0 - sin_high * sin_high)
             cos_high = sqrt(1.0 - 0.25 * k_low * k_low * chord * chord)
-            rate_low *= cos_low / cos_high
+            rate_low *= TIGHTEN * cos_low / cos_high
             rate_b = rate_a
             swing_a = swing_b = k_high * rate_a - k_low * rate_low
             omega = k_high * rate_a
         else:
+            if not followed:  # the sums that spiral_error() takes the place of are needed themselves
+                spiral_rounding(growth, benches, sizes, before)
+                spiral_rounding(growth, benches, sizes, after)
+                widened = max(before[benches, SLIP], after[benches, SLIP])
+                widened = 32.0 * ULP * (benches + 8.0) + 2.0 * widened / growth
+                inwards = (1.0 + widened) / growth
+                k_high = spiral_curvature(inner) * inwards
             followed = True
             rate_low = 0.0
             swing_a = before[k, TX] * before[k, UX] + before[k, TY] * before[k, UY]
@@ -110,6 +148,9 @@ def motion_bounds(growth, h, benches, sizes, before, after, motion):
             swing_a = before[k + 1, TX] * before[k, UX] + before[k + 1, TY] * before[k, UY]
             swing_b = after[k + 1, TX] * after[k, UX] + after[k + 1, TY] * after[k, UY]
             cos_low = swing_a if swing_a < swing_b else swing_b
+            blur = blur_of(k, chord, before, after)
+            cos_high += blur
+            cos_low -= blur
             if cos_low <= 0.0:
                 return False
             rate_b = rate_a * (TRIAL * cos_high + h * rate_a * (k_high + 2.0 / chord)) / cos_low
@@ -122,8 +163,9 @@ def motion_bounds(growth, h, benches, sizes, before, after, motion):
             cos_low -= 0.5 * h * swing_b
             if cos_low <= 0.0 or rate_a * cos_high > rate_b * cos_low:
                 return False
+            rate_b *= LOOSEN
             sin_high = 1.0
-        second_b = (cos_high * second_a + sin_high * (rate_a * swing_a + rate_b * swing_b)) / cos_low
+        second_b = LOOSEN * (cos_high * second_a + sin_high * (rate_a * swing_a + rate_b * swing_b)) / cos_low
         spin = (
             omega * omega
             + (cos_high * (rate_a * swing_a + rate_b * swing_b) + sin_high * (second_a + second_b)) / chord
@@ -145,7 +187,7 @@ def motion_bounds(growth, h, benches, sizes, before, after, motion):
         motion[k + 1, RATE_RATE] = second_b
         rate_a = rate_b
         second_a = second_b
-    stand_between(benches, before, after, motion)
+    stand_between(benches, before, after, widened, motion)
     return True
 
 
@@ -171,13 +213,24 @@ def stretch_curvature(pieces, rear, k_rear, front, k_front):
     return low, high
 
 
-def stretch_slope(pieces, k, before, after):
-    """Bound on |d curvature / d s| from the rear of bench k to its front over an interval, jumps left out [1/m^2].
+def reached_piece(pieces, k, way, chain):
+    """The piece of handle k, or where rounding may hide that it has crossed a joint that way (1 forwards), the next."""
+    p = cython.cast(cython.Py_ssize_t, chain[k, PIECE])
+    s = -chain[k, PLACE]
+    slip = chain[k, SLIP] + 8.0 * ULP * fabs(s)
+    if way > 0.0 and p + 1 < pieces.shape[0] and s + slip > pieces[p, S_END]:
+        return p + 1
+    if way < 0.0 and p > 0 and s - slip < pieces[p, S_START]:
+        return p - 1
+    return p
+
+
+def stretch_slope(pieces, k, rear, front, before, after):
+    """Bound on |d curvature / d s| from the rear of bench k, on piece `rear`, to its front over an interval, jumps left
+    out [1/m^2].
 
     On a spiral it falls with theta, so that the innermost handle's serves (see steepest_bend()).
     """
-    rear = cython.cast(cython.Py_ssize_t, before[k + 1, PIECE])
-    front = cython.cast(cython.Py_ssize_t, after[k, PIECE])
     slope = 0.0
     if rear == front and pieces[rear, PIECE_KIND] == SPIRAL:
         theta = min(before[k + 1, PIECE_THETA], after[k, PIECE_THETA])
@@ -217,46 +270,53 @@ def route_bounds(pieces, h, benches, sizes, before, after, climbing, motion):
     cosines of the angles are also followed from both ends of the interval, as near the centre of a spiral: |cos alpha|'
     <= sin alpha |alpha'|, and half an interval is the most that lies between an instant and the nearer end.
     climbing: the chains hold s'' too, which with |s'''| bounds it from both ends, until a handle crosses into another
-    part, and with it the rate: so no bound grows from link to link
+    part, and with it the rate: so no bound grows from link to link. With angles good to `blur` the rounding e of a rate
+    obeys e_b cos alpha_b <= e_a cos alpha_a + 2 blur b', and that of s'', by speed.climbs(), d_b cos alpha_b <= d_a +
+    2 blur (|a''| + |b''|) + widened (a'^2 + b'^2) + 8 (a' + b') (e_a + e_b + blur (a' + b')) / c
     """
     rate_a = 1.0
     rate_low = 1.0
     second_a = 0.0
     third_a = 0.0
+    error_a = 0.0
+    climb_error = 0.0
     crossed = parts_between(pieces, 0, before, after)
+    motion[0, RATE_ERROR] = motion[0, CLIMB_ERROR] = 0.0
     for k in range(benches):
         chord = sizes[k, CHORD]
-        low, high = stretch_curvature(
-            pieces,
-            cython.cast(cython.Py_ssize_t, before[k + 1, PIECE]),
-            before[k + 1, CURVATURE],
-            cython.cast(cython.Py_ssize_t, after[k, PIECE]),
-            after[k, CURVATURE],
-        )
+        p = reached_piece(pieces, k + 1, -1.0, before)
+        q = reached_piece(pieces, k, 1.0, after)
+        low, high = stretch_curvature(pieces, p, before[k + 1, CURVATURE], q, after[k, CURVATURE])
+        slope = stretch_slope(pieces, k, p, q, before, after)
+        widened = 32.0 * ULP * (benches + 8.0) / chord + pieces[0, BENT]
+        widened += slope * max(before[k + 1, SLIP], after[k + 1, SLIP])
+        high += widened
+        low -= widened
         if high <= 0.0:
             low, high = -high, -low
         elif low < 0.0:
             high = high if high > -low else -low
             low = -high
         sin_high = 0.5 * high * chord
-        if sin_high > ROUTE_BEND_LIMIT:
+        if not (sin_high <= ROUTE_BEND_ROUNDED):
             return False
+        blur = blur_of(k, chord, before, after)
         front_low = rear_low = sqrt(1.0 - sin_high * sin_high)
         front_high = rear_high = sqrt(1.0 - 0.25 * low * low * chord * chord) if low > 0.0 else 1.0
         if front_high > RATIO_FOLLOWED * rear_low:
             turned = swing_bound(low, high, rate_a, rate_low, front_high / rear_low, front_low / rear_high)
-            turned *= 0.5 * h * sin_high
+            turned = 0.5 * h * sin_high * turned + blur
             front, rear = link_cosines(k, before)
             front_end, rear_end = link_cosines(k, after)
             front_low = max(front_low, min(front, front_end) - turned)
             front_high = min(front_high, max(front, front_end) + turned)
             rear_low = max(rear_low, min(rear, rear_end) - turned)
             rear_high = min(rear_high, max(rear, rear_end) + turned)
-        rate_b = rate_a * front_high / rear_low
-        low_b = rate_low * front_low / rear_high
+        rate_b = LOOSEN * rate_a * front_high / rear_low
+        low_b = TIGHTEN * rate_low * front_low / rear_high
         omega = high * max(rate_a, rate_b)
         swing = swing_bound(low, high, rate_a, rate_low, front_high / rear_low, front_low / rear_high)
-        second_b = (front_high * second_a + sin_high * swing * (rate_a + rate_b)) / rear_low
+        second_b = LOOSEN * (front_high * second_a + sin_high * swing * (rate_a + rate_b)) / rear_low
         spin = omega * omega + (front_high * swing * (rate_a + rate_b) + sin_high * (second_a + second_b)) / chord
         pull = 0.5 * (second_a + second_b + high * (rate_a * rate_a + rate_b * rate_b))
         motion[k, CENTRE_SPEED] = 0.5 * (rate_a + rate_b)
@@ -267,17 +327,23 @@ def route_bounds(pieces, h, benches, sizes, before, after, climbing, motion):
         motion[k, TURN_PULL] = spin
         motion[k, TURN_LOW] = motion[k, RATE_LOW] = 0.0
         motion[k, HANDLE_SPEED] = rate_a if rate_a > rate_b else rate_b
-        third_b = stretch_slope(pieces, k, before, after) * (rate_a * rate_a * rate_a + rate_b * rate_b * rate_b)
+        third_b = slope * (rate_a * rate_a * rate_a + rate_b * rate_b * rate_b)
         third_b += high * (rate_a * second_a + rate_b * second_b) + (spin - omega * omega) * (rate_a + rate_b)
         third_b = sin_high * (third_b + 2.0 * swing * (second_a + second_b))
-        third_b = (front_high * (third_a + swing * swing * (rate_a + rate_b)) + third_b) / rear_low
+        third_b = LOOSEN * (front_high * (third_a + swing * swing * (rate_a + rate_b)) + third_b) / rear_low
         if climbing:
             crossed += parts_between(pieces, k + 1, before, after)
             motion[k + 1, CROSSED] = crossed
+            turned = max(fabs(before[k + 1, CLIMB]), fabs(after[k + 1, CLIMB]))
+            error_b = (error_a * front_high + 2.0 * blur * rate_b) / rear_low
+            climb_error += 2.0 * blur * (second_a + turned) + widened * (rate_a * rate_a + rate_b * rate_b)
+            climb_error += 8.0 * (rate_a + rate_b) * (error_a + error_b + blur * (rate_a + rate_b)) / chord
+            climb_error /= rear_low
             if crossed == 0.0:
-                turned = max(fabs(before[k + 1, CLIMB]), fabs(after[k + 1, CLIMB]))
-                second_b = min(second_b, turned + 0.5 * h * third_b)
-            rate_b = min(rate_b, 0.5 * (before[k + 1, RATE] + after[k + 1, RATE] + h * second_b))
+                second_b = min(second_b, turned + climb_error + 0.5 * h * third_b)
+            rate_b = min(rate_b, 0.5 * (before[k + 1, RATE] + after[k + 1, RATE] + h * second_b) + error_b)
+            motion[k + 1, RATE_ERROR] = error_a = error_b
+            motion[k + 1, CLIMB_ERROR] = climb_error
         motion[k + 1, RATE_HIGH] = rate_b
         motion[k + 1, RATE_RATE] = second_b
         motion[k + 1, RATE_JERK] = third_b
@@ -286,3 +352,19 @@ def route_bounds(pieces, h, benches, sizes, before, after, climbing, motion):
         second_a = second_b
         third_a = third_b
     return True
+
+
+# Rates of followed handles. e_b cos alpha_b <= e_a cos alpha_a + 2 blur |b'| bounds the rounding e of a rate, as both
+# cosines are good to `blur`.
+
+
+def followed_error(k, error, sizes, before, after):
+    """Rounding of the rate of handle k of a spiral at either end of an interval, from that of the one before [1]."""
+    blur = blur_of(k - 1, sizes[k - 1, CHORD], before, after)
+    front, rear = link_cosines(k - 1, before)
+    front_end, rear_end = link_cosines(k - 1, after)
+    rear = min(rear, rear_end) - blur
+    if rear <= 0.0:
+        return FREE
+    error *= max(fabs(front), fabs(front_end)) + blur
+    return (error + 2.0 * blur * max(fabs(before[k, RATE]), fabs(after[k, RATE]))) / rear

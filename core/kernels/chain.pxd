@@ -1,16 +1,20 @@
 cimport cython
 from core.kernels.constants cimport *
-from core.kernels.spiral cimport extend_chain, spiral_theta, start_chain
-from core.kernels.route cimport extend_route, start_route
+from core.kernels.spiral cimport extend_chain, spiral_rounding, spiral_theta, start_chain
+from core.kernels.route cimport extend_route, route_rounding, start_route
 
 cdef Py_ssize_t extend(
     double growth, const double[:, ::1] pieces, Py_ssize_t first, Py_ssize_t last, double[:, ::1] sizes,
     double[:, ::1] chain
 ) noexcept nogil
 
-cdef Py_ssize_t place_chain(
+cpdef Py_ssize_t place_chain(
     double growth, const double[:, ::1] pieces, double place, Py_ssize_t last, double[:, ::1] sizes,
     double[:, ::1] chain
+) noexcept nogil
+
+cpdef void chain_rounding(
+    double growth, const double[:, ::1] pieces, Py_ssize_t last, double[:, ::1] sizes, double[:, ::1] chain
 ) noexcept nogil
 
 cpdef double route_tail(

@@ -9,8 +9,8 @@ from cython.cimports.libc.math import fabs
 
 if not cython.compiled:  # for the compiler the same stands in the .pxd
     from core.kernels.constants import *
-    from core.kernels.route import extend_route, start_route
-    from core.kernels.spiral import extend_chain, spiral_theta, start_chain
+    from core.kernels.route import extend_route, route_rounding, start_route
+    from core.kernels.spiral import extend_chain, spiral_rounding, spiral_theta, start_chain
 
 
 def extend(growth, pieces, first, last, sizes, chain):
@@ -27,6 +27,14 @@ def place_chain(growth, pieces, place, last, sizes, chain):
     else:
         start_route(pieces, -place, chain)
     return extend(growth, pieces, 0, last, sizes, chain)
+
+
+def chain_rounding(growth, pieces, last, sizes, chain):
+    """Fills in SLIP, ERROR and SWAY of a chain up to handle `last`: what its handles and benches may be off by."""
+    if pieces.shape[0] == 0:
+        spiral_rounding(growth, last, sizes, chain)
+    else:
+        route_rounding(pieces, last, sizes, chain)
 
 
 def route_tail(pieces, s, benches, sizes, chain):

@@ -6,6 +6,9 @@ Compiled, the same names are literals of the C code, from constants.pxd; a test 
 PI = 3.141592653589793
 TWO_PI = 6.283185307179586
 
+# Unit of rounding of a double: the error of one operation is at most this part of its result [1].
+ULP = 1.1102230246251565e-16
+
 # Beyond every distance: the squares of two coordinates would overflow [m].
 NO_LIMIT = 1e154
 
@@ -19,6 +22,7 @@ TY = 3
 THETA = 4  # on a route
 PLACE = 4  # minus the arc length s instead [m]: both fall in the direction of travel
 RATE = 5  # d s / d sigma
+REST = 10  # what THETA lacks to the sum of all delta
 # and, for the bench behind that handle, its centre and direction
 MX = 6
 MY = 7
@@ -29,7 +33,13 @@ CURVATURE = 10
 PIECE = 11
 PIECE_THETA = 12
 CLIMB = 13  # d rate / d sigma [1/m], where climbs() filled it in
-CHAIN_COLUMNS = 14
+# Rounding, where chain_rounding() filled it in: how far along the path from its true place the handle may be,
+SLIP = 14
+# and how far from its true point any of the two handles of the bench behind it [m]
+ERROR = 15
+SWAY = 16  # and how far its direction from the true one [1]
+FILLED = 17  # in row 0: up to which handle
+CHAIN_COLUMNS = 18
 
 # Columns of a motion row, one for each bench: bounds over an interval.
 CENTRE_SPEED = 0
@@ -51,7 +61,11 @@ RATE_JERK = 14  # |s'''| on a route, where no handle up to it crosses into anoth
 CURVATURE_LOW = 15  # on a spiral, times its growth
 CURVATURE_HIGH = 16
 CROSSED = 17  # how many joints between the parts of a route the handles up to it cross, all told
-MOTION_COLUMNS = 18
+RATE_ERROR = (
+    18  # rounding of RATE [1] and of CLIMB [1/m] at either end of the interval, on a route where climbs() was asked
+)
+CLIMB_ERROR = 19
+MOTION_COLUMNS = 20
 
 # Columns of a size row, one for each bench.
 CHORD = 0
@@ -76,6 +90,7 @@ FREE = 1e150
 #   spiral centre x, y, growth, rotation, sign, arc   sign + outwards, arc length from its centre at S_START
 #   cubic  x0..x3, y0..y3, end              r(t) = sum of c_k t^k for t in [0, end], its curvature monotonic
 #   crest  the same for a cubic with a crest of curvature in it: in place of both ends lower and upper bounds
+# K_SLOPE, PART and, the same in every row, how near a smooth path runs: LOOSE, BENT.
 # The first piece also serves before S_START and the last one after S_END.
 PIECE_KIND = 0
 S_START = 1
@@ -84,7 +99,11 @@ K_START = 3
 K_END = 4
 K_SLOPE = 14  # bound on |d curvature / d s| [1/m^2]
 PART = 15  # within a part of the route curvature has no jump
-PIECE_COLUMNS = 16
+# Pieces that miss each other are led together within so much of their joint [m].
+BLEND = 1.0
+LOOSE = 16  # the pieces join to a path with a continuous tangent that is nowhere further from them than this [m]
+BENT = 17  # nor its curvature from theirs [1/m]
+PIECE_COLUMNS = 18
 LINE = 0
 ARC = 1
 SPIRAL = 2
@@ -110,14 +129,21 @@ RING_HALF_WIDTH = 4
 ALL_CHORD = 5
 ALL_OVERHANG = 6
 ALL_HALF_WIDTH = 7
+ALL_SHORT = 8  # shortest chord
+ALL_RADIUS = 9  # largest half diagonal
 # and a pair that a march leaves out, -1 for none
-LEFT_OUT = 8
-LEFT_OUT_TOO = 9
+LEFT_OUT = 10
+LEFT_OUT_TOO = 11
 # on a route: no two benches of which the leading one's front handle stands at this place or further back can touch
-RING_PLACE = 10
+RING_PLACE = 12
 # and once a body repeats itself, nothing touches while the head is beyond this place
-RING_END = 11
-RING_ENTRIES = 12
+RING_END = 13
+RING_ENTRIES = 14
+
+# A bound that holds from a radius or a place on is used only beyond it, by this part of the radius [1] or by this
+# along a route [m]: more than handles are off by, which is checked where it is used.
+CLEAR_SPARE = 1e-9
+PLACE_SPARE = 1e-6
 
 # Entries of march()'s result.
 PROVEN = 0  # nothing touches up to here [m of head travel]

@@ -1,18 +1,21 @@
 cimport cython
 from core.kernels.constants cimport *
 from core.kernels.spiral cimport extend_chain, spiral_curvature, spiral_theta, start_chain
-from core.kernels.chain cimport extend
+from core.kernels.bounds cimport followed_error
+from core.kernels.chain cimport chain_rounding, extend
 from core.kernels.rings cimport coil_radius, coil_reach, drift, leaders_reach, radius_beyond
-from core.kernels.route cimport extend_route, start_route
-from core.kernels.pairs cimport interval_least
+from core.kernels.route cimport extend_route, stands_first, start_route
+from core.kernels.pairs cimport interval_least, pair_most
 from core.kernels.clearance cimport crossing, gap_at, row_clearance, row_gap
 
 cdef double DIP_WIDTH
 cdef double LEAST_STEP
 cdef double LEAST_WAY
 cdef double ALLOWANCE
-cdef double PASSED
 cdef double CROSSING_WIDTH
+cdef double WIDTH_ROUNDING
+cdef double PASSED_BY
+cdef double PEEK
 
 @cython.locals(k=cython.Py_ssize_t)
 cdef Py_ssize_t chain_between(
@@ -29,17 +32,23 @@ cdef Py_ssize_t route_between(
 
 @cython.locals(i=cython.Py_ssize_t)
 cdef bint passed(
-    Py_ssize_t first, Py_ssize_t last, Py_ssize_t placed, double[:, ::1] opening, double[:, ::1] chain
+    double growth, const double[:, ::1] pieces, Py_ssize_t first, Py_ssize_t last, Py_ssize_t placed,
+    double[:, ::1] sizes, double[:, ::1] opening, double[:, ::1] chain
 ) noexcept nogil
 
 cdef bint turns_back(
-    Py_ssize_t k, double h, double[:, ::1] before, double[:, ::1] after, double[:, ::1] motion
+    Py_ssize_t k, double h, double error, double[:, ::1] before, double[:, ::1] after, double[:, ::1] motion
+) noexcept nogil
+
+@cython.locals(i=cython.Py_ssize_t)
+cdef bint may_turn(
+    Py_ssize_t k, double h, double[:, ::1] sizes, double[:, ::1] before, double[:, ::1] after, double[:, ::1] motion
 ) noexcept nogil
 
 @cython.locals(k=cython.Py_ssize_t)
 cdef bint slid_back(
     double growth, Py_ssize_t first, Py_ssize_t last, Py_ssize_t placed, double h, double[::1] ring,
-    double[:, ::1] opening, double[:, ::1] before, double[:, ::1] after, double[:, ::1] motion
+    double[:, ::1] sizes, double[:, ::1] opening, double[:, ::1] before, double[:, ::1] after, double[:, ::1] motion
 ) noexcept nogil
 
 @cython.locals(

@@ -4,13 +4,63 @@ import cython
 from cython.cimports.libc.math import fabs
 
 if not cython.compiled:  # for the compiler the same stands in the .pxd
-    from core.kernels.chain import extend
+    from core.kernels.bounds import followed_error
+    from core.kernels.chain import chain_rounding, extend
     from core.kernels.clearance import crossing, gap_at, row_clearance, row_gap
     from core.kernels.constants import *
-    from core.kernels.pairs import interval_least
+    from core.kernels.pairs import interval_least, pair_most
     from core.kernels.rings import coil_radius, coil_reach, drift, leaders_reach, radius_beyond
-    from core.kernels.route import extend_route, start_route
+    from core.kernels.route import extend_route, stands_first, start_route
     from core.kernels.spiral import extend_chain, spiral_curvature, spiral_theta, start_chain
+
+# March.
+#
+# Input. A chain for every head travel (growth or pieces, place, sizes), the margin, start and stop, which pairs must be
+# followed (leaders, at_start, statics), the ring bound (ring), and how near a contact is to be bracketed (tolerance).
+# State. `travel`; `before` and `after`, the chains at travel and at travel + h, of all handles that matter there;
+# h, the step to try; `target`, the crossing that this step stops short of, -1 for none.
+# Output. One of five ends, and in out what is known then.
+#
+# Invariant, whenever the loop begins: no two benches that share no handle come within the margin in [start, travel].
+# 1. A step is taken only if interval_least() leaves more than the margin, rounding allowed for, for every pair led by
+# the first `active` benches at every instant of [travel, travel + h] (pairs.py). It needs no step small enough: between
+# two ends a gap along an axis cannot fall further below its chord than K x (h - x) / 2, with K bounded over the very
+# interval (bounds.py). So a graze cannot be stepped over: a dip within the interval that reached the margin would need
+# a larger second derivative. Where the bound does not reach, the step is shortened, never taken.
+# 2. Of the other pairs, those whose inner bench leads at ring[RING_CLEAR] or further out are clear by the ring bound,
+# and those whose outer bench stands beyond radius_beyond(leaders_reach()) lie outside all that the leaders can touch
+# over the interval, which interval_least() checks with the handles' drift (rings.py). On a route all handles are laid
+# out.
+# 3. While at_start all benches are followed. Then only the pairs of the first `leaders` benches, of which the last, m =
+# leaders - 1, is the first of the alike: bench i > m at a place, and all behind it, stand as bench i - 1 and all behind
+# that did when handle i - 1 stood there, in the same benches (family lemma, core/contact.py). passed() says that every
+# handle i has come to where handle i - 1 began; so that was after the start, and clear by the invariant for i - 1, down
+# to m. From there on it stays so, as no handle turns back before the one ahead does. A handle that began beyond
+# `opened` is led by benches that 2 clears, until it is where a predecessor has been.
+# 4. Consecutive steps share a chain to the last bit, so the intervals tile the way of the true head without a gap. What
+# is not the same to the last bit is the travel: the head of the chain at `travel` has truly travelled within `rounding`
+# of it. So h, which the bounds take for its true way, is widened by twice that, and the caller begins and ends the
+# march beyond what it says of it by as much.
+#
+# How h is chosen only decides how soon a proof succeeds: at most twice the last step, and at most 0.95 of the width at
+# which the same bounds would just have proven the pairs of the last interval (`room`), both after a step taken and,
+# where that is a shorter one, after a step refused; else half.
+#
+# Ends.
+# REACHED: travel >= stop, so the invariant is the claim.
+# TOUCHED: the pair of the least bound is within the margin at the far end of a refused step; crossing() finds a
+# `target` up to there (or, where steps are short already, up to PEEK on) where its gap falls to the margin. The next
+# step ends at target - tolerance. If it is proven, for all pairs, and the pair is within the margin for certain around
+# target + tolerance, for all true travels within `rounding` of it (pair_most()), the first contact of all lies between:
+# PROVEN = travel, TOUCHING = target + tolerance. If travel is beyond target - tolerance already, the second condition
+# suffices. An earlier crossing, of this pair or another, makes the step fail and is found instead. Without a bracket
+# (tolerance <= 0) TOUCHING is the far end itself, if it is certain.
+# TOUCHED_AT_START: the nearest pair is within the margin at the start, for certain. Where rounding hides that: STUCK.
+# STUCK: h is below what could help (LEAST_STEP of the bracket, or rounding), the budget is spent, or the chain folds at
+# the start. PROVEN = travel still holds. TOUCHING >= 0 is a crossing that could not be bracketed this narrowly, a
+# pair that closes slowly: a wider bracket may do. -1: none was found.
+# CAPACITY: more handles matter than there are rows; nothing is claimed.
+# GRAZE_...: what was seen on the way, refined but not proven to be the least.
 
 # Width to which the place of a graze is found [m]: 1e-10 s at 1 m/s.
 DIP_WIDTH = 1e-10
@@ -20,8 +70,14 @@ LEAST_STEP = 0.05
 LEAST_WAY = 1e-7
 # The chain is laid out so many drifts further than the pose needs; if that is too little the step is halved [1].
 ALLOWANCE = 2.0
-# Handles count as having passed a place when they are beyond it by this, far above their rounding: of the places [1].
-PASSED = 1e-12
+# Widths are widened by this part of them, for the roundings of what a step computes once [1].
+WIDTH_ROUNDING = 1e-12
+# How far ahead a contact is looked for whose beginning rounding hides [m]: the widest bracket of core/search.py, twice.
+PEEK = 1e-4
+# Handles have passed a place when they are this much beyond it, of 1 + |theta| or 1 + |s| [1], and beyond what both may
+# be off by. On a spiral where no handle is followed it is more than SLIP alone: u (32 n c + 16 r (theta - theta_0) +
+# 2 r n) at most (spiral_error()), with n c <= r theta, which is an angle below u (48 theta + 2 n), n < 1e6.
+PASSED_BY = 1e-9
 # A crossing is found this much closer than the bracket that is proven around it [1].
 CROSSING_WIDTH = 1e-3
 
@@ -58,7 +114,9 @@ def route_between(pieces, place, leaders, benches, margin, allowance, ring, size
     if k == 0:
         return 0
     radius = radius_beyond(pieces[0, 7], coil_reach(pieces, k, sizes, chain) + margin + allowance, ring) + allowance
-    while k < benches and (chain[k, PIECE] > 0.0 or coil_radius(pieces, chain[k, PX], chain[k, PY]) < radius):
+    while k < benches and (
+        not stands_first(pieces, k, chain) or coil_radius(pieces, chain[k, PX], chain[k, PY]) < radius
+    ):
         k = extend_route(pieces, k, k + 1, 0.0, sizes, chain)
     return k
 
@@ -94,28 +152,60 @@ def route_between(pieces, place, leaders, benches, margin, allowance, ring, size
 # With edges at rest in place of the second bench the same holds of g(place_i), the separation of a bench and an edge.
 
 
-def passed(first, last, placed, opening, chain):
-    """Has every handle from `first` to `last` passed where its predecessor began?"""
+def passed(growth, pieces, first, last, placed, sizes, opening, chain):
+    """Has every handle from `first` to `last` passed where its predecessor began, by more than rounding?
+
+    A handle that is SLIP from its true place along a spiral is off by SLIP / growth in theta at most.
+    """
     for i in range(first, last + 1):
-        if i > placed or chain[i, THETA] > opening[i - 1, THETA] - PASSED * (1.0 + fabs(opening[i - 1, THETA])):
+        if i > placed or chain[i, THETA] + PASSED_BY * (1.0 + fabs(chain[i, THETA])) > opening[i - 1, THETA]:
+            return False
+    chain_rounding(growth, pieces, last, sizes, opening)
+    if first <= last:
+        chain_rounding(growth, pieces, last, sizes, chain)
+    for i in range(first, last + 1):
+        if chain[i, THETA] + (chain[i, SLIP] + opening[i - 1, SLIP]) / growth > opening[i - 1, THETA]:
             return False
     return True
 
 
-def turns_back(k, h, before, after, motion):
-    """May handle k go backwards during an interval? Its rate is never below this mean by more than |s''| h / 2."""
-    return before[k, RATE] + after[k, RATE] <= motion[k, RATE_RATE] * h
+# A rate is never below the mean of those at both ends by more than |s''| h / 2, and these are good to followed_error().
+# Where no handle is followed none turns back (RATE_LOW > 0).
 
 
-def slid_back(growth, first, last, placed, h, ring, opening, before, after, motion):
+def turns_back(k, h, error, before, after, motion):
+    """May handle k of a spiral go backwards during an interval? error: of its rates at both ends [1]"""
+    return motion[k, RATE_LOW] <= 0.0 and before[k, RATE] + after[k, RATE] <= motion[k, RATE_RATE] * h + 2.0 * error
+
+
+def may_turn(k, h, sizes, before, after, motion):
+    """turns_back() without the error of the rates, which follows from link to link."""
+    error = 0.0
+    if motion[k, RATE_LOW] > 0.0:
+        return False
+    for i in range(1, k + 1):
+        error = followed_error(i, error, sizes, before, after)
+    return turns_back(k, h, error, before, after, motion)
+
+
+def slid_back(growth, first, last, placed, h, ring, sizes, opening, before, after, motion):
     """May a handle of a spiral from `first` to before `last` have stood behind its own start during an interval?
 
     Behind the last handle placed every other moves in the direction of its leader, where links bend no more than the
-    chord lemma asks (bounds.py): then what holds of that one holds of them.
+    chord lemma asks (bounds.py): then what holds of that one holds of them. Radii are off by less than SLIP, and by
+    less than PASSED_BY of 1 + theta where no handle is followed.
     """
-    for k in range(min(first, placed), min(last, placed + 1)):
+    error = 0.0
+    for k in range(min(last, placed + 1)):
+        if k > 0 and motion[k, RATE_LOW] <= 0.0:
+            error = followed_error(k, error, sizes, before, after)
+        if k < first and k < placed:
+            continue
         low = growth * max(before[k, THETA], after[k, THETA])
-        if k > 0 and turns_back(k, h, before, after, motion):
+        low += PASSED_BY * (growth + low) + opening[k, SLIP]
+        if motion[k, RATE_LOW] <= 0.0:
+            low += max(before[k, SLIP], after[k, SLIP])
+        if k > 0 and turns_back(k, h, error, before, after, motion):
             low += drift(motion[k - 1, HANDLE_SPEED], h, growth, low)
         if low > growth * opening[k, THETA]:
             return True
@@ -150,7 +240,7 @@ def march(
     place: at travel 0, see chain.py [m]; leaders: benches whose pairs must be followed; at_start: follow all pairs
     until every bench has passed the start of the one before it; tolerance: half width of the bracket around a
     contact [m], 0 or less for none: to end at any instant found to be within the margin, and with 0 without looking
-    for grazes; rounding: what a computed gap may be off by [m]; budget: steps; benches: n; statics: edges at rest in
+    for grazes; rounding: what a travel may be off by [m]; budget: steps; benches: n; statics: edges at rest in
     the rows after the last handle's, on a route only; negative: these alone, without pairs of benches
     sizes: (R - 1, SIZE_COLUMNS) at least; rows: (4, R, CHAIN_COLUMNS), motion: (R, MOTION_COLUMNS) scratch; out:
         (MARCH_ENTRIES,)
@@ -176,6 +266,9 @@ def march(
     last_a = 0
     last_b = 0
     turning = False
+    allowed = CLEAR_SPARE * ring[RING_CLEAR]
+    if pieces.shape[0] > 0:
+        allowed = 0.5 * PLACE_SPARE if ring[RING_PLACE] < FREE else FREE
     opens = at_start and solo > 0.0
     if cap > benches:
         cap = benches
@@ -199,7 +292,14 @@ def march(
             out[PROVEN] = out[TOUCHING] = start
             out[FIRST] = pair[1]
             out[SECOND] = pair[2]
-            return TOUCHED_AT_START
+            least = pair_most(
+                growth, pieces, place - start + rounding, 2.0 * rounding, pair[1], pair[2], benches, sizes, spare,
+                after, motion, scratch,
+            )  # fmt: skip
+            if least <= margin:
+                return TOUCHED_AT_START
+            out[TOUCHING] = -1.0
+            return STUCK
         while travel < stop and (at_start or place - travel > ring[RING_END]):
             out[PROVEN] = travel
             if out[STEPS] >= budget or h < rounding or h < (LEAST_STEP * tolerance if tolerance > 0.0 else LEAST_WAY):
@@ -214,7 +314,13 @@ def march(
                 followers,
                 cap,
                 margin,
-                ALLOWANCE * drift(fabs(before[1, RATE]) + 1.0, h, growth, solo * before[1, THETA]),
+                ALLOWANCE
+                * drift(
+                    (fabs(before[1, RATE]) if placed > 0 else 0.0) + 1.0,
+                    h,
+                    growth,
+                    solo * before[1, THETA] if placed > 0 else 0.0,
+                ),
                 turning,
                 ring,
                 sizes,
@@ -230,6 +336,7 @@ def march(
                 continue
             room = FREE
             least = FREE
+            wide = h * (1.0 + WIDTH_ROUNDING) + 2.0 * rounding
             if active > 0:
                 if placed < handles:
                     placed = extend(growth, pieces, placed, handles, sizes, before)
@@ -237,7 +344,7 @@ def march(
                     growth,
                     pieces,
                     statics,
-                    h,
+                    wide,
                     active,
                     handles,
                     benches,
@@ -250,18 +357,38 @@ def march(
                     scratch,
                 )
                 room = 0.95 * scratch[3]
-            if least <= margin + rounding:
+                if scratch[4] > allowed:  # a bench beyond the clear radius or place might not be there
+                    least = -FREE
+            if least <= margin:
                 if least == -FREE:
                     h *= 0.5
                     target = -1.0
                     continue
                 a = cython.cast(cython.Py_ssize_t, scratch[1])
                 b = cython.cast(cython.Py_ssize_t, scratch[2])
+                far = travel + h
                 if row_gap(a, b, sizes, after) > margin:
                     h *= 0.5 if room < 0.5 * h or room >= h else room / h
                     target = -1.0
-                    continue
+                    if h >= tolerance:
+                        continue
+                    # within what rounding hides of a slow contact; the pair may be within the margin a little on
+                    width = 2.0 * tolerance
+                    while width <= PEEK and (
+                        gap_at(growth, pieces, place - travel - width, benches, a, b, sizes, spare) > margin
+                    ):
+                        width *= 4.0
+                    far = travel + width
+                    if width > PEEK or far > stop:
+                        continue
                 if tolerance <= 0.0:
+                    clearance = pair_most(
+                        growth, pieces, place - travel - h + rounding, 2.0 * rounding, a, b, benches, sizes, spare,
+                        after, motion, scratch,
+                    )  # fmt: skip
+                    if clearance > margin:
+                        h *= 0.5
+                        continue
                     out[TOUCHING] = travel + h
                     out[FIRST] = a
                     out[SECOND] = b
@@ -272,7 +399,7 @@ def march(
                     place,
                     benches,
                     travel,
-                    travel + h,
+                    far,
                     a,
                     b,
                     margin,
@@ -288,24 +415,26 @@ def march(
                 if target - tolerance - travel > rounding and target - tolerance - travel < h:
                     h = target - tolerance - travel
                     continue
-                if (
-                    target - tolerance <= travel
-                    and gap_at(growth, pieces, place - target - tolerance, benches, a, b, sizes, spare) <= margin
-                ):
-                    out[TOUCHING] = target + tolerance
-                    return TOUCHED
+                if target - tolerance <= travel:
+                    clearance = pair_most(
+                        growth, pieces, place - target - tolerance + rounding, 2.0 * rounding, a, b, benches, sizes,
+                        spare, after, motion, scratch,
+                    )  # fmt: skip
+                    if clearance <= margin:
+                        out[TOUCHING] = target + tolerance
+                        return TOUCHED
                 h *= 0.5
                 target = -1.0
                 continue
-            if solo > 0.0 and 0 < active < followers and turns_back(active, h, before, after, motion):
+            if solo > 0.0 and 0 < active < followers and may_turn(active, wide, sizes, before, after, motion):
                 edge = growth * min(before[active, THETA], after[active, THETA])
-                if edge - drift(motion[active - 1, HANDLE_SPEED], h, growth, edge) < ring[RING_CLEAR]:
+                if edge - drift(motion[active - 1, HANDLE_SPEED], wide, growth, edge) < ring[RING_CLEAR]:
                     h *= 0.5 if turning else 1.0
                     turning = True
                     target = -1.0
                     continue
             if opens and not at_start and active > 0:
-                if slid_back(growth, first, opened, handles, h, ring, opening, before, after, motion):
+                if slid_back(growth, first, opened, handles, wide, ring, sizes, opening, before, after, motion):
                     at_start = True
                     followers = benches if benches < cap else cap
                     target = -1.0
@@ -315,23 +444,16 @@ def march(
             before, after = after, before
             if scratch[0] > out[BEND] and active > 0:
                 out[BEND] = scratch[0]
-            if (
-                target > 0.0
-                and gap_at(
-                    growth,
-                    pieces,
-                    place - target - tolerance,
-                    benches,
-                    cython.cast(cython.Py_ssize_t, out[FIRST]),
-                    cython.cast(cython.Py_ssize_t, out[SECOND]),
-                    sizes,
-                    spare,
-                )
-                <= margin
-            ):
-                out[PROVEN] = travel
-                out[TOUCHING] = target + tolerance
-                return TOUCHED
+            if target > 0.0:
+                clearance = pair_most(
+                    growth, pieces, place - target - tolerance + rounding, 2.0 * rounding,
+                    cython.cast(cython.Py_ssize_t, out[FIRST]), cython.cast(cython.Py_ssize_t, out[SECOND]), benches,
+                    sizes, spare, after, motion, scratch,
+                )  # fmt: skip
+                if clearance <= margin:
+                    out[PROVEN] = travel
+                    out[TOUCHING] = target + tolerance
+                    return TOUCHED
             target = -1.0
             clearance = FREE
             if tolerance != 0.0:
@@ -368,7 +490,7 @@ def march(
             last_travel = travel
             last_a = pair[1]
             last_b = pair[2]
-            if at_start and passed(first, opened, placed, opening, before):
+            if at_start and passed(growth, pieces, first, opened, placed, sizes, opening, before):
                 at_start = False
                 followers = leaders if leaders < cap else cap
             h = room if room < 2.0 * h else 2.0 * h

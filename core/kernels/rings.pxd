@@ -1,5 +1,9 @@
 cimport cython
 from core.kernels.constants cimport *
+from core.kernels.route cimport stands_first
+
+cdef double RING_ROUNDING
+cdef double DISCERNED
 
 cdef bint settled(double growth, double radius, double[::1] ring) noexcept nogil
 cpdef double radius_beyond(double growth, double radius, double[::1] ring) noexcept nogil
@@ -20,8 +24,8 @@ cdef double coil_reach(
 
 @cython.locals(i=cython.Py_ssize_t)
 cdef bint stays_beyond(
-    const double[:, ::1] pieces, Py_ssize_t leaders, Py_ssize_t handles, double h, double margin, double[::1] ring,
-    double[:, ::1] sizes, double[:, ::1] before, double[:, ::1] after, double[:, ::1] motion
+    const double[:, ::1] pieces, Py_ssize_t leaders, Py_ssize_t handles, double h, double margin, double error,
+    double[::1] ring, double[:, ::1] sizes, double[:, ::1] before, double[:, ::1] after, double[:, ::1] motion
 ) noexcept nogil
 
 cdef double drift(double rate, double h, double growth, double radius) noexcept nogil

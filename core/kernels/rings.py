@@ -5,6 +5,7 @@ from cython.cimports.libc.math import asin, sin, sqrt
 
 if not cython.compiled:  # for the compiler the same stands in the .pxd
     from core.kernels.constants import *
+    from core.kernels.route import stands_first
 
 
 # A point at distance x along the extended centre line of a bench from the foot of the perpendicular from the
@@ -13,6 +14,11 @@ if not cython.compiled:  # for the compiler the same stands in the .pxd
 # sqrt(r_b^2 + o (c + 2 x0) + o^2) + w / 2. A chord is at least (2 / pi) delta sqrt(r_a r_b), so
 # x0 <= (pi / 4) growth (q + 1 / q), q^2 = r_b / r_a = 1 + delta / theta, which is below 1.67 growth once
 # delta <= theta. Otherwise the triangle inequality serves.
+
+
+# Rounding. The two bounds below are sums, products and roots of terms >= 0, good to 10 u together: RING_ROUNDING makes
+# up for it. What the radii of handles lack is added where they are compared.
+RING_ROUNDING = 1e-12  # [1]
 
 
 def settled(growth, radius, ring):
@@ -29,9 +35,9 @@ def radius_beyond(growth, radius, ring):
     target = radius + ring[RING_HALF_WIDTH]
     beyond = sqrt(target * target + 0.25 * ring[RING_CHORD] * ring[RING_CHORD])
     if settled(growth, beyond, ring):
-        return beyond
+        return beyond * (1.0 + RING_ROUNDING)
     beyond = 0.5 * ring[RING_CHORD]
-    return target + (beyond if beyond > ring[RING_OVERHANG] else ring[RING_OVERHANG])
+    return (target + (beyond if beyond > ring[RING_OVERHANG] else ring[RING_OVERHANG])) * (1.0 + RING_ROUNDING)
 
 
 def leaders_reach(growth, lead, rear, ring):
@@ -67,6 +73,9 @@ def leaders_reach(growth, lead, rear, ring):
 # least L, is this V. So |X - Y| >= V > L.
 
 
+# d^2 is a difference: where it is less than this part of radius^2 nothing is said, so that rounding stays small [1].
+DISCERNED = 1e-3
+
 # For a range of growths: G is concave in growth (its only curved terms are -growth^2 and -sqrt(1 + growth^2 /
 # rho^2)), so it is at least the lesser of its values at both ends; everything else falls with growth.
 
@@ -84,7 +93,7 @@ def ring_least(
     d2 = radius * radius - foot * foot
     gap = FREE
     at = growth_low
-    if d2 <= 0.0 or radius * radius < 1.5708 * chord * growth:
+    if d2 <= DISCERNED * radius * radius or radius * radius < 1.5708 * chord * growth:
         return -FREE
     d = sqrt(d2)
     rho = d - (half_width if half_width > outer_half_width else outer_half_width)
@@ -119,7 +128,8 @@ def ring_least(
 
 # A route that begins with a coil inwards, which goes on outwards behind its beginning. On a route handles only go
 # forward (route.py), so a bench whose front handle stands on that coil has always been there, and so have all behind
-# it: they stand on one spiral, and all bounds above hold of them, around the coil's centre. Hence no two benches touch
+# it: they stand on one spiral (as long as it stays clear of where the coil is led together with the next piece, see
+# stands_first()), and all bounds above hold of them, around the coil's centre. Hence no two benches touch
 # of which the leading one's front handle stands at RING_PLACE or further back, from where ring_least() exceeds the
 # margin; and no bench that stands on the coil with its front handle at radius_beyond(X) or further out touches one
 # within X of the centre. So only benches before RING_PLACE lead pairs, and the chain need not be laid out further than
@@ -143,11 +153,12 @@ def coil_reach(pieces, leaders, sizes, chain):
     return reach
 
 
-def stays_beyond(pieces, leaders, handles, h, margin, ring, sizes, before, after, motion):
+def stays_beyond(pieces, leaders, handles, h, margin, error, ring, sizes, before, after, motion):
     """Do the benches behind handle `handles` of a route stay beyond the reach of those that lead pairs meanwhile?
 
     A leader's centre is at most h / 2 of travel from where it stands at one of the ends. That handle goes inwards, so
-    it is nearest to the centre at the far end.
+    it is nearest to the centre at the far end. error: of points of the chains [m], which has u (|x| + |y|) and more in
+    it (route.py), so that 8 times that covers the roundings of radii too
     """
     reach = 0.0
     for i in range(leaders):
@@ -155,9 +166,8 @@ def stays_beyond(pieces, leaders, handles, h, margin, ring, sizes, before, after
         far += sizes[i, RADIUS] + 0.5 * h * motion[i, CENTRE_SPEED]
         if far > reach:
             reach = far
-    return after[handles, PIECE] == 0.0 and coil_radius(pieces, after[handles, PX], after[handles, PY]) >= (
-        radius_beyond(pieces[0, 7], reach + margin, ring)
-    )
+    reach = radius_beyond(pieces[0, 7], (reach + margin) * (1.0 + RING_ROUNDING) + 8.0 * error, ring) + 8.0 * error
+    return stands_first(pieces, handles, after) and coil_radius(pieces, after[handles, PX], after[handles, PY]) >= reach
 
 
 def drift(rate, h, growth, radius):

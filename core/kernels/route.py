@@ -5,7 +5,7 @@ from cython.cimports.libc.math import asin, cos, fabs, sin, sqrt
 
 if not cython.compiled:  # for the compiler the same stands in the .pxd
     from core.kernels.constants import *
-    from core.kernels.spiral import next_arc, spiral_curvature, spiral_theta
+    from core.kernels.spiral import next_arc, slipped, spiral_curvature, spiral_theta, swayed
 
 
 def cubic_speed(pieces, p, t):
@@ -75,13 +75,18 @@ def route_point(pieces, p, s):
             pieces[p, 9] / pieces[p, 7],
         )
     if kind == SPIRAL:
-        return spiral_point(pieces, p, spiral_theta((pieces[p, 10] + pieces[p, 9] * u) / pieces[p, 7]))
+        return spiral_point(pieces, p, theta_at(pieces, p, s))
     a = u / (pieces[p, S_END] - pieces[p, S_START]) * pieces[p, 13]
     for i in range(30):
         d = (cubic_arc(pieces, p, a) - u) / cubic_speed(pieces, p, a)
         a -= d
         if fabs(d) <= 1e-15 * pieces[p, 13]:
             break
+    return cubic_point(pieces, p, a)
+
+
+def cubic_point(pieces, p, a):
+    """route_point() on a cubic at a."""
     c = pieces[p, 6] + a * (2.0 * pieces[p, 7] + 3.0 * a * pieces[p, 8])
     d = pieces[p, 10] + a * (2.0 * pieces[p, 11] + 3.0 * a * pieces[p, 12])
     length = sqrt(c * c + d * d)
@@ -93,6 +98,11 @@ def route_point(pieces, p, s):
         (c * (2.0 * pieces[p, 11] + 6.0 * a * pieces[p, 12]) - d * (2.0 * pieces[p, 7] + 6.0 * a * pieces[p, 8]))
         / (length * length * length),
     )
+
+
+def theta_at(pieces, p, s):
+    """theta on a spiral piece at arc length s."""
+    return spiral_theta((pieces[p, 10] + pieces[p, 9] * (s - pieces[p, S_START])) / pieces[p, 7])
 
 
 def spiral_point(pieces, p, theta):
@@ -121,9 +131,12 @@ def route_points(pieces, s, out):
 def set_piece_theta(pieces, p, k, chain):
     """theta of handle k if it stands on a spiral."""
     if pieces[p, PIECE_KIND] == SPIRAL:
-        chain[k, PIECE_THETA] = spiral_theta(
-            (pieces[p, 10] + pieces[p, 9] * (-chain[k, PLACE] - pieces[p, S_START])) / pieces[p, 7]
-        )
+        chain[k, PIECE_THETA] = theta_at(pieces, p, -chain[k, PLACE])
+
+
+def stands_first(pieces, k, chain):
+    """Does handle k stand on the first piece, where that is not led together with the next one?"""
+    return chain[k, PIECE] <= 0.0 and -chain[k, PLACE] <= pieces[0, S_END] - BLEND
 
 
 def start_route(pieces, s, chain):
@@ -133,7 +146,117 @@ def start_route(pieces, s, chain):
     chain[0, PLACE] = -s
     chain[0, PIECE] = p
     chain[0, RATE] = 1.0
+    chain[0, FILLED] = chain[0, SLIP] = 0.0
     set_piece_theta(pieces, p, 0, chain)
+
+
+# Rounding, as in spiral.py, whose assumptions, SLIP, E and second order serve here too. The table is exact, and the
+# path danced is the smooth one that its pieces nearly are: they may miss each other at a joint by up to 1e-9 m and
+# rad, so it runs within LOOSE of them, and within BLEND of a joint only (see Route). Where a handle stands is
+# said by the double of its piece, s - S_START on a line, the angle on an arc, theta on a spiral, t on a cubic: its s is
+# only where the search for it began. E - SLIP is what the computed point lacks to the piece's there:
+#   line     one product and the sum:                                             u (|x| + |y| + |s - S_START|)
+#   arc      cos and sin 2 u each, a product, the sum:                            u (|x| + |y| + 5 radius)
+#   spiral   the same, growth theta, and theta + rotation to u unless that is 0:  u (|x| + |y| + r (6 + |angle|))
+#   cubic    the sum of |c_k| end^k, k >= 1, of both coordinates =: C:            u (|x| + |y| + 12 C)
+# From link to link the distance of the computed points misses the chord by what is seen, however the search for it
+# ended, and by the points' own errors:
+#     local = (|distance - chord| + (E - SLIP)[a] + (E - SLIP)[b] + 8 u chord) / cos alpha_b.
+# A place that is rounded beyond a joint stands on the piece before it, produced by as little: its point is off by the
+# square of that.
+# The head's double is not quite that of its s: slide_error() below, an error of the travel, not of the shape.
+#   line     s - S_START:                                                         u |s - S_START|
+#   arc      that, the division, the angle:                                       u (3 |s - S_START| + radius |angle|)
+#   spiral   that, the division by growth, the inverse of the arc length A:       10 u A
+#   cubic    |r'| end and the length are at most 3 C; the quadrature, a sum of 8, is good to 57 u C, and the Newton
+#            steps that invert it end within 30 u C:                              100 u C
+# What the quadrature lacks to the true arc length of a cubic, 1e-13 of it (core/cubics.py), is left out: s on a cubic
+# is what the quadrature says.
+
+
+def cubic_size(pieces, p):
+    """C: sum of |c_k| end^k of both coordinates, k >= 1 [m]."""
+    t = pieces[p, 13]
+    return t * (
+        fabs(pieces[p, 6])
+        + fabs(pieces[p, 10])
+        + t * (fabs(pieces[p, 7]) + fabs(pieces[p, 11]) + t * (fabs(pieces[p, 8]) + fabs(pieces[p, 12])))
+    )
+
+
+def spot_error(pieces, p, s, theta, x, y):
+    """No more than this lies between a computed point of piece p and the path's [m]; theta: on a spiral."""
+    kind = cython.cast(cython.int, pieces[p, PIECE_KIND])
+    error = fabs(x) + fabs(y)
+    if kind == LINE:
+        error += fabs(s - pieces[p, S_START])
+    elif kind == ARC:
+        error += 5.0 * pieces[p, 7]
+    elif kind == SPIRAL:
+        error += pieces[p, 7] * theta * (6.0 if pieces[p, 8] == 0.0 else 6.0 + fabs(theta + pieces[p, 8]))
+    else:
+        error += 12.0 * cubic_size(pieces, p)
+    if s < pieces[p, S_START] + BLEND or s > pieces[p, S_END] - BLEND:
+        return ULP * error + pieces[p, LOOSE]
+    return ULP * error
+
+
+def slide_error(pieces, p, s):
+    """No more than this lies between a computed point of piece p and that of s along the path [m]."""
+    kind = cython.cast(cython.int, pieces[p, PIECE_KIND])
+    away = fabs(s - pieces[p, S_START])
+    if kind == LINE:
+        return ULP * away
+    if kind == ARC:
+        return ULP * (4.0 * away + pieces[p, 7] * fabs(pieces[p, 8]))
+    if kind == SPIRAL:
+        return 10.0 * ULP * (fabs(pieces[p, 10]) + away)
+    return 100.0 * ULP * cubic_size(pieces, p)
+
+
+def piece_end(pieces, p, s):
+    """route_point() at either end of a piece, on a cubic without a search for t."""
+    if pieces[p, PIECE_KIND] <= SPIRAL:
+        return route_point(pieces, p, s)
+    return cubic_point(pieces, p, 0.0 if s == pieces[p, S_START] else pieces[p, 13])
+
+
+def joint_misses(pieces, out):
+    """By how much every piece misses the one before it at most: across and along the path [m], direction [rad],
+    curvature [1/m]. out: (rows, 4), of which the first row is left alone
+
+    A tangent is good to 10 u, and to u |angle| more on a turned spiral; on a cubic to 15 u C / (|r'| end), where
+    curvature is good to 72 u (C / (|r'| end))^2 / C.
+    """
+    for p in range(1, pieces.shape[0]):
+        s = pieces[p, S_START]
+        x, y, tx, ty, bend = piece_end(pieces, p - 1, s)
+        x_on, y_on, tx_on, ty_on, bend_on = piece_end(pieces, p, s)
+        across = fabs(tx * (y_on - y) - ty * (x_on - x))
+        along = fabs(tx * (x_on - x) + ty * (y_on - y))
+        kink = sqrt((tx_on - tx) * (tx_on - tx) + (ty_on - ty) * (ty_on - ty)) + 20.0 * ULP
+        step = fabs(bend_on - bend) + 10.0 * ULP * (fabs(bend_on) + fabs(bend))
+        for q in range(p - 1, p + 1):
+            theta = theta_at(pieces, q, s) if pieces[q, PIECE_KIND] == SPIRAL else 0.0
+            across += spot_error(pieces, q, s, theta, x, y)
+            along += slide_error(pieces, q, s)
+            if pieces[q, PIECE_KIND] == SPIRAL and pieces[q, 8] != 0.0:
+                kink += ULP * fabs(theta + pieces[q, 8])
+            if pieces[q, PIECE_KIND] > SPIRAL:
+                theta = cubic_size(pieces, q)
+                bend = theta / (pieces[q, 13] * cubic_speed(pieces, q, 0.0 if q == p else pieces[q, 13]))
+                kink += 15.0 * ULP * bend
+                step += 72.0 * ULP * bend * bend / theta
+        out[p, 0] = across
+        out[p, 1] = along
+        out[p, 2] = kink
+        out[p, 3] = step
+
+
+def piece_slides(pieces, out):
+    """The largest slide_error() on every piece [m]. out: (rows,)"""
+    for p in range(pieces.shape[0]):
+        out[p] = slide_error(pieces, p, pieces[p, S_END])
 
 
 # Next handle. Let |curvature| <= k with k chord < 2 (routes are refused otherwise). As long as k l <= pi the distance
@@ -148,7 +271,7 @@ def extend_route(pieces, first, last, calm, sizes, chain):
     returns: last, or where calm > 0 a handle before it that stands on the first piece
     """
     for k in range(first, last):
-        if calm > 0.0 and chain[k, PIECE] <= 0.0:
+        if calm > 0.0 and stands_first(pieces, k, chain):
             return k
         s = -chain[k, PLACE]
         p = cython.cast(cython.Py_ssize_t, chain[k, PIECE])
@@ -222,3 +345,32 @@ def finish_link(k, chord, chain):
     chain[k + 1, RATE] = (
         chain[k, RATE] * (chain[k, TX] * ux + chain[k, TY] * uy) / (chain[k + 1, TX] * ux + chain[k + 1, TY] * uy)
     )
+
+
+def route_rounding(pieces, last, sizes, chain):
+    """Fills in SLIP, ERROR and SWAY of a chain up to handle `last`."""
+    first = cython.cast(cython.Py_ssize_t, chain[0, FILLED])
+    spot = chain_spot(pieces, first, chain)
+    for k in range(first, last):
+        chord = sizes[k, CHORD]
+        inverse = 1.0 / chord
+        spots = spot
+        spot = chain_spot(pieces, k + 1, chain)
+        spots += spot
+        slope = 1.0 / (chain[k + 1, TX] * chain[k, UX] + chain[k + 1, TY] * chain[k, UY])
+        ratio = (chain[k, TX] * chain[k, UX] + chain[k, TY] * chain[k, UY]) * slope
+        # u is the difference of the points over the chord; | |u| - 1 | <= 0.6 | |u|^2 - 1 | unless all is lost anyway
+        local = chain[k, UX] * chain[k, UX] + chain[k, UY] * chain[k, UY]
+        local = (chord * (0.6 * fabs(local - 1.0) + 8.0 * ULP) + spots) * slope
+        chain[k + 1, SLIP] = slipped(chain[k, SLIP], ratio, slope, local, spots, inverse)
+        chain[k, ERROR] = chain[k + 1, SLIP] + spots
+        if k > 0:
+            chain[k, ERROR] = max(chain[k, ERROR], chain[k - 1, ERROR])
+        chain[k, SWAY] = swayed(k, chain, ratio, local, spots, inverse)
+    chain[0, FILLED] = max(first, last)
+
+
+def chain_spot(pieces, k, chain):
+    """spot_error() of handle k."""
+    p = cython.cast(cython.Py_ssize_t, chain[k, PIECE])
+    return spot_error(pieces, p, -chain[k, PLACE], chain[k, PIECE_THETA], chain[k, PX], chain[k, PY])

@@ -4,8 +4,8 @@ import cython
 from cython.cimports.libc.math import fabs
 
 if not cython.compiled:  # for the compiler the same stands in the .pxd
-    from core.kernels.bounds import motion_bounds, route_bounds
-    from core.kernels.chain import extend
+    from core.kernels.bounds import LOOSEN, blur_of, followed_error, link_cosines, motion_bounds, route_bounds
+    from core.kernels.chain import chain_rounding, extend
     from core.kernels.constants import *
     from core.kernels.rings import drift
     from core.kernels.route import extend_route, start_route
@@ -105,7 +105,8 @@ def refined_peak(growth, pieces, place, low, high, benches, calm, sizes, chain):
 
 
 # Within a part rates are smooth: with |r''| <= J a rate stays below its chord plus J h^2 / 8; and where its slope at an
-# end exceeds J h, it rises or falls throughout, so that it is largest at an end. Where one handle crosses one joint at
+# end exceeds J h, it rises or falls throughout, so that it is largest at an end. (A slope that is d off in truth
+# changes that, and all that follows, by d h at most.) Where one handle crosses one joint at
 # x = y in [0, h], r stays below p = r_0 + s_0 x + J h^2 / 2 for x <= y and below q = r_h + s_h (x - h) + J h^2 / 2 for
 # x >= y. If s_0 >= J h and s_h <= -J h it rises up to y and falls from there, so that its largest value r(y) <=
 # min(p(y), q(y)), which is largest where p and q cross.
@@ -114,30 +115,34 @@ def refined_peak(growth, pieces, place, low, high, benches, calm, sizes, chain):
 # than `inner`. There |alpha'| <= swing = k_high s' + omega for either handle, so that half an interval from the nearer
 # end the cosine of alpha_b is known from below; sines and the other cosine count as 1. A rate may change its sign, but
 # its amount too is largest at an end if it rises or falls throughout.
+#
+# Rounding. What motion_bounds() found holds, so do `inner`, less what the handle may be off by, and the cosine, less
+# `blur`. Curvature, its slope and all that follows are sums and products of terms >= 0, fewer than 60 roundings a link,
+# which LOOSEN twice makes up for.
 
 
-def spiral_jerks(growth, h, handles, before, after, motion):
+def spiral_jerks(growth, h, handles, sizes, before, after, motion):
     """Fills in bounds on |s'''| of the handles of a spiral over an interval [1/m^2]; FREE where a link may fold."""
     jerk = 0.0
     for k in range(handles):
         rate_a = motion[k, RATE_HIGH]
         rate_b = motion[k + 1, RATE_HIGH]
         inner = min(before[k, THETA], after[k, THETA])
-        inner = max(inner - rate_a * h / growth, 0.0)
+        inner = max(inner - (rate_a * h + max(before[k, SLIP], after[k, SLIP])) / growth, 0.0)
         bend = spiral_curvature(inner) / growth
         slope = steepest_bend(inner) / (growth * growth)
         swing_a = bend * rate_a + motion[k, TURN]
         swing_b = bend * rate_b + motion[k, TURN]
         cosine = before[k + 1, TX] * before[k, UX] + before[k + 1, TY] * before[k, UY]
         cosine = min(cosine, after[k + 1, TX] * after[k, UX] + after[k + 1, TY] * after[k, UY])
-        cosine -= 0.5 * h * swing_b
+        cosine -= 0.5 * h * swing_b + blur_of(k, sizes[k, CHORD], before, after)
         if cosine <= 0.0 or jerk >= FREE:
             motion[k + 1, RATE_JERK] = jerk = FREE
             continue
         jerk += 2.0 * (swing_a * motion[k, RATE_RATE] + swing_b * motion[k + 1, RATE_RATE])
         jerk += rate_a * (swing_a * swing_a + slope * rate_a * rate_a + bend * motion[k, RATE_RATE])
         jerk += rate_b * (swing_b * swing_b + slope * rate_b * rate_b + bend * motion[k + 1, RATE_RATE])
-        jerk = (jerk + (rate_a + rate_b) * motion[k, TURN_RATE]) / cosine
+        jerk = LOOSEN * LOOSEN * (jerk + (rate_a + rate_b) * motion[k, TURN_RATE]) / cosine
         motion[k + 1, RATE_JERK] = jerk
 
 
@@ -156,14 +161,65 @@ def smooth_bound(start, start_slope, end, end_slope, jerk, h, kink):
     return most + 0.5 * jerk * h * h
 
 
-def rate_bound(growth, pieces, h, handles, benches, calm, sizes, before, after, motion):
-    """No |rate| exceeds this over an interval, between two chains placed up to `handles`; FREE when it is too wide."""
+# Rounding. Rates and slopes at the ends are good to RATE_ERROR and CLIMB_ERROR: on a route by route_bounds(), on a
+# spiral by spiral_errors(). There no rate exceeds 1 unless a handle is followed. What is computed from them once is
+# good to BOUND_ROUNDING of itself, and h is widened by what both travels may be off by and by WIDTH_ROUNDING, for the
+# bounds (bounds.py). A handle that is calm by less
+# than rounding is calm: on a spiral the lemma holds up to a bend of 1, and calm is what bends by BEND_LIMIT at most, on
+# a route stands_first() leaves BLEND to spare.
+#
+# The rounding d of a slope. By climbs(), divided by the chord, with e the rounding of a rate, curvature good to
+# `widened` (|d k / d s| <= 2 k / growth, bounds.py), directions to `blur`, and q = e_a + e_b + blur (|a'| + |b'|),
+# which D' is good to:
+#     d_b cos alpha_b <= d_a + 2 blur (|a''| + |b''|) + 4 (|a'| + |b'|) q / c
+#                        + for both (widened + 2 blur k) s'^2 + 4 k |s'| e.
+# Each product of two that are off counts twice: that covers both being off, and its own roundings, as blur >= 16 u.
+BOUND_ROUNDING = 1e-14  # [1]
+WIDTH_ROUNDING = 1e-12  # [1]
+
+
+def spiral_errors(growth, handles, sizes, before, after, motion):
+    """Fills in RATE_ERROR and CLIMB_ERROR of the handles of a spiral, FREE where nothing is known."""
+    error = 0.0
+    climb = 0.0
+    motion[0, RATE_ERROR] = motion[0, CLIMB_ERROR] = 0.0
+    for k in range(handles):
+        chord = sizes[k, CHORD]
+        blur = blur_of(k, chord, before, after)
+        _, rear = link_cosines(k, before)
+        _, rear_end = link_cosines(k, after)
+        rear = min(rear, rear_end) - blur
+        rate_a = max(fabs(before[k, RATE]), fabs(after[k, RATE]))
+        rate_b = max(fabs(before[k + 1, RATE]), fabs(after[k + 1, RATE]))
+        error_a = error
+        error = followed_error(k + 1, error, sizes, before, after)
+        if rear <= 0.0 or climb >= FREE or not (error < FREE):
+            motion[k + 1, RATE_ERROR] = motion[k + 1, CLIMB_ERROR] = error = climb = FREE
+            continue
+        slip = max(before[k + 1, SLIP], after[k + 1, SLIP])
+        bend = spiral_curvature(min(before[k, THETA], after[k, THETA])) / growth
+        widened = bend * (32.0 * ULP + 4.0 * slip / growth) + 2.0 * blur * bend
+        climb += 2.0 * blur * max(fabs(before[k, CLIMB]), fabs(after[k, CLIMB]))
+        climb += 2.0 * blur * max(fabs(before[k + 1, CLIMB]), fabs(after[k + 1, CLIMB]))
+        climb += 4.0 * (rate_a + rate_b) * (error_a + error + blur * (rate_a + rate_b)) / chord
+        climb += widened * (rate_a * rate_a + rate_b * rate_b) + 4.0 * bend * (rate_a * error_a + rate_b * error)
+        climb /= rear
+        motion[k + 1, RATE_ERROR] = error
+        motion[k + 1, CLIMB_ERROR] = climb
+
+
+def rate_bound(growth, pieces, h, rounding, handles, benches, calm, sizes, before, after, motion):
+    """No |rate| exceeds this while the head travels h [m], between two chains placed up to `handles`; FREE when that is
+    too wide. rounding: what the travel of either may be off by [m]"""
     upper = 1.0
     if handles == 0:
         return upper
+    h = h * (1.0 + WIDTH_ROUNDING) + 2.0 * rounding
     climbs(growth, pieces, handles, sizes, before)
     climbs(growth, pieces, handles, sizes, after)
     if pieces.shape[0] > 0:
+        chain_rounding(growth, pieces, handles, sizes, before)
+        chain_rounding(growth, pieces, handles, sizes, after)
         if not route_bounds(pieces, h, handles, sizes, before, after, True, motion):
             return FREE
     elif not motion_bounds(growth, h, handles, sizes, before, after, motion):
@@ -174,9 +230,13 @@ def rate_bound(growth, pieces, h, handles, benches, calm, sizes, before, after, 
         if bound - drift(motion[handles - 1, HANDLE_SPEED], h, growth, bound) < calm:
             return FREE
     if pieces.shape[0] == 0:
-        spiral_jerks(growth, h, handles, before, after, motion)
+        if motion[handles, RATE_LOW] > 0.0:
+            return upper
+        spiral_errors(growth, handles, sizes, before, after, motion)
+        spiral_jerks(growth, h, handles, sizes, before, after, motion)
     for k in range(1, handles + 1):
-        bound = 0.5 * (fabs(before[k, RATE]) + fabs(after[k, RATE]) + motion[k, RATE_RATE] * h)
+        error = motion[k, RATE_ERROR]
+        bound = 0.5 * (fabs(before[k, RATE]) + fabs(after[k, RATE]) + motion[k, RATE_RATE] * h) + error
         if motion[k, RATE_HIGH] < bound:
             bound = motion[k, RATE_HIGH]
         if pieces.shape[0] == 0:
@@ -184,16 +244,30 @@ def rate_bound(growth, pieces, h, handles, benches, calm, sizes, before, after, 
                 fabs(before[k, RATE]), before[k, CLIMB], fabs(after[k, RATE]), after[k, CLIMB],
                 motion[k, RATE_JERK], h, False,
             )  # fmt: skip
-            bound = min(bound, smooth)
+            bound = min(bound, smooth + error + motion[k, CLIMB_ERROR] * h)
         elif bound > upper and motion[k, CROSSED] <= 1.0:
             smooth = smooth_bound(
                 before[k, RATE], before[k, CLIMB], after[k, RATE], after[k, CLIMB], motion[k, RATE_JERK], h,
                 motion[k, CROSSED] > 0.0,
             )  # fmt: skip
-            bound = min(bound, smooth)
+            bound = min(bound, smooth + error + motion[k, CLIMB_ERROR] * h)
         if bound > upper:
             upper = bound
-    return upper
+    return upper * (1.0 + BOUND_ROUNDING) if upper > 1.0 else upper
+
+
+def certain_rate(pieces, rounding, handles, chain, motion):
+    """A |rate| that a handle exceeds or has for certain from the second of two chains that rate_bound() followed back
+    to 2 `rounding` [m] before it, and the handle; at least the head's own 1."""
+    best = 1.0
+    at = 0
+    if pieces.shape[0] > 0 or motion[handles, RATE_LOW] <= 0.0:
+        for k in range(1, handles + 1):
+            rate = fabs(chain[k, RATE]) - motion[k, RATE_ERROR] - 2.0 * rounding * motion[k, RATE_RATE]
+            if rate > best:
+                best = rate
+                at = k
+    return best, at
 
 
 def peaks_between(placed, handles, before, after):
@@ -206,14 +280,16 @@ def peaks_between(placed, handles, before, after):
 
 
 def peak_rate(
-    growth, pieces, place, start, stop, step, tolerance, loosest, budget, benches, calm, sizes, rows, motion, out
-):
+    growth, pieces, place, start, stop, step, tolerance, loosest, rounding, budget, benches, calm, sizes, rows, motion,
+    out
+):  # fmt: skip
     """The largest |rate| of any handle while the head travels from start to stop [m], and a proven upper bound.
 
     Samples every `step`, denser towards the centre of a spiral, refines around the best, then proves interval after
     interval that no rate exceeds the best by more than the tolerance, which grows fourfold after every `budget` links
     followed (an interval counts as INTERVAL_LINKS more), until the proof ends or is given up at `loosest`; a rate found
-    above it becomes the best. calm: as in lively_chain()
+    above it becomes the best. calm: as in lively_chain(); rounding: what a travel may be off by [m], by which the way
+    that is proven begins before `start` and ends after `stop`
     out: (4,) rate, upper bound (FREE if given up), travel, intervals
     """
     before: cython.double[:, ::1] = rows[0]
@@ -247,22 +323,27 @@ def peak_rate(
             at = travel
         out[1] = best
         out[3] = 0.0
-        travel = start
+        travel = start - rounding
         h = step
-        placed = lively_chain(growth, pieces, place - start, benches, calm, sizes, before)
-        while travel < stop:
+        end = stop + rounding
+        if pieces.shape[0] == 0 and end > place:  # no further than the centre
+            end = max(stop, place)
+        placed = lively_chain(growth, pieces, place - travel, benches, calm, sizes, before)
+        while travel < end:
             out[3] += 1.0
-            if h > stop - travel:
-                h = stop - travel
+            if h > end - travel:
+                h = end - travel
             upper = FREE
             handles = lively_chain(growth, pieces, place - travel - h, benches, calm, sizes, after)
             if handles >= 0:
                 if 0 <= placed < handles:
                     placed = extend(growth, pieces, placed, handles, sizes, before)
                 if placed >= 0:
-                    upper = rate_bound(growth, pieces, h, handles, benches, calm, sizes, before, after, motion)
+                    upper = rate_bound(
+                        growth, pieces, h, rounding, handles, benches, calm, sizes, before, after, motion
+                    )
                 rate = fabs(after[fastest(handles, after), RATE])
-                if rate > best * (1.0 + NOISE):
+                if rate > best * (1.0 + NOISE) and start <= travel + h <= stop:
                     best = rate
                     at = travel + h
             links += max(handles, 0) + INTERVAL_LINKS
@@ -280,7 +361,7 @@ def peak_rate(
             if upper > best * (1.0 + NOISE) and peaks_between(placed, handles, before, after):
                 peak = refined_peak(growth, pieces, place, travel, travel + h, benches, calm, sizes, spare)
                 rate, _ = top_rate(growth, pieces, place - peak, benches, calm, sizes, spare)
-                if rate > best * (1.0 + NOISE):
+                if rate > best * (1.0 + NOISE) and start <= peak <= stop:
                     best = rate
                     at = peak
             travel += h

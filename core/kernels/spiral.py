@@ -12,10 +12,10 @@ if not cython.compiled:  # for the compiler the same stands in the .pxd
 
 COMPILED = cython.compiled
 
-# Halley's error after a step e is about e^3 / (4 scale^2), scale the less of delta and of f_delta / |f_delta_delta|,
-# which falls to 0 at the crest of f: a step of 1e-5 of the scale leaves 3e-17 of it [1].
-HALLEY_STEP = 1e-5
-# Up to this half angle the Taylor sums of half_sine() and half_cosine() leave out less than 3e-17 [rad].
+# Halley's iteration ends with a step of at most this part of delta and of f_delta / |f_delta_delta|: what it leaves is
+# below 0.32 ULP of delta, see "Rounding" [1].
+HALLEY_STEP = 2e-6
+# Up to this half angle the Taylor sums of half_sine() and half_cosine() leave out less than 5e-17 of themselves [rad].
 SERIES_LIMIT = 0.5
 
 
@@ -334,7 +334,75 @@ def start_chain(theta, chain):
     chain[0, TX] = -1.0 / length
     chain[0, TY] = -theta / length
     chain[0, THETA] = theta
+    chain[0, REST] = 0.0
     chain[0, RATE] = 1.0
+    chain[0, FILLED] = chain[0, SLIP] = 0.0
+
+
+# Rounding. u = ULP is the unit of rounding: each operation and square root errs by a factor within 1 +- u, each sin and
+# cos of the C library by 2 u of itself (one unit in the last place, as glibc and its peers promise). The doubles
+# growth, chords and the head's theta are exact. The frame turns with the head, so the truth is: handle k stands at
+# theta[k], angle theta[k] - theta[0]. Computed are Theta[k] = THETA + REST and a vector e[k] = (COS, SIN).
+#
+# 1. Displacement. Let the computed handle, put on the spiral at Theta[k], be at most SLIP[k] along the path away from
+# the true one. f is computed to 9 u f (its first term to 2 u; the second has theta + delta, two products, s twice with
+# s to 2 u, a sum), chord^2 to 3 u, and REST (at most u theta) is not in it: f_theta u theta <= 2 u chord^2, as
+# theta f_theta <= 2 f. In all f misses chord^2 by 14 u chord^2, and delta by 14 u chord^2 / f_delta. As the chord grows
+# by T_b . u = cos alpha_b for each metre that b falls back, f_delta = 2 (chord / growth) length cos alpha_b with length
+# = sqrt(1 + theta_b^2): b is displaced by growth length 14 u chord^2 / (growth^2 f_delta) = 7 u chord / cos alpha_b.
+# Halley: with w = f f_delta_delta / f_delta^2 the residual after a step is f_delta step w^2 / 4 (1 +- w) and
+# f_delta_delta_delta step^3 / 6. |w| <= HALLEY_STEP =: q, |step| <= q delta. From h'' above |f_delta_delta_delta|
+# delta^2 / (6 f_delta) <= (3 theta + theta (theta + delta) sin delta) delta^2 / (6 h) <= pi^2 / 4 + pi^2 / 6, for h >=
+# delta + theta (1 - cos delta) >= theta delta^2 2 / pi^2: so delta is off by at most q^3 delta (1/4 + 4.2) = 3.6e-17
+# delta. The bisection of first_root() ends in a bracket of 2 pi / 2^60 = 0.05 u. Rounding of delta itself, of its steps
+# and of the sum with REST: 2.1 u delta.
+#     local = 7 u chord / cos alpha_b + growth length u (2.5 delta + 0.05).
+# 2. From link to link a displacement is multiplied by the rate ratio cos alpha_a / cos alpha_b: at most 1 out on the
+# spiral, more towards the fold. The larger of it and 1 is taken, so that SLIP never falls from handle to handle.
+# 3. Second order. Both cosines are those of the computed handles, and change by no more than nu on the way to the true
+# ones: T_b turns by at most 2.2 / chord per metre (curvature <= 1.0887 / r_b and chord <= 2 r_b), u by 1 / chord per
+# metre of either handle, and both are computed from points that are off by E, see 4, so
+#     nu = (SLIP[a] + 3.2 SLIP[b] + E[a] + E[b]) / chord + 8 u.
+# While nu <= cos alpha_b / 6 a factor 1 + 3 nu / cos alpha_b covers that, as (|cos alpha_a| + nu) / (cos alpha_b - nu)
+# <= max(1, |ratio|) (1 + 1.2 * 2 nu / cos alpha_b); SLIP[b] without that factor is at most 1.5 times less. Beyond:
+# FREE.
+# 4. Turning. e[k] turns by delta with s, c to 3.75 u s, 1.75 u (4 u s, 4 u where the library serves). For m = 2 s the
+# matrix (rise, turn) is then good to 7.7 u m (12.2 u m), the four products and sums add 2.83 u m + u: per link e is off
+# by at most u (1 + 12 delta). A point growth THETA e has two more products and no REST, 3 u:
+#     E[k] = SLIP[k] + r[k] u (k + 4 + 12 (theta[k] - theta[0])).
+# Row k holds it for both handles of bench k: ERROR = E[k + 1] >= E[k].
+# 5. The direction (P_a - P_b) / chord of a bench is better than 2 E / chord, for most of E is common to both handles:
+# with its leader displaced by x <= SLIP[a] along the path the whole link moves on and turns at omega = (|sin alpha_a| +
+# |ratio sin alpha_b|) / chord =: lean / chord, then its rear handle is off by `local` (2 and 3 included), the frame by
+# that of e[a], and what is left are the rotation of one link and the points' own 3 u each:
+#     SWAY[k] = u (k + 12 (theta[k] - theta[0])) + 4 u + (lean SLIP[a] + 2 local + (what 3 added) + r_b u (7 + 12
+#     delta)) / chord
+
+
+def slipped(slip, ratio, slope, local, spots, inverse):
+    """Displacement of a rear handle from that of its leader [m], by 2 and 3 above; FREE where no bound is known.
+
+    ratio: of their rates; slope: 1 / cos alpha_b; local: what the link itself adds; spots: E - SLIP of both together;
+    inverse: of the chord
+    """
+    slip = slip * max(1.0, fabs(ratio)) + local
+    ratio = ((25.0 * slip + 3.0 * spots) * inverse + 24.0 * ULP) * slope
+    return slip + slip * ratio if 0.0 < ratio < 0.5 else FREE
+
+
+def swayed(k, chain, ratio, local, spread, inverse):
+    """How far the direction of bench k may be from the true one but for its frame, by 5 above [1].
+
+    spread: what lies between its computed points beyond common errors [m]; others as for slipped(), which has filled in
+    SLIP of both
+    """
+    ux = chain[k, UX]
+    uy = chain[k, UY]
+    slip = chain[k, SLIP]
+    ratio = fabs(ratio)
+    lean = fabs(chain[k, TX] * uy - chain[k, TY] * ux) + ratio * fabs(chain[k + 1, TX] * uy - chain[k + 1, TY] * ux)
+    spread += chain[k + 1, SLIP] - slip * max(1.0, ratio) + local
+    return (lean * slip + spread) * inverse + 4.0 * ULP
 
 
 def extend_chain(growth, first, last, radius, sizes, chain):
@@ -344,6 +412,7 @@ def extend_chain(growth, first, last, radius, sizes, chain):
     while k < last and growth * chain[k, THETA] < radius:
         theta = chain[k, THETA]
         chord = sizes[k, CHORD]
+        inverse = 1.0 / chord
         reach = (chord / growth) * (chord / growth)
         if k > 2 and sizes[k - 1, CHORD] == chord and sizes[k - 2, CHORD] == chord and sizes[k - 3, CHORD] == chord:
             delta = 3.0 * (theta - chain[k - 1, THETA] - chain[k - 1, THETA] + chain[k - 2, THETA])
@@ -359,21 +428,25 @@ def extend_chain(growth, first, last, radius, sizes, chain):
         y = chain[k, SIN]
         chain[k + 1, COS] = x - (x * rise + y * turn)
         chain[k + 1, SIN] = y - (y * rise - x * turn)
-        chain[k + 1, THETA] = theta + delta
         x = growth * theta * x
         y = growth * theta * y
-        theta += delta
+        rest = delta + chain[k, REST]
+        rear = theta + rest
+        length = rear - theta
+        chain[k + 1, REST] = (theta - (rear - length)) + (rest - length)
+        chain[k + 1, THETA] = theta = rear
         length = sqrt(1.0 + theta * theta)
+        slope = 1.0 / length
         c = chain[k + 1, COS]
         s = chain[k + 1, SIN]
-        chain[k + 1, TX] = (theta * s - c) / length
-        chain[k + 1, TY] = -(theta * c + s) / length
+        chain[k + 1, TX] = (theta * s - c) * slope
+        chain[k + 1, TY] = -(theta * c + s) * slope
         c = growth * theta * c
         s = growth * theta * s
         chain[k, MX] = 0.5 * (x + c)
         chain[k, MY] = 0.5 * (y + s)
-        chain[k, UX] = (x - c) / chord
-        chain[k, UY] = (y - s) / chord
+        chain[k, UX] = (x - c) * inverse
+        chain[k, UY] = (y - s) * inverse
         chain[k + 1, RATE] = (
             chain[k, RATE]
             * (chain[k, TX] * chain[k, UX] + chain[k, TY] * chain[k, UY])
@@ -381,3 +454,37 @@ def extend_chain(growth, first, last, radius, sizes, chain):
         )
         k += 1
     return k
+
+
+def spiral_rounding(growth, last, sizes, chain):
+    """Fills in SLIP, ERROR and SWAY of a chain up to handle `last`."""
+    first = cython.cast(cython.Py_ssize_t, chain[0, FILLED])
+    for k in range(first, last):
+        chord = sizes[k, CHORD]
+        inverse = 1.0 / chord
+        theta = chain[k + 1, THETA]
+        delta = theta - chain[k, THETA]
+        slope = 1.0 / (chain[k + 1, TX] * chain[k, UX] + chain[k + 1, TY] * chain[k, UY])
+        ratio = (chain[k, TX] * chain[k, UX] + chain[k, TY] * chain[k, UY]) * slope
+        turned = ULP * (k + 5.0 + 12.0 * (theta - chain[0, THETA]))
+        local = ULP * (7.0 * chord * slope + growth * sqrt(1.0 + theta * theta) * (2.5 * delta + 0.05))
+        theta *= growth
+        chain[k + 1, SLIP] = slipped(chain[k, SLIP], ratio, slope, local, 2.0 * theta * turned, inverse)
+        chain[k, ERROR] = chain[k + 1, SLIP] + theta * turned
+        chain[k, SWAY] = turned + swayed(k, chain, ratio, local, theta * ULP * (7.0 + 12.0 * delta), inverse)
+    chain[0, FILLED] = max(first, last)
+
+
+# Where no angle between a tangent and a chord exceeds asin(BEND_LIMIT), out from near the centre, cos alpha_b >= 0.243
+# and the ratios are at most 1 (bounds.py), so after n links with chords up to c, at r = r[n], with growth length <= r +
+# growth and nu small (E below 1e-3 of the shortest chord), the sums above are at most
+#     E = u (32 n c + (r + growth) (16 (theta[n] - theta[0]) + 1.1 n + 5)),  SWAY <= 2 E / shortest + 8 u,
+# without a look at the chain: enough for all but the few pairs that come near the margin.
+
+
+def spiral_error(growth, last, longest, chain):
+    """E above, for the handles up to `last` [m]."""
+    theta = chain[last, THETA]
+    return ULP * (
+        32.0 * last * longest + growth * (theta + 1.0) * (16.0 * (theta - chain[0, THETA]) + 1.1 * last + 5.0)
+    )

@@ -3,10 +3,12 @@ from core.kernels.constants cimport *
 from core.kernels.spiral cimport extend_chain, spiral_arc, spiral_theta, start_chain
 from core.kernels.bounds cimport motion_bounds
 from core.kernels.rings cimport leaders_reach, radius_beyond
-from core.kernels.pairs cimport strip_least
+from core.kernels.pairs cimport STRIP_ROUNDING, strip_least
 from core.kernels.clearance cimport row_gap
 
 cdef double TURNED_WITHIN
+cdef double WIDTH_ROUNDING
+cdef double ACROSS
 
 @cython.locals(k=cython.Py_ssize_t)
 cdef bint shift_bounds(

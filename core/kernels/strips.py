@@ -7,9 +7,10 @@ if not cython.compiled:  # for the compiler the same stands in the .pxd
     from core.kernels.bounds import motion_bounds
     from core.kernels.clearance import row_gap
     from core.kernels.constants import *
-    from core.kernels.pairs import strip_least
+    from core.kernels.pairs import STRIP_ROUNDING, strip_least
     from core.kernels.rings import leaders_reach, radius_beyond
     from core.kernels.spiral import extend_chain, spiral_arc, spiral_theta, start_chain
+
 # A strip is given up where handles may turn back in steps shorter than this part of the head's radius [1].
 TURNED_WITHIN = 1e-3
 
@@ -66,6 +67,20 @@ TURNED_WITHIN = 1e-3
 # these come from both ends of the step in r_0 by pairs.py. Four gaps prove a whole rectangle of (r_0, b).
 
 
+# Rounding. Gaps are as good as pairs.py says, and widths widened by what a travel may be off by and by WIDTH_ROUNDING
+# of them, for the bounds above. The radii at which the chains of b_L and of b_R begin and end a step are the same to a
+# rounding of theta, a travel of theta u r each: so the least values on b = b_L and on b = b_R are lowered by what the
+# gaps can change over 4 theta u r beyond both ends, no faster than their mean slope and the bend over the step.
+WIDTH_ROUNDING = 1e-9  # [1]
+# shift_bounds() is good to STRIP_ROUNDING (pairs.py) of what it says. It adds up products of terms >= 0, fewer than 60
+# roundings a bench, of angles between handles that are off by 2 SLIP / r, at most 1e-12 of them (spiral.py) where
+# anything is claimed, and of sines and tangents of half of them, which that is at most 1e3 times worse for: delta stays
+# ACROSS below pi. The one difference is `front`, A above, whose sign alone matters: it must exceed STRIP_ROUNDING of
+# its terms. sqrt(1 - c^2) has 4e-5 c^2 to spare under the root, as 2 / 1.5^(3/2) is that much less than
+# SPIRAL_CURVATURE_MOST.
+ACROSS = 1e-3  # [rad]
+
+
 def shift_bounds(low, high, benches, sizes, inner, outer, shifts):
     """Bounds on how the first benches shift with the growth; inner: the chain at (r_L, b_L), outer: at (r_R, b_R).
 
@@ -79,7 +94,7 @@ def shift_bounds(low, high, benches, sizes, inner, outer, shifts):
         chord = sizes[k, CHORD]
         delta = inner[k + 1, THETA] - inner[k, THETA]
         least = outer[k + 1, THETA] - outer[k, THETA]
-        if delta >= PI:
+        if delta >= PI - ACROSS:
             return False
         s = sin(0.5 * delta)
         c = cos(0.5 * delta)
@@ -95,7 +110,7 @@ def shift_bounds(low, high, benches, sizes, inner, outer, shifts):
         slope = low * low * least + 2.0 * low * rho * slope * slope + sine
         front = low * low * least if rise < 1.0 else high * high * delta
         front = front * (1.0 - rise) - high * rho_far * rise + sine
-        if front < 0.0 or slope <= 0.0:
+        if front <= STRIP_ROUNDING * (high * rho_far * rise + sine) or slope <= 0.0:
             return False
         extra = rho_far * rho_b / (low * low)
         extra = delta * extra / (1.0 + extra)
@@ -154,7 +169,8 @@ def strip(
 ):
     """Prove, for all growths in [low, high] at once, that nothing touches while the head goes from `outer` to `inner`.
 
-    Of pairs led by the first `leaders` benches; outer, inner: head radii [m].
+    Of pairs led by the first `leaders` benches; outer, inner: head radii [m]. rounding: what a travel of the head may
+    be off by [m]
     least_step: head travel below which it gives up [m]; budget: steps; others as for march(), motions: (2, R,
     MOTION_COLUMNS), shifts: (R, SHIFT_COLUMNS) scratch; out: (MARCH_ENTRIES,) and scratch, PROVEN and TOUCHING as head
     radii [m]
@@ -202,9 +218,11 @@ def strip(
             h_high = high * (spiral_arc(radius / high) - spiral_arc(next_radius / high))
             start_chain(next_radius / low, after)
             start_chain(next_radius / high, after_high)
-            extend_chain(low, 0, leaders, FREE, sizes, after)
-            beyond = leaders_reach(high, next_radius, high * before_high[leaders, THETA], ring) + margin
-            beyond = radius_beyond(high, beyond, ring)
+            if extend_chain(low, 0, leaders, FREE, sizes, after) < 0:
+                return TURNED
+            slack = CLEAR_SPARE * high * before_high[leaders, THETA]
+            beyond = leaders_reach(high, next_radius, high * before_high[leaders, THETA] + slack, ring) + margin
+            beyond = radius_beyond(high, beyond, ring) + slack
             handles = extend_chain(low, leaders, cap, beyond, sizes, after)
             if handles < 0:
                 return TURNED
@@ -218,8 +236,10 @@ def strip(
                 if extend_chain(high, placed, handles, FREE, sizes, before_high) < 0:
                     return TURNED
                 placed = handles
+            width = h * (1.0 + WIDTH_ROUNDING) + 2.0 * rounding
+            h_high = h_high * (1.0 + WIDTH_ROUNDING) + 2.0 * rounding
             bounded = (
-                motion_bounds(low, h, handles, sizes, before, after, motion)
+                motion_bounds(low, width, handles, sizes, before, after, motion)
                 and motion_bounds(high, h_high, handles, sizes, before_high, after_high, motion_high)
                 and shift_bounds(low, high, handles, sizes, after, before_high, shifts)
             )
@@ -227,11 +247,15 @@ def strip(
                 h *= 0.5
                 continue
             best = strip_least(
-                low, high, leaders, handles, margin, h, h_high, ring, sizes, before, after, before_high, after_high,
+                low, high, leaders, handles, margin, width, h_high, ring, sizes, before, after, before_high, after_high,
                 motion, motion_high, shifts, scratch,
             )  # fmt: skip
+            if best == -FREE:  # nothing is known of its gaps
+                bounded = False
+                h *= 0.5
+                continue
             room = 0.95 * scratch[3]
-            if best <= margin + rounding:
+            if best <= margin:
                 a = cython.cast(cython.Py_ssize_t, scratch[1])
                 b = cython.cast(cython.Py_ssize_t, scratch[2])
                 if row_gap(a, b, sizes, after) <= margin:

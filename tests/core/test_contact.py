@@ -26,6 +26,7 @@ from core import (
     turn,
 )
 from core.search import BRACKET, MARGIN_MAX, Search
+from core.strips import BORDER_WIDTH
 from tests.core.slow_search import SlowDance
 
 CASES = json.loads((Path(__file__).parents[1] / "reference" / "first_contact.json").read_text())["cases"]
@@ -234,7 +235,7 @@ def test_no_instant_before_a_fold_has_benches_nearer_than_the_bound_on_the_motio
         assert least is not None
         gaps, _ = SlowDance.of(dragon, spiral).clearance(end.time - left * end.time * np.linspace(1.0, 1e-3, 60) ** 2)
         assert least <= gaps.min() + TIED
-        one = search._least_left(travel, end.theta)
+        one = search._least_left(travel - search.travel_rounding(travel), end.theta)
         assert one <= least
 
 
@@ -299,7 +300,8 @@ def test_a_graze_is_met_just_below_a_jump_and_passed_just_above(
 
 
 def test_a_graze_at_the_margin_is_undecided_up_to_the_next_certain_contact() -> None:
-    pitch, free = minimum_pitch(Dragon(60)).pitch_bracket
+    free = minimum_pitch(Dragon(60)).pitch_bracket[1]
+    pitch = free - BORDER_WIDTH
     found = first_contact(Dragon(60), Spiral(pitch))
     assert found.outcome is Outcome.UNDECIDED
     clear, within = found.time_bracket

@@ -1,0 +1,215 @@
+"""Chains and gaps to 50 digits: a second solution of the kernels' model that shares no code with core.
+
+The doubles of a dragon, a spiral's growth and the table of a route are taken as exact, all else is python-flint's ball
+arithmetic at 200 bits, of which the rounding of this file itself takes a few. Next handles are found by bisection in
+doubles, then by Newton's iteration.
+"""
+
+from __future__ import annotations
+
+import math
+from bisect import bisect_left
+from itertools import product
+
+import flint
+import numpy as np
+from flint import arb
+from numpy.typing import NDArray
+
+BITS = 200
+# The first crest of a chord's length is looked for in steps of delta as wide as this [rad].
+CREST_STEP = 1e-3
+# Newton's iteration doubles the digits, from 1e-15 beyond 50 in two steps; near a crest it begins with fewer digits.
+NEWTON_STEPS = 6
+# On a route it starts from the chord, which is up to half as long as the arc.
+ROUTE_STEPS = 9
+# Abscissas and weights of the quadrature that says what arc length on a cubic is, as in core/kernels/route.py.
+QUADRATURE = (
+    (0.1813418916891810, (0.4082826787521751, 0.5917173212478249)),
+    (0.1568533229389436, (0.2372337950418355, 0.7627662049581645)),
+    (0.1111905172266872, (0.1016667612931866, 0.8983332387068134)),
+    (0.0506142681451881, (0.0198550717512319, 0.9801449282487681)),
+)
+
+Floats = NDArray[np.float64]
+Point = tuple[arb, arb]
+
+
+def middle(value: arb) -> arb:
+    """The midpoint of a ball: digits without their error."""
+    return arb(value.mid())
+
+
+def distance(a: Point, b: Point) -> arb:
+    x, y = a[0] - b[0], a[1] - b[1]
+    return (x * x + y * y).sqrt()
+
+
+def spiral_place(theta: arb) -> arb:
+    """Arc length from the centre, in units of growth."""
+    return (theta * (1 + theta * theta).sqrt() + theta.asinh()) / 2
+
+
+def chord_squared(theta: float, delta: float) -> float:
+    return delta**2 + 4.0 * theta * (theta + delta) * math.sin(0.5 * delta) ** 2
+
+
+def first_crest(theta: float) -> float:
+    """Where chord_squared() first stops growing with delta, beyond pi."""
+
+    def grows(delta: float) -> bool:
+        return delta + theta * (1.0 - math.cos(delta)) + theta * (theta + delta) * math.sin(delta) > 0.0
+
+    low = math.pi
+    while grows(low + CREST_STEP):
+        low += CREST_STEP
+    high = low + CREST_STEP
+    while (delta := 0.5 * (low + high)) not in (low, high):
+        low, high = (delta, high) if grows(delta) else (low, delta)
+    return low
+
+
+def next_delta(theta: arb, reach: arb) -> arb:
+    """The first root of delta^2 + 4 theta (theta + delta) sin^2(delta / 2) = reach^2."""
+    near, square = float(theta), float(reach) ** 2
+    low, high = 0.0, math.pi
+    if chord_squared(near, high) < square:
+        low, high = high, first_crest(near)
+    while (delta := 0.5 * (low + high)) not in (low, high):
+        low, high = (delta, high) if chord_squared(near, delta) < square else (low, delta)
+    root = arb(high)
+    for _ in range(NEWTON_STEPS):
+        sine, cosine = (root / 2).sin(), (root / 2).cos()
+        value = root**2 + 4 * theta * (theta + root) * sine**2 - reach**2
+        slope = 2 * root + 4 * theta * sine**2 + 4 * theta * (theta + root) * sine * cosine
+        root = middle(root - value / slope)
+    return root
+
+
+def spiral_handles(growth: float, theta: float, chords: Floats) -> list[Point]:
+    """Handles of a dragon on a spiral in the frame in which the head stands at polar angle 0 [m]."""
+    flint.ctx.prec = BITS
+    head = at = arb(theta)
+    handles = [(growth * at, arb(0))]
+    for chord in chords.tolist():
+        at = middle(at + next_delta(at, arb(chord) / growth))
+        handles.append((growth * at * (at - head).cos(), growth * at * (at - head).sin()))
+    return handles
+
+
+class ExactRoute:
+    """Points of a route by its table."""
+
+    def __init__(self, table: Floats) -> None:
+        flint.ctx.prec = BITS
+        self.rows = table.tolist()
+        self.ends = [row[2] for row in self.rows]
+
+    def point(self, s: arb) -> tuple[Point, Point]:
+        """Point [m] and unit tangent at arc length s."""
+        row = self.rows[min(bisect_left(self.ends, float(s)), len(self.rows) - 1)]
+        u = s - row[1]
+        if row[0] == 0.0:
+            return (row[5] + u * row[7], row[6] + u * row[8]), (arb(row[7]), arb(row[8]))
+        if row[0] == 1.0:
+            angle = row[8] + row[9] * u / row[7]
+            cos, sin = angle.cos(), angle.sin()
+            return (row[5] + row[7] * cos, row[6] + row[7] * sin), (-row[9] * sin, row[9] * cos)
+        if row[0] == 2.0:
+            theta = self._theta((row[10] + row[9] * u) / row[7])
+            cos, sin = (theta + row[8]).cos(), (theta + row[8]).sin()
+            radius, scale = row[7] * theta, row[9] / (1 + theta * theta).sqrt()
+            return (row[5] + radius * cos, row[6] + radius * sin), (
+                scale * (cos - theta * sin),
+                scale * (sin + theta * cos),
+            )
+        return self._cubic(row, u)
+
+    @staticmethod
+    def _theta(arc: arb) -> arb:
+        theta = arb(math.sqrt(2.0 * float(arc)))
+        for _ in range(ROUTE_STEPS):
+            theta = middle(theta - (spiral_place(theta) - arc) / (1 + theta * theta).sqrt())
+        return theta
+
+    @staticmethod
+    def _cubic(row: list[float], u: arb) -> tuple[Point, Point]:
+        x, y, end = row[5:9], row[9:13], row[13]
+
+        def slope(t: arb) -> Point:
+            return x[1] + t * (2 * x[2] + 3 * t * x[3]), y[1] + t * (2 * y[2] + 3 * t * y[3])
+
+        def speed(t: arb) -> arb:
+            dx, dy = slope(t)
+            return (dx * dx + dy * dy).sqrt()
+
+        t = arb(float(u) / (row[2] - row[1]) * end)
+        for _ in range(ROUTE_STEPS - 2):
+            arc = t * sum(weight * sum(speed(knot * t) for knot in knots) for weight, knots in QUADRATURE)
+            t = middle(t - (arc - u) / speed(t))
+        dx, dy = slope(t)
+        return (x[0] + t * (x[1] + t * (x[2] + t * x[3])), y[0] + t * (y[1] + t * (y[2] + t * y[3]))), (
+            dx / speed(t),
+            dy / speed(t),
+        )
+
+    def handles(self, s: arb, chords: Floats) -> list[Point]:
+        """Handles of a dragon with its head at s [m], each the first point behind its leader at the chord."""
+        front, _ = self.point(s)
+        handles = [front]
+        for chord in chords.tolist():
+            step = arb(chord)
+            for _ in range(ROUTE_STEPS):
+                rear, tangent = self.point(s - step)
+                apart = distance(front, rear)
+                cosine = ((front[0] - rear[0]) * tangent[0] + (front[1] - rear[1]) * tangent[1]) / apart
+                step = middle(step + (chord - apart) / cosine)
+            s = middle(s - step)
+            front, _ = self.point(s)
+            handles.append(front)
+        return handles
+
+
+def separation(first: tuple[Point, Point], second: tuple[Point, Point], sizes: tuple[Floats, Floats]) -> arb:
+    """Signed distance of two benches [m]. first, second: their front and rear handle; sizes: chord, half length, half
+    width of each"""
+    boxes = [_box(bench, size) for bench, size in zip((first, second), sizes, strict=True)]
+    faces = [_face(boxes[0], boxes[1]), _face(boxes[1], boxes[0])]
+    largest = max(faces, key=float)
+    if largest.mid() <= 0:
+        return largest
+    return min(_corners(boxes[0], boxes[1]), _corners(boxes[1], boxes[0]), key=float)
+
+
+Box = tuple[Point, Point, float, float]
+
+
+def _box(bench: tuple[Point, Point], size: Floats) -> Box:
+    (fx, fy), (rx, ry) = bench
+    chord, half_length, half_width = size.tolist()
+    return ((fx + rx) / 2, (fy + ry) / 2), ((fx - rx) / chord, (fy - ry) / chord), half_length, half_width
+
+
+def _local(box: Box, x: arb, y: arb) -> Point:
+    (mx, my), (ux, uy), _, _ = box
+    return (x - mx) * ux + (y - my) * uy, (y - my) * ux - (x - mx) * uy
+
+
+def _face(own: Box, other: Box) -> arb:
+    along, left = _local(own, *other[0])
+    c = own[1][0] * other[1][0] + own[1][1] * other[1][1]
+    s = own[1][0] * other[1][1] - own[1][1] * other[1][0]
+    lengthwise = abs(along) - own[2] - abs(c) * other[2] - abs(s) * other[3]
+    sideways = abs(left) - own[3] - abs(s) * other[2] - abs(c) * other[3]
+    return max(lengthwise, sideways, key=float)
+
+
+def _corners(own: Box, other: Box) -> arb:
+    (mx, my), (ux, uy), half_length, half_width = other
+    found = []
+    for i, j in product((-1, 1), repeat=2):
+        length, width = i * half_length, j * half_width
+        x, y = _local(own, mx + length * ux - width * uy, my + length * uy + width * ux)
+        beyond = [max(abs(x) - own[2], arb(0), key=float), max(abs(y) - own[3], arb(0), key=float)]
+        found.append(middle(beyond[0] * beyond[0] + beyond[1] * beyond[1]).sqrt())
+    return min(found, key=float)

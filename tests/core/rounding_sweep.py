@@ -1,0 +1,192 @@
+"""What computed gaps are off by, against the bounds on it: random chains, computed and to 50 digits.
+
+python -m tests.core.rounding_sweep 10000 [SEED] compares so many gaps and prints the largest and the median error, in
+parts of its bound; exit code 1 where one exceeds its bound.
+"""
+
+from __future__ import annotations
+
+import math
+import sys
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from itertools import pairwise
+
+import numpy as np
+from flint import arb
+
+from core import Arc, Coil, Dragon, InvalidValue, Line, Route, Spiral, Waypoints, kernels, run_end, turn
+from core.dragon import SIZE_MAX, SIZE_MIN
+from core.kernels.constants import ERROR, MX, MY, PX, PY, SWAY, UX, UY
+from core.kinematics import earliest_time
+from core.search import Search
+from tests.core.exact_chain import ExactRoute, Floats, Point, separation, spiral_handles
+
+# Gaps compared in every chain, half of them of pairs behind the head.
+PAIRS = 20
+# So many chains of a hundred are as long as LINKS; the others have up to MODERATE links.
+LONG = 2
+LINKS = 2_000
+MODERATE = 60
+# Pieces, centres and rotations of random routes [m], [rad].
+EXTENT = 30.0
+
+
+@dataclass
+class Errors:
+    """Errors over their bounds, by what they are of."""
+
+    gaps: list[float] = field(default_factory=list)
+    points: list[float] = field(default_factory=list)
+    directions: list[float] = field(default_factory=list)
+    slides: list[float] = field(default_factory=list)
+    bounds: list[float] = field(default_factory=list)
+
+
+def random_dragon(rng: np.random.Generator, links: int, chord: float) -> Dragon:
+    """Alike behind the head or bench by bench; overhangs up to many chords."""
+    chords = np.full(links, chord)
+    if rng.random() < 0.4:
+        chords = chord * 10 ** rng.uniform(-0.7, 0.0, links)
+    overhangs = chords * 10 ** rng.uniform(-2.0, 0.3) * (rng.random(links) < 0.8)
+    if rng.random() < 0.2:
+        overhangs = np.minimum(20.0 * overhangs, 0.49 * (SIZE_MAX - chords))
+    width = max(10 ** rng.uniform(-1.5, 0.0) * chord, SIZE_MIN)
+    return Dragon.of(chords + 2.0 * overhangs, np.full(links, width), overhangs)
+
+
+def links_of(rng: np.random.Generator) -> int:
+    return LINKS if rng.random() < 0.01 * LONG else int(rng.integers(3, MODERATE))
+
+
+def random_spiral(rng: np.random.Generator) -> tuple[Search, float]:
+    """A search, and a theta of the head: anywhere, far out, or near where the run ends."""
+    while True:
+        links = links_of(rng)
+        growth = 10 ** rng.uniform(-3.0, 1.0)
+        dragon = random_dragon(rng, links, max(growth * 10 ** rng.uniform(-0.7, 2.0), 0.02))
+        spiral = Spiral(2.0 * np.pi * growth, 10 ** rng.uniform(1.0, 3.5))
+        try:
+            end = run_end(dragon, spiral).theta or 0.0
+        except InvalidValue:
+            continue
+        theta = end + 10 ** rng.uniform(-6.0, 0.0) if rng.random() < 0.3 else rng.uniform(end, spiral.start_theta)
+        if theta > 0.0 and (dragon.chords / growth / (1.0 + theta)).max() < 3.0:
+            return Search(dragon, spiral, 0.0), float(theta)
+
+
+def random_route(rng: np.random.Generator) -> tuple[Search, float]:
+    """A search, and an s of the head with the whole dragon on the route."""
+    while True:
+        links = links_of(rng) if rng.random() < 0.5 else int(rng.integers(3, 20))
+        path = ROUTES[int(rng.integers(len(ROUTES)))](rng)
+        dragon = random_dragon(
+            rng, links, float(10 ** rng.uniform(-0.7, 0.0) / path.sharpest[0] if path.sharpest[0] else 1.0)
+        )
+        try:
+            end = run_end(dragon, path).time
+            begin = max(earliest_time(dragon, path, 1.0), path.begin)
+        except InvalidValue:
+            continue
+        if begin < end:
+            return Search(dragon, path, 0.0), float(rng.uniform(begin, end))
+
+
+def _lines_and_arcs(rng: np.random.Generator) -> Route:
+    x, y, radius = *rng.uniform(-EXTENT, EXTENT, 2), rng.uniform(2.0, 9.0)
+    return Route(
+        [
+            Line((x - rng.uniform(20.0, 90.0), y), (x, y)),
+            Arc((x, y + radius), radius, -np.pi / 2, np.pi / 2),
+            Line((x + radius, y + radius), (x + radius, y + radius + 20.0)),
+        ],
+        start=float(rng.uniform(0.0, 100.0)),
+    )
+
+
+def _coil(rng: np.random.Generator) -> Route:
+    turns = sorted(rng.uniform(2.0, 30.0, 2).tolist(), reverse=bool(rng.random() < 0.5))
+    centre = tuple(rng.uniform(-EXTENT, EXTENT, 2).tolist())
+    return Route([Coil(10 ** rng.uniform(-0.5, 0.5), *turns, centre, float(rng.uniform(-9.0, 9.0)))])
+
+
+def _turn(rng: np.random.Generator) -> Route:
+    return turn(float(rng.uniform(1.4, 2.5)), float(rng.uniform(4.0, 6.0)), float(rng.uniform(1.0, 2.5))).path
+
+
+def _waypoints(rng: np.random.Generator) -> Route:
+    steps = rng.uniform(4.0, 9.0, 12)[:, None]
+    angles = np.cumsum(rng.uniform(-0.7, 0.7, 12))
+    points = np.cumsum(steps * np.stack([np.cos(angles), np.sin(angles)], axis=1), axis=0)
+    return Route([Waypoints(tuple(map(tuple, points.tolist())))])
+
+
+ROUTES = (_lines_and_arcs, _coil, _turn, _waypoints)
+
+
+def compare(errors: Errors, search: Search, head: float, rng: np.random.Generator) -> None:
+    """Adds the errors of one chain, its head at theta on a spiral, at s on a route."""
+    dragon, growth, pieces = search.dragon, search.growth, search.pieces
+    search.resize(dragon.benches)
+    sizes, chain = search.sizes, search.rows[0]
+    if isinstance(search.path, Spiral):
+        kernels.start_chain(head, chain)
+        assert kernels.extend_chain(growth, 0, dragon.benches, kernels.FREE, sizes, chain) == dragon.benches
+        handles = spiral_handles(growth, head, dragon.chords)
+    else:
+        kernels.place_chain(growth, pieces, -head, dragon.benches, sizes, chain)
+        exact = ExactRoute(pieces)
+        place = arb(head)
+        (x, y), (tx, ty) = exact.point(place)
+        slide = (chain[0, PX] - x) * tx + (chain[0, PY] - y) * ty
+        errors.slides.append(abs(float(slide)) / search.path.slide)
+        handles = exact.handles(place + slide, dragon.chords)
+    kernels.chain_rounding(growth, pieces, dragon.benches, sizes, chain)
+    if chain[dragon.benches - 1, ERROR] >= kernels.FREE:  # within about 1e-12 m of a fold, where nothing is claimed
+        return
+    benches = list(pairwise(handles))
+    for k in rng.integers(0, dragon.benches, PAIRS).tolist():
+        _compare_bench(errors, chain[k], benches[k], dragon.chords[k])
+    for a, b in _pairs(rng, dragon.benches, PAIRS):
+        size = sizes[[a, b]]
+        apart = float(np.hypot(*(chain[b, MX : MY + 1] - chain[a, MX : MY + 1])))
+        bound = kernels.pair_rounding(a, b, apart, sizes, chain, chain)
+        gap = kernels.pair_gap(*chain[a, MX : UY + 1], *size[0, 1:3], *chain[b, MX : UY + 1], *size[1, 1:3])
+        true = separation(benches[a], benches[b], (size[0, :3], size[1, :3]))
+        errors.gaps.append(abs(float(true - gap)) / bound)
+        errors.bounds.append(bound)
+
+
+def _compare_bench(errors: Errors, row: Floats, bench: tuple[Point, Point], chord: float) -> None:
+    (fx, fy), (rx, ry) = bench
+    centre = math.hypot(float((fx + rx) / 2 - row[MX]), float((fy + ry) / 2 - row[MY]))
+    direction = math.hypot(float((fx - rx) / chord - row[UX]), float((fy - ry) / chord - row[UY]))
+    errors.points.append(centre / (row[ERROR] + kernels.ULP * (abs(row[MX]) + abs(row[MY]))))
+    errors.directions.append(direction / row[SWAY])
+
+
+def _pairs(rng: np.random.Generator, benches: int, count: int) -> Iterator[tuple[int, int]]:
+    for k in range(count):
+        a = int(rng.integers(0, min(3, benches - 2))) if k % 2 else int(rng.integers(0, benches - 2))
+        yield a, int(rng.integers(a + 2, min(benches, a + 2 + (40 if k % 4 < 2 else benches))))
+
+
+def sweep(gaps: int, seed: int) -> Errors:
+    """Errors of so many gaps, of chains on spirals and routes in turn."""
+    rng, errors, chains = np.random.default_rng(seed), Errors(), 0
+    while len(errors.gaps) < gaps:
+        chains += 1
+        compare(errors, *(random_spiral(rng) if chains % 2 else random_route(rng)), rng)
+    return errors
+
+
+if __name__ == "__main__":
+    found = sweep(int(sys.argv[1]), int(sys.argv[2]) if len(sys.argv) > 2 else 0)
+    for name in ("gaps", "points", "directions", "slides"):
+        ratios = np.array(getattr(found, name))
+        print(
+            f"{name:>10}: {ratios.size} compared, error over bound {ratios.max():.3g}, median {np.median(ratios):.3g}"
+        )
+    print(f"    bounds: {min(found.bounds):.3g} to {max(found.bounds):.3g} m, median {np.median(found.bounds):.3g} m")
+    largest = max(*found.gaps, *found.points, *found.directions, *found.slides)
+    sys.exit(int(largest > 1.0))
