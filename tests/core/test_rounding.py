@@ -22,6 +22,7 @@ from core import (
     kernels,
     minimum_pitch,
     run_end,
+    turn,
 )
 from core.kernels.constants import ERROR
 from core.search import Search
