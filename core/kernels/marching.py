@@ -203,13 +203,7 @@ def march(
                 followers,
                 cap,
                 margin,
-                ALLOWANCE
-                * drift(
-                    (fabs(before[1, RATE]) if placed > 0 else 0.0) + 1.0,
-                    h,
-                    growth,
-                    growth * before[1, THETA] if placed > 0 else 0.0,
-                ),
+                ALLOWANCE * drift(fabs(before[1, RATE]) + 1.0, h, growth, growth * before[1, THETA]),
                 ring,
                 sizes,
                 after,
