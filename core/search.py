@@ -134,7 +134,9 @@ class Search:
         columns = [dragon.chords[:benches], 0.5 * lengths, 0.5 * widths, 0.5 * np.hypot(lengths, widths)]
         self.sizes = np.zeros((benches + 1 + len(edges), kernels.SIZE_COLUMNS))
         self.sizes[:benches] = np.stack(columns, axis=1)
-        self.rows = np.empty((4, benches + 1 + len(edges), kernels.CHAIN_COLUMNS))  # a chain writes what it reads
+        # A chain writes what is read of it, but march() asks how fast handle 1 is before it is placed.
+        self.rows = np.empty((4, benches + 1 + len(edges), kernels.CHAIN_COLUMNS))
+        self.rows[:, :2] = 0.0
         self.motion = np.zeros((benches + 1 + len(edges), kernels.MOTION_COLUMNS))
         self.pair = np.zeros(3, dtype=np.intp)
         if len(edges):

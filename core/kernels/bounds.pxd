@@ -14,7 +14,7 @@ cdef void stand_between(
 
 cdef double blur_of(Py_ssize_t k, double chord, double[:, ::1] before, double[:, ::1] after) noexcept nogil
 
-@cython.locals(k=cython.Py_ssize_t, followed=cython.bint)
+@cython.locals(k=cython.Py_ssize_t, followed=cython.bint, filled=cython.bint)
 cpdef bint motion_bounds(
     double growth, double h, Py_ssize_t benches, double[:, ::1] sizes, double[:, ::1] before, double[:, ::1] after,
     double[:, ::1] motion
