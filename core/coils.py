@@ -26,8 +26,8 @@ FOOT = 1.67
 # Bounds must exceed the margin by this [m], far above their rounding: they add up lengths that all together are below 4
 # RADIUS_MAX (longer chords or a wider pitch are left out). ring_least() is good to 1e-11 of them (RING_ROUNDING of
 # core/search.py), 4e-7 m; where it says anything d is good to 2,000 u of itself, so what is divided by it is to 1e-12,
-# 4e-8 m; all else is good to 50 u, 2e-10 m. Where coils are led together with the next piece they run at most 1e-8 m
-# beside themselves: joints miss by 1e-9 m and rad at most (core/route.py).
+# 4e-8 m; all else is good to 50 u, 2e-10 m. Between the coils the path runs at most 1e-8 m beside its pieces, as joints
+# miss by 1e-9 m and rad at most (core/route.py).
 CLEARLY = 1e-6
 # Arc lengths from a centre, of which u = 2^-53 is the unit of rounding, are good to 10 u of themselves each [1].
 ARC_ROUNDING = 2e-15
@@ -40,7 +40,8 @@ class TwoCoils:
     """A coil inwards and one outwards around one centre, with other pieces between them.
 
     growth: of both [m/rad]; offset: angle between them at one radius, at most pi [rad]
-    extent: no point of the path between them, nor an end of theirs, is further from the centre [m]
+    extent: no point of the path between them, nor of theirs within BLEND of it, where they may be led to it, is further
+        from the centre [m]
     length: of the path between them [m]; radius: where the one outwards begins [m]
     """
 
@@ -69,7 +70,8 @@ def two_coils(path: Route) -> TwoCoils | None:
     turned = (last[8] - first[8]) % (2.0 * math.pi)
     inner = first[10] - (first[2] - first[1])
     radii = [growth * float(kernels.spiral_theta(arc / growth)) for arc in (inner, last[10])]
-    extent = max([*radii, *(_extent(path, row, centre) for row in table[1:-1])]) + CENTRES_APART
+    led = [growth * float(kernels.spiral_theta((arc + kernels.BLEND) / growth)) for arc in (inner, last[10])]
+    extent = max([*led, *(_extent(path, row, centre) for row in table[1:-1])]) + CENTRES_APART
     return TwoCoils(growth, min(turned, 2.0 * math.pi - turned), extent, last[1] - first[2], radii[1])
 
 

@@ -134,7 +134,9 @@ class Search:
         columns = [dragon.chords[:benches], 0.5 * lengths, 0.5 * widths, 0.5 * np.hypot(lengths, widths)]
         self.sizes = np.zeros((benches + 1 + len(edges), kernels.SIZE_COLUMNS))
         self.sizes[:benches] = np.stack(columns, axis=1)
-        self.rows = np.empty((4, benches + 1 + len(edges), kernels.CHAIN_COLUMNS))  # a chain writes what it reads
+        # A chain writes what is read of it, but march() asks how fast handle 1 is before it is placed.
+        self.rows = np.empty((4, benches + 1 + len(edges), kernels.CHAIN_COLUMNS))
+        self.rows[:, :2] = 0.0
         self.motion = np.zeros((benches + 1 + len(edges), kernels.MOTION_COLUMNS))
         self.pair = np.zeros(3, dtype=np.intp)
         if len(edges):
@@ -405,7 +407,7 @@ class Search:
         return float(2.0 * (2.0 * error + (2.0 * sway + 50.0 * kernels.ULP) * reach))
 
     # Towards the fold handles move as the square root of what is left of the travel, so a stretch whose bound is too
-    # low is split where a quarter of it is left: about half of its motion lies on each side.
+    # low is split where a quarter of it is left: about half of its motion lies on each side. Its bound holds for both.
     def least_to_fold(self, travel: float, end: RunEnd) -> float | None:
         """No two benches come nearer than this, or than the margin, from a travel to the fold [m]; None: not known.
 
@@ -417,14 +419,14 @@ class Search:
         travel, last = travel - self.travel_rounding(travel), self.travel_at(end.theta)
         stretches = [(self._least_left(travel, end.theta), travel, last)]
         while stretches[0][0] <= self.margin and len(stretches) < FOLD_STRETCHES:
-            _, start, stop = heapq.heappop(stretches)
+            least, start, stop = heapq.heappop(stretches)
             middle = stop - 0.25 * (stop - start)
             ends = (
                 (start, middle, self.theta_at(middle)),
                 (middle, stop, end.theta if stop == last else self.theta_at(stop)),
             )
             for begin, until, theta in ends:
-                heapq.heappush(stretches, (self._least_left(begin, theta), begin, until))
+                heapq.heappush(stretches, (max(least, self._least_left(begin, theta)), begin, until))
         least = stretches[0][0]
         return least if least > -NO_BOUND else None
 

@@ -4,6 +4,8 @@ from core.kernels.spiral cimport spiral_curvature, spiral_rounding, steepest_ben
 
 cdef double TRIAL
 cdef double RATIO_FOLLOWED
+cdef double SPIRAL_TURN
+cdef double ROUTE_TURN
 cdef double LOOSEN
 cdef double TIGHTEN
 cdef double ROUTE_BEND_ROUNDED
@@ -12,9 +14,9 @@ cdef void stand_between(
     Py_ssize_t k, double[:, ::1] before, double[:, ::1] after, double widened, double[:, ::1] motion
 ) noexcept nogil
 
-cdef double blur_of(Py_ssize_t k, double chord, double[:, ::1] before, double[:, ::1] after) noexcept nogil
+cdef double blur_of(Py_ssize_t k, double turned, double[:, ::1] before, double[:, ::1] after) noexcept nogil
 
-@cython.locals(k=cython.Py_ssize_t, followed=cython.bint)
+@cython.locals(k=cython.Py_ssize_t, followed=cython.bint, filled=cython.bint)
 cpdef bint motion_bounds(
     double growth, double h, Py_ssize_t benches, double[:, ::1] sizes, double[:, ::1] before, double[:, ::1] after,
     double[:, ::1] motion

@@ -74,11 +74,14 @@ RATIO_FOLLOWED = 1.001
 #                also make up for the few u of sin_high, cos_low, cos_high and of differences like swing, wherever these
 #                are small against what they are differences of: d (1 - sin^2) = 2 sin^2 widened is more than its
 #                rounding, 3 u, unless sin^2 < 1 / 170, where cos is good to 3 u of itself.
-#   cosines      followed from the ends: u of a link is off by SWAY or less, T by 2.2 SLIP / chord and by the rotation
-#                of the frame, which SWAY has in it too: `blur` = 2 SWAY + 2.2 SLIP / chord + 16 u.
+#   cosines      followed from the ends: u of a link is off by SWAY or less, T by up to 13 SLIP / chord (spiral.py), on
+#                a route, whose curvature is below 2 / chord, by 2.2 SLIP / chord, and by the rotation of the frame,
+#                which SWAY has in it too: `blur` = 2 SWAY + 13 (2.2) SLIP / chord + 16 u.
 #   recurrences  from link to link sums, products and quotients of terms >= 0, each good to u: fewer than 30 a link, so
 #                a factor LOOSEN (for lower bounds TIGHTEN) a link keeps them above (below) the truth.
 # What is computed from a motion row once, and not from link to link, is good to 1e-13 of itself, which h makes up for.
+SPIRAL_TURN = 13.0
+ROUTE_TURN = 2.2
 LOOSEN = 1.0 + 4e-15
 TIGHTEN = 1.0 - 4e-15
 # A bend just at the limit of what a chord can follow, widened.
@@ -93,10 +96,13 @@ def stand_between(k, before, after, widened, motion):
     motion[k, CURVATURE_HIGH] = spiral_curvature(after[k, THETA]) * (1.0 + widened)
 
 
-def blur_of(k, chord, before, after):
-    """How far the cosines of a link's angles may be from the true ones at either end of an interval [1]."""
+def blur_of(k, turned, before, after):
+    """How far the cosines of a link's angles may be from the true ones at either end of an interval [1].
+
+    turned: how far the tangent at either handle turns at most while that is displaced along the path [1/m]
+    """
     slip = max(before[k + 1, SLIP], after[k + 1, SLIP])
-    return 2.0 * max(before[k, SWAY], after[k, SWAY]) + 2.2 * slip / chord + 16.0 * ULP
+    return 2.0 * max(before[k, SWAY], after[k, SWAY]) + turned * slip + 16.0 * ULP
 
 
 def motion_bounds(growth, h, benches, sizes, before, after, motion):
@@ -107,13 +113,22 @@ def motion_bounds(growth, h, benches, sizes, before, after, motion):
     second_a = 0.0
     motion[0, RATE_HIGH] = motion[0, RATE_LOW] = 1.0
     motion[0, RATE_RATE] = 0.0
+    filled = False
     widened = max(before[benches, THETA], after[benches, THETA])
-    widened = 2.0 * (widened + 1.0) * (66.0 * benches + 16.0 * (widened - after[0, THETA]) + 5.0)
-    widened = ULP * (32.0 * (benches + 8.0) + widened)
+    error = ULP * (widened + 1.0) * (66.0 * benches + 16.0 * (widened - after[0, THETA]) + 5.0)
+    widened = 32.0 * ULP * (benches + 8.0) + 2.0 * error
+    error *= growth * benches / SMALL
     outwards = (1.0 - widened) / growth
     inwards = (1.0 + widened) / growth
     for k in range(benches):
         chord = sizes[k, CHORD]
+        if error > chord and not filled:  # no such chords are allowed for where spiral_error() takes the place of sums
+            filled = True
+            spiral_rounding(growth, benches, sizes, before)
+            spiral_rounding(growth, benches, sizes, after)
+            widened = 32.0 * ULP * (benches + 8.0) + 2.0 * max(before[benches, SLIP], after[benches, SLIP]) / growth
+            outwards = (1.0 - widened) / growth
+            inwards = (1.0 + widened) / growth
         stand_between(k, before, after, widened, motion)
         inner = after[k, THETA] if after[k, THETA] < before[k, THETA] else before[k, THETA]
         outer = before[k + 1, THETA] if after[k + 1, THETA] < before[k + 1, THETA] else after[k + 1, THETA]
@@ -133,7 +148,8 @@ def motion_bounds(growth, h, benches, sizes, before, after, motion):
             swing_a = swing_b = k_high * rate_a - k_low * rate_low
             omega = k_high * rate_a
         else:
-            if not followed:  # the sums that spiral_error() takes the place of are needed themselves
+            if not filled:  # the sums that spiral_error() takes the place of are needed themselves
+                filled = True
                 spiral_rounding(growth, benches, sizes, before)
                 spiral_rounding(growth, benches, sizes, after)
                 widened = max(before[benches, SLIP], after[benches, SLIP])
@@ -148,7 +164,7 @@ def motion_bounds(growth, h, benches, sizes, before, after, motion):
             swing_a = before[k + 1, TX] * before[k, UX] + before[k + 1, TY] * before[k, UY]
             swing_b = after[k + 1, TX] * after[k, UX] + after[k + 1, TY] * after[k, UY]
             cos_low = swing_a if swing_a < swing_b else swing_b
-            blur = blur_of(k, chord, before, after)
+            blur = blur_of(k, SPIRAL_TURN / chord, before, after)
             cos_high += blur
             cos_low -= blur
             if cos_low <= 0.0:
@@ -300,7 +316,7 @@ def route_bounds(pieces, h, benches, sizes, before, after, climbing, motion):
         sin_high = 0.5 * high * chord
         if not (sin_high <= ROUTE_BEND_ROUNDED):
             return False
-        blur = blur_of(k, chord, before, after)
+        blur = blur_of(k, ROUTE_TURN / chord, before, after)
         front_low = rear_low = sqrt(1.0 - sin_high * sin_high)
         front_high = rear_high = sqrt(1.0 - 0.25 * low * low * chord * chord) if low > 0.0 else 1.0
         if front_high > RATIO_FOLLOWED * rear_low:
@@ -360,7 +376,7 @@ def route_bounds(pieces, h, benches, sizes, before, after, climbing, motion):
 
 def followed_error(k, error, sizes, before, after):
     """Rounding of the rate of handle k of a spiral at either end of an interval, from that of the one before [1]."""
-    blur = blur_of(k - 1, sizes[k - 1, CHORD], before, after)
+    blur = blur_of(k - 1, SPIRAL_TURN / sizes[k - 1, CHORD], before, after)
     front, rear = link_cosines(k - 1, before)
     front_end, rear_end = link_cosines(k - 1, after)
     rear = min(rear, rear_end) - blur

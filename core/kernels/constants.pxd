@@ -4,6 +4,7 @@ cdef extern from *:
     const double PI "3.141592653589793"
     const double TWO_PI "6.283185307179586"
     const double ULP "1.1102230246251565e-16"
+    const double SMALL "1e-4"
     const double NO_LIMIT "1e154"
     const double BEND_LIMIT "0.97"
     const double ROUTE_BEND_LIMIT "0.999"

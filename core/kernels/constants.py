@@ -8,6 +8,8 @@ TWO_PI = 6.283185307179586
 
 # Unit of rounding of a double: the error of one operation is at most this part of its result [1].
 ULP = 1.1102230246251565e-16
+# Rounding of so many links, times their number, in parts of the shortest chord, is small in the sense of spiral.py [1].
+SMALL = 1e-4
 
 # Beyond every distance: the squares of two coordinates would overflow [m].
 NO_LIMIT = 1e154

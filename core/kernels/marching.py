@@ -314,13 +314,7 @@ def march(
                 followers,
                 cap,
                 margin,
-                ALLOWANCE
-                * drift(
-                    (fabs(before[1, RATE]) if placed > 0 else 0.0) + 1.0,
-                    h,
-                    growth,
-                    solo * before[1, THETA] if placed > 0 else 0.0,
-                ),
+                ALLOWANCE * drift(fabs(before[1, RATE]) + 1.0, h, growth, solo * before[1, THETA]),
                 turning,
                 ring,
                 sizes,

@@ -67,7 +67,7 @@ cpdef double pair_rounding(
     Py_ssize_t i, Py_ssize_t j, double distance, double[:, ::1] sizes, double[:, ::1] before, double[:, ::1] after
 ) noexcept nogil
 
-cdef double any_rounding(double error, double h, double margin, double[::1] ring) noexcept nogil
+cdef double any_rounding(double error, Py_ssize_t handles, double h, double margin, double[::1] ring) noexcept nogil
 
 cdef double axis_least(
     Py_ssize_t i, Py_ssize_t j, bint after_decides, double bend, double h, double[:, ::1] sizes,

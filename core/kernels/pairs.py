@@ -230,9 +230,9 @@ def pair_rounding(i, j, distance, sizes, before, after):
     )
 
 
-def any_rounding(error, h, margin, ring):
+def any_rounding(error, handles, h, margin, ring):
     """pair_rounding() of any pair that is not far apart, or more, from spiral_error() [m]; 0 if that does not serve."""
-    if error > 1e-3 * ring[ALL_SHORT]:
+    if handles * error > SMALL * ring[ALL_SHORT]:
         return 0.0
     return 4.0 * error + (4.0 * error / ring[ALL_SHORT] + 60.0 * ULP) * (
         4.0 * ring[ALL_RADIUS] + fabs(margin) + 4.0 * h
@@ -311,7 +311,7 @@ def interval_least(
     if pieces.shape[0] == 0 and motion[handles, RATE_LOW] > 0.0:
         error = spiral_error(growth, handles, ring[ALL_CHORD], before)
         error = max(error, spiral_error(growth, handles, ring[ALL_CHORD], after))
-        rounding = any_rounding(error, h, margin, ring)
+        rounding = any_rounding(error, handles, h, margin, ring)
     roughly = rounding > 0.0
     filled = not roughly
     if filled:
@@ -472,7 +472,7 @@ def strip_least(
             spiral_error(low, handles, ring[ALL_CHORD], after), spiral_error(high, handles, ring[ALL_CHORD], after_high)
         )
         error = max(error, spiral_error(high, handles, ring[ALL_CHORD], before_high))
-        rounding = any_rounding(error, max(h_low, h_high), margin, ring)
+        rounding = any_rounding(error, handles, max(h_low, h_high), margin, ring)
     roughly = rounding > 0.0
     filled = not roughly
     if filled:

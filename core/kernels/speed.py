@@ -4,7 +4,15 @@ import cython
 from cython.cimports.libc.math import fabs
 
 if not cython.compiled:  # for the compiler the same stands in the .pxd
-    from core.kernels.bounds import LOOSEN, blur_of, followed_error, link_cosines, motion_bounds, route_bounds
+    from core.kernels.bounds import (
+        LOOSEN,
+        SPIRAL_TURN,
+        blur_of,
+        followed_error,
+        link_cosines,
+        motion_bounds,
+        route_bounds,
+    )
     from core.kernels.chain import chain_rounding, extend
     from core.kernels.constants import *
     from core.kernels.rings import drift
@@ -135,7 +143,7 @@ def spiral_jerks(growth, h, handles, sizes, before, after, motion):
         swing_b = bend * rate_b + motion[k, TURN]
         cosine = before[k + 1, TX] * before[k, UX] + before[k + 1, TY] * before[k, UY]
         cosine = min(cosine, after[k + 1, TX] * after[k, UX] + after[k + 1, TY] * after[k, UY])
-        cosine -= 0.5 * h * swing_b + blur_of(k, sizes[k, CHORD], before, after)
+        cosine -= 0.5 * h * swing_b + blur_of(k, SPIRAL_TURN / sizes[k, CHORD], before, after)
         if cosine <= 0.0 or jerk >= FREE:
             motion[k + 1, RATE_JERK] = jerk = FREE
             continue
@@ -185,7 +193,7 @@ def spiral_errors(growth, handles, sizes, before, after, motion):
     motion[0, RATE_ERROR] = motion[0, CLIMB_ERROR] = 0.0
     for k in range(handles):
         chord = sizes[k, CHORD]
-        blur = blur_of(k, chord, before, after)
+        blur = blur_of(k, SPIRAL_TURN / chord, before, after)
         _, rear = link_cosines(k, before)
         _, rear_end = link_cosines(k, after)
         rear = min(rear, rear_end) - blur

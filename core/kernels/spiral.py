@@ -360,12 +360,12 @@ def start_chain(theta, chain):
 # 2. From link to link a displacement is multiplied by the rate ratio cos alpha_a / cos alpha_b: at most 1 out on the
 # spiral, more towards the fold. The larger of it and 1 is taken, so that SLIP never falls from handle to handle.
 # 3. Second order. Both cosines are those of the computed handles, and change by no more than nu on the way to the true
-# ones: T_b turns by at most 2.2 / chord per metre (curvature <= 1.0887 / r_b and chord <= 2 r_b), u by 1 / chord per
-# metre of either handle, and both are computed from points that are off by E, see 4, so
-#     nu = (SLIP[a] + 3.2 SLIP[b] + E[a] + E[b]) / chord + 8 u.
+# ones: u turns by 1 / chord per metre of either handle; T_b by at most 2.2 / chord (curvature <= 1.0887 / r_b and chord
+# <= 2 r_b), T_a by 13 / chord (chord <= growth (2 theta_a + 2 pi), which times the curvature at theta_a is below 13);
+# and both are computed from points that are off by E, see 4, so
+#     nu = (14 SLIP[a] + 3.2 SLIP[b] + E[a] + E[b]) / chord + 8 u.
 # While nu <= cos alpha_b / 6 a factor 1 + 3 nu / cos alpha_b covers that, as (|cos alpha_a| + nu) / (cos alpha_b - nu)
-# <= max(1, |ratio|) (1 + 1.2 * 2 nu / cos alpha_b); SLIP[b] without that factor is at most 1.5 times less. Beyond:
-# FREE.
+# <= max(1, |ratio|) (1 + 1.2 * 2 nu / cos alpha_b); SLIP[b] without it is at most 1.5 times less. Beyond: FREE.
 # 4. Turning. e[k] turns by delta with s, c to 3.75 u s, 1.75 u (4 u s, 4 u where the library serves). For m = 2 s the
 # matrix (rise, turn) is then good to 7.7 u m (12.2 u m), the four products and sums add 2.83 u m + u: per link e is off
 # by at most u (1 + 12 delta). A point growth THETA e has two more products and no REST, 3 u:
@@ -386,7 +386,7 @@ def slipped(slip, ratio, slope, local, spots, inverse):
     inverse: of the chord
     """
     slip = slip * max(1.0, fabs(ratio)) + local
-    ratio = ((25.0 * slip + 3.0 * spots) * inverse + 24.0 * ULP) * slope
+    ratio = ((64.0 * slip + 3.0 * spots) * inverse + 24.0 * ULP) * slope
     return slip + slip * ratio if 0.0 < ratio < 0.5 else FREE
 
 
@@ -477,9 +477,11 @@ def spiral_rounding(growth, last, sizes, chain):
 
 # Where no angle between a tangent and a chord exceeds asin(BEND_LIMIT), out from near the centre, cos alpha_b >= 0.243
 # and the ratios are at most 1 (bounds.py), so after n links with chords up to c, at r = r[n], with growth length <= r +
-# growth and nu small (E below 1e-3 of the shortest chord), the sums above are at most
+# growth, the sums above are at most
 #     E = u (32 n c + (r + growth) (16 (theta[n] - theta[0]) + 1.1 n + 5)),  SWAY <= 2 E / shortest + 8 u,
-# without a look at the chain: enough for all but the few pairs that come near the margin.
+# without a look at the chain: enough for all but the few pairs that come near the margin. 7 / 0.243 = 28.8, 2.5 + 12 =
+# 14.5 and 1.05 leave a tenth for the factors of 3, which together stay below exp(n 64 E / (0.243 shortest)) < 1.03
+# while n E <= SMALL shortest.
 
 
 def spiral_error(growth, last, longest, chain):
