@@ -39,7 +39,7 @@ from app.schemas import (
     TurnQuery,
 )
 from app.settings import check_limit
-from core.scan import scan_near_minimum
+from core.design.pitch_scan import scan_near_minimum
 
 router = APIRouter()
 
@@ -248,7 +248,7 @@ def overlaps(
 
     def compute() -> bytes:
         poses, lengths, widths = wanted.to_poses(reply.settings.poses_max)
-        found = core.overlaps(poses, lengths, widths, margin=wanted.margin, chained=wanted.chained)
+        found = core.shapes.overlaps(poses, lengths, widths, margin=wanted.margin, chained=wanted.chained)
         check_limit("benches", "overlapping pairs", len(found.pairs), reply.settings.pairs_max, "move them apart")
         check = core.cross_check(poses, lengths, widths, margin=wanted.margin, chained=wanted.chained)
         return OverlapsAnswer.of(found, check).to_json()

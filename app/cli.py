@@ -25,7 +25,7 @@ from app.options import asks, checked, given, numbers
 from app.refusals import refusing
 from app.settings import WORKERS_MAX, Settings
 from core import BenchDragonError, Dragon, InvalidValue, Route, Spiral, Venue
-from core.dragon import Floats
+from core.values import Floats
 
 Json = Annotated[bool, typer.Option("--json", help="The service's JSON instead of a table.")]
 

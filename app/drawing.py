@@ -18,8 +18,8 @@ from matplotlib.collections import PolyCollection
 from matplotlib.figure import Figure
 
 from core import Dragon, FirstContact, Route, Spiral, Venue, bench_poses
-from core.dragon import Floats
-from core.rectangles import corners
+from core.shapes.rectangles import corners
+from core.values import Floats
 
 matplotlib.rcParams["svg.hashsalt"] = "bench-dragon"
 

@@ -40,7 +40,7 @@ from core import (
     run_end,
     trajectory,
 )
-from core.scan import JUMP_WIDTH, SCAN_FROM, SCAN_TO, PitchScan, scan_near_minimum
+from core.design.pitch_scan import JUMP_WIDTH, SCAN_FROM, SCAN_TO, PitchScan, scan_near_minimum
 
 # The figure of a run without contact shows the dance this long before its end [s], where the chain still exists.
 BEFORE_END = 1e-6

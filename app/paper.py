@@ -24,10 +24,10 @@ from core import (
     separation,
 )
 from core import trajectory as trajectory_of
-from core.angle_sum import angle_sums, literal_corners
-from core.dragon import Floats
-from core.rectangles import corners
-from core.scan import stop_radius
+from core.design.pitch_scan import stop_radius
+from core.shapes.angle_sum import angle_sums, literal_corners
+from core.shapes.rectangles import corners
+from core.values import Floats
 
 PAPER_LENGTH = 442.590256  # [m], eq. 2
 PAPER_TIME = 406.43  # [s], figure 7

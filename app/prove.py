@@ -27,7 +27,7 @@ from app.wire import Instant, Margin, StartTurns, TurningDiameter, Wire
 from app.wire_paths import TurnFields, TurnPath
 from core import Dragon, InvalidValue, Outcome
 from core.errors import ProofRefused
-from core.kinematics import first_time
+from core.motion.trajectory import first_time
 
 if TYPE_CHECKING:
     from core.proof import Proof

@@ -31,8 +31,9 @@ from app.wire import (
 )
 from app.wire_paths import KINDS, AnyPath, SpiralFields, SpiralPath, TurnCircle, TurnFields
 from core import Dragon, InvalidValue, Report, Route, ShortestTurn, Spiral, check, shortest_turn
-from core.dragon import BENCHES_MAX, Floats
-from core.kinematics import default_times, first_time
+from core.dragon import BENCHES_MAX
+from core.motion.trajectory import default_times, first_time
+from core.values import Floats
 
 # The last instant of a range may miss `stop` by this share of a step, so that 0 to 0.3 by 0.1 has four instants.
 LAST_STEP_TOLERANCE = 1e-9

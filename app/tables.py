@@ -16,7 +16,7 @@ import orjson
 from app.answers import columns_json
 from app.extras import require
 from core import TooLarge, Trajectory
-from core.dragon import Floats
+from core.values import Floats
 
 if TYPE_CHECKING:
     from xlsxwriter.worksheet import Worksheet

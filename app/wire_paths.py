@@ -57,7 +57,7 @@ class TurnFields(TurnCircle):
 
     def to_turn(self) -> core.Turn:
         """raises: InvalidValue"""
-        return core.turn(
+        return core.paths.turn(
             self.pitch,
             self.turning_diameter / 2,
             self.ratio,

@@ -9,7 +9,7 @@ import shapely
 from scipy.optimize import brentq
 
 from core import Dragon, Spiral
-from core.dragon import Floats
+from core.values import Floats
 
 STEP = 0.1  # [s] between two looks; coarse enough to miss short contacts, as every fixed step is
 BRACKET = 1e-9  # [s] or [m]: what the answers of core are known to, so what the baseline bisects to

@@ -2,9 +2,8 @@
 
 from typing import TYPE_CHECKING
 
-from core.bend import SharpestBend, sharpest_bend
-from core.check import Failure, FailureKind, Judgement, Report, check
-from core.contact import (
+from core.contact.cross_check import ContactCheck, contact_check, pitch_check
+from core.contact.first_contact import (
     Certificate,
     ClearanceProfile,
     Feature,
@@ -15,21 +14,22 @@ from core.contact import (
     clearance_profile,
     first_contact,
 )
-from core.cross import ContactCheck, contact_check, pitch_check
-from core.design import LimitedBy, MinimumPitch, minimum_pitch
+from core.contact.least_clearance import LeastClearance, least_clearance
+from core.design.minimum_pitch import LimitedBy, MinimumPitch, minimum_pitch
+from core.design.shortest_turn import ShortestTurn, TurnLimit, shortest_turn
 from core.dragon import Dragon
-from core.engines import Engine
 from core.errors import BenchDragonError, InvalidValue, OutsideRun, TooLarge
-from core.kinematics import EndReason, RunEnd, Trajectory, bench_poses, run_end, trajectory
-from core.least import LeastClearance, least_clearance
-from core.overlaps import CrossCheck, Overlaps, Verdict, cross_check, overlaps, verdicts
-from core.paths import Spiral
-from core.rectangles import Separation, separation
-from core.route import Arc, Coil, Line, Piece, Route, Waypoints
-from core.shortest import ShortestTurn, TurnLimit, shortest_turn
-from core.speed import HighestSpeed, MaximumHeadSpeed, highest_speed, maximum_head_speed
-from core.turn import Turn, turn
+from core.motion.joints import SharpestBend, sharpest_bend
+from core.motion.speed import HighestSpeed, MaximumHeadSpeed, highest_speed, maximum_head_speed
+from core.motion.trajectory import EndReason, RunEnd, Trajectory, bench_poses, run_end, trajectory
+from core.paths.route import Arc, Coil, Line, Piece, Route, Waypoints
+from core.paths.spiral import Spiral
+from core.paths.turn import Turn, turn
+from core.shapes.engines import Engine
+from core.shapes.overlaps import CrossCheck, Overlaps, Verdict, cross_check, overlaps, verdicts
+from core.shapes.rectangles import Separation, separation
 from core.venue import Area, AreaClearance, Nearest, Stray, Venue, VenueClearance, venue_clearance
+from core.verdict import Failure, FailureKind, Judgement, Report, check
 
 __all__ = [
     "Arc",

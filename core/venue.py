@@ -11,15 +11,16 @@ from itertools import pairwise
 import numpy as np
 
 from core import kernels
-from core.contact import Outcome
-from core.dragon import Dragon, Floats, checked_number, checked_type
-from core.engines import inside, polygon_fault
+from core.contact.first_contact import Outcome
+from core.contact.least_clearance import Pair, first_pair, least_over
+from core.contact.search import MARGIN_MAX, NEAR_WORK_BUDGET, Search
+from core.dragon import Dragon
 from core.errors import InvalidValue
-from core.kinematics import bench_poses, checked_head_speed, checked_span, run_end, trajectory
-from core.least import Pair, first_pair, least_over
-from core.paths import Spiral
-from core.route import COORDINATE_MAX, Coil, Point, Route
-from core.search import MARGIN_MAX, NEAR_WORK_BUDGET, Search
+from core.motion.trajectory import bench_poses, checked_head_speed, checked_span, run_end, trajectory
+from core.paths.route import COORDINATE_MAX, Coil, Point, Route
+from core.paths.spiral import Spiral
+from core.shapes.engines import inside, polygon_fault
+from core.values import Floats, checked_number, checked_type
 
 Ring = tuple[Point, ...]
 # Name and rings.

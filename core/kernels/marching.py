@@ -33,14 +33,14 @@ if not cython.compiled:  # for the compiler the same stands in the .pxd
 # out.
 # 3. While at_start all benches are followed. Then only the pairs of the first `leaders` benches, of which the last, m =
 # leaders - 1, is the first of the alike: bench i > m at a place, and all behind it, stand as bench i - 1 and all behind
-# that did when handle i - 1 stood there, in the same benches (family lemma, core/contact.py). passed() says that every
-# handle i has come to where handle i - 1 began; so that was after the start, and clear by the invariant for i - 1, down
-# to m. From there on it stays so, as no handle turns back before the one ahead does. A handle that began beyond
-# `opened` is led by benches that 2 clears, until it is where a predecessor has been.
-# 4. Consecutive steps share a chain to the last bit, so the intervals tile the way of the true head without a gap. What
-# is not the same to the last bit is the travel: the head of the chain at `travel` has truly travelled within `rounding`
-# of it. So h, which the bounds take for its true way, is widened by twice that, and the caller begins and ends the
-# march beyond what it says of it by as much.
+# that did when handle i - 1 stood there, in the same benches (family lemma, core/contact/first_contact.py). passed()
+# says that every handle i has come to where handle i - 1 began; so that was after the start, and clear by the invariant
+# for i - 1, down to m. From there on it stays so, as no handle turns back before the one ahead does. A handle that
+# began beyond `opened` is led by benches that 2 clears, until it is where a predecessor has been. 4. Consecutive steps
+# share a chain to the last bit, so the intervals tile the way of the true head without a gap. What is not the same to
+# the last bit is the travel: the head of the chain at `travel` has truly travelled within `rounding` of it. So h, which
+# the bounds take for its true way, is widened by twice that, and the caller begins and ends the march beyond what it
+# says of it by as much.
 #
 # How h is chosen only decides how soon a proof succeeds: at most twice the last step, and at most 0.95 of the width at
 # which the same bounds would just have proven the pairs of the last interval (`room`), both after a step taken and,
@@ -72,7 +72,8 @@ LEAST_WAY = 1e-7
 ALLOWANCE = 2.0
 # Widths are widened by this part of them, for the roundings of what a step computes once [1].
 WIDTH_ROUNDING = 1e-12
-# How far ahead a contact is looked for whose beginning rounding hides [m]: the widest bracket of core/search.py, twice.
+# How far ahead a contact is looked for whose beginning rounding hides [m]: the widest bracket of
+# core/contact/search.py, twice.
 PEEK = 1e-4
 # Handles have passed a place when they are this much beyond it, of 1 + |theta| or 1 + |s| [1], and beyond what both may
 # be off by. On a spiral where no handle is followed it is more than SLIP alone: u (32 n c + 16 r (theta - theta_0) +

@@ -170,8 +170,8 @@ def start_route(pieces, s, chain):
 #   spiral   that, the division by growth, the inverse of the arc length A:       10 u A
 #   cubic    |r'| end and the length are at most 3 C; the quadrature, a sum of 8, is good to 57 u C, and the Newton
 #            steps that invert it end within 30 u C:                              100 u C
-# What the quadrature lacks to the true arc length of a cubic, 1e-13 of it (core/cubics.py), is left out: s on a cubic
-# is what the quadrature says.
+# What the quadrature lacks to the true arc length of a cubic, 1e-13 of it (core/paths/cubics.py), is left out: s on a
+# cubic is what the quadrature says.
 
 
 def cubic_size(pieces, p):

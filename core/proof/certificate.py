@@ -12,7 +12,7 @@ from flint import __FLINT_VERSION__, __version__, ctx
 
 from core.dragon import BENCHES_MAX, Dragon
 from core.errors import InvalidValue, OutsideRun, ProofRefused
-from core.paths import Spiral
+from core.paths.spiral import Spiral
 from core.proof.claims import CollisionTime, MinimumPitch, refusing
 from core.proof.dances import Clear, Contact, last_stop
 from core.proof.members import CLAIMS, SHOWN_MOST, check_members

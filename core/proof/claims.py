@@ -10,15 +10,16 @@ from typing import Any, ClassVar
 
 from flint import arb
 
-from core.dragon import Dragon, checked_number, checked_size
+from core.contact.search import MARGIN_MAX
+from core.dragon import Dragon
 from core.errors import ProofRefused
-from core.kinematics import checked_head_speed
-from core.paths import Spiral
+from core.motion.trajectory import checked_head_speed
+from core.paths.spiral import Spiral
 from core.proof.chain import Chain, bend_guess
 from core.proof.pairs import Unproven, above, below
 from core.proof.sweeps import AnyChain, Overlap, Progress, found, swept
 from core.proof.words import apart_words, dragon_words, near_words
-from core.search import MARGIN_MAX
+from core.values import checked_number, checked_size
 
 # Half the bracket around a collision time [s], and the step below a minimum pitch [m]: exact decimals, in balls.
 TIME_BRACKET = "1e-10"

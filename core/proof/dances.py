@@ -11,7 +11,7 @@ from flint import arb
 
 from core.dragon import Dragon
 from core.errors import InvalidValue
-from core.kinematics import EndReason, checked_head_speed, checked_span, run_end
+from core.motion.trajectory import EndReason, checked_head_speed, checked_span, run_end
 from core.proof.chain import Chain, Stretch, slopes
 from core.proof.claims import TIME_BRACKET, check_near, checked_margin, near_pair, settle
 from core.proof.pairs import Unproven, above, below

@@ -16,10 +16,10 @@ from flint import acb, arb
 from core import route
 from core.dragon import Dragon
 from core.errors import InvalidValue
-from core.paths import Spiral
+from core.paths.spiral import Spiral
+from core.paths.turn import Turn, turn
 from core.proof.chain import Chain
 from core.proof.route import Coil, Path, Piece, RouteChain
-from core.turn import Turn, turn
 
 AnyPath = Spiral | route.Route | Turn
 Record = Mapping[str, Any]

@@ -9,7 +9,7 @@ import pytest
 
 from app.paper import Comparison, comparison
 from core import Dragon, Outcome, Spiral, first_contact, minimum_pitch, separation, trajectory
-from core.kinematics import bench_poses
+from core.motion.trajectory import bench_poses
 
 # Printed digits of the paper, and how well the reference values are known.
 MICROMETRE = 0.5e-6  # [m]

@@ -16,7 +16,7 @@ from app import tables
 from app.extras import MissingPackage
 from app.tables import Language
 from core import Dragon, Spiral, TooLarge, Trajectory, trajectory
-from core.dragon import Floats
+from core.values import Floats
 
 pytestmark = pytest.mark.uncompiled
 

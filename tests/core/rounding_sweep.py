@@ -16,10 +16,10 @@ import numpy as np
 from flint import arb
 
 from core import Arc, Coil, Dragon, InvalidValue, Line, Route, Spiral, Waypoints, kernels, run_end, turn
-from core.dragon import SIZE_MAX, SIZE_MIN
+from core.contact.search import Search
 from core.kernels.constants import ERROR, MX, MY, PX, PY, SWAY, UX, UY
-from core.kinematics import earliest_time
-from core.search import Search
+from core.motion.trajectory import earliest_time
+from core.values import SIZE_MAX, SIZE_MIN
 from tests.core.exact_chain import ExactRoute, Floats, Point, separation, spiral_handles
 
 # Gaps compared in every chain, half of them of pairs behind the head.

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from core import Dragon, Spiral, kernels, run_end
-from core.search import Search
+from core.contact.search import Search
 from tests.core.slow_search import SlowDance, rectangles_gap
 
 # Instants within an interval, and how many apart the second differences are taken; those are means of the derivative.

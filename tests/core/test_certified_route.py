@@ -25,7 +25,7 @@ from core.kernels.constants import (
     TX,
     UX,
 )
-from core.kinematics import earliest_time, run_end
+from core.motion.trajectory import earliest_time, run_end
 from tests.core.rounding_sweep import ROUTES
 from tests.core.test_certified_motion import AXES, corners
 from tests.core.test_route import TURN as TURN_PATH

@@ -13,7 +13,7 @@ import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
-import core.speed
+import core.motion.speed
 from core import (
     Arc,
     Coil,
@@ -40,8 +40,8 @@ from core import (
     turn,
     venue_clearance,
 )
-from core.least import PROOF_WIDTHS
-from core.speed import SPEED_ROUNDING
+from core.contact.least_clearance import PROOF_WIDTHS
+from core.motion.speed import SPEED_ROUNDING
 
 BEND_LIMIT = 0.999  # half a chord over the radius of the tightest bend that a route may have [1]
 REFERENCE = Path(__file__).parents[1] / "reference"
@@ -315,8 +315,8 @@ def test_a_proof_that_runs_short_of_work_leaves_a_kept_limit_undecided_and_a_bro
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     span = {"start": -100.0, "stop": 100.0}
-    monkeypatch.setattr(core.speed, "LINKS_BUDGET", 1_000)
-    monkeypatch.setattr(core.speed, "EXCESS_LINKS", 1_000)
+    monkeypatch.setattr(core.motion.speed, "LINKS_BUDGET", 1_000)
+    monkeypatch.setattr(core.motion.speed, "EXCESS_LINKS", 1_000)
     peak = highest_speed(Dragon(), TURN, **span).speed
     kept = check(Dragon(), TURN, speed_limit=peak * (1.0 + 1e-9), **span)
     assert [failure.kind for failure in kept.failures] == [FailureKind.UNDECIDED]

@@ -25,8 +25,8 @@ from core import (
     run_end,
     turn,
 )
-from core.search import BRACKET, MARGIN_MAX, Search
-from core.strips import BORDER_WIDTH
+from core.contact.search import BRACKET, MARGIN_MAX, Search
+from core.design.pitch_bands import BORDER_WIDTH
 from tests.core.slow_search import SlowDance
 
 CASES = json.loads((Path(__file__).parents[1] / "reference" / "first_contact.json").read_text())["cases"]

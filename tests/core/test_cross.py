@@ -10,8 +10,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from core.contact import FirstContact, Outcome, clearance_profile, first_contact
-from core.cross import (
+from core.contact.cross_check import (
     CHECK_TRAVEL,
     CLOSE_MAX,
     TOGETHER_DEPTH,
@@ -21,14 +20,15 @@ from core.cross import (
     judged_contact,
     pitch_check,
 )
-from core.design import LimitedBy, minimum_pitch
+from core.contact.first_contact import FirstContact, Outcome, clearance_profile, first_contact
+from core.design.minimum_pitch import LimitedBy, minimum_pitch
 from core.dragon import Dragon
-from core.engines import KEPT_DRAGONS, Engine, found_pairs
-from core.kinematics import bench_poses, trajectory
-from core.overlaps import Verdict
-from core.paths import Spiral
-from core.rectangles import separation
-from core.route import Arc, Line, Route
+from core.motion.trajectory import bench_poses, trajectory
+from core.paths.route import Arc, Line, Route
+from core.paths.spiral import Spiral
+from core.shapes.engines import KEPT_DRAGONS, Engine, found_pairs
+from core.shapes.overlaps import Verdict
+from core.shapes.rectangles import separation
 
 Floats = NDArray[np.float64]
 

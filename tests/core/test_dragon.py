@@ -10,7 +10,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from core import Dragon, InvalidValue
-from core.dragon import BENCHES_MAX, SIZE_MAX, SIZE_MIN
+from core.dragon import BENCHES_MAX
+from core.values import SIZE_MAX, SIZE_MIN
 
 pytestmark = pytest.mark.uncompiled
 

@@ -55,8 +55,8 @@ EXPRESSIONS = {
     "route": "core.Route([core.Waypoints(((0, 0), (6, 1), (11, 6), (9, 13), (2, 14)))]).table",
     "places on a route": "core.Route([core.Waypoints(((0, 0), (6, 1), (11, 6), (9, 13)))]).position([21.0, 3.0, 14.0])",
     "trajectory on a turn": "core.trajectory(core.Dragon(20), core.turn(1.7).path, [0.0, 14.0, 30.0])",
-    "first excess": "core.speed.first_excess(core.Dragon(20), core.turn(1.7).path, 1.5, start=0.0, stop=30.0)",
-    "first excess before a fold": "core.speed.first_excess(core.Dragon(4), core.Spiral(1.2, 3.0), 3.0)",
+    "first excess": "core.motion.speed.first_excess(core.Dragon(20), core.turn(1.7).path, 1.5, start=0.0, stop=30.0)",
+    "first excess before a fold": "core.motion.speed.first_excess(core.Dragon(4), core.Spiral(1.2, 3.0), 3.0)",
     "minimum pitch": "core.minimum_pitch(core.Dragon(20), turning_radius=3.0, start_turns=8.0)",
     "clearance profile": "core.clearance_profile(core.Dragon(30), core.Spiral(), [400.0, 405.0, 410.0])",
 }

@@ -27,7 +27,7 @@ from core import (
     turn,
 )
 from core.kernels import LANES_PER_BLOCK
-from core.kinematics import HEAD_SPEED_MAX, HEAD_SPEED_MIN
+from core.motion.trajectory import HEAD_SPEED_MAX, HEAD_SPEED_MIN
 from tests.core.slow_search import SlowDance
 
 pytestmark = pytest.mark.uncompiled

@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 from core import Dragon, EndReason, Outcome, Route, Spiral, first_contact, run_end, turn
+from core.contact.search import BRACKET, NO_BOUND, Search
 from core.kernels.constants import RING_END, RING_PLACE
-from core.kinematics import trajectory
-from core.search import BRACKET, NO_BOUND, Search
+from core.motion.trajectory import trajectory
 from tests.core.test_contact import ACCURACY
 
 # Points of a random curve; its angles and chords are sums of that many terms, good to this [rad], relative [1].
@@ -135,7 +135,7 @@ def test_a_body_that_slides_back_behind_its_start_has_the_contacts_of_the_genera
         assert family.time == pytest.approx(every.time, rel=0, abs=ACCURACY)
 
 
-# -- what is dismissed on coils: core/kernels/rings.py, core/coils.py --
+# -- what is dismissed on coils: core/kernels/rings.py, core/contact/coils.py --
 
 
 @pytest.mark.parametrize("seed", range(40))

@@ -10,14 +10,15 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from core.angle_sum import ANGLE_TOLERANCE, angle_sum_overlap, angle_sums, literal_corners, paper_corners
-from core.broad_phase import CROSS_CANDIDATES_MAX, PAIRS_MAX, broad_phase
-from core.dragon import SIZE_MAX, Dragon
+from core.dragon import Dragon
 from core.errors import InvalidValue, TooLarge
-from core.kinematics import bench_poses, trajectory
-from core.overlaps import Engine, Verdict, cross_check, overlaps, verdicts
-from core.paths import Spiral
-from core.rectangles import corners, separation
+from core.motion.trajectory import bench_poses, trajectory
+from core.paths.spiral import Spiral
+from core.shapes.angle_sum import ANGLE_TOLERANCE, angle_sum_overlap, angle_sums, literal_corners, paper_corners
+from core.shapes.broad_phase import CROSS_CANDIDATES_MAX, PAIRS_MAX, broad_phase
+from core.shapes.overlaps import Engine, Verdict, cross_check, overlaps, verdicts
+from core.shapes.rectangles import corners, separation
+from core.values import SIZE_MAX
 
 Floats = NDArray[np.float64]
 Pairs = NDArray[np.int64]

@@ -11,9 +11,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from core import Dragon, Outcome, Route, Spiral, Waypoints, first_contact, minimum_pitch, separation, turn
-from core.precise import DIGITS, LAST_BENCH, Bench, Pair, gap_along, narrowed
-from core.precise import separation as precise_separation
-from core.search import Search
+from core.contact.near_graze import DIGITS, LAST_BENCH, Bench, Pair, gap_along, narrowed
+from core.contact.near_graze import separation as precise_separation
+from core.contact.search import Search
 
 # Positions of the kernels [m]: on a route a kilometre long an arc length is good to 2e-13 m.
 DOUBLE = 1e-12

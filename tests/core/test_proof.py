@@ -21,7 +21,7 @@ from core.errors import InvalidValue, ProofRefused
 from core.proof import Certificate, check, prove_collision_time, prove_minimum_pitch
 from core.proof.chain import Chain, Pose, Stretch, bend, newton
 from core.proof.pairs import Unproven, stays_positive
-from core.rectangles import corners
+from core.shapes.rectangles import corners
 from tests.core.forgeries import FORGERIES, edit, put_at, stretches
 
 ROOT = Path(__file__).parents[2]

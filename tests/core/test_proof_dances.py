@@ -15,15 +15,15 @@ import shapely
 from flint import acb, arb, ctx
 
 from core import Arc, Coil, Dragon, Line, Route, Spiral, Waypoints, bench_poses, first_contact, trajectory, turn
+from core.contact.least_clearance import least_clearance
 from core.errors import InvalidValue, OutsideRun, ProofRefused
-from core.least import least_clearance
 from core.proof import Certificate, check, prove_clear, prove_collision_time, prove_contact, prove_minimum_pitch
 from core.proof.chain import bend
 from core.proof.pairs import Benches, Size, Unproven
 from core.proof.paths import chain_on, recorded_path
 from core.proof.route import RouteChain
 from core.proof.route_stretch import RouteStretch, _half_turn
-from core.rectangles import corners
+from core.shapes.rectangles import corners
 from tests.core.test_proof import at, edit, places, refusal, stretches, through_json
 
 ROOT = Path(__file__).parents[2]

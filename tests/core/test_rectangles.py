@@ -12,9 +12,9 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from core import kernels
-from core.dragon import SIZE_MAX, SIZE_MIN
 from core.errors import InvalidValue
-from core.rectangles import POSITION_MAX, corners, frames, separation
+from core.shapes.rectangles import POSITION_MAX, corners, frames, separation
+from core.values import SIZE_MAX, SIZE_MIN
 
 pytestmark = pytest.mark.uncompiled
 

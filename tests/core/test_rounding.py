@@ -25,10 +25,10 @@ from core import (
     trajectory,
     turn,
 )
-from core.design import _PitchSearch
+from core.contact.search import Search
+from core.design.minimum_pitch import _PitchSearch
 from core.kernels.constants import CLIMB, CLIMB_ERROR, ERROR, RATE, RATE_ERROR
-from core.search import Search
-from core.speed import EXCEEDED, SPEED_ROUNDING, _excess
+from core.motion.speed import EXCEEDED, SPEED_ROUNDING, _excess
 from tests.core.exact_chain import BITS, middle, next_delta, separation, spiral_place
 from tests.core.rounding_sweep import Errors, compare, sweep
 

@@ -40,8 +40,8 @@ from core import (
     trajectory,
     turn,
 )
-from core.kinematics import default_times, first_time
-from core.rectangles import corners
+from core.motion.trajectory import default_times, first_time
+from core.shapes.rectangles import corners
 
 REFERENCE = json.loads((Path(__file__).parents[1] / "reference" / "turn.json").read_text())
 TURN = turn(1.7, 4.5, 2.0)

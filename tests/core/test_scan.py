@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from core import Dragon, minimum_pitch
-from core.scan import JUMP, JUMP_WIDTH, pitch_scan
+from core.design.pitch_scan import JUMP, JUMP_WIDTH, pitch_scan
 
 SMALL = Dragon(benches=30)
 BRACKET = 1e-9  # [m]: how well the minimum pitch is known

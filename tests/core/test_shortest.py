@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 import shapely
 
-import core.shortest
+import core.design.shortest_turn
 from core import (
     Dragon,
     InvalidValue,
@@ -23,8 +23,8 @@ from core import (
     trajectory,
     turn,
 )
-from core.coils import rings_clear, wholly_outside
-from core.rectangles import corners
+from core.contact.coils import rings_clear, wholly_outside
+from core.shapes.rectangles import corners
 
 ENTRY_ERROR = 1e-9  # [m]
 STEP = 0.1  # [s], between the instants that shapely sees
@@ -109,7 +109,7 @@ def test_the_part_that_is_followed_has_the_contacts_of_the_whole_dance(sizes: An
     found = shortest_turn(dragon, **asked)
     for entry in (found.turn.entry_radius, found.turn.turning_radius):
         danced = turn(found.turn.pitch, found.turn.turning_radius, found.turn.ratio, start_turns=30, entry_radius=entry)
-        way, front = core.shortest._way(dragon, danced, margin)
+        way, front = core.design.shortest_turn._way(dragon, danced, margin)
         assert front.benches < dragon.benches
         span = 1.6 * float(dragon.chords.sum())
         assert way < span
@@ -139,7 +139,7 @@ def test_a_dragon_given_bench_by_bench_has_the_answer_of_the_uniform_one() -> No
 
 def test_nothing_limits_a_tiny_dragon_down_to_the_centre() -> None:
     found = shortest_turn(Dragon(5, 0.1, 0.1, 0.01, 0.01), 1.7)
-    step = core.shortest.ENTRY_STEP * 4.5
+    step = core.design.shortest_turn.ENTRY_STEP * 4.5
     assert (found.limited_by, found.entry_bracket) == (TurnLimit.CENTRE, (0.0, step))
     assert found.scan_step == step
 
@@ -215,7 +215,7 @@ def test_two_coils_are_apart_by_more_than_the_margin_where_they_are_said_to_be(p
     radii = []
     # along a coil, with one between them, two benches are known to be 0.6 m apart
     for margin in np.linspace(0.0, min(0.5 * pitch - 0.35, 0.55), 5):
-        clear = rings_clear(dragon, core.shortest._coils(danced), margin)
+        clear = rings_clear(dragon, core.design.shortest_turn._coils(danced), margin)
         assert clear is not None
         radii.append(clear)
         for shift in np.linspace(0.0, 2.0, 9):
@@ -223,4 +223,4 @@ def test_two_coils_are_apart_by_more_than_the_margin_where_they_are_said_to_be(p
             other = poses_on(Spiral(pitch, 16), math.pi, 60, clear + shift)
             assert shapely.distance(shapely.union_all(one), shapely.union_all(other)) > margin
     assert radii == sorted(radii)
-    assert rings_clear(dragon, core.shortest._coils(danced), 0.5 * pitch - 0.3) is None
+    assert rings_clear(dragon, core.design.shortest_turn._coils(danced), 0.5 * pitch - 0.3) is None

@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-import core.speed
+import core.motion.speed
 from core import (
     Arc,
     Coil,
@@ -29,8 +29,8 @@ from core import (
     trajectory,
     turn,
 )
-from core.search import Search
-from core.speed import RATE_TOLERANCE
+from core.contact.search import Search
+from core.motion.speed import RATE_TOLERANCE
 
 SPEED = json.loads((Path(__file__).parent.parent / "reference" / "maximum_head_speed.json").read_text())
 REFERENCE_ERROR = 1e-9  # [m/s] and [s]
@@ -133,7 +133,7 @@ def test_towards_the_fold_of_a_spiral_the_last_instant_is_the_fastest(gap: float
 # A peak is proven in so many intervals [1]; a search follows so many links, see LINKS_BUDGET, and an interval counts as
 # so many of them at least [1].
 FEW = 5_000
-LINKS_MOST = 12 * core.speed.LINKS_BUDGET
+LINKS_MOST = 12 * core.motion.speed.LINKS_BUDGET
 INTERVAL_LINKS = 20
 # A sample may exceed the highest speed found by what its proof leaves open [1].
 UNSEEN = 1e-6
@@ -143,7 +143,7 @@ def intervals_of(dragon: Dragon, path: Spiral | Route, start: float, stop: float
     """How many intervals the proof of the highest speed takes, the head at 1 m/s."""
     search = Search(dragon, path, 0.0)
     search.resize(dragon.benches)
-    return core.speed.peak_over(search, start, stop)[3]
+    return core.motion.speed.peak_over(search, start, stop)[3]
 
 
 # The rear handle turns back before its bench could fold, and is 3.7 times as fast as the head on its way outwards: the
@@ -181,7 +181,7 @@ def test_the_work_of_a_search_is_bounded_and_its_bracket_true(seed: int) -> None
 
 
 def test_a_proof_that_takes_too_long_is_given_up_and_said_so(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(core.speed, "LINKS_BUDGET", 20)
+    monkeypatch.setattr(core.motion.speed, "LINKS_BUDGET", 20)
     span = {"start": -20.0, "stop": 40.0}
     found = maximum_head_speed(Dragon(), TURN, SPEED["speed_limit"], **span)
     assert found.head_speed_bracket == (None, found.head_speed)
@@ -190,6 +190,6 @@ def test_a_proof_that_takes_too_long_is_given_up_and_said_so(monkeypatch: pytest
     assert report.highest_speed.speed_bracket[1] is None
     # the limit is far above, and proven on its own
     assert report.passed
-    monkeypatch.setattr(core.speed, "EXCESS_LINKS", 20)
+    monkeypatch.setattr(core.motion.speed, "EXCESS_LINKS", 20)
     report = check(Dragon(), TURN, speed_limit=2.0, **span)
     assert [failure.kind for failure in report.failures] == [FailureKind.UNDECIDED]

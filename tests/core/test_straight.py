@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from core import Dragon, kernels
-from core.straight import Straight, curvature_most
+from core.design.straight import Straight, curvature_most
 from tests.core.slow_pitch import SlowWay
 from tests.core.sweep_pitch import random_case
 

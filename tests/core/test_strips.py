@@ -11,9 +11,9 @@ import numpy as np
 import pytest
 
 from core import Dragon, Spiral, kernels
-from core.dragon import Floats
-from core.search import Search
-from core.strips import Strips
+from core.contact.search import Search
+from core.design.pitch_bands import Strips
+from core.values import Floats
 
 CASES = json.loads((Path(__file__).parents[1] / "reference" / "minimum_pitch.json").read_text())["cases"]
 GRAZES = [case for case in CASES if case["limited_by"] != "start"]

@@ -25,8 +25,8 @@ from core import (
     trajectory,
     venue_clearance,
 )
-from core.contact import Search
-from core.rectangles import corners
+from core.contact.first_contact import Search
+from core.shapes.rectangles import corners
 
 SAME_DISTANCE = 1e-11  # [m]: ours and shapely's, at coordinates to 30 m
 PROVEN = 1.1e-5  # [m]: a distance is proven to this

@@ -6,9 +6,9 @@ Numbers have all their digits: a rounded one would name another dance, or an ins
 from __future__ import annotations
 
 from core.dragon import Dragon
-from core.kinematics import EndReason
-from core.paths import Spiral
-from core.route import Route
+from core.motion.trajectory import EndReason
+from core.paths.route import Route
+from core.paths.spiral import Spiral
 
 # Kinds of pieces are listed one by one up to so many [1].
 PIECES_LISTED = 6

@@ -12,7 +12,7 @@ from functools import cached_property
 import numpy as np
 
 from core import kernels
-from core.dragon import Floats, checked_number, checked_size
+from core.values import Floats, checked_number, checked_size
 
 START_TURNS_MAX = 1e5
 # Width to which gentle_theta() is bisected, relative [1].

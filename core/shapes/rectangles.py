@@ -12,8 +12,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from core import kernels
-from core.dragon import SIZE_MAX, SIZE_MIN, Floats
 from core.errors import InvalidValue
+from core.values import SIZE_MAX, SIZE_MIN, Floats
 
 # Further out than any dance: a double resolves only 1e-7 m there [m].
 POSITION_MAX = 1e9

@@ -8,12 +8,13 @@ from itertools import pairwise
 
 import numpy as np
 
-from core.contact import Outcome, first_contact
-from core.design import MinimumPitch, minimum_pitch
-from core.dragon import SIZE_MIN, Dragon, Floats
+from core.contact.first_contact import Outcome, first_contact
+from core.design.minimum_pitch import MinimumPitch, minimum_pitch
+from core.dragon import Dragon
 from core.errors import InvalidValue
-from core.kinematics import trajectory
-from core.paths import Spiral
+from core.motion.trajectory import trajectory
+from core.paths.spiral import Spiral
+from core.values import SIZE_MIN, Floats
 
 # A fall of the first-contact radius [m] between two pitches closer than JUMP_WIDTH [m] is a jump.
 JUMP = 0.02

@@ -14,9 +14,9 @@ from typing import NamedTuple
 import numpy as np
 
 from core import kernels
+from core.contact.search import Search
 from core.kernels.constants import PIECE, PLACE, SPIRAL, TX, UX
-from core.paths import Spiral
-from core.search import Search
+from core.paths.spiral import Spiral
 
 DIGITS = 40
 # Series end with terms below this [1], and a chord is met within it [m].

@@ -16,11 +16,11 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from core import kernels
-from core.angle_sum import ANGLE_TOLERANCE, angle_sum_overlap, angle_sums, paper_corners
-from core.broad_phase import CROSS_CANDIDATES_MAX, ROUNDING, Pairs, meeting_pairs
-from core.dragon import Floats
 from core.errors import InvalidValue
-from core.rectangles import corners, frames, frames_separation
+from core.shapes.angle_sum import ANGLE_TOLERANCE, angle_sum_overlap, angle_sums, paper_corners
+from core.shapes.broad_phase import CROSS_CANDIDATES_MAX, ROUNDING, Pairs, meeting_pairs
+from core.shapes.rectangles import corners, frames, frames_separation
+from core.values import Floats
 
 # Pairs that the angle-sum rule judges at once, to keep its 32 angles a pair within 60 MB.
 ANGLE_BATCH = 50_000

@@ -7,10 +7,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from core.broad_phase import Pairs, checked_benches
-from core.engines import JUDGES, Engine, able, found_pairs
 from core.errors import InvalidValue
-from core.rectangles import POSE, Separation, checked_array, checked_columns, frames, frames_separation
+from core.shapes.broad_phase import Pairs, checked_benches
+from core.shapes.engines import JUDGES, Engine, able, found_pairs
+from core.shapes.rectangles import POSE, Separation, checked_array, checked_columns, frames, frames_separation
 
 
 @dataclass(frozen=True, slots=True)

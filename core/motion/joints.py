@@ -7,12 +7,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from core.contact import PROFILE_STEP
-from core.dragon import Dragon, Floats
-from core.kinematics import checked_head_speed, checked_span, run_end, trajectory
-from core.paths import Spiral
-from core.route import Route
-from core.search import SAMPLES
+from core.contact.first_contact import PROFILE_STEP
+from core.contact.search import SAMPLES
+from core.dragon import Dragon
+from core.motion.trajectory import checked_head_speed, checked_span, run_end, trajectory
+from core.paths.route import Route
+from core.paths.spiral import Spiral
+from core.values import Floats
 
 # Peaks are narrowed down with so many instants at a time, so many times, and so many of the highest: to 1e-9 of a step.
 ZOOM = np.linspace(-1.0, 1.0, 33)

@@ -12,12 +12,13 @@ from functools import cached_property
 import numpy as np
 
 from core import kernels
-from core.coils import two_coils, way_out
-from core.dragon import Dragon, Floats
+from core.contact.coils import two_coils, way_out
+from core.dragon import Dragon
 from core.kernels.constants import ALL_RADIUS, ERROR, LEFT_OUT, LEFT_OUT_TOO, RING_END, RING_PLACE
-from core.kinematics import RunEnd
-from core.paths import Spiral
-from core.route import Route
+from core.motion.trajectory import RunEnd
+from core.paths.route import Route
+from core.paths.spiral import Spiral
+from core.values import Floats
 
 MARGIN_MAX = 1e4  # [m]
 # Steps after which a search gives up as undecided; the default case takes about a hundred.
@@ -35,8 +36,8 @@ SAMPLED_SHARE = 0.1
 BRACKET = 1e-10
 BRACKET_MIN = 2e-11
 # The same where benches meet so slowly that rounding hides the gap that near, for contacts within about 5e-5 m of a
-# graze: the first one is 1e-9 s in all at 1 m/s, and core/precise.py narrows the wider ones to it [m of head travel].
-# Below 1 m/s the same in seconds come first.
+# graze: the first one is 1e-9 s in all at 1 m/s, and core/contact/near_graze.py narrows the wider ones to it [m of head
+# travel]. Below 1 m/s the same in seconds come first.
 BRACKETS_GRAZING = (4.9e-10, 5e-9, 5e-8, 5e-7, 5e-6, 5e-5)
 # What a travel may be off by, of the way [1], u = 2^-53: on a spiral its length to 5 u, two differences from it and the
 # polar angle there 10 u (spiral_theta() ends within 7 u of the arc length left), a time from a travel and back 2 u.

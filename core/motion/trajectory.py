@@ -10,10 +10,11 @@ from enum import StrEnum
 import numpy as np
 
 from core import kernels
-from core.dragon import Dragon, Floats, checked_number, checked_type
+from core.dragon import Dragon
 from core.errors import InvalidValue, OutsideRun
-from core.paths import Spiral
-from core.route import Route
+from core.paths.route import Route
+from core.paths.spiral import Spiral
+from core.values import Floats, checked_number, checked_type
 
 HEAD_SPEED_MIN = 1e-6  # [m/s]
 HEAD_SPEED_MAX = 1e4  # [m/s]

@@ -10,9 +10,9 @@ import math
 import numpy as np
 
 from core import kernels
-from core.paths import Spiral
-from core.search import NO_BOUND, NO_PIECES, TRAVEL_ROUNDING, Search
-from core.straight import Straight
+from core.contact.search import NO_BOUND, NO_PIECES, TRAVEL_ROUNDING, Search
+from core.design.straight import Straight
+from core.paths.spiral import Spiral
 
 # A descent first asks for a strip down to this part of the top, which is seldom far above the border, then for the
 # rest: 14.7 ms for the default and 5.9 ms for a circle of 4 m, without it 17.7 and 9.0 ms, 2026-11-21 [1].

@@ -6,12 +6,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from core.contact import DIP_WIDTH, PROFILE_STEP
+from core.contact.first_contact import DIP_WIDTH, PROFILE_STEP
+from core.contact.search import NEAR_WORK_BUDGET, Search
 from core.dragon import Dragon
-from core.kinematics import EndReason, RunEnd, checked_head_speed, checked_span, run_end
-from core.paths import Spiral
-from core.route import Route
-from core.search import NEAR_WORK_BUDGET, Search
+from core.motion.trajectory import EndReason, RunEnd, checked_head_speed, checked_span, run_end
+from core.paths.route import Route
+from core.paths.spiral import Spiral
 
 # The least distance is proven to this [m]; to the next one where that takes more steps than a search may.
 PROOF_WIDTHS = (1e-5, 1e-3)

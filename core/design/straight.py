@@ -7,7 +7,8 @@ import math
 import numpy as np
 
 from core import kernels
-from core.dragon import Dragon, Floats
+from core.dragon import Dragon
+from core.values import Floats
 
 # Where a dragon has no such pair, and where the bound says nothing, as a negative [m].
 NONE = 1e150

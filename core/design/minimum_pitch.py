@@ -9,13 +9,14 @@ from enum import StrEnum
 import numpy as np
 
 from core import kernels
-from core.dragon import SIZE_MAX, SIZE_MIN, Dragon, checked_number, checked_size, checked_type
+from core.contact.search import MARGIN_MAX, NO_PIECES, THETA_ROUNDING, Search
+from core.design.pitch_bands import BORDER_WIDTH, Strips
+from core.design.straight import Straight
+from core.dragon import Dragon
 from core.errors import InvalidValue
-from core.kinematics import EndReason, RunEnd, end_theta
-from core.paths import START_TURNS_MAX, Spiral
-from core.search import MARGIN_MAX, NO_PIECES, THETA_ROUNDING, Search
-from core.straight import Straight
-from core.strips import BORDER_WIDTH, Strips
+from core.motion.trajectory import EndReason, RunEnd, end_theta
+from core.paths.spiral import START_TURNS_MAX, Spiral
+from core.values import SIZE_MAX, SIZE_MIN, checked_number, checked_size, checked_type
 
 # Half width of the bracket around a contact [m of head travel].
 CONTACT_WIDTH = 2e-11
@@ -27,7 +28,7 @@ PASSED_OVER_WIDE = 1e-6
 # The pitch is bisected to this width [m]; closer to a graze or a contact on the circle rounding hides which it is.
 PITCH_WIDTH = 2.0 * BORDER_WIDTH
 # A way that a march leaves undecided is marched once more, in finer steps and with so much work, see WORK_BUDGET of
-# core/search.py; so many pitches that stay undecided end a bisection [1].
+# core/contact/search.py; so many pitches that stay undecided end a bisection [1].
 FINER_WORK = 1e6
 UNDECIDED_MAX = 4
 # Where no bound on the change of a clearance with the pitch is at hand, so many pitches are tried.
@@ -76,7 +77,8 @@ class MinimumPitch:
     proven_from, proven_up_to: every pitch in between is proven feasible [m]; the first is pitch itself without a scan,
         the second None for every larger pitch, without end
     scan_step: None without a scan
-    evaluations: ways from the start to the circle that were marched, and strips of pitches, see `core/strips.py`
+    evaluations: ways from the start to the circle that were marched, and strips of pitches, see
+    `core/design/pitch_bands.py`
     """
 
     pitch: float
@@ -157,9 +159,9 @@ class _PitchSearch:
     def top(self) -> tuple[float, float | None]:
         """A feasible pitch to descend from, and up to which every larger one is feasible [m], None: without end.
 
-        From the least growth at which the bound of `core/straight.py` clears that growth and every larger one, it and
-        the ring bound are asked about ranges of growths further down.
-        raises: InvalidValue where that is beyond the largest pitch allowed, and that pitch is infeasible
+        From the least growth at which the bound of `core/design/straight.py` clears that growth and every larger one,
+        it and the ring bound are asked about ranges of growths further down. raises: InvalidValue where that is beyond
+        the largest pitch allowed, and that pitch is infeasible
         """
         turn = 2.0 * math.pi
         lowest, growth = self.lowest / turn, SIZE_MAX / turn
@@ -322,12 +324,12 @@ def minimum_pitch(
 
     turning_radius: [m]; start_turns: turns from the centre to the start; margin: [m], clearance required
     From some pitch on all are feasible, without end: the spiral is so wide there that the dragon stands nearly straight
-    (`core/straight.py`). Downwards from there strips of pitches are proven clear, each for all its pitches at once
-    (`core/strips.py`), to where a pair of benches grazes: no infeasible pitch is stepped over. Where strips have no
-    bound (benches so long that handles turn back on the way, or a start inside the region where benches can touch while
-    ways from further out do touch) a stated scan takes their place.
-    raises: InvalidValue; also where benches touch on a straight line, so that no pitch is large enough
-    source: the model of Yang et al., section 2.5; their bisection of the contact radius cannot converge, because that
+    (`core/design/straight.py`). Downwards from there strips of pitches are proven clear, each for all its pitches at
+    once (`core/design/pitch_bands.py`), to where a pair of benches grazes: no infeasible pitch is stepped over. Where
+    strips have no bound (benches so long that handles turn back on the way, or a start inside the region where benches
+    can touch while ways from further out do touch) a stated scan takes their place. raises: InvalidValue; also where
+    benches touch on a straight line, so that no pitch is large enough source: the model of Yang et al., section 2.5;
+    their bisection of the contact radius cannot converge, because that
         radius jumps over the circle
 
     >>> round(minimum_pitch(Dragon()).pitch, 9)

@@ -7,9 +7,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from core import kernels
-from core.dragon import Dragon, checked_number
+from core.contact.search import Search
+from core.dragon import Dragon
 from core.errors import InvalidValue
-from core.kinematics import (
+from core.motion.trajectory import (
     HEAD_SPEED_MAX,
     HEAD_SPEED_MIN,
     TIME_MAX,
@@ -19,9 +20,9 @@ from core.kinematics import (
     earliest_time,
     run_end,
 )
-from core.paths import Spiral
-from core.route import Route
-from core.search import Search
+from core.paths.route import Route
+from core.paths.spiral import Spiral
+from core.values import checked_number
 
 # Every handle is proven to stay below this much above the highest rate found [1]; the rate itself is good to 1e-12.
 RATE_TOLERANCE = 1e-9

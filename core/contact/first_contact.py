@@ -21,14 +21,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from core import kernels
-from core.claim import ENDS, UNDECIDED_THEN, claim, claim_at_start, contact_then
-from core.dragon import Dragon, Floats, checked_number, checked_type
+from core.contact.claim import ENDS, UNDECIDED_THEN, claim, claim_at_start, contact_then
+from core.contact.near_graze import narrowed
+from core.contact.search import BRACKETS_GRAZING, MARGIN_MAX, NO_GRAZE, Search
+from core.dragon import Dragon
 from core.errors import InvalidValue
-from core.kinematics import EndReason, RunEnd, checked_head_speed, checked_span, checked_times, run_end
-from core.paths import Spiral
-from core.precise import narrowed
-from core.route import Route
-from core.search import BRACKETS_GRAZING, MARGIN_MAX, NO_GRAZE, Search
+from core.motion.trajectory import EndReason, RunEnd, checked_head_speed, checked_span, checked_times, run_end
+from core.paths.route import Route
+from core.paths.spiral import Spiral
+from core.values import Floats, checked_number, checked_type
 
 # Grazes of a profile are looked for in steps of this fraction of the shortest chord [1], longer ones where the work is
 # too much (Search.samples()), and refined to this width [s].
@@ -79,7 +80,7 @@ class Graze:
 class Certificate:
     """How the answer is known.
 
-    method: the whole claim and how it is proven, in sentences (core/claim.py)
+    method: the whole claim and how it is proven, in sentences (core/contact/claim.py)
     steps: proven steps taken; clear_until: nothing touches from the start to then [s]
     bound: the largest bound on the second derivative of a gap along the head's way that a step used [1/m]
     least_clearance: the narrowest graze met before the contact (or over the whole run), None if none

@@ -6,9 +6,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from core import kernels
-from core.dragon import SIZE_MAX, Floats, checked_number
 from core.errors import InvalidValue, TooLarge
-from core.rectangles import POSE, SIZE, checked_array, checked_columns, frames
+from core.shapes.rectangles import POSE, SIZE, checked_array, checked_columns, frames
+from core.values import SIZE_MAX, Floats, checked_number
 
 Pairs = NDArray[np.int64]
 

@@ -5,22 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from enum import StrEnum
 
-from core.bend import SharpestBend, sharpest_bend
-from core.contact import FirstContact, HeadState, Outcome, first_contact, head_state
-from core.dragon import Dragon, checked_number, checked_type
-from core.kinematics import (
-    TIME_MAX,
-    EndReason,
-    RunEnd,
-    checked_head_speed,
-    checked_span,
-    earliest_time,
-    run_end,
-)
-from core.least import LeastClearance, least_clearance
-from core.paths import Spiral
-from core.route import Route
-from core.speed import (
+from core.contact.first_contact import FirstContact, HeadState, Outcome, first_contact, head_state
+from core.contact.least_clearance import LeastClearance, least_clearance
+from core.dragon import Dragon
+from core.motion.joints import SharpestBend, sharpest_bend
+from core.motion.speed import (
     SPEED_PROVEN,
     SPEED_ROUNDING,
     FirstExcess,
@@ -29,6 +18,18 @@ from core.speed import (
     first_excess,
     highest_speed,
 )
+from core.motion.trajectory import (
+    TIME_MAX,
+    EndReason,
+    RunEnd,
+    checked_head_speed,
+    checked_span,
+    earliest_time,
+    run_end,
+)
+from core.paths.route import Route
+from core.paths.spiral import Spiral
+from core.values import checked_number, checked_type
 from core.venue import AreaClearance, Venue, VenueClearance, is_clear_beyond, venue_clearance, venue_end
 
 # A first excess over a speed limit that is not known as closely as this is told as the latest possible [s].

@@ -11,9 +11,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from core import kernels
-from core.dragon import Dragon, Floats
+from core.dragon import Dragon
 from core.kernels.constants import ALL_HALF_WIDTH, RING_ENTRIES
-from core.route import Route
+from core.paths.route import Route
+from core.values import Floats
 
 # Where the rings are clear is looked for in radii that grow by this factor [1], up to this one [m].
 RADIUS_FACTOR = 1.1
@@ -25,9 +26,9 @@ STRETCH = 0.5 * math.pi
 FOOT = 1.67
 # Bounds must exceed the margin by this [m], far above their rounding: they add up lengths that all together are below 4
 # RADIUS_MAX (longer chords or a wider pitch are left out). ring_least() is good to 1e-11 of them (RING_ROUNDING of
-# core/search.py), 4e-7 m; where it says anything d is good to 2,000 u of itself, so what is divided by it is to 1e-12,
-# 4e-8 m; all else is good to 50 u, 2e-10 m. Between the coils the path runs at most 1e-8 m beside its pieces, as joints
-# miss by 1e-9 m and rad at most (core/route.py).
+# core/contact/search.py), 4e-7 m; where it says anything d is good to 2,000 u of itself, so what is divided by it is to
+# 1e-12, 4e-8 m; all else is good to 50 u, 2e-10 m. Between the coils the path runs at most 1e-8 m beside its pieces, as
+# joints miss by 1e-9 m and rad at most (core/paths/route.py).
 CLEARLY = 1e-6
 # Arc lengths from a centre, of which u = 2^-53 is the unit of rounding, are good to 10 u of themselves each [1].
 ARC_ROUNDING = 2e-15

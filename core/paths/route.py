@@ -11,9 +11,9 @@ from typing import Any
 import numpy as np
 
 from core import kernels
-from core.cubics import cut
-from core.dragon import Floats, checked_number, checked_size
 from core.errors import InvalidValue
+from core.paths.cubics import cut
+from core.values import Floats, checked_number, checked_size
 
 # Coordinates beyond this lose the digits that the chords need [m].
 COORDINATE_MAX = 1e5

@@ -8,7 +8,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from core.dragon import Floats
+from core.values import Floats
 
 # Sums of four angles this close to a full turn count as one: their rounding is below 1e-14. A point d outside
 # the middle of an edge of length e lacks 8 d / e, so in reach this is 4e-13 m for an edge of 3.41 m [rad].

@@ -6,8 +6,8 @@ both shrink with E, and so does the coil's at the entry: the bend sets one least
 
 Whether benches touch is tried entry by entry, from the circle down. On the coil before the entry first_contact() on the
 spiral answers. From the entry on it answers on the route, but only until the leading benches are out of reach, below;
-whatever follows them then repeats, in place, what they met (core/contact.py), so nothing touches later either, however
-long the coils.
+whatever follows them then repeats, in place, what they met (core/contact/first_contact.py), so nothing touches later
+either, however long the coils.
 """
 
 from __future__ import annotations
@@ -20,14 +20,15 @@ from enum import StrEnum
 import numpy as np
 
 from core import kernels
-from core.coils import STRETCH, TwoCoils, beyond, way_out
-from core.contact import FirstContact, Outcome, first_contact
-from core.dragon import Dragon, checked_number, checked_size, checked_type
+from core.contact.coils import STRETCH, TwoCoils, beyond, way_out
+from core.contact.first_contact import FirstContact, Outcome, first_contact
+from core.contact.search import MARGIN_MAX
+from core.dragon import Dragon
 from core.errors import InvalidValue
-from core.kinematics import follows
-from core.paths import Spiral
-from core.search import MARGIN_MAX
-from core.turn import Turn, turn
+from core.motion.trajectory import follows
+from core.paths.spiral import Spiral
+from core.paths.turn import Turn, turn
+from core.values import checked_number, checked_size, checked_type
 
 # Entry radii are tried in steps of this part of the turning radius [1], down to one step from the centre ...
 ENTRY_STEP = 0.01
@@ -171,7 +172,8 @@ def _touch(found: FirstContact, zero: float) -> Touch:
 
 
 def _way(dragon: Dragon, danced: Turn, margin: float) -> tuple[float, Dragon]:
-    """How far the head must be followed from the entry [m], and the benches that matter until then: core/coils.py."""
+    """How far the head must be followed from the entry [m], and the benches that matter until then:
+    core/contact/coils.py."""
     coils, chords = _coils(danced), dragon.chords
     whole = danced.length + STRETCH * float(chords.sum())
     out = way_out(dragon, coils, margin)

@@ -8,9 +8,9 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from core import kernels
-from core.dragon import SIZE_MAX, SIZE_MIN, Floats, checked_number, checked_size
 from core.errors import InvalidValue
-from core.route import LENGTH_MIN, Arc, Coil, Point, Route
+from core.paths.route import LENGTH_MIN, Arc, Coil, Point, Route
+from core.values import SIZE_MAX, SIZE_MIN, Floats, checked_number, checked_size
 
 RATIO_MIN = 0.01
 RATIO_MAX = 100.0

@@ -16,8 +16,8 @@ from math import comb
 import numpy as np
 
 from core import kernels
-from core.dragon import Floats
 from core.errors import InvalidValue
+from core.values import Floats
 
 # A cubic is cut until halving it changes its quadrature by less than this [1] ...
 CUBIC_ARC = 1e-13

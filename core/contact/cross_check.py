@@ -11,17 +11,18 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from core.broad_phase import Pairs, meeting_pairs
-from core.contact import FirstContact, Outcome
-from core.design import LimitedBy, MinimumPitch
-from core.dragon import Dragon, Floats, checked_number, checked_type
-from core.engines import JUDGES, Engine, able, found_pairs
-from core.kinematics import bench_poses, checked_head_speed, earliest_time, run_end, trajectory
-from core.overlaps import Verdict
-from core.paths import Spiral
-from core.rectangles import frames, frames_separation
-from core.route import Route
-from core.search import MARGIN_MAX
+from core.contact.first_contact import FirstContact, Outcome
+from core.contact.search import MARGIN_MAX
+from core.design.minimum_pitch import LimitedBy, MinimumPitch
+from core.dragon import Dragon
+from core.motion.trajectory import bench_poses, checked_head_speed, earliest_time, run_end, trajectory
+from core.paths.route import Route
+from core.paths.spiral import Spiral
+from core.shapes.broad_phase import Pairs, meeting_pairs
+from core.shapes.engines import JUDGES, Engine, able, found_pairs
+from core.shapes.overlaps import Verdict
+from core.shapes.rectangles import frames, frames_separation
+from core.values import Floats, checked_number, checked_type
 
 Pair = tuple[int, int]
 Indices = NDArray[np.int64]

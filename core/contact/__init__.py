@@ -1,0 +1,1 @@
+"""When and how near benches come to each other."""

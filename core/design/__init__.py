@@ -1,0 +1,1 @@
+"""How tight a path may be for a dragon."""

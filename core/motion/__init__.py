@@ -1,0 +1,1 @@
+"""Where handles and benches are, and how fast."""

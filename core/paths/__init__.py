@@ -1,0 +1,1 @@
+"""The curves that a dragon follows."""

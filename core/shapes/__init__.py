@@ -1,0 +1,1 @@
+"""Rectangles that overlap, judged by several engines."""

@@ -1,0 +1,56 @@
+"""Numbers that users give, checked: finite, in range, in their unit."""
+
+from __future__ import annotations
+
+from numbers import Real
+
+import numpy as np
+from numpy.typing import NDArray
+
+from core.errors import InvalidValue
+
+Floats = NDArray[np.float64]
+
+# Sizes outside these lose digits in c^2 / b^2 without describing any dance [m].
+SIZE_MIN = 1e-3
+SIZE_MAX = 1e4
+
+
+def checked_number(name: str, value: object, unit: str, low: float, high: float, *, open_low: bool = False) -> float:
+    """The value as a float if it is a finite number in [low, high] ((low, high] with open_low).
+
+    raises: InvalidValue naming the field, the value, its unit and the limit
+    """
+    if not isinstance(value, Real) or isinstance(value, bool):
+        raise InvalidValue(name, f"{name} must be a number, got {value!r}")
+    try:
+        number, shown = float(value), f"{value} {unit}".rstrip()
+    except OverflowError as error:  # a whole number may have any number of digits
+        raise InvalidValue(
+            name, f"{name} must be from {low:g} to {high:g} {unit}".rstrip() + ", got 1e308 or more"
+        ) from error
+    limit_unit = f" {unit}" if unit else ""
+    if not np.isfinite(number):
+        raise InvalidValue(name, f"{name} must be a finite number, got {shown}")
+    if number < low or (open_low and number == low):
+        if low == 0.0:
+            raise InvalidValue(name, f"{name} must be {'positive' if open_low else 'zero or more'}, got {shown}")
+        raise InvalidValue(name, f"{name} must be at least {low:g}{limit_unit}, got {shown}")
+    if number > high:
+        raise InvalidValue(name, f"{name} must be at most {high:g}{limit_unit}, got {shown}")
+    return number
+
+
+def checked_type(name: str, value: object, kinds: type | tuple[type, ...]) -> None:
+    """raises: InvalidValue naming the parameter when the value is none of the kinds"""
+    if not isinstance(value, kinds):
+        words = " or ".join(kind.__name__ for kind in (kinds if isinstance(kinds, tuple) else (kinds,)))
+        given = f"the class {value.__name__}" if isinstance(value, type) else f"{value!r:.60}"
+        raise InvalidValue(name, f"{name} must be a {words}, got {given}")
+
+
+def checked_size(name: str, value: object) -> float:
+    """A positive length in [SIZE_MIN, SIZE_MAX] metres."""
+    if isinstance(value, Real) and not isinstance(value, bool) and value <= 0.0:
+        raise InvalidValue(name, f"{name} must be positive, got {value} m")
+    return checked_number(name, value, "m", SIZE_MIN, SIZE_MAX)
