@@ -171,7 +171,7 @@ class CollisionTime(Answer):
         check = None
         if wanted.cross_check != "none":
             whole, speed = wanted.cross_check == "dragon", wanted.head_speed
-            check = core.contact_check(contact, dragon, path, head_speed=speed, margin=wanted.margin, whole=whole)
+            check = core.contact_check(contact, core.Dance(dragon, path, speed), margin=wanted.margin, whole=whole)
         return cls.known(contact, margin=wanted.margin, cross_check=check)
 
 

@@ -117,7 +117,7 @@ def trajectory(
         dragon = wanted.dragon.to_dragon(limits.benches_max)
         path = wanted.path.to_path()
         times = wanted.to_times(dragon, path, cells_max)
-        found = core.trajectory(dragon, path, times, head_speed=wanted.head_speed)
+        found = core.trajectory(core.Dance(dragon, path, wanted.head_speed), times)
         return TABLES[media_type](found, wanted.decimals)
 
     return reply(wanted, compute, media_type)
@@ -129,7 +129,7 @@ def collision_time(reply: QueryReply, wanted: Annotated[CollisionQuery, Query()]
 
     def compute() -> bytes:
         dragon, path = wanted.to_dragon(reply.settings.benches_max), wanted.to_path()
-        found = core.first_contact(dragon, path, head_speed=wanted.head_speed, margin=wanted.margin)
+        found = core.first_contact(core.Dance(dragon, path, wanted.head_speed), margin=wanted.margin)
         return CollisionTime.of(found, dragon, path, wanted).to_json()
 
     return reply(wanted, compute)
@@ -177,7 +177,7 @@ def clearance(reply: QueryReply, wanted: Annotated[ClearanceQuery, Query()]) -> 
     def compute() -> bytes:
         dragon = wanted.to_dragon(reply.settings.benches_max)
         times = wanted.to_times(dragon.benches + 1, reply.settings.cells_max)
-        return _clearance_json(core.clearance_profile(dragon, wanted.to_path(), times, head_speed=wanted.head_speed))
+        return _clearance_json(core.clearance_profile(core.Dance(dragon, wanted.to_path(), wanted.head_speed), times))
 
     return reply(wanted, compute)
 
@@ -193,7 +193,7 @@ def path_clearance(
         dragon = wanted.dragon.to_dragon(reply.settings.checked_benches_max)
         path = wanted.path.to_path()
         times = wanted.to_times(dragon, path, reply.settings.cells_max)
-        return _clearance_json(core.clearance_profile(dragon, path, times, head_speed=wanted.head_speed))
+        return _clearance_json(core.clearance_profile(core.Dance(dragon, path, wanted.head_speed), times))
 
     return reply(wanted, compute)
 
@@ -219,8 +219,10 @@ def maximum_head_speed(reply: QueryReply, wanted: Annotated[MaximumHeadSpeedQuer
     """The largest constant head speed at which no handle ever exceeds the limit on the way through a turn."""
 
     def compute() -> bytes:
-        dragon, path = wanted.to_dragon(reply.settings.checked_benches_max), wanted.to_turn().path
-        return MaximumHeadSpeed.model_validate(core.maximum_head_speed(dragon, path, wanted.speed_limit)).to_json()
+        dragon, path = wanted.to_dragon(reply.settings.checked_benches_max), wanted.to_turn()
+        return MaximumHeadSpeed.model_validate(
+            core.maximum_head_speed(core.Dance(dragon, path), wanted.speed_limit)
+        ).to_json()
 
     return reply(wanted, compute)
 
@@ -248,7 +250,7 @@ def overlaps(
 
     def compute() -> bytes:
         poses, lengths, widths = wanted.to_poses(reply.settings.poses_max)
-        found = core.shapes.overlaps(poses, lengths, widths, margin=wanted.margin, chained=wanted.chained)
+        found = core.overlaps(poses, lengths, widths, margin=wanted.margin, chained=wanted.chained)
         check_limit("benches", "overlapping pairs", len(found.pairs), reply.settings.pairs_max, "move them apart")
         check = core.cross_check(poses, lengths, widths, margin=wanted.margin, chained=wanted.chained)
         return OverlapsAnswer.of(found, check).to_json()

@@ -144,7 +144,7 @@ def trajectory(
     handles, ranged = asked.to_handles(dragon), given(context, "start", "stop", "step")
     times = asked.to_instants(dragon, path, settings.cells_max, ranged)
     with show.waiting("trajectory"):
-        result = core.trajectory(dragon, path, times, head_speed=asked.head_speed)
+        result = core.trajectory(core.Dance(dragon, path, asked.head_speed), times)
         data = write(result) if write else b""
     if output:
         write_whole(output, data)
@@ -161,7 +161,7 @@ def collision_time(asked: schemas.CollisionQuery, json: Json = False) -> None:
     """When two benches first touch, and how that is known."""
     dragon, path = asked.to_dragon(Settings().benches_max), asked.to_path()
     with show.waiting("first contact"):
-        found = core.first_contact(dragon, path, head_speed=asked.head_speed, margin=asked.margin)
+        found = core.first_contact(core.Dance(dragon, path, asked.head_speed), margin=asked.margin)
         answer = answers.CollisionTime.of(found, dragon, path, asked)
     title = f"First time that two benches are nearer than {asked.margin:g} m" if asked.margin else "First contact"
     show.print_answer(title, answer, json, margin=asked.margin, benches=dragon.benches)
@@ -201,9 +201,9 @@ def shortest_turn(asked: schemas.ShortestTurnQuery, json: Json = False) -> None:
 @asks(schemas.MaximumHeadSpeedQuery)
 def maximum_head_speed(asked: schemas.MaximumHeadSpeedQuery, json: Json = False) -> None:
     """The largest constant head speed at which no handle exceeds the limit on the way through a turn."""
-    dragon, path = asked.to_dragon(Settings().checked_benches_max), asked.to_turn().path
+    dragon, path = asked.to_dragon(Settings().checked_benches_max), asked.to_turn()
     with show.waiting("maximum head speed"):
-        found = core.maximum_head_speed(dragon, path, asked.speed_limit)
+        found = core.maximum_head_speed(core.Dance(dragon, path), asked.speed_limit)
     answer = report.MaximumHeadSpeed.model_validate(found)
     show.print_answer(f"Maximum head speed for {asked.speed_limit:g} m/s", answer, json)
 
@@ -283,7 +283,7 @@ def overlaps(
         margin, chained = benches.margin, benches.chained
     else:
         dragon, path = asked.to_dragon(settings.poses_max), asked.to_path()
-        handles = core.trajectory(dragon, path, [asked.time], head_speed=asked.head_speed).position[0]
+        handles = core.trajectory(core.Dance(dragon, path, asked.head_speed), [asked.time]).position[0]
         poses, lengths, widths = core.bench_poses(handles), dragon.lengths, dragon.widths
         margin, chained = asked.margin, True
     with show.waiting("overlaps"):

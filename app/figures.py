@@ -37,9 +37,9 @@ from core import (
     Spiral,
     Venue,
     first_contact,
-    run_end,
     trajectory,
 )
+from core.dance import Dance
 from core.design.pitch_scan import JUMP_WIDTH, SCAN_FROM, SCAN_TO, PitchScan, scan_near_minimum
 
 # The figure of a run without contact shows the dance this long before its end [s], where the chain still exists.
@@ -61,7 +61,7 @@ def trajectory_figure(
 
     time: [s]; raises: OutsideRun after the end of the run
     """
-    result = trajectory(dragon, path, [time], head_speed=head_speed)
+    result = trajectory(Dance(dragon, path, head_speed), [time])
     handles, speed = result.position[0], result.speed[0]
     with _DRAWING:
         figure = canvas(7.2, 6.2)
@@ -105,9 +105,9 @@ def contact_figure(
 
     Without a contact it shows the dance just before the run ends, and says so.
     """
-    found = first_contact(dragon, path, head_speed=head_speed, margin=margin, start=start, stop=stop)
+    found = first_contact(Dance(dragon, path, head_speed), margin=margin, start=start, stop=stop)
     time = _shown_time(dragon, path, head_speed, found)
-    handles = trajectory(dragon, path, [time], head_speed=head_speed).position[0]
+    handles = trajectory(Dance(dragon, path, head_speed), [time]).position[0]
     outlines = bench_outlines(dragon, handles)
     with _DRAWING:
         figure = canvas(11.0 if found.benches else 7.2, 6.0)
@@ -128,7 +128,7 @@ def _shown_time(dragon: Dragon, path: Spiral | Route, head_speed: float, found: 
         return found.time
     if found.time_bracket is not None:
         return found.time_bracket[0]
-    end = found.end or run_end(dragon, path, head_speed=head_speed)
+    end = found.end or Dance(dragon, path, head_speed).end
     return end.time - BEFORE_END
 
 

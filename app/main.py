@@ -29,6 +29,7 @@ from app.middleware import BodyLimit, HeadAsGet, Metrics, Mistakes, SafetyHeader
 from app.reply import VERSION, refuse_query
 from app.settings import SHARED_COUNTS, Settings
 from core import Dragon, Spiral, first_contact, trajectory
+from core.dance import Dance
 
 logger = logging.getLogger("uvicorn.error")
 
@@ -72,8 +73,8 @@ def fault() -> str:
 
 
 def _difference() -> str:
-    x = float(trajectory(Dragon(), Spiral(), [0.0]).position[0, 1, 0])
-    contact = first_contact(Dragon(), Spiral()).time
+    x = float(trajectory(Dance(Dragon(), Spiral()), [0.0]).position[0, 1, 0])
+    contact = first_contact(Dance(Dragon(), Spiral())).time
     if abs(x - KNOWN_X) > KNOWN_TOLERANCE:
         return f"x of handle 1 at the start is {x!r} m, known is {KNOWN_X!r} m"
     if contact is None or abs(contact - KNOWN_CONTACT) > KNOWN_TOLERANCE:

@@ -20,10 +20,10 @@ from core import (
     clearance_profile,
     first_contact,
     minimum_pitch,
-    run_end,
     separation,
 )
 from core import trajectory as trajectory_of
+from core.dance import Dance
 from core.design.pitch_scan import stop_radius
 from core.shapes.angle_sum import angle_sums, literal_corners
 from core.shapes.rectangles import corners
@@ -80,7 +80,7 @@ class Comparison:
 @cache
 def comparison() -> tuple[Comparison, ...]:
     """The four numbers that the paper reports, for its own dragon and spiral."""
-    found = first_contact(Dragon(), Spiral())
+    found = first_contact(Dance(Dragon(), Spiral()))
     return (_arc_length(), _collision_time(found), _collision_radius(found), _minimum_pitch())
 
 
@@ -101,7 +101,7 @@ def _collision_time(found: FirstContact) -> Comparison:
     assert found.time is not None
     loose = _first_time(corners, LOOSE_ANGLE)
     literal = _first_time(literal_corners, EXACT_ANGLE)
-    there = clearance_profile(Dragon(), Spiral(), np.array([PAPER_TIME]))
+    there = clearance_profile(Dance(Dragon(), Spiral()), np.array([PAPER_TIME]))
     a, b = (int(bench) for bench in there.benches[0])
     gap = float(there.clearance[0])
     return _compared(
@@ -121,7 +121,7 @@ def _collision_time(found: FirstContact) -> Comparison:
 
 def _collision_radius(found: FirstContact) -> Comparison:
     assert found.head is not None
-    head = trajectory_of(Dragon(benches=1), Spiral(), [PAPER_TIME]).position[0, 0]
+    head = trajectory_of(Dance(Dragon(benches=1), Spiral()), [PAPER_TIME]).position[0, 0]
     radius = float(np.hypot(*head))
     # A spiral that starts at that radius is as long as the way that is left.
     passed = Spiral().length - Spiral(start_turns=PAPER_RADIUS / Spiral().pitch).length
@@ -164,7 +164,7 @@ def _largest_sums(outline: Outline, times: Floats) -> Floats:
     outline: what makes the corners (..., 4, 2) from poses and sizes; times: (T,) [s]; returns (T,) [deg]
     """
     dragon = Dragon(benches=RING_BENCHES)
-    poses = bench_poses(trajectory_of(dragon, Spiral(), times).position)
+    poses = bench_poses(trajectory_of(Dance(dragon, Spiral()), times).position)
     outlines = outline(poses, np.stack([dragon.lengths, dragon.widths], axis=-1))
     head, body = outlines[:, :1], outlines[:, 2:]
     sums = np.maximum(angle_sums(body, head), angle_sums(head, body))
@@ -178,7 +178,7 @@ def _largest_sum(outline: Outline, time: float) -> float:
 @cache
 def _sampled_sums(outline: Outline) -> tuple[Floats, Floats]:
     """Instants TIME_STEP apart over the whole run [s], and the largest angle sum at each [deg]."""
-    times = np.arange(0.0, run_end(Dragon(), Spiral()).time, TIME_STEP)
+    times = np.arange(0.0, Dance(Dragon(), Spiral()).end.time, TIME_STEP)
     batches = np.array_split(times, SUM_BATCHES)
     return times, np.concatenate([_largest_sums(outline, batch) for batch in batches])
 
@@ -222,11 +222,11 @@ def _circle_pitch(touches: Callable[[Spiral], bool]) -> float:
 
 
 def _any_touch_at_start(path: Spiral) -> bool:
-    return bool(clearance_profile(Dragon(), path, np.array([0.0])).clearance[0] <= 0.0)
+    return bool(clearance_profile(Dance(Dragon(), path), np.array([0.0])).clearance[0] <= 0.0)
 
 
 def _head_touches_at_start(path: Spiral) -> bool:
     dragon = Dragon()
-    poses = bench_poses(trajectory_of(dragon, path, [0.0]).position[0])
+    poses = bench_poses(trajectory_of(Dance(dragon, path), [0.0]).position[0])
     sizes = np.stack([dragon.lengths, dragon.widths], axis=-1)
     return bool(separation(poses[0], sizes[0], poses[2:], sizes[2:]).separation.min() <= 0.0)

@@ -24,14 +24,13 @@ from app.files import checked_output, read_dance, write_whole
 from app.options import checked
 from app.settings import Settings
 from app.wire import Instant, Margin, StartTurns, TurningDiameter, Wire
-from app.wire_paths import TurnFields, TurnPath
-from core import Dragon, InvalidValue, Outcome
+from app.wire_paths import TurnFields
+from core import InvalidValue, Outcome
+from core.dance import Dance
 from core.errors import ProofRefused
-from core.motion.trajectory import first_time
 
 if TYPE_CHECKING:
     from core.proof import Proof
-    from core.proof.paths import AnyPath
 
 # Exit codes.
 REFUSED = 1
@@ -128,15 +127,13 @@ def collision_time(
         from core.proof import prove_collision_time
 
         if time is None:
-            time = core.first_contact(dragon, path, head_speed=asked.head_speed, margin=asked.margin).time
+            time = core.first_contact(core.Dance(dragon, path, asked.head_speed), margin=asked.margin).time
         if time is None:
             near = f"no two benches come nearer than {asked.margin:g} m" if asked.margin else "nothing touches"
             raise ProofRefused("time", f"{near}, so there is no collision time to prove: prove clear")
         certificate = prove_collision_time(
-            dragon,
-            path,
+            Dance(dragon, path, asked.head_speed),
             time,
-            head_speed=asked.head_speed,
             margin=asked.margin,
             every_pair=asked.every_pair,
             progress=progress,
@@ -185,10 +182,8 @@ def clear(
         from core.proof import prove_clear
 
         certificate = prove_clear(
-            dragon,
-            path,
+            Dance(dragon, path, asked.head_speed),
             asked.stop,
-            head_speed=asked.head_speed,
             start=asked.start,
             margin=asked.margin,
             every_pair=asked.every_pair,
@@ -203,9 +198,9 @@ def turn(
 ) -> None:
     """The contest's turn between two spirals: clear from start to stop, or its first contact."""
     checked_output("output", output, (".json",))
-    dragon = asked.to_dragon(Settings().benches_max)
-    times = {"head_speed": asked.head_speed, "start": asked.start, "stop": asked.stop, "margin": asked.margin}
-    _finish(_dance_proven(dragon, asked.to_turn(), times, asked.every_pair), output)
+    dance = core.Dance(asked.to_dragon(Settings().benches_max), asked.to_turn(), asked.head_speed)
+    times = {"start": asked.start, "stop": asked.stop, "margin": asked.margin}
+    _finish(_dance_proven(dance, times, asked.every_pair), output)
 
 
 def dance(
@@ -217,30 +212,27 @@ def dance(
     checked_output("output", output, (".json",))
     asked = checked(schemas.CheckRequest, read_dance(file))
     dragon = asked.dragon.to_dragon(Settings().checked_benches_max)
-    path = asked.path.to_turn() if isinstance(asked.path, TurnPath) else asked.path.to_path()
+    path = asked.path.to_path()
     if asked.venue is not None or asked.speed_limit is not None:
         print("The venue and the speed limit are no part of the proof.", file=sys.stderr)
-    start = asked.start
-    if start is None:
-        whole = path.path if isinstance(path, core.Turn) else path
-        start = first_time(dragon, whole, head_speed=asked.head_speed)
-    times = {"head_speed": asked.head_speed, "start": start, "stop": asked.stop, "margin": asked.margin}
-    _finish(_dance_proven(dragon, path, times, every_pair), output)
+    dance = core.Dance(dragon, path, asked.head_speed)
+    start = dance.default_start if asked.start is None else asked.start
+    times = {"start": start, "stop": asked.stop, "margin": asked.margin}
+    _finish(_dance_proven(dance, times, every_pair), output)
 
 
-def _dance_proven(dragon: Dragon, path: AnyPath, times: dict[str, Any], every_pair: bool) -> dict[str, Any]:
+def _dance_proven(dance: core.Dance, times: dict[str, Any], every_pair: bool) -> dict[str, Any]:
     """A certificate for the first contact of a dance, or that it is clear."""
     with _working("proof") as progress:
         from core.proof import prove_clear, prove_contact
 
-        whole = path.path if isinstance(path, core.Turn) else path
-        found = core.first_contact(dragon, whole, **times)
+        found = core.first_contact(dance, **times)
         stop = times.pop("stop")
         asked: dict[str, Any] = {"every_pair": every_pair, "progress": progress}
         if found.outcome is Outcome.CLEAR:
-            return prove_clear(dragon, path, stop, **times, **asked)
+            return prove_clear(dance, stop, **times, **asked)
         if found.outcome is Outcome.CONTACT and found.time is not None:
-            return prove_contact(dragon, path, found.time, **times, **asked)
+            return prove_contact(dance, found.time, **times, **asked)
         if found.benches is None:
             raise ProofRefused("time", "the search did not decide whether benches come nearer than the margin")
         a, b = found.benches

@@ -30,9 +30,8 @@ from app.wire import (
     Wire,
 )
 from app.wire_paths import KINDS, AnyPath, SpiralFields, SpiralPath, TurnCircle, TurnFields
-from core import Dragon, InvalidValue, Report, Route, ShortestTurn, Spiral, check, shortest_turn
+from core import Dance, Dragon, InvalidValue, Report, Route, ShortestTurn, Spiral, check, shortest_turn
 from core.dragon import BENCHES_MAX
-from core.motion.trajectory import default_times, first_time
 from core.values import Floats
 
 # The last instant of a range may miss `stop` by this share of a step, so that 0 to 0.3 by 0.1 has four instants.
@@ -137,14 +136,14 @@ AnyTimes = Annotated[
 ]
 
 
-class Dance(HeadSpeed, strict=True):
+class DanceFields(HeadSpeed, strict=True):
     """A dragon on a path, as the body of a request."""
 
     dragon: AnyDragon = Field(default_factory=UniformBody, description="The dragon")
     path: AnyPath = Field(default_factory=SpiralPath, description="The path")
 
 
-class TimedDance(Dance):
+class TimedDance(DanceFields):
     """A dance at some instants."""
 
     times: AnyTimes | None = Field(
@@ -158,7 +157,7 @@ class TimedDance(Dance):
         """Instants (T,) [s]. raises: TooLarge, InvalidValue"""
         handles = dragon.benches + 1
         if self.times is None and isinstance(path, Route):
-            times = default_times(dragon, path, head_speed=self.head_speed)
+            times = Dance(dragon, path, self.head_speed).default_times
             check_limit("times", "instants x handles", len(times) * handles, cells_max, FEWER_CELLS)
             return times
         if not isinstance(self.times, list):
@@ -193,7 +192,7 @@ def _inside(outer: Any) -> list[Any]:
     return [inner for inner in entries if isinstance(inner, (dict, list))]
 
 
-class PlacedDance(Dance):
+class PlacedDance(DanceFields):
     """A dance, and the place where it is danced."""
 
     venue: Annotated[dict[str, Any] | None, AfterValidator(_shallow)] = Field(
@@ -227,12 +226,10 @@ class CheckRequest(PlacedDance):
     def to_report(self, dragon: Dragon, path: Spiral | Route, place: Place | None = None) -> Report:
         """place: as to_place() gives it. raises: InvalidValue, OutsideRun"""
         return check(
-            dragon,
-            path,
+            Dance(dragon, path, self.head_speed),
             venue=(place or self.to_place(dragon)).venue,
             margin=self.margin,
             speed_limit=self.speed_limit,
-            head_speed=self.head_speed,
             start=self.start,
             stop=self.stop,
         )
@@ -248,7 +245,7 @@ class TrajectoryFigureRequest(PlacedDance):
 
     def to_time(self, dragon: Dragon, path: Spiral | Route) -> float:
         """The instant [s]. raises: InvalidValue"""
-        return first_time(dragon, path, head_speed=self.head_speed) if self.time is None else self.time
+        return Dance(dragon, path, self.head_speed).default_start if self.time is None else self.time
 
 
 class ContactFigureRequest(PlacedDance):
@@ -262,7 +259,7 @@ class ContactFigureRequest(PlacedDance):
 
     def to_start(self, dragon: Dragon, path: Spiral | Route) -> float:
         """From when [s]. raises: InvalidValue"""
-        return first_time(dragon, path, head_speed=self.head_speed) if self.start is None else self.start
+        return Dance(dragon, path, self.head_speed).default_start if self.start is None else self.start
 
 
 class DanceQuery(HeadSpeed, SpiralFields, UniformDragon):

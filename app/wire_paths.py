@@ -57,7 +57,7 @@ class TurnFields(TurnCircle):
 
     def to_turn(self) -> core.Turn:
         """raises: InvalidValue"""
-        return core.paths.turn(
+        return core.Turn(
             self.pitch,
             self.turning_diameter / 2,
             self.ratio,
@@ -68,7 +68,7 @@ class TurnFields(TurnCircle):
     def to_path(self) -> Route:
         """raises: InvalidValue, named by the place in a body"""
         try:
-            return self.to_turn().path
+            return self.to_turn()
         except InvalidValue as error:
             raise error.named(f"path.{error.field}") from error
 

@@ -35,7 +35,7 @@ def test_trajectory_baseline(benchmark: BenchmarkFixture) -> None:
         return [baselines.handles_and_velocities(DRAGON, SPIRAL, float(time)) for time in SAMPLED_TIMES]
 
     position, velocity = map(np.stack, zip(*benchmark.pedantic(rows, rounds=3), strict=True))
-    expected = core.trajectory(DRAGON, SPIRAL, SAMPLED_TIMES)
+    expected = core.trajectory(core.Dance(DRAGON, SPIRAL), SAMPLED_TIMES)
     np.testing.assert_allclose(position, expected.position, rtol=0, atol=AGREEMENT)
     np.testing.assert_allclose(velocity, expected.velocity, rtol=0, atol=AGREEMENT)
 
@@ -48,7 +48,7 @@ def test_first_contact(benchmark: BenchmarkFixture, benches: int) -> None:
 
 
 def test_first_contact_baseline(benchmark: BenchmarkFixture) -> None:
-    time = core.first_contact(DRAGON, SPIRAL).time
+    time = core.first_contact(core.Dance(DRAGON, SPIRAL)).time
     assert time is not None
     benchmark.group = "first contact"
     benchmark.extra_info["scale"] = baselines.looks_for_first_contact(time) / SAMPLED_LOOKS.size
@@ -73,7 +73,7 @@ def test_minimum_pitch_baseline(benchmark: BenchmarkFixture) -> None:
 def long_dragon() -> tuple[core.Dragon, core.dragon.Floats]:
     """A dragon of 100,000 benches a moment after its first contact, and where its handles are."""
     dragon = core.Dragon(100_000)
-    return dragon, core.trajectory(dragon, SPIRAL, [412.5]).position[0]
+    return dragon, core.trajectory(core.Dance(dragon, SPIRAL), [412.5]).position[0]
 
 
 def test_overlaps(benchmark: BenchmarkFixture, long_dragon: tuple[core.Dragon, core.dragon.Floats]) -> None:

@@ -15,16 +15,17 @@ from core.contact.first_contact import (
     first_contact,
 )
 from core.contact.least_clearance import LeastClearance, least_clearance
+from core.dance import Dance, EndReason, RunEnd
 from core.design.minimum_pitch import LimitedBy, MinimumPitch, minimum_pitch
 from core.design.shortest_turn import ShortestTurn, TurnLimit, shortest_turn
 from core.dragon import Dragon
 from core.errors import BenchDragonError, InvalidValue, OutsideRun, TooLarge
 from core.motion.joints import SharpestBend, sharpest_bend
 from core.motion.speed import HighestSpeed, MaximumHeadSpeed, highest_speed, maximum_head_speed
-from core.motion.trajectory import EndReason, RunEnd, Trajectory, bench_poses, run_end, trajectory
+from core.motion.trajectory import Trajectory, bench_poses, trajectory
 from core.paths.route import Arc, Coil, Line, Piece, Route, Waypoints
 from core.paths.spiral import Spiral
-from core.paths.turn import Turn, turn
+from core.paths.turn import Turn
 from core.shapes.engines import Engine
 from core.shapes.overlaps import CrossCheck, Overlaps, Verdict, cross_check, overlaps, verdicts
 from core.shapes.rectangles import Separation, separation
@@ -41,6 +42,7 @@ __all__ = [
     "Coil",
     "ContactCheck",
     "CrossCheck",
+    "Dance",
     "Dragon",
     "EndReason",
     "Engine",
@@ -91,12 +93,10 @@ __all__ = [
     "minimum_pitch",
     "overlaps",
     "pitch_check",
-    "run_end",
     "separation",
     "sharpest_bend",
     "shortest_turn",
     "trajectory",
-    "turn",
     "venue_clearance",
     "verdicts",
 ]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import pairwise
 
@@ -14,9 +14,9 @@ from core import kernels
 from core.contact.first_contact import Outcome
 from core.contact.least_clearance import Pair, first_pair, least_over
 from core.contact.search import MARGIN_MAX, NEAR_WORK_BUDGET, Search
-from core.dragon import Dragon
+from core.dance import Dance
 from core.errors import InvalidValue
-from core.motion.trajectory import bench_poses, checked_head_speed, checked_span, run_end, trajectory
+from core.motion.trajectory import bench_poses, trajectory
 from core.paths.route import COORDINATE_MAX, Coil, Point, Route
 from core.paths.spiral import Spiral
 from core.shapes.engines import inside, polygon_fault
@@ -180,35 +180,29 @@ class VenueClearance:
 
 
 def venue_clearance(
-    dragon: Dragon,
-    path: Spiral | Route,
-    venue: Venue,
-    *,
-    head_speed: float = 1.0,
-    margin: float = 0.0,
-    start: float = 0.0,
-    stop: float | None = None,
+    dance: Dance, venue: Venue, *, margin: float = 0.0, start: float = 0.0, stop: float | None = None
 ) -> VenueClearance:
     """How near the benches come to the square's edges and to each obstacle, and when first within the margin.
 
     An edge is a rectangle without width that stands: benches and edges are marched like pairs of benches, with the same
     proof. A bench that touches no edge at the start stays inside or outside with its centre.
-    head_speed: [m/s]; margin: [m]; start, stop: [s], None for the end of the run
+    margin: [m]; start, stop: [s], None for the end of the run
     raises: InvalidValue, also for a path that bends too tightly for a chord by the stop; OutsideRun
     """
+    checked_type("dance", dance, Dance)
     checked_type("venue", venue, Venue)
-    head_speed = checked_head_speed(head_speed)
     margin = checked_number("margin", margin, "m", 0.0, MARGIN_MAX)
-    end = run_end(dragon, path, head_speed=head_speed)
-    begin, until = checked_span(dragon, path, start, stop, end, head_speed)
-    route = _route(path, until * head_speed)
-    run_end(dragon, route, head_speed=head_speed)
+    begin, until = dance.span(start, stop)
+    head_speed = dance.head_speed
+    danced = replace(dance, path=_route(dance.path, until * head_speed))
     share = NEAR_WORK_BUDGET / len(venue.areas)
     areas = tuple(
-        _area_clearance(Search(dragon, route, margin, area.edges, work=share), area.name, begin, until, head_speed)
+        _area_clearance(
+            Search(dance.dragon, danced.path, margin, area.edges, work=share), area.name, begin, until, head_speed
+        )
         for area in venue.areas
     )
-    return VenueClearance(_stray(dragon, route, venue, begin, head_speed), areas)
+    return VenueClearance(_stray(danced, venue, begin), areas)
 
 
 def _route(path: Spiral | Route, stop: float) -> Route:
@@ -219,22 +213,17 @@ def _route(path: Spiral | Route, stop: float) -> Route:
     return Route([Coil(path.pitch, path.start_turns, theta / (2.0 * math.pi))])
 
 
-def venue_end(dragon: Dragon, path: Spiral | Route, *, head_speed: float = 1.0) -> float:
-    """Until when venue_clearance() can follow the dance [s]: on a spiral, until it bends too tightly for a chord.
-
-    raises: InvalidValue when the dragon cannot even stand at the start
-    """
-    end = run_end(dragon, path, head_speed=head_speed).time
+def venue_end(dance: Dance) -> float:
+    """Until when venue_clearance() can follow the dance [s]: on a spiral, until it bends too tightly for a chord."""
+    end, path = dance.end.time, dance.path
     if isinstance(path, Route):
         return end
-    theta = min(path.gentle_theta(2.0 * kernels.ROUTE_BEND_LIMIT / float(dragon.chords.max())), path.start_theta)
+    theta = min(path.gentle_theta(2.0 * kernels.ROUTE_BEND_LIMIT / float(dance.dragon.chords.max())), path.start_theta)
     travel = path.length - path.growth * float(kernels.spiral_arc(theta)) - 2.0 * SPARE
-    return min(end, travel / head_speed)
+    return min(end, travel / dance.head_speed)
 
 
-def is_clear_beyond(
-    dragon: Dragon, path: Spiral, venue: Venue, *, head_speed: float, margin: float, start: float, seen: float
-) -> bool:
+def is_clear_beyond(dance: Dance, venue: Venue, *, margin: float, start: float, seen: float) -> bool:
     """Does a spiral dance whose benches were clear of the venue from start to `seen` [s] stay so to its end, for sure?
 
     No head or bench before the first of the equal ones leaves the disc around the centre that its chords span from the
@@ -242,14 +231,15 @@ def is_clear_beyond(
     where that one began, unless it slides back behind its own start (family lemma, core/kernels/marching.py); so it has
     met nothing new, if all edges lie outside the disc by more than the margin.
     """
-    ends = np.linalg.norm(trajectory(dragon, path, [start, seen], head_speed=head_speed).position, axis=-1)
+    dragon = dance.dragon
+    ends = np.linalg.norm(trajectory(dance, [start, seen]).position, axis=-1)
     if (ends[1, 1:] + SURELY > ends[0, :-1]).any():
         return False
     alike = dragon.uniform_from + 1
-    search = Search(dragon, path, margin)
+    search = Search(dragon, dance.path, margin)
     search.resize(dragon.benches)
-    search.place_leaders(seen * head_speed, dragon.benches)
-    arcs, _ = search.moved_until(run_end(dragon, path).theta or 0.0)
+    search.place_leaders(seen * dance.head_speed, dragon.benches)
+    arcs, _ = search.moved_until(dance.end.theta or 0.0)
     outwards = arcs / np.hypot(1.0, search.rows[0, : dragon.benches + 1, 4])  # radii grow by this part of an arc
     if (ends[1] + outwards + SURELY > ends[0])[alike:].any():
         return False
@@ -289,8 +279,8 @@ def _witnesses(search: Search, travel: float, pair: Pair) -> tuple[Point, Point,
     return (float(out[1]), float(out[2])), (float(out[3]), float(out[4])), float(out[0])
 
 
-def _stray(dragon: Dragon, route: Route, venue: Venue, begin: float, head_speed: float) -> Stray | None:
-    centres = bench_poses(trajectory(dragon, route, [begin], head_speed=head_speed).position[0])[:, :2]
+def _stray(dance: Dance, venue: Venue, begin: float) -> Stray | None:
+    centres = bench_poses(trajectory(dance, [begin]).position[0])[:, :2]
     for area in venue.areas:
         wrong = np.flatnonzero(inside(area.rings, centres) != (area is venue.square))
         if wrong.size:

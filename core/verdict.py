@@ -7,7 +7,7 @@ from enum import StrEnum
 
 from core.contact.first_contact import FirstContact, HeadState, Outcome, first_contact, head_state
 from core.contact.least_clearance import LeastClearance, least_clearance
-from core.dragon import Dragon
+from core.dance import TIME_MAX, Dance, EndReason, RunEnd
 from core.motion.joints import SharpestBend, sharpest_bend
 from core.motion.speed import (
     SPEED_PROVEN,
@@ -18,17 +18,6 @@ from core.motion.speed import (
     first_excess,
     highest_speed,
 )
-from core.motion.trajectory import (
-    TIME_MAX,
-    EndReason,
-    RunEnd,
-    checked_head_speed,
-    checked_span,
-    earliest_time,
-    run_end,
-)
-from core.paths.route import Route
-from core.paths.spiral import Spiral
 from core.values import checked_number, checked_type
 from core.venue import AreaClearance, Venue, VenueClearance, is_clear_beyond, venue_clearance, venue_end
 
@@ -106,67 +95,63 @@ class Report:
 
 
 def check(
-    dragon: Dragon,
-    path: Spiral | Route,
+    dance: Dance,
     *,
     venue: Venue | None = None,
     margin: float = 0.0,
     speed_limit: float | None = None,
-    head_speed: float = 1.0,
     start: float | None = None,
     stop: float | None = None,
 ) -> Report:
     """Can the dragon dance this path: first contact, least clearance, venue, highest speed, sharpest bend.
 
-    margin: required between benches and to the venue [m]; speed_limit: of every handle [m/s]; head_speed: [m/s]
+    margin: required between benches and to the venue [m]; speed_limit: of every handle [m/s]
     start, stop: [s]; by default from 0 (on a route: from when all are on it) to the end of the run
     A dance that folds before its stop, or before the end of its path where none is given, fails. One that stops before,
     because benches touch, is not followed to its fold.
     raises: InvalidValue for what is no dance at all; OutsideRun for times that the run does not have, but not for a
         stop after a fold
     """
-    head_speed = checked_head_speed(head_speed)
+    checked_type("dance", dance, Dance)
     limit = None if speed_limit is None else checked_limit(speed_limit)
     if venue is not None:
         checked_type("venue", venue, Venue)
-    end = run_end(dragon, path, head_speed=head_speed)
+    end = dance.end
     if stop is not None and end.reason is EndReason.FOLD:
         stop = checked_number("stop", stop, "s", -TIME_MAX, TIME_MAX)
         stop = None if stop >= end.time else stop
-    if start is None:
-        first = path.begin / head_speed if isinstance(path, Route) else 0.0
-        start = max(first, earliest_time(dragon, path, head_speed))
-    begin, until = checked_span(dragon, path, start, stop, end, head_speed)
-    contact = first_contact(dragon, path, head_speed=head_speed, margin=margin, start=begin, stop=stop)
-    least = least_clearance(dragon, path, head_speed=head_speed, start=begin, stop=until)
+    begin, until = dance.span(dance.begin if start is None else start, stop)
+    contact = first_contact(dance, margin=margin, start=begin, stop=stop)
+    least = least_clearance(dance, start=begin, stop=until)
     if least is not None and least.distance == 0.0:
         until = min(until, max(least.time, begin + MOMENT))
-    bend = sharpest_bend(dragon, path, head_speed=head_speed, start=begin, stop=until)
+    bend = sharpest_bend(dance, start=begin, stop=until)
     square, seen = None, until
     if venue is not None:
-        followed = venue_end(dragon, path, head_speed=head_speed)
+        followed = venue_end(dance)
         seen = min(until, followed) if followed >= begin + MOMENT else begin
         if seen > begin:
-            square = venue_clearance(dragon, path, venue, head_speed=head_speed, margin=margin, start=begin, stop=seen)
-    folds = until >= end.time and end.reason is EndReason.FOLD
+            square = venue_clearance(dance, venue, margin=margin, start=begin, stop=seen)
+    folds = dance.ends_by(until)
     speed, excess = None, None
     if not folds:
-        speed = highest_speed(dragon, path, head_speed=head_speed, start=begin, stop=until)
+        speed = highest_speed(dance, start=begin, stop=until)
     if limit is not None and not (speed and _keeps(speed, limit)):
-        excess = first_excess(dragon, path, limit, head_speed=head_speed, start=begin, stop=until)
+        excess = first_excess(dance, limit, start=begin, stop=until)
     failures = _contact_failures(contact, margin) + _venue_failures(square, begin, margin)
     if limit is not None and excess:
         failures.append(_speed_failure(excess, speed, limit, end))
     failures += _touch_failures(contact, least, margin)
     if folds:
-        failures.append(_fold_failure(end, head_state(path, end.time * head_speed)))
-    if venue is not None and isinstance(path, Spiral) and seen < until:
-        span = {"start": begin, "seen": seen}
-        if not is_clear_beyond(dragon, path, venue, head_speed=head_speed, margin=margin, **span):
-            message = f"From {seen:.6f} s on the spiral is too tight to follow the benches against the venue."
-            failures.append(Failure(FailureKind.UNDECIDED, seen, (), None, message))
+        failures.append(_fold_failure(end, head_state(dance.path, end.time * dance.head_speed)))
+    clear_beyond = (
+        venue is None or seen >= until or is_clear_beyond(dance, venue, margin=margin, start=begin, seen=seen)
+    )
+    if not clear_beyond:
+        message = f"From {seen:.6f} s on the spiral is too tight to follow the benches against the venue."
+        failures.append(Failure(FailureKind.UNDECIDED, seen, (), None, message))
     failures.sort(key=lambda failure: failure.time)
-    told = tuple(replace(failure, head=head_state(path, failure.time * head_speed)) for failure in failures)
+    told = tuple(replace(failure, head=head_state(dance.path, failure.time * dance.head_speed)) for failure in failures)
     verdict = _judgement(told)
     passed = verdict is Judgement.PASSES
     return Report(begin, until, verdict, passed, told, contact, least, square, speed, bend)

@@ -22,7 +22,7 @@ import numpy as np
 import pytest
 from flint import arb, ctx, fmpz
 
-from core import Dragon, Spiral, first_contact, turn
+from core import Dance, Dragon, Spiral, Turn, first_contact
 from core.errors import ProofRefused
 from core.proof import Certificate, chain, check, prove_clear, prove_collision_time, prove_minimum_pitch
 from tests.core.forgeries import FORGERIES, edit, put_at, stretches
@@ -73,7 +73,7 @@ def collision(name: str, **changes: Any) -> Certificate:
     case = CASES[name]
     path = Spiral(case["pitch"], case["start_turns"])
     dragon = Dragon(**case["dragon"])
-    return prove_collision_time(dragon, path, case["time"], head_speed=case["head_speed"], **changes)
+    return prove_collision_time(Dance(dragon, path, case["head_speed"]), case["time"], **changes)
 
 
 def pitch(name: str, benches: int, start_turns: float = 16.0) -> Certificate:
@@ -89,26 +89,26 @@ def bench_by_bench(seed: int) -> Certificate:
     lengths, overhangs = random.uniform(1.2, 3.6, benches), random.uniform(0.0, 0.4, benches)
     dragon = Dragon.of(lengths, random.uniform(0.1, 0.4, benches), overhangs)
     path = Spiral(random.uniform(0.5, 0.8), random.uniform(5.0, 9.0))
-    time = first_contact(dragon, path).time
+    time = first_contact(Dance(dragon, path)).time
     assert time is not None
-    return prove_collision_time(dragon, path, time)
+    return prove_collision_time(Dance(dragon, path), time)
 
 
 def every_pair() -> Certificate:
     """Twelve equal benches, each pair proven in its own right."""
     case = CASES["combo_e_body_longer_than_head"]
     dragon, path = Dragon(**(case["dragon"] | {"benches": 12})), Spiral(case["pitch"], 4.0)
-    time = first_contact(dragon, path).time
+    time = first_contact(Dance(dragon, path)).time
     assert time is not None
-    return prove_collision_time(dragon, path, time, every_pair=True)
+    return prove_collision_time(Dance(dragon, path), time, every_pair=True)
 
 
 def near_the_fold() -> Certificate:
     """Handle 1 turns back, and the head's bend grows beyond half a turn."""
     dragon, path = Dragon(12, 3.61, 2.4, 0.12, 0.1), Spiral(0.48, 4.0)
-    time = first_contact(dragon, path, head_speed=0.7).time
+    time = first_contact(Dance(dragon, path, 0.7)).time
     assert time is not None
-    return prove_collision_time(dragon, path, time, head_speed=0.7)
+    return prove_collision_time(Dance(dragon, path, 0.7), time)
 
 
 @pytest.fixture(scope="module")
@@ -326,12 +326,12 @@ def test_a_true_certificate_of_another_kind_is_refused_by_name(
     judged: Callable[[Any], subprocess.CompletedProcess[str]],
 ) -> None:
     dragon, path = Dragon(12), Spiral(0.55, 6.0)
-    time = first_contact(dragon, path, margin=0.02).time
+    time = first_contact(Dance(dragon, path), margin=0.02).time
     assert time is not None
     for certificate in (
-        prove_collision_time(dragon, path, time, margin=0.02),
-        prove_clear(dragon, path, time - 1.0),
-        prove_clear(Dragon(5), turn(1.7), 10.0),
+        prove_collision_time(Dance(dragon, path), time, margin=0.02),
+        prove_clear(Dance(dragon, path), time - 1.0),
+        prove_clear(Dance(Dragon(5), Turn(1.7)), 10.0),
     ):
         known = "this verifier knows collision times and minimum pitches at margin 0 on a spiral, no other form of"
         line = refusal(judged(certificate))

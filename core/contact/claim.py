@@ -5,8 +5,8 @@ Numbers have all their digits: a rounded one would name another dance, or an ins
 
 from __future__ import annotations
 
+from core.dance import Dance, EndReason
 from core.dragon import Dragon
-from core.motion.trajectory import EndReason
 from core.paths.route import Route
 from core.paths.spiral import Spiral
 
@@ -25,24 +25,20 @@ ENDS = {
 }
 
 
-def claim(
-    dragon: Dragon, path: Spiral | Route, head_speed: float, margin: float, span: tuple[float, float], then: str
-) -> str:
+def claim(dance: Dance, margin: float, span: tuple[float, float], then: str) -> str:
     """Dragon, path, head speed, margin, and in which span of time [s] no two benches come within it; then: what follows
     that, to the end of the sentence."""
     start, stop = map(_number, span)
     near = f"are nearer to each other than {_number(margin)} m" if margin else "touch"
     never = f"from {start} s to {stop} s no two benches that share no handle {near}"
-    return f"{_dance(dragon, path, head_speed)}: {never}{then} {PROOF}"
+    return f"{_dance(dance)}: {never}{then} {PROOF}"
 
 
-def claim_at_start(
-    dragon: Dragon, path: Spiral | Route, head_speed: float, margin: float, start: float, pair: tuple[int, int]
-) -> str:
+def claim_at_start(dance: Dance, margin: float, start: float, pair: tuple[int, int]) -> str:
     """claim() where two benches come within the margin at the very start [s]."""
     near = f"are nearer to each other than {_number(margin)} m" if margin else "touch"
     touching = f"at {_number(start)} s benches {pair[0]} and {pair[1]} {near}."
-    return f"{_dance(dragon, path, head_speed)}: {touching} {MEASURED}"
+    return f"{_dance(dance)}: {touching} {MEASURED}"
 
 
 def contact_then(pair: tuple[int, int], margin: float, time: float) -> str:
@@ -54,8 +50,8 @@ def contact_then(pair: tuple[int, int], margin: float, time: float) -> str:
 UNDECIDED_THEN = "; whether any do after that is not decided."
 
 
-def _dance(dragon: Dragon, path: Spiral | Route, head_speed: float) -> str:
-    return f"{_dragon(dragon)} on {_path(path)}, the head at {_number(head_speed)} m/s"
+def _dance(dance: Dance) -> str:
+    return f"{_dragon(dance.dragon)} on {_path(dance.path)}, the head at {_number(dance.head_speed)} m/s"
 
 
 def _dragon(dragon: Dragon) -> str:

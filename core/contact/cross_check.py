@@ -6,17 +6,17 @@ judged: before, no two benches that share no handle are within the margin, after
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from core.contact.first_contact import FirstContact, Outcome
 from core.contact.search import MARGIN_MAX
+from core.dance import Dance
 from core.design.minimum_pitch import LimitedBy, MinimumPitch
 from core.dragon import Dragon
-from core.motion.trajectory import bench_poses, checked_head_speed, earliest_time, run_end, trajectory
-from core.paths.route import Route
+from core.motion.trajectory import bench_poses, trajectory
 from core.paths.spiral import Spiral
 from core.shapes.broad_phase import Pairs, meeting_pairs
 from core.shapes.engines import JUDGES, Engine, able, found_pairs
@@ -69,13 +69,7 @@ class ContactCheck:
 
 
 def contact_check(
-    contact: FirstContact,
-    dragon: Dragon,
-    path: Spiral | Route,
-    *,
-    head_speed: float = 1.0,
-    margin: float = 0.0,
-    whole: bool = True,
+    contact: FirstContact, dance: Dance, *, margin: float = 0.0, whole: bool = True
 ) -> ContactCheck | None:
     """The engines on the dance CHECK_TRAVEL of head travel before and after the bracket of a first contact.
 
@@ -85,15 +79,15 @@ def contact_check(
     raises: InvalidValue
 
     >>> from core import first_contact
-    >>> check = contact_check(first_contact(Dragon(), Spiral()), Dragon(), Spiral())
+    >>> dance = Dance(Dragon(), Spiral())
+    >>> check = contact_check(first_contact(dance), dance)
     >>> check.agree, len(check.judged)
     (True, 223)
     """
     checked_type("contact", contact, FirstContact)
-    checked_type("dragon", dragon, Dragon)
-    checked_type("path", path, (Spiral, Route))
-    head_speed = checked_head_speed(head_speed)
+    checked_type("dance", dance, Dance)
     margin = checked_number("margin", margin, "m", 0.0, MARGIN_MAX)
+    dragon, path, head_speed = dance.dragon, dance.path, dance.head_speed
     if contact.time is None or contact.benches is None:
         return None
     at_start = contact.outcome is Outcome.CONTACT_AT_START
@@ -103,7 +97,7 @@ def contact_check(
     travel = max(CHECK_TRAVEL, rounding) / head_speed
     times = [first if at_start else first - travel, last + travel]
     front = dragon if whole else dragon.leading(contact.benches[1] + 1)  # No bench moves one in front of it.
-    poses = _poses(front, path, times, head_speed)
+    poses = _poses(replace(dance, dragon=front), times)
     size = np.stack([dragon.lengths, dragon.widths], axis=-1)[: poses.shape[1]]
     return judged_contact(poses, size, contact.benches, margin=margin, whole=whole, at_start=at_start)
 
@@ -125,16 +119,15 @@ def pitch_check(found: MinimumPitch, dragon: Dragon, *, margin: float = 0.0, who
         # A spiral that starts at a radius has its head there at time 0.
         turns = found.head_radius / (found.pitch if found.limited_by is LimitedBy.START else pitch)
         front = dragon if whole else dragon.leading(found.benches[1] + 1)
-        poses.append(_poses(front, Spiral(pitch, turns), [0.0], 1.0)[0])
+        poses.append(_poses(Dance(front, Spiral(pitch, turns)), [0.0])[0])
     size = np.stack([dragon.lengths, dragon.widths], axis=-1)[: len(poses[0])]
     return judged_contact(np.array(poses), size, found.benches, margin=margin, whole=whole)
 
 
-def _poses(dragon: Dragon, path: Spiral | Route, times: list[float], head_speed: float) -> Floats:
+def _poses(dance: Dance, times: list[float]) -> Floats:
     """Poses (T, n, 3) of the dragon at instants, or at the nearest ones that its run has."""
-    first, last = earliest_time(dragon, path, head_speed), run_end(dragon, path, head_speed=head_speed).time
-    held = [min(max(time, first), last) for time in times]
-    return bench_poses(trajectory(dragon, path, held, head_speed=head_speed).position)
+    held = [min(max(time, dance.earliest), dance.end.time) for time in times]
+    return bench_poses(trajectory(dance, held).position)
 
 
 def judged_contact(

@@ -24,9 +24,8 @@ from core import kernels
 from core.contact.claim import ENDS, UNDECIDED_THEN, claim, claim_at_start, contact_then
 from core.contact.near_graze import narrowed
 from core.contact.search import BRACKETS_GRAZING, MARGIN_MAX, NO_GRAZE, Search
-from core.dragon import Dragon
+from core.dance import Dance, EndReason, RunEnd
 from core.errors import InvalidValue
-from core.motion.trajectory import EndReason, RunEnd, checked_head_speed, checked_span, checked_times, run_end
 from core.paths.route import Route
 from core.paths.spiral import Spiral
 from core.values import Floats, checked_number, checked_type
@@ -140,18 +139,10 @@ CORNERS = (
 EDGES = (("front", "inner", "rear", "outer"), ("front", "outer", "rear", "inner"))
 
 
-def first_contact(
-    dragon: Dragon,
-    path: Spiral | Route,
-    *,
-    head_speed: float = 1.0,
-    margin: float = 0.0,
-    start: float = 0.0,
-    stop: float | None = None,
-) -> FirstContact:
+def first_contact(dance: Dance, *, margin: float = 0.0, start: float = 0.0, stop: float | None = None) -> FirstContact:
     """When two benches that share no handle first come within the margin, proven not to miss an earlier one.
 
-    head_speed: [m/s]; margin: [m], the clearance required; contact means separation <= margin
+    margin: [m], the clearance required; contact means separation <= margin
     start, stop: the times between which to look [s]; None for the end of the run
     returns: see FirstContact; times good to 1e-10 s at 1 m/s, bracketed by [proven clear up to, overlapping at], no
         wider than 1e-9 s but where an arc length or a time itself is not that good (beyond 1e5 m, below 1e-3 m/s), and
@@ -161,16 +152,16 @@ def first_contact(
     raises: InvalidValue; OutsideRun for a stop after the end of the run
     source: the model of Yang et al., sections 2.4 and 2.5, whose times differ: see app/paper.py
 
-    >>> contact = first_contact(Dragon(), Spiral())
+    >>> contact = first_contact(Dance(Dragon(), Spiral()))
     >>> contact.outcome.value, round(contact.time, 6), contact.benches
     ('contact', 412.473838, (0, 8))
     """
-    head_speed = checked_head_speed(head_speed)
+    checked_type("dance", dance, Dance)
     margin = checked_number("margin", margin, "m", 0.0, MARGIN_MAX)
-    end = run_end(dragon, path, head_speed=head_speed)
-    begin, until = checked_span(dragon, path, start, stop, end, head_speed)
-    search = Search(dragon, path, margin)
-    to_fold = until >= end.time and end.reason is EndReason.FOLD
+    begin, until = dance.span(start, stop)
+    head_speed, end = dance.head_speed, dance.end
+    search = Search(dance.dragon, dance.path, margin)
+    to_fold = dance.ends_by(until)
     last = search.last_travel(until * head_speed, to_fold)
     state, found, tolerance = search.approach(begin * head_speed, last, head_speed)
     narrow = BRACKETS_GRAZING[0] * min(1.0, head_speed)
@@ -184,7 +175,7 @@ def first_contact(
         until = _known_overlap(search, found["proven"], last, head_speed, until)
     if stop is not None and state == "reached":
         end = RunEnd(EndReason.STOP, until, None, None)
-    return _result(search, state, found, end, (begin, until), tolerance, head_speed)
+    return _result(dance, search, state, found, end, (begin, until), tolerance)
 
 
 def _known_overlap(search: Search, proven: float, last: float, head_speed: float, until: float) -> float:
@@ -194,15 +185,15 @@ def _known_overlap(search: Search, proven: float, last: float, head_speed: float
 
 
 def _result(
+    dance: Dance,
     search: Search,
     state: str,
     found: dict[str, float],
     end: RunEnd,
     span: tuple[float, float],
     tolerance: float,
-    head_speed: float,
 ) -> FirstContact:
-    graze = None
+    graze, head_speed = None, dance.head_speed
     if found["graze_gap"] < NO_GRAZE:
         pair = (int(found["graze_first"]), int(found["graze_second"]))
         graze = Graze(found["graze_travel"] / head_speed, found["graze_gap"], pair)
@@ -210,7 +201,7 @@ def _result(
     outcome = {"reached": Outcome.CLEAR, "stuck": Outcome.UNDECIDED, "touched": Outcome.CONTACT}.get(
         state, Outcome.CONTACT_AT_START
     )
-    method = _method(search, outcome, found, end, (span[0], proven), head_speed)
+    method = _method(dance, search.margin, outcome, found, end, (span[0], proven))
     certificate = Certificate(method, int(found["steps"]), proven, found["bend"], graze)
     if outcome is Outcome.CLEAR:
         return FirstContact(outcome, None, None, None, None, None, None, None, end, certificate)
@@ -236,14 +227,9 @@ def _result(
 
 
 def _method(
-    search: Search,
-    outcome: Outcome,
-    found: dict[str, float],
-    end: RunEnd,
-    span: tuple[float, float],
-    head_speed: float,
+    dance: Dance, margin: float, outcome: Outcome, found: dict[str, float], end: RunEnd, span: tuple[float, float]
 ) -> str:
-    asked = (search.dragon, search.path, head_speed, search.margin)
+    asked = (dance, margin)
     if outcome is Outcome.CLEAR:
         return claim(*asked, span, ENDS[end.reason])
     if outcome is Outcome.UNDECIDED:
@@ -251,7 +237,7 @@ def _method(
     pair = (int(found["first"]), int(found["second"]))
     if outcome is Outcome.CONTACT_AT_START:
         return claim_at_start(*asked, span[0], pair)
-    return claim(*asked, span, contact_then(pair, search.margin, found["touching"] / head_speed))
+    return claim(*asked, span, contact_then(pair, margin, found["touching"] / dance.head_speed))
 
 
 def head_state(path: Spiral | Route, travel: float) -> HeadState:
@@ -285,25 +271,23 @@ def _touching_features(
     return corner, edge, (float(x * cos - y * sin), float(x * sin + y * cos)), float(out[0])
 
 
-def clearance_profile(
-    dragon: Dragon, path: Spiral | Route, times: Floats | Sequence[float] | float, *, head_speed: float = 1.0
-) -> ClearanceProfile:
+def clearance_profile(dance: Dance, times: Floats | Sequence[float] | float) -> ClearanceProfile:
     """Exact clearance and its pair at every time, and its local minima refined.
 
-    times: (T,) or one [s]; head_speed: [m/s]
+    times: (T,) or one [s]
     grazes: looked for between the first and the last time in steps of PROFILE_STEP of the shortest chord (longer ones
         for thousands of benches on a long way), refined to rounding; a dip of a pair
         that is the nearest for less than a step may be missed here, never by first_contact()
     raises: OutsideRun after the end of the run; InvalidValue for fewer than three benches
     """
-    checked_type("dragon", dragon, Dragon)
-    head_speed = checked_head_speed(head_speed)
+    checked_type("dance", dance, Dance)
+    dragon, head_speed = dance.dragon, dance.head_speed
     if dragon.benches < 3:
         raise InvalidValue(
             "dragon.benches", f"dragon.benches must be at least 3 for two to share no handle, got {dragon.benches}"
         )
-    time = checked_times(times, dragon, path, run_end(dragon, path, head_speed=head_speed), head_speed)
-    search = Search(dragon, path, 0.0)
+    time = dance.times(times)
+    search = Search(dragon, dance.path, 0.0)
     search.resize(dragon.benches)
     clearance, benches = _sampled(search, time, head_speed)
     return ClearanceProfile(time, clearance, benches, _grazes(search, time, head_speed))

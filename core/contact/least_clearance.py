@@ -8,10 +8,8 @@ import numpy as np
 
 from core.contact.first_contact import DIP_WIDTH, PROFILE_STEP
 from core.contact.search import NEAR_WORK_BUDGET, Search
-from core.dragon import Dragon
-from core.motion.trajectory import EndReason, RunEnd, checked_head_speed, checked_span, run_end
-from core.paths.route import Route
-from core.paths.spiral import Spiral
+from core.dance import Dance, RunEnd
+from core.values import checked_type
 
 # The least distance is proven to this [m]; to the next one where that takes more steps than a search may.
 PROOF_WIDTHS = (1e-5, 1e-3)
@@ -42,26 +40,18 @@ class LeastClearance:
     benches: Pair
 
 
-def least_clearance(
-    dragon: Dragon,
-    path: Spiral | Route,
-    *,
-    head_speed: float = 1.0,
-    start: float = 0.0,
-    stop: float | None = None,
-) -> LeastClearance | None:
+def least_clearance(dance: Dance, *, start: float = 0.0, stop: float | None = None) -> LeastClearance | None:
     """The least clearance between start and stop [s], None for the end of the run; None with fewer than three benches.
 
-    head_speed: [m/s]
     raises: InvalidValue; OutsideRun for a stop after the end of the run
     """
-    head_speed = checked_head_speed(head_speed)
-    end = run_end(dragon, path, head_speed=head_speed)
-    begin, until = checked_span(dragon, path, start, stop, end, head_speed)
-    if dragon.benches < 3:
+    checked_type("dance", dance, Dance)
+    begin, until = dance.span(start, stop)
+    head_speed, end = dance.head_speed, dance.end
+    if dance.dragon.benches < 3:
         return None
-    to_fold = until >= end.time and end.reason is EndReason.FOLD
-    search = Search(dragon, path, 0.0, work=NEAR_WORK_BUDGET)
+    to_fold = dance.ends_by(until)
+    search = Search(dance.dragon, dance.path, 0.0, work=NEAR_WORK_BUDGET)
     last = search.last_travel(until * head_speed, to_fold)
     fold = end if to_fold else None
     (distance, travel, pair), at_least = least_over(search, begin * head_speed, last, head_speed, fold)

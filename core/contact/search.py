@@ -13,9 +13,9 @@ import numpy as np
 
 from core import kernels
 from core.contact.coils import two_coils, way_out
+from core.dance import RunEnd
 from core.dragon import Dragon
 from core.kernels.constants import ALL_RADIUS, ERROR, LEFT_OUT, LEFT_OUT_TOO, RING_END, RING_PLACE
-from core.motion.trajectory import RunEnd
 from core.paths.route import Route
 from core.paths.spiral import Spiral
 from core.values import Floats

@@ -10,11 +10,11 @@ import numpy as np
 
 from core import kernels
 from core.contact.search import MARGIN_MAX, NO_PIECES, THETA_ROUNDING, Search
+from core.dance import EndReason, RunEnd, end_theta
 from core.design.pitch_bands import BORDER_WIDTH, Strips
 from core.design.straight import Straight
 from core.dragon import Dragon
 from core.errors import InvalidValue
-from core.motion.trajectory import EndReason, RunEnd, end_theta
 from core.paths.spiral import START_TURNS_MAX, Spiral
 from core.values import SIZE_MAX, SIZE_MIN, checked_number, checked_size, checked_type
 

@@ -9,6 +9,7 @@ from itertools import pairwise
 import numpy as np
 
 from core.contact.first_contact import Outcome, first_contact
+from core.dance import Dance
 from core.design.minimum_pitch import MinimumPitch, minimum_pitch
 from core.dragon import Dragon
 from core.errors import InvalidValue
@@ -41,13 +42,13 @@ def stop_radius(dragon: Dragon, path: Spiral, *, margin: float = 0.0) -> float |
 
     A search that ends undecided has met a graze too close to the margin to tell: then, where it met it.
     """
-    found = first_contact(dragon, path, margin=margin)
+    found = first_contact(Dance(dragon, path), margin=margin)
     if found.outcome is Outcome.CLEAR:
         return None
     if found.head is not None:
         return found.head.radius
     time = found.time_bracket[0] if found.time_bracket else 0.0
-    return float(np.hypot(*trajectory(Dragon(benches=1), path, [time]).position[0, 0]))
+    return float(np.hypot(*trajectory(Dance(Dragon(benches=1), path), [time]).position[0, 0]))
 
 
 def pitch_scan(

@@ -1,7 +1,7 @@
 """The shortest turn: how deep inside its circle the entry may lie.
 
 Whether handles can follow is known in closed form: a bend's radius must be at least half a chord over ROUTE_BEND_LIMIT
-(core/kernels/constants.py). The arcs' radii add up to S = sqrt(E^2 + growth^2) for the entry radius E (see turn()), so
+(core/kernels/constants.py). The arcs' radii add up to S = sqrt(E^2 + growth^2) for the entry radius E (see Turn), so
 both shrink with E, and so does the coil's at the entry: the bend sets one least entry.
 
 Whether benches touch is tried entry by entry, from the circle down. On the coil before the entry first_contact() on the
@@ -23,18 +23,18 @@ from core import kernels
 from core.contact.coils import STRETCH, TwoCoils, beyond, way_out
 from core.contact.first_contact import FirstContact, Outcome, first_contact
 from core.contact.search import MARGIN_MAX
+from core.dance import Dance, follows
 from core.dragon import Dragon
 from core.errors import InvalidValue
-from core.motion.trajectory import follows
 from core.paths.spiral import Spiral
-from core.paths.turn import Turn, turn
+from core.paths.turn import Turn
 from core.values import checked_number, checked_size, checked_type
 
 # Entry radii are tried in steps of this part of the turning radius [1], down to one step from the centre ...
 ENTRY_STEP = 0.01
 # ... and the border is bisected to this width [m].
 ENTRY_WIDTH = 1e-9
-# turn() takes no deeper entry [m].
+# Turn takes no deeper entry [m].
 ENTRY_MIN = 1e-3
 # A longer coil than needed by this part ends after the instant asked for also in rounding [1].
 SPARE_TURNS = 1e-9
@@ -95,7 +95,7 @@ def shortest_turn(
     margin = checked_number("margin", margin, "m", 0.0, MARGIN_MAX)
 
     def turned(entry: float) -> Turn:
-        return turn(pitch, radius, ratio, start_turns=start_turns, entry_radius=entry)
+        return Turn(pitch, radius, ratio, start_turns=start_turns, entry_radius=entry)
 
     def touching(entry: float, clear: float | None) -> Touch | None:
         return _contact(dragon, turned(entry), start_turns, margin, clear)
@@ -128,19 +128,19 @@ def _bend(dragon: Dragon, turned: Callable[[float], Turn], radius: float) -> tup
 
     raises: InvalidValue (turning_radius) when one cannot follow even at the circle
     """
-    if not follows(dragon, turned(radius).path):
-        bend = 1.0 / turned(radius).path.sharpest[0]
+    if not follows(dragon, turned(radius)):
+        bend = 1.0 / turned(radius).sharpest[0]
         rule = (
             f"must be larger: a turn that begins on the circle bends to a radius of {bend:.4g} m, too tight for the "
             f"longest chord ({float(dragon.chords.max()):g} m)"
         )
         raise InvalidValue.of("turning_radius", rule, radius, "m")
     low, high = min(max(ENTRY_STEP * radius, ENTRY_MIN), radius), radius
-    if follows(dragon, turned(low).path):
+    if follows(dragon, turned(low)):
         return None, low
     while high - low > ENTRY_WIDTH:
         middle = 0.5 * (low + high)
-        low, high = (low, middle) if follows(dragon, turned(middle).path) else (middle, high)
+        low, high = (low, middle) if follows(dragon, turned(middle)) else (middle, high)
     return low, high
 
 
@@ -155,15 +155,15 @@ def _contact(dragon: Dragon, danced: Turn, start_turns: float, margin: float, cl
         for r in (danced.entry_radius, clear)
     )
     if before > start:
-        found = first_contact(dragon, coil, margin=margin, start=start, stop=before)
+        found = first_contact(Dance(dragon, coil), margin=margin, start=start, stop=before)
         if found.outcome is not Outcome.CLEAR:
             return _touch(found, before)
     stop, front = _way(dragon, danced, margin)
     arc = stop - danced.length - _coils(danced).arc(0.0)
     turns = max(start_turns, (1.0 + SPARE_TURNS) * kernels.spiral_theta(arc / coil.growth) / (2.0 * math.pi))
     entry, radius = danced.entry_radius, danced.turning_radius
-    path = turn(danced.pitch, radius, danced.ratio, start_turns=turns, entry_radius=entry).path
-    found = first_contact(front, path, margin=margin, stop=stop)
+    path = Turn(danced.pitch, radius, danced.ratio, start_turns=turns, entry_radius=entry)
+    found = first_contact(Dance(front, path), margin=margin, stop=stop)
     return None if found.outcome is Outcome.CLEAR else _touch(found, 0.0)
 
 
@@ -182,8 +182,7 @@ def _way(dragon: Dragon, danced: Turn, margin: float) -> tuple[float, Dragon]:
     head = coils.growth * float(kernels.spiral_theta((out - coils.arc(0.0)) / coils.growth))
     behind = danced.length + out + coils.arc(beyond(dragon, coils.growth, head, margin))
     count = max(int(np.searchsorted(np.cumsum(chords), behind)) + 2, dragon.uniform_from + 2)
-    front = Dragon.of(dragon.lengths[:count], dragon.widths[:count], dragon.overhangs[:count])
-    return danced.length + out, front
+    return danced.length + out, dragon.leading(count)
 
 
 def _coils(danced: Turn) -> TwoCoils:

@@ -2,27 +2,16 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from core import kernels
 from core.contact.search import Search
-from core.dragon import Dragon
+from core.dance import HEAD_SPEED_MAX, HEAD_SPEED_MIN, TIME_MAX, Dance
 from core.errors import InvalidValue
-from core.motion.trajectory import (
-    HEAD_SPEED_MAX,
-    HEAD_SPEED_MIN,
-    TIME_MAX,
-    EndReason,
-    checked_head_speed,
-    checked_span,
-    earliest_time,
-    run_end,
-)
 from core.paths.route import Route
-from core.paths.spiral import Spiral
-from core.values import checked_number
+from core.values import checked_number, checked_type
 
 # Every handle is proven to stay below this much above the highest rate found [1]; the rate itself is good to 1e-12.
 RATE_TOLERANCE = 1e-9
@@ -98,14 +87,7 @@ class FirstExcess:
     handle: int | None
 
 
-def highest_speed(
-    dragon: Dragon,
-    path: Spiral | Route,
-    *,
-    head_speed: float = 1.0,
-    start: float | None = None,
-    stop: float | None = None,
-) -> HighestSpeed:
+def highest_speed(dance: Dance, *, start: float | None = None, stop: float | None = None) -> HighestSpeed:
     """The highest speed of any handle over continuous time, with the handles that reach it.
 
     start, stop: [s]; the defaults are 0 (on a route: when it begins, or the whole dragon is on it) and the end of
@@ -115,15 +97,15 @@ def highest_speed(
     derivative jumps, so a peak may be a kink. See core/kernels/speed.py.
     raises: InvalidValue (stop) for a spiral danced to its fold, where speeds grow without bound
     """
-    head_speed = checked_head_speed(head_speed)
-    end = run_end(dragon, path, head_speed=head_speed)
+    checked_type("dance", dance, Dance)
+    dragon, head_speed, end = dance.dragon, dance.head_speed, dance.end
     stop = None if stop is None else checked_number("stop", stop, "s", -TIME_MAX, TIME_MAX)
-    if end.reason is EndReason.FOLD and (stop is None or stop >= end.time):
+    if dance.ends_by(end.time if stop is None else stop):
         raise InvalidValue(
             "stop", f"stop must be before {end.time:.9f} s, when bench {end.bench} folds and speeds grow without bound"
         )
-    begin, until = checked_span(dragon, path, _start(dragon, path, start, head_speed), stop, end, head_speed)
-    search = Search(dragon, path, 0.0)
+    begin, until = dance.span(dance.begin if start is None else start, stop)
+    search = Search(dragon, dance.path, 0.0)
     search.resize(dragon.benches)
     rate, upper, travel, _ = peak_over(search, begin * head_speed, until * head_speed)
     rates = np.abs(search.rates(travel))
@@ -166,21 +148,17 @@ def _calm(search: Search) -> float:
 
 
 def maximum_head_speed(
-    dragon: Dragon,
-    path: Spiral | Route,
-    speed_limit: float,
-    *,
-    start: float | None = None,
-    stop: float | None = None,
+    dance: Dance, speed_limit: float, *, start: float | None = None, stop: float | None = None
 ) -> MaximumHeadSpeed:
     """The largest constant head speed at which no handle ever exceeds the limit.
 
     speed_limit: [m/s]; start, stop: [s at a head speed of 1 m/s], as in highest_speed()
-    Speeds are proportional to the head's, so this is the limit over the highest rate.
+    Speeds are proportional to the head's, whatever that of the dance, so this is the limit over the highest rate.
     raises: InvalidValue
     """
     limit = checked_limit(speed_limit)
-    found = highest_speed(dragon, path, start=start, stop=stop)
+    checked_type("dance", dance, Dance)
+    found = highest_speed(replace(dance, head_speed=1.0), start=start, stop=stop)
     speed = limit / found.speed
     highest = found.speed_bracket[1]
     bracket = (None if highest is None else limit / highest, speed)
@@ -188,26 +166,20 @@ def maximum_head_speed(
 
 
 def first_excess(
-    dragon: Dragon,
-    path: Spiral | Route,
-    speed_limit: float,
-    *,
-    head_speed: float = 1.0,
-    start: float | None = None,
-    stop: float | None = None,
+    dance: Dance, speed_limit: float, *, start: float | None = None, stop: float | None = None
 ) -> FirstExcess | None:
     """When a handle is first faster than the limit; None if that is proven never to happen.
 
     speed_limit: [m/s], exceeded by more than SPEED_ROUNDING of it
-    head_speed, start, stop: as in highest_speed(), but stop may be a fold, towards which speeds grow without bound
+    start, stop: as in highest_speed(), but stop may be a fold, towards which speeds grow without bound
     The proof that no handle was faster before is that of core/kernels/excess.py.
     raises: InvalidValue; OutsideRun
     """
+    checked_type("dance", dance, Dance)
     limit = checked_limit(speed_limit)
-    head_speed = checked_head_speed(head_speed)
-    end = run_end(dragon, path, head_speed=head_speed)
-    begin, until = checked_span(dragon, path, _start(dragon, path, start, head_speed), stop, end, head_speed)
-    search = Search(dragon, path, 0.0)
+    dragon, head_speed = dance.dragon, dance.head_speed
+    begin, until = dance.span(dance.begin if start is None else start, stop)
+    search = Search(dragon, dance.path, 0.0)
     search.resize(dragon.benches)
     ratio = limit / head_speed
     outcome, proven, found, handle = _excess(search, begin * head_speed, until * head_speed, head_speed, ratio)
@@ -272,11 +244,3 @@ def checked_limit(speed_limit: object) -> float:
     if isinstance(speed_limit, (int, float)) and speed_limit <= 0:
         raise InvalidValue("speed_limit", f"speed_limit must be positive, got {speed_limit} m/s")
     return checked_number("speed_limit", speed_limit, "m/s", HEAD_SPEED_MIN, HEAD_SPEED_MAX)
-
-
-def _start(dragon: Dragon, path: Spiral | Route, start: float | None, head_speed: float) -> float:
-    """start, or if nobody says, 0 (on a route: when it begins, or the whole dragon is on it) [s]."""
-    if start is not None:
-        return start
-    begin = path.begin / head_speed if isinstance(path, Route) else 0.0
-    return max(begin, earliest_time(dragon, path, head_speed))

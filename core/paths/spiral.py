@@ -40,6 +40,15 @@ class Spiral:
         turns = checked_number("path.start_turns", self.start_turns, "turns", 0.0, START_TURNS_MAX, open_low=True)
         object.__setattr__(self, "start_turns", turns)
 
+    # The head enters at s = 0 and may go to the centre; the tail stands on the extension, which has no beginning.
+    begin = 0.0
+    tail_begin = None
+
+    @property
+    def end(self) -> float:
+        """s of the centre [m]."""
+        return self.length
+
     @cached_property
     def growth(self) -> float:
         """Radial advance per radian [m/rad]."""
@@ -73,6 +82,12 @@ class Spiral:
             bends = kernels.spiral_curvature(middle) > curvature * self.growth
             low, high = (middle, high) if bends else (low, middle)
         return high
+
+    def curvature(self, s: Floats | float) -> Floats:
+        """Curvature, counter-clockwise positive, so negative here. s: (...) [m]; returns (...) [1/m]."""
+        square = self.theta(s) ** 2
+        bends: Floats = -(2.0 + square) / (self.growth * (1.0 + square) ** 1.5)
+        return bends
 
     def position(self, s: Floats | float) -> Floats:
         """Points at arc length s. s: (...) [m]; returns (..., 2) x, y [m]."""

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -16,102 +15,76 @@ RATIO_MIN = 0.01
 RATIO_MAX = 100.0
 
 
-@dataclass(frozen=True, slots=True)
-class Turn:
-    """Two arcs, first clockwise, then counter-clockwise; the path has s = 0 at the entry.
+# Where the arcs lie.
+# At the entry E, |E| = R, the direction of travel T makes the angle gamma with the circle, tan gamma = 1 / theta
+# (theta
+# the polar angle there). By symmetry the dance leaves at -E in the same direction T. With n the normal to the
+# right of T the centres are C1 = E + r1 n and C2 = -E - r2 n, and the arcs touch if |C1 - C2| = r1 + r2 =: S:
+#     |2 E + S n|^2 = S^2   =>   S = |E|^2 / (-E . n) = R / cos gamma = R sqrt(1 + theta^2) / theta,
+# whatever the ratio: so r1 = S ratio / (1 + ratio), r2 = S / (1 + ratio). The triangles O C1 E and O C2 (-E) show the
+# same angle turned on both arcs, hence the length S alpha does not depend on the ratio either.
+class Turn(Route):
+    """Two tangent arcs, tangent to the incoming coil and to the outgoing one, its rotation by 180 degrees.
 
-    pitch, turning_radius [m]; ratio: of the first radius to the second; entry_radius: of the entry from the centre [m]
-    radii [m]; centres [m]; angles: turned on each arc [rad]; entry, tangent_point, exit [m]; length: of both arcs [m]
-    path: coil inwards, both arcs, coil outwards
-    """
-
-    pitch: float
-    turning_radius: float
-    ratio: float
-    entry_radius: float
-    radii: tuple[float, float]
-    centres: tuple[Point, Point]
-    angles: tuple[float, float]
-    entry: Point
-    tangent_point: Point
-    exit: Point
-    length: float
-    path: Route = field(repr=False)
-
-
-def turn(
-    pitch: float,
-    turning_radius: float = 4.5,
-    ratio: float = 2.0,
-    *,
-    start_turns: float = 16.0,
-    entry_radius: float | None = None,
-) -> Turn:
-    """The turn of two tangent arcs, tangent to the incoming coil and to the outgoing one, its rotation by 180 degrees.
-
+    A route of four pieces: the coil inwards, two arcs, first clockwise, then counter-clockwise, and the coil outwards;
+    s = 0 at the entry.
     pitch [m]; turning_radius [m]; ratio: radius of the first arc over that of the second; start_turns: of both coils
     entry_radius: where the turn begins, at most the turning radius, which is its default [m]
+    radii [m]; centres [m]; angles: turned on each arc [rad]; entry, tangent_point, exit [m]; length: of both arcs [m]
     raises: InvalidValue
 
-    At the entry E, |E| = R, the direction of travel T makes the angle gamma with the circle, tan gamma = 1 / theta
-    (theta
-    the polar angle there). By symmetry the dance leaves at -E in the same direction T. With n the normal to the
-    right of T the centres are C1 = E + r1 n and C2 = -E - r2 n, and the arcs touch if |C1 - C2| = r1 + r2 =: S:
-        |2 E + S n|^2 = S^2   =>   S = |E|^2 / (-E . n) = R / cos gamma = R sqrt(1 + theta^2) / theta,
-    whatever the ratio: so r1 = S ratio / (1 + ratio), r2 = S / (1 + ratio). The triangles O C1 E and O C2 (-E) show the
-    same angle turned on both arcs, hence the length S alpha does not depend on the ratio either.
-
-    >>> [round(radius, 9) for radius in turn(1.7).radii]
+    >>> [round(radius, 9) for radius in Turn(1.7).radii]
     [3.005417668, 1.502708834]
     """
-    pitch = checked_size("pitch", pitch)
-    radius = checked_size("turning_radius", turning_radius)
-    ratio = checked_number("ratio", ratio, "", RATIO_MIN, RATIO_MAX)
-    inner = radius if entry_radius is None else checked_number("entry_radius", entry_radius, "m", 1e-3, radius)
-    turns = checked_number("start_turns", start_turns, "turns", 0.0, 1e5, open_low=True)
-    theta, outer = 2.0 * math.pi * inner / pitch, 2.0 * math.pi * turns
-    coil = pitch / (2.0 * math.pi) * (kernels.spiral_arc(outer) - kernels.spiral_arc(theta))
-    if turns * pitch <= radius or coil < LENGTH_MIN:
-        rule = f"must be more than {radius / pitch:.6g} turns, which is the turning circle"
-        raise InvalidValue.of("start_turns", rule, turns, "turns")
-    cos, sin, stretch = math.cos(theta), math.sin(theta), math.hypot(1.0, theta)
-    entry = inner * np.array([cos, sin])
-    ahead = np.array([theta * sin - cos, -theta * cos - sin]) / stretch
-    right = np.array([ahead[1], -ahead[0]])
-    total = inner * stretch / theta
-    radii = (total * ratio / (1.0 + ratio), total / (1.0 + ratio))
-    first, second = entry + radii[0] * right, -entry - radii[1] * right
-    middle = first + (second - first) * (radii[0] / total)
-    start, end = _angle(entry - first), _angle(middle - first)
-    begin, finish = _angle(middle - second), _angle(-entry - second)
-    angles = ((start - end) % (2.0 * math.pi), (finish - begin) % (2.0 * math.pi))
-    _check_arcs(radii, angles, ratio, radius, entry_radius)
-    here = inner / pitch
-    pieces = (
-        Coil(pitch, turns, here),
-        Arc(_point(first), radii[0], start, -angles[0]),
-        Arc(_point(second), radii[1], begin, angles[1]),
-        Coil(pitch, here, turns, rotation=math.pi),
-    )
-    try:
-        route = Route(pieces)
-    except InvalidValue as error:  # each piece is sound, so it is a joint
-        rule = "must be smaller: on so long a coil rounding of arc lengths opens the joints of the turn"
-        raise InvalidValue.of("start_turns", rule, turns, "turns") from error
-    return Turn(
-        pitch=pitch,
-        turning_radius=radius,
-        ratio=ratio,
-        entry_radius=inner,
-        radii=radii,
-        centres=(_point(first), _point(second)),
-        angles=angles,
-        entry=_point(entry),
-        tangent_point=_point(middle),
-        exit=_point(-entry),
-        length=radii[0] * angles[0] + radii[1] * angles[1],
-        path=Route(pieces, start=route.joints[0]),
-    )
+
+    def __init__(
+        self,
+        pitch: float,
+        turning_radius: float = 4.5,
+        ratio: float = 2.0,
+        *,
+        start_turns: float = 16.0,
+        entry_radius: float | None = None,
+    ) -> None:
+        pitch = checked_size("pitch", pitch)
+        radius = checked_size("turning_radius", turning_radius)
+        ratio = checked_number("ratio", ratio, "", RATIO_MIN, RATIO_MAX)
+        inner = radius if entry_radius is None else checked_number("entry_radius", entry_radius, "m", 1e-3, radius)
+        turns = checked_number("start_turns", start_turns, "turns", 0.0, 1e5, open_low=True)
+        theta, outer = 2.0 * math.pi * inner / pitch, 2.0 * math.pi * turns
+        coil = pitch / (2.0 * math.pi) * (kernels.spiral_arc(outer) - kernels.spiral_arc(theta))
+        if turns * pitch <= radius or coil < LENGTH_MIN:
+            rule = f"must be more than {radius / pitch:.6g} turns, which is the turning circle"
+            raise InvalidValue.of("start_turns", rule, turns, "turns")
+        cos, sin, stretch = math.cos(theta), math.sin(theta), math.hypot(1.0, theta)
+        entry = inner * np.array([cos, sin])
+        ahead = np.array([theta * sin - cos, -theta * cos - sin]) / stretch
+        right = np.array([ahead[1], -ahead[0]])
+        total = inner * stretch / theta
+        radii = (total * ratio / (1.0 + ratio), total / (1.0 + ratio))
+        first, second = entry + radii[0] * right, -entry - radii[1] * right
+        middle = first + (second - first) * (radii[0] / total)
+        start, end = _angle(entry - first), _angle(middle - first)
+        begin, finish = _angle(middle - second), _angle(-entry - second)
+        angles = ((start - end) % (2.0 * math.pi), (finish - begin) % (2.0 * math.pi))
+        _check_arcs(radii, angles, ratio, radius, entry_radius)
+        here = inner / pitch
+        pieces = (
+            Coil(pitch, turns, here),
+            Arc(_point(first), radii[0], start, -angles[0]),
+            Arc(_point(second), radii[1], begin, angles[1]),
+            Coil(pitch, here, turns, rotation=math.pi),
+        )
+        try:
+            route = Route(pieces)
+        except InvalidValue as error:  # each piece is sound, so it is a joint
+            rule = "must be smaller: on so long a coil rounding of arc lengths opens the joints of the turn"
+            raise InvalidValue.of("start_turns", rule, turns, "turns") from error
+        super().__init__(pieces, start=route.joints[0])
+        self.pitch, self.turning_radius, self.ratio, self.entry_radius = pitch, radius, ratio, inner
+        self.radii, self.centres, self.angles = radii, (_point(first), _point(second)), angles
+        self.entry, self.tangent_point, self.exit = _point(entry), _point(middle), _point(-entry)
+        self.length = radii[0] * angles[0] + radii[1] * angles[1]
 
 
 def _check_arcs(radii: Point, angles: Point, ratio: float, radius: float, entry_radius: float | None) -> None:

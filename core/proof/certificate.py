@@ -10,13 +10,14 @@ from typing import Any
 import numpy as np
 from flint import __FLINT_VERSION__, __version__, ctx
 
+from core.dance import Dance
 from core.dragon import BENCHES_MAX, Dragon
 from core.errors import InvalidValue, OutsideRun, ProofRefused
 from core.paths.spiral import Spiral
 from core.proof.claims import CollisionTime, MinimumPitch, refusing
 from core.proof.dances import Clear, Contact, last_stop
 from core.proof.members import CLAIMS, SHOWN_MOST, check_members
-from core.proof.paths import AnyPath, recorded_path
+from core.proof.paths import recorded_path
 from core.proof.sweeps import Progress, found, recorded, swept
 from core.proof.words import runs
 
@@ -38,11 +39,9 @@ class Proof:
 
 
 def prove_collision_time(
-    dragon: Dragon,
-    path: Spiral,
+    dance: Dance,
     time: float,
     *,
-    head_speed: float = 1.0,
     margin: float = 0.0,
     every_pair: bool = False,
     progress: Progress = lambda share: None,
@@ -55,7 +54,10 @@ def prove_collision_time(
     returns: what json can write and check() verifies
     raises: ProofRefused when the claim is wrong, or nearer to wrong than the balls decide
     """
-    claim = CollisionTime(dragon, path.pitch, path.start_turns, head_speed, time, margin)
+    path = dance.path
+    if not isinstance(path, Spiral):
+        raise InvalidValue("path", "path must be a spiral: prove_contact() takes any other")
+    claim = CollisionTime(dance.dragon, path.pitch, path.start_turns, dance.head_speed, time, margin)
     return _proven(claim, every_pair, progress)
 
 
@@ -79,11 +81,9 @@ def prove_minimum_pitch(
 
 
 def prove_clear(
-    dragon: Dragon,
-    path: AnyPath,
+    dance: Dance,
     stop: float | None = None,
     *,
-    head_speed: float = 1.0,
     start: float = 0.0,
     margin: float = 0.0,
     every_pair: bool = False,
@@ -91,30 +91,29 @@ def prove_clear(
 ) -> Certificate:
     """A certificate that nothing touches in [start, stop] [s], or comes within the margin [m].
 
-    path: a spiral, a turn, or a route of lines, arcs and coils
+    dance: on a spiral, a turn, or a route of lines, arcs and coils
     stop: None for the end of the run: then the certificate also says what the run has come to 1e-9 s after its stop,
         a fold, the centre of the spiral, or the end of the route
     every_pair, progress, returns, raises: as prove_collision_time(); OutsideRun for times that the dance has not
     """
-    record, until = recorded_path(path), "stop"
+    record, until = recorded_path(dance.path), "stop"
     if stop is None:
-        stop, until = last_stop(dragon, record, head_speed)
-    return _proven(Clear(dragon, record, head_speed, start, stop, until, margin), every_pair, progress)
+        stop, until = last_stop(dance.dragon, record, dance.head_speed)
+    return _proven(Clear(dance.dragon, record, dance.head_speed, start, stop, until, margin), every_pair, progress)
 
 
 def prove_contact(
-    dragon: Dragon,
-    path: AnyPath,
+    dance: Dance,
     time: float,
     *,
-    head_speed: float = 1.0,
     start: float = 0.0,
     margin: float = 0.0,
     every_pair: bool = False,
     progress: Progress = lambda share: None,
 ) -> Certificate:
     """As prove_collision_time(), in [start, time - 1e-10], on any path that prove_clear() takes."""
-    return _proven(Contact(dragon, recorded_path(path), head_speed, start, time, margin), every_pair, progress)
+    claim = Contact(dance.dragon, recorded_path(dance.path), dance.head_speed, start, time, margin)
+    return _proven(claim, every_pair, progress)
 
 
 def _proven(claim: Claim, every_pair: bool, progress: Progress) -> Certificate:

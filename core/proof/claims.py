@@ -11,9 +11,9 @@ from typing import Any, ClassVar
 from flint import arb
 
 from core.contact.search import MARGIN_MAX
+from core.dance import checked_head_speed
 from core.dragon import Dragon
 from core.errors import ProofRefused
-from core.motion.trajectory import checked_head_speed
 from core.paths.spiral import Spiral
 from core.proof.chain import Chain, bend_guess
 from core.proof.pairs import Unproven, above, below

@@ -9,9 +9,9 @@ from typing import Any, ClassVar
 
 from flint import arb
 
+from core.dance import Dance, EndReason
 from core.dragon import Dragon
 from core.errors import InvalidValue
-from core.motion.trajectory import EndReason, checked_head_speed, checked_span, run_end
 from core.proof.chain import Chain, Stretch, slopes
 from core.proof.claims import TIME_BRACKET, check_near, checked_margin, near_pair, settle
 from core.proof.pairs import Unproven, above, below
@@ -134,16 +134,15 @@ class Contact:
 
 def last_stop(dragon: Dragon, path: Mapping[str, Any], head_speed: float) -> tuple[float, str]:
     """When a clear run is to stop for a claim that includes its end [s], and which end that is."""
-    end = run_end(dragon, core_path(path), head_speed=head_speed)
+    end = Dance(dragon, core_path(path), head_speed).end
     at_once = end.reason is EndReason.END  # every place up to the end of a route has its chain
     return end.time - (0.0 if at_once else float(END_BRACKET) / 2), end.reason.value
 
 
 def _settle_span(claim: Clear | Contact, last: float) -> None:
-    path, speed = core_path(claim.path), checked_head_speed(claim.head_speed)
-    settle(claim, head_speed=speed, margin=checked_margin(claim.margin))
-    end = run_end(claim.dragon, path, head_speed=speed)
-    start, stop = checked_span(claim.dragon, path, claim.start, last, end, speed)
+    dance = Dance(claim.dragon, core_path(claim.path), claim.head_speed)
+    settle(claim, head_speed=dance.head_speed, margin=checked_margin(claim.margin))
+    start, stop = dance.span(claim.start, last)
     settle(claim, start=start, **{"stop" if isinstance(claim, Clear) else "time": stop})
 
 

@@ -13,15 +13,15 @@ from typing import Any
 
 from flint import acb, arb
 
-from core import route
 from core.dragon import Dragon
 from core.errors import InvalidValue
+from core.paths import route
 from core.paths.spiral import Spiral
-from core.paths.turn import Turn, turn
+from core.paths.turn import Turn
 from core.proof.chain import Chain
 from core.proof.route import Coil, Path, Piece, RouteChain
 
-AnyPath = Spiral | route.Route | Turn
+AnyPath = Spiral | route.Route
 Record = Mapping[str, Any]
 
 # The members of each kind of path and of piece, in words that InvalidValue and the check of members share.
@@ -43,7 +43,7 @@ def recorded_path(path: AnyPath) -> dict[str, Any]:
     if isinstance(path, Spiral):
         return {"kind": "spiral", "pitch": path.pitch, "start_turns": path.start_turns}
     if isinstance(path, Turn):
-        first = path.path.pieces[0]
+        first = path.pieces[0]
         assert isinstance(first, route.Coil)
         values = {name: getattr(path, name) for name in TURN if name != "start_turns"}
         return {"kind": "turn"} | values | {"start_turns": first.start_turns}
@@ -74,8 +74,8 @@ def core_path(record: Record) -> Spiral | route.Route:
         return Spiral(record["pitch"], record["start_turns"])
     if record["kind"] == "turn":
         try:
-            return _turn(record).path
-        except InvalidValue as error:  # turn() knows no path around its fields
+            return _turn(record)
+        except InvalidValue as error:  # Turn knows no path around its fields
             raise InvalidValue(f"path.{error.field}", f"path.{error.message}") from error
     pieces = [PIECES[piece["kind"]][0](**_arguments(piece)) for piece in record["pieces"]]
     return route.Route(pieces, record["start"])
@@ -87,7 +87,7 @@ def _arguments(piece: Record) -> dict[str, Any]:
 
 def _turn(record: Record) -> Turn:
     values = {name: record[name] for name in ("pitch", "turning_radius", "ratio")}
-    return turn(**values, start_turns=record["start_turns"], entry_radius=record["entry_radius"])
+    return Turn(**values, start_turns=record["start_turns"], entry_radius=record["entry_radius"])
 
 
 def described(record: Record) -> str:
@@ -111,7 +111,7 @@ def chain_on(dragon: Dragon, record: Record, margin: float) -> Chain | RouteChai
     return RouteChain(dragon, _turn_path(record) if record["kind"] == "turn" else _route_path(record), margin)
 
 
-# The arcs of turn(): S = R sqrt(1 + theta^2) / theta. With T the direction of travel at the entry E and n to the right
+# The arcs of a Turn: S = R sqrt(1 + theta^2) / theta. With T the direction of travel at the entry E and n to the right
 # of it, E . T = -R sin gamma and E . n = -R cos gamma, tan gamma = 1 / theta. From C1 = E + r1 n to C2 = -E - r2 n goes
 # -2 E - S n = R / cos gamma (sin 2 gamma T + cos 2 gamma n), and from C1 to E goes -n. A clockwise turn by alpha brings
 # -n to sin alpha T - cos alpha n: alpha = pi - 2 gamma, on both arcs by symmetry.

@@ -14,7 +14,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from app.degrees import ACROSS_MAX, Origin, place_of
-from core import Dragon, InvalidValue, check
+from core import Dance, Dragon, InvalidValue, check
 from core import Spiral as CoreSpiral
 from tests.app.test_cli import answer_of, run
 
@@ -266,5 +266,5 @@ def test_the_command_takes_a_venue_in_degrees(tmp_path: Path) -> None:
 
 def test_core_itself_knows_metres_alone() -> None:
     place = place_of(around(40.0), "degrees", Dragon(20))
-    report = check(Dragon(20), CoreSpiral(1.7, 6.0), venue=place.venue, stop=20.0)
+    report = check(Dance(Dragon(20), CoreSpiral(1.7, 6.0)), venue=place.venue, stop=20.0)
     assert report.passed

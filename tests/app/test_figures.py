@@ -11,7 +11,7 @@ import pytest
 
 from app import figures
 from app.drawing import Format
-from core import Dragon, Line, OutsideRun, Route, Spiral, first_contact, minimum_pitch
+from core import Dance, Dragon, Line, OutsideRun, Route, Spiral, first_contact, minimum_pitch
 
 SMALL = Dragon(benches=30)
 PNG_SIGNATURE = b"\x89PNG\r\n\x1a\n"
@@ -31,7 +31,7 @@ def test_trajectory_figure_names_its_axes_units_and_instant() -> None:
 
 
 def test_contact_figure_states_the_time_pair_and_features_that_core_found() -> None:
-    found = first_contact(Dragon(), Spiral())
+    found = first_contact(Dance(Dragon(), Spiral()))
     words = texts(figures.contact_figure(Dragon(), Spiral()))
     assert f"{found.time:.6f} s" in words
     assert "bench 0 (head)" in words
@@ -73,7 +73,7 @@ def test_contact_figure_with_a_margin_states_it() -> None:
 
 def test_contact_figure_of_two_corners_that_come_near_names_no_edge() -> None:
     ten = Dragon(benches=10)
-    assert first_contact(ten, Spiral(), margin=0.3).edge is None
+    assert first_contact(Dance(ten, Spiral()), margin=0.3).edge is None
     words = texts(figures.contact_figure(ten, Spiral(), margin=0.3))
     assert "front-outer corner of bench 0" in words
     assert "edge of bench" not in words

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from app.paper import Comparison, comparison
-from core import Dragon, Outcome, Spiral, first_contact, minimum_pitch, separation, trajectory
+from core import Dance, Dragon, Outcome, Spiral, first_contact, minimum_pitch, separation, trajectory
 from core.motion.trajectory import bench_poses
 
 # Printed digits of the paper, and how well the reference values are known.
@@ -45,7 +45,7 @@ def test_each_row_states_difference_unit_source_and_reason(rows: dict[str, Compa
 
 
 def test_ours_is_what_core_answers(rows: dict[str, Comparison]) -> None:
-    found = first_contact(Dragon(), Spiral())
+    found = first_contact(Dance(Dragon(), Spiral()))
     assert found.head is not None
     assert rows["time of first contact"].ours == found.time
     assert rows["radius of the head at first contact"].ours == found.head.radius
@@ -73,7 +73,7 @@ def test_an_angle_sum_of_359_1_degrees_first_comes_at_the_time_of_the_paper(rows
 def test_at_the_time_of_the_paper_the_head_passes_bench_9_without_touching(rows: dict[str, Comparison]) -> None:
     [gap] = evidence(rows["time of first contact"], "clearance at the paper's time, benches 0 and 9")
     dragon = Dragon()
-    poses = bench_poses(trajectory(dragon, Spiral(), [406.43]).position[0])[[0, 9]]
+    poses = bench_poses(trajectory(Dance(dragon, Spiral()), [406.43]).position[0])[[0, 9]]
     sizes = np.stack([dragon.lengths, dragon.widths], axis=-1)[[0, 9]]
     assert gap == pytest.approx(separation(poses[0], sizes[0], poses[1], sizes[1]).separation, abs=NANO)
     assert round(1000 * gap, 1) == 4.3
@@ -92,7 +92,9 @@ def test_the_radius_and_the_time_of_the_paper_exclude_each_other(rows: dict[str,
     [radius] = evidence(row, "radius of the head at the paper's time")
     [passed] = evidence(row, "time at which the head passes the paper's radius")
     assert abs(radius - 2.883) > 0.1
-    assert np.hypot(*trajectory(Dragon(benches=1), Spiral(), [passed]).position[0, 0]) == pytest.approx(2.883, abs=NANO)
+    assert np.hypot(*trajectory(Dance(Dragon(benches=1), Spiral()), [passed]).position[0, 0]) == pytest.approx(
+        2.883, abs=NANO
+    )
 
 
 def test_bisecting_the_radius_ends_at_a_jump_past_the_circle(rows: dict[str, Comparison]) -> None:
@@ -106,7 +108,7 @@ def test_bisecting_the_radius_ends_at_a_jump_past_the_circle(rows: dict[str, Com
 
 def test_the_pitch_of_the_paper_is_feasible_but_not_the_smallest(rows: dict[str, Comparison]) -> None:
     [radius] = evidence(rows["minimum pitch"], "radius of first contact at the paper's pitch")
-    found = first_contact(Dragon(), Spiral(pitch=0.474924))
+    found = first_contact(Dance(Dragon(), Spiral(pitch=0.474924)))
     assert found.outcome is Outcome.CONTACT
     assert found.head is not None
     assert radius == found.head.radius < 4.5

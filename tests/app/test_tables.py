@@ -15,7 +15,7 @@ import pytest
 from app import tables
 from app.extras import MissingPackage
 from app.tables import Language
-from core import Dragon, Spiral, TooLarge, Trajectory, trajectory
+from core import Dance, Dragon, Spiral, TooLarge, Trajectory, trajectory
 from core.values import Floats
 
 pytestmark = pytest.mark.uncompiled
@@ -26,7 +26,7 @@ ROUNDING = 1e-15  # [m and m/s]: of the decimal text itself
 
 @pytest.fixture(scope="module")
 def dance() -> Trajectory:
-    return trajectory(Dragon(benches=5), Spiral(), [0.0, 0.5, 10.0])
+    return trajectory(Dance(Dragon(benches=5), Spiral()), [0.0, 0.5, 10.0])
 
 
 def columns_of(dance: Trajectory) -> tuple[Floats, ...]:
@@ -131,7 +131,7 @@ def test_the_default_dragon_has_the_names_of_the_contest() -> None:
 
 @pytest.mark.parametrize("write", [tables.trajectory_csv, tables.trajectory_xlsx, tables.trajectory_arrow])
 def test_equal_trajectories_give_equal_bytes(dance: Trajectory, write) -> None:  # type: ignore[no-untyped-def]
-    assert write(dance) == write(trajectory(Dragon(benches=5), Spiral(), [0.0, 0.5, 10.0]))
+    assert write(dance) == write(trajectory(Dance(Dragon(benches=5), Spiral()), [0.0, 0.5, 10.0]))
 
 
 @pytest.mark.parametrize(("instants", "fits"), [(16_383, True), (16_384, False)], ids=["at", "above"])

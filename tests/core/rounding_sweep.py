@@ -15,10 +15,9 @@ from itertools import pairwise
 import numpy as np
 from flint import arb
 
-from core import Arc, Coil, Dragon, InvalidValue, Line, Route, Spiral, Waypoints, kernels, run_end, turn
+from core import Arc, Coil, Dance, Dragon, InvalidValue, Line, Route, Spiral, Turn, Waypoints, kernels
 from core.contact.search import Search
 from core.kernels.constants import ERROR, MX, MY, PX, PY, SWAY, UX, UY
-from core.motion.trajectory import earliest_time
 from core.values import SIZE_MAX, SIZE_MIN
 from tests.core.exact_chain import ExactRoute, Floats, Point, separation, spiral_handles
 
@@ -67,7 +66,7 @@ def random_spiral(rng: np.random.Generator) -> tuple[Search, float]:
         dragon = random_dragon(rng, links, max(growth * 10 ** rng.uniform(-0.7, 2.0), 0.02))
         spiral = Spiral(2.0 * np.pi * growth, 10 ** rng.uniform(1.0, 3.5))
         try:
-            end = run_end(dragon, spiral).theta or 0.0
+            end = Dance(dragon, spiral).end.theta or 0.0
         except InvalidValue:
             continue
         theta = end + 10 ** rng.uniform(-6.0, 0.0) if rng.random() < 0.3 else rng.uniform(end, spiral.start_theta)
@@ -84,8 +83,8 @@ def random_route(rng: np.random.Generator) -> tuple[Search, float]:
             rng, links, float(10 ** rng.uniform(-0.7, 0.0) / path.sharpest[0] if path.sharpest[0] else 1.0)
         )
         try:
-            end = run_end(dragon, path).time
-            begin = max(earliest_time(dragon, path, 1.0), path.begin)
+            end = Dance(dragon, path).end.time
+            begin = max(Dance(dragon, path, 1.0).earliest, path.begin)
         except InvalidValue:
             continue
         if begin < end:
@@ -111,7 +110,7 @@ def _coil(rng: np.random.Generator) -> Route:
 
 
 def _turn(rng: np.random.Generator) -> Route:
-    return turn(float(rng.uniform(1.4, 2.5)), float(rng.uniform(4.0, 6.0)), float(rng.uniform(1.0, 2.5))).path
+    return Turn(float(rng.uniform(1.4, 2.5)), float(rng.uniform(4.0, 6.0)), float(rng.uniform(1.0, 2.5)))
 
 
 def _waypoints(rng: np.random.Generator) -> Route:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from core import Dragon, Spiral, kernels, run_end
+from core import Dance, Dragon, Spiral, kernels
 from core.contact.search import Search
 from tests.core.slow_search import SlowDance, rectangles_gap
 
@@ -29,7 +29,7 @@ def random_interval(rng: np.random.Generator) -> tuple[Dragon, Spiral, float, fl
         if min(widths.min(), chords.min()) < 2e-3:
             continue
         dragon, spiral = Dragon.of(chords + 2 * overhangs, widths, overhangs), Spiral(2 * np.pi * growth, 30.0)
-        end = run_end(dragon, spiral)
+        end = Dance(dragon, spiral).end
         theta = end.theta + 10 ** rng.uniform(-3.0, 1.3)
         start = spiral.length - spiral.growth * 0.5 * (theta * np.hypot(1.0, theta) + np.arcsinh(theta))
         h = 10 ** rng.uniform(-3.0, 0.0) * chords.min()

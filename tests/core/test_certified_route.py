@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from core import Dragon, Route, kernels
+from core import Dance, Dragon, Route, kernels
 from core.kernels.constants import (
     CENTRE_PULL,
     CENTRE_SPEED,
@@ -25,7 +25,6 @@ from core.kernels.constants import (
     TX,
     UX,
 )
-from core.motion.trajectory import earliest_time, run_end
 from tests.core.rounding_sweep import ROUTES
 from tests.core.test_certified_motion import AXES, corners
 from tests.core.test_route import TURN as TURN_PATH
@@ -46,7 +45,7 @@ def random_interval(rng: np.random.Generator) -> tuple[Dragon, Route, float, flo
             chords[1:] = chords[1]
         overhangs, widths = chords * rng.uniform(0.0, 0.4, benches), chords * 10 ** rng.uniform(-1.0, 0.0, benches)
         dragon = Dragon.of(chords + 2 * overhangs, widths, overhangs)
-        begin, end = max(earliest_time(dragon, path, 1.0), path.begin), run_end(dragon, path).time
+        begin, end = max(Dance(dragon, path, 1.0).earliest, path.begin), Dance(dragon, path).end.time
         h = 10 ** rng.uniform(-2.0, 0.0) * chords.min()
         start = rng.uniform(begin, end)
         if path.joints and rng.random() < 0.6:

@@ -17,6 +17,7 @@ import core.motion.speed
 from core import (
     Arc,
     Coil,
+    Dance,
     Dragon,
     EndReason,
     FailureKind,
@@ -27,6 +28,7 @@ from core import (
     OutsideRun,
     Route,
     Spiral,
+    Turn,
     Venue,
     check,
     clearance_profile,
@@ -34,10 +36,8 @@ from core import (
     highest_speed,
     least_clearance,
     maximum_head_speed,
-    run_end,
     sharpest_bend,
     trajectory,
-    turn,
     venue_clearance,
 )
 from core.contact.least_clearance import PROOF_WIDTHS
@@ -54,7 +54,7 @@ ONSET_ERROR = 1e-5  # [s]: the root of the error of the angle, some times over
 EXCESS_ERROR = 1e-9  # [s]: a first excess is bracketed so closely at 1 m/s and more
 PROVEN = 1.1e-5  # [m]: a least clearance is proven to this
 
-TURN = turn(1.7).path
+TURN = Turn(1.7)
 SQUARE = Venue.from_geojson(
     {"type": "Polygon", "coordinates": [[[-30, -30], [30, -30], [30, 30], [-30, 30], [-30, -30]]]}
 )
@@ -75,7 +75,7 @@ def venue(*boxes: dict) -> Venue:
 @pytest.mark.uncompiled
 def test_the_turn_passes_with_the_reference_values() -> None:
     start, stop = CLEARANCE["interval"]
-    report = check(Dragon(), TURN, venue=SQUARE, margin=0.25, speed_limit=1.7, start=start, stop=stop)
+    report = check(Dance(Dragon(), TURN), venue=SQUARE, margin=0.25, speed_limit=1.7, start=start, stop=stop)
     assert report.passed
     assert report.failures == ()
     assert (report.start, report.stop) == (start, stop)
@@ -91,18 +91,19 @@ def test_the_turn_passes_with_the_reference_values() -> None:
 
 
 def test_each_part_is_what_its_own_search_says() -> None:
-    span = {"start": -40.0, "stop": 40.0, "head_speed": 1.3}
-    report = check(Dragon(), TURN, venue=SQUARE, margin=0.3, **span)
-    assert report.first_contact == first_contact(Dragon(), TURN, margin=0.3, **span)
-    assert report.least_clearance == least_clearance(Dragon(), TURN, **span)
-    assert report.venue == venue_clearance(Dragon(), TURN, SQUARE, margin=0.3, **span)
-    assert report.highest_speed == highest_speed(Dragon(), TURN, **span)
-    assert report.sharpest_bend == sharpest_bend(Dragon(), TURN, **span)
+    span = {"start": -40.0, "stop": 40.0}
+    dance = Dance(Dragon(), TURN, 1.3)
+    report = check(dance, venue=SQUARE, margin=0.3, **span)
+    assert report.first_contact == first_contact(dance, margin=0.3, **span)
+    assert report.least_clearance == least_clearance(dance, **span)
+    assert report.venue == venue_clearance(dance, SQUARE, margin=0.3, **span)
+    assert report.highest_speed == highest_speed(dance, **span)
+    assert report.sharpest_bend == sharpest_bend(dance, **span)
 
 
 def test_all_that_fails_is_told_in_order_of_time() -> None:
     crowded = venue(box("square", -30, -30, 30, 30), box("post", -0.05, -0.05, 0.05, 0.05), box("van", 5, 5, 8, 8))
-    report = check(Dragon(), TURN, venue=crowded, margin=0.3, speed_limit=1.5, start=-100.0, stop=100.0)
+    report = check(Dance(Dragon(), TURN), venue=crowded, margin=0.3, speed_limit=1.5, start=-100.0, stop=100.0)
     assert not report.passed
     times = [failure.time for failure in report.failures]
     assert times == sorted(times)
@@ -126,7 +127,7 @@ def test_all_that_fails_is_told_in_order_of_time() -> None:
 
 
 def test_a_dragon_that_starts_outside_the_venue_fails_and_is_no_error() -> None:
-    report = check(Dragon(), TURN, venue=venue(box("square", 50, 50, 60, 60)), start=-50.0, stop=50.0)
+    report = check(Dance(Dragon(), TURN), venue=venue(box("square", 50, 50, 60, 60)), start=-50.0, stop=50.0)
     assert [(failure.kind, failure.time, failure.area) for failure in report.failures] == [
         (FailureKind.OUTSIDE, -50.0, "square")
     ]
@@ -134,8 +135,8 @@ def test_a_dragon_that_starts_outside_the_venue_fails_and_is_no_error() -> None:
 
 
 def test_the_dance_stops_where_benches_touch() -> None:
-    report = check(Dragon(), Spiral(), venue=SQUARE, speed_limit=2.0)
-    contact = first_contact(Dragon(), Spiral())
+    report = check(Dance(Dragon(), Spiral()), venue=SQUARE, speed_limit=2.0)
+    contact = first_contact(Dance(Dragon(), Spiral()))
     assert report.stop == pytest.approx(contact.time, abs=REFERENCE_ERROR)
     assert [failure.kind for failure in report.failures] == [FailureKind.CONTACT]
     assert report.failures[0].benches == (0, 8)
@@ -148,7 +149,7 @@ def test_the_dance_stops_where_benches_touch() -> None:
 
 
 def test_a_margin_is_missed_before_the_touch_and_the_dance_goes_on_until_then() -> None:
-    report = check(Dragon(), Spiral(), margin=0.05)
+    report = check(Dance(Dragon(), Spiral()), margin=0.05)
     assert report.first_contact.time is not None
     assert report.first_contact.time < 412.0 < report.stop
     assert (
@@ -159,7 +160,7 @@ def test_a_margin_is_missed_before_the_touch_and_the_dance_goes_on_until_then() 
 
 
 def test_benches_that_touch_at_the_start_are_a_verdict() -> None:
-    report = check(Dragon(), Spiral(pitch=0.3), venue=SQUARE, speed_limit=2.0)
+    report = check(Dance(Dragon(), Spiral(pitch=0.3)), venue=SQUARE, speed_limit=2.0)
     assert report.first_contact.outcome is Outcome.CONTACT_AT_START
     assert [(failure.kind, failure.time) for failure in report.failures] == [(FailureKind.CONTACT, 0.0)]
     assert 0.0 < report.stop < 0.01
@@ -167,9 +168,9 @@ def test_benches_that_touch_at_the_start_are_a_verdict() -> None:
 
 def test_without_a_limit_a_run_to_the_fold_has_no_highest_speed() -> None:
     dragon, spiral = Dragon(benches=3), Spiral()
-    report = check(dragon, spiral)
+    report = check(Dance(dragon, spiral))
     assert report.highest_speed is None
-    limited = check(dragon, spiral, speed_limit=5.0)
+    limited = check(Dance(dragon, spiral), speed_limit=5.0)
     speed, fold = limited.failures
     assert (speed.kind, fold.kind) == (FailureKind.SPEED, FailureKind.FOLDS)
     assert "without bound" in speed.message
@@ -179,11 +180,11 @@ def test_without_a_limit_a_run_to_the_fold_has_no_highest_speed() -> None:
 
 def test_towards_the_fold_the_venue_is_followed_as_far_as_it_can_be() -> None:
     post = venue(box("square", -50, -50, 50, 50), box("post", 0.0, 0.0, 0.02, 0.02))
-    report = check(Dragon(benches=3), Spiral(), venue=post)
+    report = check(Dance(Dragon(benches=3), Spiral()), venue=post)
     undecided = report.failures[0]
     assert undecided.kind is FailureKind.UNDECIDED
     assert 429.0 < undecided.time < report.stop
-    head = trajectory(Dragon(benches=3), Spiral(), [undecided.time]).position[0, 0]
+    head = trajectory(Dance(Dragon(benches=3), Spiral()), [undecided.time]).position[0, 0]
     assert np.hypot(*head) == pytest.approx(0.5 * 2.86 / BEND_LIMIT, abs=1e-2)  # the curvature is not quite 1 / r
     assert report.venue is not None
     assert all(area.outcome is Outcome.CLEAR for area in report.venue.areas)
@@ -193,20 +194,22 @@ def test_towards_the_fold_the_venue_is_followed_as_far_as_it_can_be() -> None:
 @pytest.mark.parametrize(("x", "passed"), [(6.3, False), (6.45, True)])
 def test_to_the_fold_nothing_may_stand_where_only_the_leading_benches_get(x: float, passed: bool) -> None:
     scene = venue(box("square", -50, -50, 50, 50), box("post", x, 0, x + 0.01, 0.01))
-    report = check(Dragon(3), Spiral(0.8, 3.0), venue=scene)
+    report = check(Dance(Dragon(3), Spiral(0.8, 3.0)), venue=scene)
     undecided = [] if passed else [FailureKind.UNDECIDED]
     assert [failure.kind for failure in report.failures] == [*undecided, FailureKind.FOLDS]
 
 
 def test_a_long_dragon_on_a_spiral_passes_in_a_square_around_it_until_it_folds() -> None:
-    fold = run_end(Dragon(), Spiral(0.8)).time
-    assert [failure.kind for failure in check(Dragon(), Spiral(0.8), venue=SQUARE).failures] == [FailureKind.FOLDS]
-    assert check(Dragon(), Spiral(0.8), venue=SQUARE, stop=fold - 10.0).passed
+    fold = Dance(Dragon(), Spiral(0.8)).end.time
+    assert [failure.kind for failure in check(Dance(Dragon(), Spiral(0.8)), venue=SQUARE).failures] == [
+        FailureKind.FOLDS
+    ]
+    assert check(Dance(Dragon(), Spiral(0.8)), venue=SQUARE, stop=fold - 10.0).passed
 
 
 def test_a_venue_that_cannot_be_followed_from_the_start_on_is_undecided() -> None:
     dragon, path = Dragon(1), Spiral(0.55, 2.5)  # the head stands where a chord folds on a circle, not on the spiral
-    report = check(dragon, path, venue=SQUARE, stop=0.1)
+    report = check(Dance(dragon, path), venue=SQUARE, stop=0.1)
     assert [(failure.kind, failure.time) for failure in report.failures] == [(FailureKind.UNDECIDED, 0.0)]
     assert (report.verdict, report.passed) == (Judgement.UNDECIDED, False)
     assert report.venue is None
@@ -215,18 +218,18 @@ def test_a_venue_that_cannot_be_followed_from_the_start_on_is_undecided() -> Non
 # -- a dance that folds --------------------------------------------------------------------------------------
 
 
-SHORT = Dragon(40), Spiral(1.2, 8.0)  # nothing touches, and the head folds 1.12 m from the centre
+SHORT = Dance(Dragon(40), Spiral(1.2, 8.0))  # nothing touches, and the head folds 1.12 m from the centre
 
 
-@pytest.mark.parametrize("stop", [None, 500.0, run_end(*SHORT).time], ids=["no stop", "a later stop", "at the fold"])
+@pytest.mark.parametrize("stop", [None, 500.0, SHORT.end.time], ids=["no stop", "a later stop", "at the fold"])
 def test_a_dance_that_folds_fails_with_place_time_and_bench(stop: float | None) -> None:
-    end = run_end(*SHORT)
-    report = check(*SHORT, stop=stop)
+    end = SHORT.end
+    report = check(SHORT, stop=stop)
     assert (report.verdict, report.passed) == (Judgement.FAILS, False)
     (fold,) = report.failures
     assert (fold.kind, fold.time, fold.benches) == (FailureKind.FOLDS, end.time, (end.bench,))
     assert report.stop == end.time
-    head = trajectory(*SHORT, end.time).position[0]
+    head = trajectory(SHORT, end.time).position[0]
     assert fold.head is not None
     assert (fold.head.x, fold.head.y) == pytest.approx(head.tolist(), abs=REFERENCE_ERROR)
     assert fold.head.theta == pytest.approx(end.theta, abs=REFERENCE_ERROR)
@@ -234,25 +237,25 @@ def test_a_dance_that_folds_fails_with_place_time_and_bench(stop: float | None) 
 
 
 def test_a_dance_that_stops_before_its_fold_passes() -> None:
-    before = run_end(*SHORT).time - 1e-3
-    assert check(*SHORT, stop=before).passed
+    before = SHORT.end.time - 1e-3
+    assert check(SHORT, stop=before).passed
 
 
 def test_a_dance_to_the_centre_passes() -> None:
     dragon, path = Dragon(5), Spiral(9.0, 3.0)
-    assert run_end(dragon, path).reason is EndReason.CENTRE
-    report = check(dragon, path)
+    assert Dance(dragon, path).end.reason is EndReason.CENTRE
+    report = check(Dance(dragon, path))
     assert (report.verdict, report.passed, report.failures) == (Judgement.PASSES, True, ())
 
 
 def test_a_fold_behind_the_touch_at_which_the_dance_stops_is_not_told() -> None:
-    report = check(Dragon(), Spiral(), stop=1_000.0)
+    report = check(Dance(Dragon(), Spiral()), stop=1_000.0)
     assert [failure.kind for failure in report.failures] == [FailureKind.CONTACT]
-    assert report.stop < run_end(Dragon(), Spiral()).time
+    assert report.stop < Dance(Dragon(), Spiral()).end.time
 
 
 def test_a_fold_behind_a_margin_that_is_missed_is_told_too() -> None:
-    report = check(*SHORT, margin=0.88)
+    report = check(SHORT, margin=0.88)
     assert [failure.kind for failure in report.failures] == [FailureKind.CONTACT, FailureKind.FOLDS]
     assert report.failures[0].time < report.failures[1].time
 
@@ -274,38 +277,38 @@ def test_a_fold_behind_a_margin_that_is_missed_is_told_too() -> None:
 def test_a_speed_failure_is_at_the_first_instant_above_the_limit(
     dragon: Dragon, path: Spiral | Route, limit: float, head_speed: float, start: float, stop: float | None
 ) -> None:
-    report = check(dragon, path, speed_limit=limit, head_speed=head_speed, start=start, stop=stop)
+    report = check(Dance(dragon, path, head_speed), speed_limit=limit, start=start, stop=stop)
     (speed,) = [failure for failure in report.failures if failure.kind is FailureKind.SPEED]
     assert speed.time_bracket is not None
     kept, above = speed.time_bracket
     assert above == speed.time
     assert above - kept < EXCESS_ERROR
-    ends = trajectory(dragon, path, [kept, above], head_speed=head_speed).speed
+    ends = trajectory(Dance(dragon, path, head_speed), [kept, above]).speed
     assert ends[0].max() <= limit * (1.0 + SPEED_ROUNDING) < ends[1].max()
     assert ends[1].argmax() == speed.benches[0]
     before = np.concatenate([np.linspace(start, kept, 2_000), kept - np.geomspace(1e-8, 1.0, 200)])
-    assert trajectory(dragon, path, before, head_speed=head_speed).speed.max() <= limit * (1.0 + SPEED_ROUNDING)
+    assert trajectory(Dance(dragon, path, head_speed), before).speed.max() <= limit * (1.0 + SPEED_ROUNDING)
     assert f"first exceeds {limit:g} m/s at {speed.time:.6f} s" in speed.message
 
 
 def test_a_head_that_is_too_fast_is_so_from_the_start() -> None:
-    (speed,) = check(Dragon(5), TURN, speed_limit=1.0, head_speed=1.5, start=-20.0, stop=0.0).failures
+    (speed,) = check(Dance(Dragon(5), TURN, 1.5), speed_limit=1.0, start=-20.0, stop=0.0).failures
     assert (speed.time, speed.time_bracket, speed.benches) == (-20.0, (-20.0, -20.0), (0,))
 
 
 def test_an_excess_so_near_to_the_fold_that_its_proof_ends_is_bracketed() -> None:
-    dragon, path = SHORT
-    speed, _ = check(dragon, path, speed_limit=5_000.0).failures
+    dragon, path = SHORT.dragon, SHORT.path
+    speed, _ = check(Dance(dragon, path), speed_limit=5_000.0).failures
     assert speed.time_bracket is not None
     kept, above = speed.time_bracket
-    assert kept < above == speed.time < run_end(dragon, path).time
-    ends = trajectory(dragon, path, [kept, above]).speed.max(axis=1)
+    assert kept < above == speed.time < Dance(dragon, path).end.time
+    ends = trajectory(Dance(dragon, path), [kept, above]).speed.max(axis=1)
     assert ends[0] < 5_000.0 < ends[1]
 
 
 def test_a_limit_beyond_what_doubles_reach_before_the_fold_fails_at_the_fold() -> None:
-    dragon, path = SHORT
-    report = check(dragon, path, speed_limit=1e4, head_speed=1e-5)
+    dragon, path = SHORT.dragon, SHORT.path
+    report = check(Dance(dragon, path, 1e-5), speed_limit=1e4)
     speed, fold = report.failures
     assert (speed.kind, speed.time, speed.benches) == (FailureKind.SPEED, fold.time, ())
     assert "is proven to be kept up to" in speed.message
@@ -317,15 +320,15 @@ def test_a_proof_that_runs_short_of_work_leaves_a_kept_limit_undecided_and_a_bro
     span = {"start": -100.0, "stop": 100.0}
     monkeypatch.setattr(core.motion.speed, "LINKS_BUDGET", 1_000)
     monkeypatch.setattr(core.motion.speed, "EXCESS_LINKS", 1_000)
-    peak = highest_speed(Dragon(), TURN, **span).speed
-    kept = check(Dragon(), TURN, speed_limit=peak * (1.0 + 1e-9), **span)
+    peak = highest_speed(Dance(Dragon(), TURN), **span).speed
+    kept = check(Dance(Dragon(), TURN), speed_limit=peak * (1.0 + 1e-9), **span)
     assert [failure.kind for failure in kept.failures] == [FailureKind.UNDECIDED]
     assert (kept.verdict, kept.passed) == (Judgement.UNDECIDED, False)
-    broken = check(Dragon(), TURN, speed_limit=1.5, **span)
+    broken = check(Dance(Dragon(), TURN), speed_limit=1.5, **span)
     (speed,) = broken.failures
     assert (broken.verdict, speed.kind) == (Judgement.FAILS, FailureKind.SPEED)
     assert "at the latest" in speed.message
-    assert trajectory(Dragon(), TURN, speed.time).speed.max() > 1.5
+    assert trajectory(Dance(Dragon(), TURN), speed.time).speed.max() > 1.5
 
 
 # -- the words of a margin -----------------------------------------------------------------------------------
@@ -333,7 +336,7 @@ def test_a_proof_that_runs_short_of_work_leaves_a_kept_limit_undecided_and_a_bro
 
 def test_with_a_margin_every_sentence_says_nearer_than_it_and_the_gap() -> None:
     wall = venue(box("square", -30, -30, 30, 30), box("lamp", 4.95, -3, 5, -2.9))
-    failures = check(Dragon(), TURN, venue=wall, margin=0.35, start=-100.0, stop=100.0).failures
+    failures = check(Dance(Dragon(), TURN), venue=wall, margin=0.35, start=-100.0, stop=100.0).failures
     near = [failure.message for failure in failures if failure.kind in (FailureKind.CONTACT, FailureKind.VENUE)]
     assert len(near) == 2
     for message in near:
@@ -344,13 +347,13 @@ def test_with_a_margin_every_sentence_says_nearer_than_it_and_the_gap() -> None:
 
 
 def test_with_a_margin_benches_that_overlap_from_the_start_say_how_deep() -> None:
-    (contact,) = check(Dragon(), Spiral(0.3), margin=0.2).failures
+    (contact,) = check(Dance(Dragon(), Spiral(0.3)), margin=0.2).failures
     assert contact.message == "Benches 8 and 28 come nearer than 0.2 m at 0.000000 s, and overlap by 0.114627 m."
 
 
 @pytest.mark.parametrize("benches", [1, 2])
 def test_so_few_benches_cannot_touch(benches: int) -> None:
-    report = check(Dragon(benches=benches), TURN, start=-10.0, stop=20.0, venue=SQUARE)
+    report = check(Dance(Dragon(benches=benches), TURN), start=-10.0, stop=20.0, venue=SQUARE)
     assert report.passed
     assert report.least_clearance is None
     assert (report.sharpest_bend is None) == (benches == 1)
@@ -359,18 +362,18 @@ def test_so_few_benches_cannot_touch(benches: int) -> None:
 
 def test_at_the_maximum_head_speed_the_limit_is_kept_and_just_above_it_is_not() -> None:
     span = {"start": -20.0, "stop": 40.0}
-    fastest = maximum_head_speed(Dragon(benches=30), TURN, 2.0, **span).head_speed
+    fastest = maximum_head_speed(Dance(Dragon(benches=30), TURN), 2.0, **span).head_speed
     assert fastest == pytest.approx(SPEED["head_speed"], abs=REFERENCE_ERROR)
     for factor, passed in ((1.0, True), (1.0 + 1e-9, False)):
         speed = factor * fastest
         scaled = {name: time / speed for name, time in span.items()}
-        assert check(Dragon(benches=30), TURN, speed_limit=2.0, head_speed=speed, **scaled).passed is passed
+        assert check(Dance(Dragon(benches=30), TURN, speed), speed_limit=2.0, **scaled).passed is passed
 
 
 def test_a_wall_at_the_margin_to_rounding_is_undecided_and_that_is_no_failure() -> None:
     route = Route([Line((-60, 0), (60, 0))], start=60.0)
     square = venue(box("square", -70, -9, 70, 0.35 + 1e-14))
-    report = check(Dragon(benches=5), route, venue=square, margin=0.2, start=0.0)
+    report = check(Dance(Dragon(benches=5), route), venue=square, margin=0.2, start=0.0)
     assert [(failure.kind, failure.area) for failure in report.failures] == [(FailureKind.UNDECIDED, "square")]
     assert (report.verdict, report.passed) == (Judgement.UNDECIDED, False)
     assert "nearer than 0.2 m to 'square' is not decided" in report.failures[0].message
@@ -390,7 +393,6 @@ def test_a_wall_at_the_margin_to_rounding_is_undecided_and_that_is_no_failure() 
         ({"speed_limit": -2}, "speed_limit"),
         ({"speed_limit": math.nan}, "speed_limit"),
         ({"speed_limit": "2"}, "speed_limit"),
-        ({"head_speed": 0.0}, "head_speed"),
         ({"start": math.inf}, "start"),
         ({"start": 5.0, "stop": 5.0}, "stop"),
         ({"stop": math.nan}, "stop"),
@@ -398,7 +400,7 @@ def test_a_wall_at_the_margin_to_rounding_is_undecided_and_that_is_no_failure() 
 )
 def test_broken_input_is_an_error(words: dict, field: str) -> None:
     with pytest.raises(InvalidValue) as e:
-        check(Dragon(benches=5), TURN, **words)
+        check(Dance(Dragon(benches=5), TURN), **words)
     assert e.value.field == field
 
 
@@ -406,16 +408,16 @@ def test_broken_input_is_an_error(words: dict, field: str) -> None:
 def test_a_time_that_the_path_does_not_have_is_an_error(words: dict) -> None:
     route = Route([Line((0, 0), (100, 0))])
     with pytest.raises(OutsideRun) as e:
-        check(Dragon(benches=5), route, **words)
+        check(Dance(Dragon(benches=5), route), **words)
     assert e.value.field == next(iter(words))
 
 
 def test_the_default_start_is_when_the_whole_dragon_is_on_the_route() -> None:
     dragon = Dragon(benches=5)
-    report = check(dragon, Route([Line((0, 0), (100, 0))]), head_speed=2.0)
+    report = check(Dance(dragon, Route([Line((0, 0), (100, 0))]), 2.0))
     assert report.start == pytest.approx(0.5 * float(dragon.chords.sum()), abs=1e-6)
     assert report.stop == 50.0
-    assert check(dragon, Spiral(), stop=50.0).start == 0.0
+    assert check(Dance(dragon, Spiral()), stop=50.0).start == 0.0
 
 
 # -- least clearance -----------------------------------------------------------------------------------------
@@ -434,14 +436,14 @@ def test_the_default_start_is_when_the_whole_dragon_is_on_the_route() -> None:
 def test_the_least_clearance_is_below_dense_samples_and_proven(
     dragon: Dragon, path: Spiral | Route, start: float, stop: float
 ) -> None:
-    least = least_clearance(dragon, path, start=start, stop=stop)
-    profile = clearance_profile(dragon, path, np.linspace(start, stop, 800))
+    least = least_clearance(Dance(dragon, path), start=start, stop=stop)
+    profile = clearance_profile(Dance(dragon, path), np.linspace(start, stop, 800))
     assert least is not None
     assert least.at_least is not None
     lowest = min(profile.clearance.min(), *(graze.clearance for graze in profile.grazes))
     assert least.at_least <= least.distance <= lowest + 1e-12
     assert least.distance - least.at_least < PROVEN
-    there = clearance_profile(dragon, path, [least.time])
+    there = clearance_profile(Dance(dragon, path), [least.time])
     assert there.clearance[0] == pytest.approx(least.distance, abs=1e-12)
     assert tuple(there.benches[0]) == least.benches
 
@@ -452,26 +454,26 @@ PROOF_ROUNDING = 1e-9
 
 @pytest.mark.parametrize("pitch", [0.7, 0.8, 0.9, 1.2])
 def test_the_least_clearance_of_a_run_to_its_fold_is_proven(pitch: float) -> None:
-    least = least_clearance(Dragon(), Spiral(pitch))
-    end = run_end(Dragon(), Spiral(pitch))
+    least = least_clearance(Dance(Dragon(), Spiral(pitch)))
+    end = Dance(Dragon(), Spiral(pitch)).end
     assert end.reason is EndReason.FOLD
     assert least is not None
     assert least.at_least is not None
     assert 0.0 < least.distance - least.at_least <= PROOF_WIDTHS[0] + PROOF_ROUNDING
     towards_the_fold = end.time * (1.0 - np.linspace(1.0, 0.0, 400) ** 4)
-    assert least.at_least <= clearance_profile(Dragon(), Spiral(pitch), towards_the_fold).clearance.min()
+    assert least.at_least <= clearance_profile(Dance(Dragon(), Spiral(pitch)), towards_the_fold).clearance.min()
 
 
 def test_a_least_clearance_that_takes_more_steps_than_a_search_may_is_proven_within_a_millimetre() -> None:
-    least = least_clearance(Dragon(20), Spiral(2.0, 6.0))
+    least = least_clearance(Dance(Dragon(20), Spiral(2.0, 6.0)))
     assert least is not None
     assert least.at_least is not None
     assert 0.0 < least.distance - least.at_least <= PROOF_WIDTHS[1] + PROOF_ROUNDING
 
 
 def test_a_first_touch_is_a_least_clearance_of_zero() -> None:
-    least = least_clearance(Dragon(), Spiral())
-    contact = first_contact(Dragon(), Spiral())
+    least = least_clearance(Dance(Dragon(), Spiral()))
+    contact = first_contact(Dance(Dragon(), Spiral()))
     assert least is not None
     assert (least.distance, least.at_least, least.benches) == (0.0, 0.0, contact.benches)
     assert least.time == pytest.approx(contact.time, abs=1e-12)
@@ -482,7 +484,7 @@ def test_a_first_touch_is_a_least_clearance_of_zero() -> None:
 
 def test_there_is_no_bend_on_a_line() -> None:
     route = Route([Line((0, 0), (60, 0))])
-    found = sharpest_bend(Dragon(benches=5), route, start=20.0)
+    found = sharpest_bend(Dance(Dragon(benches=5), route), start=20.0)
     assert found is not None
     assert found.angle == 0.0
 
@@ -490,7 +492,7 @@ def test_there_is_no_bend_on_a_line() -> None:
 def test_a_bend_on_an_arc_is_half_of_both_chords_angles() -> None:
     route = Route([Line((-60, 0), (0, 0)), Arc((0, 4), 4.0, -0.5 * math.pi, 9.0)], start=60.0)
     dragon = Dragon(benches=8)
-    found = sharpest_bend(dragon, route, start=0.0, stop=30.0)
+    found = sharpest_bend(Dance(dragon, route), start=0.0, stop=30.0)
     assert found is not None
     head, body = (math.asin(0.5 * chord / 4.0) for chord in dragon.chords[:2])
     assert found.angle == pytest.approx(head + body, abs=ANGLE_ERROR)
@@ -500,7 +502,7 @@ def test_a_bend_on_an_arc_is_half_of_both_chords_angles() -> None:
 
 
 def dense_bends(dragon: Dragon, path: Spiral | Route, times: np.ndarray) -> np.ndarray:
-    along = np.diff(trajectory(dragon, path, times).position, axis=1)
+    along = np.diff(trajectory(Dance(dragon, path), times).position, axis=1)
     heading = np.unwrap(np.arctan2(along[..., 1], along[..., 0]), axis=1)
     return np.abs(np.diff(heading, axis=1))
 
@@ -517,7 +519,7 @@ def dense_bends(dragon: Dragon, path: Spiral | Route, times: np.ndarray) -> np.n
     ids=["turn", "turn behind the head", "a moment", "benches of many sizes", "spiral"],
 )
 def test_no_dense_sample_bends_more_sharply(dragon: Dragon, path: Spiral | Route, start: float, stop: float) -> None:
-    found = sharpest_bend(dragon, path, start=start, stop=stop)
+    found = sharpest_bend(Dance(dragon, path), start=start, stop=stop)
     assert found is not None
     dense = dense_bends(dragon, path, np.linspace(start, stop, 2_500))
     assert found.angle >= dense.max() - ANGLE_ERROR
@@ -541,7 +543,7 @@ def test_scaling_every_length_scales_the_verdict(bends: list[tuple[float, float]
         sizes = {"head_length": 3.41, "body_length": 2.2, "width": 0.3, "overhang": 0.275}
         return Dragon(12, **{name: size * value for name, value in sizes.items()}), Route(pieces, start=40 * size)
 
-    one, other = (check(*made(size), start=0.0, head_speed=size) for size in (1.0, scale))
+    one, other = (check(Dance(*made(size), size), start=0.0) for size in (1.0, scale))
     assert one.passed == other.passed
     assert one.sharpest_bend is not None
     assert other.sharpest_bend is not None
@@ -557,7 +559,7 @@ def test_scaling_every_length_scales_the_verdict(bends: list[tuple[float, float]
 def test_coils_in_three_pieces_have_the_verdict_of_one() -> None:
     whole = Route([Coil(0.6, 14, 4)])
     parts = Route([Coil(0.6, a, b) for a, b in pairwise((14, 9, 6.5, 4))])
-    one, other = (check(Dragon(benches=60), route, start=0.0) for route in (whole, parts))
+    one, other = (check(Dance(Dragon(benches=60), route), start=0.0) for route in (whole, parts))
     assert one.passed == other.passed
     assert one.least_clearance is not None
     assert other.least_clearance is not None

@@ -12,6 +12,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from core import (
+    Dance,
     Dragon,
     EndReason,
     InvalidValue,
@@ -19,11 +20,10 @@ from core import (
     OutsideRun,
     Route,
     Spiral,
+    Turn,
     clearance_profile,
     first_contact,
     minimum_pitch,
-    run_end,
-    turn,
 )
 from core.contact.search import BRACKET, MARGIN_MAX, Search
 from core.design.pitch_bands import BORDER_WIDTH
@@ -46,7 +46,7 @@ AROUND = 0.1
 @pytest.mark.parametrize("case", CASES, ids=[case["name"] for case in CASES])
 def test_every_case_of_the_reference_is_met(case: dict[str, Any]) -> None:
     found = first_contact(
-        Dragon(**case["dragon"]), Spiral(case["pitch"], case["start_turns"]), head_speed=case["head_speed"]
+        Dance(Dragon(**case["dragon"]), Spiral(case["pitch"], case["start_turns"]), case["head_speed"])
     )
     assert found.outcome == case["outcome"]
     if found.outcome is Outcome.CONTACT:
@@ -86,7 +86,7 @@ def random_dance(seed: int, bench_by_bench: bool) -> tuple[Dragon, Spiral]:
         dragon = random_dragon(rng, bench_by_bench)
         spiral = Spiral(dragon.widths.max() * rng.uniform(1.2, 4.0), rng.uniform(1.0, 6.0))
         try:
-            way = run_end(dragon, spiral).time
+            way = Dance(dragon, spiral).end.time
         except InvalidValue:
             continue
         if 2.0 < way / dragon.chords.min() < 60.0 and SlowDance.of(dragon, spiral).clearance([0.0])[0][0] > 0.0:
@@ -94,7 +94,7 @@ def random_dance(seed: int, bench_by_bench: bool) -> tuple[Dragon, Spiral]:
 
 
 def assert_as_slow_search(dragon: Dragon, spiral: Spiral, margin: float) -> None:
-    found = first_contact(dragon, spiral, margin=margin)
+    found = first_contact(Dance(dragon, spiral), margin=margin)
     slow = SlowDance.of(dragon, spiral)
     touch = slow.first_touch(margin)
     if touch is None:
@@ -134,7 +134,7 @@ def test_the_general_way_agrees_with_the_family_of_a_uniform_body(seed: int) -> 
     lengths[-1] += 1e-9
     general = Dragon.of(lengths, dragon.widths, dragon.overhangs)
     assert general.uniform_from == dragon.benches - 1
-    family, general_way = first_contact(dragon, spiral), first_contact(general, spiral)
+    family, general_way = first_contact(Dance(dragon, spiral)), first_contact(Dance(general, spiral))
     assert family.outcome == general_way.outcome
     if family.outcome is Outcome.CONTACT and dragon.benches - 1 not in family.benches:
         assert general_way.time == pytest.approx(family.time, rel=0, abs=ACCURACY)
@@ -143,7 +143,7 @@ def test_the_general_way_agrees_with_the_family_of_a_uniform_body(seed: int) -> 
 
 @pytest.mark.parametrize("benches", [223, 224, 1000, 100_000])
 def test_benches_that_the_contact_does_not_reach_change_nothing(benches: int) -> None:
-    few, many = first_contact(Dragon(30), Spiral()), first_contact(Dragon(benches), Spiral())
+    few, many = first_contact(Dance(Dragon(30), Spiral())), first_contact(Dance(Dragon(benches), Spiral()))
     assert (many.time, many.benches, many.time_bracket) == (few.time, few.benches, few.time_bracket)
 
 
@@ -169,24 +169,24 @@ def test_a_start_near_the_centre_is_searched_with_all_pairs(dragon: Dragon, spir
 
 
 def test_contact_at_the_start_names_a_touching_pair() -> None:
-    found = first_contact(Dragon(), Spiral(0.35))
+    found = first_contact(Dance(Dragon(), Spiral(0.35)))
     assert (found.outcome, found.time, found.time_bracket) == (Outcome.CONTACT_AT_START, 0.0, None)
     assert SlowDance.of(Dragon(), Spiral(0.35)).pair_gap(0.0, found.benches) <= 0.0
 
 
 @pytest.mark.parametrize("benches", [1, 2])
 def test_two_benches_share_a_handle_and_are_always_clear(benches: int) -> None:
-    found = first_contact(Dragon(benches), Spiral(0.1, 40.0))
+    found = first_contact(Dance(Dragon(benches), Spiral(0.1, 40.0)))
     assert found.outcome is Outcome.CLEAR
-    assert found.end == run_end(Dragon(benches), Spiral(0.1, 40.0))
+    assert found.end == Dance(Dragon(benches), Spiral(0.1, 40.0)).end
 
 
 def test_overhangs_that_cross_over_a_short_bench_touch_at_the_start() -> None:
-    assert first_contact(Dragon(3, 1.0, 1.0, 0.1, 0.4), Spiral(2.0, 5.0)).outcome is Outcome.CONTACT_AT_START
+    assert first_contact(Dance(Dragon(3, 1.0, 1.0, 0.1, 0.4), Spiral(2.0, 5.0))).outcome is Outcome.CONTACT_AT_START
 
 
 def test_a_wide_spiral_is_clear_to_its_centre() -> None:
-    found = first_contact(Dragon(12, 1.0, 1.0, 0.05, 0.0), Spiral(3.0, 4.0))
+    found = first_contact(Dance(Dragon(12, 1.0, 1.0, 0.05, 0.0), Spiral(3.0, 4.0)))
     assert found.outcome is Outcome.CLEAR
     assert found.end.reason is EndReason.CENTRE
 
@@ -213,8 +213,8 @@ TO_THE_FOLD = {
 
 @pytest.mark.parametrize(("dragon", "spiral"), TO_THE_FOLD.values(), ids=TO_THE_FOLD)
 def test_the_last_instants_before_a_fold_are_decided(dragon: Dragon, spiral: Spiral) -> None:
-    found = first_contact(dragon, spiral)
-    assert (found.outcome, found.end) == (Outcome.CLEAR, run_end(dragon, spiral))
+    found = first_contact(Dance(dragon, spiral))
+    assert (found.outcome, found.end) == (Outcome.CLEAR, Dance(dragon, spiral).end)
     left = found.end.time * 1e-9 * np.linspace(1.0, 0.0, 40) ** 2
     assert SlowDance.of(dragon, spiral).clearance(found.end.time - left[:-1])[0].min() > 0.0
 
@@ -226,7 +226,7 @@ LEFT = (1e-3, 1e-5, 1e-7)
 @pytest.mark.parametrize("seed", sorted({*range(500, 520)} - {506, 510}))  # those two reach the centre
 def test_no_instant_before_a_fold_has_benches_nearer_than_the_bound_on_the_motion_left(seed: int) -> None:
     dragon, spiral = random_dance(seed, True)
-    end = run_end(dragon, spiral)
+    end = Dance(dragon, spiral).end
     assert end.reason is EndReason.FOLD
     search = Search(dragon, spiral, 0.0)
     for left in LEFT:
@@ -258,7 +258,7 @@ def jump_between(dragon: Dragon, turns: float, low: float, high: float, margin: 
     """Pitches on both sides of the largest jump of the head's radius at first contact, 1e-12 m apart."""
 
     def radius(pitch: float) -> float:
-        found = first_contact(dragon, Spiral(pitch, turns), margin=margin)
+        found = first_contact(Dance(dragon, Spiral(pitch, turns)), margin=margin)
         return found.head.radius if found.head else 0.0
 
     below, above = radius(low), radius(high)
@@ -280,7 +280,7 @@ def test_a_graze_is_met_just_below_a_jump_and_passed_just_above(
 ) -> None:
     pitch = jump_between(dragon, turns, low, high, margin)[1]
     tight, wide = Spiral(pitch - BESIDE, turns), Spiral(pitch + BESIDE, turns)
-    met, passed = (first_contact(dragon, spiral, margin=margin) for spiral in (tight, wide))
+    met, passed = (first_contact(Dance(dragon, spiral), margin=margin) for spiral in (tight, wide))
     assert met.outcome is Outcome.CONTACT
     assert met.time_bracket[1] - met.time_bracket[0] <= ACCURACY
     later = passed.time if passed.time is not None else passed.end.time
@@ -302,26 +302,26 @@ def test_a_graze_is_met_just_below_a_jump_and_passed_just_above(
 def test_a_graze_at_the_margin_is_undecided_up_to_the_next_certain_contact() -> None:
     free = minimum_pitch(Dragon(60)).pitch_bracket[1]
     pitch = free - BORDER_WIDTH
-    found = first_contact(Dragon(60), Spiral(pitch))
+    found = first_contact(Dance(Dragon(60), Spiral(pitch)))
     assert found.outcome is Outcome.UNDECIDED
     clear, within = found.time_bracket
     bottom, least = SlowDance.of(Dragon(60), Spiral(pitch)).dip(clear - AROUND, clear + AROUND, (0, 19))
     assert clear <= bottom
     assert abs(least) <= ROUNDING
-    assert within == pytest.approx(first_contact(Dragon(60), Spiral(free)).time, rel=0, abs=ACCURACY)
+    assert within == pytest.approx(first_contact(Dance(Dragon(60), Spiral(free))).time, rel=0, abs=ACCURACY)
 
 
 def test_a_margin_between_a_graze_and_zero_is_met_at_the_graze() -> None:
-    graze = first_contact(Dragon(), Spiral(0.4504)).certificate.least_clearance
+    graze = first_contact(Dance(Dragon(), Spiral(0.4504))).certificate.least_clearance
     assert graze is not None
     for factor, near in ((1.001, True), (0.999, False)):
-        found = first_contact(Dragon(), Spiral(0.4504), margin=graze.clearance * factor)
+        found = first_contact(Dance(Dragon(), Spiral(0.4504)), margin=graze.clearance * factor)
         assert found.outcome is Outcome.CONTACT
         assert (abs(found.time - graze.time) < AROUND) is near
 
 
 def test_a_search_whose_work_is_done_gives_up() -> None:
-    search = Search(Dragon(), turn(1.7).path, 0.0, work=2e4)
+    search = Search(Dragon(), Turn(1.7), 0.0, work=2e4)
     state, found, _ = search.approach(-50.0, 100.0, 1.0)
     assert state == "stuck"
     assert -50.0 < found["proven"] < 100.0
@@ -333,7 +333,7 @@ def test_a_search_whose_work_is_done_gives_up() -> None:
 @pytest.mark.parametrize("pitch", [0.52, 0.55, 0.62])
 @pytest.mark.parametrize("margin", [1e-6, 0.05, 0.12])
 def test_at_first_contact_with_a_margin_shapely_measures_the_margin(pitch: float, margin: float) -> None:
-    found = first_contact(Dragon(40), Spiral(pitch, 10.0), margin=margin)
+    found = first_contact(Dance(Dragon(40), Spiral(pitch, 10.0)), margin=margin)
     slow = SlowDance.of(Dragon(40), Spiral(pitch, 10.0))
     if found.outcome is Outcome.CONTACT_AT_START:
         assert slow.clearance([0.0])[0][0] <= margin
@@ -349,7 +349,7 @@ def test_at_first_contact_with_a_margin_shapely_measures_the_margin(pitch: float
 @settings(max_examples=30, deadline=None)
 def test_a_larger_margin_is_never_met_later(one: float, other: float) -> None:
     less, more = sorted((one, other))
-    times = [first_contact(Dragon(30), Spiral(0.6, 8.0), margin=margin).time for margin in (less, more)]
+    times = [first_contact(Dance(Dragon(30), Spiral(0.6, 8.0)), margin=margin).time for margin in (less, more)]
     assert None not in times
     assert times[1] <= times[0] + ACCURACY
 
@@ -364,7 +364,7 @@ DANCES = st.integers(0, 10_000).map(lambda seed: random_dance(seed, seed % 3 == 
 @given(DANCES)
 def test_all_is_clear_just_before_first_contact_and_not_just_after(dance: tuple[Dragon, Spiral]) -> None:
     dragon, spiral = dance
-    found = first_contact(dragon, spiral)
+    found = first_contact(Dance(dragon, spiral))
     assume(found.outcome is Outcome.CONTACT)
     slow = SlowDance.of(dragon, spiral)
     before = found.time_bracket[0] * (1.0 - np.array([0.0, 1e-9, 1e-6, 1e-3, 0.01, 0.1, 0.5]))
@@ -376,9 +376,9 @@ def test_all_is_clear_just_before_first_contact_and_not_just_after(dance: tuple[
 @given(DANCES, st.floats(0.1, 10.0))
 def test_scaling_every_length_scales_the_answer(dance: tuple[Dragon, Spiral], k: float) -> None:
     dragon, spiral = dance
-    found = first_contact(dragon, spiral)
+    found = first_contact(Dance(dragon, spiral))
     large = Dragon.of(k * dragon.lengths, k * dragon.widths, k * dragon.overhangs)
-    scaled = first_contact(large, Spiral(k * spiral.pitch, spiral.start_turns))
+    scaled = first_contact(Dance(large, Spiral(k * spiral.pitch, spiral.start_turns)))
     assert scaled.outcome is found.outcome
     if found.outcome is Outcome.CONTACT:
         assert scaled.time == pytest.approx(k * found.time, rel=1e-9, abs=ACCURACY)
@@ -388,7 +388,7 @@ def test_scaling_every_length_scales_the_answer(dance: tuple[Dragon, Spiral], k:
 @settings(max_examples=15, deadline=None)
 @given(DANCES, st.floats(0.1, 10.0))
 def test_a_faster_head_meets_the_same_contact_sooner(dance: tuple[Dragon, Spiral], head_speed: float) -> None:
-    found, faster = (first_contact(*dance, head_speed=speed) for speed in (1.0, head_speed))
+    found, faster = (first_contact(Dance(*dance, speed)) for speed in (1.0, head_speed))
     assert faster.outcome is found.outcome
     if found.time is not None:
         assert faster.time * head_speed == pytest.approx(found.time, rel=0, abs=ACCURACY * max(1.0, head_speed))
@@ -396,7 +396,7 @@ def test_a_faster_head_meets_the_same_contact_sooner(dance: tuple[Dragon, Spiral
 
 
 def test_the_bracket_is_as_narrow_as_promised() -> None:
-    low, high = first_contact(Dragon(), Spiral()).time_bracket
+    low, high = first_contact(Dance(Dragon(), Spiral())).time_bracket
     assert 0.0 < high - low <= 2.1 * BRACKET
 
 
@@ -425,7 +425,7 @@ FOLDED = "no two benches that share no handle touch, where a bench folds and the
     [
         (Dragon(30), Spiral(0.6, 8.0), {}, TOUCHING),
         (Dragon(30), Spiral(0.6, 8.0), {"margin": 0.05, "head_speed": 0.5, "start": 10.0}, NEAR),
-        (Dragon.of([3.0, 2.0, 2.5], [0.3] * 3, [0.2] * 3), turn(1.7).path, {"stop": 20.0}, STOPPED),
+        (Dragon.of([3.0, 2.0, 2.5], [0.3] * 3, [0.2] * 3), Turn(1.7), {"stop": 20.0}, STOPPED),
         (Dragon(12), Spiral(0.9, 4.0), {}, FOLDED),
     ],
     ids=["contact", "margin", "clear", "fold"],
@@ -433,7 +433,7 @@ FOLDED = "no two benches that share no handle touch, where a bench folds and the
 def test_the_certificate_names_the_whole_claim_in_a_few_sentences(
     dragon: Dragon, path: Spiral | Route, asked: dict[str, float], words: str
 ) -> None:
-    found = first_contact(dragon, path, **asked)
+    found = first_contact(Dance(dragon, path, asked.pop("head_speed", 1.0)), **asked)
     claim, proof = found.certificate.method.split(PROVEN)
     if found.time_bracket is not None:
         clear, within = found.time_bracket
@@ -446,9 +446,9 @@ def test_the_certificate_names_the_whole_claim_in_a_few_sentences(
 
 
 def test_a_claim_says_what_is_seen_at_the_start_and_what_is_not_decided() -> None:
-    at_start = first_contact(Dragon(), Spiral(0.35))
+    at_start = first_contact(Dance(Dragon(), Spiral(0.35)))
     assert "at 0 s benches {} and {} touch.".format(*at_start.benches) in at_start.certificate.method
-    undecided = first_contact(Dragon(60), Spiral(minimum_pitch(Dragon(60)).pitch_bracket[0]))
+    undecided = first_contact(Dance(Dragon(60), Spiral(minimum_pitch(Dragon(60)).pitch_bracket[0])))
     clear, _ = undecided.time_bracket
     assert f"to {clear} s no two benches that share no handle touch; whether any do after that is not decided." in (
         undecided.certificate.method
@@ -461,8 +461,8 @@ def test_a_claim_says_what_is_seen_at_the_start_and_what_is_not_decided() -> Non
 @pytest.mark.parametrize("seed", range(400, 406))
 def test_the_profile_is_the_least_separation_of_all_pairs(seed: int) -> None:
     dragon, spiral = random_dance(seed, seed % 2 == 0)
-    times = np.linspace(0.0, 0.999 * run_end(dragon, spiral).time, 25)
-    profile = clearance_profile(dragon, spiral, times)
+    times = np.linspace(0.0, 0.999 * Dance(dragon, spiral).end.time, 25)
+    profile = clearance_profile(Dance(dragon, spiral), times)
     slow, pairs = SlowDance.of(dragon, spiral).clearance(times)
     np.testing.assert_allclose(profile.clearance, slow, rtol=0, atol=1e-10)
     for k in np.flatnonzero((profile.benches != pairs).any(axis=1)):
@@ -472,7 +472,7 @@ def test_the_profile_is_the_least_separation_of_all_pairs(seed: int) -> None:
 
 def test_the_grazes_of_a_profile_are_the_bottoms_of_its_dips() -> None:
     """At pitch 0.55 the benches overlap from 412.47 to 415.02 s, are clear to 415.375 s and overlap again."""
-    profile = clearance_profile(Dragon(30), Spiral(), np.linspace(405.0, 416.0, 50))
+    profile = clearance_profile(Dance(Dragon(30), Spiral()), np.linspace(405.0, 416.0, 50))
     assert profile.grazes
     slow = SlowDance.of(Dragon(30), Spiral())
     for graze in profile.grazes:
@@ -486,13 +486,13 @@ def test_the_grazes_of_a_profile_are_the_bottoms_of_its_dips() -> None:
 @pytest.mark.parametrize("benches", [1, 2])
 def test_a_profile_needs_two_benches_that_share_no_handle(benches: int) -> None:
     with pytest.raises(InvalidValue) as refused:
-        clearance_profile(Dragon(benches), Spiral(), [0.0])
+        clearance_profile(Dance(Dragon(benches), Spiral()), [0.0])
     assert refused.value.field == "dragon.benches"
 
 
 def test_a_profile_past_the_end_is_outside_the_run() -> None:
     with pytest.raises(OutsideRun) as refused:
-        clearance_profile(Dragon(5), Spiral(), [0.0, 433.0])
+        clearance_profile(Dance(Dragon(5), Spiral()), [0.0, 433.0])
     assert refused.value.field == "times.1"
 
 
@@ -501,20 +501,20 @@ def test_a_profile_past_the_end_is_outside_the_run() -> None:
 
 @pytest.mark.parametrize("margin", [0.0, MARGIN_MAX])
 def test_a_margin_at_its_limits_is_accepted(margin: float) -> None:
-    assert first_contact(Dragon(5), Spiral(), margin=margin).outcome is not Outcome.UNDECIDED
+    assert first_contact(Dance(Dragon(5), Spiral()), margin=margin).outcome is not Outcome.UNDECIDED
 
 
 @pytest.mark.parametrize("margin", [-1e-12, MARGIN_MAX * 1.001, float("nan"), float("inf"), "0", None])
 def test_a_margin_beyond_its_limits_is_refused(margin: object) -> None:
     with pytest.raises(InvalidValue) as refused:
-        first_contact(Dragon(5), Spiral(), margin=margin)  # type: ignore[arg-type]
+        first_contact(Dance(Dragon(5), Spiral()), margin=margin)  # type: ignore[arg-type]
     assert refused.value.field == "margin"
 
 
 def test_the_profile_of_one_time_is_that_instant() -> None:
-    many = clearance_profile(Dragon(30), Spiral(), [400.0, 410.0])
+    many = clearance_profile(Dance(Dragon(30), Spiral()), [400.0, 410.0])
     for k, time in enumerate([400.0, 410.0]):
-        one = clearance_profile(Dragon(30), Spiral(), time)
+        one = clearance_profile(Dance(Dragon(30), Spiral()), time)
         assert (one.time.shape, one.clearance.shape, one.benches.shape, one.grazes) == ((), (), (2,), ())
         assert one.clearance == many.clearance[k]
         assert one.benches.tolist() == many.benches[k].tolist()
@@ -522,13 +522,13 @@ def test_the_profile_of_one_time_is_that_instant() -> None:
 
 def test_the_gap_of_a_contact_is_the_margin_and_at_the_start_what_there_is() -> None:
     for margin in (0.0, 0.05, 0.15):
-        found = first_contact(Dragon(), Spiral(), margin=margin)
+        found = first_contact(Dance(Dragon(), Spiral()), margin=margin)
         assert found.outcome is Outcome.CONTACT
         assert found.gap == pytest.approx(margin, abs=ACCURACY)
-    at_start = first_contact(Dragon(), Spiral(), margin=0.2)
+    at_start = first_contact(Dance(Dragon(), Spiral()), margin=0.2)
     assert at_start.outcome is Outcome.CONTACT_AT_START
     assert at_start.benches is not None
-    profile = clearance_profile(Dragon(), Spiral(), [0.0])
+    profile = clearance_profile(Dance(Dragon(), Spiral()), [0.0])
     assert at_start.gap is not None
     assert profile.clearance[0] - ROUNDING <= at_start.gap <= 0.2
-    assert first_contact(Dragon(), Spiral(0.8)).gap is None
+    assert first_contact(Dance(Dragon(), Spiral(0.8))).gap is None

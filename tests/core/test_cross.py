@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from core import Dance
 from core.contact.cross_check import (
     CHECK_TRAVEL,
     CLOSE_MAX,
@@ -42,7 +43,7 @@ THREADS = 4
 
 @pytest.fixture(scope="module")
 def contact() -> FirstContact:
-    return first_contact(DRAGON, SPIRAL)
+    return first_contact(Dance(DRAGON, SPIRAL))
 
 
 def sizes_of(dragon: Dragon) -> Floats:
@@ -50,7 +51,7 @@ def sizes_of(dragon: Dragon) -> Floats:
 
 
 def poses_of(dragon: Dragon, path: Spiral | Route, times: list[float], head_speed: float = 1.0) -> Floats:
-    return bench_poses(trajectory(dragon, path, times, head_speed=head_speed).position)
+    return bench_poses(trajectory(Dance(dragon, path, head_speed), times).position)
 
 
 def close_pairs(pose: Floats, size: Floats, margin: float = 0.0) -> set[tuple[int, int]]:
@@ -73,7 +74,7 @@ def random_dragon(random: np.random.Generator) -> Dragon:
 
 @pytest.mark.parametrize("whole", [True, False], ids=["dragon", "pair"])
 def test_all_engines_agree_on_the_default_dance(contact: FirstContact, whole: bool) -> None:
-    check = contact_check(contact, DRAGON, SPIRAL, whole=whole)
+    check = contact_check(contact, Dance(DRAGON, SPIRAL), whole=whole)
     assert check is not None
     assert check.agree
     assert check.judged == (tuple(range(223)) if whole else (0, 8))
@@ -87,8 +88,8 @@ def test_the_whole_dragon_is_as_reported_on_200_random_dragons() -> None:
     for _ in range(200):
         dragon, path = random_dragon(random), Spiral(random.uniform(0.4, 0.7), random.uniform(8, 16))
         margin, head_speed = random.choice([0.0, 0.0, 0.03]), random.choice([0.01, 1.0, 5.0])
-        found = first_contact(dragon, path, margin=margin, head_speed=head_speed)
-        check = contact_check(found, dragon, path, margin=margin, head_speed=head_speed)
+        found = first_contact(Dance(dragon, path, head_speed), margin=margin)
+        check = contact_check(found, Dance(dragon, path, head_speed), margin=margin)
         if check is None:
             assert found.outcome is Outcome.CLEAR
             continue
@@ -110,9 +111,9 @@ def test_the_whole_dragon_is_as_reported_on_200_random_dragons() -> None:
 @pytest.mark.parametrize("whole", [True, False], ids=["dragon", "pair"])
 def test_a_contact_at_the_start_has_no_before_and_may_have_others_beside_it(whole: bool) -> None:
     dragon, path = Dragon(60), Spiral(0.25, 8.0)
-    found = first_contact(dragon, path)
+    found = first_contact(Dance(dragon, path))
     assert (found.outcome, found.time) == (Outcome.CONTACT_AT_START, 0.0)
-    check = contact_check(found, dragon, path, whole=whole)
+    check = contact_check(found, Dance(dragon, path), whole=whole)
     assert check is not None
     assert check.agree
     assert check.engines == dict.fromkeys(Engine, Verdict(before=None, after=True))
@@ -122,13 +123,13 @@ def test_a_contact_at_the_start_has_no_before_and_may_have_others_beside_it(whol
 
 def test_a_start_in_the_middle_of_a_contact_is_judged_there(contact: FirstContact) -> None:
     assert contact.time is not None
-    found = first_contact(DRAGON, SPIRAL, start=contact.time + 0.5)
+    found = first_contact(Dance(DRAGON, SPIRAL), start=contact.time + 0.5)
     assert found.outcome is Outcome.CONTACT_AT_START
-    check = contact_check(found, DRAGON, SPIRAL)
+    check = contact_check(found, Dance(DRAGON, SPIRAL))
     assert check is not None
     assert check.agree
     # that is no first contact of the whole dance, which a different claim shows
-    forged = contact_check(replace(found, outcome=Outcome.CONTACT), DRAGON, SPIRAL)
+    forged = contact_check(replace(found, outcome=Outcome.CONTACT), Dance(DRAGON, SPIRAL))
     assert forged is not None
     assert all(verdict.before for verdict in forged.engines.values())
     assert not forged.agree
@@ -141,8 +142,8 @@ def test_two_benches_of_a_straight_row_that_are_met_at_once_stand_together() -> 
     met = []
     for overhang in (0.1, 0.2, 0.3, 0.4, 0.5):
         dragon = Dragon(40, 2.2, 2.2, 0.3, overhang)
-        found = first_contact(dragon, path, start=95.0)
-        check = contact_check(found, dragon, path)
+        found = first_contact(Dance(dragon, path), start=95.0)
+        check = contact_check(found, Dance(dragon, path))
         assert check is not None
         assert found.benches is not None
         assert check.agree
@@ -153,9 +154,9 @@ def test_two_benches_of_a_straight_row_that_are_met_at_once_stand_together() -> 
 
 
 def test_nothing_is_judged_where_nothing_touches() -> None:
-    clear = first_contact(DRAGON, Spiral(0.8))
+    clear = first_contact(Dance(DRAGON, Spiral(0.8)))
     assert clear.outcome is Outcome.CLEAR
-    assert contact_check(clear, DRAGON, Spiral(0.8)) is None
+    assert contact_check(clear, Dance(DRAGON, Spiral(0.8))) is None
 
 
 # -- what is forged -------------------------------------------------------------------------------------------
@@ -163,7 +164,7 @@ def test_nothing_is_judged_where_nothing_touches() -> None:
 
 @pytest.mark.parametrize("whole", [True, False], ids=["dragon", "pair"])
 def test_a_wrong_pair_is_noticed_by_every_engine(contact: FirstContact, whole: bool) -> None:
-    check = contact_check(replace(contact, benches=(0, 9)), DRAGON, SPIRAL, whole=whole)
+    check = contact_check(replace(contact, benches=(0, 9)), Dance(DRAGON, SPIRAL), whole=whole)
     assert check is not None
     assert not check.agree
     assert check.engines == dict.fromkeys(Engine, Verdict(before=False, after=False))
@@ -181,7 +182,7 @@ def test_a_wrong_time_is_noticed_by_every_engine(
     assert contact.time_bracket is not None
     low, high = contact.time_bracket
     forged = replace(contact, time=low + shift, time_bracket=(low + shift, high + shift))
-    check = contact_check(forged, DRAGON, SPIRAL, whole=whole)
+    check = contact_check(forged, Dance(DRAGON, SPIRAL), whole=whole)
     assert check is not None
     assert not check.agree
     assert check.engines == dict.fromkeys(Engine, verdict)
@@ -190,7 +191,7 @@ def test_a_wrong_time_is_noticed_by_every_engine(
 @pytest.mark.parametrize("when", ["before", "after", "both"])
 @pytest.mark.parametrize("margin", [0.0, 0.02])
 def test_a_third_bench_is_noticed_by_every_engine_but_not_by_the_pair_alone(when: str, margin: float) -> None:
-    found = first_contact(DRAGON, SPIRAL, margin=margin)
+    found = first_contact(Dance(DRAGON, SPIRAL), margin=margin)
     assert found.time is not None
     assert found.benches is not None
     poses = poses_of(DRAGON, SPIRAL, [found.time - CHECK_TRAVEL, found.time + CHECK_TRAVEL])
@@ -267,7 +268,7 @@ def test_a_pitch_limited_at_the_start_is_judged_with_the_head_at_the_start() -> 
     low, high = 0.2, 1.0
 
     def nearest(pitch: float) -> tuple[float, tuple[int, int]]:
-        profile = clearance_profile(dragon, Spiral(pitch, turns), [0.0])
+        profile = clearance_profile(Dance(dragon, Spiral(pitch, turns)), [0.0])
         a, b = profile.benches[0].tolist()
         return float(profile.clearance[0]), (a, b)
 
@@ -287,7 +288,7 @@ def test_a_pitch_limited_at_the_start_is_judged_with_the_head_at_the_start() -> 
 @pytest.mark.parametrize(("benches", "judged"), [(WHOLE_BENCHES, WHOLE_BENCHES), (WHOLE_BENCHES + 1, 119)])
 def test_of_a_longer_dragon_those_near_the_pair_are_judged(benches: int, judged: int) -> None:
     dragon = Dragon(benches)
-    check = contact_check(first_contact(dragon, SPIRAL), dragon, SPIRAL)
+    check = contact_check(first_contact(Dance(dragon, SPIRAL)), Dance(dragon, SPIRAL))
     assert check is not None
     assert check.agree
     assert len(check.judged) == judged

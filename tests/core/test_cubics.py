@@ -12,7 +12,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.interpolate import CubicSpline
 
-from core import InvalidValue, Route, Waypoints, cubics, kernels
+from core import InvalidValue, Route, Waypoints, kernels
+from core.paths import cubics
 
 ARC_ERROR = 1e-10  # [m]
 # A place is an arc length, good to some 1e-15 of all of it; next to a sharp crest it moves the curvature most. Relative

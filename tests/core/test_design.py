@@ -12,7 +12,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.optimize import brentq
 
-from core import Dragon, InvalidValue, LimitedBy, MinimumPitch, Outcome, Spiral, first_contact, minimum_pitch
+from core import Dance, Dragon, InvalidValue, LimitedBy, MinimumPitch, Outcome, Spiral, first_contact, minimum_pitch
 from tests.core.slow_pitch import SlowWay
 from tests.core.slow_search import SlowDance, chord_squared
 
@@ -34,7 +34,7 @@ def is_feasible(dragon: Dragon, pitch: float, radius: float, turns: float, margi
     if pitch * turns <= radius:
         return False
     try:
-        found = first_contact(dragon, Spiral(pitch, turns), margin=margin)
+        found = first_contact(Dance(dragon, Spiral(pitch, turns)), margin=margin)
     except InvalidValue:  # it folds at the start
         return False
     if found.outcome is Outcome.CLEAR:

@@ -33,6 +33,7 @@ def sources(folder):
 sys.path_hooks.insert(0, sources)
 import numpy as np
 import core
+from core import *
 modules = [name for name in sys.modules if name.startswith("core.kernels.")]
 assert len(modules) > 9 and not core.kernels.COMPILED
 assert all(sys.modules[name].__file__.endswith(".py") for name in modules)
@@ -42,23 +43,23 @@ with np.printoptions(floatmode="unique", threshold=sys.maxsize, legacy="1.25"):
 """
 
 EXPRESSIONS = {
-    "trajectory": "core.trajectory(core.Dragon(40), core.Spiral(), [-5.0, 0.0, 300.0, 432.0])",
-    "trajectory bench by bench": "core.trajectory(core.Dragon.of([3, 2, 4], [0.3] * 3, [0.2] * 3), core.Spiral(), [9])",
+    "trajectory": "core.trajectory(Dance(Dragon(40), Spiral()), [-5.0, 0.0, 300.0, 432.0])",
+    "trajectory bench by bench": "core.trajectory(Dance(Dragon.of([3, 2, 4], [0.3] * 3, [0.2] * 3), Spiral()), [9])",
     "trajectory in blocks": "core.trajectory("
-    "core.Dragon.of([3, 1, 2, 2, 2, 2, 2, 4, 2], [0.3] * 9, [0.2] * 9), core.Spiral(), np.linspace(-50, 430, 19))",
-    "run to the fold": "core.run_end(core.Dragon(), core.Spiral())",
-    "run to the centre": "core.run_end(core.Dragon(5), core.Spiral(9.0, 3.0))",
+    "Dance(Dragon.of([3, 1, 2, 2, 2, 2, 2, 4, 2], [0.3] * 9, [0.2] * 9), Spiral()), np.linspace(-50, 430, 19))",
+    "run to the fold": "Dance(Dragon(), Spiral()).end",
+    "run to the centre": "Dance(Dragon(5), Spiral(9.0, 3.0)).end",
     "separation": "core.separation([[0, 0, 0.1]] * 3, [2, 1], [[1, 1, 2], [3, 1, 2], [2, 0, 0.1]], [2, 0.5])",
     "overlaps": "core.overlaps(core.bench_poses(np.random.default_rng(1).random((30, 2)) * 9), [1.0] * 29, [0.3] * 29)",
-    "first contact": "core.first_contact(core.Dragon(30), core.Spiral())",
-    "first contact with a margin": "core.first_contact(core.Dragon(30), core.Spiral(), margin=0.05)",
+    "first contact": "core.first_contact(Dance(Dragon(30), Spiral()))",
+    "first contact with a margin": "core.first_contact(Dance(Dragon(30), Spiral()), margin=0.05)",
     "route": "core.Route([core.Waypoints(((0, 0), (6, 1), (11, 6), (9, 13), (2, 14)))]).table",
     "places on a route": "core.Route([core.Waypoints(((0, 0), (6, 1), (11, 6), (9, 13)))]).position([21.0, 3.0, 14.0])",
-    "trajectory on a turn": "core.trajectory(core.Dragon(20), core.turn(1.7).path, [0.0, 14.0, 30.0])",
-    "first excess": "core.motion.speed.first_excess(core.Dragon(20), core.turn(1.7).path, 1.5, start=0.0, stop=30.0)",
-    "first excess before a fold": "core.motion.speed.first_excess(core.Dragon(4), core.Spiral(1.2, 3.0), 3.0)",
-    "minimum pitch": "core.minimum_pitch(core.Dragon(20), turning_radius=3.0, start_turns=8.0)",
-    "clearance profile": "core.clearance_profile(core.Dragon(30), core.Spiral(), [400.0, 405.0, 410.0])",
+    "trajectory on a turn": "core.trajectory(Dance(Dragon(20), Turn(1.7)), [0.0, 14.0, 30.0])",
+    "first excess": "core.motion.speed.first_excess(Dance(Dragon(20), Turn(1.7)), 1.5, start=0.0, stop=30.0)",
+    "first excess before a fold": "core.motion.speed.first_excess(Dance(Dragon(4), Spiral(1.2, 3.0)), 3.0)",
+    "minimum pitch": "core.minimum_pitch(Dragon(20), turning_radius=3.0, start_turns=8.0)",
+    "clearance profile": "core.clearance_profile(Dance(Dragon(30), Spiral()), [400.0, 405.0, 410.0])",
 }
 
 
@@ -104,5 +105,5 @@ def test_modules_take_the_same_from_each_other_compiled_and_uncompiled(module: s
 @pytest.mark.parametrize("name", EXPRESSIONS)
 def test_uncompiled_gives_the_same_to_the_last_bit(name: str, uncompiled: dict[str, str]) -> None:
     with np.printoptions(floatmode="unique", threshold=sys.maxsize, legacy="1.25"):  # np.float64 is written like float
-        compiled = repr(eval(EXPRESSIONS[name], {"core": core, "np": np}))
+        compiled = repr(eval(EXPRESSIONS[name], vars(core) | {"core": core, "np": np}))
     assert ascii(compiled) == uncompiled[name]

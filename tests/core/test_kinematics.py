@@ -14,20 +14,20 @@ from hypothesis import strategies as st
 
 from core import (
     BenchDragonError,
+    Dance,
     Dragon,
     EndReason,
     InvalidValue,
     OutsideRun,
     Route,
     Spiral,
+    Turn,
     bench_poses,
     kernels,
-    run_end,
     trajectory,
-    turn,
 )
+from core.dance import HEAD_SPEED_MAX, HEAD_SPEED_MIN
 from core.kernels import LANES_PER_BLOCK
-from core.motion.trajectory import HEAD_SPEED_MAX, HEAD_SPEED_MIN
 from tests.core.slow_search import SlowDance
 
 pytestmark = pytest.mark.uncompiled
@@ -52,12 +52,12 @@ SPIRALS = st.builds(Spiral, pitch=st.floats(0.2, 3.0), start_turns=st.floats(3.0
 
 def instant(dragon: Dragon, spiral: Spiral, share: float) -> float:
     """The time at a share of the run, 1 at its end [s]; negative before the start."""
-    return share * run_end(dragon, spiral).time
+    return share * Dance(dragon, spiral).end.time
 
 
 def stands(dragon: Dragon, spiral: Spiral) -> bool:
     try:
-        return run_end(dragon, spiral).time > 1.0
+        return Dance(dragon, spiral).end.time > 1.0
     except InvalidValue:
         return False
 
@@ -67,7 +67,7 @@ DANCES = st.tuples(DRAGONS, SPIRALS).filter(lambda dance: stands(*dance))
 
 def test_the_selected_handles_are_those_of_the_reference() -> None:
     rows = REFERENCE["selected"]
-    dance = trajectory(Dragon(), Spiral(), [row["time"] for row in rows])
+    dance = trajectory(Dance(Dragon(), Spiral()), [row["time"] for row in rows])
     for k, row in enumerate(rows):
         for handle in row["handles"]:
             place = dance.position[k, handle["handle"]]
@@ -77,7 +77,7 @@ def test_the_selected_handles_are_those_of_the_reference() -> None:
 
 def test_every_handle_is_that_of_the_reference() -> None:
     rows = REFERENCE["full"]
-    dance = trajectory(Dragon(), Spiral(), [row["time"] for row in rows])
+    dance = trajectory(Dance(Dragon(), Spiral()), [row["time"] for row in rows])
     for k, row in enumerate(rows):
         places = [[handle["x"], handle["y"]] for handle in row["handles"]]
         np.testing.assert_allclose(dance.position[k], places, rtol=0, atol=ACCURACY)
@@ -85,7 +85,7 @@ def test_every_handle_is_that_of_the_reference() -> None:
 
 
 def test_all_rows_rounded_to_six_decimals_have_the_sha256_of_the_reference() -> None:
-    dance = trajectory(Dragon(), Spiral(), np.arange(301.0))
+    dance = trajectory(Dance(Dragon(), Spiral()), np.arange(301.0))
     digest = hashlib.sha256()
     for t in range(301):
         for k in range(224):
@@ -99,7 +99,7 @@ def test_all_rows_rounded_to_six_decimals_have_the_sha256_of_the_reference() -> 
 @given(DANCES, st.floats(-0.5, 1.0))
 def test_chords_keep_their_length_and_handles_stay_on_the_spiral(dance: tuple[Dragon, Spiral], share: float) -> None:
     dragon, spiral = dance
-    position = trajectory(dragon, spiral, [instant(dragon, spiral, share)]).position[0]
+    position = trajectory(Dance(dragon, spiral), [instant(dragon, spiral, share)]).position[0]
     size = ROUNDING * (np.abs(position).max() + spiral.pitch)
     links = np.linalg.norm(np.diff(position, axis=0), axis=1)
     np.testing.assert_allclose(links, dragon.chords, rtol=0, atol=10 * size)
@@ -113,7 +113,7 @@ def test_chords_keep_their_length_and_handles_stay_on_the_spiral(dance: tuple[Dr
 def test_handles_are_those_of_the_slow_dance(dance: tuple[Dragon, Spiral], share: float) -> None:
     dragon, spiral = dance
     time = instant(dragon, spiral, share)
-    position = trajectory(dragon, spiral, [time]).position[0]
+    position = trajectory(Dance(dragon, spiral), [time]).position[0]
     slow = SlowDance.of(dragon, spiral).handles([time])[0]
     # close to the fold a handle moves as the square root of what is left
     np.testing.assert_allclose(position, slow, rtol=0, atol=1e-9 * (1.0 + np.abs(position).max()))
@@ -125,9 +125,9 @@ def test_velocities_are_the_difference_quotients_of_positions(
     dance: tuple[Dragon, Spiral], share: float, head_speed: float
 ) -> None:
     dragon, spiral = dance
-    end = run_end(dragon, spiral, head_speed=head_speed).time
+    end = Dance(dragon, spiral, head_speed).end.time
     time, h = share * end, 1e-6 * end * (1.0 - share)
-    moving = trajectory(dragon, spiral, [time - h, time, time + h], head_speed=head_speed)
+    moving = trajectory(Dance(dragon, spiral, head_speed), [time - h, time, time + h])
     quotient = (moving.position[2] - moving.position[0]) / (2 * h)
     fastest = moving.speed.max()
     np.testing.assert_allclose(quotient, moving.velocity[1], rtol=0, atol=1e-5 * fastest + 1e-8 / h * ROUNDING)
@@ -154,10 +154,10 @@ def test_a_batch_equals_a_loop_whatever_its_place_in_a_block(dragon: Dragon, ins
 
 
 def assert_a_batch_equals_a_loop(dragon: Dragon, spiral: Spiral, times: list[float]) -> None:
-    batch = trajectory(dragon, spiral, times)
+    batch = trajectory(Dance(dragon, spiral), times)
     assert batch.position.shape == (len(times), dragon.benches + 1, 2)
     for k, time in enumerate(times):
-        one = trajectory(dragon, spiral, [time])
+        one = trajectory(Dance(dragon, spiral), [time])
         assert np.array_equal(batch.position[k], one.position[0])
         assert np.array_equal(batch.velocity[k], one.velocity[0])
         assert np.array_equal(batch.speed[k], one.speed[0])
@@ -208,8 +208,8 @@ def test_scaling_every_length_scales_every_place(dance: tuple[Dragon, Spiral], s
     dragon, spiral = dance
     large = Dragon.of(k * dragon.lengths, k * dragon.widths, k * dragon.overhangs)
     time = instant(dragon, spiral, share)
-    small = trajectory(dragon, spiral, [time])
-    scaled = trajectory(large, Spiral(k * spiral.pitch, spiral.start_turns), [k * time])
+    small = trajectory(Dance(dragon, spiral), [time])
+    scaled = trajectory(Dance(large, Spiral(k * spiral.pitch, spiral.start_turns)), [k * time])
     np.testing.assert_allclose(scaled.position, k * small.position, rtol=0, atol=1e-9 * np.abs(small.position).max())
     np.testing.assert_allclose(scaled.speed, small.speed, rtol=1e-8)
 
@@ -221,14 +221,14 @@ def test_a_faster_head_is_at_the_same_place_sooner(
 ) -> None:
     dragon, spiral = dance
     time = instant(dragon, spiral, share)
-    slow, fast = (trajectory(dragon, spiral, [time / v], head_speed=v) for v in (1.0, head_speed))
+    slow, fast = (trajectory(Dance(dragon, spiral, v), [time / v]) for v in (1.0, head_speed))
     size = np.abs(slow.position).max() + spiral.pitch
     np.testing.assert_allclose(fast.position, slow.position, rtol=0, atol=1e-9 * size)
     np.testing.assert_allclose(fast.speed, head_speed * slow.speed, rtol=1e-7)
 
 
 def test_the_default_run_ends_at_the_fold_of_the_head() -> None:
-    end = run_end(Dragon(), Spiral())
+    end = Dance(Dragon(), Spiral()).end
     assert (end.reason, end.bench) == (EndReason.FOLD, 0)
     assert end.time == pytest.approx(432.917924228, abs=1e-8)
     assert end.theta is not None
@@ -237,10 +237,10 @@ def test_the_default_run_ends_at_the_fold_of_the_head() -> None:
 
 def test_a_wide_spiral_is_danced_to_its_centre() -> None:
     spiral = Spiral(9.0, 3.0)
-    end = run_end(Dragon(5), spiral)
+    end = Dance(Dragon(5), spiral).end
     assert (end.reason, end.bench, end.theta) == (EndReason.CENTRE, None, 0.0)
     assert end.time == spiral.length
-    assert trajectory(Dragon(5), spiral, [end.time]).position[0, 0].tolist() == [0.0, 0.0]
+    assert trajectory(Dance(Dragon(5), spiral), [end.time]).position[0, 0].tolist() == [0.0, 0.0]
 
 
 def test_the_reference_agrees_on_every_fold() -> None:
@@ -248,9 +248,7 @@ def test_the_reference_agrees_on_every_fold() -> None:
     folding = [case for case in cases if case.get("fold_time")]
     assert folding
     for case in folding:
-        end = run_end(
-            Dragon(**case["dragon"]), Spiral(case["pitch"], case["start_turns"]), head_speed=case["head_speed"]
-        )
+        end = Dance(Dragon(**case["dragon"]), Spiral(case["pitch"], case["start_turns"]), case["head_speed"]).end
         assert end.time == pytest.approx(case["fold_time"], rel=0, abs=1e-9), case["name"]
 
 
@@ -292,7 +290,7 @@ def test_a_chord_that_just_folds_ends_the_run_before_the_centre() -> None:
     """256 samples of delta missed that theta stops falling, and rises, between two of them."""
     growth = 0.5
     chord = growth * math.sqrt(FOLDING + 1e-6)
-    end = run_end(Dragon(1, chord, chord, 0.1, 0.0), Spiral(2.0 * math.pi * growth, 3.0))
+    end = Dance(Dragon(1, chord, chord, 0.1, 0.0), Spiral(2.0 * math.pi * growth, 3.0)).end
     assert end.reason is EndReason.FOLD
     assert end.theta == pytest.approx(sampled_fold(FOLDING + 1e-6), rel=BESIDE_FOLD)
 
@@ -303,7 +301,7 @@ def test_a_run_of_unlike_benches_ends_where_the_slow_chain_stops(seed: int) -> N
     benches = int(rng.integers(1, 8))
     dragon = Dragon.of(10 ** rng.uniform(-0.5, 0.6, benches), [0.1] * benches, [0.05] * benches)
     spiral = Spiral(10 ** rng.uniform(-0.5, 0.8), 4.0)
-    end = run_end(dragon, spiral)
+    end = Dance(dragon, spiral).end
     assert end.time == pytest.approx(SlowDance.of(dragon, spiral).end(), abs=SLOW_END)
 
 
@@ -311,27 +309,27 @@ def test_a_run_of_unlike_benches_ends_where_the_slow_chain_stops(seed: int) -> N
 @given(DANCES)
 def test_the_last_instant_is_danced_and_the_next_is_outside_the_run(dance: tuple[Dragon, Spiral]) -> None:
     dragon, spiral = dance
-    end = run_end(dragon, spiral)
-    assert np.isfinite(trajectory(dragon, spiral, [0.0, end.time]).speed).all()
+    end = Dance(dragon, spiral).end
+    assert np.isfinite(trajectory(Dance(dragon, spiral), [0.0, end.time]).speed).all()
     with pytest.raises(OutsideRun) as refused:
-        trajectory(dragon, spiral, [0.0, math.nextafter(end.time, math.inf)])
+        trajectory(Dance(dragon, spiral), [0.0, math.nextafter(end.time, math.inf)])
     assert refused.value.field == "times.1"
     assert ("folds" in str(refused.value)) == (end.reason is EndReason.FOLD)
 
 
 def test_a_start_inside_the_fold_is_refused() -> None:
-    fold = run_end(Dragon(), Spiral()).theta
+    fold = Dance(Dragon(), Spiral()).end.theta
     assert fold is not None
     turns = fold / (2 * math.pi)
-    assert run_end(Dragon(), Spiral(0.55, turns * (1 + 1e-9))).time > 0.0
+    assert Dance(Dragon(), Spiral(0.55, turns * (1 + 1e-9))).end.time > 0.0
     with pytest.raises(InvalidValue) as refused:
-        run_end(Dragon(), Spiral(0.55, turns))
+        Dance(Dragon(), Spiral(0.55, turns))
     assert refused.value.field == "path.start_turns"
 
 
 @pytest.mark.parametrize("head_speed", [HEAD_SPEED_MIN, 1.0, HEAD_SPEED_MAX])
 def test_a_head_speed_at_its_limits_is_accepted(head_speed: float) -> None:
-    assert run_end(Dragon(), Spiral(), head_speed=head_speed).time == pytest.approx(432.917924228 / head_speed)
+    assert Dance(Dragon(), Spiral(), head_speed).end.time == pytest.approx(432.917924228 / head_speed)
 
 
 @pytest.mark.parametrize(
@@ -339,7 +337,7 @@ def test_a_head_speed_at_its_limits_is_accepted(head_speed: float) -> None:
 )
 def test_a_head_speed_beyond_its_limits_is_refused(head_speed: object) -> None:
     with pytest.raises(InvalidValue) as refused:
-        trajectory(Dragon(), Spiral(), [0.0], head_speed=head_speed)  # type: ignore[arg-type]
+        trajectory(Dance(Dragon(), Spiral(), head_speed), [0.0])  # type: ignore[arg-type]
     assert refused.value.field == "head_speed"
 
 
@@ -349,16 +347,16 @@ def test_a_head_speed_beyond_its_limits_is_refused(head_speed: object) -> None:
 )
 def test_times_that_are_no_flat_list_of_numbers_are_refused(times: object, field: str) -> None:
     with pytest.raises(InvalidValue) as refused:
-        trajectory(Dragon(), Spiral(), times)  # type: ignore[arg-type]
+        trajectory(Dance(Dragon(), Spiral()), times)  # type: ignore[arg-type]
     assert refused.value.field == field
 
 
-@pytest.mark.parametrize("path", [Spiral(), turn(1.7).path], ids=["spiral", "turn"])
+@pytest.mark.parametrize("path", [Spiral(), Turn(1.7)], ids=["spiral", "turn"])
 def test_one_time_answers_one_instant_and_a_list_is_a_loop_over_its_times(path: Spiral | Route) -> None:
     dragon, times = Dragon(30), [0.0, 12.5, 40.0]
-    many = trajectory(dragon, path, times)
+    many = trajectory(Dance(dragon, path), times)
     for k, time in enumerate(times):
-        one = trajectory(dragon, path, time)
+        one = trajectory(Dance(dragon, path), time)
         assert one.time.shape == ()
         assert one.position.shape == one.velocity.shape == (31, 2)
         assert one.speed.shape == (31,)
@@ -376,7 +374,7 @@ def test_one_time_answers_one_instant_and_a_list_is_a_loop_over_its_times(path: 
 )
 def test_a_time_that_is_refused_is_named_as_it_was_given(times: object, words: str) -> None:
     with pytest.raises(BenchDragonError, match=words):
-        trajectory(Dragon(), Spiral(), times)  # type: ignore[arg-type]
+        trajectory(Dance(Dragon(), Spiral()), times)  # type: ignore[arg-type]
 
 
 @pytest.mark.parametrize("handles", [None, 1.0, [[0.0, 0.0, 0.0]], [0.0, 0.0], "handles", [["a", "b"]]])
@@ -386,7 +384,7 @@ def test_handles_that_are_no_places_are_refused(handles: object) -> None:
 
 
 def test_no_times_give_an_empty_table() -> None:
-    assert trajectory(Dragon(4), Spiral(), []).position.shape == (0, 5, 2)
+    assert trajectory(Dance(Dragon(4), Spiral()), []).position.shape == (0, 5, 2)
 
 
 @given(st.integers(1, 6), st.integers(0, 3), st.data())

@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 
-from core import Dragon, EndReason, Outcome, Route, Spiral, first_contact, run_end, turn
+from core import Dance, Dragon, EndReason, Outcome, Route, Spiral, Turn, first_contact
 from core.contact.search import BRACKET, NO_BOUND, Search
 from core.kernels.constants import RING_END, RING_PLACE
 from core.motion.trajectory import trajectory
@@ -84,7 +84,7 @@ def test_points_of_two_rings_are_apart_as_said_wherever_they_stand_to_each_other
     assert (distance >= least * (1.0 - ROUNDING)).all()
 
 
-@pytest.mark.parametrize("path", [Spiral(0.8, 8.0), turn(1.7).path], ids=["spiral", "turn"])
+@pytest.mark.parametrize("path", [Spiral(0.8, 8.0), Turn(1.7)], ids=["spiral", "turn"])
 @pytest.mark.parametrize("first", [0, 1, 3])
 def test_a_pair_of_equal_benches_repeats_in_place_what_the_first_of_them_met(path: Spiral | Route, first: int) -> None:
     """The family lemma: core/kernels/marching.py."""
@@ -105,7 +105,7 @@ def test_a_pair_of_equal_benches_repeats_in_place_what_the_first_of_them_met(pat
         while high - low > SAME * 1e-3:
             middle = 0.5 * (low + high)
             low, high = (middle, high) if place(first, middle) > here else (low, middle)
-        now, then = trajectory(dragon, path, [high, time]).position[::-1]
+        now, then = trajectory(Dance(dragon, path), [high, time]).position[::-1]
         np.testing.assert_allclose(then[first : first + 41 - i], now[i:], rtol=0, atol=SAME)
 
 
@@ -118,18 +118,18 @@ def test_a_body_that_slides_back_behind_its_start_has_the_contacts_of_the_genera
         chord, head = 10 ** rng.uniform(-1.0, -0.3), 10 ** rng.uniform(0.6, 1.0)
         dragon = Dragon(int(rng.integers(6, 30)), head, chord, 0.3 * chord, 0.0)
         spiral = Spiral(10 ** rng.uniform(0.5, 1.0), rng.uniform(2.0, 4.0))
-        end = run_end(dragon, spiral)
+        end = Dance(dragon, spiral).end
         if end.reason is not EndReason.FOLD:
             continue
         start = end.time - 10 ** rng.uniform(-0.5, 0.5)
         times = end.time - (end.time - start) * np.linspace(1.0, 0.0, 200) ** 2
-        radii = np.linalg.norm(trajectory(dragon, spiral, times).position, axis=-1)[:, 3]
+        radii = np.linalg.norm(trajectory(Dance(dragon, spiral), times).position, axis=-1)[:, 3]
         if start > 0.0 and radii[-1] > radii[0] > radii.min() + chord:
             break
     lengths = np.array(dragon.lengths)
     lengths[-1] += 1e-9
     general = Dragon.of(lengths, dragon.widths, dragon.overhangs)
-    family, every = (first_contact(each, spiral, start=start) for each in (dragon, general))
+    family, every = (first_contact(Dance(each, spiral), start=start) for each in (dragon, general))
     assert family.outcome is every.outcome
     if family.outcome is Outcome.CONTACT:
         assert family.time == pytest.approx(every.time, rel=0, abs=ACCURACY)
@@ -148,7 +148,7 @@ def test_on_a_turn_the_search_finds_what_it_finds_when_all_benches_are_followed(
         widths = np.array(dragon.widths)
         widths[: int(rng.integers(1, benches))] *= 0.9
         dragon = Dragon.of(dragon.lengths, widths, dragon.overhangs)
-    path = turn(rng.uniform(0.9, 2.0), 5.0, rng.uniform(0.8, 1.5), start_turns=8.0).path
+    path = Turn(rng.uniform(0.9, 2.0), 5.0, rng.uniform(0.8, 1.5), start_turns=8.0)
     margin, start = rng.choice([0.0, 0.1]), rng.choice([-60.0, 0.0, rng.uniform(0.0, 120.0)])
     found = Search(dragon, path, margin).approach(start, path.end, 1.0)
     every = Search(dragon, path, margin)
@@ -163,10 +163,10 @@ def test_on_a_turn_the_search_finds_what_it_finds_when_all_benches_are_followed(
 
 
 def test_ten_thousand_benches_through_the_turn_are_decided_as_two_hundred_are() -> None:
-    few, many = (first_contact(Dragon(benches), turn(1.7).path) for benches in (223, 10_000))
+    few, many = (first_contact(Dance(Dragon(benches), Turn(1.7))) for benches in (223, 10_000))
     assert (few.outcome, many.outcome) == (Outcome.CLEAR, Outcome.CLEAR)
     assert many.end == few.end
     assert many.certificate.steps == few.certificate.steps
-    touching = [first_contact(Dragon(benches), turn(1.0).path) for benches in (223, 10_000)]
+    touching = [first_contact(Dance(Dragon(benches), Turn(1.0))) for benches in (223, 10_000)]
     # the same steps but for what their travels may be off by, which grows with the dragon's length
     assert touching[0].time == pytest.approx(touching[1].time, rel=0, abs=BRACKET)

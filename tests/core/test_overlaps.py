@@ -10,6 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
+from core import Dance
 from core.dragon import Dragon
 from core.errors import InvalidValue, TooLarge
 from core.motion.trajectory import bench_poses, trajectory
@@ -200,7 +201,7 @@ def test_cross_check_says_that_the_angle_sum_rule_knows_no_margin() -> None:
 def test_all_four_see_the_head_touch_bench_8_at_the_verified_time() -> None:
     dragon = Dragon()
     moment = [CONTACT_TIME - UNDECIDED, CONTACT_TIME + UNDECIDED]
-    before, after = bench_poses(trajectory(dragon, Spiral(), moment).position)
+    before, after = bench_poses(trajectory(Dance(dragon, Spiral()), moment).position)
     pair = [0, 8]
     seen = verdicts(before[pair], after[pair], dragon.lengths[pair], dragon.widths[pair])
     assert seen == dict.fromkeys(Engine, Verdict(before=False, after=True))

@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from core import Dragon, Outcome, Route, Spiral, Waypoints, first_contact, minimum_pitch, separation, turn
+from core import Dance, Dragon, Outcome, Route, Spiral, Turn, Waypoints, first_contact, minimum_pitch, separation
 from core.contact.near_graze import DIGITS, LAST_BENCH, Bench, Pair, gap_along, narrowed
 from core.contact.near_graze import separation as precise_separation
 from core.contact.search import Search
@@ -19,7 +19,7 @@ from core.contact.search import Search
 DOUBLE = 1e-12
 PRECISE = Decimal("1e-30")  # [m]
 BRACKET = 1e-9  # [s]
-TURN = turn(1.7).path
+TURN = Turn(1.7)
 
 
 def pair_of(path: Spiral | Route, pair: tuple[int, int]) -> Pair:
@@ -96,7 +96,7 @@ def test_a_bench_that_passed_through_the_other_is_not_apart_along_the_axis_of_it
 @pytest.mark.parametrize("head_speed", [0.01, 1.0, 2.0])
 def test_within_a_nanometre_of_a_graze_the_bracket_is_narrow(margin: float, below: float, head_speed: float) -> None:
     spiral = Spiral(minimum_pitch(Dragon(60), margin=margin).pitch_bracket[0] - below)
-    found = first_contact(Dragon(60), spiral, margin=margin, head_speed=head_speed)
+    found = first_contact(Dance(Dragon(60), spiral, head_speed), margin=margin)
     assert found.outcome is Outcome.CONTACT
     assert found.time_bracket is not None
     clear, within = found.time_bracket
@@ -128,13 +128,13 @@ def test_a_curve_through_waypoints_is_followed_in_doubles_alone() -> None:
 def test_benches_far_behind_are_followed_in_doubles_alone() -> None:
     assert pair_of(Spiral(), (0, LAST_BENCH)).can_follow
     assert not pair_of(Spiral(), (0, LAST_BENCH + 1)).can_follow
-    found = first_contact(Dragon(2_000, width=0.54), Spiral(start_turns=1_000))
+    found = first_contact(Dance(Dragon(2_000, width=0.54), Spiral(start_turns=1_000)))
     assert found.outcome is Outcome.CONTACT
     assert found.benches[1] > LAST_BENCH
 
 
 def test_where_a_travel_is_rounded_to_more_than_the_bracket_decimals_are_not_asked() -> None:
-    found = first_contact(Dragon(20), Spiral(0.3, 1_500), head_speed=0.01)
+    found = first_contact(Dance(Dragon(20), Spiral(0.3, 1_500), 0.01))
     assert found.outcome is Outcome.CONTACT
     assert found.time_bracket is not None
     assert found.time_bracket[1] - found.time_bracket[0] > BRACKET

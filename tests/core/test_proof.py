@@ -16,7 +16,7 @@ import pytest
 import shapely
 from flint import arb, ctx
 
-from core import Dragon, Spiral, bench_poses, first_contact, trajectory
+from core import Dance, Dragon, Spiral, bench_poses, first_contact, trajectory
 from core.errors import InvalidValue, ProofRefused
 from core.proof import Certificate, check, prove_collision_time, prove_minimum_pitch
 from core.proof.chain import Chain, Pose, Stretch, bend, newton
@@ -44,7 +44,9 @@ def through_json(certificate: Certificate) -> Certificate:
 
 def proof_of(case: dict[str, Any], **changes: Any) -> Certificate:
     dragon, path = Dragon(**case["dragon"]), Spiral(case["pitch"], case["start_turns"])
-    return prove_collision_time(dragon, path, case["time"] + changes.pop("later", 0.0), **changes)
+    return prove_collision_time(
+        Dance(dragon, path, changes.pop("head_speed", 1.0)), case["time"] + changes.pop("later", 0.0), **changes
+    )
 
 
 @pytest.fixture(scope="module")
@@ -88,14 +90,14 @@ def test_the_contact_of_a_random_dragon_given_bench_by_bench_is_proven_and_its_n
     lengths, overhangs = random.uniform(1.2, 3.6, benches), random.uniform(0.0, 0.4, benches)
     dragon = Dragon.of(lengths, random.uniform(0.1, 0.4, benches), overhangs)
     path = Spiral(random.uniform(0.5, 0.8), random.uniform(5.0, 9.0))
-    time = first_contact(dragon, path).time
+    time = first_contact(Dance(dragon, path)).time
     assert time
-    certificate = through_json(prove_collision_time(dragon, path, time))
+    certificate = through_json(prove_collision_time(Dance(dragon, path), time))
     assert certificate["repeats_from"] == benches - 3
     check(certificate)
     for wrong in (time - 1e-8, time + 1e-8):
         with pytest.raises(ProofRefused):
-            prove_collision_time(dragon, path, wrong)
+            prove_collision_time(Dance(dragon, path), wrong)
 
 
 @pytest.mark.parametrize("later", [-1.0, -2.1e-10, 2.1e-10, 1e-6, 1.0])
@@ -107,7 +109,7 @@ def test_a_bracket_moved_off_the_contact_is_refused(later: float) -> None:
 def test_a_contact_that_is_not_the_first_is_refused() -> None:
     # At pitch 0.55 the benches part again from 415.02 to 415.375 s: a contact there, but not the first.
     with pytest.raises(ProofRefused, match="benches 0 and 8 overlap"):
-        prove_collision_time(Dragon(), Spiral(), 415.5)
+        prove_collision_time(Dance(Dragon(), Spiral()), 415.5)
 
 
 @pytest.mark.parametrize(("more", "reason"), [(-1e-9, "overlap when handle 0"), (1.1e-6, "free of contact too")])
@@ -121,21 +123,21 @@ def test_a_pitch_off_the_smallest_is_refused(more: float, reason: str) -> None:
 )
 def test_a_time_after_which_nothing_touches_is_refused(benches: int, reason: str) -> None:
     with pytest.raises(ProofRefused, match=reason):
-        prove_collision_time(Dragon(benches), Spiral(), 433.0 if benches == 223 else 100.0)
+        prove_collision_time(Dance(Dragon(benches), Spiral()), 433.0 if benches == 223 else 100.0)
 
 
 @pytest.mark.parametrize("time", [-1.0, math.nan, math.inf, 1e9, "412"])
 def test_a_time_that_is_no_time_of_the_dance_is_an_invalid_value(time: Any) -> None:
     with pytest.raises(InvalidValue, match="time must be"):
-        prove_collision_time(Dragon(), Spiral(), time)
+        prove_collision_time(Dance(Dragon(), Spiral()), time)
 
 
 def test_every_pair_in_its_own_right_proves_the_same_as_equal_benches_taken_once() -> None:
     case = CONTACTS["combo_e_body_longer_than_head"]
     dragon, path = Dragon(**(case["dragon"] | {"benches": 12})), Spiral(case["pitch"], 4.0)
-    time = first_contact(dragon, path).time
+    time = first_contact(Dance(dragon, path)).time
     assert time is not None
-    once, each = (prove_collision_time(dragon, path, time, every_pair=every) for every in (False, True))
+    once, each = (prove_collision_time(Dance(dragon, path), time, every_pair=every) for every in (False, True))
     assert (len(once["sweeps"]), len(each["sweeps"])) == (2, 10)
     assert check(once).statement == check(each).statement
     assert check(each).pair_proofs > check(once).pair_proofs
@@ -144,10 +146,10 @@ def test_every_pair_in_its_own_right_proves_the_same_as_equal_benches_taken_once
 @pytest.mark.parametrize("benches", [13, 40])
 def test_at_every_instant_every_pair_has_a_face_between_it_or_is_rings_apart(benches: int) -> None:
     dragon, path = Dragon(benches), Spiral(0.55, 9.0)
-    time = first_contact(dragon, path).time
+    time = first_contact(Dance(dragon, path)).time
     assert time
-    certificate = prove_collision_time(dragon, path, time)
-    handles = trajectory(dragon, path, np.linspace(0.0, 0.999 * time, 40)).position
+    certificate = prove_collision_time(Dance(dragon, path), time)
+    handles = trajectory(Dance(dragon, path), np.linspace(0.0, 0.999 * time, 40)).position
     thetas = np.hypot(*np.moveaxis(handles, -1, 0)) / path.growth
     sizes = np.stack([dragon.lengths, dragon.widths], axis=-1)
     for poses, places in zip(bench_poses(handles), thetas, strict=True):

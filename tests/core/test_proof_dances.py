@@ -14,7 +14,7 @@ import pytest
 import shapely
 from flint import acb, arb, ctx
 
-from core import Arc, Coil, Dragon, Line, Route, Spiral, Waypoints, bench_poses, first_contact, trajectory, turn
+from core import Arc, Coil, Dance, Dragon, Line, Route, Spiral, Turn, Waypoints, bench_poses, first_contact, trajectory
 from core.contact.least_clearance import least_clearance
 from core.errors import InvalidValue, OutsideRun, ProofRefused
 from core.proof import Certificate, check, prove_clear, prove_collision_time, prove_contact, prove_minimum_pitch
@@ -57,22 +57,22 @@ OUTWARDS = Route([Coil(0.9, 3.0, 9.0)])
 TURNED = Route([Coil(0.7, 9.0, 3.5, centre=(2.0, -1.0), rotation=0.4)], start=10.0)
 SMALL = Dragon(14)
 SHORT = Dragon(10, 2.0, 1.4, 0.3, 0.2)
-ROUTES = {"loop": LOOP, "hairpin": HAIRPIN, "outwards": OUTWARDS, "inwards": TURNED, "turn": turn(1.7)}
+ROUTES = {"loop": LOOP, "hairpin": HAIRPIN, "outwards": OUTWARDS, "inwards": TURNED, "turn": Turn(1.7)}
 
 
 @pytest.fixture(scope="module")
 def turning() -> Certificate:
     """A clear dance through the turn, with a margin."""
-    return through_json(prove_clear(SMALL, turn(1.7), 40.0, start=-8.0, margin=0.5))
+    return through_json(prove_clear(Dance(SMALL, Turn(1.7)), 40.0, start=-8.0, margin=0.5))
 
 
 @pytest.fixture(scope="module")
 def touching() -> Certificate:
     """A contact on a route: the head meets its own tail."""
     dragon = Dragon(30)
-    time = first_contact(dragon, LOOP, start=60.0).time
+    time = first_contact(Dance(dragon, LOOP), start=60.0).time
     assert time is not None
-    return through_json(prove_contact(dragon, LOOP, time, start=60.0))
+    return through_json(prove_contact(Dance(dragon, LOOP), time, start=60.0))
 
 
 @pytest.mark.parametrize(
@@ -89,28 +89,28 @@ def touching() -> Certificate:
 def test_a_contact_within_a_margin_is_proven_and_its_neighbourhood_refused(
     dragon: Dragon, path: Spiral, margin: float
 ) -> None:
-    found = first_contact(dragon, path, margin=margin)
+    found = first_contact(Dance(dragon, path), margin=margin)
     assert found.time
-    certificate = through_json(prove_collision_time(dragon, path, found.time, margin=margin))
+    certificate = through_json(prove_collision_time(Dance(dragon, path), found.time, margin=margin))
     assert certificate["claim"]["margin"] == margin
     a, b = certificate["overlap"]["benches"]
     assert f"benches {a} and {b} are nearer than {margin!r} m" in check(certificate).statement
     for wrong in (found.time - OFF, found.time + OFF):
         with pytest.raises(ProofRefused):
-            prove_collision_time(dragon, path, wrong, margin=margin)
+            prove_collision_time(Dance(dragon, path), wrong, margin=margin)
 
 
 def test_two_corners_within_a_margin_need_a_direction_and_are_proven() -> None:
     dragon, margin = Dragon(18), 1.05
-    found = first_contact(dragon, LOOP, start=60.0, margin=margin)
+    found = first_contact(Dance(dragon, LOOP), start=60.0, margin=margin)
     assert found.time is not None
     assert found.edge is None
-    certificate = through_json(prove_contact(dragon, LOOP, found.time, start=60.0, margin=margin))
+    certificate = through_json(prove_contact(Dance(dragon, LOOP), found.time, start=60.0, margin=margin))
     check(certificate)
     assert stretches(certificate)[-1][2][0] == "8"
     for wrong in (found.time - OFF, found.time + OFF):
         with pytest.raises(ProofRefused):
-            prove_contact(dragon, LOOP, wrong, start=60.0, margin=margin)
+            prove_contact(Dance(dragon, LOOP), wrong, start=60.0, margin=margin)
 
 
 def test_a_minimum_pitch_with_a_margin_is_proven_and_one_off_it_refused() -> None:
@@ -130,7 +130,7 @@ def test_a_minimum_pitch_with_a_margin_is_proven_and_one_off_it_refused() -> Non
 def test_a_reference_run_is_clear_to_its_fold_and_it_folds(name: str) -> None:
     case = CONTACTS[name]
     dragon, path = Dragon(**case["dragon"]), Spiral(case["pitch"], case["start_turns"])
-    certificate = through_json(prove_clear(dragon, path))
+    certificate = through_json(prove_clear(Dance(dragon, path)))
     claim = certificate["claim"]
     assert (claim["until"], "overlap" in certificate) == ("fold", False)
     assert claim["stop"] < case["end"]["time"] < claim["stop"] + 2 * HALF_BRACKET
@@ -147,7 +147,7 @@ def test_a_reference_run_is_clear_to_its_fold_and_it_folds(name: str) -> None:
 
 def test_the_reference_run_to_the_centre_is_clear() -> None:
     case = CONTACTS["combo_d"]
-    certificate = prove_clear(Dragon(**case["dragon"]), Spiral(case["pitch"], case["start_turns"]))
+    certificate = prove_clear(Dance(Dragon(**case["dragon"]), Spiral(case["pitch"], case["start_turns"])))
     assert certificate["claim"]["until"] == "centre"
     assert "the head reaches the centre before" in check(through_json(certificate)).statement
 
@@ -159,9 +159,9 @@ def test_a_run_to_the_centre_or_a_fold_beside_it_is_clear(seed: int) -> None:
         benches = int(random.integers(3, 8))
         sizes = random.uniform(0.5, 2.0, benches), random.uniform(0.05, 0.2, benches), random.uniform(0.0, 0.1, benches)
         dragon, path = Dragon.of(*sizes), Spiral(random.uniform(1.2, 3.5), random.uniform(4.0, 7.0))
-        found = first_contact(dragon, path)
+        found = first_contact(Dance(dragon, path))
         if found.end is not None:
-            certificate = through_json(prove_clear(dragon, path))
+            certificate = through_json(prove_clear(Dance(dragon, path)))
             assert certificate["claim"]["until"] == found.end.reason
             check(certificate)
 
@@ -170,21 +170,23 @@ def test_a_run_that_is_not_clear_or_not_there_is_refused() -> None:
     case = CONTACTS["n_5"]
     dragon, path = Dragon(**case["dragon"]), Spiral(case["pitch"], case["start_turns"])
     with pytest.raises(ProofRefused, match="benches 0 and 4 overlap"):
-        prove_clear(dragon, path, case["time"] + OFF)
-    check(prove_clear(dragon, path, case["time"] - OFF))
+        prove_clear(Dance(dragon, path), case["time"] + OFF)
+    check(prove_clear(Dance(dragon, path), case["time"] - OFF))
     with pytest.raises(OutsideRun, match="stop must be at most"):
-        prove_clear(dragon, path, 1e4)
+        prove_clear(Dance(dragon, path), 1e4)
     with pytest.raises(OutsideRun, match="start must be at least"):
-        prove_clear(SMALL, HAIRPIN, 50.0, start=5.0)
+        prove_clear(Dance(SMALL, HAIRPIN), 50.0, start=5.0)
     with pytest.raises(InvalidValue, match="margin must be zero or more"):
-        prove_clear(dragon, path, 1.0, margin=-0.1)
+        prove_clear(Dance(dragon, path), 1.0, margin=-0.1)
     with pytest.raises(InvalidValue, match="path must not bend tighter"):
         prove_clear(
-            SMALL,
-            Route(
-                [
-                    Arc((0.0, 0.0), 1.2, 0.0, 6.0),
-                ]
+            Dance(
+                SMALL,
+                Route(
+                    [
+                        Arc((0.0, 0.0), 1.2, 0.0, 6.0),
+                    ]
+                ),
             ),
             5.0,
             start=2.0,
@@ -194,7 +196,7 @@ def test_a_run_that_is_not_clear_or_not_there_is_refused() -> None:
 def test_waypoints_have_no_proof() -> None:
     curve = Waypoints(((0.0, 0.0), (20.0, 1.0), (40.0, 0.0)))
     with pytest.raises(InvalidValue, match="path must be of lines, arcs and coils for a proof in ball arithmetic"):
-        prove_clear(Dragon(3), Route([curve]), 30.0, start=20.0)
+        prove_clear(Dance(Dragon(3), Route([curve])), 30.0, start=20.0)
     with pytest.raises(InvalidValue, match=r"path.pieces\[1\] must be"):
         recorded_path(Route([Line((-9.0, -0.45), (0.0, 0.0)), Waypoints(curve.points, math.atan2(0.45, 9.0))]))
 
@@ -205,27 +207,27 @@ def test_a_route_is_proven_with_a_margin_up_to_its_least_clearance_and_not_beyon
     path = ROUTES[name]
     route = path if isinstance(path, Route) else path.path
     start, stop = (-8.0, 40.0) if name == "turn" else (30.0, 60.0)
-    found = least_clearance(dragon, route, start=start, stop=stop)
+    found = least_clearance(Dance(dragon, route), start=start, stop=stop)
     assert found is not None
-    certificate = through_json(prove_clear(dragon, path, stop, start=start, margin=found.distance - MARGIN_OFF))
+    certificate = through_json(prove_clear(Dance(dragon, path), stop, start=start, margin=found.distance - MARGIN_OFF))
     assert f"nearer to one another than {certificate['claim']['margin']!r} m" in check(certificate).statement
     with pytest.raises(ProofRefused, match="nearer than the margin"):
-        prove_clear(dragon, path, stop, start=start, margin=found.distance + MARGIN_OFF)
+        prove_clear(Dance(dragon, path), stop, start=start, margin=found.distance + MARGIN_OFF)
 
 
 def test_the_turn_of_the_contest_is_clear_and_within_its_margin_at_the_reference_time() -> None:
-    certificate = through_json(prove_clear(Dragon(), turn(1.7), 100.0, start=-100.0))
+    certificate = through_json(prove_clear(Dance(Dragon(), Turn(1.7)), 100.0, start=-100.0))
     assert "no two benches but neighbours touch from -100.0 s to 100.0 s" in check(certificate).statement
-    time = first_contact(Dragon(), turn(1.7).path, start=-100.0, margin=0.33).time
+    time = first_contact(Dance(Dragon(), Turn(1.7)), start=-100.0, margin=0.33).time
     assert time is not None
-    check(through_json(prove_contact(Dragon(), turn(1.7), time, start=-100.0, margin=0.33)))
+    check(through_json(prove_contact(Dance(Dragon(), Turn(1.7)), time, start=-100.0, margin=0.33)))
     for wrong in (time - OFF, time + OFF):
         with pytest.raises(ProofRefused):
-            prove_contact(Dragon(), turn(1.7), wrong, start=-100.0, margin=0.33)
+            prove_contact(Dance(Dragon(), Turn(1.7)), wrong, start=-100.0, margin=0.33)
 
 
 def test_a_route_is_clear_to_its_end() -> None:
-    certificate = through_json(prove_clear(SMALL, HAIRPIN, start=30.0))
+    certificate = through_json(prove_clear(Dance(SMALL, HAIRPIN), start=30.0))
     assert certificate["claim"]["stop"] == HAIRPIN.end
     assert "the route ends before" in check(certificate).statement
     with pytest.raises(ProofRefused, match="not shown to end"):
@@ -234,7 +236,7 @@ def test_a_route_is_clear_to_its_end() -> None:
 
 def test_every_pair_in_its_own_right_proves_the_same_on_the_turn() -> None:
     once, each = (
-        prove_clear(SMALL, turn(1.7), 30.0, start=-8.0, every_pair=every_pair) for every_pair in (False, True)
+        prove_clear(Dance(SMALL, Turn(1.7)), 30.0, start=-8.0, every_pair=every_pair) for every_pair in (False, True)
     )
     assert (len(once["sweeps"]), len(each["sweeps"])) == (2, 12)
     assert check(once).statement == check(each).statement
@@ -250,7 +252,7 @@ def test_the_chain_in_balls_is_the_dance_of_core(name: str) -> None:
         for time in np.linspace(30.0, 55.0, 26) - (35.0 if name == "turn" else 0.0):
             pose = chain.pose_at(0, arb(-time))
             pose.grow_to(SMALL.benches)
-            there = trajectory(SMALL, route, [float(time)]).position[0]
+            there = trajectory(Dance(SMALL, route), [float(time)]).position[0]
             away = np.array([complex(point) for point in pose.points]) - there @ [1.0, 1.0j]
             assert np.abs(away).max() < DOUBLES
             for (piece, t), place in zip(pose.handles, pose.places, strict=True):
@@ -349,10 +351,10 @@ def test_benches_are_within_a_margin_exactly_when_shapely_says_so(seed: int) -> 
 
 
 def test_at_every_instant_each_letter_of_the_turn_s_certificate_keeps_its_pair_apart(turning: Certificate) -> None:
-    chain, margin, times = chain_on(SMALL, recorded_path(turn(1.7)), 0.0), turning["claim"]["margin"], INSTANTS
+    chain, margin, times = chain_on(SMALL, recorded_path(Turn(1.7)), 0.0), turning["claim"]["margin"], INSTANTS
     sizes = np.stack([SMALL.lengths, SMALL.widths], axis=-1)
     used = set()
-    for time, poses in zip(times, bench_poses(trajectory(SMALL, turn(1.7).path, times).position), strict=True):
+    for time, poses in zip(times, bench_poses(trajectory(Dance(SMALL, Turn(1.7)), times).position), strict=True):
         shapes, chained = corners(poses, sizes), chain.pose_at(0, arb(-time))
         chained.grow_to(SMALL.benches)
         for a in range(SMALL.benches - 2):
@@ -470,9 +472,9 @@ def test_a_forged_certificate_of_a_contact_on_a_route_is_refused(touching: Certi
 def test_a_wrong_margin_of_a_contact_is_refused(kind: str, word: str) -> None:
     case = CONTACTS["n_5"]
     dragon, path = Dragon(**case["dragon"]), Spiral(case["pitch"], case["start_turns"])
-    time = first_contact(dragon, path, margin=0.2).time
+    time = first_contact(Dance(dragon, path), margin=0.2).time
     assert time is not None
-    certificate = through_json(prove_collision_time(dragon, path, time, margin=0.2))
+    certificate = through_json(prove_collision_time(Dance(dragon, path), time, margin=0.2))
     check(certificate)
     off = -MARGIN_OFF if kind == "a smaller margin" else MARGIN_OFF
     with pytest.raises(ProofRefused, match=word):

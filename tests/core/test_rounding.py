@@ -12,18 +12,18 @@ from flint import arb
 
 from core import (
     Arc,
+    Dance,
     Dragon,
     Line,
     Outcome,
     Route,
     Spiral,
+    Turn,
     clearance_profile,
     first_contact,
     kernels,
     minimum_pitch,
-    run_end,
     trajectory,
-    turn,
 )
 from core.contact.search import Search
 from core.design.minimum_pitch import _PitchSearch
@@ -68,7 +68,7 @@ def test_two_thousand_benches_of_two_lengths_stand_where_they_are_said_to(path: 
 
 def test_towards_the_fold_the_bound_grows_with_the_error_until_nothing_is_claimed() -> None:
     dragon, spiral = Dragon(12), Spiral()
-    fold, bounds = run_end(dragon, spiral).theta, []
+    fold, bounds = Dance(dragon, spiral).end.theta, []
     search = Search(dragon, spiral, 0.0)
     for beyond in (1.0, 1e-3, 1e-6, 1e-9):
         theta = fold * (1.0 + beyond)
@@ -110,9 +110,9 @@ def exact_gap(dragon: Dragon, spiral: Spiral, time: float, head_speed: float, pa
 def test_a_margin_within_rounding_of_the_clearance_at_the_start_is_undecided(benches: int) -> None:
     """In some of these dances the benches are truly further apart than the margin, in some not."""
     dragon, spiral = Dragon(benches, width=0.28 + 1e-3 * benches), Spiral(0.7, 6.0)
-    profile = clearance_profile(dragon, spiral, [0.0])
+    profile = clearance_profile(Dance(dragon, spiral), [0.0])
     margin = float(profile.clearance[0])
-    found = first_contact(dragon, spiral, margin=margin)
+    found = first_contact(Dance(dragon, spiral), margin=margin)
     assert found.outcome is Outcome.UNDECIDED
     assert found.time_bracket is not None
     assert found.time_bracket[0] == 0.0
@@ -120,7 +120,7 @@ def test_a_margin_within_rounding_of_the_clearance_at_the_start_is_undecided(ben
     search = Search(dragon, spiral, margin)
     assert abs(apart - margin) <= search.gap_rounding(0.0, margin)
     certain = margin + 2.0 * search.gap_rounding(0.0, margin) + 4.0 * search.travel_rounding(0.0)
-    assert first_contact(dragon, spiral, margin=certain).outcome is Outcome.CONTACT_AT_START
+    assert first_contact(Dance(dragon, spiral), margin=certain).outcome is Outcome.CONTACT_AT_START
 
 
 @pytest.fixture(scope="module")
@@ -132,7 +132,7 @@ def graze() -> float:
 @pytest.mark.parametrize("below", [2e-12, 1e-10, 1e-8, 1e-6, 1e-3])
 def test_both_ends_of_a_bracket_are_what_they_are_said_to_be(graze: float, below: float, head_speed: float) -> None:
     spiral = Spiral(graze - below)
-    found = first_contact(Dragon(60), spiral, head_speed=head_speed)
+    found = first_contact(Dance(Dragon(60), spiral, head_speed))
     assert found.outcome is Outcome.CONTACT
     clear, within = found.time_bracket
     assert exact_gap(Dragon(60), spiral, clear, head_speed, found.benches) > 0.0
@@ -144,7 +144,7 @@ def test_both_ends_of_a_bracket_are_what_they_are_said_to_be(graze: float, below
 def test_however_long_the_way_both_ends_of_a_bracket_are_true(turns: float, margin: float) -> None:
     """The travel of a head that has come a thousand kilometres is rounded to a tenth of a nanometre."""
     dragon, spiral = Dragon(30, head_length=2.5), Spiral(0.55, turns)
-    found = first_contact(dragon, spiral, margin=margin)
+    found = first_contact(Dance(dragon, spiral), margin=margin)
     assert found.outcome is Outcome.CONTACT
     clear, within = found.time_bracket
     assert exact_gap(dragon, spiral, clear, 1.0, found.benches) > margin
@@ -188,7 +188,7 @@ def test_pieces_that_miss_each_other_count_as_rounding(joined: Callable[[float],
     assert search.rows[0, 0, ERROR] >= abs(y)
 
 
-@pytest.mark.parametrize("path", [Spiral(), turn(1.7).path], ids=["spiral", "turn"])
+@pytest.mark.parametrize("path", [Spiral(), Turn(1.7)], ids=["spiral", "turn"])
 def test_what_a_chain_does_not_write_is_never_read(path: Spiral | Route) -> None:
     """The same march from rows that hold no numbers, and from rows of zeros."""
     found = []
@@ -232,7 +232,7 @@ def test_rates_and_slopes_near_the_centre_are_good_to_what_is_said_of_them(seed:
     rng = np.random.default_rng(seed)
     dragon = Dragon.of(rng.uniform(1.0, 3.0, 9), np.full(9, 0.3), np.full(9, 0.1))
     spiral = Spiral(rng.uniform(0.5, 1.2), 4.0)
-    theta = (run_end(dragon, spiral).theta or 0.0) + beyond
+    theta = (Dance(dragon, spiral).end.theta or 0.0) + beyond
     search = Search(dragon, spiral, 0.0)
     chain, growth = search.rows[0], spiral.growth
     kernels.start_chain(theta, chain)
@@ -250,10 +250,10 @@ def test_rates_and_slopes_near_the_centre_are_good_to_what_is_said_of_them(seed:
 def test_a_speed_that_is_said_to_exceed_a_limit_does(seed: int) -> None:
     """Limits around the speed at an instant, down to its rounding: what is said to exceed them does to 50 digits."""
     dragon, spiral = Dragon(5, 3.0, np.random.default_rng(seed).uniform(2.0, 2.6)), Spiral(1.2, 3.0)
-    search, end = Search(dragon, spiral, 0.0), run_end(dragon, spiral)
+    search, end = Search(dragon, spiral, 0.0), Dance(dragon, spiral).end
     for left in (1e-1, 1e-3, 1e-5):
         time, outcomes = end.time - left, set()
-        speed = float(trajectory(dragon, spiral, time).speed.max())
+        speed = float(trajectory(Dance(dragon, spiral), time).speed.max())
         for above in (-1e-3, -1e-9, *(units * kernels.ULP for units in range(-6, 7, 2)), 1e-9):
             limit = speed * (1.0 + above) / (1.0 + SPEED_ROUNDING)
             outcome, _, found, handle = _excess(search, time, time, 1.0, limit)

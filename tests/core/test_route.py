@@ -21,6 +21,7 @@ from scipy.optimize import brentq
 from core import (
     Arc,
     Coil,
+    Dance,
     Dragon,
     InvalidValue,
     Line,
@@ -29,6 +30,7 @@ from core import (
     Piece,
     Route,
     Spiral,
+    Turn,
     Waypoints,
     bench_poses,
     check,
@@ -38,13 +40,11 @@ from core import (
     least_clearance,
     maximum_head_speed,
     trajectory,
-    turn,
 )
-from core.motion.trajectory import default_times, first_time
 from core.shapes.rectangles import corners
 
 REFERENCE = json.loads((Path(__file__).parents[1] / "reference" / "turn.json").read_text())
-TURN = turn(1.7, 4.5, 2.0)
+TURN = Turn(1.7, 4.5, 2.0)
 
 REFERENCE_ERROR = 1e-9  # [m], [m/s], [s]: what was asked of the reference values
 SAME = 1e-10  # [m], [m/s], [s]: one curve written in two ways
@@ -152,19 +152,19 @@ def test_pieces_that_are_no_list_are_refused(pieces: list[Piece]) -> None:
 def test_a_bend_too_tight_for_a_chord_names_the_bench_and_the_place() -> None:
     route = Route([Line((-30, 0), (0, 0)), Arc((0, 1.2), 1.2, -0.5 * math.pi, math.pi), Line((0, 2.4), (-30, 2.4))])
     with pytest.raises(InvalidValue, match=r"bench 0 \(2\.86 m\), got 1\.2 m near \(.*\) m, s = 30 m") as e:
-        trajectory(Dragon(benches=5), route, [20.0])
+        trajectory(Dance(Dragon(benches=5), route), [20.0])
     assert e.value.field == "path"
-    assert trajectory(Dragon(benches=5, head_length=2.2), route, [20.0]).speed.min() > 0.0
+    assert trajectory(Dance(Dragon(benches=5, head_length=2.2), route), [20.0]).speed.min() > 0.0
 
 
 def test_a_start_before_the_beginning_of_the_path_is_refused() -> None:
     route = Route([Line((0, 0), (100, 0))])
     length = float(DRAGON.chords.sum())
-    assert trajectory(DRAGON, route, [length + 1e-6]).position[0, -1, 0] == pytest.approx(1e-6, abs=SAME)
+    assert trajectory(Dance(DRAGON, route), [length + 1e-6]).position[0, -1, 0] == pytest.approx(1e-6, abs=SAME)
     with pytest.raises(OutsideRun, match=f"at least {length:.6f} s, when the whole dragon is on the path"):
-        trajectory(DRAGON, route, [length - 0.001])
+        trajectory(Dance(DRAGON, route), [length - 0.001])
     with pytest.raises(OutsideRun) as e:
-        first_contact(DRAGON, route, start=0.0)
+        first_contact(Dance(DRAGON, route), start=0.0)
     assert e.value.field == "start"
 
 
@@ -189,24 +189,24 @@ LENGTH = float(DRAGON.chords.sum())  # 16.4 m
 def test_default_instants_are_whole_seconds_that_the_run_has(
     path: Route, head_speed: float, first: float, instants: range
 ) -> None:
-    times = default_times(DRAGON, path, head_speed=head_speed)
+    times = Dance(DRAGON, path, head_speed).default_times
     assert times.tolist() == list(instants)
-    assert math.ceil(first_time(DRAGON, path, head_speed=head_speed)) == first
-    assert trajectory(DRAGON, path, times, head_speed=head_speed).speed.min() >= 0.0
+    assert math.ceil(Dance(DRAGON, path, head_speed).default_start) == first
+    assert trajectory(Dance(DRAGON, path, head_speed), times).speed.min() >= 0.0
 
 
 def test_a_run_too_short_for_a_whole_second_has_one_default_instant() -> None:
     path = Route([Line((0, 0), (LENGTH + 0.2, 0))])
-    (time,) = default_times(DRAGON, path).tolist()
+    (time,) = Dance(DRAGON, path).default_times.tolist()
     assert time == pytest.approx(LENGTH, abs=1e-6)
-    assert trajectory(DRAGON, path, [time]).position[0, -1, 0] == pytest.approx(0.0, abs=1e-6)
+    assert trajectory(Dance(DRAGON, path), [time]).position[0, -1, 0] == pytest.approx(0.0, abs=1e-6)
 
 
 def test_an_instant_after_the_end_of_the_path_is_refused() -> None:
     route = Route([Line((0, 0), (100, 0))])
-    trajectory(DRAGON, route, [100.0])
+    trajectory(Dance(DRAGON, route), [100.0])
     with pytest.raises(OutsideRun, match=r"at most 100\.000000000 s, when the path ends"):
-        trajectory(DRAGON, route, [100.001])
+        trajectory(Dance(DRAGON, route), [100.001])
 
 
 TOO_SHORT = {
@@ -222,13 +222,13 @@ TOO_SHORT = {
 @pytest.mark.parametrize(
     "ask",
     [
-        lambda path: check(DRAGON, path),
-        lambda path: highest_speed(DRAGON, path),
-        lambda path: maximum_head_speed(DRAGON, path, 2.0),
-        lambda path: trajectory(DRAGON, path, [5.0]),
-        lambda path: clearance_profile(DRAGON, path, [50.0]),
-        lambda path: first_contact(DRAGON, path),
-        lambda path: default_times(DRAGON, path),
+        lambda path: check(Dance(DRAGON, path)),
+        lambda path: highest_speed(Dance(DRAGON, path)),
+        lambda path: maximum_head_speed(Dance(DRAGON, path), 2.0),
+        lambda path: trajectory(Dance(DRAGON, path), [5.0]),
+        lambda path: clearance_profile(Dance(DRAGON, path), [50.0]),
+        lambda path: first_contact(Dance(DRAGON, path)),
+        lambda path: Dance(DRAGON, path).default_times,
     ],
     ids=["check", "highest_speed", "maximum_head_speed", "trajectory", "clearance", "first_contact", "default_times"],
 )
@@ -247,7 +247,7 @@ def test_a_path_too_short_for_the_dragon_says_so(ask: Callable[[Route], object],
 def test_a_path_a_hair_longer_than_the_dragon_has_room() -> None:
     length = float(DRAGON.chords.sum())
     path = Route([Line((0, 0), (length + 1e-6, 0))])
-    assert check(DRAGON, path).start == pytest.approx(length, abs=1e-6)
+    assert check(Dance(DRAGON, path)).start == pytest.approx(length, abs=1e-6)
 
 
 # -- the reference turn --------------------------------------------------------------------------------------
@@ -271,7 +271,7 @@ def test_a_path_a_hair_longer_than_the_dragon_has_room() -> None:
 )
 def test_a_turn_that_is_none_names_what_was_asked_and_never_a_piece(asked: dict, field: str, got: float | None) -> None:
     with pytest.raises(InvalidValue) as refused:
-        turn(**asked)
+        Turn(**asked)
     assert refused.value.field == field
     assert got is None or refused.value.got == got
     assert refused.value.message.startswith(f"{field} must ")
@@ -290,7 +290,7 @@ def test_the_turn_has_the_reference_arcs() -> None:
 @pytest.mark.uncompiled
 @pytest.mark.parametrize("table", REFERENCE["tables"], ids=lambda table: f"{table['time']:g} s")
 def test_every_handle_on_the_turn_is_the_reference_one(table: dict) -> None:
-    found = trajectory(Dragon(), TURN.path, [table["time"]])
+    found = trajectory(Dance(Dragon(), TURN.path), [table["time"]])
     handles = [row["handle"] for row in table["handles"]]
     known = np.array([[row["x"], row["y"], row["speed"]] for row in table["handles"]])
     assert len(handles) > 5
@@ -302,15 +302,15 @@ def test_every_handle_on_the_turn_is_the_reference_one(table: dict) -> None:
 def test_the_least_clearance_on_the_turn_is_the_reference_one() -> None:
     known = REFERENCE["clearance"]
     start, stop = known["interval"]
-    least = least_clearance(Dragon(), TURN.path, start=start, stop=stop)
+    least = least_clearance(Dance(Dragon(), TURN.path), start=start, stop=stop)
     assert least is not None
     assert least.distance == pytest.approx(known["least"], abs=REFERENCE_ERROR)
     assert least.time == pytest.approx(known["time"], abs=REFERENCE_ERROR)
     assert list(least.benches) == known["benches"]
     assert least.at_least is not None
     assert least.distance - 1.1e-5 < least.at_least <= least.distance
-    assert first_contact(Dragon(), TURN.path, start=start, stop=stop, margin=known["least"] - 1e-9).time is None
-    graze = first_contact(Dragon(), TURN.path, start=start, stop=stop, margin=known["least"] + 1e-9)
+    assert first_contact(Dance(Dragon(), TURN.path), start=start, stop=stop, margin=known["least"] - 1e-9).time is None
+    graze = first_contact(Dance(Dragon(), TURN.path), start=start, stop=stop, margin=known["least"] + 1e-9)
     assert graze.time == pytest.approx(known["time"], abs=1e-3)
 
 
@@ -325,16 +325,16 @@ def as_route(spiral: Spiral, end_turns: float, cuts: tuple[float, ...] = ()) -> 
 @pytest.mark.parametrize("cuts", [(), (10.0, 4.2)], ids=["one coil", "three coils"])
 def test_a_spiral_as_a_route_has_the_spirals_trajectory(cuts: tuple[float, ...]) -> None:
     times = np.linspace(-50.0, 412.0, 9)
-    a = trajectory(Dragon(), Spiral(), times)
-    b = trajectory(Dragon(), as_route(Spiral(), 3.0, cuts), times)
+    a = trajectory(Dance(Dragon(), Spiral()), times)
+    b = trajectory(Dance(Dragon(), as_route(Spiral(), 3.0, cuts)), times)
     for name in ("position", "velocity", "speed"):
         assert np.abs(getattr(a, name) - getattr(b, name)).max() < SAME, name
 
 
 @pytest.mark.parametrize("cuts", [(), (10.0, 4.2)], ids=["one coil", "three coils"])
 def test_a_spiral_as_a_route_has_the_spirals_first_contact(cuts: tuple[float, ...]) -> None:
-    a = first_contact(Dragon(), Spiral())
-    b = first_contact(Dragon(), as_route(Spiral(), 3.0, cuts))
+    a = first_contact(Dance(Dragon(), Spiral()))
+    b = first_contact(Dance(Dragon(), as_route(Spiral(), 3.0, cuts)))
     assert (a.outcome, a.benches, a.corner, a.edge) == (b.outcome, b.benches, b.corner, b.edge)
     assert a.time == pytest.approx(b.time, abs=SAME)
     assert a.point == pytest.approx(b.point, abs=10 * SAME)  # the time's error at the corner's speed
@@ -346,8 +346,8 @@ def test_a_spiral_as_a_route_has_the_spirals_first_contact(cuts: tuple[float, ..
 
 def test_a_spiral_as_a_route_has_the_spirals_clearance() -> None:
     times = np.linspace(300.0, 412.0, 15)
-    a = clearance_profile(Dragon(), Spiral(), times)
-    b = clearance_profile(Dragon(), as_route(Spiral(), 3.0), times)
+    a = clearance_profile(Dance(Dragon(), Spiral()), times)
+    b = clearance_profile(Dance(Dragon(), as_route(Spiral(), 3.0)), times)
     assert np.abs(a.clearance - b.clearance).max() < SAME
     assert [g.benches for g in a.grazes] == [g.benches for g in b.grazes]
     assert [g.time for g in a.grazes] == pytest.approx([g.time for g in b.grazes], abs=1e-7)  # flat at the bottom
@@ -426,7 +426,7 @@ def instants(route: Route, count: int) -> np.ndarray:
 @settings(max_examples=40, deadline=None)
 @given(routes())
 def test_chords_keep_their_length_on_any_route(route: Route) -> None:
-    handles = trajectory(DRAGON, route, instants(route, 25)).position
+    handles = trajectory(Dance(DRAGON, route), instants(route, 25)).position
     chords = np.linalg.norm(np.diff(handles, axis=1), axis=-1)
     assert np.abs(chords - DRAGON.chords).max() < CHORD_ERROR
 
@@ -435,8 +435,10 @@ def test_chords_keep_their_length_on_any_route(route: Route) -> None:
 @given(routes())
 def test_velocities_are_difference_quotients_on_any_route(route: Route) -> None:
     times = instants(route, 15)
-    found = trajectory(DRAGON, route, times)
-    before, after = (trajectory(DRAGON, route, times + step).position for step in (-QUOTIENT_STEP, QUOTIENT_STEP))
+    found = trajectory(Dance(DRAGON, route), times)
+    before, after = (
+        trajectory(Dance(DRAGON, route), times + step).position for step in (-QUOTIENT_STEP, QUOTIENT_STEP)
+    )
     assert np.abs((after - before) / (2.0 * QUOTIENT_STEP) - found.velocity).max() < QUOTIENT_ERROR
     assert np.abs(np.linalg.norm(found.velocity, axis=-1) - found.speed).max() < CHORD_ERROR
 
@@ -457,7 +459,7 @@ def first_behind(route: Route, s: float, chord: float) -> float:
 @given(routes())
 def test_the_next_handle_is_the_first_point_behind_at_chord_distance(route: Route) -> None:
     times = instants(route, 4)
-    found = trajectory(DRAGON, route, times).position
+    found = trajectory(Dance(DRAGON, route), times).position
     for handles, time in zip(found, times, strict=True):
         s = float(time)
         for k, chord in enumerate(DRAGON.chords.tolist()):
@@ -480,7 +482,7 @@ def slow_clearance(route: Route, times: np.ndarray) -> np.ndarray:
     """Least distance of benches that share no handle, by shapely; 0 where two overlap. (T,) [m]"""
     a, b = np.triu_indices(DRAGON.benches, 2)
     sizes = np.broadcast_to(np.stack([DRAGON.lengths, DRAGON.widths], axis=-1), (times.size, DRAGON.benches, 2))
-    shapes = shapely.polygons(corners(bench_poses(trajectory(DRAGON, route, times).position), sizes))
+    shapes = shapely.polygons(corners(bench_poses(trajectory(Dance(DRAGON, route), times).position), sizes))
     return shapely.distance(shapes[:, a], shapes[:, b]).min(axis=1)
 
 
@@ -489,7 +491,7 @@ def slow_clearance(route: Route, times: np.ndarray) -> np.ndarray:
 def test_first_contact_on_any_route_is_that_of_a_slow_search(route: Route) -> None:
     times = np.linspace(float(instants(route, 2)[0]), route.end, 2_000)
     slow = slow_clearance(route, times)
-    found = first_contact(DRAGON, route, start=float(times[0]))
+    found = first_contact(Dance(DRAGON, route), start=float(times[0]))
     if found.outcome is Outcome.CLEAR:
         assert slow.min() > 0.0
         return
@@ -506,7 +508,7 @@ def test_random_routes_do_meet_themselves() -> None:
     pen.line(18.0)
     pen.arc(1.0, 5.5)
     pen.line(6.0)
-    found = first_contact(DRAGON, Route(pen.pieces), start=17.0)
+    found = first_contact(Dance(DRAGON, Route(pen.pieces)), start=17.0)
     assert found.outcome is Outcome.CONTACT
 
 

@@ -11,17 +11,18 @@ import shapely
 
 import core.design.shortest_turn
 from core import (
+    Dance,
     Dragon,
     InvalidValue,
     Outcome,
     ShortestTurn,
     Spiral,
+    Turn,
     TurnLimit,
     bench_poses,
     first_contact,
     shortest_turn,
     trajectory,
-    turn,
 )
 from core.contact.coils import rings_clear, wholly_outside
 from core.shapes.rectangles import corners
@@ -52,11 +53,11 @@ BEND: dict[str, tuple[dict[str, Any], dict[str, Any]]] = {
 
 def slow_clearance(dragon: Dragon, found: ShortestTurn, entry: float, start: float, stop: float, step: float) -> float:
     """Least distance of benches that share no handle on the turn with that entry, by shapely; at most NEAR."""
-    danced = turn(found.turn.pitch, found.turn.turning_radius, found.turn.ratio, entry_radius=entry)
+    danced = Turn(found.turn.pitch, found.turn.turning_radius, found.turn.ratio, entry_radius=entry)
     sizes = np.stack([dragon.lengths, dragon.widths], axis=-1)
     least = NEAR
     for time in np.arange(start, stop, step):
-        handles = trajectory(dragon, danced.path, [time]).position[0]
+        handles = trajectory(Dance(dragon, danced), [time]).position[0]
         benches = shapely.polygons(corners(bench_poses(handles), sizes))
         a, b = shapely.STRtree(benches).query(benches, predicate="dwithin", distance=least)
         apart = b > a + 1
@@ -108,12 +109,12 @@ def test_the_part_that_is_followed_has_the_contacts_of_the_whole_dance(sizes: An
     dragon, margin = Dragon(**{**sizes, "benches": 150}), asked.get("margin", 0.0)
     found = shortest_turn(dragon, **asked)
     for entry in (found.turn.entry_radius, found.turn.turning_radius):
-        danced = turn(found.turn.pitch, found.turn.turning_radius, found.turn.ratio, start_turns=30, entry_radius=entry)
+        danced = Turn(found.turn.pitch, found.turn.turning_radius, found.turn.ratio, start_turns=30, entry_radius=entry)
         way, front = core.design.shortest_turn._way(dragon, danced, margin)
         assert front.benches < dragon.benches
         span = 1.6 * float(dragon.chords.sum())
         assert way < span
-        in_all = first_contact(dragon, danced.path, margin=margin, start=-span, stop=danced.length + span)
+        in_all = first_contact(Dance(dragon, danced), margin=margin, start=-span, stop=danced.length + span)
         assert in_all.outcome is Outcome.CLEAR
 
 
@@ -182,7 +183,7 @@ def poses_on(coil: Spiral, turned: float, count: int, radius: float) -> np.ndarr
     dragon = Dragon(benches=count, head_length=2.2)
     theta = radius / coil.growth
     tail = Spiral(coil.pitch, theta / (2.0 * math.pi))
-    poses = bench_poses(trajectory(dragon, tail, [0.0]).position[0])
+    poses = bench_poses(trajectory(Dance(dragon, tail), [0.0]).position[0])
     cos, sin = math.cos(turned), math.sin(turned)
     poses[:, :2] = poses[:, :2] @ np.array([[cos, sin], [-sin, cos]])
     poses[:, 2] += turned
@@ -203,7 +204,7 @@ def test_benches_said_to_stand_wholly_outside_a_radius_do(
     beyond = wholly_outside(dragon, pitch / (2.0 * math.pi), radius)
     sizes = np.stack([dragon.lengths, dragon.widths], axis=-1)
     for further in np.linspace(0.0, pitch, 5):
-        handles = trajectory(dragon, Spiral(pitch, (beyond + further) / pitch), [0.0]).position[0]
+        handles = trajectory(Dance(dragon, Spiral(pitch, (beyond + further) / pitch)), [0.0]).position[0]
         benches = shapely.polygons(corners(bench_poses(handles), sizes))
         assert shapely.distance(benches, shapely.Point(0.0, 0.0)).min() >= radius
     assert beyond < radius + chord + overhang
@@ -211,7 +212,7 @@ def test_benches_said_to_stand_wholly_outside_a_radius_do(
 
 @pytest.mark.parametrize("pitch", [0.9, 1.2, 1.7, 3.0])
 def test_two_coils_are_apart_by_more_than_the_margin_where_they_are_said_to_be(pitch: float) -> None:
-    danced, dragon = turn(pitch), Dragon(benches=60, head_length=2.2)
+    danced, dragon = Turn(pitch), Dragon(benches=60, head_length=2.2)
     radii = []
     # along a coil, with one between them, two benches are known to be 0.6 m apart
     for margin in np.linspace(0.0, min(0.5 * pitch - 0.35, 0.55), 5):

@@ -14,6 +14,7 @@ import core.motion.speed
 from core import (
     Arc,
     Coil,
+    Dance,
     Dragon,
     EndReason,
     FailureKind,
@@ -21,13 +22,12 @@ from core import (
     Line,
     Route,
     Spiral,
+    Turn,
     Waypoints,
     check,
     highest_speed,
     maximum_head_speed,
-    run_end,
     trajectory,
-    turn,
 )
 from core.contact.search import Search
 from core.motion.speed import RATE_TOLERANCE
@@ -35,17 +35,17 @@ from core.motion.speed import RATE_TOLERANCE
 SPEED = json.loads((Path(__file__).parent.parent / "reference" / "maximum_head_speed.json").read_text())
 REFERENCE_ERROR = 1e-9  # [m/s] and [s]
 ROUNDING = 1e-12  # of a speed ratio, relative [1]
-TURN = turn(1.7).path
+TURN = Turn(1.7)
 
 
 def sampled(dragon: Dragon, path: Spiral | Route, start: float, stop: float, samples: int = 4_001) -> float:
     """The highest speed seen at equal steps of time, the head at 1 m/s."""
-    return float(trajectory(dragon, path, np.linspace(start, stop, samples)).speed.max())
+    return float(trajectory(Dance(dragon, path), np.linspace(start, stop, samples)).speed.max())
 
 
 @pytest.mark.uncompiled
 def test_the_turn_has_the_reference_speed_proven_from_both_sides() -> None:
-    found = maximum_head_speed(Dragon(), TURN, SPEED["speed_limit"], start=-100.0, stop=100.0)
+    found = maximum_head_speed(Dance(Dragon(), TURN), SPEED["speed_limit"], start=-100.0, stop=100.0)
     assert found.head_speed == pytest.approx(SPEED["head_speed"], abs=REFERENCE_ERROR)
     assert found.speed_ratio == pytest.approx(SPEED["speed_ratio"], abs=REFERENCE_ERROR)
     assert found.time_at_unit_head_speed == pytest.approx(SPEED["time_at_unit_head_speed"], abs=REFERENCE_ERROR)
@@ -69,14 +69,14 @@ def test_no_dense_sample_is_faster(
 ) -> None:
     dragon = Dragon(benches, head_length=head, body_length=body, overhang=0.0)
     try:
-        path = turn(pitch, radius, ratio).path
-        found = highest_speed(dragon, path, start=-40.0, stop=60.0)
+        path = Turn(pitch, radius, ratio)
+        found = highest_speed(Dance(dragon, path), start=-40.0, stop=60.0)
     except InvalidValue:
         return  # the smaller arc is too tight for a chord
     speed, proven = found.speed_bracket
     assert found.speed == speed
     assert sampled(dragon, path, -40.0, 60.0) <= proven * (1.0 + ROUNDING)
-    at_peak = trajectory(dragon, path, [found.time]).speed[0]
+    at_peak = trajectory(Dance(dragon, path), [found.time]).speed[0]
     assert at_peak.max() == pytest.approx(speed, rel=ROUNDING)
     assert at_peak[list(found.handles)] == pytest.approx(speed, rel=ROUNDING)
 
@@ -84,9 +84,9 @@ def test_no_dense_sample_is_faster(
 # 200 handles pass the same kink one after the other, each peak a little higher than the one before it.
 def test_of_many_nearly_equal_peaks_the_highest_is_found() -> None:
     dragon = Dragon(head_length=0.125, overhang=0.0)
-    found = highest_speed(dragon, TURN)
+    found = highest_speed(Dance(dragon, TURN))
     near = found.time + np.linspace(-6.0, 6.0, 24_001)
-    assert trajectory(dragon, TURN, near).speed.max() <= found.speed_bracket[1] * (1.0 + ROUNDING)
+    assert trajectory(Dance(dragon, TURN), near).speed.max() <= found.speed_bracket[1] * (1.0 + ROUNDING)
     assert found.handles == (223,)
     before = sampled(dragon, TURN, found.time - 30.0, found.time - 3.0)
     assert found.speed - 1e-3 < before < found.speed
@@ -94,7 +94,7 @@ def test_of_many_nearly_equal_peaks_the_highest_is_found() -> None:
 
 def test_benches_that_follow_calmly_change_nothing() -> None:
     few, many = (
-        highest_speed(Dragon(benches), turn(1.7, start_turns=40.0).path, start=-60.0, stop=80.0)
+        highest_speed(Dance(Dragon(benches), Turn(1.7, start_turns=40.0)), start=-60.0, stop=80.0)
         for benches in (60, 2_000)
     )
     assert few.speed == many.speed
@@ -114,7 +114,7 @@ def test_benches_that_follow_calmly_change_nothing() -> None:
 )
 def test_on_every_kind_of_piece_dense_samples_come_up_to_the_highest(path: Route, start: float, stop: float) -> None:
     dragon = Dragon(8)
-    found = highest_speed(dragon, path, start=start, stop=stop)
+    found = highest_speed(Dance(dragon, path), start=start, stop=stop)
     seen = sampled(dragon, path, start, stop, 20_001)
     assert seen <= found.speed_bracket[1] * (1.0 + ROUNDING)
     assert found.speed - seen < 1e-3
@@ -123,9 +123,9 @@ def test_on_every_kind_of_piece_dense_samples_come_up_to_the_highest(path: Route
 
 @pytest.mark.parametrize("gap", [10.0, 0.1, 1e-3])
 def test_towards_the_fold_of_a_spiral_the_last_instant_is_the_fastest(gap: float) -> None:
-    stop = run_end(Dragon(), Spiral()).time - gap
-    found = highest_speed(Dragon(), Spiral(), stop=stop)
-    fastest = trajectory(Dragon(), Spiral(), [stop]).speed.max()
+    stop = Dance(Dragon(), Spiral()).end.time - gap
+    found = highest_speed(Dance(Dragon(), Spiral()), stop=stop)
+    fastest = trajectory(Dance(Dragon(), Spiral()), [stop]).speed.max()
     assert found.speed == pytest.approx(fastest, rel=ROUNDING)
     assert found.speed_bracket[1] <= found.speed * (1.0 + 1e-7)
 
@@ -151,16 +151,18 @@ def intervals_of(dragon: Dragon, path: Spiral | Route, start: float, stop: float
 @pytest.mark.parametrize(("benches", "pitch"), [(1, 3.82), (4, 3.9), (2, 4.2)])
 def test_a_peak_beside_the_centre_is_proven_in_few_intervals(benches: int, pitch: float) -> None:
     dragon, spiral = Dragon(benches, 2.2, 2.2, 0.3, 0.0), Spiral(pitch, 5.0)
-    end = run_end(dragon, spiral)
+    end = Dance(dragon, spiral).end
     assert end.reason is EndReason.CENTRE
-    found = highest_speed(dragon, spiral)
+    found = highest_speed(Dance(dragon, spiral))
     assert intervals_of(dragon, spiral, 0.0, end.time) < FEW
     speed, proven = found.speed_bracket
     assert proven is not None
     assert proven - speed <= 1.1 * RATE_TOLERANCE
     near = end.time - np.concatenate([np.linspace(0.0, 2.0, 20_001), np.geomspace(1e-9, 2.0, 5_001)])
-    assert trajectory(dragon, spiral, near).speed.max() <= proven * (1.0 + ROUNDING)
-    assert trajectory(dragon, spiral, [found.time]).speed[0, found.handles[0]] == pytest.approx(speed, rel=ROUNDING)
+    assert trajectory(Dance(dragon, spiral), near).speed.max() <= proven * (1.0 + ROUNDING)
+    assert trajectory(Dance(dragon, spiral), [found.time]).speed[0, found.handles[0]] == pytest.approx(
+        speed, rel=ROUNDING
+    )
 
 
 @pytest.mark.parametrize("seed", range(12))
@@ -169,13 +171,13 @@ def test_the_work_of_a_search_is_bounded_and_its_bracket_true(seed: int) -> None
     benches = int(rng.integers(1, 8))
     dragon = Dragon.of(10 ** rng.uniform(-0.5, 0.6, benches), [0.1] * benches, [0.05] * benches)
     spiral = Spiral(10 ** rng.uniform(-0.5, 0.8), 4.0)
-    end = run_end(dragon, spiral)
+    end = Dance(dragon, spiral).end
     stop = end.time * (1.0 - (end.reason is EndReason.FOLD) * 10 ** rng.uniform(-6.0, -2.0))
-    found = highest_speed(dragon, spiral, stop=stop)
+    found = highest_speed(Dance(dragon, spiral), stop=stop)
     assert INTERVAL_LINKS * intervals_of(dragon, spiral, 0.0, stop) < LINKS_MOST
     speed, proven = found.speed_bracket
     near = stop * (1.0 - np.concatenate([np.linspace(0.0, 1.0, 5_001), np.geomspace(1e-9, 1.0, 2_001)]))
-    seen = trajectory(dragon, spiral, near).speed.max()
+    seen = trajectory(Dance(dragon, spiral), near).speed.max()
     assert proven is None or seen <= proven * (1.0 + ROUNDING)
     assert seen <= speed * (1.0 + UNSEEN)
 
@@ -183,13 +185,13 @@ def test_the_work_of_a_search_is_bounded_and_its_bracket_true(seed: int) -> None
 def test_a_proof_that_takes_too_long_is_given_up_and_said_so(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(core.motion.speed, "LINKS_BUDGET", 20)
     span = {"start": -20.0, "stop": 40.0}
-    found = maximum_head_speed(Dragon(), TURN, SPEED["speed_limit"], **span)
+    found = maximum_head_speed(Dance(Dragon(), TURN), SPEED["speed_limit"], **span)
     assert found.head_speed_bracket == (None, found.head_speed)
-    report = check(Dragon(), TURN, speed_limit=2.0, **span)
+    report = check(Dance(Dragon(), TURN), speed_limit=2.0, **span)
     assert report.highest_speed is not None
     assert report.highest_speed.speed_bracket[1] is None
     # the limit is far above, and proven on its own
     assert report.passed
     monkeypatch.setattr(core.motion.speed, "EXCESS_LINKS", 20)
-    report = check(Dragon(), TURN, speed_limit=2.0, **span)
+    report = check(Dance(Dragon(), TURN), speed_limit=2.0, **span)
     assert [failure.kind for failure in report.failures] == [FailureKind.UNDECIDED]

@@ -14,6 +14,7 @@ from core import (
     Arc,
     Area,
     Coil,
+    Dance,
     Dragon,
     InvalidValue,
     Line,
@@ -175,7 +176,7 @@ def test_too_many_edges_are_refused() -> None:
 def shapely_distances(dragon: Dragon, path: Spiral | Route, area: Area, times: np.ndarray) -> np.ndarray:
     """Distance of every bench to the edges of an area, (T, n) [m]; 0 where they cross."""
     sizes = np.broadcast_to(np.stack([dragon.lengths, dragon.widths], axis=-1), (times.size, dragon.benches, 2))
-    shapes = shapely.polygons(corners(bench_poses(trajectory(dragon, path, times).position), sizes))
+    shapes = shapely.polygons(corners(bench_poses(trajectory(Dance(dragon, path), times).position), sizes))
     return shapely.distance(shapes, shapely.Polygon(area.rings[0], area.rings[1:]).boundary)
 
 
@@ -193,7 +194,7 @@ def test_distances_on_sampled_poses_are_shapelys(area: Area) -> None:
 
 @pytest.mark.parametrize("k", range(3), ids=[area.name for area in VENUE.areas])
 def test_the_least_distance_is_the_least_of_dense_samples(k: int) -> None:
-    nearest = venue_clearance(DRAGON, LAP, VENUE).areas[k].nearest
+    nearest = venue_clearance(Dance(DRAGON, LAP), VENUE).areas[k].nearest
     times = np.linspace(0.0, LAP.end, 4_000)
     sampled = shapely_distances(DRAGON, LAP, VENUE.areas[k], times).min()
     assert nearest.at_least is not None
@@ -222,7 +223,7 @@ def test_any_obstacle_is_met_when_a_slow_search_meets_it(
     ring = tuple((x + radius * math.cos(a), y + radius * math.sin(a)) for a in angles)
     post = Area("post", ((*ring, ring[0]),))
     venue = Venue(VENUE.square, (post,))
-    found = venue_clearance(DRAGON, LAP, venue, margin=margin).areas[1]
+    found = venue_clearance(Dance(DRAGON, LAP), venue, margin=margin).areas[1]
     times = np.linspace(0.0, LAP.end, 1_500)
     slow = shapely_distances(DRAGON, LAP, post, times).min(axis=1)
     assert found.nearest.at_least is not None
@@ -244,7 +245,7 @@ def test_any_obstacle_is_met_when_a_slow_search_meets_it(
 def test_a_wall_across_the_way_is_met_where_the_head_reaches_it() -> None:
     route = Route([Line((-60, 0), (60, 0))], start=60.0)
     wall = Venue.from_geojson(features(feature("square", box(-70, -9, 70, 9)), feature("wall", box(20, -1, 21, 1))))
-    found = venue_clearance(DRAGON, route, wall, margin=0.25).areas[1]
+    found = venue_clearance(Dance(DRAGON, route), wall, margin=0.25).areas[1]
     assert found.outcome is Outcome.CONTACT
     assert found.time == pytest.approx(20.0 - 0.275 - 0.25, abs=TIME_ERROR)
     assert found.bench == 0
@@ -260,18 +261,18 @@ def test_a_bench_that_is_not_the_head_may_be_the_first_to_touch() -> None:
     square = Venue.from_geojson(
         features(feature("square", box(-70, -9, 70, 9)), feature("post", box(20, 0.3, 20.5, 1)))
     )
-    found = venue_clearance(dragon, route, square).areas[1]
+    found = venue_clearance(Dance(dragon, route), square).areas[1]
     assert found.bench == 3
     assert found.time == pytest.approx(20.0 + 3 * 1.65 - 0.275, abs=TIME_ERROR)
     assert found.nearest.distance == 0.0
-    clear = venue_clearance(dragon, route, square, stop=20.0).areas[1]
+    clear = venue_clearance(Dance(dragon, route), square, stop=20.0).areas[1]
     assert clear.outcome is Outcome.CLEAR
     assert clear.nearest.distance == pytest.approx(0.15, abs=SAME_DISTANCE)
 
 
 def test_a_spiral_keeps_its_place_in_the_world() -> None:
     known = shapely_distances(Dragon(), Spiral(), VENUE_ROUND.square, np.linspace(0.0, 400.0, 1_500))
-    found = venue_clearance(Dragon(), Spiral(), VENUE_ROUND, stop=400.0)
+    found = venue_clearance(Dance(Dragon(), Spiral()), VENUE_ROUND, stop=400.0)
     nearest = found.areas[0].nearest
     assert found.stray is None
     assert nearest.distance <= known.min() + SAME_DISTANCE
@@ -280,7 +281,7 @@ def test_a_spiral_keeps_its_place_in_the_world() -> None:
 
 @pytest.mark.parametrize(("start", "stop"), [(-60.0, -20.0), (-5.0, 0.0), (0.0, 1e-3)])
 def test_a_spiral_has_its_place_also_before_its_start(start: float, stop: float) -> None:
-    found = venue_clearance(Dragon(benches=9), Spiral(), VENUE_ROUND, start=start, stop=stop).areas[0].nearest
+    found = venue_clearance(Dance(Dragon(benches=9), Spiral()), VENUE_ROUND, start=start, stop=stop).areas[0].nearest
     known = shapely_distances(Dragon(benches=9), Spiral(), VENUE_ROUND.square, np.linspace(start, stop, 400))
     assert found.distance <= known.min() + PROVEN
     assert found.distance == pytest.approx(known.min(), abs=1e-3)
@@ -288,19 +289,19 @@ def test_a_spiral_has_its_place_also_before_its_start(start: float, stop: float)
 
 def test_a_spiral_too_tight_for_the_head_by_the_stop_is_refused() -> None:
     with pytest.raises(InvalidValue, match="bench 0"):
-        venue_clearance(Dragon(benches=3), Spiral(), VENUE_ROUND, stop=432.0)
+        venue_clearance(Dance(Dragon(benches=3), Spiral()), VENUE_ROUND, stop=432.0)
 
 
 # -- the start -----------------------------------------------------------------------------------------------
 
 
 def test_a_dragon_inside_the_square_has_no_stray() -> None:
-    assert venue_clearance(DRAGON, LAP, VENUE).stray is None
+    assert venue_clearance(Dance(DRAGON, LAP), VENUE).stray is None
 
 
 def test_a_dragon_wholly_outside_is_told_though_it_touches_nothing() -> None:
     far = Venue.from_geojson(polygon(box(100, 100, 120, 120)))
-    found = venue_clearance(DRAGON, LAP, far)
+    found = venue_clearance(Dance(DRAGON, LAP), far)
     assert found.stray is not None
     assert (found.stray.name, found.stray.bench) == ("square", 0)
     assert found.areas[0].outcome is Outcome.CLEAR
@@ -308,8 +309,8 @@ def test_a_dragon_wholly_outside_is_told_though_it_touches_nothing() -> None:
 
 def test_the_first_bench_outside_is_named_with_its_place() -> None:
     small = Venue.from_geojson(polygon(box(-8, -5, 20, 20)))
-    found = venue_clearance(DRAGON, LAP, small)
-    centres = bench_poses(trajectory(DRAGON, LAP, [0.0]).position[0])[:, 0]
+    found = venue_clearance(Dance(DRAGON, LAP), small)
+    centres = bench_poses(trajectory(Dance(DRAGON, LAP), [0.0]).position[0])[:, 0]
     assert found.stray is not None
     assert found.stray.bench == int(np.argmax(centres < -8.0))
     assert found.stray.point == pytest.approx((centres[found.stray.bench], 0.0), abs=SAME_DISTANCE)
@@ -319,13 +320,13 @@ def test_the_first_bench_outside_is_named_with_its_place() -> None:
 def test_a_bench_inside_a_hole_or_an_obstacle_is_told(hole: bool) -> None:
     lake = box(-32, -1, 3, 1)
     geometry = polygon(SQUARE, lake) if hole else features(feature("square", SQUARE), feature("lake", lake))
-    found = venue_clearance(DRAGON, LAP, Venue.from_geojson(geometry))
+    found = venue_clearance(Dance(DRAGON, LAP), Venue.from_geojson(geometry))
     assert found.stray is not None
     assert (found.stray.name, found.stray.bench) == ("square" if hole else "lake", 0)
 
 
 def test_head_speed_scales_times_and_nothing_else() -> None:
-    slow, fast = (venue_clearance(DRAGON, LAP, VENUE, head_speed=v, margin=0.5) for v in (1.0, 2.5))
+    slow, fast = (venue_clearance(Dance(DRAGON, LAP, v), VENUE, margin=0.5) for v in (1.0, 2.5))
     for a, b in zip(slow.areas, fast.areas, strict=True):
         assert (a.outcome, a.bench) == (b.outcome, b.bench)
         assert a.nearest.distance == pytest.approx(b.nearest.distance, abs=SAME_DISTANCE)
@@ -337,7 +338,7 @@ def test_a_coil_with_its_centre_elsewhere_meets_a_post_at_its_centre() -> None:
     post = Venue.from_geojson(
         features(feature("square", box(-30, -30, 30, 30)), feature("post", box(2.9, -2.1, 3.1, -1.9)))
     )
-    nearest = venue_clearance(DRAGON, route, post).areas[1].nearest
+    nearest = venue_clearance(Dance(DRAGON, route), post).areas[1].nearest
     known = shapely_distances(DRAGON, route, post.obstacles[0], np.linspace(0.0, route.end, 2_000)).min()
     assert nearest.distance == pytest.approx(known, abs=1e-4)
     assert nearest.time == pytest.approx(route.end, abs=1.0)

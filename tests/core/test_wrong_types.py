@@ -15,19 +15,20 @@ DRAGON, SPIRAL = Dragon(benches=5), Spiral()
 SQUARE = Venue.from_geojson(
     {"type": "Polygon", "coordinates": [[[-30, -30], [30, -30], [30, 30], [-30, 30], [-30, -30]]]}
 )
+DANCE = core.Dance(DRAGON, SPIRAL)
 POSES, COLUMN = [[0.0, 0.0, 0.0], [0.0, 1.0, 0.0]], [2.0, 2.0]
-CONTACT, PITCH = core.first_contact(DRAGON, SPIRAL), core.minimum_pitch(DRAGON)
+CONTACT, PITCH = core.first_contact(DANCE), core.minimum_pitch(DRAGON)
 # How each is called when all is well; the names are those of its parameters.
 CALLS: dict[Callable[..., Any], dict[str, Any]] = {
     core.bench_poses: {"handles": np.zeros((3, 2)) + np.arange(3)[:, None]},
-    core.check: {"dragon": DRAGON, "path": SPIRAL, "venue": SQUARE, "margin": 0.0, "speed_limit": 2.0, "stop": 9.0},
-    core.clearance_profile: {"dragon": DRAGON, "path": SPIRAL, "times": [0.0], "head_speed": 1.0},
-    core.contact_check: {"contact": CONTACT, "dragon": DRAGON, "path": SPIRAL, "head_speed": 1.0, "margin": 0.0},
+    core.check: {"dance": DANCE, "venue": SQUARE, "margin": 0.0, "speed_limit": 2.0, "stop": 9.0},
+    core.clearance_profile: {"dance": DANCE, "times": [0.0]},
+    core.contact_check: {"contact": CONTACT, "dance": DANCE, "margin": 0.0},
     core.cross_check: {"poses": POSES, "lengths": COLUMN, "widths": COLUMN, "margin": 0.0},
-    core.first_contact: {"dragon": DRAGON, "path": SPIRAL, "head_speed": 1.0, "margin": 0.0, "start": 0.0, "stop": 9.0},
-    core.highest_speed: {"dragon": DRAGON, "path": SPIRAL, "head_speed": 1.0, "start": 0.0, "stop": 9.0},
-    core.least_clearance: {"dragon": DRAGON, "path": SPIRAL, "head_speed": 1.0, "start": 0.0, "stop": 9.0},
-    core.maximum_head_speed: {"dragon": DRAGON, "path": SPIRAL, "speed_limit": 2.0, "start": 0.0, "stop": 9.0},
+    core.first_contact: {"dance": DANCE, "margin": 0.0, "start": 0.0, "stop": 9.0},
+    core.highest_speed: {"dance": DANCE, "start": 0.0, "stop": 9.0},
+    core.least_clearance: {"dance": DANCE, "start": 0.0, "stop": 9.0},
+    core.maximum_head_speed: {"dance": DANCE, "speed_limit": 2.0, "start": 0.0, "stop": 9.0},
     core.minimum_pitch: {"dragon": DRAGON, "turning_radius": 4.5, "start_turns": 16.0, "margin": 0.0},
     core.overlaps: {
         "poses": POSES,
@@ -37,15 +38,15 @@ CALLS: dict[Callable[..., Any], dict[str, Any]] = {
         "margin": 0.0,
     },
     core.pitch_check: {"found": PITCH, "dragon": DRAGON, "margin": 0.0},
-    core.run_end: {"dragon": DRAGON, "path": SPIRAL, "head_speed": 1.0},
     core.separation: {"poses_a": POSES, "sizes_a": [2.0, 1.0], "poses_b": POSES, "sizes_b": [2.0, 1.0]},
-    core.sharpest_bend: {"dragon": DRAGON, "path": SPIRAL, "head_speed": 1.0, "start": 0.0, "stop": 9.0},
+    core.sharpest_bend: {"dance": DANCE, "start": 0.0, "stop": 9.0},
     core.shortest_turn: {"dragon": DRAGON, "pitch": 1.7, "turning_radius": 4.5, "ratio": 2.0, "margin": 0.0},
-    core.trajectory: {"dragon": DRAGON, "path": SPIRAL, "times": [0.0], "head_speed": 1.0},
-    core.turn: {"pitch": 1.7, "turning_radius": 4.5, "ratio": 2.0, "start_turns": 16.0, "entry_radius": 4.0},
-    core.venue_clearance: {"dragon": DRAGON, "path": SPIRAL, "venue": SQUARE, "margin": 0.0, "stop": 9.0},
+    core.trajectory: {"dance": DANCE, "times": [0.0]},
+    core.Turn: {"pitch": 1.7, "turning_radius": 4.5, "ratio": 2.0, "start_turns": 16.0, "entry_radius": 4.0},
+    core.venue_clearance: {"dance": DANCE, "venue": SQUARE, "margin": 0.0, "stop": 9.0},
     core.verdicts: {"before": POSES, "after": POSES, "lengths": COLUMN, "widths": COLUMN, "margin": 0.0},
     core.Area: {"name": "square", "rings": SQUARE.square.rings},
+    core.Dance: {"dragon": DRAGON, "path": SPIRAL, "head_speed": 1.0},
     core.Dragon: {"benches": 5, "head_length": 3.0, "body_length": 2.0, "width": 0.3, "overhang": 0.2},
     core.Dragon.of: {"lengths": COLUMN, "widths": COLUMN, "overhangs": [0.2, 0.2]},
     core.Route: {"pieces": [Line((0, 0), (60, 0))], "start": 0.0},
@@ -116,7 +117,7 @@ def test_a_wrong_type_is_refused_by_name(call: Callable[..., Any], name: str, ki
 @pytest.mark.parametrize("path", [0.55, None, Spiral, "spiral", DRAGON])
 def test_a_path_that_is_none_says_what_it_must_be(path: Any) -> None:
     with pytest.raises(InvalidValue, match=r"^path must be a Spiral or Route, got "):
-        core.first_contact(DRAGON, path)
+        core.first_contact(core.Dance(DRAGON, path))
 
 
 @pytest.mark.parametrize("engine", ["sat", None, 3])
@@ -128,4 +129,4 @@ def test_an_engine_that_is_none_is_refused(engine: Any) -> None:
 @pytest.mark.parametrize("times", [["1"], [None], None, [True], "1", [[0.0]], [0j], [[0.0], [1.0, 2.0]]])
 def test_times_are_numbers_and_never_read_from_something_else(times: Any) -> None:
     with pytest.raises(InvalidValue, match=r"^times must be "):
-        core.trajectory(DRAGON, SPIRAL, times)
+        core.trajectory(core.Dance(DRAGON, SPIRAL), times)

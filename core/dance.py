@@ -1,0 +1,283 @@
+"""Dance: a dragon that follows a path, and the times at which it does."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from enum import StrEnum
+from functools import cached_property
+
+import numpy as np
+
+from core import kernels
+from core.dragon import Dragon
+from core.errors import InvalidValue, OutsideRun
+from core.paths.route import Route
+from core.paths.spiral import Spiral
+from core.values import Floats, checked_number, checked_type
+
+HEAD_SPEED_MIN = 1e-6  # [m/s]
+HEAD_SPEED_MAX = 1e4  # [m/s]
+TIME_MAX = 1e12  # [s]
+# Length of the default table of whole seconds, that of the contest [s].
+DEFAULT_SPAN = 300
+# A run ends this much before its fold, so that rounding leaves every chord a place at the end too; 1e-14 was enough for
+# 1,494 random dragons, 2026-11-21 [1].
+FOLD_ROUNDING = 1e-13
+# Width to which the earliest time is bisected, of 1 m and of the way [1].
+ROOM_WIDTH = 1e-9
+
+
+class EndReason(StrEnum):
+    """Why a run ends: a chord has no continuous solution any more, the head is at the centre of the spiral or at the
+    end of the route, or the time asked for is over."""
+
+    FOLD = "fold"
+    CENTRE = "centre"
+    END = "end"
+    STOP = "stop"
+
+
+@dataclass(frozen=True, slots=True)
+class RunEnd:
+    """Where the run ends: reason, time [s], theta of the head on a spiral [rad], the bench that folds if one does."""
+
+    reason: EndReason
+    time: float
+    theta: float | None
+    bench: int | None
+
+    @property
+    def why(self) -> str:
+        """The reason as a clause, for messages."""
+        if self.reason is EndReason.FOLD:
+            return f"bench {self.bench} folds"
+        return "the head is at the centre" if self.reason is EndReason.CENTRE else "the path ends"
+
+
+@dataclass(frozen=True)
+class Dance:
+    """A dragon that follows a path, its head at a constant speed: what every question about a given path is asked of.
+
+    head_speed: [m/s]
+    end: where the run ends: at the fold or the centre of a spiral, at the end of a route
+    raises: InvalidValue for values of other types, for a dragon that cannot even stand at the start of a spiral
+        (path.start_turns), and for a bend of a route too tight for a chord (path)
+
+    >>> dance = Dance(Dragon(), Spiral())
+    >>> dance.end.reason.value, round(dance.end.time, 3)
+    ('fold', 438.115)
+    """
+
+    dragon: Dragon
+    path: Spiral | Route
+    head_speed: float = 1.0
+
+    def __post_init__(self) -> None:
+        checked_type("dragon", self.dragon, Dragon)
+        checked_type("path", self.path, (Spiral, Route))
+        object.__setattr__(self, "head_speed", checked_head_speed(self.head_speed))
+        _ = self.end
+
+    @cached_property
+    def end(self) -> RunEnd:
+        """Where the run ends."""
+        if isinstance(self.path, Route):
+            _check_bends(self.dragon, self.path)
+            return RunEnd(EndReason.END, self.path.end / self.head_speed, None, None)
+        return _spiral_end(self.dragon, self.path, self.head_speed)
+
+    @cached_property
+    def earliest(self) -> float:
+        """When the last handle is at the beginning of the path [s]; -TIME_MAX where the path has no beginning.
+
+        raises: InvalidValue (path) for a route too short for the dragon
+        """
+        if isinstance(self.path, Spiral) or self.path.tail_begin is None:
+            return -TIME_MAX
+        return _earliest_place(self.dragon, self.path, self.path.tail_begin) / self.head_speed
+
+    @property
+    def begin(self) -> float:
+        """When the head is at the beginning of the path and the whole dragon on it [s].
+
+        raises: InvalidValue (path) for a route too short for the dragon
+        """
+        return max(self.path.begin / self.head_speed, self.earliest)
+
+    @property
+    def default_start(self) -> float:
+        """Default start time of tables and pictures [s]: 0, or `begin` where the whole dragon is not on the path at 0.
+
+        raises: InvalidValue (path) for a route too short for the dragon
+        """
+        return 0.0 if self.begin <= 0.0 <= self.end.time else self.begin
+
+    @property
+    def default_times(self) -> Floats:
+        """Whole seconds (T,) from `default_start` on, for DEFAULT_SPAN or to the end of the run [s].
+
+        `default_start` alone where the run is too short for a whole second.
+        raises: InvalidValue (path) for a route too short for the dragon
+        """
+        start = self.default_start
+        # Both are whole, so that no rounding leads past the end.
+        first, last = math.ceil(start), math.floor(self.end.time)
+        if first > last:
+            return np.array([start])
+        return np.arange(first, min(first + DEFAULT_SPAN, last) + 1, dtype=np.float64)
+
+    def times(self, given: Floats | Sequence[float] | float) -> Floats:
+        """The instants given, as a (T,) or () array of finite numbers within the run [s].
+
+        raises: InvalidValue (times); OutsideRun (times) after the end of the run, or before the whole dragon is on
+            the path
+        """
+        try:
+            array = np.asarray(given)
+        except ValueError as error:
+            raise InvalidValue("times", "times must be a list of numbers in seconds, or one number") from error
+        # numpy would read "1", True and None as numbers too
+        if array.dtype.kind not in "iuf":
+            raise InvalidValue("times", f"times must be a list of numbers in seconds, or one number, got {given!r:.60}")
+        if array.ndim > 1:
+            raise InvalidValue("times", "times must be a flat list of numbers in seconds, or one number")
+        time = np.array(array, dtype=np.float64, order="C")
+        wrong = np.flatnonzero(~np.isfinite(time))
+        if wrong.size:
+            raise InvalidValue.of(_instant(time, int(wrong[0])), "must be finite", time.flat[wrong[0]], "s")
+        earliest = self.earliest
+        late = np.flatnonzero(time > self.end.time)
+        if late.size:
+            raise self.after_the_end(time, int(late[0]))
+        early = np.flatnonzero(time < earliest)
+        if early.size:
+            k = int(early[0])
+            rule = f"must be at least {earliest:.6f} s, when the whole dragon is on the path"
+            raise OutsideRun.of(_instant(time, k), rule, time.flat[k], "s")
+        return time
+
+    def span(self, start: float, stop: float | None = None) -> tuple[float, float]:
+        """start and stop [s] if the run has them, in that order; None stands for the end of the run.
+
+        raises: InvalidValue; OutsideRun
+        """
+        until = self.end.time if stop is None else checked_number("stop", stop, "s", -TIME_MAX, TIME_MAX)
+        begin = checked_number("start", start, "s", -TIME_MAX, TIME_MAX)
+        if begin < self.earliest:
+            rule = f"must be at least {self.earliest:.6f} s, when the whole dragon is on the path"
+            raise OutsideRun.of("start", rule, begin, "s")
+        limit = f"{self.end.time:.9f} s, when {self.end.why}"
+        if until > self.end.time:
+            raise OutsideRun.of("stop", f"must be at most {limit}", until, "s")
+        if until <= begin:
+            if stop is None:
+                raise OutsideRun.of("start", f"must be before {limit}", begin, "s")
+            raise InvalidValue.of("stop", f"must be after start ({begin:g} s)", until, "s")
+        return begin, until
+
+    def ends_by(self, stop: float) -> bool:
+        """Is a run until `stop` [s] one to a fold?"""
+        return stop >= self.end.time and self.end.reason is EndReason.FOLD
+
+    def after_the_end(self, time: Floats, index: int) -> OutsideRun:
+        """The error about one of the times, which is after the end of the run."""
+        rule = f"must be at most {self.end.time:.9f} s, when {self.end.why}"
+        return OutsideRun.of(_instant(time, index), rule, time.flat[index], "s")
+
+
+def checked_head_speed(head_speed: float) -> float:
+    """head_speed [m/s] if it lies in the range allowed."""
+    if isinstance(head_speed, (int, float)) and head_speed <= 0:
+        raise InvalidValue("head_speed", f"head_speed must be positive, got {head_speed} m/s")
+    return checked_number("head_speed", head_speed, "m/s", HEAD_SPEED_MIN, HEAD_SPEED_MAX)
+
+
+def end_theta(dragon: Dragon, path: Spiral) -> tuple[float, int | None]:
+    """The head angle [rad] at which the run ends, and the bench that folds (0 and None at the centre).
+
+    Bench k folds when handle k falls to the fold of its chord; that handle gets there when handle k - 1 first
+    stands one chord further in. So from the tail forwards: the limit of handle k is the larger of its own fold
+    and the place from which handle k + 1 reaches its limit. In a uniform tail the own fold always wins.
+    """
+    chords2 = ((dragon.chords[: dragon.uniform_from + 1] / path.growth) ** 2).tolist()
+    fold = {chord2: float(kernels.fold_theta(chord2)) for chord2 in set(chords2)}
+    limit, bench = 0.0, None
+    for k in range(dragon.uniform_from, -1, -1):
+        chord2 = chords2[k]
+        inherited = kernels.previous_theta(limit, chord2) if limit > fold[chord2] else -1.0
+        if fold[chord2] >= inherited:
+            limit, bench = fold[chord2], k
+        else:
+            limit = inherited
+    return (limit * (1.0 + FOLD_ROUNDING), bench) if limit > 0.0 else (0.0, None)
+
+
+def _spiral_end(dragon: Dragon, path: Spiral, head_speed: float) -> RunEnd:
+    theta, bench = end_theta(dragon, path)
+    if theta >= path.start_theta:
+        raise InvalidValue(
+            "path.start_turns",
+            f"path.start_turns must be more than {theta / (2 * math.pi):.6g} turns, where bench {bench} of this "
+            f"dragon folds, got {path.start_turns:g} turns",
+        )
+    time = (path.length - path.growth * kernels.spiral_arc(theta)) / head_speed
+    return RunEnd(EndReason.CENTRE if bench is None else EndReason.FOLD, time, theta, bench)
+
+
+def follows(dragon: Dragon, path: Route) -> bool:
+    """Does no piece of the route bend too tight for a chord?"""
+    longest = float(dragon.chords[: dragon.uniform_from + 1].max())
+    return bool(0.5 * path.sharpest[0] * longest <= kernels.ROUTE_BEND_LIMIT)
+
+
+def _check_bends(dragon: Dragon, path: Route) -> None:
+    """Refuse a bend that a bench cannot follow.
+
+    With |curvature| chord / 2 below the limit the next handle is unique and never turns back.
+    """
+    if follows(dragon, path):
+        return
+    curvature, s = path.sharpest
+    bench = int(dragon.chords[: dragon.uniform_from + 1].argmax())
+    chord = float(dragon.chords[bench])
+    x, y = path.position(s)
+    tightest = 0.5 * chord / kernels.ROUTE_BEND_LIMIT
+    raise InvalidValue(
+        "path",
+        f"path must not bend tighter than a radius of {tightest:.4g} m for the chord of "
+        f"bench {bench} ({chord:g} m), got {1.0 / curvature:.4g} m near ({x:.4g}, {y:.4g}) m, s = {s:.4g} m",
+    )
+
+
+def _earliest_place(dragon: Dragon, path: Route, tail_begin: float) -> float:
+    """Where the head is when the last handle is at the beginning of the path [m].
+
+    A chord spans between its own length and pi / 2 times it of the path, so the place of the head is bisected, as far
+    as the path goes: beyond its end there is nothing to stand on.
+    """
+    sizes = np.zeros((dragon.benches, kernels.SIZE_COLUMNS))
+    sizes[:, 0] = dragon.chords
+    chain = np.empty((dragon.benches + 1, kernels.CHAIN_COLUMNS))
+
+    def has_room(s: float) -> bool:
+        return bool(kernels.route_tail(path.table, min(s, path.end), dragon.benches, sizes, chain) >= tail_begin)
+
+    low, straight = tail_begin, float(dragon.chords.sum())
+    high = low + 0.5 * math.pi * straight
+    if not has_room(high):
+        raise InvalidValue(
+            "path",
+            f"path is too short for the whole dragon, which takes {straight:.9g} m of it from handle 0 to handle "
+            f"{dragon.benches} (more along bends), got {path.end - path.begin:.9g} m",
+        )
+    while high - low > ROOM_WIDTH * (1.0 + abs(high)):
+        middle = 0.5 * (low + high)
+        low, high = (low, middle) if has_room(middle) else (middle, high)
+    return min(high, path.end)
+
+
+def _instant(time: Floats, k: int) -> str:
+    """The field of one of the times."""
+    return f"times.{k}" if time.ndim else "times"
