@@ -39,7 +39,7 @@ def random_interval(rng: np.random.Generator) -> tuple[Dragon, Route, float, flo
     """A dragon, a route, and an interval of head travel, at a joint more often than not."""
     while True:
         benches = int(rng.integers(3, 9))
-        path = TURN_PATH.path if rng.random() < 0.2 else ROUTES[int(rng.integers(len(ROUTES)))](rng)
+        path = TURN_PATH if rng.random() < 0.2 else ROUTES[int(rng.integers(len(ROUTES)))](rng)
         chords = min(1.9 / path.sharpest[0] if path.sharpest[0] else 2.0, 3.0) * 10 ** rng.uniform(-1.0, -0.02, benches)
         if rng.random() < 0.4:
             chords[1:] = chords[1]

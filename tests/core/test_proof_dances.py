@@ -205,7 +205,7 @@ def test_waypoints_have_no_proof() -> None:
 @pytest.mark.parametrize("dragon", [SMALL, SHORT], ids=["contest", "short"])
 def test_a_route_is_proven_with_a_margin_up_to_its_least_clearance_and_not_beyond(name: str, dragon: Dragon) -> None:
     path = ROUTES[name]
-    route = path if isinstance(path, Route) else path.path
+    route = path
     start, stop = (-8.0, 40.0) if name == "turn" else (30.0, 60.0)
     found = least_clearance(Dance(dragon, route), start=start, stop=stop)
     assert found is not None
@@ -245,7 +245,7 @@ def test_every_pair_in_its_own_right_proves_the_same_on_the_turn() -> None:
 @pytest.mark.parametrize("name", ROUTES)
 def test_the_chain_in_balls_is_the_dance_of_core(name: str) -> None:
     path = ROUTES[name]
-    route = path if isinstance(path, Route) else path.path
+    route = path
     chain = chain_on(SMALL, recorded_path(path), 0.0)
     assert isinstance(chain, RouteChain)
     with ctx.workprec(128):

@@ -180,7 +180,7 @@ LENGTH = float(DRAGON.chords.sum())  # 16.4 m
         (Route([Line((0, 0), (100, 0))], 200.0), 1.0, -183.0, range(-183, -99)),
         (Route([Line((0, 0), (1000, 0))]), 1.0, 17.0, range(17, 318)),
         (Route([Line((0, 0), (100, 0))]), 7.0, 3.0, range(3, 15)),
-        (TURN.path, 1.0, 0.0, range(301)),
+        (TURN, 1.0, 0.0, range(301)),
         (Route([Coil(0.55, 16, 4)]), 1.0, 0.0, range(301)),
         (Route([Coil(0.55, 16, 4)], -7.5), 1.0, 8.0, range(8, 309)),
     ],
@@ -290,7 +290,7 @@ def test_the_turn_has_the_reference_arcs() -> None:
 @pytest.mark.uncompiled
 @pytest.mark.parametrize("table", REFERENCE["tables"], ids=lambda table: f"{table['time']:g} s")
 def test_every_handle_on_the_turn_is_the_reference_one(table: dict) -> None:
-    found = trajectory(Dance(Dragon(), TURN.path), [table["time"]])
+    found = trajectory(Dance(Dragon(), TURN), [table["time"]])
     handles = [row["handle"] for row in table["handles"]]
     known = np.array([[row["x"], row["y"], row["speed"]] for row in table["handles"]])
     assert len(handles) > 5
@@ -302,15 +302,15 @@ def test_every_handle_on_the_turn_is_the_reference_one(table: dict) -> None:
 def test_the_least_clearance_on_the_turn_is_the_reference_one() -> None:
     known = REFERENCE["clearance"]
     start, stop = known["interval"]
-    least = least_clearance(Dance(Dragon(), TURN.path), start=start, stop=stop)
+    least = least_clearance(Dance(Dragon(), TURN), start=start, stop=stop)
     assert least is not None
     assert least.distance == pytest.approx(known["least"], abs=REFERENCE_ERROR)
     assert least.time == pytest.approx(known["time"], abs=REFERENCE_ERROR)
     assert list(least.benches) == known["benches"]
     assert least.at_least is not None
     assert least.distance - 1.1e-5 < least.at_least <= least.distance
-    assert first_contact(Dance(Dragon(), TURN.path), start=start, stop=stop, margin=known["least"] - 1e-9).time is None
-    graze = first_contact(Dance(Dragon(), TURN.path), start=start, stop=stop, margin=known["least"] + 1e-9)
+    assert first_contact(Dance(Dragon(), TURN), start=start, stop=stop, margin=known["least"] - 1e-9).time is None
+    graze = first_contact(Dance(Dragon(), TURN), start=start, stop=stop, margin=known["least"] + 1e-9)
     assert graze.time == pytest.approx(known["time"], abs=1e-3)
 
 
@@ -590,8 +590,8 @@ def test_s_counts_from_the_start_asked_for() -> None:
 def test_a_batch_of_places_is_a_loop_over_its_items() -> None:
     s = np.linspace(-20.0, 30.0, 12).reshape(3, 4)
     for name in ("position", "tangent", "curvature"):
-        batch = getattr(TURN.path, name)(s)
-        assert (batch == [[getattr(TURN.path, name)(x) for x in row] for row in s]).all(), name
+        batch = getattr(TURN, name)(s)
+        assert (batch == [[getattr(TURN, name)(x) for x in row] for row in s]).all(), name
 
 
 @settings(deadline=None)
