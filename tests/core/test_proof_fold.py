@@ -10,10 +10,11 @@ import numpy as np
 import pytest
 from flint import arb, ctx
 
-from core import Dragon, LimitedBy, minimum_pitch
+from core import Dragon, LimitedBy, Spiral, minimum_pitch
 from core.errors import ProofRefused
+from core.kinematics import end_theta
 from core.proof import Certificate, check, prove_minimum_pitch
-from core.proof.chain import Chain, bend
+from core.proof.chain import Chain, _rises_to, bend
 from core.proof.fold import check_fold
 from core.proof.pairs import Unproven
 from tests.core.test_proof import at, edit, places, refusal, stretches, through_json
@@ -157,6 +158,30 @@ def test_no_fold_is_shown_where_every_bench_follows(folding: Certificate) -> Non
         for bench in range(1, 14):
             with pytest.raises(Unproven):
                 check_fold(chain, bench, arb(before), arb(after))
+
+
+def test_a_fold_with_a_shallow_wall_is_shown_from_near_it_alone() -> None:
+    """From farther out a bend might grow past the wall before it is one: then nothing is shown, though it does fold."""
+    pitch = VANISHED * 0.999
+    fold, bench = end_theta(Dragon(1, 2.2, 2.2, 0.02, 0.1), Spiral(pitch, 2.0))
+    assert bench == 0
+    with ctx.workprec(96):
+        chain = Chain(Dragon(1, 2.2, 2.2, 0.02, 0.1), arb(pitch), 2.0)
+        check_fold(chain, 0, arb(fold * (1.0 + 1e-9)), arb(fold * (1.0 - 1e-9)))
+        with pytest.raises(Unproven, match="no wall"):
+            check_fold(chain, 0, arb(fold * 1.01), arb(fold * (1.0 - 1e-9)))
+
+
+@pytest.mark.parametrize("theta", [1.1, 2.0, 10.0, 100.0])
+def test_only_up_to_its_first_crest_a_distance_is_shown_to_rise(theta: float) -> None:
+    bends = np.linspace(math.pi, 4.0 * math.pi, SAMPLES)
+    distance = moved(theta, bends)
+    crest = int(np.argmax(np.diff(distance) < 0.0))
+    later = int(np.argmax(distance[crest:] > distance[crest] + SAMPLED)) + crest
+    assert 0 < crest < later
+    with ctx.workprec(96):
+        assert _rises_to(arb(theta), arb(float(bends[crest]) - SAMPLED))
+        assert not _rises_to(arb(theta), arb(float(bends[later])))
 
 
 def claim(name: str, more: float) -> Callable[[dict[str, Any]], None]:
