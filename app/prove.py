@@ -6,9 +6,11 @@ certificate is checked before it is written, and its file is there whole or not 
 
 from __future__ import annotations
 
+import math
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -145,7 +147,7 @@ def minimum_pitch(
     asked: PitchClaim,
     output: Annotated[Path, typer.Option(help="The certificate.")] = Path("minimum-pitch.proof.json"),
 ) -> None:
-    """Nothing touches on the way to the circle with this pitch; two benches overlap on it with 1e-6 m less.
+    """Nothing touches on the way to the circle with this pitch; two benches overlap, or one folds, with 1e-6 m less.
 
     With a margin: nothing comes within it, and two benches are nearer. Larger pitches are no part of the proof.
     """
@@ -159,6 +161,8 @@ def minimum_pitch(
                 dragon, turning_radius=radius, start_turns=asked.start_turns, margin=asked.margin
             )
             pitch = found.pitch_bracket[1]
+            if Fraction(pitch) * Fraction(asked.start_turns) < Fraction(radius):  # rounded down: within the circle
+                pitch = math.nextafter(pitch, math.inf)
         certificate = prove_minimum_pitch(
             dragon,
             pitch,

@@ -19,7 +19,8 @@ The claims:
   collision-time  From the start to time - 1e-10 s nothing touches, and at time + 1e-10 s two benches overlap.
   minimum-pitch   Nothing touches while the head walks from the start until it is turning_radius from the centre. With
                   a pitch 1e-6 m smaller, two benches overlap while the head is on that way, or the start lies within
-                  that circle. (Of other pitches it says nothing.)
+                  that circle. (Of other pitches it says nothing. A smaller pitch at which a bench folds instead is a
+                  form of certificate that this verifier refuses.)
 
 A certificate has `dragon`, runs of benches alike from the head on as [how many, length, width, overhang]; `claim`;
 the benches in `overlap` (6.), with head_theta for a pitch; and the `sweeps`, u + 1 with u = `repeats_from` (5.):

@@ -146,6 +146,9 @@ def _overlap(kind: str, value: Mapping[str, Any]) -> None:
     if kind == MinimumPitch.kind and value.keys() == {"start_within_circle"}:
         _object("overlap", value, {"start_within_circle": _true})
         return
+    if kind == MinimumPitch.kind and "folds" in value:
+        _object("overlap", value, {"folds": _whole, "head_theta": _each(_number, 2)})
+        return
     theta: dict[str, Check] = {"head_theta": _number} if kind == MinimumPitch.kind else {}
     _object("overlap", value, {"benches": _each(_whole, 2)} | theta)
 

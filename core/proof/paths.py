@@ -50,8 +50,13 @@ def recorded_path(path: AnyPath) -> dict[str, Any]:
     pieces = []
     for k, piece in enumerate(path.pieces):
         if isinstance(piece, route.Waypoints):
-            where = f"path.pieces[{k}]" if len(path.pieces) > 1 else "path"
-            words = f"{where} must be of lines, arcs and coils for a proof in ball arithmetic, got waypoints"
+            must = "path must be a spiral, a turn or a route of lines, arcs and coils"
+            if len(path.pieces) > 1:
+                must = f"path.pieces[{k}] must be a line, an arc or a coil"
+            words = (
+                f"{must} for a proof in ball arithmetic, got waypoints: on a path with waypoints a dance can be "
+                "checked in double precision, with bounds on its rounding, not proven"
+            )
             raise InvalidValue(f"path.pieces.{k}", words)
         pieces.append(_recorded_piece(piece))
     return {"kind": "route", "start": path.start, "pieces": pieces}

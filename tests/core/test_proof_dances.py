@@ -195,9 +195,14 @@ def test_a_run_that_is_not_clear_or_not_there_is_refused() -> None:
 
 def test_waypoints_have_no_proof() -> None:
     curve = Waypoints(((0.0, 0.0), (20.0, 1.0), (40.0, 0.0)))
-    with pytest.raises(InvalidValue, match="path must be of lines, arcs and coils for a proof in ball arithmetic"):
+    with pytest.raises(
+        InvalidValue, match="path must be a spiral, a turn or a route of lines, arcs and coils for a proof in"
+    ):
         prove_clear(Dance(Dragon(3), Route([curve])), 30.0, start=20.0)
-    with pytest.raises(InvalidValue, match=r"path.pieces\[1\] must be"):
+    with pytest.raises(
+        InvalidValue,
+        match=r"path.pieces\[1\] must be a line, an arc or a coil for a proof .*, got waypoints: .* not proven",
+    ):
         recorded_path(Route([Line((-9.0, -0.45), (0.0, 0.0)), Waypoints(curve.points, math.atan2(0.45, 9.0))]))
 
 
