@@ -104,7 +104,10 @@ class Certificate(Answer):
 
     method: str = Field(description="The whole claim, and how it is proven, in sentences")
     steps: int = Field(description="Proven steps taken")
-    clear_until: float = Field(description="Nothing comes nearer than the margin, or touches, from 0 to here [s]")
+    clear_until: float | None = Field(
+        description="Nothing comes nearer than the margin, or touches if it is 0, from the start to here; null where "
+        "no time is proven clear: benches touch, or are nearer, at the start, or it is not decided from there on [s]"
+    )
     bound: float = Field(description="Largest bound on the second derivative of a gap that a step used [1/m]")
     least_clearance: Graze | None = Field(description="Narrowest graze before the contact, or over the whole run")
 

@@ -11,6 +11,7 @@ from typing import Any
 
 from app.schemas import UNITS
 from app.wire_paths import KINDS
+from core.errors import said
 
 # Longer values are shortened [characters].
 SHOWN_MAX = 60
@@ -20,6 +21,8 @@ IN_WORDS = {"m": "lengths are in metres", "m/s": "speeds are in metres per secon
 def shown(value: Any) -> str:
     if isinstance(value, float) and not math.isfinite(value):
         return "NaN" if math.isnan(value) else "Infinity" if value > 0 else "-Infinity"
+    if isinstance(value, float):
+        return said(value)
     text = json.dumps(value, ensure_ascii=False, default=str)
     return text if len(text) <= SHOWN_MAX else f"{text[:SHOWN_MAX]}... ({len(text)} characters)"
 

@@ -9,7 +9,7 @@ from numbers import Integral, Real
 import numpy as np
 from numpy.typing import NDArray
 
-from core.errors import InvalidValue
+from core.errors import InvalidValue, said
 
 Floats = NDArray[np.float64]
 
@@ -27,7 +27,7 @@ def checked_number(name: str, value: object, unit: str, low: float, high: float,
     if not isinstance(value, Real) or isinstance(value, bool):
         raise InvalidValue(name, f"{name} must be a number, got {value!r}")
     try:
-        number, shown = float(value), f"{value} {unit}".rstrip()
+        number, shown = float(value), f"{said(float(value))} {unit}".rstrip()
     except OverflowError as error:  # a whole number may have any number of digits
         raise InvalidValue(
             name, f"{name} must be from {low:g} to {high:g} {unit}".rstrip() + ", got 1e308 or more"
@@ -55,7 +55,7 @@ def checked_type(name: str, value: object, kinds: type | tuple[type, ...]) -> No
 def checked_size(name: str, value: object) -> float:
     """A positive length in [SIZE_MIN, SIZE_MAX] metres."""
     if isinstance(value, Real) and not isinstance(value, bool) and value <= 0.0:
-        raise InvalidValue(name, f"{name} must be positive, got {value} m")
+        raise InvalidValue(name, f"{name} must be positive, got {said(float(value))} m")
     return checked_number(name, value, "m", SIZE_MIN, SIZE_MAX)
 
 
@@ -72,7 +72,9 @@ def _column(name: str, values: object, benches: int | None) -> Floats:
     wrong = np.flatnonzero(~(np.isfinite(column) & (column >= low) & (column <= SIZE_MAX)))
     if wrong.size:
         k = int(wrong[0])
-        raise InvalidValue(f"{name}.{k}", f"{name}[{k}] must be from {low:g} to {SIZE_MAX:g} m, got {column[k]} m")
+        raise InvalidValue(
+            f"{name}.{k}", f"{name}[{k}] must be from {low:g} to {SIZE_MAX:g} m, got {said(column[k])} m"
+        )
     return column
 
 

@@ -55,6 +55,15 @@ class BenchDragonError(Exception):
         return type(self)(field, self.message)
 
 
+def said(number: float) -> str:
+    """A number as sentences print it: all its digits, no point where nothing follows, and no sign of a zero.
+
+    >>> said(0.1 + 0.2), said(9.0), said(-0.0)
+    ('0.30000000000000004', '9', '0')
+    """
+    return repr(float(number) + 0.0).removesuffix(".0")
+
+
 def _spoken(field: str) -> str:
     """A dotted field as people write it: times.3 -> times[3]."""
     return re.sub(r"\.(\d+)", r"[\1]", field)

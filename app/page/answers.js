@@ -68,13 +68,18 @@ function contactLine(answer, { benches, margin }) {
   return sayNear("pairMeets", margin, { ...pair(both, benches), x, y, radius, gap: millimetres(gap) });
 }
 
+/** How far nothing is proven to touch; at a contact at the start, and where nothing is decided from there on, nowhere. */
+function certificateWords({ outcome, certificate: { steps, clear_until: until } }, margin) {
+  if (until !== null) return sayNear("certificateSteps", margin, { steps, until: until.toFixed(10) });
+  return outcome === "undecided" ? say("certificateNone") : sayNear("certificateStart", margin);
+}
+
 /** answer: of /collision-time */
 export function showFirstContact(box, answer, { benches, margin }) {
   const { time_bracket, certificate } = answer;
   const lines = [contactLine(answer, { benches, margin })];
   const rows = time_bracket ? [[say("bracket"), sayNear("bracketTime", margin, ends(time_bracket, 10))]] : [];
-  const proven = { steps: certificate.steps, until: certificate.clear_until.toFixed(10) };
-  rows.push([say("certificate"), sayNear("certificateSteps", margin, proven)]);
+  rows.push([say("certificate"), certificateWords(answer, margin)]);
   const least = certificate.least_clearance;
   if (least) {
     const values = { ...pair(least.benches, benches), gap: millimetres(least.clearance), time: least.time.toFixed(6) };

@@ -11,13 +11,13 @@ from typing import Any, ClassVar
 from flint import arb
 
 from core.dragon import Dragon, checked_number, checked_size
-from core.errors import ProofRefused
+from core.errors import ProofRefused, said
 from core.kinematics import checked_head_speed
 from core.paths import Spiral
 from core.proof.chain import Chain, bend_guess
 from core.proof.pairs import Unproven, above, below
 from core.proof.sweeps import AnyChain, Overlap, Progress, found, swept
-from core.proof.words import apart_words, dragon_words, near_words
+from core.proof.words import apart_words, contact_words, dragon_words, near_words
 from core.search import MARGIN_MAX
 
 # Half the bracket around a collision time [s], and the step below a minimum pitch [m]: exact decimals, in balls.
@@ -66,15 +66,16 @@ class CollisionTime:
         return above(self.chain.start), below(before)
 
     def find_overlap(self, progress: Progress) -> dict[str, Any]:
-        return {"benches": near_pair(self.chain, self._after, f"at {self.time!r} + {TIME_BRACKET} s")}
+        return {"benches": near_pair(self.chain, self._after, f"at {said(self.time)} + {TIME_BRACKET} s")}
 
     def check_overlap(self, overlap: dict[str, Any]) -> str:
         a, b = overlap["benches"]
-        check_near(self.chain, self._after, a, b, f"at {self.time!r} + {TIME_BRACKET} s")
+        check_near(self.chain, self._after, a, b, f"at {said(self.time)} + {TIME_BRACKET} s")
+        clear = bool(self.time - arb(TIME_BRACKET) > 0)
+        words = contact_words([a, b], self.margin, 0.0, self.time, TIME_BRACKET, clear=clear)
         return (
-            f"{dragon_words(self.dragon)}, its head at {self.head_speed!r} m/s on the spiral of pitch {self.pitch!r} m "
-            f"inwards from {self.start_turns!r} turns: {apart_words(self.margin)} from 0 s to {self.time!r} - "
-            f"{TIME_BRACKET} s, and {near_words([a, b], self.margin)} at {self.time!r} + {TIME_BRACKET} s."
+            f"{dragon_words(self.dragon)}, its head at {said(self.head_speed)} m/s on the spiral of pitch "
+            f"{said(self.pitch)} m inwards from {said(self.start_turns)} turns: {words}"
         )
 
 
@@ -113,7 +114,7 @@ class MinimumPitch:
     def _way(self, chain: Chain) -> tuple[float, float]:
         circle = self.turning_radius / chain.growth
         if circle > chain.start:
-            raise ProofRefused("claim", f"with pitch {self.pitch!r} m the start lies within the turning circle")
+            raise ProofRefused("claim", f"with pitch {said(self.pitch)} m the start lies within the turning circle")
         return above(chain.start), below(circle)
 
     def find_overlap(self, progress: Progress) -> dict[str, Any]:
@@ -127,8 +128,8 @@ class MinimumPitch:
             theta = head_theta(less, overlap.a, overlap.place, below(circle), above(less.start))
             theta = max(min(theta, below(less.start)), above(circle))
             return {"benches": [overlap.a, overlap.b], "head_theta": theta}
-        free = f"keeps the margin of {self.margin!r} m too" if self.margin else "is free of contact too"
-        raise ProofRefused("claim", f"{PITCH_STEP} m less than pitch {self.pitch!r} m {free}")
+        free = f"keeps the margin of {said(self.margin)} m too" if self.margin else "is free of contact too"
+        raise ProofRefused("claim", f"{PITCH_STEP} m less than pitch {said(self.pitch)} m {free}")
 
     def check_overlap(self, overlap: dict[str, Any]) -> str:
         less = self._less
@@ -145,9 +146,9 @@ class MinimumPitch:
                 raise Unproven(f"the start is not shown to lie within the circle with {PITCH_STEP} m less")
             why = "the start lies within the circle"
         return (
-            f"{dragon_words(self.dragon)} on the spiral inwards from {self.start_turns!r} turns: with pitch "
-            f"{self.pitch!r} m {apart_words(self.margin)} until the head is {self.turning_radius!r} m from the centre, "
-            f"and with {PITCH_STEP} m less {why}. This says nothing of larger pitches."
+            f"{dragon_words(self.dragon)} on the spiral inwards from {said(self.start_turns)} turns: with pitch "
+            f"{said(self.pitch)} m {apart_words(self.margin)} until the head is {said(self.turning_radius)} m from the "
+            f"centre, and with {PITCH_STEP} m less {why}. This says nothing of larger pitches."
         )
 
 
@@ -178,7 +179,7 @@ def near_pair(chain: AnyChain, head: arb, when: str) -> list[int]:
             if pose.within(partner, chain.margin):
                 return [bench, bench + partner]
         place = pose.places[1]
-    how = f"come nearer to one another than {float(chain.margin)!r} m" if chain.margin > 0 else "overlap"
+    how = f"come nearer to one another than {said(float(chain.margin))} m" if chain.margin > 0 else "overlap"
     raise ProofRefused("claim", f"no two benches {how} {when}")
 
 
@@ -194,7 +195,7 @@ def check_near(chain: AnyChain, head: arb, a: int, b: int, when: str) -> None:
     pose = chain.pose_at(a, pose.places[a])
     pose.grow_to(b - a + 1)
     if not pose.within(b - a, chain.margin):
-        how = f"be nearer than {float(chain.margin)!r} m" if chain.margin > 0 else "overlap"
+        how = f"be nearer than {said(float(chain.margin))} m" if chain.margin > 0 else "overlap"
         raise Unproven(f"benches {a} and {b} are not shown to {how} {when}")
 
 

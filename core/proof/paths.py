@@ -15,7 +15,7 @@ from flint import acb, arb
 
 from core import route
 from core.dragon import Dragon
-from core.errors import InvalidValue
+from core.errors import InvalidValue, said
 from core.paths import Spiral
 from core.proof.chain import Chain
 from core.proof.route import Coil, Path, Piece, RouteChain
@@ -93,14 +93,14 @@ def _turn(record: Record) -> Turn:
 def described(record: Record) -> str:
     """The path in words, with every number of it that is no piece's."""
     if record["kind"] == "spiral":
-        return f"the spiral of pitch {record['pitch']!r} m inwards from {record['start_turns']!r} turns"
+        return f"the spiral of pitch {said(record['pitch'])} m inwards from {said(record['start_turns'])} turns"
     if record["kind"] == "turn":
         return (
-            f"the turn of ratio {record['ratio']!r}, which it enters {record['entry_radius']!r} m from the centre at "
-            f"0 s, between spirals of pitch {record['pitch']!r} m and {record['start_turns']!r} turns"
+            f"the turn of ratio {said(record['ratio'])}, which it enters {said(record['entry_radius'])} m from the "
+            f"centre at 0 s, between spirals of pitch {said(record['pitch'])} m and {said(record['start_turns'])} turns"
         )
     kinds = ", ".join(piece["kind"] for piece in record["pieces"])
-    place = f"its s = 0 at {record['start']!r} m from its beginning"
+    place = f"its s = 0 at {said(record['start'])} m from its beginning"
     return f"the route of {len(record['pieces'])} pieces ({kinds}), joined exactly, {place}"
 
 

@@ -207,7 +207,7 @@ MALFORMED = {
     "a time in words": (at("claim", "time", put="51"), "claim.time", 'claim.time must be a number, got "51"'),
     "a pitch below all": (at("claim", "pitch", put=-1), "claim.pitch", "claim.pitch must be positive, got -1 m"),
     "a time past the centre": (
-        at("claim", "time", put=1e6), "claim.time", "claim.time must be at most 442.59 s, got 1000000.0 s",
+        at("claim", "time", put=1e6), "claim.time", "claim.time must be at most 442.59 s, got 1000000 s",
     ),
     "no precision": (at("precision", put=0), "precision", "precision must be from 53 to 4096 bits, got 0"),
     "too little precision": (at("precision", put=52), "precision", "precision must be from 53 to 4096 bits, got 52"),

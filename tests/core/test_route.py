@@ -123,7 +123,7 @@ FIELDS_THAT_ARE_NONE = [
     (Waypoints(((0, 0), (5, 5)), math.nan), "path.pieces.0.start_heading", "finite number, got nan rad"),
     (Waypoints(((0, 0), (5, 5)), 0.0, math.inf), "path.pieces.0.end_heading", "finite number, got inf rad"),
     (Waypoints(((0, 0), (5, 5)), "north"), "path.pieces.0.start_heading", "a number, got 'north'"),  # type: ignore[arg-type]
-    (Waypoints(((0, 0), (5, 5)), 2e6), "path.pieces.0.start_heading", r"at most 1e\+06 rad, got 2000000.0 rad"),
+    (Waypoints(((0, 0), (5, 5)), 2e6), "path.pieces.0.start_heading", r"at most 1e\+06 rad, got 2000000 rad"),
     (Waypoints(None), "path.pieces.0.points", "list of points .* got None"),  # type: ignore[arg-type]
     (Waypoints("ab"), "path.pieces.0.points", "list of points .* got 'ab'"),  # type: ignore[arg-type]
     (Waypoints(((0, 0), 7)), "path.pieces.0.points.1", "a point .* got 7"),  # type: ignore[arg-type]
