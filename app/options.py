@@ -26,7 +26,7 @@ def checked(model: type[Model], values: object) -> Model:
     except ValidationError as error:
         first = error.errors()[0]
         field = ".".join(str(part) for part in first["loc"] if part not in SHAPES)
-        words = message({**first, "loc": ("", *first["loc"])})
+        words = message({**first, "loc": ("", *first["loc"])}, model)
         # Words such as `times[1] must be ...` name the place in a list already.
         outer = field.rstrip("0123456789").rstrip(".") if "[" in words.partition(" ")[0] else field
         raise InvalidValue(field, f"{outer}: {words}" if "." in outer else words) from error
