@@ -14,6 +14,7 @@ from app.messages import message
 from app.refusals import refusing
 from app.schemas import SHAPES
 from core import InvalidValue
+from core.errors import spoken
 
 Model = TypeVar("Model", bound=BaseModel)
 Number = TypeVar("Number", int, float)
@@ -29,7 +30,7 @@ def checked(model: type[Model], values: object) -> Model:
         words = message({**first, "loc": ("", *first["loc"])}, model)
         # Words such as `times[1] must be ...` name the place in a list already.
         outer = field.rstrip("0123456789").rstrip(".") if "[" in words.partition(" ")[0] else field
-        raise InvalidValue(field, f"{outer}: {words}" if "." in outer else words) from error
+        raise InvalidValue(field, f"{spoken(outer)}: {words}" if "." in outer else words) from error
 
 
 def given(context: typer.Context, *names: str) -> list[str]:

@@ -77,7 +77,12 @@ def core_path(record: Record) -> Spiral | route.Route:
             return _turn(record).path
         except InvalidValue as error:  # turn() knows no path around its fields
             raise InvalidValue(f"path.{error.field}", f"path.{error.message}") from error
-    pieces = [PIECES[piece["kind"]][0](**_arguments(piece)) for piece in record["pieces"]]
+    pieces = []
+    for k, piece in enumerate(record["pieces"]):
+        try:
+            pieces.append(PIECES[piece["kind"]][0](**_arguments(piece)))
+        except InvalidValue as error:  # a piece knows no route around its fields
+            raise error.named(error.field.replace(piece["kind"], f"path.pieces.{k}", 1)) from error
     return route.Route(pieces, record["start"])
 
 

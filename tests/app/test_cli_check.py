@@ -171,9 +171,9 @@ def test_the_dance_is_drawn_in_its_venue(dance: Path) -> None:
     ("old", "new", "words"),
     [
         ("margin = 0.9", "margin = 9", ["margin must be at most 2 m"]),
-        ("end = [60, 0]", "end = [0, 0]", ["path.pieces.0", "got 0 m"]),
-        ("end = [60, 0]", "end = [60]", ["path.pieces.0.end", "at least 2 entries"]),
-        ('"line"', '"maze"', ["path.pieces.0", "'line'", "maze"]),
+        ("end = [60, 0]", "end = [0, 0]", ["path.pieces[0]", "got 0 m"]),
+        ("end = [60, 0]", "end = [60]", ["path.pieces[0].end", "at least 2 entries"]),
+        ('"line"', '"maze"', ["path.pieces[0]", "'line'", "maze"]),
         ("yard.geojson", "garden.geojson", ["garden.geojson", "No such file"]),
         ("margin =", "margin", ["not TOML"]),
         ("start = 15", "start = 1", ["start must be at least 7.81", "got 1 s"]),
