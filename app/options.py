@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import inspect
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from typing import Annotated, Any, TypeVar
 
 import typer
@@ -37,6 +37,12 @@ def given(context: typer.Context, *names: str) -> list[str]:
     """Those of the options that stand on the command line."""
     sources = {name: context.get_parameter_source(name) for name in names}
     return [name for name, source in sources.items() if source is not None and source.name == "COMMANDLINE"]
+
+
+def unused(context: typer.Context, names: Iterable[str], why: str) -> None:
+    """Refuse those of the options that stand on the command line though nothing here uses them; why: and what to do."""
+    for name in given(context, *names):
+        raise InvalidValue(name, f"--{name.replace('_', '-')} {why}")
 
 
 def numbers(option: str, text: str, kind: Callable[[str], Number]) -> list[Number]:

@@ -25,6 +25,8 @@ from core import Judgement, Trajectory
 # A trajectory on a terminal: the handles that the contest asks for, at this many instants, or as many as fit.
 SHOWN_HANDLES = (0, 1, 51, 101, 151, 201)
 SHOWN_INSTANTS = 7
+# Decimals of a trajectory on a terminal.
+SHOWN_DECIMALS = 6
 # So many or more are shown at equal distances where that is possible, rather than one or two more.
 EVEN_INSTANTS = 5
 # What a table takes beside its entries: for each column, and at its sides [characters].
@@ -150,11 +152,16 @@ def _table(title: str, *columns: str, header: bool = True) -> Table:
 
 
 def trajectory_tables(
-    result: Trajectory, handles: Sequence[int] | None = None, *, all_instants: bool = False
+    result: Trajectory,
+    handles: Sequence[int] | None = None,
+    *,
+    all_instants: bool = False,
+    decimals: int | None = None,
 ) -> list[Part]:
     """Some handles at some instants.
 
     handles: which; None: those of the contest and the last
+    decimals: of every number; None: SHOWN_DECIMALS
     all_instants: in as many tables as they take; else up to SHOWN_INSTANTS, evenly spaced, as many as fit one
     """
     instants, number = result.speed.shape
@@ -162,13 +169,14 @@ def trajectory_tables(
     names = tables.handle_names(number - 1)
     labels = [f"{k} {names[k]}" for k in rows]
     x, y = result.position[..., 0], result.position[..., 1]
-    blocks = _blocks(result, rows, labels, all_instants)
+    places = SHOWN_DECIMALS if decimals is None else decimals
+    blocks = _blocks(result, rows, labels, all_instants, places)
     shown: list[Part] = []
     for title, values in (("x [m]", x), ("y [m]", y), ("speed [m/s]", result.speed)):
         for block in blocks:
             table = _table(title, "handle", *(_instant(result, t) for t in block))
             for k, label in zip(rows, labels, strict=True):
-                table.add_row(label, *map(_entry, values[block, k]))
+                table.add_row(label, *(_entry(value, places) for value in values[block, k]))
             shown.append(table)
     count = sum(map(len, blocks))
     of_handles, of_instants = _plural("handle", range(number)), _plural("instant", range(instants))
@@ -176,14 +184,16 @@ def trajectory_tables(
     return [*shown, f"{words}: --output has all, --handles and --times choose."]
 
 
-def _blocks(result: Trajectory, rows: Sequence[int], labels: Sequence[str], all_instants: bool) -> list[list[int]]:
+def _blocks(
+    result: Trajectory, rows: Sequence[int], labels: Sequence[str], all_instants: bool, decimals: int
+) -> list[list[int]]:
     """The instants of each table: as many as fit into the width."""
     instants = len(result.time)
     values = np.concatenate([result.position[:, rows].reshape(instants, -1), result.speed[:, rows]], axis=1)
     room = _console().width - TABLE_SPACE - COLUMN_SPACE - max(map(len, [*labels, "handle"]), default=0)
 
     def width(t: int) -> int:
-        return COLUMN_SPACE + max(map(len, [_instant(result, t), *map(_entry, values[t])]))
+        return COLUMN_SPACE + max(map(len, [_instant(result, t), *(_entry(value, decimals) for value in values[t])]))
 
     if not all_instants:
         counts = range(min(SHOWN_INSTANTS, instants), 1, -1)
@@ -209,8 +219,8 @@ def _instant(result: Trajectory, t: int) -> str:
     return f"{result.time[t]:.12g} s"
 
 
-def _entry(value: float) -> str:
-    return f"{round(value, 6) + 0.0:.6f}"
+def _entry(value: float, decimals: int) -> str:
+    return f"{round(value, decimals) + 0.0:.{decimals}f}"
 
 
 def overlap_tables(answer: answers.OverlapsAnswer, margin: float = 0.0) -> list[Part]:

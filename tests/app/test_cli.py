@@ -492,3 +492,37 @@ def test_the_python_session_of_the_readme_is_true() -> None:
     found = doctest.testfile(str(Path(__file__).parents[2] / "README.md"), module_relative=False)
     assert found.attempted > 5
     assert found.failed == 0
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (["check", "dance.json", "--time", "3"], "--time says when --figure draws the dance: give --figure"),
+        (["check", "dance.json", "--cross-check", ""], "cross_check must be 'dragon', 'pair' or 'none', got \"\""),
+        (["overlaps", "--pitch", "1", "benches.json"], "--pitch is about a dance, and the benches are those of FILE"),
+        (["overlaps", "--margin=0", "benches.json"], "--margin is about a dance, and the benches are those of FILE"),
+        (["figures", "out", "--kind", "trajectory", "--samples", "50"], "--samples has no part in the figure traj"),
+        (["figures", "out", "--kind", "contact", "--kind", "trajectory", "--turning-diameter", "9"],
+         "--turning-diameter has no part in the figure contact or trajectory: leave it out, or draw another"),
+        (["figures", "out", "--kind", "pitch-scan", "--head-speed", "1"], "--head-speed has no part in the figure p"),
+        (["trajectory", "--language", "zh"], "--language is for the names in an xlsx file: give --output with .xlsx"),
+        (["trajectory", "--language", "en", "--output", "a.csv"], "--language is for the names in an xlsx file"),
+        (["trajectory", "--json", "--output", "a.csv"], "--json prints the answer and --output writes it to a file"),
+    ],
+    ids=lambda value: " ".join(value) if isinstance(value, list) else None,
+)  # fmt: skip
+def test_an_option_that_nothing_uses_is_refused_by_name(arguments: list[str], words: str, tmp_path: Path) -> None:
+    (tmp_path / "dance.json").write_text("{}")
+    (tmp_path / "benches.json").write_text('{"benches": [{"x": 0, "y": 0, "heading": 0, "length": 1, "width": 1}]}')
+    files = {"dance.json", "benches.json", "out", "a.csv"}
+    done = run(*(str(tmp_path / one) if one in files else one for one in arguments))
+    assert (done.returncode, done.stdout) == (2, "")
+    assert done.stderr.startswith(f"Error: {words}")
+    assert len(done.stderr.splitlines()) == 1
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["benches.json", "dance.json"]
+
+
+def test_the_table_on_a_terminal_has_the_decimals_that_are_asked_for() -> None:
+    done = run("trajectory", "--benches", "3", "--times", "0,100", "--decimals", "2")
+    assert re.search(r"0 head +8\.80 +-?\d\.\d\d ", done.stdout)
+    assert not re.search(r"\d\.\d{3}", done.stdout)
