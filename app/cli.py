@@ -173,7 +173,7 @@ def trajectory(
 @app.command()
 @asks(schemas.CollisionQuery)
 def collision_time(asked: schemas.CollisionQuery, json: Json = False) -> None:
-    """When two benches first touch, and how that is known."""
+    """When two benches first touch, or come nearer than a margin, and how that is known."""
     dragon, path = asked.to_dragon(Settings().benches_max), asked.to_path()
     with show.waiting("first contact"):
         found = core.first_contact(dragon, path, head_speed=asked.head_speed, margin=asked.margin)
@@ -293,7 +293,7 @@ def overlaps(
     ] = None,
     json: Json = False,
 ) -> None:
-    """Which benches overlap at one instant, by four engines."""
+    """Which benches overlap, or are nearer than a margin, at one instant, by four engines."""
     settings = Settings()
     if file:
         unused(

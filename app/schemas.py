@@ -280,7 +280,7 @@ class ContactQuery(DanceQuery):
 
 
 class CollisionQuery(ContactQuery):
-    """When do two benches first touch?"""
+    """When do two benches first touch, or come nearer than a margin?"""
 
     cross_check: CrossCheck = "dragon"
 
