@@ -138,8 +138,8 @@ class PairCheck(Answer):
     )
     together: list[Pair] = Field(
         description="Other pairs that come nearer than the margin, or touch if it is 0, with the reported one, as "
-        "where a corner meets two benches of a straight row at once: apart just before, and hardly within the margin just "
-        "after"
+        "where a corner meets two benches of a straight row at once: apart just before, and hardly within the margin "
+        "just after"
     )
     left_out: list[Engine] = Field(description="Engines that cannot judge this margin, and were not asked")
 

@@ -166,7 +166,9 @@ def trajectory(
     elif json:
         show.print_json(data)
     else:
-        shown = show.trajectory_tables(result, handles, all_instants=asked.times is not None, decimals=asked.decimals)
+        end = core.run_end(dragon, path, head_speed=asked.head_speed)
+        fold, all_instants = end if end.bench is not None else None, asked.times is not None
+        shown = show.trajectory_tables(result, handles, all_instants=all_instants, decimals=asked.decimals, fold=fold)
         show.print_parts(*shown)
 
 
