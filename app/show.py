@@ -28,8 +28,8 @@ SHOWN_HANDLES = (0, 1, 51, 101, 151, 201)
 SHOWN_INSTANTS = 7
 # Decimals of a trajectory on a terminal.
 SHOWN_DECIMALS = 6
-# A handle so many times faster than the head, on a run that ends in a fold, tells that the fold is near [1]; the mark of
-# such an instant.
+# A handle so many times faster than the head, on a run that ends in a fold, tells that the fold is near [1]; the mark
+# of such an instant.
 FAST = 2.0
 NEAR_FOLD = " *"
 # So many or more are shown at equal distances where that is possible, rather than one or two more.

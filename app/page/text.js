@@ -176,7 +176,7 @@ const WORDS = {
   tableAt: ["at {time} s", "{time} s 时"],
   tableAtFold: ["1e-6 s before the fold at {time} s", "{time} s 折叠前 1e-6 s"],
   nearFold: ["Just before the fold at {time} s: towards it the speeds grow without bound.", "即将在 {time} s 折叠：越接近该时刻，速度越大，没有上限。"],
-  legendFold: ["{speed} m/s, growing without bound", "{speed} m/s，无限增大"],
+  legendFold: ["{speed} m/s → ∞", "{speed} m/s → ∞"],
   tableHelp: ["Choose a handle here or in the picture. Arrow keys move the choice.", "在此处或画面中选择把手，方向键可移动选择。"],
   handle: ["Handle", "把手"],
   speed: ["speed [m/s]", "速度 [m/s]"],

@@ -522,6 +522,28 @@ def test_an_option_that_nothing_uses_is_refused_by_name(arguments: list[str], wo
     assert sorted(path.name for path in tmp_path.iterdir()) == ["benches.json", "dance.json"]
 
 
+FOLDING = ("trajectory", "--benches", "40", "--pitch", "1.2", "--start-turns", "8")
+
+
+def test_instants_just_before_a_fold_are_marked_and_the_fold_is_named() -> None:
+    said = answer_of(*FOLDING, "--times", "0,100,238.2149")
+    assert said.count("238.2149 s *") == 3
+    assert "100 s *" not in said
+    words = " ".join(said.split())
+    assert words.endswith(
+        "* Just before bench 0 folds, at 238.214985392 s: towards that instant the speeds of handles behind it grow "
+        "without bound."
+    )
+    assert "*" not in answer_of(*FOLDING, "--times", "0,100")
+
+
+def test_bounds_are_printed_with_all_digits_or_rounded_to_the_safe_side() -> None:
+    answer = json.loads(answer_of("collision-time", "--json"))
+    said = answer_of("collision-time")
+    assert f"{answer['time_bracket'][0]!r}, {answer['time_bracket'][1]!r} s" in said
+    assert re.search(rf"clear until +{re.escape(repr(answer['certificate']['clear_until']))} s", said)
+
+
 def test_the_table_on_a_terminal_has_the_decimals_that_are_asked_for() -> None:
     done = run("trajectory", "--benches", "3", "--times", "0,100", "--decimals", "2")
     assert re.search(r"0 head +8\.80 +-?\d\.\d\d ", done.stdout)

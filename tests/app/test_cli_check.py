@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from pathlib import Path
 from typing import Any
 
@@ -165,6 +166,20 @@ def test_the_dance_is_drawn_in_its_venue(dance: Path) -> None:
     done = run("check", str(dance), "--figure", str(figure), "--time", "59", "--json")
     assert (done.returncode, done.stderr) == (0, f"{figure}\n")
     assert " square -->" in figure.read_text()
+
+
+# The last digit of a distance in a report [m].
+LAST_SHOWN = 1e-6
+
+
+def test_a_least_clearance_is_not_rounded_above_what_is_proven_and_a_fold_has_no_highest_speed(tmp_path: Path) -> None:
+    file = tmp_path / "dance.json"
+    file.write_text('{"dragon": {"benches": 40}, "path": {"pitch": 1.2, "start_turns": 8}}')
+    said = answer_of("check", str(file))
+    proven = json.loads(answer_of("check", str(file), "--json"))["least_clearance"]["at_least"]
+    (shown,) = re.findall(r"proven: at least ([\d.]+) m", said)
+    assert proven - LAST_SHOWN < float(shown) <= proven
+    assert re.search(r"highest speed +grows without bound +238\.214985 s +towards the fold", said)
 
 
 @pytest.mark.parametrize(
