@@ -47,7 +47,7 @@ class _Thorough(Wire):
 
 
 class CollisionClaim(_Thorough, schemas.DanceQuery):
-    """When two benches first touch."""
+    """When two benches first touch, or come nearer than the margin."""
 
     time: float | None = Field(None, ge=0, description="The claim; else what collision-time answers [s]")
     margin: Margin = 0.0
@@ -238,7 +238,8 @@ def _dance_proven(dance: core.Dance, times: dict[str, Any], every_pair: bool) ->
         if found.outcome is Outcome.CONTACT and found.time is not None:
             return prove_contact(dance, found.time, **times, **asked)
         if found.benches is None:
-            raise ProofRefused("time", "the search did not decide whether benches come nearer than the margin")
+            near = f"come nearer than {times['margin']:g} m" if times["margin"] else "touch"
+            raise ProofRefused("time", f"the search did not decide whether two benches {near}")
         a, b = found.benches
         near = f"are nearer than {times['margin']:g} m" if times["margin"] else "overlap"
         raise ProofRefused("start", f"benches {a} and {b} {near} at the start already, {times['start']:g} s")

@@ -21,7 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from core import kernels
-from core.contact.claim import ENDS, UNDECIDED_THEN, claim, claim_at_start, contact_then
+from core.contact.claim import ENDS, UNDECIDED_THEN, claim, claim_at_start, claim_undecided, contact_then
 from core.contact.near_graze import narrowed
 from core.contact.search import BRACKETS_GRAZING, MARGIN_MAX, NO_GRAZE, Search
 from core.dance import Dance, EndReason, RunEnd
@@ -80,14 +80,16 @@ class Certificate:
     """How the answer is known.
 
     method: the whole claim and how it is proven, in sentences (core/contact/claim.py)
-    steps: proven steps taken; clear_until: nothing touches from the start to then [s]
+    steps: proven steps taken
+    clear_until: nothing touches from the start to then [s]; None where no time is proven clear: benches touch at
+        the start, or it is not decided from there on
     bound: the largest bound on the second derivative of a gap along the head's way that a step used [1/m]
     least_clearance: the narrowest graze met before the contact (or over the whole run), None if none
     """
 
     method: str
     steps: int
-    clear_until: float
+    clear_until: float | None
     bound: float
     least_clearance: Graze | None
 
@@ -202,7 +204,8 @@ def _result(
         state, Outcome.CONTACT_AT_START
     )
     method = _method(dance, search.margin, outcome, found, end, (span[0], proven))
-    certificate = Certificate(method, int(found["steps"]), proven, found["bend"], graze)
+    clear_until = proven if proven > span[0] and outcome is not Outcome.CONTACT_AT_START else None
+    certificate = Certificate(method, int(found["steps"]), clear_until, found["bend"], graze)
     if outcome is Outcome.CLEAR:
         return FirstContact(outcome, None, None, None, None, None, None, None, end, certificate)
     if outcome is Outcome.UNDECIDED:
@@ -233,11 +236,14 @@ def _method(
     if outcome is Outcome.CLEAR:
         return claim(*asked, span, ENDS[end.reason])
     if outcome is Outcome.UNDECIDED:
-        return claim(*asked, span, UNDECIDED_THEN)
+        return claim(*asked, span, UNDECIDED_THEN) if span[1] > span[0] else claim_undecided(*asked, span[0])
     pair = (int(found["first"]), int(found["second"]))
     if outcome is Outcome.CONTACT_AT_START:
         return claim_at_start(*asked, span[0], pair)
-    return claim(*asked, span, contact_then(pair, margin, found["touching"] / dance.head_speed))
+    touching = found["touching"] / dance.head_speed
+    if not span[1] > span[0]:
+        return claim_at_start(*asked, touching, pair)
+    return claim(*asked, span, contact_then(pair, margin, touching))
 
 
 def head_state(path: Spiral | Route, travel: float) -> HeadState:

@@ -12,7 +12,7 @@ from flint import __FLINT_VERSION__, __version__, ctx
 
 from core.dance import Dance
 from core.dragon import BENCHES_MAX, Dragon
-from core.errors import InvalidValue, OutsideRun, ProofRefused
+from core.errors import InvalidValue, OutsideRun, ProofRefused, spoken
 from core.paths.spiral import Spiral
 from core.proof.claims import CollisionTime, MinimumPitch, refusing
 from core.proof.dances import Clear, Contact, last_stop
@@ -171,7 +171,7 @@ def check(certificate: Certificate, *, progress: Progress = lambda share: None) 
     except (InvalidValue, OutsideRun) as error:
         field = error.field if "path" in content["claim"] else error.field.removeprefix("path.")
         place = field if field.startswith("dragon.") else f"claim.{field}"
-        words = error.message.replace(error.field, place, 1)
+        words = error.message.replace(spoken(error.field), spoken(place), 1)
         raise ProofRefused(place, f"the certificate is malformed: {words}") from error
 
 

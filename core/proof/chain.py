@@ -7,6 +7,7 @@ import math
 from flint import acb, arb
 
 from core.dragon import Dragon
+from core.errors import said
 from core.proof.pairs import Benches, Limit, Size, Unproven, above, below, stays_above
 
 # A guess from doubles is within this of its root [rad]; an interval Newton step verifies it.
@@ -54,7 +55,7 @@ class Chain(Follower):
     @staticmethod
     def named(theta: float) -> str:
         """A place in words."""
-        return f"theta = {theta!r} rad"
+        return f"theta = {said(theta)} rad"
 
     def pose_at(self, bench: int, theta: arb) -> Pose:
         """The benches from one on when its front handle is there [rad]."""

@@ -11,14 +11,14 @@ from flint import arb
 
 from core.dance import Dance, EndReason
 from core.dragon import Dragon
-from core.errors import InvalidValue
+from core.errors import InvalidValue, said
 from core.proof.claims import TIME_BRACKET, check_near, checked_margin, near_pair, settle
 from core.proof.fold import folding
 from core.proof.pairs import Unproven, above, below
 from core.proof.paths import chain_on, core_path, described
 from core.proof.route import RouteChain
 from core.proof.sweeps import AnyChain, Progress
-from core.proof.words import apart_words, dragon_words, near_words
+from core.proof.words import apart_words, contact_words, dragon_words
 
 # How much later than the stop of a claim the run has ended for certain, where the claim says so: an exact decimal [s].
 END_BRACKET = "1e-9"
@@ -64,7 +64,7 @@ class Clear:
         return {}
 
     def check_overlap(self, overlap: dict[str, Any]) -> str:
-        span = f"from {self.start!r} s to {self.stop!r} s{self._ending()}"
+        span = f"from {said(self.start)} s to {said(self.stop)} s{self._ending()}"
         return f"{_dance_words(self)}: {apart_words(self.margin)} {span}."
 
     def _ending(self) -> str:
@@ -74,15 +74,15 @@ class Clear:
         chain = self.chain
         if isinstance(chain, RouteChain):
             if not chain.place_after(later) <= chain.path.pieces[-1].low:
-                raise Unproven(f"the route is not shown to end before {self.stop!r} + {END_BRACKET} s")
-            return f", and the route ends before {self.stop!r} + {END_BRACKET} s"
+                raise Unproven(f"the route is not shown to end before {said(self.stop)} + {END_BRACKET} s")
+            return f", and the route ends before {said(self.stop)} + {END_BRACKET} s"
         if self.until == "centre":
             if not chain.arc(chain.start) <= later:
-                raise Unproven(f"the head is not shown to reach the centre before {self.stop!r} + {END_BRACKET} s")
-            return f", and the head reaches the centre before {self.stop!r} + {END_BRACKET} s"
+                raise Unproven(f"the head is not shown to reach the centre before {said(self.stop)} + {END_BRACKET} s")
+            return f", and the head reaches the centre before {said(self.stop)} + {END_BRACKET} s"
         before = chain.place_after(self.stop * arb(self.head_speed))
         bench = folding(chain, before, chain.place_after(later))
-        return f", and bench {bench} cannot follow any more (it folds) before {self.stop!r} + {END_BRACKET} s"
+        return f", and bench {bench} cannot follow any more (it folds) before {said(self.stop)} + {END_BRACKET} s"
 
 
 @dataclass(frozen=True)
@@ -120,15 +120,14 @@ class Contact:
         return _way(self.chain, arb(self.start) * self.head_speed, before)
 
     def find_overlap(self, progress: Progress) -> dict[str, Any]:
-        return {"benches": near_pair(self.chain, self._after, f"at {self.time!r} + {TIME_BRACKET} s")}
+        return {"benches": near_pair(self.chain, self._after, f"at {said(self.time)} + {TIME_BRACKET} s")}
 
     def check_overlap(self, overlap: dict[str, Any]) -> str:
         a, b = overlap["benches"]
-        check_near(self.chain, self._after, a, b, f"at {self.time!r} + {TIME_BRACKET} s")
-        return (
-            f"{_dance_words(self)}: {apart_words(self.margin)} from {self.start!r} s to {self.time!r} - {TIME_BRACKET} "
-            f"s, and {near_words([a, b], self.margin)} at {self.time!r} + {TIME_BRACKET} s."
-        )
+        check_near(self.chain, self._after, a, b, f"at {said(self.time)} + {TIME_BRACKET} s")
+        clear = bool(self.time - arb(TIME_BRACKET) > self.start)
+        words = contact_words([a, b], self.margin, self.start, self.time, TIME_BRACKET, clear=clear)
+        return f"{_dance_words(self)}: {words}"
 
 
 def last_stop(dragon: Dragon, path: Mapping[str, Any], head_speed: float) -> tuple[float, str]:
@@ -150,4 +149,4 @@ def _way(chain: AnyChain, first: arb, last: arb) -> tuple[float, float]:
 
 
 def _dance_words(claim: Clear | Contact) -> str:
-    return f"{dragon_words(claim.dragon)}, its head at {claim.head_speed!r} m/s on {described(claim.path)}"
+    return f"{dragon_words(claim.dragon)}, its head at {said(claim.head_speed)} m/s on {described(claim.path)}"

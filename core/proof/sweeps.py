@@ -105,7 +105,7 @@ def recorded(chain: AnyChain, sweeps: Sequence[Any]) -> Source:
 
     def source(bench: int, high: float, low: float, places: Sequence[float]) -> Iterator[tuple[AnyStretch, Tile]]:
         if bench >= len(sweeps):
-            raise ProofRefused("sweeps", f"the certificate is malformed: sweeps.{bench} is missing")
+            raise ProofRefused("sweeps", f"the certificate is malformed: sweeps[{bench}] is missing")
         if sweeps[bench]["bench"] != bench:
             raise ProofRefused("sweeps", f"sweep {bench} is of another bench: {sweeps[bench]['bench']}")
         for k, (high, low, faces, *rest) in enumerate(sweeps[bench]["stretches"]):

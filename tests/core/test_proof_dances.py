@@ -222,7 +222,7 @@ def test_a_route_is_proven_with_a_margin_up_to_its_least_clearance_and_not_beyon
 
 def test_the_turn_of_the_contest_is_clear_and_within_its_margin_at_the_reference_time() -> None:
     certificate = through_json(prove_clear(Dance(Dragon(), Turn(1.7)), 100.0, start=-100.0))
-    assert "no two benches but neighbours touch from -100.0 s to 100.0 s" in check(certificate).statement
+    assert "no two benches but neighbours touch from -100 s to 100 s" in check(certificate).statement
     time = first_contact(Dance(Dragon(), Turn(1.7)), start=-100.0, margin=0.33).time
     assert time is not None
     check(through_json(prove_contact(Dance(Dragon(), Turn(1.7)), time, start=-100.0, margin=0.33)))

@@ -11,8 +11,8 @@ import pytest
 from flint import arb, ctx
 
 from core import Dragon, LimitedBy, Spiral, minimum_pitch
-from core.errors import ProofRefused
 from core.dance import end_theta
+from core.errors import ProofRefused
 from core.proof import Certificate, check, prove_minimum_pitch
 from core.proof.chain import Chain, _rises_to, bend
 from core.proof.fold import check_fold
