@@ -232,11 +232,11 @@ FORGERIES: dict[str, tuple[Callable[[dict[str, Any]], Any], str]] = {
         "not proven",
     ),
     "a pair left out": (lambda c: stretches(c)[-1].__setitem__(2, stretches(c)[-1][2][:-1]), "pairs are missing"),
-    "no sweeps": (at("sweeps", put=[]), "sweeps.0 is missing"),
+    "no sweeps": (at("sweeps", put=[]), r"sweeps\[0\] is missing"),
     "another claim": (at("claim", "kind", put="collision-time"), "malformed"),
 }  # fmt: skip
 ALONE_FORGERIES: dict[str, tuple[Callable[[dict[str, Any]], Any], str]] = {
-    "no sweeps": (at("sweeps", put=[]), "sweeps.0 is missing"),
+    "no sweeps": (at("sweeps", put=[]), r"sweeps\[0\] is missing"),
     "a stretch dropped": (lambda c: stretches(c).pop(7), "do not join"),
     "the last stretch dropped": (lambda c: stretches(c).pop(), "short of"),
     "one stretch for all": (
