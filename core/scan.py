@@ -8,16 +8,18 @@ from itertools import pairwise
 
 import numpy as np
 
-from core.contact import Outcome, first_contact
 from core.design import MinimumPitch, minimum_pitch
-from core.dragon import SIZE_MIN, Dragon, Floats
+from core.dragon import SIZE_MIN, Dragon, Floats, checked_number
 from core.errors import InvalidValue
-from core.kinematics import trajectory
+from core.kinematics import EndReason, run_end
 from core.paths import Spiral
+from core.search import MARGIN_MAX, WORK_BUDGET, Search
 
 # A fall of the first-contact radius [m] between two pitches closer than JUMP_WIDTH [m] is a jump.
 JUMP = 0.02
 JUMP_WIDTH = 1e-6
+# Half width of the bracket around a contact [m of head travel], and so of its radius: a picture shows 1e-3 m.
+RADIUS_WIDTH = 1e-8
 # The scanned pitches, in minimum pitches.
 SCAN_FROM, SCAN_TO = 0.8, 1.35
 
@@ -35,18 +37,52 @@ class PitchScan:
     pieces: tuple[tuple[int, int], ...]
 
 
-def stop_radius(dragon: Dragon, path: Spiral, *, margin: float = 0.0) -> float | None:
-    """Where the head stands at first contact [m]; None when nothing touches.
+class Stops:
+    """Where the head stands at first contact, of one dragon on one spiral after another.
 
-    A search that ends undecided has met a graze too close to the margin to tell: then, where it met it.
+    The search is that of first_contact(), proven likewise to miss no contact, with a bracket of RADIUS_WIDTH in place
+    of its 1e-10 m: a radius changes by less than the travel, so it is as good as that.
     """
-    found = first_contact(dragon, path, margin=margin)
-    if found.outcome is Outcome.CLEAR:
-        return None
-    if found.head is not None:
-        return found.head.radius
-    time = found.time_bracket[0] if found.time_bracket else 0.0
-    return float(np.hypot(*trajectory(Dragon(benches=1), path, [time]).position[0, 0]))
+
+    def __init__(self, dragon: Dragon, margin: float) -> None:
+        self.dragon = dragon
+        self.margin = checked_number("margin", margin, "m", 0.0, MARGIN_MAX)
+        self.search: Search | None = None
+
+    def radius(self, path: Spiral) -> float | None:
+        """The radius [m], good to RADIUS_WIDTH, or to the bracket of the contact so near a graze that rounding widens it
+        (BRACKETS_GRAZING in core/search.py); None when nothing touches.
+
+        A search that ends undecided has met a graze too close to the margin to tell: then, where it met it.
+        raises: InvalidValue as run_end()
+        """
+        end = run_end(self.dragon, path)
+        search = self._search(path)
+        to_fold = end.reason is EndReason.FOLD
+        last = search.last_travel(end.time, to_fold)
+        tolerance = max(RADIUS_WIDTH, 2.0 * search.travel_rounding(last))
+        state, found = search.march(last, tolerance)
+        if state == "stuck" and found["touching"] >= 0.0:
+            state, found, tolerance = search.approach(0.0, last, 1.0)
+        if state in ("reached", "stuck") and found["touching"] < 0.0 and to_fold:
+            state = "reached" if search.clear_to_fold(min(found["proven"], last), end) else "stuck"
+        if state == "reached":
+            return None
+        travel = {"touched": found["touching"] - tolerance, "stuck": found["proven"]}.get(state, 0.0)
+        return search.growth * search.theta_at(travel)
+
+    def _search(self, path: Spiral) -> Search:
+        if self.search is None:
+            self.search = Search(self.dragon, path, self.margin)
+        else:
+            self.search.use(path, self.margin)
+            self.search.work = WORK_BUDGET
+        return self.search
+
+
+def stop_radius(dragon: Dragon, path: Spiral, *, margin: float = 0.0) -> float | None:
+    """Where the head stands at first contact [m]; None when nothing touches. See Stops."""
+    return Stops(dragon, margin).radius(path)
 
 
 def pitch_scan(
@@ -64,9 +100,10 @@ def pitch_scan(
 
     pitches: (N,) [m], ascending; progress: called with the share of the samples that is done
     """
+    stops = Stops(dragon, margin)
 
     def radius(pitch: float) -> float | None:
-        return stop_radius(dragon, Spiral(pitch, start_turns), margin=margin)
+        return stops.radius(Spiral(pitch, start_turns))
 
     known: dict[float, float | None] = {}
     jumps: list[float] = []
