@@ -19,7 +19,7 @@ from core.cross import ContactCheck, contact_check, pitch_check
 from core.design import LimitedBy, MinimumPitch, minimum_pitch
 from core.dragon import Dragon
 from core.engines import Engine
-from core.errors import BenchDragonError, InvalidValue, OutsideRun, TooLarge
+from core.errors import BenchDragonError, InvalidValue, OutsideRun, TooLarge, TooMuchWork
 from core.kinematics import EndReason, RunEnd, Trajectory, bench_poses, run_end, trajectory
 from core.least import LeastClearance, least_clearance
 from core.overlaps import CrossCheck, Overlaps, Verdict, cross_check, overlaps, verdicts
@@ -72,6 +72,7 @@ __all__ = [
     "Spiral",
     "Stray",
     "TooLarge",
+    "TooMuchWork",
     "Trajectory",
     "Turn",
     "TurnLimit",

@@ -28,7 +28,7 @@ from core.kinematics import EndReason, RunEnd, checked_head_speed, checked_span,
 from core.paths import Spiral
 from core.precise import narrowed
 from core.route import Route
-from core.search import BRACKETS_GRAZING, MARGIN_MAX, NO_GRAZE, Search
+from core.search import BRACKETS_GRAZING, MARGIN_MAX, NO_GRAZE, Budget, Search
 
 # Grazes of a profile are looked for in steps of this fraction of the shortest chord [1], longer ones where the work is
 # too much (Search.samples()), and refined to this width [s].
@@ -164,11 +164,25 @@ def first_contact(
     >>> contact.outcome.value, round(contact.time, 6), contact.benches
     ('contact', 412.473838, (0, 8))
     """
+    return contact_within(Budget(), dragon, path, head_speed=head_speed, margin=margin, start=start, stop=stop)
+
+
+def contact_within(
+    budget: Budget,
+    dragon: Dragon,
+    path: Spiral | Route,
+    *,
+    head_speed: float = 1.0,
+    margin: float = 0.0,
+    start: float = 0.0,
+    stop: float | None = None,
+) -> FirstContact:
+    """first_contact() as a part of a larger question, undecided also where the budget of that is spent."""
     head_speed = checked_head_speed(head_speed)
     margin = checked_number("margin", margin, "m", 0.0, MARGIN_MAX)
     end = run_end(dragon, path, head_speed=head_speed)
     begin, until = checked_span(dragon, path, start, stop, end, head_speed)
-    search = Search(dragon, path, margin)
+    search = Search(dragon, path, margin, budget=budget)
     to_fold = until >= end.time and end.reason is EndReason.FOLD
     last = search.last_travel(until * head_speed, to_fold)
     state, found, tolerance = search.approach(begin * head_speed, last, head_speed)

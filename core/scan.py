@@ -10,16 +10,19 @@ import numpy as np
 
 from core.design import MinimumPitch, minimum_pitch
 from core.dragon import SIZE_MIN, Dragon, Floats, checked_number
-from core.errors import InvalidValue
+from core.errors import InvalidValue, TooMuchWork
 from core.kinematics import EndReason, run_end
 from core.paths import Spiral
-from core.search import MARGIN_MAX, WORK_BUDGET, Search
+from core.search import MARGIN_MAX, WORK_BUDGET, Budget, Search
 
 # A fall of the first-contact radius [m] between two pitches closer than JUMP_WIDTH [m] is a jump.
 JUMP = 0.02
 JUMP_WIDTH = 1e-6
 # Half width of the bracket around a contact [m of head travel], and so of its radius: a picture shows 1e-3 m.
 RADIUS_WIDTH = 1e-8
+# All pitches together do at most so much work, see WORK of core/kernels/constants.py: about 5 s; the default scan does
+# about 2,000,000 [1].
+SCAN_WORK = 4e7
 # The scanned pitches, in minimum pitches.
 SCAN_FROM, SCAN_TO = 0.8, 1.35
 
@@ -44,14 +47,16 @@ class Stops:
     of its 1e-10 m: a radius changes by less than the travel, so it is as good as that.
     """
 
-    def __init__(self, dragon: Dragon, margin: float) -> None:
-        self.dragon = dragon
+    def __init__(self, dragon: Dragon, margin: float, budget: Budget | None = None) -> None:
+        self.dragon, self.budget = dragon, budget or Budget()
         self.margin = checked_number("margin", margin, "m", 0.0, MARGIN_MAX)
         self.search: Search | None = None
 
     def radius(self, path: Spiral) -> float | None:
-        """The radius [m], good to RADIUS_WIDTH, or to the bracket of the contact so near a graze that rounding widens it
-        (BRACKETS_GRAZING in core/search.py); None when nothing touches.
+        """The radius [m], None when nothing touches.
+
+        It is good to RADIUS_WIDTH, or so near a graze that rounding hides when it begins to a wider bracket
+        (BRACKETS_GRAZING in core/search.py).
 
         A search that ends undecided has met a graze too close to the margin to tell: then, where it met it.
         raises: InvalidValue as run_end()
@@ -73,7 +78,7 @@ class Stops:
 
     def _search(self, path: Spiral) -> Search:
         if self.search is None:
-            self.search = Search(self.dragon, path, self.margin)
+            self.search = Search(self.dragon, path, self.margin, budget=self.budget)
         else:
             self.search.use(path, self.margin)
             self.search.work = WORK_BUDGET
@@ -99,10 +104,13 @@ def pitch_scan(
     than JUMP_WIDTH, then it is a jump. A jump smaller than JUMP between two samples is not found.
 
     pitches: (N,) [m], ascending; progress: called with the share of the samples that is done
+    raises: TooMuchWork where SCAN_WORK is done before; InvalidValue
     """
-    stops = Stops(dragon, margin)
+    stops = Stops(dragon, margin, Budget(SCAN_WORK))
 
     def radius(pitch: float) -> float | None:
+        if stops.budget.left <= 0.0:
+            raise TooMuchWork.of("pitches", _too_much(dragon, pitch), len(pitches), "")
         return stops.radius(Spiral(pitch, start_turns))
 
     known: dict[float, float | None] = {}
@@ -125,6 +133,15 @@ def pitch_scan(
     return _scan(known, jumps)
 
 
+def _too_much(dragon: Dragon, pitch: float) -> str:
+    """What to change where the work is done before the scan is; pitch: the next one [m]."""
+    return (
+        f"must be fewer, or benches: the first contacts up to a pitch of {pitch:g} m took {SCAN_WORK:g} steps of work, "
+        f"each a bench placed or a pair of benches tried; the {dragon.benches} chords are "
+        f"{float(dragon.chords.min()):g} to {float(dragon.chords.max()):g} m long"
+    )
+
+
 def _scan(known: dict[float, float | None], jumps: list[float]) -> PitchScan:
     pitches = sorted(known)
     found = [pitch for pitch in pitches if known[pitch] is not None]
@@ -145,7 +162,7 @@ def scan_near_minimum(
 ) -> tuple[PitchScan, MinimumPitch]:
     """The scan from SCAN_FROM to SCAN_TO times the minimum pitch at so many samples, and that minimum.
 
-    raises: InvalidValue as minimum_pitch()
+    raises: InvalidValue and TooMuchWork as minimum_pitch() and pitch_scan()
     """
     least = minimum_pitch(dragon, turning_radius=turning_radius, start_turns=start_turns, margin=margin)
     if SCAN_FROM * least.pitch < SIZE_MIN:
@@ -153,4 +170,7 @@ def scan_near_minimum(
         raise InvalidValue.of("turning_radius", rule, turning_radius, "m")
     pitches = np.linspace(SCAN_FROM * least.pitch, SCAN_TO * least.pitch, samples)
     pitches = np.sort(np.append(pitches, least.pitch_bracket))
-    return pitch_scan(dragon, pitches, start_turns=start_turns, margin=margin, progress=progress), least
+    try:
+        return pitch_scan(dragon, pitches, start_turns=start_turns, margin=margin, progress=progress), least
+    except TooMuchWork as error:
+        raise error.named("samples", samples) from error

@@ -58,7 +58,7 @@ cdef bint slid_back(
 )
 cpdef int march(
     double growth, const double[:, ::1] pieces, double place, double start, double stop, Py_ssize_t leaders,
-    bint at_start, double margin, double tolerance, double rounding, Py_ssize_t budget, Py_ssize_t benches,
+    bint at_start, double margin, double tolerance, double rounding, double budget, Py_ssize_t benches,
     Py_ssize_t statics, double[::1] ring, double[:, ::1] sizes, double[:, :, ::1] rows, double[:, ::1] motion,
     Py_ssize_t[::1] pair, double[::1] out
 ) noexcept

@@ -5,8 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from core import Dragon, Spiral, first_contact, minimum_pitch
-from core.scan import JUMP, JUMP_WIDTH, RADIUS_WIDTH, Stops, pitch_scan, stop_radius
+import core.scan
+from core import Dragon, Spiral, TooMuchWork, first_contact, minimum_pitch
+from core.scan import JUMP, JUMP_WIDTH, RADIUS_WIDTH, Stops, pitch_scan, scan_near_minimum, stop_radius
 
 SMALL = Dragon(benches=30)
 BRACKET = 1e-9  # [m]: how well the minimum pitch is known
@@ -69,3 +70,11 @@ def test_a_run_to_a_fold_is_told_from_a_contact_as_by_first_contact(
     radius = stop_radius(dragon, Spiral(pitch), margin=margin)
     assert (radius is None) == (head is None)
     assert head is None or radius == pytest.approx(head.radius, rel=0.0, abs=RADIUS_WIDTH)
+
+
+def test_work_that_ends_before_the_scan_does_is_an_error(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(core.scan, "SCAN_WORK", 1e4)
+    with pytest.raises(TooMuchWork, match=r"pitches must be fewer, .*up to a pitch of 0\..* m took 10000 steps"):
+        pitch_scan(Dragon(), np.linspace(0.44, 0.46, 5))
+    with pytest.raises(TooMuchWork, match=r"samples must be fewer, .*, got 7$"):
+        scan_near_minimum(Dragon(), turning_radius=4.5, start_turns=16.0, margin=0.0, samples=7)
