@@ -164,11 +164,11 @@ def next_handle(theta, chord2, guess):
 
 
 def next_arc(theta, chord2, guess):
-    """delta of the next handle and the arc length to it; -1.0 for both when the chain folds or turns at the centre."""
+    """delta of the next handle and spiral_arc() there; delta -1.0 when the chain folds or turns at the centre."""
     delta, _, _ = next_handle(theta, chord2, guess)
     if delta > 0.0 and theta * (theta + delta) > 0.0:
-        return delta, spiral_arc(theta + delta) - spiral_arc(theta)
-    return -1.0, -1.0
+        return delta, spiral_arc(theta + delta)
+    return -1.0, 0.0
 
 
 def theta_ratio(theta, delta, s, c):
