@@ -3,7 +3,7 @@ from core.kernels.constants cimport *
 from core.kernels.spiral cimport extend_chain, spiral_curvature, spiral_theta, start_chain
 from core.kernels.bounds cimport followed_error
 from core.kernels.chain cimport chain_rounding, extend
-from core.kernels.rings cimport coil_radius, coil_reach, drift, leaders_reach, radius_beyond
+from core.kernels.rings cimport coil_place, coil_radius, coil_reach, drift, leaders_reach, radius_beyond
 from core.kernels.route cimport extend_route, stands_first, start_route
 from core.kernels.pairs cimport interval_least, pair_most
 from core.kernels.clearance cimport crossing, gap_at, row_clearance, row_gap

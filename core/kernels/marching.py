@@ -9,7 +9,7 @@ if not cython.compiled:  # for the compiler the same stands in the .pxd
     from core.kernels.clearance import crossing, gap_at, row_clearance, row_gap
     from core.kernels.constants import *
     from core.kernels.pairs import interval_least, pair_most
-    from core.kernels.rings import coil_radius, coil_reach, drift, leaders_reach, radius_beyond
+    from core.kernels.rings import coil_place, coil_radius, coil_reach, drift, leaders_reach, radius_beyond
     from core.kernels.route import extend_route, stands_first, start_route
     from core.kernels.spiral import extend_chain, spiral_curvature, spiral_theta, start_chain
 
@@ -105,19 +105,18 @@ def route_between(pieces, place, leaders, benches, margin, allowance, ring, size
     start_route(pieces, -place, chain)
     k = leaders
     if ring[RING_PLACE] < FREE:
-        k = 0
-        while k < leaders and chain[k, PLACE] < ring[RING_PLACE]:
-            k = extend_route(pieces, k, k + 1, 0.0, sizes, chain)
+        k = extend_route(pieces, 0, leaders, ring[RING_PLACE], sizes, chain)
     found[0] = k
     if ring[RING_PLACE] >= FREE:
-        return extend_route(pieces, 0, benches, 0.0, sizes, chain)
+        return extend_route(pieces, 0, benches, FREE, sizes, chain)
     if k == 0:
         return 0
     radius = radius_beyond(pieces[0, 7], coil_reach(pieces, k, sizes, chain) + margin + allowance, ring) + allowance
-    while k < benches and (
+    k = extend_route(pieces, k, benches, coil_place(pieces, radius), sizes, chain)
+    while k < benches and (  # a handle within rounding of that place
         not stands_first(pieces, k, chain) or coil_radius(pieces, chain[k, PX], chain[k, PY]) < radius
     ):
-        k = extend_route(pieces, k, k + 1, 0.0, sizes, chain)
+        k = extend_route(pieces, k, k + 1, FREE, sizes, chain)
     return k
 
 

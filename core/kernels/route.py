@@ -136,7 +136,12 @@ def set_piece_theta(pieces, p, k, chain):
 
 def stands_first(pieces, k, chain):
     """Does handle k stand on the first piece, where that is not led together with the next one?"""
-    return chain[k, PIECE] <= 0.0 and -chain[k, PLACE] <= pieces[0, S_END] - BLEND
+    return chain[k, PIECE] <= 0.0 and chain[k, PLACE] >= first_place(pieces)
+
+
+def first_place(pieces):
+    """The place from which backwards handles stand on the first piece, where that is not led together with the next."""
+    return BLEND - pieces[0, S_END]
 
 
 def start_route(pieces, s, chain):
@@ -265,17 +270,17 @@ def piece_slides(pieces, out):
 # path, and whatever comes near further back along the path is never taken for it.
 
 
-def extend_route(pieces, first, last, calm, sizes, chain):
+def extend_route(pieces, first, last, until, sizes, chain):
     """Handles after `first` to the `last`, each the first point behind its leader at the bench's chord.
 
-    returns: last, or where calm > 0 a handle before it that stands on the first piece
+    returns: last, or a handle before it that stands at the place `until` or further back
     """
     # the links before this one on its spiral: how many (since its chord came up, that and one more), what they turned
     # by, the last one first, and the arc where they end
     alike = 0
     d1 = d2 = d3 = d4 = d5 = begin = 0.0
     for k in range(first, last):
-        if calm > 0.0 and stands_first(pieces, k, chain):
+        if chain[k, PLACE] >= until:
             return k
         s = -chain[k, PLACE]
         p = cython.cast(cython.Py_ssize_t, chain[k, PIECE])
