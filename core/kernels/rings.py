@@ -145,7 +145,7 @@ def coil_radius(pieces, x, y):
 
 
 def coil_place(pieces, radius):
-    """Where handles on the first coil, not led together with the next piece, are at least so far from its centre [m]."""
+    """Where handles on the first coil, before it is led to the next piece, are at least so far from its centre [m]."""
     growth = pieces[0, 7]
     return max(first_place(pieces), growth * spiral_arc(radius / growth) - pieces[0, 10] - pieces[0, S_START])
 
