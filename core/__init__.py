@@ -19,7 +19,7 @@ from core.dance import Dance, EndReason, RunEnd
 from core.design.minimum_pitch import LimitedBy, MinimumPitch, minimum_pitch
 from core.design.shortest_turn import ShortestTurn, TurnLimit, shortest_turn
 from core.dragon import Dragon
-from core.errors import BenchDragonError, InvalidValue, OutsideRun, TooLarge
+from core.errors import BenchDragonError, InvalidValue, OutsideRun, TooLarge, TooMuchWork
 from core.motion.joints import SharpestBend, sharpest_bend
 from core.motion.speed import HighestSpeed, MaximumHeadSpeed, highest_speed, maximum_head_speed
 from core.motion.trajectory import Trajectory, bench_poses, trajectory
@@ -74,6 +74,7 @@ __all__ = [
     "Spiral",
     "Stray",
     "TooLarge",
+    "TooMuchWork",
     "Trajectory",
     "Turn",
     "TurnLimit",

@@ -17,6 +17,7 @@ from core import (
     Outcome,
     ShortestTurn,
     Spiral,
+    TooMuchWork,
     Turn,
     TurnLimit,
     bench_poses,
@@ -190,6 +191,29 @@ def poses_on(coil: Spiral, turned: float, count: int, radius: float) -> np.ndarr
     return shapely.polygons(corners(poses, np.stack([dragon.lengths, dragon.widths], axis=-1)))
 
 
+def test_the_turn_of_a_short_head_is_searched_only_until_nothing_can_follow() -> None:
+    """The search of the whole dance, 590 m at each entry, was given up near the bend, which was taken for a contact."""
+    found = shortest_turn(Dragon(head_length=1.001), 1.7, ratio=1.0)
+    assert found.limited_by is TurnLimit.BEND
+
+
+def test_work_that_ends_before_the_turn_is_found_is_an_error(monkeypatch: pytest.MonkeyPatch) -> None:
+    for work in (1e4, 4e4):  # on the first entry, and on one further in
+        monkeypatch.setattr(core.design.shortest_turn, "TURN_WORK", work)
+        with pytest.raises(TooMuchWork, match=rf"turning_radius must .* within {work:g} steps of work.*, got 4.5 m"):
+            shortest_turn(Dragon(), 1.7)
+
+
+def test_work_that_ends_while_the_turn_is_bisected_leaves_a_wider_bracket(monkeypatch: pytest.MonkeyPatch) -> None:
+    dragon, options = Dragon(benches=60), {"pitch": 1.7, "ratio": 1.0, "margin": 0.2}
+    whole = shortest_turn(dragon, **options)
+    monkeypatch.setattr(core.design.shortest_turn, "TURN_WORK", 9e5)
+    least = shortest_turn(dragon, **options)
+    assert least.entry_bracket[0] <= whole.entry_bracket[0]
+    assert whole.entry_bracket[1] <= least.entry_bracket[1]
+    assert least.evaluations < whole.evaluations
+
+
 # Where the growth exceeds the chord, the foot of the perpendicular from the centre lies in front of the inner handle,
 # and an overhang on that side reaches centimetres further in than the chord does.
 @pytest.mark.parametrize("radius", [3.0, 8.0, 20.0])
@@ -210,9 +234,13 @@ def test_benches_said_to_stand_wholly_outside_a_radius_do(
     assert beyond < radius + chord + overhang
 
 
+# A short head lies between no two benches, so its chord of 0.451 m does not weaken the bound.
+@pytest.mark.parametrize("head_length", [2.2, 1.001])
 @pytest.mark.parametrize("pitch", [0.9, 1.2, 1.7, 3.0])
-def test_two_coils_are_apart_by_more_than_the_margin_where_they_are_said_to_be(pitch: float) -> None:
-    danced, dragon = Turn(pitch), Dragon(benches=60, head_length=2.2)
+def test_two_coils_are_apart_by_more_than_the_margin_where_they_are_said_to_be(
+    pitch: float, head_length: float
+) -> None:
+    danced, dragon = Turn(pitch), Dragon(benches=60, head_length=head_length)
     radii = []
     # along a coil, with one between them, two benches are known to be 0.6 m apart
     for margin in np.linspace(0.0, min(0.5 * pitch - 0.35, 0.55), 5):
