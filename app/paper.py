@@ -139,7 +139,8 @@ def _collision_radius(found: FirstContact) -> Comparison:
 def _minimum_pitch() -> Comparison:
     found = minimum_pitch(Dragon(), turning_radius=TURNING_RADIUS)
     below, above = _bisected_radius()
-    at_paper = _contact_radius(PAPER_PITCH)
+    head = first_contact(Dragon(), Spiral(PAPER_PITCH)).head
+    at_paper = head.radius if head else 0.0
     alone, head_alone = _circle_pitch(_any_touch_at_start), _circle_pitch(_head_touches_at_start)
     return _compared(
         "minimum pitch", "m", "section 3.3", PAPER_PITCH, found.pitch,
@@ -200,7 +201,7 @@ def _bisected(holds: Callable[[float], bool], low: float, high: float) -> tuple[
 
 
 def _contact_radius(pitch: float) -> float:
-    """Where the head of the default dragon stands at first contact [m]; 0 when nothing touches."""
+    """Where the head of the default dragon stands at first contact, as a scan finds it [m]; 0 when nothing touches."""
     return stop_radius(Dragon(), Spiral(pitch)) or 0.0
 
 
