@@ -52,7 +52,7 @@ def test_a_message_names_the_field_the_value_the_unit_and_the_limit(values: dict
     with pytest.raises(ValidationError) as caught:
         CollisionQuery.model_validate(values)
     (error,) = caught.value.errors()
-    assert message({**error, "loc": ("query", *error["loc"])}) == words
+    assert message({**error, "loc": ("query", *error["loc"])}, CollisionQuery) == words
 
 
 def test_numbers_in_bodies_are_numbers() -> None:
