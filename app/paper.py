@@ -139,7 +139,7 @@ def _collision_radius(found: FirstContact) -> Comparison:
 def _minimum_pitch() -> Comparison:
     found = minimum_pitch(Dragon(), turning_radius=TURNING_RADIUS)
     below, above = _bisected_radius()
-    head = first_contact(Dragon(), Spiral(PAPER_PITCH)).head
+    head = first_contact(Dance(Dragon(), Spiral(PAPER_PITCH))).head
     at_paper = head.radius if head else 0.0
     alone, head_alone = _circle_pitch(_any_touch_at_start), _circle_pitch(_head_touches_at_start)
     return _compared(
