@@ -28,6 +28,7 @@ from core.dragon import Dragon
 from core.errors import InvalidValue
 from core.paths.spiral import Spiral
 from core.paths.turn import Turn
+from core.shown import Shown, worded
 from core.values import checked_number, checked_size, checked_type
 
 # Entry radii are tried in steps of this part of the turning radius [1], down to one step from the centre ...
@@ -52,8 +53,8 @@ class TurnLimit(StrEnum):
     CENTRE = "centre"
 
 
-@dataclass(frozen=True, slots=True)
-class ShortestTurn:
+@dataclass(frozen=True, slots=True, repr=False)
+class ShortestTurn(Shown):
     """The turn with the smallest entry radius such that all larger ones up to the circle can be danced.
 
     turn: at the feasible end of entry_bracket (infeasible, feasible) [m]; limited_by: see TurnLimit
@@ -69,6 +70,11 @@ class ShortestTurn:
     time: float | None
     scan_step: float
     evaluations: int
+
+    def _line(self) -> str:
+        pair = f" of benches {self.benches[0]} and {self.benches[1]}" if self.benches else ""
+        entry = f"entry at a radius of {worded(self.turn.entry_radius, 'm')}, length {worded(self.turn.length, 'm')}"
+        return f"{entry}, limited by {self.limited_by.value}{pair}"
 
 
 def shortest_turn(

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 import pytest
 
-from core import Dragon, minimum_pitch
+from core import Dragon, InvalidValue, minimum_pitch
 from core.design.pitch_scan import JUMP, JUMP_WIDTH, pitch_scan
 
 SMALL = Dragon(benches=30)
@@ -37,3 +39,19 @@ def test_scan_leaves_out_pitches_without_contact_and_reports_progress() -> None:
     scan = pitch_scan(SMALL, np.array([0.55, 0.8]), progress=shares.append)
     assert shares == [0.5, 1.0]
     assert scan.pitch.max() < 0.8
+
+
+@pytest.mark.parametrize(
+    ("pitches", "said"),
+    [
+        ([0.5, 0.4], "pitches[1] must be more than 0.5 m before it, got 0.4 m"),
+        ([0.5, 0.5], "pitches[1] must be more than 0.5 m before it, got 0.5 m"),
+        ([0.5, math.nan], "pitches[1] must be more than 0.5 m before it, got nan m"),
+        ([-0.5, 0.5], "pitches.0 must be positive, got -0.5 m"),
+        ([[0.5]], "pitches must be a list of numbers in metres, ascending, got [[0.5]]"),
+    ],
+)
+def test_pitches_that_do_not_ascend_are_refused(pitches: list[float], said: str) -> None:
+    with pytest.raises(InvalidValue) as refused:
+        pitch_scan(Dragon(3), pitches)
+    assert refused.value.message == said
