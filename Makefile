@@ -46,7 +46,7 @@ serve: setup
 
 test: setup
 	@$(BIN)/python tests/page/browser.py
-	@$(BIN)/python -m pytest $(ARGS)
+	@$(BIN)/python -m pytest --numprocesses auto --dist loadfile $(ARGS)
 
 rounding: setup
 	@$(BIN)/python -m tests.core.rounding_sweep $(or $(ARGS),10000)

@@ -104,7 +104,10 @@ class Certificate(Answer):
 
     method: str = Field(description="The whole claim, and how it is proven, in sentences")
     steps: int = Field(description="Proven steps taken")
-    clear_until: float = Field(description="Nothing comes nearer than the margin, or touches, from 0 to here [s]")
+    clear_until: float | None = Field(
+        description="Nothing comes nearer than the margin, or touches if it is 0, from the start to here; null where "
+        "no time is proven clear: benches touch, or are nearer, at the start, or it is not decided from there on [s]"
+    )
     bound: float = Field(description="Largest bound on the second derivative of a gap that a step used [1/m]")
     least_clearance: Graze | None = Field(description="Narrowest graze before the contact, or over the whole run")
 
@@ -113,12 +116,12 @@ class Verdict(Answer):
     """What an engine finds among the benches judged, neighbours aside."""
 
     before: bool | None = Field(
-        description="Does it find any two overlapping just before? null for a contact at the start, before which there "
-        "is nothing"
+        description="Does it find any two overlapping, or nearer than the margin, just before? null for a contact "
+        "at the start, before which there is nothing"
     )
     after: bool = Field(
-        description="Does it find the reported pair overlapping just after, and no other but those that meet together "
-        "with it? At the start others may overlap too"
+        description="Does it find the reported pair overlapping, or nearer than the margin, just after, and no other "
+        "but those of together? At the start others may be so too"
     )
 
 
@@ -134,8 +137,9 @@ class PairCheck(Answer):
         description="Each engine's verdict; angle_sum knows no margin, so it is asked only where that is 0"
     )
     together: list[Pair] = Field(
-        description="Other pairs that meet with the reported one, as where a corner meets two benches of a straight "
-        "row at once: apart just before, and hardly within the margin just after"
+        description="Other pairs that come nearer than the margin, or touch if it is 0, with the reported one, as "
+        "where a corner meets two benches of a straight row at once: apart just before, and hardly within the margin "
+        "just after"
     )
     left_out: list[Engine] = Field(description="Engines that cannot judge this margin, and were not asked")
 
@@ -144,11 +148,16 @@ class CollisionTime(Answer):
     """When two benches that share no handle first come nearer than the margin, or touch if it is 0."""
 
     outcome: Outcome = Field(
-        description="How the search ended; contact is the first time at which two benches are nearer than the margin"
+        description="How the search ended; contact is the first time at which two benches are nearer than the margin, "
+        "or touch if it is 0"
     )
     margin: float = Field(description="Clearance that was asked for; 0 asks for a touch [m]")
-    time: float | None = Field(description="First contact; null when clear or undecided [s]")
-    time_bracket: Point | None = Field(description="Proven clear up to, nearer than the margin at [s]")
+    time: float | None = Field(
+        description="When first nearer than the margin, or touching if it is 0; null when clear or undecided [s]"
+    )
+    time_bracket: Point | None = Field(
+        description="Proven not to be so up to, nearer than the margin, or overlapping if it is 0, at [s]"
+    )
     head: Head | None = Field(description="The head at that time")
     benches: Pair | None = Field(description="The pair that is so near")
     gap: float | None = Field(
@@ -185,7 +194,8 @@ class MinimumPitch(Answer):
     )
     limited_by: core.LimitedBy = Field(
         description="Just below: a graze on the way; contact on the circle; the start: contact there or, where benches "
-        "is null, a start inside the circle; or a fold: a bench cannot follow the head as far as the circle"
+        "is null, a start inside the circle (contact: nearer than the margin, or a touch if it is 0); or a "
+        "fold: a bench cannot follow the head as far as the circle"
     )
     benches: Pair | None = Field(
         description="The pair that touches, or is nearer than the margin, just below; null at a fold or without one"
@@ -203,8 +213,8 @@ class MinimumPitch(Answer):
     scan_step: float | None = Field(description="How far apart the pitches of a scan are at most; null: no scan [m]")
     evaluations: int = Field(description="Ways to the circle, and strips of pitches at once, that were marched")
     cross_check: PairCheck | None = Field(
-        description="Engines on the dance at a pitch 1e-6 m larger and smaller, the head where the pair meets; null "
-        "without a pair, and when not asked for"
+        description="Engines on the dance at a pitch 1e-6 m larger and smaller, the head where the pair is nearer than "
+        "the margin, or touches; null without a pair, and when not asked for"
     )
 
     @classmethod

@@ -125,7 +125,7 @@ def trajectory(
 
 @router.get(**documented("GET /collision-time", CollisionTime, QUERY_STATUSES))
 def collision_time(reply: QueryReply, wanted: Annotated[CollisionQuery, Query()]) -> Response:
-    """When two benches that share no handle first touch, how it is known, and what four engines say."""
+    """When two benches that share no handle first touch or come nearer than a margin, and how that is known."""
 
     def compute() -> bytes:
         dragon, path = wanted.to_dragon(reply.settings.benches_max), wanted.to_path()
@@ -137,7 +137,7 @@ def collision_time(reply: QueryReply, wanted: Annotated[CollisionQuery, Query()]
 
 @router.get(**documented("GET /minimum-pitch", MinimumPitch, QUERY_STATUSES))
 def minimum_pitch(reply: QueryReply, wanted: Annotated[MinimumPitchQuery, Query()]) -> Response:
-    """The smallest pitch such that every larger one lets the head reach the turning circle without contact."""
+    """The smallest pitch such that every larger one reaches the circle with no touch, or no two within a margin."""
 
     def compute() -> bytes:
         dragon, radius = wanted.to_dragon(reply.settings.benches_max), wanted.turning_diameter / 2
@@ -246,7 +246,7 @@ def check(
 def overlaps(
     reply: BodyReply, wanted: Annotated[OverlapsRequest, Body(examples=[EXAMPLES["POST /overlaps"].body])]
 ) -> Response:
-    """Which benches overlap, how deep and where, and the pairs that each of four engines finds."""
+    """Which benches overlap, or are nearer than a margin, how deep and where, by each of four engines."""
 
     def compute() -> bytes:
         poses, lengths, widths = wanted.to_poses(reply.settings.poses_max)

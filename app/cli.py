@@ -21,7 +21,7 @@ import core
 from app import answers, prove, report, schemas, show, tables
 from app.extras import require
 from app.files import TABLE_ENDINGS, checked_output, read_dance, read_json, trajectory_writer, write_whole
-from app.options import asks, checked, given, numbers
+from app.options import asks, checked, given, numbers, unused
 from app.refusals import refusing
 from app.settings import WORKERS_MAX, Settings
 from core import BenchDragonError, Dragon, InvalidValue, Route, Spiral, Venue
@@ -74,7 +74,9 @@ def bench_dragon(
 class TrajectoryOptions(schemas.TimeRange, schemas.DanceQuery):
     """POST /trajectory, flat."""
 
-    decimals: int | None = Field(None, ge=0, le=15, description="Decimals of x, y and speed; else all (xlsx: 6)")
+    decimals: int | None = Field(
+        None, ge=0, le=15, description="Decimals of x, y and speed; else all (xlsx and the table on a terminal: 6)"
+    )
     times: str | None = Field(None, description="Instants such as 0,60,120, in place of --start, --stop and --step [s]")
     handles: str | None = Field(
         None, description="Handles in the table, such as 0,1,51, in place of those that the contest asks for"
@@ -125,6 +127,14 @@ class Kind(StrEnum):
     PITCH_SCAN = "pitch-scan"
 
 
+# What of the options each figure is drawn from.
+FIGURE_OPTIONS: dict[Kind, type[schemas.UniformDragon]] = {
+    Kind.TRAJECTORY: schemas.TrajectoryFigureQuery,
+    Kind.CONTACT: schemas.ContactQuery,
+    Kind.PITCH_SCAN: schemas.PitchScanQuery,
+}
+
+
 @app.command()
 @asks(TrajectoryOptions)
 def trajectory(
@@ -138,6 +148,10 @@ def trajectory(
     ending = checked_output("output", output, TABLE_ENDINGS) if output else ".json" if json else None
     if ending and asked.handles is not None:
         raise InvalidValue("handles", "--handles chooses rows of the table: leave it out with --output or --json")
+    if output and json:
+        raise InvalidValue("json", "--json prints the answer and --output writes it to a file: give one of the two")
+    if ending != ".xlsx":
+        unused(context, ["language"], "is for the names in an xlsx file: give --output with .xlsx, or leave it out")
     write = trajectory_writer(ending, asked.decimals, language) if ending else None
     settings = Settings()
     dragon, path = asked.to_dragon(settings.benches_max), asked.to_path()
@@ -152,13 +166,16 @@ def trajectory(
     elif json:
         show.print_json(data)
     else:
-        show.print_parts(*show.trajectory_tables(result, handles, all_instants=asked.times is not None))
+        end = core.Dance(dragon, path, asked.head_speed).end
+        fold, all_instants = end if end.bench is not None else None, asked.times is not None
+        shown = show.trajectory_tables(result, handles, all_instants=all_instants, decimals=asked.decimals, fold=fold)
+        show.print_parts(*shown)
 
 
 @app.command()
 @asks(schemas.CollisionQuery)
 def collision_time(asked: schemas.CollisionQuery, json: Json = False) -> None:
-    """When two benches first touch, and how that is known."""
+    """When two benches first touch, or come nearer than a margin, and how that is known."""
     dragon, path = asked.to_dragon(Settings().benches_max), asked.to_path()
     with show.waiting("first contact"):
         found = core.first_contact(core.Dance(dragon, path, asked.head_speed), margin=asked.margin)
@@ -222,11 +239,13 @@ def check(
     json: Json = False,
 ) -> None:
     """Can the dragon dance this path here? What fails is an answer: the exit code is 0."""
+    if time is not None and figure is None:
+        raise InvalidValue("time", "--time says when --figure draws the dance: give --figure too, or leave --time out")
     if figure:
         require("figures", "figure", "--figure")
     ending = checked_output("figure", figure, (".svg", ".png")) if figure else ""
     told = read_dance(file)
-    if cross_check and isinstance(told, dict):
+    if cross_check is not None and isinstance(told, dict):
         told["cross_check"] = cross_check
     asked = checked(schemas.CheckRequest, told)
     with refusing(asked), show.waiting("check"):
@@ -270,14 +289,20 @@ def _drawn_check(
 @asks(InstantOptions)
 def overlaps(
     asked: InstantOptions,
+    context: typer.Context,
     file: Annotated[
         Path | None, typer.Argument(help="Benches as for POST /overlaps (- for standard input), not the dance.")
     ] = None,
     json: Json = False,
 ) -> None:
-    """Which benches overlap at one instant, by four engines."""
+    """Which benches overlap, or are nearer than a margin, at one instant, by four engines."""
     settings = Settings()
     if file:
+        unused(
+            context,
+            InstantOptions.model_fields,
+            "is about a dance, and the benches are those of FILE: give one of them",
+        )
         benches = checked(schemas.OverlapsRequest, read_json(file))
         poses, lengths, widths = benches.to_poses(settings.poses_max)
         margin, chained = benches.margin, benches.chained
@@ -300,12 +325,16 @@ def overlaps(
 @asks(FigureOptions)
 def figures(
     asked: FigureOptions,
+    context: typer.Context,
     folder: Annotated[Path, typer.Argument(help="Where the files go; made if missing.")] = Path(),
     kind: Annotated[list[Kind] | None, typer.Option(help="Which, once or more; else all three.")] = None,
     format: Annotated[Format, typer.Option(help="File format.")] = Format.PNG,
 ) -> None:
     """The paper's figures 6, 7 and 8 from live numbers, as files."""
     require("figures", "format", "A figure")
+    drawn = {field for one in kind or list(Kind) for field in FIGURE_OPTIONS[one].model_fields}
+    why = f"has no part in the figure {' or '.join(kind or [])}: leave it out, or draw another --kind too"
+    unused(context, FigureOptions.model_fields.keys() - drawn, why)
     folder.mkdir(parents=True, exist_ok=True)
     files = {one: folder / f"{one.value}.{format.value}" for one in kind or list(Kind)}
     for file in files.values():

@@ -27,6 +27,8 @@ ACROSS_MAX = 20_000.0
 # CGCS2000, ETRS89 and NAD83.
 GEOGRAPHIC = re.compile(r"CRS:?84|\bEPSG:+[\d.]*:*(?:4326|4979|4490|4258|4269)$", re.IGNORECASE)
 
+SWAPPED = "longitude comes first and latitude second, and here they look swapped"
+
 
 @dataclass(frozen=True, slots=True)
 class Origin:
@@ -49,9 +51,11 @@ def place_of(geometry: Mapping[str, object], coordinates: Coordinates | None, dr
 
     coordinates: what it is given in; None: what its member `crs` says, else metres
     raises: InvalidValue, also for what can only be degrees where metres are meant: all coordinates within 180 and 90,
-        and the whole narrower than a bench
+        in either order, and the square narrower than a bench
     """
     named = _named_system(geometry)
+    for member in ("geometry", "features", "geometries"):
+        _refuse_systems_inside(f"venue.{member}", geometry.get(member))
     geographic = named is not None and GEOGRAPHIC.search(named) is not None
     if coordinates is None and named is not None and not geographic:
         words = "give longitude and latitude without crs, or true metres with coordinates: metres beside the venue"
@@ -62,7 +66,7 @@ def place_of(geometry: Mapping[str, object], coordinates: Coordinates | None, dr
             "coordinates", f"coordinates must agree with venue.crs, which is {named!r}: {meant}, got {coordinates!r}"
         )
     if coordinates == "degrees" or geographic:
-        return _laid_out(geojson_polygons(geometry, unit="degrees", limits=(180.0, 90.0)))
+        return _laid_out(_in_degrees(geometry))
     polygons = geojson_polygons(geometry)
     _refuse_degrees(polygons, float(dragon.lengths.max()))
     return Place(Venue.of(polygons))
@@ -80,6 +84,31 @@ def _named_system(geometry: Mapping[str, object]) -> str | None:
     return name
 
 
+def _refuse_systems_inside(field: str, part: object) -> None:
+    """Refuse a coordinate system named further in: it would be read as none."""
+    if isinstance(part, Mapping):
+        if part.get("crs") is not None:
+            words = "its coordinate system is that of the whole venue: name it in venue.crs"
+            raise InvalidValue(f"{field}.crs", f"{field}.crs must be left out: {words}")
+        for member in ("geometry", "features", "geometries"):
+            _refuse_systems_inside(f"{field}.{member}", part.get(member))
+    elif isinstance(part, list):
+        for k, item in enumerate(part):
+            _refuse_systems_inside(f"{field}.{k}", item)
+
+
+def _in_degrees(geometry: Mapping[str, object]) -> list[Polygon]:
+    """The polygons in degrees. raises: InvalidValue, which says so where longitude and latitude look swapped"""
+    try:
+        return geojson_polygons(geometry, unit="degrees", limits=(180.0, 90.0))
+    except InvalidValue as error:
+        try:
+            geojson_polygons(geometry, unit="degrees", limits=(90.0, 180.0))
+        except InvalidValue:
+            raise error from None
+        raise InvalidValue(error.field, f"{error.message}: {SWAPPED}") from error
+
+
 def _bounds(rings: list[Ring]) -> tuple[float, float, float, float]:
     """Least x and y, largest x and y."""
     xs, ys = zip(*(point for ring in rings for point in ring), strict=True)
@@ -88,17 +117,19 @@ def _bounds(rings: list[Ring]) -> tuple[float, float, float, float]:
 
 def _refuse_degrees(polygons: list[Polygon], longest: float) -> None:
     places = [point for _, rings in polygons for ring in rings for point in ring]
-    if not places or any(abs(x) > 180.0 or abs(y) > 90.0 for x, y in places):
+    in_order = all(abs(x) <= 180.0 and abs(y) <= 90.0 for x, y in places)
+    swapped = all(abs(x) <= 90.0 and abs(y) <= 180.0 for x, y in places)
+    if not places or not (in_order or swapped):
         return
-    left, low, right, high = _bounds([ring for _, rings in polygons for ring in rings])
+    left, low, right, high = _bounds([polygons[0][1][0]])
     if max(right - left, high - low) >= longest:
         return
     size = f"{right - left:.6g} by {high - low:.6g}, narrower than a bench of {longest:g} m"
-    raise InvalidValue(
-        "venue",
-        f"venue must be in metres, got what looks like longitude and latitude, all of it within {size}: say "
-        "coordinates: degrees beside the venue to have it laid out in metres",
-    )
+    looks = "longitude and latitude" if in_order else "latitude and longitude in that order"
+    change = "say coordinates: degrees beside the venue to have it laid out in metres"
+    if not in_order:
+        change = f"{SWAPPED}; put them in order, and {change}"
+    raise InvalidValue("venue", f"venue must be in metres, got what looks like {looks}, a square of {size}: {change}")
 
 
 # The plane touches the ellipsoid at the middle O of the square's box. A point P at longitude l and latitude p is, from

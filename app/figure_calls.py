@@ -43,7 +43,7 @@ def trajectory_figure(reply: QueryReply, format: Format, wanted: Annotated[Traje
 
 @router.get(**drawn("GET /figures/contact", QUERY_STATUSES))
 def contact_figure(reply: QueryReply, format: Format, wanted: Annotated[ContactQuery, Query()]) -> Response:
-    """The dance at first contact, with the touching pair marked and enlarged."""
+    """The dance at first contact, with the pair that touches or is too near marked and enlarged."""
 
     def compute() -> bytes:
         dragon, path = wanted.to_dragon(reply.settings.drawn_benches_max), wanted.to_path()
@@ -91,7 +91,7 @@ def path_trajectory_figure(
 
 @router.post(**drawn("POST /figures/contact", BODY_STATUSES))
 def path_contact_figure(reply: BodyReply, format: Format, wanted: ContactFigureRequest = DEFAULT_CONTACT) -> Response:
-    """The dance at first contact, with the touching pair marked and enlarged, on any path and in any venue."""
+    """The dance at first contact on any path and in any venue, the pair that touches or is too near enlarged."""
 
     def compute() -> bytes:
         dragon, path = wanted.dragon.to_dragon(reply.settings.checked_benches_max), wanted.path.to_path()

@@ -7,25 +7,35 @@ import json
 import math
 from collections.abc import Mapping, Sequence
 from itertools import takewhile
-from typing import Any
+from typing import Annotated, Any, get_args, get_origin
+
+from pydantic import BaseModel, Tag
 
 from app.schemas import UNITS
 from app.wire_paths import KINDS
+from core.errors import said
 
 # Longer values are shortened [characters].
 SHOWN_MAX = 60
+# Names so much alike are taken for a slip [1] (difflib); of one that other calls know, `width` for `widths`, more so.
+ALIKE_SLIP, ALIKE = 0.6, 0.8
 IN_WORDS = {"m": "lengths are in metres", "m/s": "speeds are in metres per second", "rad": "angles are in radians"}
 
 
 def shown(value: Any) -> str:
     if isinstance(value, float) and not math.isfinite(value):
         return "NaN" if math.isnan(value) else "Infinity" if value > 0 else "-Infinity"
+    if isinstance(value, float):
+        return said(value)
     text = json.dumps(value, ensure_ascii=False, default=str)
     return text if len(text) <= SHOWN_MAX else f"{text[:SHOWN_MAX]}... ({len(text)} characters)"
 
 
-def message(error: Mapping[str, Any]) -> str:
-    """What is wrong with one field: its name, the value, the unit, the limit, and what to change."""
+def message(error: Mapping[str, Any], asked: Any) -> str:
+    """What is wrong with one field: its name, the value, the unit, the limit, and what to change.
+
+    asked: type of the request
+    """
     names = [part for part in error["loc"][1:] if isinstance(part, str)]
     name = next((part for part in reversed(names) if part in UNITS), names[-1] if names else "the body")
     kind, value, limits = error["type"], error["input"], error.get("ctx", {})
@@ -53,7 +63,8 @@ def message(error: Mapping[str, Any]) -> str:
         case "missing":
             return f"{names[-1] if names else name} is missing"
         case "extra_forbidden":
-            near = [] if names[-1] in UNITS else difflib.get_close_matches(names[-1], UNITS, n=1)
+            alike = ALIKE if names[-1] in UNITS else ALIKE_SLIP
+            near = difflib.get_close_matches(names[-1], names_at(asked, error["loc"][1:-1]), n=1, cutoff=alike)
             return f"{shown(names[-1])} is unknown here: " + (f"did you mean {near[0]}?" if near else "leave it out")
         case "model_type" | "model_attributes_type" | "dict_type":
             other = ", or a list of instants [s]" if name == "times" else ""
@@ -74,6 +85,27 @@ def message(error: Mapping[str, Any]) -> str:
         case "too_many_names":
             return f"{name} must have at most {limits['most']} names, got {limits['given']}: see /docs for all names"
     return f"{name}: {error['msg'][:1].lower()}{error['msg'][1:]}, {got}"
+
+
+def names_at(kind: Any, place: Sequence[Any]) -> list[str]:
+    """Names that a request may have at a place in it. kind: type of the request, or of what lies further in"""
+    if get_origin(kind) is Annotated:
+        inner, *tags = get_args(kind)
+        if not any(isinstance(tag, Tag) for tag in tags):
+            return names_at(inner, place)
+        return names_at(inner, place[1:]) if place and Tag(place[0]) in tags else []
+    if not isinstance(kind, type) or get_origin(kind):
+        further = place[1:] if get_origin(kind) is list else place
+        return [name for inner in get_args(kind) for name in names_at(inner, further)]
+    if not issubclass(kind, BaseModel):
+        return []
+    fields = kind.model_fields
+    if not place:
+        return list(fields)
+    if place[0] in fields:
+        return names_at(fields[place[0]].annotation, place[1:])
+    told_apart = "kind" in fields and place[0] in get_args(fields["kind"].annotation)
+    return names_at(kind, place[1:]) if told_apart else []
 
 
 def _last_indices(place: Sequence[Any]) -> list[int]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import inspect
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from typing import Annotated, Any, TypeVar
 
 import typer
@@ -14,6 +14,7 @@ from app.messages import message
 from app.refusals import refusing
 from app.schemas import SHAPES
 from core import InvalidValue
+from core.errors import spoken
 
 Model = TypeVar("Model", bound=BaseModel)
 Number = TypeVar("Number", int, float)
@@ -26,16 +27,22 @@ def checked(model: type[Model], values: object) -> Model:
     except ValidationError as error:
         first = error.errors()[0]
         field = ".".join(str(part) for part in first["loc"] if part not in SHAPES)
-        words = message({**first, "loc": ("", *first["loc"])})
+        words = message({**first, "loc": ("", *first["loc"])}, model)
         # Words such as `times[1] must be ...` name the place in a list already.
         outer = field.rstrip("0123456789").rstrip(".") if "[" in words.partition(" ")[0] else field
-        raise InvalidValue(field, f"{outer}: {words}" if "." in outer else words) from error
+        raise InvalidValue(field, f"{spoken(outer)}: {words}" if "." in outer else words) from error
 
 
 def given(context: typer.Context, *names: str) -> list[str]:
     """Those of the options that stand on the command line."""
     sources = {name: context.get_parameter_source(name) for name in names}
     return [name for name, source in sources.items() if source is not None and source.name == "COMMANDLINE"]
+
+
+def unused(context: typer.Context, names: Iterable[str], why: str) -> None:
+    """Refuse those of the options that stand on the command line though nothing here uses them; why: and what to do."""
+    for name in given(context, *names):
+        raise InvalidValue(name, f"--{name.replace('_', '-')} {why}")
 
 
 def numbers(option: str, text: str, kind: Callable[[str], Number]) -> list[Number]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from http import HTTPStatus
-from typing import Any
+from typing import Any, get_type_hints
 
 from fastapi import FastAPI, Request, Response
 from fastapi.exceptions import RequestValidationError
@@ -99,7 +99,8 @@ async def validation_problem(request: Request, error: RequestValidationError) ->
         return await http_problem(request, HTTPException(404))
     for one in found:
         one["loc"] = (*one["loc"], "kind") if one["type"] in UNION_ERRORS else one["loc"]
-    items = [await _item(request, one["loc"][1:], message(one)) for one in found[:ERRORS_MAX]]
+    asked = get_type_hints(request.scope["endpoint"]).get("wanted")
+    items = [await _item(request, one["loc"][1:], message(one, asked)) for one in found[:ERRORS_MAX]]
     more = f" (and {len(found) - 1} more)" if len(found) > 1 else ""
     return problem(422, "invalid-value", items[0].detail + more, items)
 

@@ -6,9 +6,11 @@ certificate is checked before it is written, and its file is there whole or not 
 
 from __future__ import annotations
 
+import math
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -45,7 +47,7 @@ class _Thorough(Wire):
 
 
 class CollisionClaim(_Thorough, schemas.DanceQuery):
-    """When two benches first touch."""
+    """When two benches first touch, or come nearer than the margin."""
 
     time: float | None = Field(None, ge=0, description="The claim; else what collision-time answers [s]")
     margin: Margin = 0.0
@@ -145,7 +147,7 @@ def minimum_pitch(
     asked: PitchClaim,
     output: Annotated[Path, typer.Option(help="The certificate.")] = Path("minimum-pitch.proof.json"),
 ) -> None:
-    """Nothing touches on the way to the circle with this pitch; two benches overlap on it with 1e-6 m less.
+    """Nothing touches on the way to the circle with this pitch; two benches overlap, or one folds, with 1e-6 m less.
 
     With a margin: nothing comes within it, and two benches are nearer. Larger pitches are no part of the proof.
     """
@@ -159,6 +161,8 @@ def minimum_pitch(
                 dragon, turning_radius=radius, start_turns=asked.start_turns, margin=asked.margin
             )
             pitch = found.pitch_bracket[1]
+            if Fraction(pitch) * Fraction(asked.start_turns) < Fraction(radius):  # rounded down: within the circle
+                pitch = math.nextafter(pitch, math.inf)
         certificate = prove_minimum_pitch(
             dragon,
             pitch,
@@ -234,7 +238,8 @@ def _dance_proven(dance: core.Dance, times: dict[str, Any], every_pair: bool) ->
         if found.outcome is Outcome.CONTACT and found.time is not None:
             return prove_contact(dance, found.time, **times, **asked)
         if found.benches is None:
-            raise ProofRefused("time", "the search did not decide whether benches come nearer than the margin")
+            near = f"come nearer than {times['margin']:g} m" if times["margin"] else "touch"
+            raise ProofRefused("time", f"the search did not decide whether two benches {near}")
         a, b = found.benches
         near = f"are nearer than {times['margin']:g} m" if times["margin"] else "overlap"
         raise ProofRefused("start", f"benches {a} and {b} {near} at the start already, {times['start']:g} s")

@@ -14,11 +14,17 @@ from typing import Any
 from pydantic import BaseModel
 
 from app.schemas import TimeSteps
-from core import BenchDragonError
+from app.wire_paths import TurnFields
+from core import BenchDragonError, Dragon
+from core.dance import follows, tightest_bend
+from core.dragon import BENCHES_MAX
+from core.errors import said
 
 # A request without these names its fields flat.
 NESTED = frozenset({"dragon", "path"})
 PREFIX = re.compile(r"\b(?:dragon|path|times)\.(?=[a-z])")
+# What of a turn may make it too tight, where its default would do; else its circle is too small.
+MEND_A_TURN = ("entry_radius", "ratio", "pitch")
 INSTANT = re.compile(r"times(?:\.(\d+))?")
 
 
@@ -39,10 +45,10 @@ def reworded(error: BenchDragonError, request: BaseModel) -> BenchDragonError:
     if error.field.endswith("turning_radius"):
         radius = error.field
         error = error.named(radius.replace("radius", "diameter"), None if error.got is None else 2.0 * error.got)
+    if error.field == "path" and isinstance(getattr(request, "path", request), TurnFields):
+        error = _of_a_turn(error, request)
     if names & NESTED:
         return error
-    if error.field == "path" and "turning_diameter" in names:
-        error = _of_a_turn(error, request)
     return type(error)(PREFIX.sub("", error.field), PREFIX.sub("", error.message))
 
 
@@ -61,8 +67,33 @@ def _of_instants(error: BenchDragonError, request: Any, index: int) -> BenchDrag
 
 
 def _of_a_turn(error: BenchDragonError, request: Any) -> BenchDragonError:
-    """A turn that bends too tight for a bench: by what makes it so small."""
-    name = "turning_diameter" if getattr(request, "entry_radius", None) is None else "entry_radius"
-    why = error.message.replace("path", "the turn", 1)
-    rule = f"must be larger than {getattr(request, name):g} m, or the ratio nearer to 1"
-    return type(error)(name, f"{name} {rule}: {why}")
+    """A turn that bends too tight for a bench: by what makes it so tight."""
+    body = not isinstance(request, TurnFields)
+    fields: TurnFields = request.path if body else request
+    dragon = (request.dragon if body else request).to_dragon(BENCHES_MAX)
+    path = fields.to_turn()
+    if follows(dragon, path):
+        return error
+    name = next((name for name in MEND_A_TURN if _mends(name, fields, dragon)), "turning_diameter")
+    rule = f"must be larger than {said(getattr(fields, name))} m"
+    if name == "ratio":
+        rule = f"must be nearer to 1 than {said(fields.ratio)}"
+    (tightest, bench), bend = tightest_bend(dragon), 1.0 / path.sharpest[0]
+    why = f"the turn bends to a radius of {bend:.4g} m, and bench {bench} follows none below {tightest:.4g} m"
+    place = f"path.{name}" if body else name
+    return type(error)(place, f"{place} {rule}: {why}")
+
+
+def _mends(name: str, fields: TurnFields, dragon: Dragon) -> bool:
+    """Can the dragon follow the turn that has the default in this place?"""
+    default = TurnFields.model_fields[name].default
+    if getattr(fields, name) == default:
+        return False
+    try:
+        return follows(dragon, TurnFields.model_validate(_turn_values(fields) | {name: default}).to_turn())
+    except BenchDragonError:
+        return False
+
+
+def _turn_values(fields: TurnFields) -> dict[str, Any]:
+    return {name: getattr(fields, name) for name in TurnFields.model_fields}

@@ -95,7 +95,9 @@ class AreaClearance(Answer):
     name: str = Field(description="Name of the area")
     outcome: Outcome = Field(description="Does a bench come nearer than the margin, or touch if it is 0?")
     time: float | None = Field(description="When first; null when clear or undecided [s]")
-    time_bracket: Point | None = Field(description="Proven clear up to, nearer than the margin at [s]")
+    time_bracket: Point | None = Field(
+        description="Proven not to be so up to, nearer than the margin, or touching if it is 0, at [s]"
+    )
     bench: int | None = Field(description="The first bench nearer than the margin")
     gap: float | None = Field(
         description="What is left then between it and the area: the margin, or less from the start on [m]"

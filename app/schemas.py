@@ -209,7 +209,12 @@ class PlacedDance(DanceFields):
 
     def to_place(self, dragon: Dragon) -> Place:
         """raises: InvalidValue"""
-        return Place() if self.venue is None else place_of(self.venue, self.coordinates, dragon)
+        if self.venue is None:
+            if self.coordinates is not None:
+                words = f"got {self.coordinates} without a venue: give the venue, or leave coordinates out"
+                raise InvalidValue("coordinates", f"coordinates must stand beside the venue that they are of, {words}")
+            return Place()
+        return place_of(self.venue, self.coordinates, dragon)
 
 
 class CheckRequest(PlacedDance):
@@ -273,7 +278,7 @@ class ContactQuery(DanceQuery):
 
 
 class CollisionQuery(ContactQuery):
-    """When do two benches first touch?"""
+    """When do two benches first touch, or come nearer than a margin?"""
 
     cross_check: CrossCheck = "dragon"
 

@@ -20,11 +20,18 @@ from rich.text import Text
 from app import answers, tables
 from app.paper import Comparison
 from app.report import LeastClearance, Nearest, Report
-from core import Judgement, Trajectory
+from core import Judgement, RunEnd, Trajectory
+from core.errors import said
 
 # A trajectory on a terminal: the handles that the contest asks for, at this many instants, or as many as fit.
 SHOWN_HANDLES = (0, 1, 51, 101, 151, 201)
 SHOWN_INSTANTS = 7
+# Decimals of a trajectory on a terminal.
+SHOWN_DECIMALS = 6
+# A handle so many times faster than the head, on a run that ends in a fold, tells that the fold is near [1]; the mark
+# of such an instant.
+FAST = 2.0
+NEAR_FOLD = " *"
 # So many or more are shown at equal distances where that is possible, rather than one or two more.
 EVEN_INSTANTS = 5
 # What a table takes beside its entries: for each column, and at its sides [characters].
@@ -32,6 +39,7 @@ COLUMN_SPACE, TABLE_SPACE = 3, 1
 # Width of a table where standard output is no terminal [characters].
 PIPE_WIDTH = 120
 # What a null says where it is an answer.
+PROVEN = frozenset({"clear_until", "proven_from", "proven_up_to"})
 SAID_BY_NULL = {"proven_up_to": "every larger pitch", "scan_step": "no scan"}
 # A wait longer than this is shown [s].
 SHOWN_WAIT = 1.0
@@ -107,9 +115,23 @@ def _flat(answer: BaseModel, prefix: str = "", *, benches: int) -> Iterator[tupl
             yield from _flat(value, f"{label}: ", benches=benches)
         elif value is not None:
             unit = re.search(r"\[([^\]]+)\]$", field.description or "")
-            yield label, f"{_shown(value)} {unit[1] if unit and value != [] else ''}".rstrip()
+            exact = isinstance(value, (float, tuple)) and (name in PROVEN or name.endswith("_bracket"))
+            words = _digits(value) if exact else _shown(value)
+            yield label, f"{words} {unit[1] if unit and value != [] else ''}".rstrip()
         elif name in SAID_BY_NULL:
             yield label, SAID_BY_NULL[name]
+
+
+def _digits(value: float | tuple[float | None, ...]) -> str:
+    """What is proven, with all its digits: a rounded one would say more than is proven."""
+    ends = value if isinstance(value, tuple) else (value,)
+    return ", ".join("unknown" if end is None else said(end) for end in ends)
+
+
+def _down(value: float) -> str:
+    """A lower bound with SHOWN_DECIMALS, not rounded above itself."""
+    text = f"{value:.{SHOWN_DECIMALS}f}"
+    return text if float(text) <= value else f"{float(text) - 10**-SHOWN_DECIMALS:.{SHOWN_DECIMALS}f}"
 
 
 def _check_words(check: answers.PairCheck, benches: int) -> Iterator[tuple[str, str]]:
@@ -150,11 +172,18 @@ def _table(title: str, *columns: str, header: bool = True) -> Table:
 
 
 def trajectory_tables(
-    result: Trajectory, handles: Sequence[int] | None = None, *, all_instants: bool = False
+    result: Trajectory,
+    handles: Sequence[int] | None = None,
+    *,
+    all_instants: bool = False,
+    decimals: int | None = None,
+    fold: RunEnd | None = None,
 ) -> list[Part]:
     """Some handles at some instants.
 
     handles: which; None: those of the contest and the last
+    decimals: of every number; None: SHOWN_DECIMALS
+    fold: where the run ends with one: instants just before it are marked, as speeds grow without bound there
     all_instants: in as many tables as they take; else up to SHOWN_INSTANTS, evenly spaced, as many as fit one
     """
     instants, number = result.speed.shape
@@ -162,28 +191,43 @@ def trajectory_tables(
     names = tables.handle_names(number - 1)
     labels = [f"{k} {names[k]}" for k in rows]
     x, y = result.position[..., 0], result.position[..., 1]
-    blocks = _blocks(result, rows, labels, all_instants)
+    places = SHOWN_DECIMALS if decimals is None else decimals
+    instant_names = [_instant(result, t, fold) for t in range(instants)]
+    blocks = _blocks(result, rows, labels, instant_names, all_instants, places)
     shown: list[Part] = []
     for title, values in (("x [m]", x), ("y [m]", y), ("speed [m/s]", result.speed)):
         for block in blocks:
-            table = _table(title, "handle", *(_instant(result, t) for t in block))
+            table = _table(title, "handle", *(instant_names[t] for t in block))
             for k, label in zip(rows, labels, strict=True):
-                table.add_row(label, *map(_entry, values[block, k]))
+                table.add_row(label, *(_entry(value, places) for value in values[block, k]))
             shown.append(table)
     count = sum(map(len, blocks))
     of_handles, of_instants = _plural("handle", range(number)), _plural("instant", range(instants))
     words = f"{len(rows)} of {number} {of_handles}, {count} of {instants} {of_instants}"
-    return [*shown, f"{words}: --output has all, --handles and --times choose."]
+    shown.append(f"{words}: --output has all, --handles and --times choose.")
+    if fold and any(instant_names[t].endswith(NEAR_FOLD) for block in blocks for t in block):
+        when = f"Just before bench {fold.bench} folds, at {fold.time:.9f} s"
+        shown.append(
+            f"{NEAR_FOLD.strip()} {when}: towards that instant the speeds of handles behind it grow without bound."
+        )
+    return shown
 
 
-def _blocks(result: Trajectory, rows: Sequence[int], labels: Sequence[str], all_instants: bool) -> list[list[int]]:
-    """The instants of each table: as many as fit into the width."""
+def _blocks(
+    result: Trajectory,
+    rows: Sequence[int],
+    labels: Sequence[str],
+    names: Sequence[str],
+    all_instants: bool,
+    decimals: int,
+) -> list[list[int]]:
+    """The instants of each table: as many as fit into the width. names: of the instants"""
     instants = len(result.time)
     values = np.concatenate([result.position[:, rows].reshape(instants, -1), result.speed[:, rows]], axis=1)
     room = _console().width - TABLE_SPACE - COLUMN_SPACE - max(map(len, [*labels, "handle"]), default=0)
 
     def width(t: int) -> int:
-        return COLUMN_SPACE + max(map(len, [_instant(result, t), *map(_entry, values[t])]))
+        return COLUMN_SPACE + max(map(len, [names[t], *(_entry(value, decimals) for value in values[t])]))
 
     if not all_instants:
         counts = range(min(SHOWN_INSTANTS, instants), 1, -1)
@@ -205,12 +249,13 @@ def _blocks(result: Trajectory, rows: Sequence[int], labels: Sequence[str], all_
     return blocks
 
 
-def _instant(result: Trajectory, t: int) -> str:
-    return f"{result.time[t]:.12g} s"
+def _instant(result: Trajectory, t: int, fold: RunEnd | None) -> str:
+    near = fold is not None and result.speed[t].max() > FAST * result.speed[t, 0]
+    return f"{result.time[t]:.12g} s{NEAR_FOLD if near else ''}"
 
 
-def _entry(value: float) -> str:
-    return f"{round(value, 6) + 0.0:.6f}"
+def _entry(value: float, decimals: int) -> str:
+    return f"{round(value, decimals) + 0.0:.{decimals}f}"
 
 
 def overlap_tables(answer: answers.OverlapsAnswer, margin: float = 0.0) -> list[Part]:
@@ -285,6 +330,8 @@ def _measured(report: Report, margin: float, benches: int) -> Iterator[tuple[str
             speed.time,
             f"{_plural('handle', speed.handles)} {_shown(speed.handles)}",
         )
+    else:
+        yield "highest speed", "grows without bound", report.stop, "towards the fold"
     if bend := report.sharpest_bend:
         yield "sharpest bend", f"{bend.angle:.6f} rad", bend.time, f"benches {_shown(bend.benches)}"
 
@@ -294,5 +341,5 @@ def _plural(word: str, things: Sequence[Any]) -> str:
 
 
 def _distance(found: LeastClearance | Nearest) -> str:
-    proven = "not proven" if found.at_least is None else f"proven: at least {found.at_least:.6f} m"
+    proven = "not proven" if found.at_least is None else f"proven: at least {_down(found.at_least)} m"
     return f"{found.distance:.6f} m, {proven}"

@@ -32,7 +32,8 @@ CrossCheck = Annotated[
     Literal["dragon", "pair", "none"],
     Field(
         description="Whom independent engines judge just before and just after: dragon: every bench (of more than "
-        "2,000, or very crowded ones, those near the pair); pair: the two that touch, a tenth of the work; none: nobody"
+        "2,000, or very crowded ones, those near the pair); pair: the two of the contact, a tenth of the work; none: "
+        "nobody"
     ),
 ]
 

@@ -137,6 +137,14 @@ class WaypointsPiece(Wire, strict=True):
         return core.Waypoints(tuple(map(_point, self.points)), self.start_heading, self.end_heading)
 
 
+def _placed(piece: LinePiece | ArcPiece | CoilPiece | WaypointsPiece, place: str) -> core.Piece:
+    """The piece of core. raises: InvalidValue, named by its place in a body"""
+    try:
+        return piece.to_piece()
+    except InvalidValue as error:
+        raise error.named(error.field.replace(piece.kind, place, 1)) from error
+
+
 class WaypointsPath(WaypointsPiece, strict=True):
     """A smooth curve through points as the whole path."""
 
@@ -145,7 +153,7 @@ class WaypointsPath(WaypointsPiece, strict=True):
     def to_path(self) -> Route:
         """raises: InvalidValue"""
         try:
-            return Route((self.to_piece(),), self.start)
+            return Route((_placed(self, "path"),), self.start)
         except InvalidValue as error:
             raise error.named(error.field.replace("path.pieces.0", "path", 1)) from error
 
@@ -170,7 +178,7 @@ class RoutePath(Wire, strict=True):
         """raises: TooLarge, InvalidValue"""
         points = sum(len(piece.points) for piece in self.pieces if isinstance(piece, WaypointsPiece))
         check_limit("path.pieces", "waypoints", points, POINTS_MAX, "take fewer")
-        return Route([piece.to_piece() for piece in self.pieces], self.start)
+        return Route([_placed(piece, f"path.pieces.{k}") for k, piece in enumerate(self.pieces)], self.start)
 
 
 def _kind(value: Any) -> str:

@@ -12,7 +12,7 @@ import numpy as np
 
 from core import kernels
 from core.dragon import Dragon
-from core.errors import InvalidValue, OutsideRun
+from core.errors import InvalidValue, OutsideRun, said
 from core.paths.route import Route
 from core.paths.spiral import Spiral
 from core.shown import Shown
@@ -194,7 +194,7 @@ class Dance(Shown):
 def checked_head_speed(head_speed: float) -> float:
     """head_speed [m/s] if it lies in the range allowed."""
     if isinstance(head_speed, (int, float)) and head_speed <= 0:
-        raise InvalidValue("head_speed", f"head_speed must be positive, got {head_speed} m/s")
+        raise InvalidValue("head_speed", f"head_speed must be positive, got {said(head_speed)} m/s")
     return checked_number("head_speed", head_speed, "m/s", HEAD_SPEED_MIN, HEAD_SPEED_MAX)
 
 
@@ -236,6 +236,12 @@ def follows(dragon: Dragon, path: Route) -> bool:
     return bool(0.5 * path.sharpest[0] * longest <= kernels.ROUTE_BEND_LIMIT)
 
 
+def tightest_bend(dragon: Dragon) -> tuple[float, int]:
+    """The least radius of a bend that all can follow [m], and the bench that needs it."""
+    bench = int(dragon.chords[: dragon.uniform_from + 1].argmax())
+    return 0.5 * float(dragon.chords[bench]) / kernels.ROUTE_BEND_LIMIT, bench
+
+
 def _check_bends(dragon: Dragon, path: Route) -> None:
     """Refuse a bend that a bench cannot follow.
 
@@ -244,10 +250,9 @@ def _check_bends(dragon: Dragon, path: Route) -> None:
     if follows(dragon, path):
         return
     curvature, s = path.sharpest
-    bench = int(dragon.chords[: dragon.uniform_from + 1].argmax())
+    tightest, bench = tightest_bend(dragon)
     chord = float(dragon.chords[bench])
     x, y = path.position(s)
-    tightest = 0.5 * chord / kernels.ROUTE_BEND_LIMIT
     raise InvalidValue(
         "path",
         f"path must not bend tighter than a radius of {tightest:.4g} m for the chord of "

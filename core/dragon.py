@@ -8,7 +8,7 @@ from numbers import Integral
 
 import numpy as np
 
-from core.errors import InvalidValue
+from core.errors import InvalidValue, said
 from core.shown import REPR_MOST, TABLE_DIGITS, Shown, extent
 from core.values import SIZE_MAX, SIZE_MIN, Floats, checked_number, checked_size
 
@@ -28,7 +28,9 @@ def _column(name: str, values: object, benches: int | None) -> Floats:
     wrong = np.flatnonzero(~(np.isfinite(column) & (column >= low) & (column <= SIZE_MAX)))
     if wrong.size:
         k = int(wrong[0])
-        raise InvalidValue(f"{name}.{k}", f"{name}[{k}] must be from {low:g} to {SIZE_MAX:g} m, got {column[k]} m")
+        raise InvalidValue(
+            f"{name}.{k}", f"{name}[{k}] must be from {low:g} to {SIZE_MAX:g} m, got {said(column[k])} m"
+        )
     return column
 
 

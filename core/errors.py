@@ -18,7 +18,8 @@ from typing import Self
 class BenchDragonError(Exception):
     """Root of the tree.
 
-    code: stable word for programs; field: the parameter at fault, dotted; got: the number given, where of() made it
+    code: stable word for programs; field: the parameter at fault, dotted, and in the message as spoken() writes it
+    got: the number given, where of() made it
     """
 
     code = "error"
@@ -27,6 +28,7 @@ class BenchDragonError(Exception):
     _unit = ""
 
     def __init__(self, field: str, message: str) -> None:
+        message = message.replace(field, spoken(field), 1) if spoken(field) != field else message
         super().__init__(message)
         self.field = field
         self.message = message
@@ -38,7 +40,7 @@ class BenchDragonError(Exception):
         >>> InvalidValue.of("times.3", "must be at most 9 s", 12.5, "s").message
         'times[3] must be at most 9 s, got 12.5 s'
         """
-        error = cls(field, f"{_spoken(field)} {rule}, got {got:.12g} {unit}".rstrip())
+        error = cls(field, f"{spoken(field)} {rule}, got {got:.12g} {unit}".rstrip())
         error.got, error._rule, error._unit = got, rule, unit
         return error
 
@@ -49,14 +51,27 @@ class BenchDragonError(Exception):
         """
         if self.got is not None:
             return type(self).of(field, self._rule, self.got if got is None else got, self._unit)
-        for old in (_spoken(self.field), re.sub(r"\.(\d+)$", r"[\1]", self.field), self.field):
-            if self.message.startswith(old):
-                return type(self)(field, _spoken(field) + self.message[len(old) :])
+        old = spoken(self.field)
+        if self.message.startswith(old):
+            return type(self)(field, spoken(field) + self.message[len(old) :])
         return type(self)(field, self.message)
 
 
-def _spoken(field: str) -> str:
-    """A dotted field as people write it: times.3 -> times[3]."""
+def said(number: float) -> str:
+    """A number as sentences print it: all its digits, no point where nothing follows, and no sign of a zero.
+
+    >>> said(0.1 + 0.2), said(9.0), said(-0.0)
+    ('0.30000000000000004', '9', '0')
+    """
+    return repr(float(number) + 0.0).removesuffix(".0")
+
+
+def spoken(field: str) -> str:
+    """A dotted field as people write it.
+
+    >>> spoken("path.pieces.0.points.2")
+    'path.pieces[0].points[2]'
+    """
     return re.sub(r"\.(\d+)", r"[\1]", field)
 
 

@@ -7,7 +7,7 @@ from numbers import Real
 import numpy as np
 from numpy.typing import NDArray
 
-from core.errors import InvalidValue
+from core.errors import InvalidValue, said
 
 Floats = NDArray[np.float64]
 
@@ -24,7 +24,7 @@ def checked_number(name: str, value: object, unit: str, low: float, high: float,
     if not isinstance(value, Real) or isinstance(value, bool):
         raise InvalidValue(name, f"{name} must be a number, got {value!r}")
     try:
-        number, shown = float(value), f"{value} {unit}".rstrip()
+        number, shown = float(value), f"{said(float(value))} {unit}".rstrip()
     except OverflowError as error:  # a whole number may have any number of digits
         raise InvalidValue(
             name, f"{name} must be from {low:g} to {high:g} {unit}".rstrip() + ", got 1e308 or more"
@@ -52,5 +52,5 @@ def checked_type(name: str, value: object, kinds: type | tuple[type, ...]) -> No
 def checked_size(name: str, value: object) -> float:
     """A positive length in [SIZE_MIN, SIZE_MAX] metres."""
     if isinstance(value, Real) and not isinstance(value, bool) and value <= 0.0:
-        raise InvalidValue(name, f"{name} must be positive, got {value} m")
+        raise InvalidValue(name, f"{name} must be positive, got {said(float(value))} m")
     return checked_number(name, value, "m", SIZE_MIN, SIZE_MAX)

@@ -19,7 +19,8 @@ The claims:
   collision-time  From the start to time - 1e-10 s nothing touches, and at time + 1e-10 s two benches overlap.
   minimum-pitch   Nothing touches while the head walks from the start until it is turning_radius from the centre. With
                   a pitch 1e-6 m smaller, two benches overlap while the head is on that way, or the start lies within
-                  that circle. (Of other pitches it says nothing.)
+                  that circle. (Of other pitches it says nothing. A smaller pitch at which a bench folds instead is a
+                  form of certificate that this verifier refuses.)
 
 A certificate has `dragon`, runs of benches alike from the head on as [how many, length, width, overhang]; `claim`;
 the benches in `overlap` (6.), with head_theta for a pitch; and the `sweeps`, u + 1 with u = `repeats_from` (5.):
@@ -124,11 +125,10 @@ from bisect import bisect_left
 from fractions import Fraction
 from functools import lru_cache
 
-BITS, UNIT = 128, 1 << 128
-COSINE_ERROR = 1 << 12  # [units]
+BITS, UNIT, COSINE_ERROR = 128, 1 << 128, 1 << 12  # the last in units
 # Limits on the work: of the bytes and benches of a certificate, and of the bends (1.) that it needs.
 BYTES_MOST, BENCHES_MOST, BENDS_LEFT = 1 << 24, 10_000_000, iter(range(5_000_000))
-TIME_BRACKET, PITCH_STEP = Fraction(1, 10**10), Fraction(1, 10**6)
+TIME_BRACKET, PITCH_STEP, NEVER = Fraction(1, 10**10), Fraction(1, 10**6), "no two benches but neighbours touch"
 KNOWN = "this verifier knows collision times and minimum pitches at margin 0 on a spiral, no other form of certificate"
 
 
@@ -410,7 +410,7 @@ def all_apart(chain, high, low, sweeps, repeats_from):
             theta = theta + bend(theta, kind)
             places.append(theta.hi)
         for k, (first, last, faces) in enumerate(sweep["stretches"]):
-            name = f"sweeps.{bench}.stretches.{k}, theta from {first!r} to {last!r} rad"
+            name = f"sweeps[{bench}].stretches[{k}], theta from {first!r} to {last!r} rad"
             if not (last < first and len(faces) <= count - bench - 2 and set(faces) <= set("01234567")):
                 raise Refused(f"the certificate is malformed: {name} with its faces is no stretch of this dragon")
             if first != end if rears else exactly(first).lo < theta.hi:
@@ -444,21 +444,22 @@ def collision_time(runs, claim, overlap, *rest):
     before, after = (exactly(Fraction(time) + off) * exactly(speed) for off in (-TIME_BRACKET, TIME_BRACKET))
     what = overlapping(chain, chain.theta_after(after), *overlap["benches"])
     all_apart(chain, chain.start, chain.theta_after(before), *rest)
-    return f"the head at {speed!r} m/s: nothing touches up to {time!r} s - 1e-10 s, and {what} at {time!r} s + 1e-10 s"
+    clear = f"{NEVER} from 0 s to {time!r} - 1e-10 s, and" if time > TIME_BRACKET else "within 2e-10 s of the start"
+    return f", its head at {speed!r} m/s: {clear} {what} at {time!r} + 1e-10 s"
 
 
 def minimum_pitch(runs, claim, overlap, *rest):
     pitch, turns, radius = (Fraction(claim[name]) for name in ("pitch", "start_turns", "turning_radius"))
-    chain, less, what = Chain(runs, pitch, turns), Chain(runs, pitch - PITCH_STEP, turns), "the start lies within it"
+    chain, less, what = Chain(runs, pitch, turns), Chain(runs, pitch - PITCH_STEP, turns), "the head starts nearer"
     if radius > pitch * turns or ("benches" not in overlap and radius <= (pitch - PITCH_STEP) * turns):
         raise Refused("not proven: the start lies within the circle, or does not lie within it with 1e-6 m less")
     if "benches" in overlap:
         head = exactly(overlap["head_theta"])
         if not exactly(radius) / less.growth < head < less.start:
             raise Refused("not proven: the overlap is not shown to be on the way to the circle with 1e-6 m less")
-        what = overlapping(less, head, *overlap["benches"]) + " on that way"
+        what = overlapping(less, head, *overlap["benches"]) + " on the way"
     all_apart(chain, chain.start, exactly(radius) / chain.growth, *rest)
-    return f"nothing touches till the head is {float(radius)!r} m from the centre; with a pitch 1e-6 m smaller {what}"
+    return f": {NEVER} until the head is {float(radius)!r} m from the centre, and with a pitch 1e-6 m smaller {what}"
 
 
 # The form of a member: an object of members, [each entry], (entry, entry, ...), or one of these.
@@ -478,12 +479,11 @@ def check_form(value, form, place):
         for name in [*form, *value]:
             inside = f"{place}.{json.dumps(name)[1:-1][:40]}".removeprefix(".")
             if name not in value or name not in form:
-                why = "no member of it" if name in value else "missing"
-                raise Refused(f"{KNOWN}: {inside} is {why}")
+                raise Refused(f"{KNOWN}: {inside} is {'no member of it' if name in value else 'missing'}")
             check_form(value[name], form[name], inside)
     elif type(value) is list and (type(form) is list or (type(form) is tuple and len(form) == len(value))):
         for k, entry in enumerate(value):
-            check_form(entry, form[k % len(form)], f"{place}.{k}")
+            check_form(entry, form[k % len(form)], f"{place}[{k}]")
     elif type(value) not in (form, int if form is float else form) or not (form in (str, dict) or 0 <= value <= 1e15):
         want = f"a list of {len(form)}" if type(form) is tuple else WORDS[form if type(form) is type else type(form)]
         got = {dict: "an object", list: "another list"}.get(type(value)) or json.dumps(value)[:40]
@@ -507,8 +507,9 @@ def verified(certificate):
     if not usable or not 1 <= sum(run[0] for run in runs) <= BENCHES_MOST:
         raise Refused(f"the certificate is malformed: dragon must be 1 to {BENCHES_MOST} benches with room for a chord")
     statement = prove(runs, claim, overlap, certificate["sweeps"], certificate["repeats_from"])
-    shape = f"dragon {runs} ([benches, length, width, overhang] in m)"
-    return f"{shape}, spiral of pitch {claim['pitch']!r} m, from {claim['start_turns']!r} turns inwards, {statement}."
+    sizes = "; ".join(f"{n} of {long!r} m by {wide!r} m, overhang {over!r} m" for n, long, wide, over in runs)
+    dragon = f"A dragon of {sum(run[0] for run in runs)} benches ({sizes}) on the spiral of pitch {claim['pitch']!r} m"
+    return f"{dragon} inwards from {claim['start_turns']!r} turns{statement}; the margin is 0 m.".replace(".0 ", " ")
 
 
 def members(pairs):

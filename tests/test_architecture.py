@@ -75,6 +75,7 @@ ORDER = (
     "core",
     "core.proof.pairs",
     "core.proof.chain",
+    "core.proof.fold",
     "core.proof.route",
     "core.proof.route_stretch",
     "core.proof.sweeps",

@@ -1,7 +1,7 @@
 /** The answers, and for each how it is known. */
 
 import { make } from "./elements.js";
-import { handleName, say, sayNear } from "./text.js";
+import { benchName, handleName, say, sayNear } from "./text.js";
 
 /** What a dance comes to: it fails with a contact or a fold, passes, or is undecided. */
 const MARKS = { contact: "✕", contact_at_start: "✕", folds: "!", clear: "✓", undecided: "?" };
@@ -9,8 +9,13 @@ const MARKS = { contact: "✕", contact_at_start: "✕", folds: "!", clear: "✓
 /** Metres in millimetres; what rounds to zero has no sign. */
 export const millimetres = (metres) => (1000 * metres).toFixed(3).replace(/^-(0\.0+)$/, "$1");
 const paragraph = (textContent, more) => make("p", { textContent, ...more });
-const pair = ([a, b], benches) => ({ a: handleName(a, benches), b: handleName(b, benches) });
-const ends = ([low, high], decimals) => ({ low: low.toFixed(decimals), high: high.toFixed(decimals) });
+const pair = ([a, b], benches) => ({ a: benchName(a, benches), b: benchName(b, benches) });
+/** A bound with so many decimals, rounded to the side on which what is said of it stays true; events are rounded to the nearest. */
+const bound = (value, decimals, way) => {
+  const text = value.toFixed(decimals);
+  return way * (Number(text) - value) < 0 ? (Number(text) + way * 10 ** -decimals).toFixed(decimals) : text;
+};
+const ends = ([low, high], decimals) => ({ low: bound(low, decimals, -1), high: bound(high, decimals, 1) });
 const bracket = (key, both, decimals) => [say("bracket"), say(key, ends(both, decimals))];
 
 /** Replace what a box shows, but keep its details open. title: words; known: elements; outcome: colours the box */
@@ -61,11 +66,17 @@ export function outcomeWords(answer, margin) {
 function contactLine(answer, { benches, margin }) {
   const { time_bracket, point, benches: both, head, end, gap } = answer;
   const state = stateOf(answer);
-  if (state === "undecided") return say("undecidedFrom", { time: time_bracket[0].toFixed(9) });
-  if (state === "folds") return sayNear("foldsUntil", margin, { name: handleName(end.bench, benches) });
+  if (state === "undecided") return say("undecidedFrom", { time: bound(time_bracket[0], 9, -1) });
+  if (state === "folds") return sayNear("foldsUntil", margin, { name: benchName(end.bench, benches) });
   if (state === "clear") return end ? sayNear("clearUntil", margin, { time: end.time.toFixed(6) }) : sayNear("clearAll", margin);
   const [x, y, radius] = [...point, head.radius].map((one) => one.toFixed(6));
   return sayNear("pairMeets", margin, { ...pair(both, benches), x, y, radius, gap: millimetres(gap) });
+}
+
+/** How far nothing is proven to touch; at a contact at the start, and where nothing is decided from there on, nowhere. */
+function certificateWords({ outcome, certificate: { steps, clear_until: until } }, margin) {
+  if (until !== null) return sayNear("certificateSteps", margin, { steps, until: bound(until, 10, -1) });
+  return outcome === "undecided" ? say("certificateNone") : sayNear("certificateStart", margin);
 }
 
 /** answer: of /collision-time */
@@ -73,8 +84,7 @@ export function showFirstContact(box, answer, { benches, margin }) {
   const { time_bracket, certificate } = answer;
   const lines = [contactLine(answer, { benches, margin })];
   const rows = time_bracket ? [[say("bracket"), sayNear("bracketTime", margin, ends(time_bracket, 10))]] : [];
-  const proven = { steps: certificate.steps, until: certificate.clear_until.toFixed(10) };
-  rows.push([say("certificate"), sayNear("certificateSteps", margin, proven)]);
+  rows.push([say("certificate"), certificateWords(answer, margin)]);
   const least = certificate.least_clearance;
   if (least) {
     const values = { ...pair(least.benches, benches), gap: millimetres(least.clearance), time: least.time.toFixed(6) };
@@ -94,7 +104,7 @@ export function showMinimumPitch(box, answer, { benches, turning_diameter: diame
   const limit = sayNear(`limited_${answer.limited_by}`, margin, { ...names, radius: answer.head_radius?.toFixed(6) });
   const { scan_step: step, proven_up_to: upTo } = answer;
   const all = step === null && upTo === null;
-  const from = answer.proven_from.toFixed(9);
+  const from = bound(answer.proven_from, 9, 1);
   const lines = [sayNear(all ? "toCircle" : "toCircleTried", margin, { diameter }), limit];
   const islands = answer.other_feasible_intervals.map(([low, high]) => `${low.toFixed(6)}–${high.toFixed(6)} m`);
   if (islands.length) lines.push(say("islands", { list: islands.join(", ") }));
@@ -136,9 +146,9 @@ export function showHighestSpeed(box, fastest, { benches }) {
 
 export function showEnd(box, answer, time, { benches, margin }) {
   const reason = answer.end?.reason ?? { undecided: "undecided", clear: "turn" }[answer.outcome] ?? "contact";
-  const name = reason === "fold" ? handleName(answer.end.bench, benches) : "";
+  const name = reason === "fold" ? benchName(answer.end.bench, benches) : "";
   const words = reason === "contact" ? sayNear("end_contact", margin) : say(`end_${reason}`, { name });
-  show(box, say("end"), `${time.toFixed(6)} s`, [words], [paragraph(say("endKnown"))]);
+  show(box, say("end"), `${(answer.end?.time ?? time).toFixed(6)} s`, [words], [paragraph(say("endKnown"))]);
 }
 
 export function showRefusal(box, title, words) {
@@ -147,7 +157,7 @@ export function showRefusal(box, title, words) {
 
 /** What stands under the enlarged view. gap: [m] between the two benches, null while unknown */
 export function insetWords({ benches: [a, b], corner, edge }, gap, { benches, margin }) {
-  const name = (bench) => handleName(bench, benches);
+  const name = (bench) => benchName(bench, benches);
   const words =
     corner && edge
       ? sayNear("insetMeet", margin, { corner: say(corner.name), a: name(corner.bench), edge: say(edge.name), b: name(edge.bench) })

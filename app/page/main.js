@@ -11,7 +11,7 @@ import { Player } from "./player.js";
 import { Questions } from "./questions.js";
 import { FIELDS, State } from "./state.js";
 import { Table } from "./table.js";
-import { handleName, say, sayNear, setLanguage } from "./text.js";
+import { benchName, handleName, say, sayNear, setLanguage } from "./text.js";
 
 const NUMBERS = [...FIELDS.map((field) => field.name), "path"];
 /** Which boxes wait for which answers. */
@@ -28,6 +28,8 @@ const BUSY = {
 const TITLES = { contact: "firstContact", minimum: "minimumPitch", shortest: "shortestTurn", fastest: "highest" };
 const PITCH_DECIMALS = 4;
 const ZOOM = 1.5;
+/** A handle so many times faster than the head, on a run that ends in a fold, tells that the fold is near [1]. */
+const FAST = 2;
 
 const state = new State();
 const service = new Service({
@@ -96,7 +98,8 @@ function showPose(pose) {
   const [low, high] = speedRange(pose);
   const [least, largest] = $$("#legend span");
   least.textContent = low === null ? say("allEqual") : low.toFixed(6);
-  largest.textContent = `${high.toFixed(6)} m/s`;
+  const speed = high.toFixed(6);
+  largest.textContent = nearFold(pose) ? say("legendFold", { speed }) : `${speed} m/s`;
   showHandle();
   if (pose.dance) showTable(pose);
   showTime();
@@ -112,9 +115,20 @@ function showHandle() {
   return name;
 }
 
+/** The fold [s], where the dance ends with one and speeds have begun to grow without bound towards it; else null. */
+function nearFold(pose) {
+  const { answer, numbers } = questions.dance;
+  const folds = answer.outcome === "clear" && answer.end?.reason === "fold";
+  return folds && speedRange(pose)[1] > FAST * numbers.head_speed ? answer.end.time : null;
+}
+
 function showTable(pose) {
   table.show(pose);
-  $("#table-time").textContent = say("tableAt", { time: pose.time.toFixed(6) });
+  const fold = nearFold(pose);
+  const last = fold !== null && pose.time === questions.dance.end;
+  $("#table-time").textContent = say(last ? "tableAtFold" : "tableAt", { time: (last ? fold : pose.time).toFixed(6) });
+  $("#table-fold").hidden = fold === null;
+  $("#table-fold").textContent = fold === null ? "" : say("nearFold", { time: fold.toFixed(6) });
 }
 
 function showTime() {
@@ -128,7 +142,7 @@ function showTime() {
   if (!answer || of !== questions.dance) return;
   const step = (of.end - of.begin) / (answer.time.length - 1) || 1;
   const k = Math.min(Math.round((time - of.begin) / step), answer.time.length - 1);
-  const [a, b] = answer.benches[k].map((bench) => handleName(bench, of.numbers.benches));
+  const [a, b] = answer.benches[k].map((bench) => benchName(bench, of.numbers.benches));
   const gap = answers.millimetres(answer.clearance[k]);
   $("#clearance .reading").textContent = say("clearanceAt", { time: answer.time[k].toFixed(2), gap, a, b });
 }

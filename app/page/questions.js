@@ -35,6 +35,8 @@ export class Questions {
   refusals = new Map();
   #rest = 0;
   #asked = new Map();
+  /** Do the engines judge the whole dragon at the newest minimum pitch? At first, and when the hand rests. */
+  #whole = true;
 
   /** tell(kind, detail): an answer of this kind came, or a refusal came or went */
   constructor(service, state, tell) {
@@ -49,7 +51,10 @@ export class Questions {
     const query = this.state.texts([...MOTION, "margin", ...(kind === "turn" ? ["turning_diameter"] : [])]);
     const numbers = Object.fromEntries(Object.entries(query).map(([name, text]) => [name, Number(text)]));
     if (this.#isNew("contact", { kind, ...query })) this.#askContact({ kind, query, numbers });
-    this.#askOnce("minimum", "minimum-pitch", CIRCLE, QUICK);
+    const circle = this.state.texts(CIRCLE);
+    if (!this.#isNew("minimum", circle)) return;
+    this.#whole = !this.answers.minimum;
+    this.#keep("minimum", "minimum-pitch", { query: this.#whole ? circle : { ...circle, ...QUICK } });
   }
 
   /** Body of a request about the dance that is shown, or about another one. */
@@ -116,6 +121,10 @@ export class Questions {
   #atRest() {
     this.#rest = 0;
     this.#askDance();
+    if (!this.#whole) {
+      this.#whole = true;
+      this.#keep("minimum", "minimum-pitch", { query: this.state.texts(CIRCLE) });
+    }
     this.#askOnce("scan", "pitch-scan", CIRCLE);
     if (this.state.get("path") === "turn") this.#askOnce("shortest", "shortest-turn", [...CIRCLE, "pitch"]);
   }
@@ -145,8 +154,8 @@ export class Questions {
     this.tell("track");
   }
 
-  #askOnce(kind, path, names, more = {}) {
-    const query = { ...this.state.texts(names), ...more };
+  #askOnce(kind, path, names) {
+    const query = this.state.texts(names);
     if (this.#isNew(kind, query)) this.#keep(kind, path, { query });
   }
 

@@ -63,7 +63,7 @@ export class Table {
     const last = Math.min(x.length, first + Math.ceil(this.box.clientHeight / ROW) + 2 * SPARE);
     const rows = [];
     for (let k = first; k < last; k++) {
-      const cells = [x[k], y[k], speed[k]].map((one) => make("td", { textContent: one.toFixed(DECIMALS) }));
+      const cells = [x[k], y[k], speed[k]].map((one) => make("td", { textContent: one.toFixed(DECIMALS).replace(/^-(0\.0+)$/, "$1") }));
       const name = make("th", { scope: "row", textContent: `${k} · ${handleName(k, x.length - 1)}` });
       const className = k === this.#handle ? "chosen" : "";
       rows.push(make("tr", { "data-handle": k, "aria-rowindex": k + 2, className }, name, ...cells));

@@ -115,15 +115,18 @@ const WORDS = {
   end_turn: ["The dance is shown from 100 m before the turn begins to 100 m after.", "画面显示调头开始前 100 m 到其后 100 m。"],
   end_undecided: ["The dance is shown as far as it is proven clear.", "画面到已证明无碰撞处为止。"],
   how: ["How it is known", "依据"],
-  bracket: ["Bracket", "区间"],
+  bracket: ["Bracket, rounded outwards", "区间（向外取整）"],
   bracketTime: ["clear up to {low} s, overlapping at {high} s", "{low} s 前无碰撞，{high} s 时重叠"],
   bracketTimeNear: ["not nearer up to {low} s, nearer than {margin} m at {high} s", "{low} s 前间距不小于 {margin} m，{high} s 时小于"],
   bracketNone: ["none: at every smaller pitch the dance would begin inside the circle", "无：螺距更小时，起点已在圆内"],
   bracketPitch: ["infeasible at {low} m, feasible at {high} m", "{low} m 不可行，{high} m 可行"],
   bracketSpeed: ["{low} m/s is reached, {high} m/s never exceeded", "达到 {low} m/s，从不超过 {high} m/s"],
   certificate: ["Certificate", "证明"],
-  certificateSteps: ["{steps} proven steps; nothing touches up to {until} s", "{steps} 个已证明的步；{until} s 之前无碰撞"],
-  certificateStepsNear: ["{steps} proven steps; nothing is nearer than {margin} m up to {until} s", "{steps} 个已证明的步；{until} s 之前间距不小于 {margin} m"],
+  certificateSteps: ["{steps} proven steps; nothing touches up to {until} s, rounded down", "{steps} 个已证明的步；{until} s（向下取整）之前无碰撞"],
+  certificateStepsNear: ["{steps} proven steps; nothing is nearer than {margin} m up to {until} s, rounded down", "{steps} 个已证明的步；{until} s（向下取整）之前间距不小于 {margin} m"],
+  certificateStart: ["they touch at the start: no time before it is proven clear", "起始时刻即已碰撞，此前没有可证明的时段"],
+  certificateStartNear: ["they are nearer than {margin} m at the start: no time before it is proven clear", "起始时刻间距已小于 {margin} m，此前没有可证明的时段"],
+  certificateNone: ["nothing is decided from the start on", "自起始时刻起无法判定"],
   leastBefore: ["Narrowest graze", "最险擦过"],
   leastBeforeIs: ["{gap} mm between {a} and {b} at {time} s", "{time} s 时{a}与{b}相距 {gap} mm"],
   justified: ["Every larger pitch", "更大螺距"],
@@ -171,6 +174,9 @@ const WORDS = {
 
   table: ["Handles", "把手"],
   tableAt: ["at {time} s", "{time} s 时"],
+  tableAtFold: ["1e-6 s before the fold at {time} s", "{time} s 折叠前 1e-6 s"],
+  nearFold: ["Just before the fold at {time} s: towards it the speeds grow without bound.", "即将在 {time} s 折叠：越接近该时刻，速度越大，没有上限。"],
+  legendFold: ["{speed} m/s → ∞", "{speed} m/s → ∞"],
   tableHelp: ["Choose a handle here or in the picture. Arrow keys move the choice.", "在此处或画面中选择把手，方向键可移动选择。"],
   handle: ["Handle", "把手"],
   speed: ["speed [m/s]", "速度 [m/s]"],
@@ -186,6 +192,8 @@ const WORDS = {
   head: ["head", "龙头"],
   body: ["body {k}", "第{k}节龙身"],
   tail: ["tail", "龙尾"],
+  theHead: ["the head", "龙头"],
+  theTail: ["the tail", "龙尾"],
   tailRear: ["tail (rear)", "龙尾（后）"],
   "front-outer": ["front outer corner", "前外角"],
   "front-inner": ["front inner corner", "前内角"],
@@ -221,6 +229,12 @@ export function say(key, values = {}) {
 /** The same, in the words for a margin [m] where there is one: benches are nearer than it, and need not touch. */
 export function sayNear(key, margin, values = {}) {
   return margin > 0 ? say(`${key}Near`, { margin, ...values }) : say(key, values);
+}
+
+/** Bench k in a sentence. */
+export function benchName(k, benches) {
+  if (k === 0) return say("theHead");
+  return k === benches - 1 ? say("theTail") : say("body", { k });
 }
 
 /** Handle k of a dragon with so many benches, by the bench that it leads; bench k has the same name. */

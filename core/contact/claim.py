@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from core.dance import Dance, EndReason
 from core.dragon import Dragon
+from core.errors import said
 from core.paths.route import Route
 from core.paths.spiral import Spiral
 
@@ -16,6 +17,7 @@ PROOF = (
     "Proven in steps, each by a bound on the second derivative of the gap along an axis fixed in a bench, and further "
     "out by ring bounds in closed form; computed in doubles, with allowances for their rounding."
 )
+TRIED = "Computed in doubles, with allowances for their rounding."
 MEASURED = "Measured at that instant, in doubles."
 ENDS = {
     EndReason.FOLD: ", where a bench folds and the run ends.",
@@ -28,30 +30,37 @@ ENDS = {
 def claim(dance: Dance, margin: float, span: tuple[float, float], then: str) -> str:
     """Dragon, path, head speed, margin, and in which span of time [s] no two benches come within it; then: what follows
     that, to the end of the sentence."""
-    start, stop = map(_number, span)
-    near = f"are nearer to each other than {_number(margin)} m" if margin else "touch"
+    start, stop = map(said, span)
+    near = f"are nearer to each other than {said(margin)} m" if margin else "touch"
     never = f"from {start} s to {stop} s no two benches that share no handle {near}"
     return f"{_dance(dance)}: {never}{then} {PROOF}"
 
 
 def claim_at_start(dance: Dance, margin: float, start: float, pair: tuple[int, int]) -> str:
     """claim() where two benches come within the margin at the very start [s]."""
-    near = f"are nearer to each other than {_number(margin)} m" if margin else "touch"
-    touching = f"at {_number(start)} s benches {pair[0]} and {pair[1]} {near}."
+    near = f"are nearer to each other than {said(margin)} m" if margin else "touch"
+    touching = f"at {said(start)} s benches {pair[0]} and {pair[1]} {near}."
     return f"{_dance(dance)}: {touching} {MEASURED}"
+
+
+def claim_undecided(dance: Dance, margin: float, start: float) -> str:
+    """claim() where a search gave up at the very start [s]."""
+    near = f"are nearer to each other than {said(margin)} m" if margin else "touch"
+    never = f"from {said(start)} s on it is not decided whether two benches that share no handle {near}."
+    return f"{_dance(dance)}: {never} {TRIED}"
 
 
 def contact_then(pair: tuple[int, int], margin: float, time: float) -> str:
     """The end of a claim's sentence where a contact follows, certain at a time [s]."""
-    near = f"are nearer than {_number(margin)} m" if margin else "overlap"
-    return f", and at {_number(time)} s benches {pair[0]} and {pair[1]} {near}."
+    near = f"are nearer than {said(margin)} m" if margin else "overlap"
+    return f", and at {said(time)} s benches {pair[0]} and {pair[1]} {near}."
 
 
 UNDECIDED_THEN = "; whether any do after that is not decided."
 
 
 def _dance(dance: Dance) -> str:
-    return f"{_dragon(dance.dragon)} on {_path(dance.path)}, the head at {_number(dance.head_speed)} m/s"
+    return f"{_dragon(dance.dragon)} on {_path(dance.path)}, the head at {said(dance.head_speed)} m/s"
 
 
 def _dragon(dragon: Dragon) -> str:
@@ -59,17 +68,13 @@ def _dragon(dragon: Dragon) -> str:
     widths, overhangs = dragon.widths, dragon.overhangs
     if dragon.uniform_from > 1 or widths[0] != widths[-1] or overhangs[0] != overhangs[-1]:
         return f"{count} given one by one"
-    head, body, width, overhang = map(_number, (dragon.lengths[0], dragon.lengths[-1], widths[0], overhangs[0]))
+    head, body, width, overhang = map(said, (dragon.lengths[0], dragon.lengths[-1], widths[0], overhangs[0]))
     return f"{count} (head {head} m, body {body} m, width {width} m, overhang {overhang} m)"
 
 
 def _path(path: Spiral | Route) -> str:
     if isinstance(path, Spiral):
-        return f"a spiral of {_number(path.pitch)} m pitch from {_number(path.start_turns)} turns"
+        return f"a spiral of {said(path.pitch)} m pitch from {said(path.start_turns)} turns"
     kinds = [type(piece).__name__.lower() for piece in path.pieces]
     listed = kinds if len(kinds) <= PIECES_LISTED else sorted(set(kinds))
-    return f"a route from s = {_number(path.begin)} m to {_number(path.end)} m ({', '.join(listed)})"
-
-
-def _number(value: float) -> str:
-    return repr(float(value)).removesuffix(".0")
+    return f"a route from s = {said(path.begin)} m to {said(path.end)} m ({', '.join(listed)})"

@@ -22,7 +22,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from core import kernels, plots
-from core.contact.claim import ENDS, UNDECIDED_THEN, claim, claim_at_start, contact_then
+from core.contact.claim import ENDS, UNDECIDED_THEN, claim, claim_at_start, claim_undecided, contact_then
 from core.contact.near_graze import narrowed
 from core.contact.search import BRACKETS_GRAZING, MARGIN_MAX, NO_GRAZE, Search
 from core.dance import Dance, EndReason, RunEnd
@@ -91,14 +91,16 @@ class Certificate(Shown):
     """How the answer is known.
 
     method: the whole claim and how it is proven, in sentences (core/contact/claim.py)
-    steps: proven steps taken; clear_until: nothing touches from the start to then [s]
+    steps: proven steps taken
+    clear_until: nothing touches from the start to then [s]; None where no time is proven clear: benches touch at
+        the start, or it is not decided from there on
     bound: the largest bound on the second derivative of a gap along the head's way that a step used [1/m]
     least_clearance: the narrowest graze met before the contact (or over the whole run), None if none
     """
 
     method: str
     steps: int
-    clear_until: float
+    clear_until: float | None
     bound: float
     least_clearance: Graze | None
 
@@ -131,8 +133,8 @@ class FirstContact(Shown):
     dance: Dance = field(kw_only=True, repr=False, compare=False)
 
     def _line(self) -> str:
-        if self.outcome is Outcome.UNDECIDED:
-            return f"undecided from {worded(self.certificate.clear_until, 's')} on"
+        if self.time_bracket is not None and self.outcome is Outcome.UNDECIDED:
+            return f"undecided from {worded(self.time_bracket[0], 's')} on"
         near = "touch" if not self.margin else f"come within {worded(self.margin, 'm')}"
         if self.benches is None or self.time is None:
             assert self.end is not None
@@ -300,26 +302,17 @@ def _result(
         state, Outcome.CONTACT_AT_START
     )
     method = _method(dance, search.margin, outcome, found, end, (span[0], proven))
-    certificate = Certificate(method, int(found["steps"]), proven, found["bend"], graze)
+    clear_until = proven if proven > span[0] and outcome is not Outcome.CONTACT_AT_START else None
+    certificate = Certificate(method, int(found["steps"]), clear_until, found["bend"], graze)
     margin = search.margin
     if outcome is Outcome.CLEAR:
         return FirstContact(
             outcome, None, None, None, None, None, None, None, end, certificate, margin=margin, dance=dance
         )
     if outcome is Outcome.UNDECIDED:
+        bracket = (proven, span[1])
         return FirstContact(
-            outcome,
-            None,
-            (proven, span[1]),
-            None,
-            None,
-            None,
-            None,
-            None,
-            None,
-            certificate,
-            margin=margin,
-            dance=dance,
+            outcome, None, bracket, None, None, None, None, None, None, certificate, margin=margin, dance=dance
         )
     at_start = outcome is Outcome.CONTACT_AT_START
     travel = found["touching"] if at_start else found["touching"] - tolerance
@@ -349,11 +342,14 @@ def _method(
     if outcome is Outcome.CLEAR:
         return claim(*asked, span, ENDS[end.reason])
     if outcome is Outcome.UNDECIDED:
-        return claim(*asked, span, UNDECIDED_THEN)
+        return claim(*asked, span, UNDECIDED_THEN) if span[1] > span[0] else claim_undecided(*asked, span[0])
     pair = (int(found["first"]), int(found["second"]))
     if outcome is Outcome.CONTACT_AT_START:
         return claim_at_start(*asked, span[0], pair)
-    return claim(*asked, span, contact_then(pair, margin, found["touching"] / dance.head_speed))
+    touching = found["touching"] / dance.head_speed
+    if not span[1] > span[0]:
+        return claim_at_start(*asked, touching, pair)
+    return claim(*asked, span, contact_then(pair, margin, touching))
 
 
 def head_state(path: Spiral | Route, travel: float) -> HeadState:

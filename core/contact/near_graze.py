@@ -180,7 +180,9 @@ def separation(first: Bench, second: Bench) -> tuple[Decimal, Axis]:
     gap, axis = max(faces)
     if gap <= 0:
         return gap, axis
-    return min(_nearest_corner(0, first, second), _nearest_corner(1, second, first))
+    nearest = min(_nearest_corner(0, first, second), _nearest_corner(1, second, first))
+    # Where a corner faces an edge both are the same, and the direction between points that touch is rounding alone.
+    return nearest if nearest[0] - gap > GAP_ROUNDING else (gap, axis)
 
 
 def gap_along(first: Bench, second: Bench, axis: Axis) -> Decimal:

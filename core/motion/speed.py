@@ -9,7 +9,7 @@ import numpy as np
 from core import kernels
 from core.contact.search import Search
 from core.dance import HEAD_SPEED_MAX, HEAD_SPEED_MIN, TIME_MAX, Dance
-from core.errors import InvalidValue
+from core.errors import InvalidValue, said
 from core.paths.route import Route
 from core.shown import Shown
 from core.values import checked_number, checked_type
@@ -243,5 +243,5 @@ def _late_excess(search: Search, ratio: float, head_speed: float, proven: float,
 def checked_limit(speed_limit: object) -> float:
     """speed_limit [m/s] if it lies in the range allowed."""
     if isinstance(speed_limit, (int, float)) and speed_limit <= 0:
-        raise InvalidValue("speed_limit", f"speed_limit must be positive, got {speed_limit} m/s")
+        raise InvalidValue("speed_limit", f"speed_limit must be positive, got {said(speed_limit)} m/s")
     return checked_number("speed_limit", speed_limit, "m/s", HEAD_SPEED_MIN, HEAD_SPEED_MAX)

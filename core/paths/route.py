@@ -55,6 +55,12 @@ def _listed(name: str, value: Any, what: str) -> list[Any]:
     raise InvalidValue(name, f"{name} must be {what}, got {value!r}")
 
 
+def _settle(piece: object, **checked: float | Point | tuple[Point, ...]) -> None:
+    """Put checked values into a frozen piece."""
+    for name, value in checked.items():
+        object.__setattr__(piece, name, value)
+
+
 def _row(kind: str, start: float, end: float, curvature: Point, *parameters: float, slope: float = 0.0) -> Floats:
     row = np.zeros((1, kernels.PIECE_COLUMNS))
     known = (_KINDS[kind], start, end, *curvature, *parameters)
@@ -71,9 +77,12 @@ class Line(Shown):
     start: Point
     end: Point
 
+    def __post_init__(self) -> None:
+        _settle(self, start=_checked_point("line.start", self.start), end=_checked_point("line.end", self.end))
+
     def rows(self, name: str, s: float) -> Floats:
         """Rows of the kernels' table from arc length s on."""
-        (x, y), end = _checked_point(f"{name}.start", self.start), _checked_point(f"{name}.end", self.end)
+        (x, y), end = self.start, self.end
         length = math.hypot(end[0] - x, end[1] - y)
         _check_length(name, length)
         dx, dy = (end[0] - x) / length, (end[1] - y) / length
@@ -92,12 +101,14 @@ class Arc(Shown):
     start_angle: float
     sweep: float
 
+    def __post_init__(self) -> None:
+        _settle(self, centre=_checked_point("arc.centre", self.centre), radius=checked_size("arc.radius", self.radius))
+        _settle(self, start_angle=_checked_angle("arc.start_angle", self.start_angle))
+        _settle(self, sweep=_checked_angle("arc.sweep", self.sweep))
+
     def rows(self, name: str, s: float) -> Floats:
         """Rows of the kernels' table from arc length s on."""
-        x, y = _checked_point(f"{name}.centre", self.centre)
-        radius = checked_size(f"{name}.radius", self.radius)
-        angle = _checked_angle(f"{name}.start_angle", self.start_angle)
-        sweep = _checked_angle(f"{name}.sweep", self.sweep)
+        (x, y), radius, angle, sweep = self.centre, self.radius, self.start_angle, self.sweep
         _check_length(name, radius * abs(sweep))
         sign = math.copysign(1.0, sweep)
         bend = sign / radius
@@ -118,13 +129,17 @@ class Coil(Shown):
     centre: Point = (0.0, 0.0)
     rotation: float = 0.0
 
+    def __post_init__(self) -> None:
+        _settle(self, pitch=checked_size("coil.pitch", self.pitch), centre=_checked_point("coil.centre", self.centre))
+        _settle(self, start_turns=checked_number("coil.start_turns", self.start_turns, "turns", 0.0, 1e5))
+        _settle(self, end_turns=checked_number("coil.end_turns", self.end_turns, "turns", 0.0, 1e5))
+        _settle(self, rotation=_checked_angle("coil.rotation", self.rotation))
+
     def rows(self, name: str, s: float) -> Floats:
         """Rows of the kernels' table from arc length s on."""
-        growth = checked_size(f"{name}.pitch", self.pitch) / (2.0 * math.pi)
-        start = 2.0 * math.pi * checked_number(f"{name}.start_turns", self.start_turns, "turns", 0.0, 1e5)
-        end = 2.0 * math.pi * checked_number(f"{name}.end_turns", self.end_turns, "turns", 0.0, 1e5)
-        x, y = _checked_point(f"{name}.centre", self.centre)
-        rotation = _checked_angle(f"{name}.rotation", self.rotation)
+        growth = self.pitch / (2.0 * math.pi)
+        start, end = 2.0 * math.pi * self.start_turns, 2.0 * math.pi * self.end_turns
+        (x, y), rotation = self.centre, self.rotation
         arc, end_arc = growth * kernels.spiral_arc(start), growth * kernels.spiral_arc(end)
         _check_length(name, abs(end_arc - arc))
         sign = 1.0 if end > start else -1.0
@@ -144,6 +159,15 @@ class Waypoints(Shown):
     start_heading: float | None = None
     end_heading: float | None = None
 
+    def __post_init__(self) -> None:
+        given = _listed("waypoints.points", self.points, "a list of points [x, y] in metres")
+        if len(given) < 2:
+            raise InvalidValue("waypoints.points", f"waypoints.points must be at least 2 points, got {len(given)}")
+        _settle(self, points=tuple(_checked_point(f"waypoints.points.{k}", point) for k, point in enumerate(given)))
+        for name in ("start_heading", "end_heading"):
+            if (heading := getattr(self, name)) is not None:
+                _settle(self, **{name: _checked_angle(f"waypoints.{name}", heading)})
+
     def __repr__(self) -> str:
         listed = f"Waypoints({self.points!r}, {self.start_heading!r}, {self.end_heading!r})"
         return listed if len(listed) <= REPR_MOST else super().__repr__()
@@ -155,21 +179,15 @@ class Waypoints(Shown):
         """Rows of the kernels' table from arc length s on: as many cubics as exact arc lengths take."""
         from scipy.interpolate import CubicSpline  # type: ignore[import-untyped]
 
-        given = _listed(f"{name}.points", self.points, "a list of points [x, y] in metres")
-        if len(given) < 2:
-            raise InvalidValue(f"{name}.points", f"{name}.points must be at least 2 points, got {len(given)}")
-        points = np.array([_checked_point(f"{name}.points.{k}", point) for k, point in enumerate(given)])
-        headings = (
-            self._end(f"{name}.start_heading", self.start_heading),
-            self._end(f"{name}.end_heading", self.end_heading),
-        )
+        points = np.array(self.points)
+        headings = (self._end(self.start_heading), self._end(self.end_heading))
         steps = np.hypot(*np.diff(points, axis=0).T)
         short = np.flatnonzero(steps < WAYPOINT_GAP)
         if short.size:
             k = int(short[0])
             raise InvalidValue(
                 f"{name}.points.{k + 1}",
-                f"{name}.points[{k + 1}] must be at least {WAYPOINT_GAP:g} m from the point before it, "
+                f"{name}.points.{k + 1} must be at least {WAYPOINT_GAP:g} m from the point before it, "
                 f"got {steps[k]:g} m",
             )
         knots = np.concatenate([[0.0], np.cumsum(steps)])
@@ -180,10 +198,9 @@ class Waypoints(Shown):
         return rows
 
     @staticmethod
-    def _end(name: str, heading: float | None) -> tuple[int, Floats]:
+    def _end(heading: float | None) -> tuple[int, Floats]:
         if heading is None:
             return 2, np.zeros(2)
-        heading = _checked_angle(name, heading)
         return 1, np.array([math.cos(heading), math.sin(heading)])
 
 

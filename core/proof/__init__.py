@@ -4,9 +4,9 @@ Four claims about a dragon, each number exactly the double given:
 
     collision time t   on a spiral r = b theta, b = pitch / (2 pi): nothing touches in [0, t - 1e-10 s], and a pair
                        strictly overlaps at t + 1e-10 s
-    minimum pitch p    nothing touches from the start until the head reaches the circle, and with p - 1e-6 m
-                       a pair strictly overlaps on that way, or the start lies within the circle; larger pitches
-                       are no part of the claim
+    minimum pitch p    every bench follows and nothing touches from the start until the head reaches the circle, and
+                       with p - 1e-6 m a pair strictly overlaps on that way, or a bench cannot follow as far as the
+                       circle (it folds), or the start lies within the circle; larger pitches are no part of the claim
     clear run          on a spiral, a turn or a route of lines, arcs and coils: nothing touches in [start, stop]; and
                        if the claim says so, the run has ended by stop + 1e-9 s: a bench folds, the head is at the
                        centre, or the route is at its end
@@ -93,17 +93,23 @@ of travel phi and the direction psi of the chord, alpha = phi - psi at the front
      farther from the centre than half of: its distances at both ends and w.
      The pieces are joined as core/proof/paths.py says.
 
-Fold. The claim that bench k folds while the head goes from theta = M in to m, its handle k being at t(m) at last:
+Fold. The claim that bench k folds while the head goes from theta = M in to m, its handle k being at t(m) at last. (A
+minimum pitch need not show how the dance gets to M: if a bench folds before, the head does not reach the circle.)
  12. Until bench k folds, all handles up to k follow continuously, and so does the bend d of bench k, from d1 on. Let
      T be above all places of handle k on the way. If F(T, D) < (c / b)^2 for some D > d1, then F(theta, D) < (c / b)^2
      for all theta <= T by 2.: d never is D, and stays below. If moreover F(t(m), d) < (c / b)^2 for all d in [0, D],
      then there is no bend left at m.
+ 13. Sweeps that tile the way of the head show that all benches follow on it. Over a stretch F_d > 0 on the box of every
+     bend that is placed, so that it is the first root and changes without a jump; where two stretches join it is the
+     same root. The bends further out are below pi by 5., and 1. says this of them. 6. holds for bends as for pairs.
+     One or two benches have no pair, but for a minimum pitch they have sweep 0, too, which shows only this.
 
-A certificate holds the parameters, the stretches as [highest place, lowest place, faces] and the overlap. A face is a
-digit for each bench from the next but one on: 0 to 3 for the faces +x, +y, -x, -y of the first bench, 4 to 7 for those
-of the other one, 8 for a direction of 7. (then the directions [rad] stand fourth), 9 for 10. The doubles and the faces
-are guesses, made in double precision; every inequality above is decided on balls, when a proof is made and when it is
-checked. The precision of flint is one for the process: prove and check in one thread at a time.
+A certificate holds the parameters, the stretches as [highest place, lowest place, faces], and the overlap, or the bench
+that folds with M and m of 12. A face is a digit for each bench from the next but one on: 0 to 3 for the faces +x, +y,
+-x, -y of the first bench, 4 to 7 for those of the other one, 8 for a direction of 7. (then the directions [rad] stand
+fourth), 9 for 10. The doubles and the faces are guesses, made in double precision; every inequality above is decided on
+balls, when a proof is made and when it is checked. The precision of flint is one for the process: prove and check in
+one thread at a time.
 """
 
 from __future__ import annotations

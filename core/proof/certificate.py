@@ -12,7 +12,7 @@ from flint import __FLINT_VERSION__, __version__, ctx
 
 from core.dance import Dance
 from core.dragon import BENCHES_MAX, Dragon
-from core.errors import InvalidValue, OutsideRun, ProofRefused
+from core.errors import InvalidValue, OutsideRun, ProofRefused, spoken
 from core.paths.spiral import Spiral
 from core.proof.claims import CollisionTime, MinimumPitch, refusing
 from core.proof.dances import Clear, Contact, last_stop
@@ -73,9 +73,9 @@ def prove_minimum_pitch(
 ) -> Certificate:
     """A certificate that nothing touches on the way to the circle, and that with 1e-6 m less a pair overlaps on it.
 
+    Every bench follows on that way; with 1e-6 m less one may also fold before the circle, or the start may lie within
+    the circle: then the certificate says that instead. It says nothing of larger pitches.
     pitch, turning_radius: [m]; margin, every_pair, progress, returns, raises: as prove_collision_time()
-    With 1e-6 m less the start may also lie within the circle: then the certificate says that instead. It says nothing
-    of larger pitches.
     """
     return _proven(MinimumPitch(dragon, pitch, start_turns, turning_radius, margin), every_pair, progress)
 
@@ -124,7 +124,12 @@ def _proven(claim: Claim, every_pair: bool, progress: Progress) -> Certificate:
         repeats_from = max(0, chain.count - 3) if every_pair else chain.repeats_from
         rest = 1.0 - claim.search_share
         sweeps = swept(
-            chain, *claim.way, repeats_from, found(chain), lambda share: progress(1.0 - rest * (1.0 - share))
+            chain,
+            *claim.way,
+            repeats_from,
+            found(chain),
+            lambda share: progress(1.0 - rest * (1.0 - share)),
+            claim.follows,
         )
     certificate = {
         "format": FORMAT,
@@ -166,7 +171,7 @@ def check(certificate: Certificate, *, progress: Progress = lambda share: None) 
     except (InvalidValue, OutsideRun) as error:
         field = error.field if "path" in content["claim"] else error.field.removeprefix("path.")
         place = field if field.startswith("dragon.") else f"claim.{field}"
-        words = error.message.replace(error.field, place, 1)
+        words = error.message.replace(spoken(error.field), spoken(place), 1)
         raise ProofRefused(place, f"the certificate is malformed: {words}") from error
 
 
@@ -177,7 +182,7 @@ def _verified(content: Certificate, progress: Progress) -> Proof:
     if not chain.repeats_from <= repeats_from <= max(0, chain.count - 3):
         raise ProofRefused("repeats_from", f"the benches from {repeats_from} on are not alike")
     statement = claim.check_overlap(content.get("overlap", {}))
-    proven = swept(chain, *claim.way, repeats_from, recorded(chain, sweeps), progress)
+    proven = swept(chain, *claim.way, repeats_from, recorded(chain, sweeps), progress, claim.follows)
     if len(proven) != len(sweeps):
         raise ProofRefused("sweeps", f"the certificate has {len(sweeps)} sweeps, not {len(proven)}")
     tiles = [tile for sweep in proven for tile in sweep["stretches"]]

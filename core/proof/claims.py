@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, ClassVar
@@ -11,19 +11,23 @@ from typing import Any, ClassVar
 from flint import arb
 
 from core.contact.search import MARGIN_MAX
-from core.dance import checked_head_speed
+from core.dance import checked_head_speed, end_theta
 from core.dragon import Dragon
-from core.errors import ProofRefused
+from core.errors import ProofRefused, said
 from core.paths.spiral import Spiral
 from core.proof.chain import Chain, bend_guess
+from core.proof.fold import check_fold
 from core.proof.pairs import Unproven, above, below
 from core.proof.sweeps import AnyChain, Overlap, Progress, found, swept
-from core.proof.words import apart_words, dragon_words, near_words
-from core.values import checked_number, checked_size
+from core.proof.words import apart_words, contact_words, dragon_words, near_words
+from core.values import SIZE_MIN, checked_number, checked_size
 
 # Half the bracket around a collision time [s], and the step below a minimum pitch [m]: exact decimals, in balls.
 TIME_BRACKET = "1e-10"
 PITCH_STEP = "1e-6"
+# A fold is shown between two places of the head, each so far from where doubles see it [1]. They see it within 1e-12;
+# where it only just exists, 12. finds no wall from farther away.
+FOLD_WITHIN = (1e-9, 1e-11)
 # Halvings that bring the head's theta to the last digit of a double.
 HALVINGS = 60
 
@@ -35,11 +39,12 @@ class CollisionTime:
     margin: [m]; where it is more than 0, nothing comes within it, and one pair is strictly nearer
     way: (highest, lowest) theta of the head between which nothing may touch [rad]
     find_overlap(): the record of an overlap that check_overlap() verifies, returning the whole claim in words
-    search_share: how much of the work of a proof find_overlap() is
+    search_share: how much of the work of a proof find_overlap() is; follows: as swept() has it
     """
 
     kind: ClassVar[str] = "collision-time"
     search_share: ClassVar[float] = 0.0
+    follows: ClassVar[bool] = False
     dragon: Dragon
     pitch: float
     start_turns: float
@@ -67,27 +72,30 @@ class CollisionTime:
         return above(self.chain.start), below(before)
 
     def find_overlap(self, progress: Progress) -> dict[str, Any]:
-        return {"benches": near_pair(self.chain, self._after, f"at {self.time!r} + {TIME_BRACKET} s")}
+        return {"benches": near_pair(self.chain, self._after, f"at {said(self.time)} + {TIME_BRACKET} s")}
 
     def check_overlap(self, overlap: dict[str, Any]) -> str:
         a, b = overlap["benches"]
-        check_near(self.chain, self._after, a, b, f"at {self.time!r} + {TIME_BRACKET} s")
+        check_near(self.chain, self._after, a, b, f"at {said(self.time)} + {TIME_BRACKET} s")
+        clear = bool(self.time - arb(TIME_BRACKET) > 0)
+        words = contact_words([a, b], self.margin, 0.0, self.time, TIME_BRACKET, clear=clear)
         return (
-            f"{dragon_words(self.dragon)}, its head at {self.head_speed!r} m/s on the spiral of pitch {self.pitch!r} m "
-            f"inwards from {self.start_turns!r} turns: {apart_words(self.margin)} from 0 s to {self.time!r} - "
-            f"{TIME_BRACKET} s, and {near_words([a, b], self.margin)} at {self.time!r} + {TIME_BRACKET} s."
+            f"{dragon_words(self.dragon)}, its head at {said(self.head_speed)} m/s on the spiral of pitch "
+            f"{said(self.pitch)} m inwards from {said(self.start_turns)} turns: {words}"
         )
 
 
 @dataclass(frozen=True)
 class MinimumPitch:
-    """Nothing touches on the head's way from the start to the circle; with 1e-6 m less one pair overlaps on it.
+    """Every bench follows and nothing touches on the head's way from the start to the circle; with 1e-6 m less one pair
+    overlaps on it, or one bench folds.
 
-    margin, way, find_overlap(), check_overlap(), search_share: as of CollisionTime
+    margin, way, find_overlap(), check_overlap(), search_share, follows: as of CollisionTime
     """
 
     kind: ClassVar[str] = "minimum-pitch"
     search_share: ClassVar[float] = 0.5
+    follows: ClassVar[bool] = True
     dragon: Dragon
     pitch: float
     start_turns: float
@@ -114,7 +122,7 @@ class MinimumPitch:
     def _way(self, chain: Chain) -> tuple[float, float]:
         circle = self.turning_radius / chain.growth
         if circle > chain.start:
-            raise ProofRefused("claim", f"with pitch {self.pitch!r} m the start lies within the turning circle")
+            raise ProofRefused("claim", f"with pitch {said(self.pitch)} m the start lies within the turning circle")
         return above(chain.start), below(circle)
 
     def find_overlap(self, progress: Progress) -> dict[str, Any]:
@@ -122,21 +130,42 @@ class MinimumPitch:
         circle = self.turning_radius / less.growth
         if circle > less.start:
             return {"start_within_circle": True}
+        if fold := self._find_fold(below(less.start), above(circle)):
+            return fold
         try:
             swept(less, *self._way(less), less.repeats_from, found(less), progress)
         except Overlap as overlap:
             theta = head_theta(less, overlap.a, overlap.place, below(circle), above(less.start))
             theta = max(min(theta, below(less.start)), above(circle))
             return {"benches": [overlap.a, overlap.b], "head_theta": theta}
-        free = f"keeps the margin of {self.margin!r} m too" if self.margin else "is free of contact too"
-        raise ProofRefused("claim", f"{PITCH_STEP} m less than pitch {self.pitch!r} m {free}")
+        free = f"keeps the margin of {said(self.margin)} m too" if self.margin else "is free of contact too"
+        raise ProofRefused("claim", f"{PITCH_STEP} m less than pitch {said(self.pitch)} m {free}")
+
+    def _find_fold(self, start: float, circle: float) -> dict[str, Any]:
+        """Where a bench folds on the way with PITCH_STEP less, as doubles see it; empty where none does. [rad]"""
+        less = Spiral(max(self.pitch - float(PITCH_STEP), SIZE_MIN), self.start_turns)
+        theta, bench = end_theta(self.dragon, less)
+        if bench is None or not circle < theta < start:
+            return {}
+        for within in FOLD_WITHIN:
+            places = [min(start, theta * (1.0 + within)), max(circle, theta * (1.0 - within))]
+            with suppress(Unproven):
+                check_fold(self._less, bench, *map(arb, places))
+                break
+        return {"folds": bench, "head_theta": places}
 
     def check_overlap(self, overlap: dict[str, Any]) -> str:
         less = self._less
         circle = self.turning_radius / less.growth
-        if "benches" in overlap:
+        where = f"on the way with {PITCH_STEP} m less"
+        if "folds" in overlap:
+            bench, (before, after) = overlap["folds"], overlap["head_theta"]
+            if not (bench < less.count and circle <= after < before <= less.start):
+                raise Unproven(f"bench {bench} is not shown to fold {where}")
+            check_fold(less, bench, arb(before), arb(after))
+            why = f"bench {bench} cannot follow so far (it folds)"
+        elif "benches" in overlap:
             (a, b), theta = overlap["benches"], overlap["head_theta"]
-            where = f"on the way with {PITCH_STEP} m less"
             if not circle <= theta <= less.start:
                 raise Unproven(f"benches {a} and {b} are not shown to overlap {where}")
             check_near(less, arb(theta), a, b, where)
@@ -146,8 +175,9 @@ class MinimumPitch:
                 raise Unproven(f"the start is not shown to lie within the circle with {PITCH_STEP} m less")
             why = "the start lies within the circle"
         return (
-            f"{dragon_words(self.dragon)} on the spiral inwards from {self.start_turns!r} turns: with pitch "
-            f"{self.pitch!r} m {apart_words(self.margin)} until the head is {self.turning_radius!r} m from the centre, "
+            f"{dragon_words(self.dragon)} on the spiral inwards from {said(self.start_turns)} turns: with pitch "
+            f"{said(self.pitch)} m every bench follows and {apart_words(self.margin)} until the head is "
+            f"{said(self.turning_radius)} m from the centre, "
             f"and with {PITCH_STEP} m less {why}. This says nothing of larger pitches."
         )
 
@@ -179,7 +209,7 @@ def near_pair(chain: AnyChain, head: arb, when: str) -> list[int]:
             if pose.within(partner, chain.margin):
                 return [bench, bench + partner]
         place = pose.places[1]
-    how = f"come nearer to one another than {float(chain.margin)!r} m" if chain.margin > 0 else "overlap"
+    how = f"come nearer to one another than {said(float(chain.margin))} m" if chain.margin > 0 else "overlap"
     raise ProofRefused("claim", f"no two benches {how} {when}")
 
 
@@ -195,7 +225,7 @@ def check_near(chain: AnyChain, head: arb, a: int, b: int, when: str) -> None:
     pose = chain.pose_at(a, pose.places[a])
     pose.grow_to(b - a + 1)
     if not pose.within(b - a, chain.margin):
-        how = f"be nearer than {float(chain.margin)!r} m" if chain.margin > 0 else "overlap"
+        how = f"be nearer than {said(float(chain.margin))} m" if chain.margin > 0 else "overlap"
         raise Unproven(f"benches {a} and {b} are not shown to {how} {when}")
 
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from typing import Any
 
-from core.errors import ProofRefused
+from core.errors import ProofRefused, said, spoken
 from core.proof.claims import CollisionTime, MinimumPitch
 from core.proof.dances import ENDINGS, Clear, Contact
 from core.proof.pairs import ALL_FACES, CIRCLES, DIRECTION
@@ -151,6 +151,9 @@ def _overlap(kind: str, value: Mapping[str, Any]) -> None:
     if kind == MinimumPitch.kind and value.keys() == {"start_within_circle"}:
         _object("overlap", value, {"start_within_circle": _true})
         return
+    if kind == MinimumPitch.kind and "folds" in value:
+        _object("overlap", value, {"folds": _whole, "head_theta": _each(_number, 2)})
+        return
     theta: dict[str, Check] = {"head_theta": _number} if kind == MinimumPitch.kind else {}
     _object("overlap", value, {"benches": _each(_whole, 2)} | theta)
 
@@ -189,9 +192,9 @@ def _stretch(letters: str, positive: bool) -> Check:
         _number(f"{name}.1", low)
         _text(f"{name}.2", faces)
         if positive and not 0.0 < low < high:
-            raise _malformed(f"{name}.1", f"must lie between 0 and {name}.0, {high!r} rad", low)
+            raise _malformed(f"{name}.1", f"must lie between 0 and {spoken(name)}[0], {said(high)} rad", low)
         if not low < high:
-            raise _malformed(f"{name}.1", f"must be less than {name}.0, {high!r} m", low)
+            raise _malformed(f"{name}.1", f"must be less than {spoken(name)}[0], {said(high)} m", low)
         if not set(letters).issuperset(faces):
             skipped = "" if DIRECTION in letters or last < DIRECTION else f" but {DIRECTION}"
             raise _malformed(f"{name}.2", f"must be faces, digits from 0 to {last}{skipped}", faces)

@@ -14,7 +14,7 @@ from typing import Any
 from flint import acb, arb
 
 from core.dragon import Dragon
-from core.errors import InvalidValue
+from core.errors import InvalidValue, said
 from core.paths import route
 from core.paths.spiral import Spiral
 from core.paths.turn import Turn
@@ -50,8 +50,13 @@ def recorded_path(path: AnyPath) -> dict[str, Any]:
     pieces = []
     for k, piece in enumerate(path.pieces):
         if isinstance(piece, route.Waypoints):
-            where = f"path.pieces[{k}]" if len(path.pieces) > 1 else "path"
-            words = f"{where} must be of lines, arcs and coils for a proof in ball arithmetic, got waypoints"
+            must = "path must be a spiral, a turn or a route of lines, arcs and coils"
+            if len(path.pieces) > 1:
+                must = f"path.pieces[{k}] must be a line, an arc or a coil"
+            words = (
+                f"{must} for a proof in ball arithmetic, got waypoints: on a path with waypoints a dance can be "
+                "checked in double precision, with bounds on its rounding, not proven"
+            )
             raise InvalidValue(f"path.pieces.{k}", words)
         pieces.append(_recorded_piece(piece))
     return {"kind": "route", "start": path.start, "pieces": pieces}
@@ -77,7 +82,12 @@ def core_path(record: Record) -> Spiral | route.Route:
             return _turn(record)
         except InvalidValue as error:  # Turn knows no path around its fields
             raise InvalidValue(f"path.{error.field}", f"path.{error.message}") from error
-    pieces = [PIECES[piece["kind"]][0](**_arguments(piece)) for piece in record["pieces"]]
+    pieces = []
+    for k, piece in enumerate(record["pieces"]):
+        try:
+            pieces.append(PIECES[piece["kind"]][0](**_arguments(piece)))
+        except InvalidValue as error:  # a piece knows no route around its fields
+            raise error.named(error.field.replace(piece["kind"], f"path.pieces.{k}", 1)) from error
     return route.Route(pieces, record["start"])
 
 
@@ -93,14 +103,14 @@ def _turn(record: Record) -> Turn:
 def described(record: Record) -> str:
     """The path in words, with every number of it that is no piece's."""
     if record["kind"] == "spiral":
-        return f"the spiral of pitch {record['pitch']!r} m inwards from {record['start_turns']!r} turns"
+        return f"the spiral of pitch {said(record['pitch'])} m inwards from {said(record['start_turns'])} turns"
     if record["kind"] == "turn":
         return (
-            f"the turn of ratio {record['ratio']!r}, which it enters {record['entry_radius']!r} m from the centre at "
-            f"0 s, between spirals of pitch {record['pitch']!r} m and {record['start_turns']!r} turns"
+            f"the turn of ratio {said(record['ratio'])}, which it enters {said(record['entry_radius'])} m from the "
+            f"centre at 0 s, between spirals of pitch {said(record['pitch'])} m and {said(record['start_turns'])} turns"
         )
     kinds = ", ".join(piece["kind"] for piece in record["pieces"])
-    place = f"its s = 0 at {record['start']!r} m from its beginning"
+    place = f"its s = 0 at {said(record['start'])} m from its beginning"
     return f"the route of {len(record['pieces'])} pieces ({kinds}), joined exactly, {place}"
 
 

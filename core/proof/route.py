@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 from flint import acb, arb
 
 from core.dragon import Dragon
+from core.errors import said
 from core.proof.chain import GUESS_RADIUS, POSES_KEPT, Follower, bend, newton
 from core.proof.pairs import Benches, Unproven, above
 
@@ -246,7 +247,7 @@ class RouteChain(Follower):
     @staticmethod
     def named(place: float) -> str:
         """A place in words."""
-        return f"s = {-place!r} m"
+        return f"s = {said(-place)} m"
 
     def place_after(self, way: arb) -> arb:
         """Where the head is after this way from s = 0. way: [m], negative before it; returns [m]."""

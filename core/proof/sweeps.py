@@ -105,17 +105,17 @@ def recorded(chain: AnyChain, sweeps: Sequence[Any]) -> Source:
 
     def source(bench: int, high: float, low: float, places: Sequence[float]) -> Iterator[tuple[AnyStretch, Tile]]:
         if bench >= len(sweeps):
-            raise ProofRefused("sweeps", f"the certificate is malformed: sweeps.{bench} is missing")
+            raise ProofRefused("sweeps", f"the certificate is malformed: sweeps[{bench}] is missing")
         if sweeps[bench]["bench"] != bench:
             raise ProofRefused("sweeps", f"sweep {bench} is of another bench: {sweeps[bench]['bench']}")
         for k, (high, low, faces, *rest) in enumerate(sweeps[bench]["stretches"]):
-            most = chain.count - bench - 2
+            most = max(0, chain.count - bench - 2)
             if len(faces) > most:
                 place = f"sweeps.{bench}.stretches.{k}.2"
                 words = f"must have at most {most} faces, one for each bench behind, got {len(faces)}"
                 raise ProofRefused(place, f"the certificate is malformed: {place} {words}")
             stretch = stretch_of(chain, bench, low, high, chain.count - bisect_left(places, low))
-            while len(stretch.placed) < len(faces) + 2:
+            while len(stretch.placed) < min(len(faces) + 2, chain.count - bench):
                 stretch.grow()
             if not stretch.complete:
                 raise Unproven(f"pairs are missing from [{high!r}, {low!r}] of bench {bench}")
@@ -133,15 +133,22 @@ def recorded(chain: AnyChain, sweeps: Sequence[Any]) -> Source:
 
 
 def swept(
-    chain: AnyChain, high: float, low: float, repeats_from: int, source: Source, progress: Progress
+    chain: AnyChain,
+    high: float,
+    low: float,
+    repeats_from: int,
+    source: Source,
+    progress: Progress,
+    follows: bool = False,
 ) -> list[dict[str, Any]]:
     """The sweeps that show that nothing touches while the head goes from the place high on to low [rad], [m].
 
-    repeats_from: u of 6.; source: where the proven stretches come from
+    repeats_from: u of 6.; source: where the proven stretches come from; follows: of one or two benches, which have no
+        pair, too: that they follow all the way (13.)
     raises: Unproven when the stretches leave a place uncovered
     """
     sweeps: list[dict[str, Any]] = []
-    if chain.count < 3 or low >= high:
+    if (chain.count < 3 and not follows) or low >= high:
         return sweeps
     for bench in range(repeats_from + 1):
         places = [math.inf]

@@ -5,6 +5,7 @@ from __future__ import annotations
 from itertools import groupby
 
 from core.dragon import Dragon
+from core.errors import said
 
 # So many kinds of benches in a row are listed; of more only their number.
 RUNS_SHOWN = 4
@@ -21,16 +22,30 @@ def dragon_words(dragon: Dragon) -> str:
     rows = runs(dragon)
     if len(rows) > RUNS_SHOWN:
         return f"A dragon of {dragon.benches} benches with the sizes that the certificate lists"
-    sizes = "; ".join(f"{n} of {length!r} m by {width!r} m, overhang {over!r} m" for n, length, width, over in rows)
+    sizes = "; ".join(
+        f"{n} of {said(length)} m by {said(width)} m, overhang {said(over)} m" for n, length, width, over in rows
+    )
     return f"A dragon of {dragon.benches} benches ({sizes})"
 
 
 def apart_words(margin: float) -> str:
     """What no two benches do."""
-    touch = f"come nearer to one another than {margin!r} m" if margin else "touch"
+    touch = f"come nearer to one another than {said(margin)} m" if margin else "touch"
     return f"no two benches but neighbours {touch}"
+
+
+def contact_words(benches: list[int], margin: float, start: float, time: float, bracket: str, *, clear: bool) -> str:
+    """What two benches do `bracket` [s] after a time [s]; and, where that is clear, what none do until as long before.
+
+    clear: there is a time before: a contact at the start has none, and twice the bracket is all that lies between
+    """
+    near = f"{near_words(benches, margin)} at {said(time)} + {bracket} s"
+    if not clear:
+        within = f"within {said(2.0 * float(bracket))} s of the start"
+        return f"{near}, {within}, so that no time before is claimed to be clear."
+    return f"{apart_words(margin)} from {said(start)} s to {said(time)} - {bracket} s, and {near}."
 
 
 def near_words(benches: list[int], margin: float) -> str:
     """What two benches do."""
-    return f"benches {benches[0]} and {benches[1]} " + (f"are nearer than {margin!r} m" if margin else "overlap")
+    return f"benches {benches[0]} and {benches[1]} " + (f"are nearer than {said(margin)} m" if margin else "overlap")

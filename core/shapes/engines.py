@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from core import kernels
-from core.errors import InvalidValue
+from core.errors import InvalidValue, said
 from core.shapes.angle_sum import ANGLE_TOLERANCE, angle_sum_overlap, angle_sums, paper_corners
 from core.shapes.broad_phase import CROSS_CANDIDATES_MAX, ROUNDING, Pairs, meeting_pairs
 from core.shapes.rectangles import corners, frames, frames_separation
@@ -248,7 +248,7 @@ def _angle_sum(poses: Floats, sizes: Floats, margin: float, chained: bool) -> It
     if margin != 0.0:
         raise InvalidValue(
             "margin",
-            f"margin must be 0 m for the angle-sum rule, which knows only inside and outside, got {margin} m",
+            f"margin must be 0 m for the angle-sum rule, which knows only inside and outside, got {said(margin)} m",
         )
     for frame, corner in zip(frames(poses, sizes), paper_corners(poses, sizes), strict=True):
         pairs = meeting_pairs(frame, margin, chained, exact=False)

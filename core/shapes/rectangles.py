@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from core import kernels
-from core.errors import InvalidValue
+from core.errors import InvalidValue, said
 from core.shown import Shown, worded
 from core.values import SIZE_MAX, SIZE_MIN, Floats
 
@@ -140,7 +140,7 @@ def checked_columns(subject: str, columns: Floats, names: tuple[str, ...]) -> No
             elif low > 0.0 and column[k] <= 0.0:
                 limit = "positive"
             raise InvalidValue(
-                f"{subject}.{k}.{name}", f"{subject}[{k}].{name} must be {limit}, got {column[k]} {unit}"
+                f"{subject}.{k}.{name}", f"{subject}[{k}].{name} must be {limit}, got {said(column[k])} {unit}"
             )
 
 

@@ -229,7 +229,7 @@ BAD_PATHS = {
     ),
     "way_there_and_back_in_a_route": (
         route(LANE, {"kind": "waypoints", "points": [[60, 0], [99, 0], [60, 0]]}),
-        "/path/pieces/1/points", ("path.pieces.1.points", "between points 0 and 1"),
+        "/path/pieces/1/points", ("path.pieces[1].points", "between points 0 and 1"),
     ),
     "many_waypoints": (
         {"kind": "waypoints", "points": [[k, 0] for k in range(1001)]}, "/path/points", ("at most 1000",),
@@ -241,7 +241,7 @@ BAD_PATHS = {
         {"kind": "waypoints", "points": [[0, 0], [1, 0], [1, 0]]}, "/path/points/2", ("path.points[2]", "0.001 m"),
     ),
     "turn_outside_its_coil": (TURN | {"start_turns": 2}, "/path/start_turns", ("2.64706 turns", "path.start_turns")),
-    "turn_too_tight": (TURN | {"turning_diameter": 2}, "/path", ("radius", "bench 0")),
+    "turn_too_tight": (TURN | {"turning_diameter": 2}, "/path/turning_diameter", ("radius", "bench 0")),
     "entry_outside_the_circle": (TURN | {"entry_radius": 5}, "/path/entry_radius", ("at most 4.5 m", "got 5")),
     "lopsided_turn": (TURN | {"ratio": 1000}, "/path/ratio", ("at most 100", "got 1000")),
     "unknown_name": (TURN | {"radius": 4.5}, "/path/radius", ("unknown",)),

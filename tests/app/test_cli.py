@@ -138,10 +138,10 @@ def test_tables_for_people_hold_the_numbers_with_their_units(arguments: list[str
     [
         (
             "collision-time --pitch 55",
-            "pitch must be at most 10 m, got 55.0 m: lengths are in metres, and 55 cm is 0.55 m",
+            "pitch must be at most 10 m, got 55 m: lengths are in metres, and 55 cm is 0.55 m",
         ),
         ("collision-time --pitch nan", "pitch must be a finite number [m], got NaN"),
-        ("collision-time --pitch -1", "pitch must be at least 0.001 m, got -1.0 m"),
+        ("collision-time --pitch -1", "pitch must be at least 0.001 m, got -1 m"),
         ("collision-time --benches 0", "benches must be at least 1, got 0"),
         (
             "minimum-pitch --overhang 1.2",
@@ -288,7 +288,7 @@ def test_times_are_the_list_of_the_service(client: httpx.Client) -> None:
         (["--times", ""], "times[0] must be a number, as in --times 0,1,2, got ''"),
         (["--times", "0,soon"], "times[1] must be a number, as in --times 0,1,2, got 'soon'"),
         (["--times", "0,nan"], "times[1] must be a finite number [s], got NaN"),
-        (["--times", "0,2e6"], "times[1] must be at most 1000000 s, got 2000000.0 s"),
+        (["--times", "0,2e6"], "times[1] must be at most 1000000 s, got 2000000 s"),
         (["--handles", "0,224"], "handles[1] must be from 0 to 223 for this dragon, got 224"),
         (["--handles", "-1"], "handles[0] must be from 0 to 223 for this dragon, got -1"),
         (["--handles", "0.5"], "handles[0] must be a whole number, as in --handles 0,1,2, got '0.5'"),
@@ -492,3 +492,59 @@ def test_the_python_session_of_the_readme_is_true() -> None:
     found = doctest.testfile(str(Path(__file__).parents[2] / "README.md"), module_relative=False)
     assert found.attempted > 5
     assert found.failed == 0
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (["check", "dance.json", "--time", "3"], "--time says when --figure draws the dance: give --figure"),
+        (["check", "dance.json", "--cross-check", ""], "cross_check must be 'dragon', 'pair' or 'none', got \"\""),
+        (["overlaps", "--pitch", "1", "benches.json"], "--pitch is about a dance, and the benches are those of FILE"),
+        (["overlaps", "--margin=0", "benches.json"], "--margin is about a dance, and the benches are those of FILE"),
+        (["figures", "out", "--kind", "trajectory", "--samples", "50"], "--samples has no part in the figure traj"),
+        (["figures", "out", "--kind", "contact", "--kind", "trajectory", "--turning-diameter", "9"],
+         "--turning-diameter has no part in the figure contact or trajectory: leave it out, or draw another"),
+        (["figures", "out", "--kind", "pitch-scan", "--head-speed", "1"], "--head-speed has no part in the figure p"),
+        (["trajectory", "--language", "zh"], "--language is for the names in an xlsx file: give --output with .xlsx"),
+        (["trajectory", "--language", "en", "--output", "a.csv"], "--language is for the names in an xlsx file"),
+        (["trajectory", "--json", "--output", "a.csv"], "--json prints the answer and --output writes it to a file"),
+    ],
+    ids=lambda value: " ".join(value) if isinstance(value, list) else None,
+)  # fmt: skip
+def test_an_option_that_nothing_uses_is_refused_by_name(arguments: list[str], words: str, tmp_path: Path) -> None:
+    (tmp_path / "dance.json").write_text("{}")
+    (tmp_path / "benches.json").write_text('{"benches": [{"x": 0, "y": 0, "heading": 0, "length": 1, "width": 1}]}')
+    files = {"dance.json", "benches.json", "out", "a.csv"}
+    done = run(*(str(tmp_path / one) if one in files else one for one in arguments))
+    assert (done.returncode, done.stdout) == (2, "")
+    assert done.stderr.startswith(f"Error: {words}")
+    assert len(done.stderr.splitlines()) == 1
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["benches.json", "dance.json"]
+
+
+FOLDING = ("trajectory", "--benches", "40", "--pitch", "1.2", "--start-turns", "8")
+
+
+def test_instants_just_before_a_fold_are_marked_and_the_fold_is_named() -> None:
+    said = answer_of(*FOLDING, "--times", "0,100,238.2149")
+    assert said.count("238.2149 s *") == 3
+    assert "100 s *" not in said
+    words = " ".join(said.split())
+    assert words.endswith(
+        "* Just before bench 0 folds, at 238.214985392 s: towards that instant the speeds of handles behind it grow "
+        "without bound."
+    )
+    assert "*" not in answer_of(*FOLDING, "--times", "0,100")
+
+
+def test_bounds_are_printed_with_all_digits_or_rounded_to_the_safe_side() -> None:
+    answer = json.loads(answer_of("collision-time", "--json"))
+    said = answer_of("collision-time")
+    assert f"{answer['time_bracket'][0]!r}, {answer['time_bracket'][1]!r} s" in said
+    assert re.search(rf"clear until +{re.escape(repr(answer['certificate']['clear_until']))} s", said)
+
+
+def test_the_table_on_a_terminal_has_the_decimals_that_are_asked_for() -> None:
+    done = run("trajectory", "--benches", "3", "--times", "0,100", "--decimals", "2")
+    assert re.search(r"0 head +8\.80 +-?\d\.\d\d ", done.stdout)
+    assert not re.search(r"\d\.\d{3}", done.stdout)

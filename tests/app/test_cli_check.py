@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from pathlib import Path
 from typing import Any
 
@@ -167,13 +168,27 @@ def test_the_dance_is_drawn_in_its_venue(dance: Path) -> None:
     assert " square -->" in figure.read_text()
 
 
+# The last digit of a distance in a report [m].
+LAST_SHOWN = 1e-6
+
+
+def test_a_least_clearance_is_not_rounded_above_what_is_proven_and_a_fold_has_no_highest_speed(tmp_path: Path) -> None:
+    file = tmp_path / "dance.json"
+    file.write_text('{"dragon": {"benches": 40}, "path": {"pitch": 1.2, "start_turns": 8}}')
+    said = answer_of("check", str(file))
+    proven = json.loads(answer_of("check", str(file), "--json"))["least_clearance"]["at_least"]
+    (shown,) = re.findall(r"proven: at least ([\d.]+) m", said)
+    assert proven - LAST_SHOWN < float(shown) <= proven
+    assert re.search(r"highest speed +grows without bound +238\.214985 s +towards the fold", said)
+
+
 @pytest.mark.parametrize(
     ("old", "new", "words"),
     [
         ("margin = 0.9", "margin = 9", ["margin must be at most 2 m"]),
-        ("end = [60, 0]", "end = [0, 0]", ["path.pieces.0", "got 0 m"]),
-        ("end = [60, 0]", "end = [60]", ["path.pieces.0.end", "at least 2 entries"]),
-        ('"line"', '"maze"', ["path.pieces.0", "'line'", "maze"]),
+        ("end = [60, 0]", "end = [0, 0]", ["path.pieces[0]", "got 0 m"]),
+        ("end = [60, 0]", "end = [60]", ["path.pieces[0].end", "at least 2 entries"]),
+        ('"line"', '"maze"', ["path.pieces[0]", "'line'", "maze"]),
         ("yard.geojson", "garden.geojson", ["garden.geojson", "No such file"]),
         ("margin =", "margin", ["not TOML"]),
         ("start = 15", "start = 1", ["start must be at least 7.81", "got 1 s"]),

@@ -93,11 +93,51 @@ def test_a_toy_dragon_has_its_square_on_a_table() -> None:
     assert place_of({"type": "Polygon", "coordinates": [ring(0, 0, 0.5, 0.5)]}, None, toy).venue is not None
 
 
-def test_an_obstacle_far_away_makes_the_whole_wide() -> None:
+def test_an_obstacle_far_away_makes_no_square_of_degrees_one_of_metres() -> None:
     square = {"type": "Feature", "properties": {"name": "square"}, "geometry": around(40.0)}
     stall = {"type": "Feature", "geometry": {"type": "Polygon", "coordinates": [ring(0, 0, 9, 9)]}}
     whole = {"type": "FeatureCollection", "features": [square, stall]}
-    assert place_of(whole, None, Dragon()).origin is None
+    with pytest.raises(InvalidValue, match="longitude and latitude"):
+        place_of(whole, None, Dragon())
+
+
+@pytest.mark.parametrize("coordinates", [{}, {"coordinates": "metres"}, {"coordinates": "degrees"}])
+def test_latitude_before_longitude_is_told(client: httpx.Client, coordinates: dict[str, Any]) -> None:
+    ((*corners,),) = around(40.0)["coordinates"]
+    swapped = {"type": "Polygon", "coordinates": [[[y, x] for x, y in corners]]}
+    answer = client.post("/check", json=DANCE | {"venue": swapped} | coordinates)
+    assert answer.status_code == 422
+    assert "longitude comes first and latitude second, and here they look swapped" in answer.json()["detail"]
+    right = around(40.0, 120.1551, 28.9703)
+    assert client.post("/check", json=DANCE | {"venue": right, "coordinates": "degrees"}).status_code == 200
+
+
+def test_a_latitude_beyond_90_that_no_order_mends_is_refused_without_that_hint() -> None:
+    geometry = {"type": "Polygon", "coordinates": [ring(120, 95, 121, 96)]}
+    with pytest.raises(InvalidValue, match=r"must be at most 90 degrees, got 95 degrees$"):
+        place_of(geometry, "degrees", Dragon())
+
+
+@pytest.mark.parametrize("coordinates", ["metres", "degrees"])
+@pytest.mark.parametrize("call", ["check", "figures/trajectory.svg", "figures/contact.svg"])
+def test_coordinates_without_a_venue_are_refused(client: httpx.Client, call: str, coordinates: str) -> None:
+    dance = {name: value for name, value in DANCE.items() if name != "stop"}
+    answer = client.post(f"/{call}", json=dance | {"coordinates": coordinates})
+    assert answer.status_code == 422
+    (item,) = answer.json()["errors"]
+    assert item["pointer"] == "/coordinates"
+    assert f"got {coordinates} without a venue: give the venue, or leave coordinates out" in item["detail"]
+
+
+@pytest.mark.parametrize("place", ["feature", "geometry"])
+def test_a_coordinate_system_named_further_in_is_refused_and_not_overlooked(place: str) -> None:
+    system = {"crs": {"type": "name", "properties": {"name": "EPSG:4326"}}}
+    geometry = METRES | (system if place == "geometry" else {})
+    feature = {"type": "Feature", "geometry": geometry} | (system if place == "feature" else {})
+    field = "venue.features.0.crs" if place == "feature" else "venue.features.0.geometry.crs"
+    with pytest.raises(InvalidValue, match=r"name it in venue\.crs") as refused:
+        place_of({"type": "FeatureCollection", "features": [feature]}, None, Dragon())
+    assert refused.value.field == field
 
 
 # -- laid out ------------------------------------------------------------------------------------------------
@@ -216,7 +256,7 @@ def test_a_crs_that_names_none_is_refused(client: httpx.Client, system: Any) -> 
 @pytest.mark.parametrize(
     ("box", "pointer", "words"),
     [
-        (ring(28.0, 120.0, 28.001, 120.001), "/venue/coordinates/0/0/1", ("at most 90 degrees", "got 120.0 degrees")),
+        (ring(28.0, 120.0, 28.001, 120.001), "/venue/coordinates/0/0/1", ("at most 90 degrees", "got 120 degrees")),
         (ring(181.0, 0.0, 181.001, 0.001), "/venue/coordinates/0/0/0", ("at most 180 degrees",)),
         (ring(120.0, 28.0, 120.3, 28.001), "/venue", ("at most 20 km across", "got about 29.49 km")),
         ([[120, 28], [120.001, 28], [120.001]], "/venue/coordinates/0/2", ("[longitude, latitude] in degrees",)),

@@ -20,6 +20,11 @@ ENVIRONMENT = {
 }
 PATIENCE = 120.0  # [s]: only against a test that would hang
 FIVE = ("--benches", "5", "--start-turns", "6")  # a dragon whose proof takes no time
+# A dragon whose minimum pitch a fold limits, on a circle of diameter 1.7 m.
+FOLDING = (
+    *("--benches", "14", "--head-length", "2.21", "--body-length", "1.47", "--width", "0.06", "--overhang", "0.12"),
+    *("--turning-diameter", "1.7", "--start-turns", "5"),
+)
 
 
 def run(*arguments: str, text: str | None = None, **environment: str) -> subprocess.CompletedProcess[str]:
@@ -82,8 +87,19 @@ def test_a_certificate_without_a_member_is_one_line_that_names_it(certificate: P
 def test_a_wrong_claim_is_refused_and_leaves_no_file(tmp_path: Path) -> None:
     done = run("collision-time", *FIVE, "--time", "20", "--output", str(tmp_path / "wrong.json"))
     assert (done.returncode, done.stdout) == (1, "")
-    assert done.stderr == "Refused: no two benches overlap at 20.0 + 1e-10 s\n"
+    assert done.stderr == "Refused: no two benches overlap at 20 + 1e-10 s\n"
     assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize("time", [(), ("--time", "1e-11")], ids=["found", "claimed"])
+def test_a_contact_at_the_start_claims_no_time_before(tmp_path: Path, time: tuple[str, ...]) -> None:
+    path = tmp_path / "start.json"
+    done = run("collision-time", "--margin", "0.2", *time, "--output", str(path))
+    assert done.returncode == 0, done.stderr
+    when = "1e-11" if time else "0"
+    words = f"benches 0 and 33 are nearer than 0.2 m at {when} + 1e-10 s, within 2e-10 s of the start, so that no time "
+    assert f"turns: {words}before is claimed to be clear.\n" in done.stdout
+    assert run("--check", str(path)).stdout == done.stdout
 
 
 def test_a_minimum_pitch_is_proven_and_checked(tmp_path: Path) -> None:
@@ -120,13 +136,19 @@ pieces = [
     [
         (("collision-time", *FIVE, "--margin", "0.1"), "are nearer than 0.1 m at"),
         (("minimum-pitch", "--turning-diameter", "4", "--benches", "11", "--start-turns", "5", "--margin", "0.05"),
-         "come nearer to one another than 0.05 m until the head is 2.0 m from the centre"),
+         "come nearer to one another than 0.05 m until the head is 2 m from the centre"),
+        (("minimum-pitch", *FOLDING), "with 1e-6 m less bench 0 cannot follow so far (it folds)"),
+        (("minimum-pitch", *FOLDING, "--benches", "1"), "bench 0 cannot follow so far (it folds)"),
+        (("minimum-pitch", *FOLDING, "--benches", "1", "--overhang", "0.275"), "less the start lies within"),
         (("clear", "--benches", "4"), "bench 0 cannot follow any more (it folds) before 432.9179242"),
-        (("clear", *FIVE, "--stop", "20", "--margin", "0.1"), "from 0.0 s to 20.0 s."),
-        (("turn", "--benches", "14", "--start", "-5", "--stop", "20"), "touch from -5.0 s to 20.0 s."),
+        (("clear", *FIVE, "--stop", "20", "--margin", "0.1"), "from 0 s to 20 s."),
+        (("turn", "--benches", "14", "--start", "-5", "--stop", "20"), "touch from -5 s to 20 s."),
         (("turn", "--benches", "20", "--start", "-5", "--stop", "20", "--margin", "0.34"), "nearer than 0.34 m at 13."),
     ],
-    ids=["time with a margin", "pitch with a margin", "to the fold", "to a stop", "turn", "turn with a margin"],
+    ids=[
+        "time with a margin", "pitch with a margin", "pitch at a fold", "one bench at a fold", "start at the circle",
+        "to the fold", "to a stop", "turn", "turn with a margin",
+    ],
 )  # fmt: skip
 def test_every_claim_is_proven_and_its_certificate_checked(
     arguments: tuple[str, ...], words: str, tmp_path: Path
@@ -172,7 +194,11 @@ def test_a_dance_along_waypoints_has_no_proof(tmp_path: Path) -> None:
     file.write_text('dragon = {benches = 3}\npath = {kind = "waypoints", points = [[0, 0], [20, 1], [40, 0]]}\n')
     done = run("dance", str(file))
     assert (done.returncode, done.stdout) == (2, "")
-    assert done.stderr == "Error: path must be of lines, arcs and coils for a proof in ball arithmetic, got waypoints\n"
+    assert done.stderr == (
+        "Error: path must be a spiral, a turn or a route of lines, arcs and coils for a proof in ball arithmetic, got "
+        "waypoints: on a path with waypoints a dance can be checked in double precision, with bounds on its rounding, "
+        "not proven\n"
+    )
 
 
 @pytest.mark.parametrize(

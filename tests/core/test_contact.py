@@ -16,6 +16,7 @@ from core import (
     Dragon,
     EndReason,
     InvalidValue,
+    Line,
     Outcome,
     OutsideRun,
     Route,
@@ -453,6 +454,24 @@ def test_a_claim_says_what_is_seen_at_the_start_and_what_is_not_decided() -> Non
     assert f"to {clear} s no two benches that share no handle touch; whether any do after that is not decided." in (
         undecided.certificate.method
     )
+
+
+def test_nothing_is_said_to_be_clear_where_benches_touch_at_the_start_or_nothing_is_decided() -> None:
+    dragon, spiral = Dragon(), Spiral()
+    at_start = first_contact(Dance(dragon, spiral), margin=0.2)
+    assert (at_start.outcome, at_start.certificate.clear_until) == (Outcome.CONTACT_AT_START, None)
+    seen = float(clearance_profile(Dance(dragon, spiral), 0.0).clearance)
+    undecided = first_contact(Dance(dragon, spiral), margin=seen)
+    assert (undecided.outcome, undecided.certificate.clear_until) == (Outcome.UNDECIDED, None)
+    words = (
+        f"from 0 s on it is not decided whether two benches that share no handle are nearer to each other than {seen} m"
+    )
+    assert words in undecided.certificate.method
+
+
+def test_numbers_of_a_claim_have_no_needless_zero_and_no_sign_of_one() -> None:
+    method = first_contact(Dance(Dragon(5), Route([Line((0.0, 0.0), (60.0, 0.0))])), start=20.0).certificate.method
+    assert "on a route from s = 0 m to 60 m (line), the head at 1 m/s: from 20 s to 60 s" in method
 
 
 # -- clearance along time --------------------------------------------------------------------------------

@@ -57,7 +57,7 @@ def test_the_shortest_chord_is_accepted() -> None:
         ("benches", 2.5, "whole number"),
         ("benches", True, "whole number"),
         ("benches", "223", "whole number"),
-        ("head_length", 0.0, "must be positive, got 0.0 m"),
+        ("head_length", 0.0, "must be positive, got 0 m"),
         ("body_length", -2.2, "must be positive, got -2.2 m"),
         ("width", -0.3, "dragon.width must be positive, got -0.3 m"),
         ("width", SIZE_MIN / 2, "at least 0.001 m, got 0.0005 m"),

@@ -400,10 +400,10 @@ def test_angle_sum_finds_just_the_overlaps_with_a_corner_inside(seed: int, count
         (0, "y", math.inf, "benches[0].y must be a finite number, got inf m"),
         (2, "x", 1e308, "benches[2].x must be from -1e+09 to 1e+09 m, got 1e+308 m"),
         (2, "heading", -math.inf, "benches[2].heading must be a finite number, got -inf rad"),
-        (1, "length", 0.0, "benches[1].length must be positive, got 0.0 m"),
+        (1, "length", 0.0, "benches[1].length must be positive, got 0 m"),
         (1, "width", -0.3, "benches[1].width must be positive, got -0.3 m"),
         (0, "width", math.nan, "benches[0].width must be a finite number, got nan m"),
-        (0, "length", 1e5, "benches[0].length must be from 0.001 to 10000 m, got 100000.0 m"),
+        (0, "length", 1e5, "benches[0].length must be from 0.001 to 10000 m, got 100000 m"),
     ],
 )
 def test_a_bad_bench_is_refused_by_number_and_name(row: int, name: str, value: float, said: str) -> None:

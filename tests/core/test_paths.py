@@ -106,15 +106,15 @@ def test_a_spiral_at_its_limits_is_accepted(pitch: float, turns: float) -> None:
 @pytest.mark.parametrize(
     ("name", "value", "words"),
     [
-        ("pitch", 0.0, "must be positive, got 0.0 m"),
+        ("pitch", 0.0, "must be positive, got 0 m"),
         ("pitch", -0.55, "must be positive, got -0.55 m"),
         ("pitch", SIZE_MIN * 0.999, "at least 0.001 m"),
         ("pitch", SIZE_MAX * 1.001, "at most 10000 m"),
         ("pitch", float("nan"), "finite"),
         ("pitch", "0.55", "number"),
         ("pitch", True, "number"),
-        ("start_turns", 0.0, "must be positive, got 0.0 turns"),
-        ("start_turns", -1.0, "must be positive, got -1.0 turns"),
+        ("start_turns", 0.0, "must be positive, got 0 turns"),
+        ("start_turns", -1.0, "must be positive, got -1 turns"),
         ("start_turns", START_TURNS_MAX * 1.001, "at most 100000 turns"),
         ("start_turns", float("inf"), "finite"),
         ("start_turns", None, "number"),

@@ -192,7 +192,7 @@ MALFORMED = {
         "claim.margin",
         "claim.margin must be positive (no margin, no such member), got 0",
     ),
-    "an unknown member of a sweep": (at("sweeps", 1, "x", put=0), "sweeps.1.x", "sweeps.1.x is no member of it"),
+    "an unknown member of a sweep": (at("sweeps", 1, "x", put=0), "sweeps.1.x", "sweeps[1].x is no member of it"),
     "a missing member": (lambda c: c.pop("sweeps"), "sweeps", "sweeps is missing"),
     "a claim without time": (lambda c: c["claim"].pop("time"), "claim.time", "claim.time is missing"),
     "a claim of another kind": (
@@ -209,14 +209,14 @@ MALFORMED = {
     "a time in words": (at("claim", "time", put="51"), "claim.time", 'claim.time must be a number, got "51"'),
     "a pitch below all": (at("claim", "pitch", put=-1), "claim.pitch", "claim.pitch must be positive, got -1 m"),
     "a time past the centre": (
-        at("claim", "time", put=1e6), "claim.time", "claim.time must be at most 442.59 s, got 1000000.0 s",
+        at("claim", "time", put=1e6), "claim.time", "claim.time must be at most 442.59 s, got 1000000 s",
     ),
     "no precision": (at("precision", put=0), "precision", "precision must be from 53 to 4096 bits, got 0"),
     "too little precision": (at("precision", put=52), "precision", "precision must be from 53 to 4096 bits, got 52"),
     "too much precision": (at("precision", put=4097), "precision", "precision must be from 53 to 4096 bits, got 4097"),
     "half a bit": (at("precision", put=96.5), "precision", "precision must be a whole number, got 96.5"),
-    "a run of three": (at("dragon", 1, put=[1, 2, 3]), "dragon.1", "dragon.1 must be a list of 4, got a list of 3"),
-    "half a bench": (at("dragon", 1, 0, put=0.5), "dragon.1.0", "dragon.1.0 must be a whole number, got 0.5"),
+    "a run of three": (at("dragon", 1, put=[1, 2, 3]), "dragon.1", "dragon[1] must be a list of 4, got a list of 3"),
+    "half a bench": (at("dragon", 1, 0, put=0.5), "dragon.1.0", "dragon[1][0] must be a whole number, got 0.5"),
     "a bench without a chord": (
         at("dragon", 1, 3, put=2.0),
         "dragon.overhangs.1",
@@ -228,30 +228,30 @@ MALFORMED = {
     "a bench that is true": (
         at("overlap", "benches", 0, put=True),
         "overlap.benches.0",
-        "overlap.benches.0 must be a whole number, got true",
+        "overlap.benches[0] must be a whole number, got true",
     ),
     "a stretch of two": (
         at("sweeps", 0, "stretches", 7, put=[1, 2]),
         "sweeps.0.stretches.7",
-        "sweeps.0.stretches.7 must be [highest theta, lowest theta, faces], got a list of 2",
+        "sweeps[0].stretches[7] must be [highest theta, lowest theta, faces], got a list of 2",
     ),
     "a theta without end": (
         at("sweeps", 0, "stretches", 7, 0, put=math.inf),
         "sweeps.0.stretches.7.0",
-        "sweeps.0.stretches.7.0 must be a number from -1e+15 to 1e+15, got inf",
+        "sweeps[0].stretches[7][0] must be a number from -1e+15 to 1e+15, got inf",
     ),
     "a ninth face": (
         at("sweeps", 0, "stretches", 7, 2, put="08"),
         "sweeps.0.stretches.7.2",
-        'sweeps.0.stretches.7.2 must be faces, digits from 0 to 7, got "08"',
+        'sweeps[0].stretches[7][2] must be faces, digits from 0 to 7, got "08"',
     ),
     "a face for no bench": (
         at("sweeps", 0, "stretches", 0, 2, put="4330"),
         "sweeps.0.stretches.0.2",
-        "sweeps.0.stretches.0.2 must have at most 3 faces, one for each bench behind, got 4",
+        "sweeps[0].stretches[0][2] must have at most 3 faces, one for each bench behind, got 4",
     ),
     "a long text": (at("repeats_from", put="9" * 90), "repeats_from", f'must be a whole number, got "{"9" * 39}...'),
-    "no second sweep": (lambda c: c["sweeps"].pop(), "sweeps", "sweeps.1 is missing"),
+    "no second sweep": (lambda c: c["sweeps"].pop(), "sweeps", "sweeps[1] is missing"),
 }  # fmt: skip
 
 

@@ -289,7 +289,7 @@ GOOD = ((0.0, 0.0, 0.0), BENCH)
         ((1e308, 0, 0), BENCH, "poses_a.0.x", "from -1e+09 to 1e+09 m, got 1e+308 m"),
         ((0, np.nextafter(-POSITION_MAX, -math.inf), 0), BENCH, "poses_a.0.y", "from -1e+09 to 1e+09 m"),
         ((0, 0, 0), (2.2, -0.3), "sizes_a.0.width", "positive, got -0.3 m"),
-        ((0, 0, 0), (0.0, 0.3), "sizes_a.0.length", "positive, got 0.0 m"),
+        ((0, 0, 0), (0.0, 0.3), "sizes_a.0.length", "positive, got 0 m"),
         ((0, 0, 0), (np.nextafter(SIZE_MIN, 0), 0.3), "sizes_a.0.length", "from 0.001 to 10000 m"),
         ((0, 0, 0), (np.nextafter(SIZE_MAX, math.inf), 0.3), "sizes_a.0.length", "from 0.001 to 10000 m"),
         ((0, 0), BENCH, "poses_a", "shape (..., 3): x, y, heading, got (2,)"),

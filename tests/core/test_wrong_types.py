@@ -48,24 +48,32 @@ CALLS: dict[Callable[..., Any], dict[str, Any]] = {
     core.Turn: {"pitch": 1.7, "turning_radius": 4.5, "ratio": 2.0, "start_turns": 16.0, "entry_radius": 4.0},
     core.venue_clearance: {"dance": DANCE, "venue": SQUARE, "margin": 0.0, "stop": 9.0},
     core.verdicts: {"before": POSES, "after": POSES, "lengths": COLUMN, "widths": COLUMN, "margin": 0.0},
+    core.Arc: {"centre": (0, 0), "radius": 3.0, "start_angle": 0.0, "sweep": 1.0},
     core.Area: {"name": "square", "rings": SQUARE.square.rings},
+    core.Coil: {"pitch": 0.5, "start_turns": 5.0, "end_turns": 3.0, "centre": (0, 0), "rotation": 0.0},
     core.Dance: {"dragon": DRAGON, "path": SPIRAL, "head_speed": 1.0},
     core.Dragon: {"benches": 5, "head_length": 3.0, "body_length": 2.0, "width": 0.3, "overhang": 0.2},
     core.Dragon.of: {"lengths": COLUMN, "widths": COLUMN, "overhangs": [0.2, 0.2]},
+    core.Line: {"start": (0, 0), "end": (60, 0)},
     core.Route: {"pieces": [Line((0, 0), (60, 0))], "start": 0.0},
     core.Spiral: {"pitch": 0.55, "start_turns": 16.0},
     core.Venue: {"square": SQUARE.square, "obstacles": ()},
     core.Venue.from_geojson: {"geometry": {"type": "Polygon", "coordinates": [SQUARE.square.rings[0]]}},
+    core.Waypoints: {"points": ((0, 0), (5, 5)), "start_heading": 0.0, "end_heading": 0.0},
 }
 # What the refusal calls a parameter where not by its own name: as part of the whole, or by its columns.
 SPOKEN = {
+    core.Arc: dict.fromkeys(CALLS[core.Arc], "arc."),
     core.Area: {"name": "venue", "rings": "venue"},
+    core.Coil: dict.fromkeys(CALLS[core.Coil], "coil."),
     core.Dragon: dict.fromkeys(CALLS[core.Dragon], "dragon."),
     core.Dragon.of: dict.fromkeys(CALLS[core.Dragon.of], "dragon."),
+    core.Line: dict.fromkeys(CALLS[core.Line], "line."),
     core.Route: {"pieces": "path.pieces", "start": "path.start"},
     core.Spiral: {"pitch": "path.pitch", "start_turns": "path.start_turns"},
     core.Venue: {"square": "venue", "obstacles": "venue"},
     core.Venue.from_geojson: {"geometry": "venue"},
+    core.Waypoints: dict.fromkeys(CALLS[core.Waypoints], "waypoints."),
     core.cross_check: {"poses": "benches"},
     core.overlaps: {"poses": "benches"},
     core.pitch_scan: {"start_turns": "path.start_turns"},
@@ -83,14 +91,17 @@ WRONG = {
     "ragged": [[1.0], [1.0, 2.0]],
 }
 # None stands for a default there, and these are right there.
-ALLOWED = {("nothing", name) for name in ("venue", "speed_limit", "start", "stop", "entry_radius")}
+ALLOWED = {
+    ("nothing", name)
+    for name in ("venue", "speed_limit", "start", "stop", "entry_radius", "start_heading", "end_heading")
+}
 ALLOWED |= {("path", "path"), ("dragon", "dragon"), ("text", "name")}
 CASES = [
     (call, name, kind)
     for call, good in CALLS.items()
     for name in good
     for kind in WRONG
-    if (kind, name) not in ALLOWED or (call in (core.first_contact, core.Route) and name == "start")
+    if (kind, name) not in ALLOWED or (call in (core.first_contact, core.Line, core.Route) and name == "start")
 ]
 
 

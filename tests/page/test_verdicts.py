@@ -19,6 +19,12 @@ def tone(page: Any, name: str) -> str:
     return str(page.evaluate(probe))
 
 
+def times_of_the_fold(page: Any) -> set[str]:
+    """How the time of the fold is written for people; a command to copy has all digits of the instant shown."""
+    said = " ".join(page.locator(place).inner_text() for place in ("#answers", "#handles", "#dance", "#charts"))
+    return set(re.findall(r"238\.2149\d*", said))
+
+
 def verdict(page: Any) -> tuple[str, str, str]:
     """Outcome, mark and words of the first answer."""
     box = page.locator("#first-contact")
@@ -53,11 +59,49 @@ def test_a_fold_says_in_both_languages_that_the_dance_fails_and_who_folds(open_p
     page = open_page("?benches=40&pitch=1.2&start_turns=8")
     page.locator("#run-end .value").wait_for()
     said = page.locator("#first-contact").inner_text()
-    assert "The dance fails there, where head can no longer follow the spiral." in said
-    assert "Head cannot follow any more: the chain folds." in page.locator("#run-end").inner_text()
+    assert "The dance fails there, where the head can no longer follow the spiral." in said
+    assert "The head cannot follow any more: the chain folds." in page.locator("#run-end").inner_text()
     page.get_by_role("button", name="中文").click()
     page.locator("#first-contact .value", has_text="238.214985 s 时队伍折叠").wait_for()
     assert "舞龙在此失败" in page.locator("#first-contact").inner_text()
+
+
+@pytest.mark.parametrize(
+    "viewport", [{"width": 1440, "height": 900}, {"width": 390, "height": 844}], ids=["wide", "phone"]
+)
+def test_one_event_has_one_time_and_speeds_before_a_fold_are_marked(
+    open_page: Any, server: str, viewport: dict[str, int]
+) -> None:
+    page = open_page("?benches=9", viewport=viewport)
+    page.route("**/pitch-scan*", lambda route: None)  # it takes seconds, and says nothing of one dance
+    page.goto(f"{server}/?benches=40&pitch=1.2&start_turns=8")
+    page.locator("#run-end .value").wait_for()
+    page.locator("#table-fold").wait_for()
+    assert times_of_the_fold(page) == {"238.214985"}
+    note = "Just before the fold at 238.214985 s: towards it the speeds grow without bound."
+    assert page.locator("#table-fold").inner_text() == note
+    assert "1e-6 s before the fold at 238.214985 s" in page.locator("#table-time").inner_text()
+    assert "m/s → ∞" in page.locator("#legend").inner_text()
+    page.get_by_role("button", name="中文").click()
+    page.locator("#table-fold", has_text="即将在 238.214985 s 折叠").wait_for()
+    assert times_of_the_fold(page) == {"238.214985"}
+    page.goto(f"{server}/?benches=40&pitch=1.2&start_turns=8&time=100")
+    page.locator("#table-time", has_text="100.000000").wait_for()
+    assert page.locator("#table-fold").is_hidden()
+    assert "∞" not in page.locator("#legend").inner_text()
+
+
+def test_benches_that_are_too_near_at_the_start_are_not_said_to_be_clear_before(open_page: Any, server: str) -> None:
+    page = open_page("?benches=9")
+    page.route("**/pitch-scan*", lambda route: None)  # with a margin a scan takes many seconds, and adds no words
+    page.goto(f"{server}/?benches=60&margin=0.2")
+    page.locator("#first-contact[data-outcome=contact_at_start]").wait_for()
+    page.locator("#first-contact summary").click()
+    said = page.locator("#first-contact").inner_text()
+    assert "They are nearer than 0.2 m at the start: no time before it is proven clear".lower() in said.lower()
+    assert "up to 0" not in said
+    page.get_by_role("button", name="中文").click()
+    page.locator("#first-contact dl", has_text="起始时刻间距已小于 0.2 m").wait_for()
 
 
 @pytest.mark.parametrize(

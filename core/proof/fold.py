@@ -1,0 +1,86 @@
+"""Folds in balls: that a bench cannot follow any more (12.)."""
+
+from __future__ import annotations
+
+import math
+
+from flint import arb
+
+from core.proof.chain import Chain, Stretch, slopes
+from core.proof.pairs import Unproven, above, below
+
+# Pieces of a bend that are looked at before a fold counts as not shown; 20 to 60 are usual.
+FOLD_PIECES = 10_000
+# Where the wall of 12. is looked for: by steps of these [rad], up to so far. Where a fold only just exists F falls only
+# on a short way.
+WALL_STEPS, WALL_MOST = (0.01, 0.0001), 7.0
+
+
+def folding(chain: Chain, before: arb, after: arb) -> int:
+    """The bench that cannot follow any more when the head gets from one theta to another [rad].
+
+    raises: Unproven
+    """
+    pose = chain.pose_at(0, after)
+    try:
+        pose.grow(chain.count)
+    except Unproven:
+        bench = len(pose.bends)
+    else:
+        raise Unproven("every bench is shown to follow past the end that is claimed")
+    check_fold(chain, bench, before, after)
+    return bench
+
+
+def check_fold(chain: Chain, bench: int, before: arb, after: arb) -> None:
+    """Check that this bench cannot follow any more when the head gets from one theta to another [rad].
+
+    raises: Unproven
+    """
+    pose = chain.pose_at(0, after)
+    pose.grow(bench)
+    highest = before
+    if bench:
+        stretch = Stretch(chain, 0, below(after), above(before), chain.count)
+        while len(stretch.placed) < bench:
+            stretch.grow()
+        highest = stretch.thetas[bench]
+    needed, lowest = chain.needed[bench], pose.thetas[bench]
+    start = chain.pose_at(0, before)
+    start.grow(bench + 1)
+    wall = _wall(float(lowest), float(start.bends[bench]))
+    if not (start.bends[bench] < wall and _moved(highest, arb(wall)) < needed):
+        raise Unproven(f"no wall is found behind bench {bench}")
+    if not _stays_short(lowest, wall, needed):
+        raise Unproven(f"bench {bench} is not shown to fold")
+
+
+def _moved(theta: arb, d: arb) -> arb:
+    """F(theta, d)."""
+    return d**2 + 2 * theta * (theta + d) * (1 - d.cos())
+
+
+def _wall(theta: float, d: float) -> float:
+    """About the first local minimum of F(theta, .) beyond d [rad]."""
+    for step in WALL_STEPS:
+        falls, wall = False, d
+        while wall < d + WALL_MOST:
+            slope = wall + theta * (1.0 - math.cos(wall)) + theta * (theta + wall) * math.sin(wall)
+            if falls and slope > 0.0:
+                return wall
+            falls = falls or slope < 0.0
+            wall += step
+    raise Unproven("bends of every size are possible")
+
+
+def _stays_short(theta: arb, wall: float, needed: arb) -> bool:
+    """Is F(theta, d) < needed for all d from 0 to the wall [rad]?"""
+    pieces = [(0.0, wall)]
+    for _ in range(FOLD_PIECES):
+        if not pieces:
+            return True
+        low, high = pieces.pop()
+        hull, middle = arb(low).union(arb(high)), arb((low + high) / 2)
+        if not _moved(theta, middle) + slopes(theta, hull)[1] * (hull - middle) < needed:
+            pieces += [(low, float(middle)), (float(middle), high)]
+    return False

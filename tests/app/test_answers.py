@@ -1,0 +1,35 @@
+"""What the fields of an answer say holds without a margin and with one."""
+
+from __future__ import annotations
+
+import re
+
+import pytest
+
+from app import answers, report
+
+TOUCHING = re.compile(r"\b(touch|overlap|meet)", re.IGNORECASE)
+# What is said of a touch alone, of both by `nearest`, or of no contact.
+APART_FROM_MARGINS = {
+    ("Turn", "tangent_point"), ("ShortestTurn", "tangent_point"), ("Overlap", "separation"), ("Nearest", "distance"),
+    ("LeastClearance", "distance"), *(("CollisionTime", name) for name in ("margin", "corner", "edge")),
+}  # fmt: skip
+FIELDS = [
+    (model.__name__, name, field.description or "")
+    for module in (answers, report)
+    for model in vars(module).values()
+    if isinstance(model, type) and issubclass(model, answers.Answer) and model.__module__ == module.__name__
+    for name, field in model.model_fields.items()
+]
+
+
+@pytest.mark.parametrize(("model", "name", "words"), FIELDS, ids=lambda value: value if value.isidentifier() else "")
+def test_a_field_that_speaks_of_a_touch_speaks_of_the_margin_too(model: str, name: str, words: str) -> None:
+    assert TOUCHING.search(words) or (model, name) not in APART_FROM_MARGINS
+    if TOUCHING.search(words) and (model, name) not in APART_FROM_MARGINS:
+        assert re.search(r"margin|nearer", words), words
+
+
+def test_when_nothing_is_proven_clear_is_said() -> None:
+    words = answers.Certificate.model_fields["clear_until"].description or ""
+    assert "null where no time is proven clear" in words

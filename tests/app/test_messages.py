@@ -1,0 +1,67 @@
+"""What an unknown name is taken for: only for one that the call itself has, at that place."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import httpx
+import pytest
+
+from app.messages import names_at
+from app.schemas import CheckRequest, CollisionQuery, OverlapsRequest, TrajectoryRequest
+
+
+@pytest.mark.parametrize(
+    ("call", "name", "words"),
+    [
+        ("collision-time?pich=1", "pich", "did you mean pitch?"),
+        ("collision-time?entry_radus=1", "entry_radus", "leave it out"),
+        ("collision-time?turning_diameters=1", "turning_diameters", "leave it out"),
+        ("minimum-pitch?turning_diameters=1", "turning_diameters", "did you mean turning_diameter?"),
+        ("turn?entry_radus=1", "entry_radus", "did you mean entry_radius?"),
+        ("turn?head_sped=1", "head_sped", "leave it out"),
+        ("collision-time?start=1", "start", "leave it out"),
+    ],
+)
+def test_a_query_is_told_of_names_of_its_own_call(client: httpx.Client, call: str, name: str, words: str) -> None:
+    answer = client.get(f"/{call}")
+    assert answer.status_code == 422
+    assert answer.json()["errors"] == [{"name": name, "detail": f'"{name}" is unknown here: {words}'}]
+
+
+@pytest.mark.parametrize(
+    ("call", "body", "pointer", "words"),
+    [
+        ("check", {"path": {"kind": "turn", "entry_radus": 4}}, "/path/entry_radus", "did you mean entry_radius?"),
+        ("check", {"path": {"entry_radus": 4}}, "/path/entry_radus", "leave it out"),
+        ("check", {"dragon": {"lengths": [1], "widths": [1], "overhangs": [0], "width": 1}}, "/dragon/width",
+         "did you mean widths?"),
+        ("check", {"dragon": {"widhts": 1}}, "/dragon/widhts", "did you mean width?"),
+        ("check", {"path": {"kind": "route", "pieces": [{"kind": "line", "start": [0, 0], "end": [1, 0], "stat": 0}]}},
+         "/path/pieces/0/stat", "did you mean start?"),
+        ("check", {"path": {"kind": "route", "pieces": [{"kind": "line", "start": [0, 0], "end": [1, 0], "pich": 0}]}},
+         "/path/pieces/0/pich", "leave it out"),
+        ("trajectory", {"time": {}}, "/time", "did you mean times?"),
+        ("trajectory", {"times": {"stpo": 4}}, "/times/stpo", "did you mean stop?"),
+        ("check", {"times": {}}, "/times", "leave it out"),
+        ("overlaps", {"benches": [{"x": 0, "y": 0, "heading": 0, "length": 1, "width": 1, "hedding": 1}]},
+         "/benches/0/hedding", "did you mean heading?"),
+    ],
+)  # fmt: skip
+def test_a_body_is_told_of_names_of_its_own_place(
+    client: httpx.Client, call: str, body: dict[str, Any], pointer: str, words: str
+) -> None:
+    answer = client.post(f"/{call}", json=body)
+    assert answer.status_code == 422
+    (item,) = answer.json()["errors"]
+    assert item == {"pointer": pointer, "detail": f'"{pointer.split("/")[-1]}" is unknown here: {words}'}
+
+
+def test_the_names_of_a_place_are_those_of_its_type() -> None:
+    assert names_at(CollisionQuery, ()) == list(CollisionQuery.model_fields)
+    assert "entry_radius" in names_at(CheckRequest, ("path", "turn"))
+    assert names_at(CheckRequest, ("dragon", "bench_by_bench")) == ["lengths", "widths", "overhangs"]
+    assert names_at(CheckRequest, ("path", "route", "pieces", 3, "line")) == ["kind", "start", "end"]
+    assert names_at(TrajectoryRequest, ("times", "range")) == ["start", "stop", "step"]
+    assert names_at(OverlapsRequest, ("benches", 0))[:3] == ["x", "y", "heading"]
+    assert names_at(CheckRequest, ("venue", "features")) == []
