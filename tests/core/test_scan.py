@@ -47,7 +47,7 @@ def test_scan_leaves_out_pitches_without_contact_and_reports_progress() -> None:
         ([0.5, 0.4], "pitches[1] must be more than 0.5 m before it, got 0.4 m"),
         ([0.5, 0.5], "pitches[1] must be more than 0.5 m before it, got 0.5 m"),
         ([0.5, math.nan], "pitches[1] must be more than 0.5 m before it, got nan m"),
-        ([-0.5, 0.5], "pitches.0 must be positive, got -0.5 m"),
+        ([-0.5, 0.5], "pitches[0] must be positive, got -0.5 m"),
         ([[0.5]], "pitches must be a list of numbers in metres, ascending, got [[0.5]]"),
     ],
 )
