@@ -164,8 +164,8 @@ def _contact(dragon: Dragon, danced: Turn, start_turns: float, margin: float, cl
         found = first_contact(Dance(dragon, coil), margin=margin, start=start, stop=before)
         if found.outcome is not Outcome.CLEAR:
             return _touch(found, before)
-    stop, front = _way(dragon, danced, margin)
-    arc = stop - danced.length - _coils(danced).arc(0.0)
+    stop, front = way_followed(dragon, danced, margin)
+    arc = stop - danced.length - coils_of(danced).arc(0.0)
     turns = max(start_turns, (1.0 + SPARE_TURNS) * kernels.spiral_theta(arc / coil.growth) / (2.0 * math.pi))
     entry, radius = danced.entry_radius, danced.turning_radius
     path = Turn(danced.pitch, radius, danced.ratio, start_turns=turns, entry_radius=entry)
@@ -177,10 +177,10 @@ def _touch(found: FirstContact, zero: float) -> Touch:
     return found.benches, None if found.time is None else found.time - zero
 
 
-def _way(dragon: Dragon, danced: Turn, margin: float) -> tuple[float, Dragon]:
+def way_followed(dragon: Dragon, danced: Turn, margin: float) -> tuple[float, Dragon]:
     """How far the head must be followed from the entry [m], and the benches that matter until then:
     core/contact/coils.py."""
-    coils, chords = _coils(danced), dragon.chords
+    coils, chords = coils_of(danced), dragon.chords
     whole = danced.length + STRETCH * float(chords.sum())
     out = way_out(dragon, coils, margin)
     if out is None or danced.length + out >= whole:
@@ -191,7 +191,8 @@ def _way(dragon: Dragon, danced: Turn, margin: float) -> tuple[float, Dragon]:
     return danced.length + out, dragon.leading(count)
 
 
-def _coils(danced: Turn) -> TwoCoils:
+def coils_of(danced: Turn) -> TwoCoils:
+    """The coils before and after a turn."""
     extent = max(math.hypot(*c) + r for c, r in zip(danced.centres, danced.radii, strict=True))
     return TwoCoils(danced.pitch / (2.0 * math.pi), math.pi, extent, danced.length, danced.entry_radius)
 

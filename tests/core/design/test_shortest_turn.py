@@ -110,7 +110,7 @@ def test_the_part_that_is_followed_has_the_contacts_of_the_whole_dance(sizes: An
     found = shortest_turn(dragon, **asked)
     for entry in (found.turn.entry_radius, found.turn.turning_radius):
         danced = Turn(found.turn.pitch, found.turn.turning_radius, found.turn.ratio, start_turns=30, entry_radius=entry)
-        way, front = core.design.shortest_turn._way(dragon, danced, margin)
+        way, front = core.design.shortest_turn.way_followed(dragon, danced, margin)
         assert front.benches < dragon.benches
         span = 1.6 * float(dragon.chords.sum())
         assert way < span
@@ -216,7 +216,7 @@ def test_two_coils_are_apart_by_more_than_the_margin_where_they_are_said_to_be(p
     radii = []
     # along a coil, with one between them, two benches are known to be 0.6 m apart
     for margin in np.linspace(0.0, min(0.5 * pitch - 0.35, 0.55), 5):
-        clear = rings_clear(dragon, core.design.shortest_turn._coils(danced), margin)
+        clear = rings_clear(dragon, core.design.shortest_turn.coils_of(danced), margin)
         assert clear is not None
         radii.append(clear)
         for shift in np.linspace(0.0, 2.0, 9):
@@ -224,4 +224,4 @@ def test_two_coils_are_apart_by_more_than_the_margin_where_they_are_said_to_be(p
             other = poses_on(Spiral(pitch, 16), math.pi, 60, clear + shift)
             assert shapely.distance(shapely.union_all(one), shapely.union_all(other)) > margin
     assert radii == sorted(radii)
-    assert rings_clear(dragon, core.design.shortest_turn._coils(danced), 0.5 * pitch - 0.3) is None
+    assert rings_clear(dragon, core.design.shortest_turn.coils_of(danced), 0.5 * pitch - 0.3) is None

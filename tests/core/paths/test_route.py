@@ -44,7 +44,7 @@ from core import (
 )
 from core.shapes.rectangles import corners
 
-REFERENCE = json.loads((Path(__file__).parents[1] / "reference" / "turn.json").read_text())
+REFERENCE = json.loads((Path(__file__).parents[2] / "reference" / "turn.json").read_text())
 TURN = Turn(1.7, 4.5, 2.0)
 
 REFERENCE_ERROR = 1e-9  # [m], [m/s], [s]: what was asked of the reference values

@@ -24,7 +24,7 @@ from core.proof.pairs import Unproven, stays_positive
 from core.shapes.rectangles import corners
 from tests.core.forgeries import FORGERIES, edit, put_at, stretches
 
-ROOT = Path(__file__).parents[2]
+ROOT = Path(__file__).parents[3]
 CONTACTS = {
     case["name"]: case for case in json.loads((ROOT / "tests/reference/first_contact.json").read_text())["cases"]
 }

@@ -22,11 +22,11 @@ from core.proof.chain import bend
 from core.proof.pairs import Benches, Size, Unproven
 from core.proof.paths import chain_on, recorded_path
 from core.proof.route import RouteChain
-from core.proof.route_stretch import RouteStretch, _half_turn
+from core.proof.route_stretch import RouteStretch, half_turn
 from core.shapes.rectangles import corners
-from tests.core.test_proof import at, edit, places, refusal, stretches, through_json
+from tests.core.proof.test_certificate import at, edit, places, refusal, stretches, through_json
 
-ROOT = Path(__file__).parents[2]
+ROOT = Path(__file__).parents[3]
 CONTACTS = {
     case["name"]: case for case in json.loads((ROOT / "tests/reference/first_contact.json").read_text())["cases"]
 }
@@ -292,8 +292,8 @@ def test_a_stretch_of_a_route_encloses_every_pose_in_it_and_every_velocity(name:
 
 def assert_seen(stretch: RouteStretch, before: Benches, after: Benches, k: int, step: arb) -> None:
     """Bench k as seen from the first one: place, direction and velocity are enclosed."""
-    along, velocity = stretch._relative(k)
-    place = stretch._between(k, along, velocity)
+    along, velocity = stretch.relative(k)
+    place = stretch.between(k, along, velocity)
     (there, turned), (then, _) = before.seen(0, k), after.seen(0, k)
     assert along.overlaps(turned)
     assert place.overlaps(there)
@@ -313,14 +313,14 @@ def test_the_angles_of_a_chord_stay_within_those_that_the_curvature_allows() -> 
         chord = steps.sum()
         if np.abs(bends).max() * abs(chord) >= 2.0 - SAMPLED:
             continue
-        allowed = _half_turn(arb(float(bends[0])), arb(float(bends[1])), arb(float(abs(chord))))
+        allowed = half_turn(arb(float(bends[0])), arb(float(bends[1])), arb(float(abs(chord))))
         heading = float(np.angle(chord))
         for angle in (turned[-1] - heading, heading):
             assert float(allowed.lower()) - SAMPLED <= angle <= float(allowed.upper()) + SAMPLED
 
 
 def test_on_a_circle_the_angles_are_exact() -> None:
-    angle = _half_turn(arb("0.5"), arb("0.5"), arb("1.65"))
+    angle = half_turn(arb("0.5"), arb("0.5"), arb("1.65"))
     assert angle.contains((arb("0.5") * arb("1.65") / 2).asin())
     assert float(angle.rad()) < DOUBLES
 

@@ -30,7 +30,7 @@ from core.contact.search import BRACKET, MARGIN_MAX, Search
 from core.design.pitch_bands import BORDER_WIDTH
 from tests.core.slow_search import SlowDance
 
-CASES = json.loads((Path(__file__).parents[1] / "reference" / "first_contact.json").read_text())["cases"]
+CASES = json.loads((Path(__file__).parents[2] / "reference" / "first_contact.json").read_text())["cases"]
 # Times are promised to this [s] and places to what the head moves meanwhile [m].
 ACCURACY = 1e-9
 # Rounding of a separation at some ten metres from the centre [m].

@@ -32,7 +32,7 @@ from tests.core.slow_search import SlowDance
 
 pytestmark = pytest.mark.uncompiled
 
-REFERENCE = json.loads((Path(__file__).parents[1] / "reference" / "trajectory.json").read_text())
+REFERENCE = json.loads((Path(__file__).parents[2] / "reference" / "trajectory.json").read_text())
 # Positions and speeds are promised to this [m] and [m/s].
 ACCURACY = 1e-11
 # Rounding of a position, relative to the largest coordinate [1].
@@ -244,7 +244,7 @@ def test_a_wide_spiral_is_danced_to_its_centre() -> None:
 
 
 def test_the_reference_agrees_on_every_fold() -> None:
-    cases = json.loads((Path(__file__).parents[1] / "reference" / "first_contact.json").read_text())["cases"]
+    cases = json.loads((Path(__file__).parents[2] / "reference" / "first_contact.json").read_text())["cases"]
     folding = [case for case in cases if case.get("fold_time")]
     assert folding
     for case in folding:
