@@ -22,7 +22,8 @@ from core.proof import Certificate, check, prove_collision_time, prove_minimum_p
 from core.proof.chain import Chain, Pose, Stretch, bend, newton
 from core.proof.pairs import Unproven, stays_positive
 from core.shapes.rectangles import corners
-from tests.core.forgeries import FORGERIES, edit, put_at, stretches
+from tests.core.forgeries import FORGERIES, edit, places, refusal, stretches, through_json
+from tests.core.forgeries import put_at as at
 
 ROOT = Path(__file__).parents[3]
 CONTACTS = {
@@ -36,10 +37,6 @@ PITCH_ROUNDING = 1e-9
 SMALL = CONTACTS["n_5"]
 # A bend from doubles, where F is steep, is this near to the true one [rad].
 DOUBLES = 1e-9
-
-
-def through_json(certificate: Certificate) -> Certificate:
-    return json.loads(json.dumps(certificate, allow_nan=False))  # type: ignore[no-any-return]
 
 
 def proof_of(case: dict[str, Any], **changes: Any) -> Certificate:
@@ -152,12 +149,12 @@ def test_at_every_instant_every_pair_has_a_face_between_it_or_is_rings_apart(ben
     handles = trajectory(Dance(dragon, path), np.linspace(0.0, 0.999 * time, 40)).position
     thetas = np.hypot(*np.moveaxis(handles, -1, 0)) / path.growth
     sizes = np.stack([dragon.lengths, dragon.widths], axis=-1)
-    for poses, places in zip(bench_poses(handles), thetas, strict=True):
+    for poses, fronts in zip(bench_poses(handles), thetas, strict=True):
         corners_all = corners(poses, sizes)
         radii = np.hypot(*np.moveaxis(corners_all, -1, 0)).max(axis=-1)
         for a in range(benches - 2):
             tiles = stretches(certificate, min(a, 1))
-            faces = next(faces for high, low, faces in tiles if low - DOUBLES <= places[a] <= high + DOUBLES)
+            faces = next(faces for high, low, faces in tiles if low - DOUBLES <= fronts[a] <= high + DOUBLES)
             for b in range(a + 2, benches):
                 if b - a - 2 < len(faces):
                     owner, other = (a, b) if faces[b - a - 2] < "4" else (b, a)
@@ -183,7 +180,6 @@ def test_an_edit_of_what_no_proof_needs_is_refused_by_the_digest(small: Certific
         check({name: value for name, value in small.items() if name != "digest"})
 
 
-at = put_at
 MALFORMED = {
     "an unknown member": (at("note", put="x"), "note", "note is no member of it"),
     "an unknown member of the claim": (at("claim", "x", put=0), "claim.x", "claim.x is no member of it"),
@@ -274,21 +270,6 @@ def test_a_certificate_is_checked_with_the_precision_that_it_states(
     with pytest.raises(ProofRefused):
         check(edit(at("precision", put=precision))(small))
     assert used == [precision]
-
-
-def places(value: Any, place: tuple[str | int, ...] = ()) -> list[tuple[str | int, ...]]:
-    """Every member of a certificate, and the first entries of every list."""
-    entries = list(value) if isinstance(value, dict) else range(min(2, len(value))) if isinstance(value, list) else ()
-    return [place, *(found for entry in entries for found in places(value[entry], (*place, entry)))]
-
-
-def refusal(certificate: Certificate) -> str:
-    """Why a certificate is refused; empty for a proof."""
-    try:
-        check(certificate)
-    except ProofRefused as refused:
-        return refused.message
-    return ""
 
 
 @pytest.mark.parametrize(

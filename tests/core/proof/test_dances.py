@@ -24,7 +24,8 @@ from core.proof.paths import chain_on, recorded_path
 from core.proof.route import RouteChain
 from core.proof.route_stretch import RouteStretch, half_turn
 from core.shapes.rectangles import corners
-from tests.core.proof.test_certificate import at, edit, places, refusal, stretches, through_json
+from tests.core.forgeries import edit, places, refusal, stretches, through_json
+from tests.core.forgeries import put_at as at
 
 ROOT = Path(__file__).parents[3]
 CONTACTS = {
@@ -449,7 +450,10 @@ ROUTE_FORGERIES: dict[str, Forgery] = {
     "a margin": (at("claim", "margin", put=0.05), "not apart by face"),
     "a faster head": (at("claim", "head_speed", put=1.0001), "short of|not shown"),
     "a clear run": (lambda c: c["claim"].__setitem__("kind", "clear"), "overlap is no member of it"),
-    "a piece of another kind": (at("claim", "path", "pieces", 0, "kind", put="waypoints"), "must be line, arc or coil"),
+    "a piece of another kind": (
+        at("claim", "path", "pieces", 0, "kind", put="waypoints"),
+        "must be line, arc or coil",
+    ),
     "a line to nowhere": (at("claim", "path", "pieces", 0, "end", put=[0.0]), "must be a list of 2"),
     "no pieces": (at("claim", "path", "pieces", put=[]), "must be a list with entries"),
 }

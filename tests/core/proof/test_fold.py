@@ -17,7 +17,8 @@ from core.proof import Certificate, check, prove_minimum_pitch
 from core.proof.chain import Chain, bend, rises_to
 from core.proof.fold import check_fold
 from core.proof.pairs import Unproven
-from tests.core.proof.test_certificate import at, edit, places, refusal, stretches, through_json
+from tests.core.forgeries import edit, places, refusal, stretches, through_json
+from tests.core.forgeries import put_at as at
 
 DRAGON, RADIUS, TURNS = Dragon(14, 2.21, 1.47, 0.06, 0.12), 0.85, 5.0
 ONE = Dragon(1, 2.21, 1.47, 0.06, 0.12)
