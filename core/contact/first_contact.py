@@ -166,9 +166,26 @@ class FirstContact(Shown):
                 plots.mark_pair(axes, outlines, benches)
         if benches is not None:
             axes.legend(loc="upper right", fontsize=9, framealpha=0.95)
-        line = self._line()
-        axes.set_title(line[0].upper() + line[1:], fontsize=11)
+        axes.set_title(self._title(enlarged), fontsize=11)
         return axes
+
+    def _title(self, enlarged: bool) -> str:
+        margin = self.margin
+        if enlarged and self.point is not None:
+            place = f"({self.point[0]:.6f} m, {self.point[1]:.6f} m)"
+            near = f"Nearer than {margin:g} m: a gap of {self.gap:.6f} m at {place}"
+            return near if margin else f"They meet at {place}"
+        what = f"First nearer than {margin:g} m" if margin else "First contact"
+        if self.outcome is Outcome.CONTACT and self.head is not None:
+            return f"{what}: {self.time:.6f} s, head at radius {self.head.radius:.6f} m"
+        if self.outcome is Outcome.CONTACT_AT_START:
+            return f"Nearer than {margin:g} m from the start on" if margin else f"{what}: already at the start"
+        if self.outcome is Outcome.CLEAR and self.end is not None:
+            none = f"Never nearer than {margin:g} m" if margin else "No contact"
+            if self.end.reason is EndReason.FOLD:
+                return f"{none}, but bench {self.end.bench} folds at {self.end.time:.6f} s"
+            return f"{none}: the run ends clear at the {self.end.reason.value}, {self.end.time:.6f} s"
+        return f"Undecided: clear up to {self.time_bracket[0]:.6f} s" if self.time_bracket else "Undecided"
 
     def _shown_time(self) -> float:
         if self.time is not None:

@@ -139,10 +139,11 @@ def _checked_pitches(pitches: object) -> Floats:
         raise InvalidValue("pitches", words) from error
     if column.dtype.kind not in "iuf" or column.ndim != 1:
         raise InvalidValue("pitches", f"{words}, got {pitches!r:.60}")
-    wrong = np.flatnonzero(~(np.diff(column) > 0.0))
+    wrong = np.flatnonzero(~(np.diff(column) >= 0.0))
     if wrong.size:
         k = int(wrong[0]) + 1
-        raise InvalidValue.of(f"pitches.{k}", f"must be more than {column[k - 1]:g} m before it", float(column[k]), "m")
+        rule = f"must be at least {column[k - 1]:g} m, the one before it"
+        raise InvalidValue.of(f"pitches.{k}", rule, float(column[k]), "m")
     return np.array([checked_size(f"pitches.{k}", float(pitch)) for k, pitch in enumerate(column)])
 
 

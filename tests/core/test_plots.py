@@ -100,7 +100,7 @@ def test_first_contact_marks_the_two_benches(axes: Axes) -> None:
     found = first_contact(Dance(Dragon(), Spiral()))
     found.plot(axes)
     assert legend(axes) == ["bench 0 (head)", "bench 8"]
-    assert axes.get_title() == "Benches 0 and 8 touch at 412.473838 s"
+    assert axes.get_title() == "First contact: 412.473838 s, head at radius 2.288743 m"
     assert found.time is not None
     outlines = bench_outlines(Dragon(), trajectory(Dance(Dragon(), Spiral()), found.time).position)
     marked = [patch.get_xy()[:4] for patch in axes.patches if isinstance(patch, Polygon)]
@@ -117,7 +117,7 @@ def test_the_enlarged_view_is_centred_on_the_contact(axes: Axes) -> None:
 def test_a_run_without_contact_is_drawn_before_its_end(axes: Axes) -> None:
     first_contact(Dance(Dragon(5), Spiral(0.8))).plot(axes)
     assert axes.get_legend() is None
-    assert axes.get_title().startswith("No two benches touch until ")
+    assert axes.get_title().startswith("No contact, but bench 0 folds at ")
 
 
 def test_without_a_contact_there_is_nothing_to_enlarge(axes: Axes) -> None:

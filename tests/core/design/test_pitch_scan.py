@@ -44,9 +44,8 @@ def test_scan_leaves_out_pitches_without_contact_and_reports_progress() -> None:
 @pytest.mark.parametrize(
     ("pitches", "said"),
     [
-        ([0.5, 0.4], "pitches[1] must be more than 0.5 m before it, got 0.4 m"),
-        ([0.5, 0.5], "pitches[1] must be more than 0.5 m before it, got 0.5 m"),
-        ([0.5, math.nan], "pitches[1] must be more than 0.5 m before it, got nan m"),
+        ([0.5, 0.4], "pitches[1] must be at least 0.5 m, the one before it, got 0.4 m"),
+        ([0.5, math.nan], "pitches[1] must be at least 0.5 m, the one before it, got nan m"),
         ([-0.5, 0.5], "pitches[0] must be positive, got -0.5 m"),
         ([[0.5]], "pitches must be a list of numbers in metres, ascending, got [[0.5]]"),
     ],
@@ -55,3 +54,8 @@ def test_pitches_that_do_not_ascend_are_refused(pitches: list[float], said: str)
     with pytest.raises(InvalidValue) as refused:
         pitch_scan(Dragon(3), pitches)
     assert refused.value.message == said
+
+
+def test_a_pitch_given_twice_counts_once() -> None:
+    scan = pitch_scan(Dragon(30), [0.4, 0.4], start_turns=8.0)
+    assert scan.pitch.tolist() == [0.4]
