@@ -10,6 +10,7 @@ _FIGURES, _XLSX = ("matplotlib",), ("xlsxwriter",)
 # The modules that each extra of pyproject.toml brings and that its use needs.
 MODULES = {
     "arrow": ("pyarrow",),
+    "data": ("pandas", "xarray"),
     "figures": _FIGURES,
     "proof": ("flint",),
     "service": ("fastapi", "fastapi_swagger", "prometheus_client", "uplot", "uvicorn", *_FIGURES, *_XLSX),

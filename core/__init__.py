@@ -17,12 +17,20 @@ from core.contact.first_contact import (
 from core.contact.least_clearance import LeastClearance, least_clearance
 from core.dance import Dance, EndReason, RunEnd
 from core.design.minimum_pitch import LimitedBy, MinimumPitch, minimum_pitch
+from core.design.pitch_scan import PitchScan, pitch_scan
 from core.design.shortest_turn import ShortestTurn, TurnLimit, shortest_turn
 from core.dragon import Dragon
-from core.errors import BenchDragonError, InvalidValue, OutsideRun, TooLarge, TooMuchWork
+from core.errors import BenchDragonError, InvalidValue, OutsideRun, ProofRefused, TooLarge, TooMuchWork
 from core.motion.joints import SharpestBend, sharpest_bend
-from core.motion.speed import HighestSpeed, MaximumHeadSpeed, highest_speed, maximum_head_speed
-from core.motion.trajectory import Trajectory, bench_poses, trajectory
+from core.motion.speed import (
+    FirstExcess,
+    HighestSpeed,
+    MaximumHeadSpeed,
+    first_excess,
+    highest_speed,
+    maximum_head_speed,
+)
+from core.motion.trajectory import Trajectory, bench_outlines, bench_poses, trajectory
 from core.paths.route import Arc, Coil, Line, Piece, Route, Waypoints
 from core.paths.spiral import Spiral
 from core.paths.turn import Turn
@@ -50,6 +58,7 @@ __all__ = [
     "FailureKind",
     "Feature",
     "FirstContact",
+    "FirstExcess",
     "Graze",
     "HeadState",
     "HighestSpeed",
@@ -65,6 +74,8 @@ __all__ = [
     "OutsideRun",
     "Overlaps",
     "Piece",
+    "PitchScan",
+    "ProofRefused",
     "Report",
     "Route",
     "RunEnd",
@@ -82,18 +93,21 @@ __all__ = [
     "VenueClearance",
     "Verdict",
     "Waypoints",
+    "bench_outlines",
     "bench_poses",
     "check",
     "clearance_profile",
     "contact_check",
     "cross_check",
     "first_contact",
+    "first_excess",
     "highest_speed",
     "least_clearance",
     "maximum_head_speed",
     "minimum_pitch",
     "overlaps",
     "pitch_check",
+    "pitch_scan",
     "separation",
     "sharpest_bend",
     "shortest_turn",

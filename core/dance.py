@@ -15,6 +15,7 @@ from core.dragon import Dragon
 from core.errors import InvalidValue, OutsideRun, said
 from core.paths.route import Route
 from core.paths.spiral import Spiral
+from core.shown import Shown
 from core.values import Floats, checked_number, checked_type
 
 HEAD_SPEED_MIN = 1e-6  # [m/s]
@@ -39,8 +40,8 @@ class EndReason(StrEnum):
     STOP = "stop"
 
 
-@dataclass(frozen=True, slots=True)
-class RunEnd:
+@dataclass(frozen=True, slots=True, repr=False)
+class RunEnd(Shown):
     """Where the run ends: reason, time [s], theta of the head on a spiral [rad], the bench that folds if one does."""
 
     reason: EndReason
@@ -57,7 +58,7 @@ class RunEnd:
 
 
 @dataclass(frozen=True)
-class Dance:
+class Dance(Shown):
     """A dragon that follows a path, its head at a constant speed: what every question about a given path is asked of.
 
     head_speed: [m/s]
@@ -67,7 +68,7 @@ class Dance:
 
     >>> dance = Dance(Dragon(), Spiral())
     >>> dance.end.reason.value, round(dance.end.time, 3)
-    ('fold', 438.115)
+    ('fold', 432.918)
     """
 
     dragon: Dragon
@@ -127,6 +128,9 @@ class Dance:
         if first > last:
             return np.array([start])
         return np.arange(first, min(first + DEFAULT_SPAN, last) + 1, dtype=np.float64)
+
+    def _rows(self) -> list[tuple[str, str]]:
+        return [*super()._rows(), ("end", self.end._line())]
 
     def times(self, given: Floats | Sequence[float] | float) -> Floats:
         """The instants given, as a (T,) or () array of finite numbers within the run [s].

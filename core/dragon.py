@@ -9,6 +9,7 @@ from numbers import Integral
 import numpy as np
 
 from core.errors import InvalidValue, said
+from core.shown import REPR_MOST, TABLE_DIGITS, Shown, extent
 from core.values import SIZE_MAX, SIZE_MIN, Floats, checked_number, checked_size
 
 BENCHES_MAX = 10_000_000
@@ -34,7 +35,7 @@ def _column(name: str, values: object, benches: int | None) -> Floats:
 
 
 @dataclass(frozen=True, init=False, eq=False)
-class Dragon:
+class Dragon(Shown):
     """n benches in a row, joined by n + 1 handles; bench 0 is the head, handle 0 leads.
 
     lengths, widths, overhangs, chords: (n,) [m], read-only; chord = length - 2 overhang > 0
@@ -128,6 +129,23 @@ class Dragon:
     def benches(self) -> int:
         """Number of benches; there is one handle more."""
         return self.lengths.size
+
+    def __repr__(self) -> str:
+        sizes = [self.lengths, self.widths, self.overhangs]
+        if self.uniform_from <= 1 and all((column[1:] == column[0]).all() for column in sizes[1:]):
+            sizes_given = f"head_length={self.lengths[0]}, body_length={self.lengths[-1]}"
+            numbers = f"{sizes_given}, width={self.widths[0]}, overhang={self.overhangs[0]}"
+            return f"Dragon(benches={self.benches}, {numbers})"
+        listed = f"Dragon.of({', '.join(str(column.tolist()) for column in sizes)})"
+        return listed if len(listed) <= REPR_MOST else super().__repr__()
+
+    def _line(self) -> str:
+        return f"{self.benches} benches, {extent(self.lengths, 'm')} long, {extent(self.widths, 'm')} wide"
+
+    def _rows(self) -> list[tuple[str, str]]:
+        columns = {"lengths": self.lengths, "widths": self.widths, "overhangs": self.overhangs, "chords": self.chords}
+        rows = [(name, extent(column, "m", TABLE_DIGITS)) for name, column in columns.items()]
+        return [("benches", str(self.benches)), *rows]
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, Dragon) and all(

@@ -20,6 +20,7 @@ from core.motion.trajectory import bench_poses, trajectory
 from core.paths.route import COORDINATE_MAX, Coil, Point, Route
 from core.paths.spiral import Spiral
 from core.shapes.engines import inside, polygon_fault
+from core.shown import Shown, extent, worded
 from core.values import Floats, checked_number, checked_type
 
 Ring = tuple[Point, ...]
@@ -45,8 +46,8 @@ FAULTS = {
 }
 
 
-@dataclass(frozen=True)
-class Area:
+@dataclass(frozen=True, repr=False)
+class Area(Shown):
     """A polygon: the square, or an obstacle in it.
 
     rings: the outer one, then the holes; each closed, at least 4 points (x, y) [m]
@@ -71,6 +72,12 @@ class Area:
                 "venue", f"venue: {self.name!r} must be a valid polygon, got {fault} at ({x:g}, {y:g}) m"
             )
 
+    def _line(self) -> str:
+        x, y = np.array(self.rings[0]).T
+        points = sum(map(len, self.rings)) - len(self.rings)
+        where = f"x {extent(x, 'm')}, y {extent(y, 'm')}"
+        return f"{self.name!r}, {points} points, {where}"
+
     @cached_property
     def edges(self) -> Floats:
         """(E, 4) x, y, x, y [m] of every edge of some length."""
@@ -78,8 +85,8 @@ class Area:
         return found.reshape(-1, 4)
 
 
-@dataclass(frozen=True)
-class Venue:
+@dataclass(frozen=True, repr=False)
+class Venue(Shown):
     """The square with its holes, and obstacles that stand in it.
 
     >>> Venue.from_geojson({"type": "Polygon", "coordinates": [[[0, 0], [9, 0], [9, 9], [0, 0]]]}).square.name
@@ -100,6 +107,10 @@ class Venue:
         for k, name in enumerate(names):
             if name in names[:k]:
                 raise InvalidValue("venue", f"venue must give each polygon its own name, got {name!r} twice")
+
+    def _line(self) -> str:
+        names = ", ".join(repr(area.name) for area in self.obstacles) or "none"
+        return f"{self.square._line()}; obstacles: {names}"
 
     @property
     def areas(self) -> tuple[Area, ...]:
@@ -124,8 +135,8 @@ class Venue:
         return cls(square, tuple(obstacles))
 
 
-@dataclass(frozen=True, slots=True)
-class Nearest:
+@dataclass(frozen=True, slots=True, repr=False)
+class Nearest(Shown):
     """How near the benches come to an area's edges, holes included.
 
     distance: the least found [m], met at `time` [s] by `bench`; 0 at the first touch
@@ -141,8 +152,8 @@ class Nearest:
     wall: Point
 
 
-@dataclass(frozen=True, slots=True)
-class AreaClearance:
+@dataclass(frozen=True, slots=True, repr=False)
+class AreaClearance(Shown):
     """The benches and the edges of one area, named.
 
     outcome: does a bench come within the margin; time: when first [s], None when clear or undecided
@@ -161,9 +172,12 @@ class AreaClearance:
     nearest: Nearest
     gap: float | None = None
 
+    def _line(self) -> str:
+        return f"{self.name!r} {self.outcome.value}, nearest {self.nearest._line()}"
 
-@dataclass(frozen=True, slots=True)
-class Stray:
+
+@dataclass(frozen=True, slots=True, repr=False)
+class Stray(Shown):
     """A bench that starts outside the square or in an obstacle: the area's name, the bench, its centre (x, y) [m]."""
 
     name: str
@@ -171,12 +185,22 @@ class Stray:
     point: Point
 
 
-@dataclass(frozen=True, slots=True)
-class VenueClearance:
+@dataclass(frozen=True, slots=True, repr=False)
+class VenueClearance(Shown):
     """stray: the first bench that starts where it must not, None if all are well; areas: the square, then obstacles."""
 
     stray: Stray | None
     areas: tuple[AreaClearance, ...]
+
+    def _line(self) -> str:
+        stray = f"{self.stray!r}; " if self.stray else ""
+        near = min(self.areas, key=lambda area: area.nearest.distance)
+        distance, time = worded(near.nearest.distance, "m"), worded(near.nearest.time, "s")
+        return f"{stray}nearest to {near.name!r}: bench {near.nearest.bench}, {distance} at {time}"
+
+    def _rows(self) -> list[tuple[str, str]]:
+        stray = self.stray._line() if self.stray else "none"
+        return [("stray", stray), *((area.name, area._line()) for area in self.areas)]
 
 
 def venue_clearance(

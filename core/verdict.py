@@ -18,6 +18,7 @@ from core.motion.speed import (
     first_excess,
     highest_speed,
 )
+from core.shown import Shown, worded
 from core.values import checked_number, checked_type
 from core.venue import AreaClearance, Venue, VenueClearance, is_clear_beyond, venue_clearance, venue_end
 
@@ -48,8 +49,8 @@ class Judgement(StrEnum):
     UNDECIDED = "undecided"
 
 
-@dataclass(frozen=True, slots=True)
-class Failure:
+@dataclass(frozen=True, slots=True, repr=False)
+class Failure(Shown):
     """One thing that fails: time [s], when it first does; of a search that gave up, proven good until then.
 
     benches: those at fault (of a speed: the handle); area: the venue's polygon, None where it has no part
@@ -70,9 +71,12 @@ class Failure:
     peak_speed: float | None = None
     peak_time: float | None = None
 
+    def _line(self) -> str:
+        return self.message
 
-@dataclass(frozen=True, slots=True)
-class Report:
+
+@dataclass(frozen=True, slots=True, repr=False)
+class Report(Shown):
     """start, stop: of the stretch looked at [s]: where benches touch, the dance and everything else here stops
 
     verdict: what it comes to; passed: it passes
@@ -92,6 +96,11 @@ class Report:
     venue: VenueClearance | None
     highest_speed: HighestSpeed | None
     sharpest_bend: SharpestBend | None
+
+    def _line(self) -> str:
+        span = f"{self.verdict.value} from {worded(self.start)} to {worded(self.stop, 's')}"
+        more = f" And {len(self.failures) - 1} more." if len(self.failures) > 1 else ""
+        return f"{span}: {self.failures[0].message}{more}" if self.failures else span
 
 
 def check(

@@ -34,6 +34,9 @@ ORDER = (
     "core.kernels.excess",
     "core.kernels",
     "core.errors",
+    "core.extras",
+    "core.shown",
+    "core.tables",
     "core.values",
     "core.dragon",
     "core.paths",
@@ -46,8 +49,9 @@ ORDER = (
     "core.paths.route",
     "core.paths.turn",
     "core.dance",
-    "core.motion.trajectory",
+    "core.plots",
     "core.shapes.rectangles",
+    "core.motion.trajectory",
     "core.shapes.angle_sum",
     "core.shapes.broad_phase",
     "core.shapes.engines",
@@ -113,7 +117,7 @@ ORDER = (
 )
 OUTSIDE_CORE = {"app", "fastapi", "http", "json", "orjson", "pathlib", "pydantic", "starlette", "time"}
 OVERLAP_ENGINES = {"fcl", "shapely"}
-HEAVY = ("fcl", "flint", "matplotlib", "scipy", "shapely")
+HEAVY = ("fcl", "flint", "matplotlib", "pandas", "scipy", "shapely", "xarray")
 
 
 def module_name(path: Path) -> str:

@@ -25,7 +25,11 @@ def report(name: str) -> Report:
 def test_every_example_has_its_test() -> None:
     assert {path.stem for path in EXAMPLES.glob("*.toml")} == {"paper_dance", "contest_turn", "village_square"}
     others = {path.name for path in EXAMPLES.glob("*.*") if path.suffix != ".toml"}
-    assert others == {"verify.py", "village_square.geojson"}  # test_verify.py runs the one, the village the other
+    assert others == {
+        "tour.py",
+        "verify.py",
+        "village_square.geojson",
+    }  # test_tour.py, test_verify.py; the village reads it
 
 
 def test_the_papers_dance_ends_where_the_head_touches_bench_8() -> None:

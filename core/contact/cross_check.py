@@ -22,6 +22,7 @@ from core.shapes.broad_phase import Pairs, meeting_pairs
 from core.shapes.engines import JUDGES, Engine, able, found_pairs
 from core.shapes.overlaps import Verdict
 from core.shapes.rectangles import frames, frames_separation
+from core.shown import Shown, worded
 from core.values import Floats, checked_number, checked_type
 
 Pair = tuple[int, int]
@@ -45,8 +46,8 @@ WHOLE_BENCHES = 2_000
 CLOSE_MAX = 30_000
 
 
-@dataclass(frozen=True, slots=True)
-class ContactCheck:
+@dataclass(frozen=True, slots=True, repr=False)
+class ContactCheck(Shown):
     """What the engines say of a reported contact.
 
     agree: every engine asked finds nothing before, and after the reported pair alone
@@ -66,6 +67,14 @@ class ContactCheck:
     engines: dict[Engine, Verdict]
     together: tuple[Pair, ...]
     left_out: tuple[Engine, ...]
+
+    def _line(self) -> str:
+        return f"{len(self.engines)} engines {'agree' if self.agree else 'disagree'} on {len(self.judged)} benches"
+
+    def _rows(self) -> list[tuple[str, str]]:
+        said = [(engine.value, repr(verdict)) for engine, verdict in self.engines.items()]
+        rest = [("together", worded(self.together)), ("left out", worded(self.left_out))]
+        return [("agree", worded(self.agree)), ("judged", worded(self.judged)), *said, *rest]
 
 
 def contact_check(

@@ -13,23 +13,34 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import StrEnum
 from itertools import pairwise
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
-from core import kernels
+from core import kernels, plots
 from core.contact.claim import ENDS, UNDECIDED_THEN, claim, claim_at_start, claim_undecided, contact_then
 from core.contact.near_graze import narrowed
 from core.contact.search import BRACKETS_GRAZING, MARGIN_MAX, NO_GRAZE, Budget, Search
 from core.dance import Dance, EndReason, RunEnd
 from core.errors import InvalidValue
+from core.motion.trajectory import bench_outlines, instants, trajectory
 from core.paths.route import Route
 from core.paths.spiral import Spiral
+from core.shown import Shown, counted, worded
+from core.tables import data_frame, data_set
 from core.values import Floats, checked_number, checked_type
 
+if TYPE_CHECKING:
+    import pandas
+    import xarray
+    from matplotlib.axes import Axes
+
+# A run without contact is drawn this long before its end [s], where the chain still exists.
+BEFORE_END = 1e-6
 # Grazes of a profile are looked for in steps of this fraction of the shortest chord [1], longer ones where the work is
 # too much (Search.samples()), and refined to this width [s].
 PROFILE_STEP = 0.2
@@ -47,8 +58,8 @@ class Outcome(StrEnum):
     UNDECIDED = "undecided"
 
 
-@dataclass(frozen=True, slots=True)
-class HeadState:
+@dataclass(frozen=True, slots=True, repr=False)
+class HeadState(Shown):
     """Handle 0 at one instant: theta [rad, unwrapped; None off a spiral], radius from the origin [m], x [m], y [m]."""
 
     theta: float | None
@@ -58,7 +69,7 @@ class HeadState:
 
 
 @dataclass(frozen=True, slots=True)
-class Feature:
+class Feature(Shown):
     """A corner or an edge of one bench. Corners: front-outer, front-inner, rear-outer, rear-inner;
     edges: front, rear, outer, inner. front is towards the lower handle, outer away from the centre."""
 
@@ -66,8 +77,8 @@ class Feature:
     name: str
 
 
-@dataclass(frozen=True, slots=True)
-class Graze:
+@dataclass(frozen=True, slots=True, repr=False)
+class Graze(Shown):
     """A local minimum of the clearance over time: time [s], clearance [m], the pair."""
 
     time: float
@@ -75,8 +86,8 @@ class Graze:
     benches: tuple[int, int]
 
 
-@dataclass(frozen=True, slots=True)
-class Certificate:
+@dataclass(frozen=True, slots=True, repr=False)
+class Certificate(Shown):
     """How the answer is known.
 
     method: the whole claim and how it is proven, in sentences (core/contact/claim.py)
@@ -94,8 +105,8 @@ class Certificate:
     least_clearance: Graze | None
 
 
-@dataclass(frozen=True, slots=True)
-class FirstContact:
+@dataclass(frozen=True, slots=True, repr=False)
+class FirstContact(Shown):
     """When two benches that share no handle first come within the margin.
 
     time: [s], None when clear or undecided; 0 for contact_at_start
@@ -104,6 +115,7 @@ class FirstContact:
     head: the head at that time; benches: the pair (a, b), a < b; corner, edge: the features that meet;
     point: (x, y) [m] of the corner; end: where the run ends when clear
     gap: separation of the pair at that time [m]: the margin, or what it is at the start; None without a pair
+    margin: [m], as asked; dance: the one asked about
     """
 
     outcome: Outcome
@@ -117,10 +129,74 @@ class FirstContact:
     end: RunEnd | None
     certificate: Certificate
     gap: float | None = None
+    margin: float = field(kw_only=True)
+    dance: Dance = field(kw_only=True, repr=False, compare=False)
+
+    def _line(self) -> str:
+        if self.time_bracket is not None and self.outcome is Outcome.UNDECIDED:
+            return f"undecided from {worded(self.time_bracket[0], 's')} on"
+        near = "touch" if not self.margin else f"come within {worded(self.margin, 'm')}"
+        if self.benches is None or self.time is None:
+            assert self.end is not None
+            why = "" if self.end.reason is EndReason.STOP else f", where {self.end.why}"
+            return f"no two benches {near} until {worded(self.end.time, 's')}{why}"
+        a, b = self.benches
+        return f"benches {a} and {b} {near} at {worded(self.time, 's')}"
+
+    def plot(self, ax: Axes | None = None, *, enlarged: bool = False) -> Axes:
+        """The dance at first contact with the two benches filled; without a contact just before the end of the run.
+
+        enlarged: only the neighbourhood of the contact, with the corner and the edge that meet
+        returns: the axes given, or those of a new figure, in metres
+        raises: ImportError without matplotlib, naming the extra; InvalidValue (enlarged) where nothing meets
+        """
+        axes = plots.wanted_axes(ax, "FirstContact.plot()")
+        dance, benches = self.dance, self.benches
+        handles = trajectory(dance, self._shown_time()).position
+        outlines = bench_outlines(dance.dragon, handles)
+        if enlarged:
+            if benches is None or self.point is None:
+                raise InvalidValue("enlarged", "enlarged must be False where no two benches meet, got True")
+            width = float(dance.dragon.widths[list(benches)].max())
+            half = max(plots.ENLARGED_WIDTHS * width, plots.ENLARGED_MARGINS * self.margin)
+            plots.draw_enlarged(axes, outlines, benches, self.point, half, self.corner, self.edge)
+        else:
+            plots.draw_dance(axes, dance.path, handles, outlines)
+            if benches is not None:
+                plots.mark_pair(axes, outlines, benches)
+        if benches is not None:
+            axes.legend(loc="upper right", fontsize=9, framealpha=0.95)
+        axes.set_title(self._title(enlarged), fontsize=11)
+        return axes
+
+    def _title(self, enlarged: bool) -> str:
+        margin = self.margin
+        if enlarged and self.point is not None:
+            place = f"({self.point[0]:.6f} m, {self.point[1]:.6f} m)"
+            near = f"Nearer than {margin:g} m: a gap of {self.gap:.6f} m at {place}"
+            return near if margin else f"They meet at {place}"
+        what = f"First nearer than {margin:g} m" if margin else "First contact"
+        if self.outcome is Outcome.CONTACT and self.head is not None:
+            return f"{what}: {self.time:.6f} s, head at radius {self.head.radius:.6f} m"
+        if self.outcome is Outcome.CONTACT_AT_START:
+            return f"Nearer than {margin:g} m from the start on" if margin else f"{what}: already at the start"
+        if self.outcome is Outcome.CLEAR and self.end is not None:
+            none = f"Never nearer than {margin:g} m" if margin else "No contact"
+            if self.end.reason is EndReason.FOLD:
+                return f"{none}, but bench {self.end.bench} folds at {self.end.time:.6f} s"
+            return f"{none}: the run ends clear at the {self.end.reason.value}, {self.end.time:.6f} s"
+        return f"Undecided: clear up to {self.time_bracket[0]:.6f} s" if self.time_bracket else "Undecided"
+
+    def _shown_time(self) -> float:
+        if self.time is not None:
+            return self.time
+        if self.time_bracket is not None:
+            return self.time_bracket[0]
+        return (self.end or self.dance.end).time - BEFORE_END
 
 
-@dataclass(frozen=True, slots=True)
-class ClearanceProfile:
+@dataclass(frozen=True, slots=True, repr=False)
+class ClearanceProfile(Shown):
     """time (...) [s], clearance (...) [m], benches (..., 2), and the local minima between the first and last time.
 
     ... is (T,) for a list of times and nothing for one time.
@@ -130,6 +206,44 @@ class ClearanceProfile:
     clearance: Floats
     benches: NDArray[np.int64]
     grazes: tuple[Graze, ...]
+
+    def _line(self) -> str:
+        if not self.time.size:
+            return "no instants"
+        least = int(self.clearance.argmin())
+        a, b = self.benches.reshape(-1, 2)[least]
+        nearest = f"{worded(self.clearance.item(least), 'm')} between benches {a} and {b}"
+        grazes = counted(len(self.grazes), "graze")
+        return f"{instants(self.time)}; least {nearest} at {worded(self.time.item(least), 's')}; {grazes}"
+
+    def to_dataframe(self) -> pandas.DataFrame:
+        """One row for each time: time [s], clearance [m], bench_a, bench_b.
+
+        raises: ImportError without pandas, naming the extra
+        """
+        a, b = self.benches.reshape(-1, 2).T
+        columns = {"time": self.time.ravel(), "clearance": self.clearance.ravel(), "bench_a": a, "bench_b": b}
+        return data_frame("ClearanceProfile.to_dataframe()", columns, {})
+
+    def to_xarray(self) -> xarray.Dataset:
+        """clearance (time) [m] and benches (time, pair); without the axis `time` where one time was asked.
+
+        raises: ImportError without xarray, naming the extra
+        """
+        axis = ("time",) * self.time.ndim
+        variables = {"clearance": (axis, self.clearance), "benches": ((*axis, "pair"), self.benches)}
+        return data_set("ClearanceProfile.to_xarray()", variables, {"time": (axis, self.time), "pair": ["a", "b"]})
+
+    def plot(self, ax: Axes | None = None) -> Axes:
+        """The clearance against time, its local minima as dots.
+
+        returns: the axes given, or those of a new figure, in seconds and metres
+        raises: ImportError without matplotlib, naming the extra
+        """
+        axes = plots.wanted_axes(ax, "ClearanceProfile.plot()")
+        grazes = [(graze.time, graze.clearance) for graze in self.grazes]
+        plots.draw_clearance(axes, self.time.ravel(), self.clearance.ravel(), grazes)
+        return axes
 
 
 # By the kernels' codes, which count front-left, front-right, rear-right, rear-left and front, right, rear, left: first
@@ -154,6 +268,7 @@ def first_contact(dance: Dance, *, margin: float = 0.0, start: float = 0.0, stop
     raises: InvalidValue; OutsideRun for a stop after the end of the run
     source: the model of Yang et al., sections 2.4 and 2.5, whose times differ: see app/paper.py
 
+    >>> from core import Dragon
     >>> contact = first_contact(Dance(Dragon(), Spiral()))
     >>> contact.outcome.value, round(contact.time, 6), contact.benches
     ('contact', 412.473838, (0, 8))
@@ -213,10 +328,16 @@ def _result(
     method = _method(dance, search.margin, outcome, found, end, (span[0], proven))
     clear_until = proven if proven > span[0] and outcome is not Outcome.CONTACT_AT_START else None
     certificate = Certificate(method, int(found["steps"]), clear_until, found["bend"], graze)
+    margin = search.margin
     if outcome is Outcome.CLEAR:
-        return FirstContact(outcome, None, None, None, None, None, None, None, end, certificate)
+        return FirstContact(
+            outcome, None, None, None, None, None, None, None, end, certificate, margin=margin, dance=dance
+        )
     if outcome is Outcome.UNDECIDED:
-        return FirstContact(outcome, None, (proven, span[1]), None, None, None, None, None, None, certificate)
+        bracket = (proven, span[1])
+        return FirstContact(
+            outcome, None, bracket, None, None, None, None, None, None, certificate, margin=margin, dance=dance
+        )
     at_start = outcome is Outcome.CONTACT_AT_START
     travel = found["touching"] if at_start else found["touching"] - tolerance
     pair = (int(found["first"]), int(found["second"]))
@@ -233,6 +354,8 @@ def _result(
         None,
         certificate,
         gap if at_start else search.margin,
+        margin=margin,
+        dance=dance,
     )
 
 

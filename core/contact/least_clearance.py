@@ -9,6 +9,7 @@ import numpy as np
 from core.contact.first_contact import DIP_WIDTH, PROFILE_STEP
 from core.contact.search import NEAR_WORK_BUDGET, Search
 from core.dance import Dance, RunEnd
+from core.shown import Shown
 from core.values import checked_type
 
 # The least distance is proven to this [m]; to the next one where that takes more steps than a search may.
@@ -25,8 +26,8 @@ Pair = tuple[int, int]
 Dip = tuple[float, float, Pair]
 
 
-@dataclass(frozen=True, slots=True)
-class LeastClearance:
+@dataclass(frozen=True, slots=True, repr=False)
+class LeastClearance(Shown):
     """The least clearance over a stretch of the dance.
 
     distance: the least found [m], met at `time` [s] by `benches`; 0 at the first touch if benches touch

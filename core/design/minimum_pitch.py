@@ -16,6 +16,7 @@ from core.design.straight import Straight
 from core.dragon import Dragon
 from core.errors import InvalidValue, TooMuchWork
 from core.paths.spiral import START_TURNS_MAX, Spiral
+from core.shown import Shown, worded
 from core.values import SIZE_MAX, SIZE_MIN, checked_number, checked_size, checked_type
 
 # Half width of the bracket around a contact [m of head travel].
@@ -68,8 +69,8 @@ class LimitedBy(StrEnum):
     FOLD = "fold"
 
 
-@dataclass(frozen=True, slots=True)
-class MinimumPitch:
+@dataclass(frozen=True, slots=True, repr=False)
+class MinimumPitch(Shown):
     """The smallest pitch such that every larger one is free of contact down to the turning circle.
 
     pitch: [m]; pitch_bracket: (infeasible, feasible) [m], twice the same where the start limits it without benches;
@@ -98,6 +99,13 @@ class MinimumPitch:
     proven_up_to: float | None
     scan_step: float | None
     evaluations: int
+
+    def _line(self) -> str:
+        pair = f" of benches {self.benches[0]} and {self.benches[1]}" if self.benches else ""
+        limit = f"{worded(self.pitch, 'm')}, limited by {self.limited_by.value}{pair}"
+        scan = f"scanned every {worded(self.scan_step, 'm')} up to {worded(self.proven_from, 'm')}, then "
+        most = "without end" if self.proven_up_to is None else f"up to {worded(self.proven_up_to, 'm')}"
+        return f"{limit}; {scan if self.scan_step else ''}proven {most}"
 
 
 # One bench alone: what is feasible at one growth is so at every larger one, so a bisection finds the minimum. With the

@@ -2,19 +2,27 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
+from typing import TYPE_CHECKING
 
 import numpy as np
 
+from core import plots
 from core.contact.search import MARGIN_MAX, WORK_BUDGET, Budget, Search
 from core.dance import Dance, EndReason
 from core.design.minimum_pitch import MinimumPitch, minimum_pitch
 from core.dragon import Dragon
 from core.errors import InvalidValue, TooMuchWork
 from core.paths.spiral import Spiral
-from core.values import SIZE_MIN, Floats, checked_number
+from core.shown import Shown, counted, extent
+from core.tables import data_frame
+from core.values import SIZE_MIN, Floats, checked_number, checked_size, checked_type
+
+if TYPE_CHECKING:
+    import pandas
+    from matplotlib.axes import Axes
 
 # A fall of the first-contact radius [m] between two pitches closer than JUMP_WIDTH [m] is a jump.
 JUMP = 0.02
@@ -28,8 +36,8 @@ SCAN_WORK = 4e7
 SCAN_FROM, SCAN_TO = 0.8, 1.35
 
 
-@dataclass(frozen=True, slots=True)
-class PitchScan:
+@dataclass(frozen=True, slots=True, repr=False)
+class PitchScan(Shown):
     """Head radius at first contact against pitch.
 
     pitch, radius: (N,) [m], ascending; a run without contact has no entry
@@ -39,6 +47,36 @@ class PitchScan:
     pitch: Floats
     radius: Floats
     pieces: tuple[tuple[int, int], ...]
+
+    def _line(self) -> str:
+        if not self.pitch.size:
+            return "no contact at any pitch"
+        radius = f"contact with the head at {extent(self.radius, 'm')}"
+        pieces = counted(len(self.pieces), "piece")
+        return f"{self.pitch.size} pitches from {extent(self.pitch, 'm')}, {radius}, in {pieces}"
+
+    def to_dataframe(self) -> pandas.DataFrame:
+        """One row for each pitch: pitch, radius [m], and the number of its piece.
+
+        raises: ImportError without pandas, naming the extra
+        """
+        piece = np.repeat(np.arange(len(self.pieces)), [end - start for start, end in self.pieces])
+        columns = {"pitch": self.pitch, "radius": self.radius, "piece": piece}
+        return data_frame("PitchScan.to_dataframe()", columns, {})
+
+    def plot(self, ax: Axes | None = None) -> Axes:
+        """The radius against the pitch: a staircase, its jumps dotted.
+
+        returns: the axes given, or those of a new figure, in metres
+        raises: ImportError without matplotlib, naming the extra
+        """
+        axes = plots.wanted_axes(ax, "PitchScan.plot()")
+        points = np.stack([self.pitch, self.radius], axis=-1)
+        plots.draw_scan(axes, points, self.pieces, JUMP_WIDTH, "first contact")
+        axes.set(xlabel="pitch [m]", ylabel="radius of the head at first contact [m]")
+        axes.autoscale_view()
+        axes.legend(fontsize=9)
+        return axes
 
 
 class Stops:
@@ -93,7 +131,7 @@ def stop_radius(dragon: Dragon, path: Spiral, *, margin: float = 0.0) -> float |
 
 def pitch_scan(
     dragon: Dragon,
-    pitches: Floats,
+    pitches: Floats | Sequence[float],
     *,
     start_turns: float = 16.0,
     margin: float = 0.0,
@@ -107,6 +145,8 @@ def pitch_scan(
     pitches: (N,) [m], ascending; progress: called with the share of the samples that is done
     raises: TooMuchWork where SCAN_WORK is done before; InvalidValue
     """
+    checked_type("dragon", dragon, Dragon)
+    pitches = _checked_pitches(pitches)
     stops = Stops(dragon, margin, Budget(SCAN_WORK))
 
     def radius(pitch: float) -> float | None:
@@ -141,6 +181,22 @@ def _too_much(dragon: Dragon, pitch: float) -> str:
         f"each a bench placed or a pair of benches tried; the {dragon.benches} chords are "
         f"{float(dragon.chords.min()):g} to {float(dragon.chords.max()):g} m long"
     )
+
+
+def _checked_pitches(pitches: object) -> Floats:
+    words = "pitches must be a list of numbers in metres, ascending"
+    try:
+        column = np.asarray(pitches)
+    except ValueError as error:
+        raise InvalidValue("pitches", words) from error
+    if column.dtype.kind not in "iuf" or column.ndim != 1:
+        raise InvalidValue("pitches", f"{words}, got {pitches!r:.60}")
+    wrong = np.flatnonzero(~(np.diff(column) >= 0.0))
+    if wrong.size:
+        k = int(wrong[0]) + 1
+        rule = f"must be at least {column[k - 1]:g} m, the one before it"
+        raise InvalidValue.of(f"pitches.{k}", rule, float(column[k]), "m")
+    return np.array([checked_size(f"pitches.{k}", float(pitch)) for k, pitch in enumerate(column)])
 
 
 def _scan(known: dict[float, float | None], jumps: list[float]) -> PitchScan:

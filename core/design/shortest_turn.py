@@ -28,6 +28,7 @@ from core.dragon import Dragon
 from core.errors import InvalidValue, TooMuchWork
 from core.paths.spiral import Spiral
 from core.paths.turn import Turn
+from core.shown import Shown, worded
 from core.values import checked_number, checked_size, checked_type
 
 # Entry radii are tried in steps of this part of the turning radius [1], down to one step from the centre ...
@@ -56,8 +57,8 @@ class TurnLimit(StrEnum):
     CENTRE = "centre"
 
 
-@dataclass(frozen=True, slots=True)
-class ShortestTurn:
+@dataclass(frozen=True, slots=True, repr=False)
+class ShortestTurn(Shown):
     """The turn with the smallest entry radius such that all larger ones up to the circle can be danced.
 
     turn: at the feasible end of entry_bracket (infeasible, feasible) [m]; limited_by: see TurnLimit
@@ -73,6 +74,11 @@ class ShortestTurn:
     time: float | None
     scan_step: float
     evaluations: int
+
+    def _line(self) -> str:
+        pair = f" of benches {self.benches[0]} and {self.benches[1]}" if self.benches else ""
+        entry = f"entry at a radius of {worded(self.turn.entry_radius, 'm')}, length {worded(self.turn.length, 'm')}"
+        return f"{entry}, limited by {self.limited_by.value}{pair}"
 
 
 def shortest_turn(
@@ -173,8 +179,8 @@ def _contact(
         found = contact_within(budget, Dance(dragon, coil), margin=margin, start=start, stop=before)
         if found.outcome is not Outcome.CLEAR:
             return _touch(found, before)
-    stop, front = _way(dragon, danced, margin)
-    arc = stop - danced.length - _coils(danced).arc(0.0)
+    stop, front = way_followed(dragon, danced, margin)
+    arc = stop - danced.length - coils_of(danced).arc(0.0)
     turns = max(start_turns, (1.0 + SPARE_TURNS) * kernels.spiral_theta(arc / coil.growth) / (2.0 * math.pi))
     entry, radius = danced.entry_radius, danced.turning_radius
     path = Turn(danced.pitch, radius, danced.ratio, start_turns=turns, entry_radius=entry)
@@ -186,10 +192,10 @@ def _touch(found: FirstContact, zero: float) -> Touch:
     return found.benches, None if found.time is None else found.time - zero
 
 
-def _way(dragon: Dragon, danced: Turn, margin: float) -> tuple[float, Dragon]:
+def way_followed(dragon: Dragon, danced: Turn, margin: float) -> tuple[float, Dragon]:
     """How far the head must be followed from the entry [m], and the benches that matter until then:
     core/contact/coils.py."""
-    coils, chords = _coils(danced), dragon.chords
+    coils, chords = coils_of(danced), dragon.chords
     whole = danced.length + STRETCH * float(chords.sum())
     out = way_out(dragon, coils, margin)
     if out is None or danced.length + out >= whole:
@@ -200,7 +206,8 @@ def _way(dragon: Dragon, danced: Turn, margin: float) -> tuple[float, Dragon]:
     return danced.length + out, dragon.leading(count)
 
 
-def _coils(danced: Turn) -> TwoCoils:
+def coils_of(danced: Turn) -> TwoCoils:
+    """The coils before and after a turn."""
     extent = max(math.hypot(*c) + r for c, r in zip(danced.centres, danced.radii, strict=True))
     return TwoCoils(danced.pitch / (2.0 * math.pi), math.pi, extent, danced.length, danced.entry_radius)
 

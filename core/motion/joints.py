@@ -11,6 +11,7 @@ from core.contact.first_contact import PROFILE_STEP
 from core.contact.search import SAMPLES
 from core.dance import Dance
 from core.motion.trajectory import trajectory
+from core.shown import Shown
 from core.values import Floats, checked_type
 
 # Peaks are narrowed down with so many instants at a time, so many times, and so many of the highest: to 1e-9 of a step.
@@ -23,8 +24,8 @@ SAME_ANGLE = 1e-13
 BATCH = 1_000
 
 
-@dataclass(frozen=True, slots=True)
-class SharpestBend:
+@dataclass(frozen=True, slots=True, repr=False)
+class SharpestBend(Shown):
     """The largest angle between the headings of two consecutive benches [rad], its time [s], and the benches."""
 
     angle: float

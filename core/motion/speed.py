@@ -11,6 +11,7 @@ from core.contact.search import Search
 from core.dance import HEAD_SPEED_MAX, HEAD_SPEED_MIN, TIME_MAX, Dance
 from core.errors import InvalidValue, said
 from core.paths.route import Route
+from core.shown import Shown
 from core.values import checked_number, checked_type
 
 # Every handle is proven to stay below this much above the highest rate found [1]; the rate itself is good to 1e-12.
@@ -45,8 +46,8 @@ HALVINGS = 50
 KEPT, EXCEEDED = 0, 1
 
 
-@dataclass(frozen=True, slots=True)
-class HighestSpeed:
+@dataclass(frozen=True, slots=True, repr=False)
+class HighestSpeed(Shown):
     """speed: the highest found [m/s]; time [s]; handles: those that reach it together
     speed_bracket: (found, proven not to be exceeded: None where the proof was given up) [m/s]"""
 
@@ -56,8 +57,8 @@ class HighestSpeed:
     handles: tuple[int, ...]
 
 
-@dataclass(frozen=True, slots=True)
-class MaximumHeadSpeed:
+@dataclass(frozen=True, slots=True, repr=False)
+class MaximumHeadSpeed(Shown):
     """head_speed: the largest [m/s]
     head_speed_bracket: (proven to keep the limit: None where the proof was given up, found to reach it) [m/s]
     speed_ratio: highest handle speed over head speed; handles: those that reach the limit together
@@ -71,8 +72,8 @@ class MaximumHeadSpeed:
     time_at_unit_head_speed: float
 
 
-@dataclass(frozen=True, slots=True)
-class FirstExcess:
+@dataclass(frozen=True, slots=True, repr=False)
+class FirstExcess(Shown):
     """When a handle is first faster than a limit.
 
     time_bracket: (proven to keep the limit up to, found faster at) [s], no wider than EXCESS_WIDTH but where the proof

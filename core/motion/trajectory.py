@@ -3,28 +3,95 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from core import kernels
+from core import kernels, plots
 from core.dance import Dance
+from core.dragon import Dragon
 from core.errors import InvalidValue
 from core.paths.route import Route
+from core.shapes.rectangles import corners
+from core.shown import Shown, extent, worded
+from core.tables import data_frame, data_set
 from core.values import Floats, checked_type
 
+if TYPE_CHECKING:
+    import pandas
+    import xarray
+    from matplotlib.axes import Axes
 
-@dataclass(frozen=True, slots=True)
-class Trajectory:
+# Of the last axis of places and velocities.
+AXES = ("x", "y")
+
+
+@dataclass(frozen=True, slots=True, repr=False)
+class Trajectory(Shown):
     """time (...) [s]; position (..., n + 1, 2) [m]; velocity (..., n + 1, 2) [m/s]; speed (..., n + 1) [m/s].
 
-    ... is (T,) for a list of times and nothing for one time.
+    ... is (T,) for a list of times and nothing for one time. dance: the one asked about; None draws no benches
     """
 
     time: Floats
     position: Floats
     velocity: Floats
     speed: Floats
+    dance: Dance | None = field(default=None, kw_only=True, repr=False, compare=False)
+
+    def _line(self) -> str:
+        speeds = f", {extent(self.speed, 'm/s')}" if self.speed.size else ""
+        return f"{instants(self.time)}; {self.speed.shape[-1]} handles{speeds}"
+
+    def to_dataframe(self) -> pandas.DataFrame:
+        """One row for each time and handle: time [s], handle, x, y [m], velocity_x, velocity_y, speed [m/s].
+
+        raises: ImportError without pandas, naming the extra
+        """
+        handles = self.speed.shape[-1]
+        columns = {
+            "time": np.repeat(self.time, handles),
+            "handle": np.tile(np.arange(handles), self.time.size),
+            **{name: self.position[..., k].ravel() for k, name in enumerate(AXES)},
+            **{f"velocity_{name}": self.velocity[..., k].ravel() for k, name in enumerate(AXES)},
+            "speed": self.speed.ravel(),
+        }
+        return data_frame("Trajectory.to_dataframe()", columns, dict.fromkeys(("velocity_x", "velocity_y"), "m/s"))
+
+    def to_xarray(self) -> xarray.Dataset:
+        """position [m], velocity [m/s] (time, handle, axis) and speed (time, handle) [m/s]; without the axis `time`
+        where one time was asked.
+
+        raises: ImportError without xarray, naming the extra
+        """
+        instant = ("time",) * self.time.ndim
+        names = (*instant, "handle")
+        variables = {"position": ((*names, "axis"), self.position), "velocity": ((*names, "axis"), self.velocity)}
+        coordinates = {"time": (instant, self.time), "handle": np.arange(self.speed.shape[-1]), "axis": list(AXES)}
+        return data_set("Trajectory.to_xarray()", variables | {"speed": (names, self.speed)}, coordinates)
+
+    def plot(self, ax: Axes | None = None, *, instant: int = -1) -> Axes:
+        """The dance at one instant, every handle coloured by its speed.
+
+        instant: index into the times; the last one by default
+        returns: the axes given, or those of a new figure, in metres
+        raises: ImportError without matplotlib, naming the extra; IndexError where there is no such instant
+        """
+        axes = plots.wanted_axes(ax, "Trajectory.plot()")
+        time = self.time.reshape(-1)[instant]
+        handles, velocity, speed = (
+            column.reshape(self.time.size, *column.shape[self.time.ndim :])[instant]
+            for column in (self.position, self.velocity, self.speed)
+        )
+        if self.dance is None:
+            plots.plan(axes)
+        else:
+            plots.draw_dance(axes, self.dance.path, handles, bench_outlines(self.dance.dragon, handles), 0.4)
+        plots.draw_speeds(axes, handles, speed)
+        plots.mark_head(axes, handles[0], velocity[0])
+        axes.set_title(f"Handles and their speeds at {time:g} s", fontsize=11)
+        return axes
 
 
 def trajectory(dance: Dance, times: Floats | Sequence[float] | float) -> Trajectory:
@@ -36,9 +103,11 @@ def trajectory(dance: Dance, times: Floats | Sequence[float] | float) -> Traject
     raises: OutsideRun (times) after the end of the run, or where the tail would stand before the beginning of a route
     source: Yang et al., section 2.3, whose eqs. 6-7 divide a sum of speeds by 2 dt where a distance is meant
 
-    >>> trajectory(Dance(Dragon(), Spiral()), [0.0]).position[0, 1].round(6)
+    >>> from core import Spiral
+    >>> dance = Dance(Dragon(), Spiral())
+    >>> trajectory(dance, [0.0]).position[0, 1].round(6)
     array([8.363824, 2.826544])
-    >>> trajectory(Dance(Dragon(), Spiral()), 0.0).position.shape
+    >>> trajectory(dance, 0.0).position.shape
     (224, 2)
     """
     checked_type("dance", dance, Dance)
@@ -52,12 +121,12 @@ def trajectory(dance: Dance, times: Floats | Sequence[float] | float) -> Traject
         sizes[:, 0] = dragon.chords
         chain = np.empty((dragon.benches + 1, kernels.CHAIN_COLUMNS))
         kernels.route_trajectory(path.table, time * head_speed, head_speed, sizes, chain, position, velocity, speed)
-        return Trajectory(asked, *(column.reshape(*asked.shape, *column.shape[1:]) for column in columns))
+        return Trajectory(asked, *(column.reshape(*asked.shape, *column.shape[1:]) for column in columns), dance=dance)
     head = np.maximum(path.theta(time * head_speed), dance.end.theta or 0.0)
     folded = kernels.spiral_trajectory(path.growth, head, dragon.chords, head_speed, position, velocity, speed)
     if folded >= 0:
         raise dance.after_the_end(asked, folded)
-    return Trajectory(asked, *(column.reshape(*asked.shape, *column.shape[1:]) for column in columns))
+    return Trajectory(asked, *(column.reshape(*asked.shape, *column.shape[1:]) for column in columns), dance=dance)
 
 
 def bench_poses(handles: Floats) -> Floats:
@@ -77,6 +146,35 @@ def bench_poses(handles: Floats) -> Floats:
     along = front - rear
     heading = np.arctan2(along[..., 1], along[..., 0])
     return np.concatenate([middle, heading[..., None]], axis=-1)
+
+
+def bench_outlines(dragon: Dragon, handles: Floats) -> Floats:
+    """Corners of every bench: front-left, front-right, rear-right, rear-left.
+
+    handles: (..., n + 1, 2) [m], head first
+    returns: (..., n, 4, 2) [m]
+    raises:  InvalidValue
+
+    >>> bench_outlines(Dragon(1), np.array([[2.86, 0.0], [0.0, 0.0]])).round(3).tolist()
+    [[[3.135, 0.15], [3.135, -0.15], [-0.275, -0.15], [-0.275, 0.15]]]
+    """
+    checked_type("dragon", dragon, Dragon)
+    poses = bench_poses(handles)
+    if poses.shape[-2] != dragon.benches:
+        count = poses.shape[-2] + 1
+        raise InvalidValue("handles", f"handles must be {dragon.benches + 1}, one more than benches, got {count}")
+    return corners(poses, np.stack([dragon.lengths, dragon.widths], axis=-1))
+
+
+def instants(time: Floats) -> str:
+    """How many instants, and from when to when, in words.
+
+    >>> instants(np.array([0.0, 1.0, 2.0]))
+    '3 instants from 0 to 2 s'
+    """
+    if time.size < 2:
+        return f"{time.size} instants" if not time.size else f"1 instant at {worded(time.item(0), 's')}"
+    return f"{time.size} instants from {extent(time, 's')}"
 
 
 def _checked_handles(handles: object) -> Floats:

@@ -13,6 +13,7 @@ import numpy as np
 from core import kernels
 from core.errors import InvalidValue
 from core.paths.cubics import cut
+from core.shown import REPR_MOST, TABLE_DIGITS, Shown, counted, worded
 from core.values import Floats, checked_number, checked_size
 
 # Coordinates beyond this lose the digits that the chords need [m].
@@ -68,8 +69,10 @@ def _row(kind: str, start: float, end: float, curvature: Point, *parameters: flo
 
 
 @dataclass(frozen=True)
-class Line:
+class Line(Shown):
     """A straight piece from start to end, (x, y) [m]."""
+
+    _units = {"start": "m", "end": "m"}  # noqa: RUF012
 
     start: Point
     end: Point
@@ -87,7 +90,7 @@ class Line:
 
 
 @dataclass(frozen=True)
-class Arc:
+class Arc(Shown):
     """Part of a circle: centre (x, y) [m], radius [m], start_angle [rad], sweep [rad].
 
     A positive sweep goes counter-clockwise.
@@ -113,7 +116,7 @@ class Arc:
 
 
 @dataclass(frozen=True)
-class Coil:
+class Coil(Shown):
     """Part of an Archimedean spiral between two turns: inwards (clockwise) or outwards (counter-clockwise).
 
     pitch: [m]; start_turns, end_turns: turns from its centre, danced from the one to the other
@@ -145,8 +148,8 @@ class Coil:
         return _row("spiral", s, s + abs(end_arc - arc), bends, x, y, growth, rotation, sign, arc, slope=slope)
 
 
-@dataclass(frozen=True)
-class Waypoints:
+@dataclass(frozen=True, repr=False)
+class Waypoints(Shown):
     """A smooth curve through points (x, y) [m]: the cubic spline over the length of its polygon, curvature-continuous.
 
     start_heading, end_heading: direction at its ends [rad]; None leaves the end without curvature
@@ -164,6 +167,13 @@ class Waypoints:
         for name in ("start_heading", "end_heading"):
             if (heading := getattr(self, name)) is not None:
                 _settle(self, **{name: _checked_angle(f"waypoints.{name}", heading)})
+
+    def __repr__(self) -> str:
+        listed = f"Waypoints({self.points!r}, {self.start_heading!r}, {self.end_heading!r})"
+        return listed if len(listed) <= REPR_MOST else super().__repr__()
+
+    def _line(self) -> str:
+        return f"{len(self.points)} points from {self.points[0]!r} to {self.points[-1]!r} m"
 
     def rows(self, name: str, s: float) -> Floats:
         """Rows of the kernels' table from arc length s on: as many cubics as exact arc lengths take."""
@@ -202,7 +212,7 @@ def _check_length(name: str, length: float) -> None:
         raise InvalidValue(name, f"{name} must be at least {LENGTH_MIN:g} m long, got {length:g} m")
 
 
-class Route:
+class Route(Shown):
     """Pieces joined into one path, s = 0 at `start` metres from the beginning of the first one.
 
     pieces: in the order they are danced; joints must agree within JOINT_GAP and JOINT_KINK
@@ -280,6 +290,20 @@ class Route:
             raise InvalidValue(
                 name, f"{where} must be smooth: at ({x:.9g}, {y:.9g}) m the direction turns by {kink:.3g} rad"
             )
+
+    def __repr__(self) -> str:
+        listed = f"Route({list(self.pieces)!r}, start={self.start!r})"
+        return listed if len(listed) <= REPR_MOST else super().__repr__()
+
+    def _line(self) -> str:
+        kinds = ", ".join(type(piece).__name__ for piece in self.pieces[:4])
+        more = ", ..." if len(self.pieces) > 4 else ""
+        pieces = f"{counted(len(self.pieces), 'piece')} ({kinds}{more})"
+        return f"{pieces}, s from {worded(self.begin)} to {worded(self.end, 'm')}"
+
+    def _rows(self) -> list[tuple[str, str]]:
+        rows = [(f"piece {k}", str(piece)) for k, piece in enumerate(self.pieces)]
+        return [*rows, ("begin", worded(self.begin, "m", TABLE_DIGITS)), ("end", worded(self.end, "m", TABLE_DIGITS))]
 
     def _points(self, s: Floats | float) -> Floats:
         flat = np.ascontiguousarray(np.asarray(s, dtype=np.float64).reshape(-1))

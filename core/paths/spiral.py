@@ -12,6 +12,7 @@ from functools import cached_property
 import numpy as np
 
 from core import kernels
+from core.shown import TABLE_DIGITS, Shown, worded
 from core.values import Floats, checked_number, checked_size
 
 START_TURNS_MAX = 1e5
@@ -20,7 +21,7 @@ GENTLE_WIDTH = 1e-9
 
 
 @dataclass(frozen=True)
-class Spiral:
+class Spiral(Shown):
     """Archimedean spiral r = growth * theta, danced inwards (clockwise) from start_turns turns.
 
     pitch: radial advance per full turn [m]; start_turns: turns from the centre to the start, s = 0
@@ -39,6 +40,9 @@ class Spiral:
         object.__setattr__(self, "pitch", checked_size("path.pitch", self.pitch))
         turns = checked_number("path.start_turns", self.start_turns, "turns", 0.0, START_TURNS_MAX, open_low=True)
         object.__setattr__(self, "start_turns", turns)
+
+    def _rows(self) -> list[tuple[str, str]]:
+        return [*super()._rows(), ("length", worded(self.length, "m", TABLE_DIGITS))]
 
     # The head enters at s = 0 and may go to the centre; the tail stands on the extension, which has no beginning.
     begin = 0.0

@@ -9,6 +9,7 @@ import numpy as np
 from core import kernels
 from core.errors import InvalidValue
 from core.paths.route import LENGTH_MIN, Arc, Coil, Point, Route
+from core.shown import TABLE_DIGITS, worded
 from core.values import SIZE_MAX, SIZE_MIN, Floats, checked_number, checked_size
 
 RATIO_MIN = 0.01
@@ -85,6 +86,18 @@ class Turn(Route):
         self.radii, self.centres, self.angles = radii, (_point(first), _point(second)), angles
         self.entry, self.tangent_point, self.exit = _point(entry), _point(middle), _point(-entry)
         self.length = radii[0] * angles[0] + radii[1] * angles[1]
+        self.start_turns = turns
+
+    def __repr__(self) -> str:
+        deeper = f", entry_radius={self.entry_radius!r}" if self.entry_radius != self.turning_radius else ""
+        given = f"{self.pitch!r}, {self.turning_radius!r}, {self.ratio!r}, start_turns={self.start_turns!r}{deeper}"
+        return f"Turn({given})"
+
+    def _rows(self) -> list[tuple[str, str]]:
+        units = dict.fromkeys(("pitch", "turning_radius", "entry_radius", "radii", "length"), "m")
+        units |= {"ratio": "", "angles": "rad"} | dict.fromkeys(("centres", "entry", "tangent_point", "exit"), "m")
+        named = [(name, getattr(self, name), unit) for name, unit in units.items()]
+        return [(name.replace("_", " "), worded(value, unit, TABLE_DIGITS)) for name, value, unit in named]
 
 
 def _check_arcs(radii: Point, angles: Point, ratio: float, radius: float, entry_radius: float | None) -> None:

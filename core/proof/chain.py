@@ -140,12 +140,12 @@ def bend(theta: arb, needed: arb) -> arb:
     found = newton(guess, around, value, slopes(theta, around)[1])
     if not found > 0:
         raise Unproven("a next handle is not behind")
-    if not found < arb.pi() and not _rises_to(theta, found):
+    if not found < arb.pi() and not rises_to(theta, found):
         raise Unproven("a next handle is not shown to be the nearest behind")
     return found
 
 
-def _rises_to(theta: arb, d: arb) -> bool:
+def rises_to(theta: arb, d: arb) -> bool:
     """Is F(theta, .) < F(theta, d) before d > pi (1.)? Where F_d > 0 at d is known."""
     step = (d - arb.pi()) / PIECES_PAST_PI
     pieces = [(float(k), k + 1.0) for k in reversed(range(PIECES_PAST_PI))]

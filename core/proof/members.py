@@ -1,4 +1,9 @@
-"""The members of a certificate: each is there, no other is, and each is of its kind, before any of them is judged."""
+"""The members of a certificate: each is there, no other is, and each is of its kind, before any of them is judged.
+
+By hand: a schema of msgspec for the same refuses the same (4,749 changed certificates, measured 2026-11-21) in 80 lines
+less, but its messages name types of Python instead of the value and what it must be, the rules that depend on the claim
+(faces, order of places, directions, overlap) stay, and those who only check a certificate would need one package more.
+"""
 
 from __future__ import annotations
 

@@ -46,7 +46,7 @@ class RouteStretch:
             self.speeds.append(speed)
             return
         low, high = self.chain.path.curvature(front, rear)
-        alpha = _half_turn(low, high, chord)
+        alpha = half_turn(low, high, chord)
         alpha, beta = self._from_ends(k, alpha, low.union(high))
         (sine, cosine), (rear_sine, rear_cosine) = alpha.sin_cos(), beta.sin_cos()
         if not (cosine > 0 and rear_cosine > 0):
@@ -110,11 +110,11 @@ class RouteStretch:
         """Are the circles around both benches more than the margin apart all over the stretch (10.)?"""
         sizes = self.ends[0].sizes
         (before, _), (after, _) = self.ends[1].seen(0, partner), self.ends[0].seen(0, partner)
-        passed = abs(self._relative(partner)[1]) * self.width
+        passed = abs(self.relative(partner)[1]) * self.width
         needed = sizes[0].diagonal + sizes[partner].diagonal + self.chain.margin
         return bool(abs(before) + abs(after) - passed > 2 * needed)
 
-    def _relative(self, partner: int) -> tuple[acb, acb]:
+    def relative(self, partner: int) -> tuple[acb, acb]:
         """e and v of 9.: partner's direction and velocity seen from the first bench, its turning left out."""
         if self._turned is None or self._turned[0] != partner:
             (velocity, rate), (velocity_b, rate_b) = self.placed[0], self.placed[partner]
@@ -124,7 +124,7 @@ class RouteStretch:
             self._turned = partner, along, along * velocity_b - velocity
         return self._turned[1:]
 
-    def _between(self, partner: int, along: acb, velocity: acb) -> acb:
+    def between(self, partner: int, along: acb, velocity: acb) -> acb:
         """q of 9.: partner's centre seen from the first bench."""
         (after, _), (before, _) = (pose.seen(0, partner) for pose in self.ends)
         half = arb(0).union(self.width / 2)
@@ -142,8 +142,8 @@ class RouteStretch:
         """
         sizes = self.ends[0].sizes
         limit = Limit(face, direction, sizes[0], sizes[partner])
-        along, velocity = self._relative(partner)
-        place = self._between(partner, along, velocity)
+        along, velocity = self.relative(partner)
+        place = self.between(partner, along, velocity)
         (velocity_a, rate_a), (velocity_b, rate_b) = self.placed[0], self.placed[partner]
         a, b = 0, partner
         if limit.by_partner:
@@ -162,7 +162,7 @@ class RouteStretch:
         return stays_above(gaps[0], gaps[1], slopes, self.width, self.chain.margin)
 
 
-def _half_turn(low: arb, high: arb, chord: arb) -> arb:
+def half_turn(low: arb, high: arb, chord: arb) -> arb:
     """Between which angles alpha and -beta of 8. lie, for a curvature between low and high [1/m]. chord: [m]"""
     gentlest = arb(0)
     if low > 0 or high < 0:

@@ -7,7 +7,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from core import kernels
 from core.errors import InvalidValue, TooLarge
-from core.shapes.rectangles import POSE, SIZE, checked_array, checked_columns, frames
+from core.shapes.rectangles import POSE, SIZE, checked_array, checked_columns
 from core.values import SIZE_MAX, Floats, checked_number
 
 Pairs = NDArray[np.int64]
@@ -22,18 +22,6 @@ CROSS_CANDIDATES_MAX = 2_000_000
 # Searches reach further by this share of the coordinates and sizes that they compute with: each of their few
 # operations rounds by 1.1e-16, and so does the separation that they must not miss [1].
 ROUNDING = 4e-15
-
-
-def broad_phase(
-    poses: ArrayLike, lengths: ArrayLike, widths: ArrayLike, *, margin: float = 0.0, chained: bool = True
-) -> Pairs:
-    """Pairs (P, 2), a < b, sorted, whose upright boxes come within the margin: every pair that does is among them.
-
-    poses: (n, 3) x [m], y [m], heading [rad]; lengths, widths: (n,) [m]
-    raises: as checked_benches() and meeting_pairs()
-    """
-    pose, size, margin = checked_benches(poses, lengths, widths, margin)
-    return meeting_pairs(frames(pose, size), margin, chained, exact=False)
 
 
 def checked_benches(

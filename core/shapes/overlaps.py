@@ -11,18 +11,22 @@ from core.errors import InvalidValue
 from core.shapes.broad_phase import Pairs, checked_benches
 from core.shapes.engines import JUDGES, Engine, able, found_pairs
 from core.shapes.rectangles import POSE, Separation, checked_array, checked_columns, frames, frames_separation
+from core.shown import Shown, counted, worded
 
 
-@dataclass(frozen=True, slots=True)
-class Overlaps:
+@dataclass(frozen=True, slots=True, repr=False)
+class Overlaps(Shown):
     """pairs (P, 2), a < b, sorted; contact: exact separation, witnesses and normal of each pair (P, ...)."""
 
     pairs: Pairs
     contact: Separation
 
+    def _line(self) -> str:
+        return f"{counted(len(self.pairs), 'pair')}, separation {worded(self.contact.separation, 'm')}"
 
-@dataclass(frozen=True, slots=True)
-class CrossCheck:
+
+@dataclass(frozen=True, slots=True, repr=False)
+class CrossCheck(Shown):
     """pairs: what each engine found; agree: all the same; only: pairs by engine that not all engines found;
     missing: pairs by engine that some other engine found and this one did not.
     left_out: engines that cannot judge this margin; they stand in none of the others.
@@ -34,9 +38,20 @@ class CrossCheck:
     missing: dict[Engine, Pairs]
     left_out: tuple[Engine, ...]
 
+    def _line(self) -> str:
+        found = ", ".join(f"{engine.value} {len(pairs)}" for engine, pairs in self.pairs.items())
+        return f"{'agree' if self.agree else 'disagree'}; pairs by engine: {found}"
+
+    def _rows(self) -> list[tuple[str, str]]:
+        counts = [
+            (engine.value, f"{counted(len(pairs), 'pair')}, {len(self.only[engine])} not found by all")
+            for engine, pairs in self.pairs.items()
+        ]
+        return [("agree", worded(self.agree)), *counts, ("left out", worded(self.left_out))]
+
 
 @dataclass(frozen=True, slots=True)
-class Verdict:
+class Verdict(Shown):
     """Does an engine find the pair overlapping just before and just after first contact? None: there is no before."""
 
     before: bool | None

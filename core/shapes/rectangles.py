@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike
 
 from core import kernels
 from core.errors import InvalidValue, said
+from core.shown import Shown, worded
 from core.values import SIZE_MAX, SIZE_MIN, Floats
 
 # Further out than any dance: a double resolves only 1e-7 m there [m].
@@ -33,8 +34,8 @@ SIZE = ("length", "width")
 CORNER_SIDES = np.array([[1.0, 1.0], [1.0, -1.0], [-1.0, -1.0], [-1.0, 1.0]])
 
 
-@dataclass(frozen=True, slots=True)
-class Separation:
+@dataclass(frozen=True, slots=True, repr=False)
+class Separation(Shown):
     """separation (...) [m]: > 0 apart, 0 touching, < 0 minus the penetration depth;
     witness_a, witness_b (..., 2) [m]; normal (..., 2) from a to b.
 
@@ -45,6 +46,11 @@ class Separation:
     witness_a: Floats
     witness_b: Floats
     normal: Floats
+
+    def _line(self) -> str:
+        if not self.separation.ndim:
+            return worded(self.separation.item(), "m")
+        return worded(self.separation, "m")
 
 
 def separation(poses_a: ArrayLike, sizes_a: ArrayLike, poses_b: ArrayLike, sizes_b: ArrayLike) -> Separation:

@@ -1,13 +1,35 @@
-"""Forged certificates of five benches: each changes the claim or its proof, and its digest fits."""
+"""What forgers need: certificates as read from a file, edits whose digest fits, and forgeries of five benches."""
 
 from __future__ import annotations
 
 import copy
+import json
 import math
 from collections.abc import Callable
 from typing import Any
 
-from core.proof import Certificate, digest
+from core.errors import ProofRefused
+from core.proof import Certificate, check, digest
+
+
+def through_json(certificate: Certificate) -> Certificate:
+    """A certificate as it is read from a file."""
+    return json.loads(json.dumps(certificate, allow_nan=False))  # type: ignore[no-any-return]
+
+
+def places(value: Any, place: tuple[str | int, ...] = ()) -> list[tuple[str | int, ...]]:
+    """Every member of a certificate, and the first entries of every list."""
+    entries = list(value) if isinstance(value, dict) else range(min(2, len(value))) if isinstance(value, list) else ()
+    return [place, *(found for entry in entries for found in places(value[entry], (*place, entry)))]
+
+
+def refusal(certificate: Certificate) -> str:
+    """Why a certificate is refused; empty for a proof."""
+    try:
+        check(certificate)
+    except ProofRefused as refused:
+        return refused.message
+    return ""
 
 
 def put_at(*place: str | int, put: Any) -> Callable[[dict[str, Any]], None]:

@@ -14,6 +14,7 @@ import pytest
 import core
 from core import kernels
 from core.kernels import constants
+from tests.core.every_digit import every_digit
 
 ROOT = Path(__file__).parents[2]
 SOURCES = ROOT / "core" / "kernels"
@@ -37,9 +38,9 @@ from core import *
 modules = [name for name in sys.modules if name.startswith("core.kernels.")]
 assert len(modules) > 9 and not core.kernels.COMPILED
 assert all(sys.modules[name].__file__.endswith(".py") for name in modules)
-with np.printoptions(floatmode="unique", threshold=sys.maxsize, legacy="1.25"):
-    for expression in sys.argv[1:]:
-        print(ascii(repr(eval(expression))))
+from tests.core.every_digit import every_digit
+for expression in sys.argv[1:]:
+    print(ascii(every_digit(eval(expression))))
 """
 
 EXPRESSIONS = {
@@ -104,6 +105,5 @@ def test_modules_take_the_same_from_each_other_compiled_and_uncompiled(module: s
 @needs_compiled
 @pytest.mark.parametrize("name", EXPRESSIONS)
 def test_uncompiled_gives_the_same_to_the_last_bit(name: str, uncompiled: dict[str, str]) -> None:
-    with np.printoptions(floatmode="unique", threshold=sys.maxsize, legacy="1.25"):  # np.float64 is written like float
-        compiled = repr(eval(EXPRESSIONS[name], vars(core) | {"core": core, "np": np}))
+    compiled = every_digit(eval(EXPRESSIONS[name], vars(core) | {"core": core, "np": np}))
     assert ascii(compiled) == uncompiled[name]

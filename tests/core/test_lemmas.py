@@ -11,7 +11,7 @@ from core import Dance, Dragon, EndReason, Outcome, Route, Spiral, Turn, first_c
 from core.contact.search import BRACKET, NO_BOUND, Search
 from core.kernels.constants import RING_END, RING_PLACE
 from core.motion.trajectory import trajectory
-from tests.core.test_contact import ACCURACY
+from tests.core.contact.test_first_contact import ACCURACY
 
 # Points of a random curve; its angles and chords are sums of that many terms, good to this [rad], relative [1].
 POINTS = 20_001

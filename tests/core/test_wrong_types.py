@@ -20,12 +20,14 @@ POSES, COLUMN = [[0.0, 0.0, 0.0], [0.0, 1.0, 0.0]], [2.0, 2.0]
 CONTACT, PITCH = core.first_contact(DANCE), core.minimum_pitch(DRAGON)
 # How each is called when all is well; the names are those of its parameters.
 CALLS: dict[Callable[..., Any], dict[str, Any]] = {
+    core.bench_outlines: {"dragon": DRAGON, "handles": np.zeros((6, 2)) + np.arange(6)[:, None]},
     core.bench_poses: {"handles": np.zeros((3, 2)) + np.arange(3)[:, None]},
     core.check: {"dance": DANCE, "venue": SQUARE, "margin": 0.0, "speed_limit": 2.0, "stop": 9.0},
     core.clearance_profile: {"dance": DANCE, "times": [0.0]},
     core.contact_check: {"contact": CONTACT, "dance": DANCE, "margin": 0.0},
     core.cross_check: {"poses": POSES, "lengths": COLUMN, "widths": COLUMN, "margin": 0.0},
     core.first_contact: {"dance": DANCE, "margin": 0.0, "start": 0.0, "stop": 9.0},
+    core.first_excess: {"dance": DANCE, "speed_limit": 2.0, "start": 0.0, "stop": 9.0},
     core.highest_speed: {"dance": DANCE, "start": 0.0, "stop": 9.0},
     core.least_clearance: {"dance": DANCE, "start": 0.0, "stop": 9.0},
     core.maximum_head_speed: {"dance": DANCE, "speed_limit": 2.0, "start": 0.0, "stop": 9.0},
@@ -38,6 +40,7 @@ CALLS: dict[Callable[..., Any], dict[str, Any]] = {
         "margin": 0.0,
     },
     core.pitch_check: {"found": PITCH, "dragon": DRAGON, "margin": 0.0},
+    core.pitch_scan: {"dragon": DRAGON, "pitches": [0.5, 0.6], "start_turns": 8.0, "margin": 0.0},
     core.separation: {"poses_a": POSES, "sizes_a": [2.0, 1.0], "poses_b": POSES, "sizes_b": [2.0, 1.0]},
     core.sharpest_bend: {"dance": DANCE, "start": 0.0, "stop": 9.0},
     core.shortest_turn: {"dragon": DRAGON, "pitch": 1.7, "turning_radius": 4.5, "ratio": 2.0, "margin": 0.0},
@@ -73,6 +76,7 @@ SPOKEN = {
     core.Waypoints: dict.fromkeys(CALLS[core.Waypoints], "waypoints."),
     core.cross_check: {"poses": "benches"},
     core.overlaps: {"poses": "benches"},
+    core.pitch_scan: {"start_turns": "path.start_turns"},
     core.verdicts: {"before": "benches", "after": "benches"},
 }
 WRONG = {

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 import pytest
 
 import core.design.pitch_scan
-from core import Dance, Dragon, Spiral, TooMuchWork, first_contact, minimum_pitch
+from core import Dance, Dragon, InvalidValue, Spiral, TooMuchWork, first_contact, minimum_pitch
 from core.design.pitch_scan import JUMP, JUMP_WIDTH, RADIUS_WIDTH, Stops, pitch_scan, scan_near_minimum, stop_radius
 
 SMALL = Dragon(benches=30)
@@ -78,3 +80,23 @@ def test_work_that_ends_before_the_scan_does_is_an_error(monkeypatch: pytest.Mon
         pitch_scan(Dragon(), np.linspace(0.44, 0.46, 5))
     with pytest.raises(TooMuchWork, match=r"samples must be fewer, .*, got 7$"):
         scan_near_minimum(Dragon(), turning_radius=4.5, start_turns=16.0, margin=0.0, samples=7)
+
+
+@pytest.mark.parametrize(
+    ("pitches", "said"),
+    [
+        ([0.5, 0.4], "pitches[1] must be at least 0.5 m, the one before it, got 0.4 m"),
+        ([0.5, math.nan], "pitches[1] must be at least 0.5 m, the one before it, got nan m"),
+        ([-0.5, 0.5], "pitches[0] must be positive, got -0.5 m"),
+        ([[0.5]], "pitches must be a list of numbers in metres, ascending, got [[0.5]]"),
+    ],
+)
+def test_pitches_that_do_not_ascend_are_refused(pitches: list[float], said: str) -> None:
+    with pytest.raises(InvalidValue) as refused:
+        pitch_scan(Dragon(3), pitches)
+    assert refused.value.message == said
+
+
+def test_a_pitch_given_twice_counts_once() -> None:
+    scan = pitch_scan(Dragon(30), [0.4, 0.4], start_turns=8.0)
+    assert scan.pitch.tolist() == [0.4]

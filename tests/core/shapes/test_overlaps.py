@@ -15,11 +15,8 @@ from core.dragon import Dragon
 from core.errors import InvalidValue, TooLarge
 from core.motion.trajectory import bench_poses, trajectory
 from core.paths.spiral import Spiral
-from core.shapes.angle_sum import ANGLE_TOLERANCE, angle_sum_overlap, angle_sums, literal_corners, paper_corners
-from core.shapes.broad_phase import CROSS_CANDIDATES_MAX, PAIRS_MAX, broad_phase
 from core.shapes.overlaps import Engine, Verdict, cross_check, overlaps, verdicts
-from core.shapes.rectangles import corners, separation
-from core.values import SIZE_MAX
+from core.shapes.rectangles import separation
 
 Floats = NDArray[np.float64]
 Pairs = NDArray[np.int64]
@@ -29,8 +26,6 @@ Scene = tuple[Floats, Floats, Floats]
 UNDECIDED = 1e-9
 # How close to the margin most random pairs are put: where engines could err without being undecided [m].
 NEAR = 1e-8
-# Rounding of points and distances within ten metres of the origin [m].
-ROUNDING = 2e-14
 # First contact of the default dragon, computed in 256-bit ball arithmetic [s].
 CONTACT_TIME = 412.473837682
 EXACT = (Engine.SEPARATING_AXIS, Engine.FCL, Engine.SHAPELY)
@@ -233,37 +228,7 @@ def test_verdicts_are_of_two_benches(before: int, after: int) -> None:
     assert refused.value.field == "benches"
 
 
-# -- the broad phase ------------------------------------------------------------------------------------------
-
-
-@settings(deadline=None)
-@given(st.integers(0, 2**32), st.integers(0, 60), st.sampled_from([0.0, 1e-9, 0.3]), st.sampled_from([0.0, 1e3, 1e8]))
-def test_broad_phase_is_a_superset_of_the_narrow_phase(seed: int, count: int, margin: float, shift: float) -> None:
-    pose, length, width = crowd(count, seed, side=12.0)
-    scene = pose + np.array([shift, -shift, 0.0]), length, width
-    wide = {tuple(pair) for pair in broad_phase(*scene, margin=margin, chained=False)}
-    narrow = {tuple(pair) for pair in all_pairs(scene, margin)}
-    assert narrow <= wide
-    assert {tuple(pair) for pair in overlaps(*scene, margin=margin, chained=False).pairs} == narrow
-
-
-LAYOUTS = {
-    "mixed sizes": crowd(1_000, seed=3, side=70.0, smallest=1e-3, largest=20.0),
-    "in a row": (np.stack([np.arange(1_000) * 0.7, np.zeros(1_000), np.zeros(1_000)], -1), *np.full((2, 1_000), 0.9)),
-    "in a column": (np.stack([np.zeros(1_000), np.arange(1_000) * 0.7, np.ones(1_000)], -1), *np.full((2, 1_000), 0.9)),
-    "all in one place": (np.zeros((300, 3)), *np.ones((2, 300))),
-}
-with_giants = LAYOUTS["mixed sizes"][0].copy(), LAYOUTS["mixed sizes"][1].copy(), LAYOUTS["mixed sizes"][2]
-with_giants[0][:2, :2] = [[1e9, -1e9], [-1e9, 5.0]]
-with_giants[1][2] = SIZE_MAX
-LAYOUTS["a giant and two far away"] = with_giants
-
-
-@pytest.mark.parametrize("scene", LAYOUTS.values(), ids=LAYOUTS.keys())
-def test_separating_axis_finds_what_all_pairs_finds(scene: Scene) -> None:
-    found = overlaps(*scene, chained=False).pairs
-    np.testing.assert_array_equal(found, all_pairs(scene))
-    assert len(found) > 100
+# -- many benches ---------------------------------------------------------------------------------------------
 
 
 @settings(deadline=None)
@@ -283,105 +248,6 @@ def test_a_hundred_thousand_stacked_benches_are_refused(engine: Engine) -> None:
         overlaps(np.zeros((count, 3)), np.full(count, LENGTH), np.full(count, WIDTH), engine=engine)
     assert caught.value.field == "benches"
     assert str(count) in caught.value.message
-
-
-def test_close_benches_that_do_not_overlap_are_refused_when_too_many_must_be_looked_at() -> None:
-    count = 7_000  # their boxes all meet: 24 million pairs
-    abreast = np.arange(count) * 0.25
-    poses = np.stack([abreast, -abreast, np.full(count, math.pi / 4)], axis=-1)
-    with pytest.raises(TooLarge, match="20000000 pairs close by"):
-        overlaps(poses, np.full(count, SIZE_MAX), np.full(count, WIDTH))
-
-
-# n benches in one place are n (n - 1) / 2 pairs
-@pytest.mark.parametrize(("find", "limit"), [(overlaps, PAIRS_MAX), (broad_phase, CROSS_CANDIDATES_MAX)])
-def test_as_many_pairs_as_the_limit_allows_are_found(find: object, limit: int) -> None:
-    most = (1 + math.isqrt(1 + 8 * limit)) // 2
-    found = find(np.zeros((most, 3)), np.ones(most), np.ones(most), chained=False)
-    assert len(getattr(found, "pairs", found)) == most * (most - 1) // 2
-    with pytest.raises(TooLarge, match=f"at most {limit} pairs"):
-        find(np.zeros((most + 1, 3)), np.ones(most + 1), np.ones(most + 1), chained=False)
-
-
-# -- the paper's rule -----------------------------------------------------------------------------------------
-
-
-def as_set(points: Floats) -> set[tuple[float, float]]:
-    return {(round(x, 12), round(y, 12)) for x, y in points.tolist()}
-
-
-@pytest.mark.parametrize("heading", [0.0, 0.4, math.pi / 2, 2.5, -1.1])
-def test_paper_corners_are_the_rectangle_whichever_way_its_arctan_points(heading: float) -> None:
-    size = np.array([LENGTH, WIDTH])
-    expected = as_set(corners(np.array([3.0, 1.0, heading]), size))
-    assert as_set(paper_corners(np.array([3.0, 1.0, heading]), size)) == expected
-    assert as_set(paper_corners(np.array([3.0, 1.0, heading + math.pi]), size)) == expected
-
-
-@pytest.mark.parametrize("heading", [0.0, 0.4, math.pi / 4, math.pi / 2, 2.5])
-def test_literal_corners_are_sheared_by_the_heading(heading: float) -> None:
-    top_right, bottom_right, bottom_left, _ = literal_corners(np.array([3.0, 1.0, heading]), np.array([LENGTH, WIDTH]))
-    across, along = top_right - bottom_right, bottom_right - bottom_left
-    assert np.hypot(*along) == pytest.approx(LENGTH, abs=ROUNDING)
-    assert np.hypot(*across) == pytest.approx(WIDTH, abs=ROUNDING)
-    assert across @ along == pytest.approx(-LENGTH * WIDTH * math.sin(2.0 * heading), abs=ROUNDING)
-
-
-def test_literal_corners_are_those_of_eq_12_as_printed() -> None:
-    theta, cos, sin = 0.4, math.cos(0.4), math.sin(0.4)
-    expected = [
-        (LENGTH / 2 * cos - WIDTH / 2 * sin, LENGTH / 2 * sin - WIDTH / 2 * cos),
-        (LENGTH / 2 * cos + WIDTH / 2 * sin, LENGTH / 2 * sin + WIDTH / 2 * cos),
-        (-LENGTH / 2 * cos + WIDTH / 2 * sin, -LENGTH / 2 * sin + WIDTH / 2 * cos),
-        (-LENGTH / 2 * cos - WIDTH / 2 * sin, -LENGTH / 2 * sin - WIDTH / 2 * cos),
-    ]
-    found = literal_corners(np.array([0.0, 0.0, theta]), np.array([LENGTH, WIDTH]))
-    np.testing.assert_allclose(found, expected, rtol=0, atol=ROUNDING)
-
-
-SQUARE = np.array([[1.0, 1.0], [1.0, -1.0], [-1.0, -1.0], [-1.0, 1.0]])
-
-
-@pytest.mark.parametrize(
-    ("point", "expected"),
-    [
-        ((0.2, -0.3), 2 * math.pi),
-        ((1.0, 0.3), 2 * math.pi),
-        ((1.0, 1.0), 2 * math.pi),
-        ((1 + 1e-3, 0.0), 4 * math.atan(1e3)),
-        ((1e4, 0.0), 4 * math.atan(1 / (1e4 - 1))),
-    ],
-    ids=["inside", "on an edge", "on a corner", "just outside", "far away"],
-)
-def test_angle_sum_is_a_full_turn_inside_and_less_outside(point: tuple[float, float], expected: float) -> None:
-    assert angle_sums(np.array([point]), SQUARE) == pytest.approx(expected, rel=0, abs=ANGLE_TOLERANCE)
-
-
-@pytest.mark.parametrize(("gap", "seen"), [(-1e-9, True), (0.0, True), (1e-13, True), (1e-12, False), (1e-9, False)])
-def test_angle_sum_tolerance_reaches_less_than_a_picometre(gap: float, seen: bool) -> None:
-    tip = np.array([[1.0 + gap, 0.0], [2.0, 0.5], [2.0, -0.5]])
-    assert angle_sum_overlap(SQUARE, tip) == seen
-    assert angle_sum_overlap(tip, SQUARE) == seen
-
-
-def test_angle_sum_misses_a_crossing_without_a_corner_inside() -> None:
-    crossing = benches((0, 0, 0), (0, 0, math.pi / 2))
-    assert overlaps(*crossing, chained=False).pairs.tolist() == [[0, 1]]
-    assert overlaps(*crossing, chained=False, engine=Engine.ANGLE_SUM).pairs.tolist() == []
-
-
-@settings(deadline=None)
-@given(st.integers(0, 2**32), st.integers(2, 40))
-def test_angle_sum_finds_just_the_overlaps_with_a_corner_inside(seed: int, count: int) -> None:
-    pose, length, width = crowd(count, seed, side=8.0)
-    size = np.stack([length, width], axis=-1)
-    offset = corners(pose, size)[:, None] - pose[None, :, None, :2]
-    cos, sin = np.cos(pose[:, 2])[:, None], np.sin(pose[:, 2])[:, None]
-    along = np.abs(offset[..., 0] * cos + offset[..., 1] * sin) <= length[:, None] / 2
-    across = np.abs(offset[..., 1] * cos - offset[..., 0] * sin) <= width[:, None] / 2
-    holds = (along & across).any(axis=-1)
-    found = overlaps(pose, length, width, engine=Engine.ANGLE_SUM, chained=False).pairs
-    np.testing.assert_array_equal(found, np.argwhere(np.triu(holds | holds.T, k=1)))
 
 
 # -- bad input ------------------------------------------------------------------------------------------------
@@ -404,7 +270,7 @@ def test_a_bad_bench_is_refused_by_number_and_name(row: int, name: str, value: f
     pose, length, width = benches((0, 0, 0), (3, 0, 0), (6, 0, 0))
     columns = {"x": pose[:, 0], "y": pose[:, 1], "heading": pose[:, 2], "length": length, "width": width}
     columns[name][row] = value
-    for find in (overlaps, cross_check, broad_phase):
+    for find in (overlaps, cross_check):
         with pytest.raises(InvalidValue) as caught:
             find(pose, length, width)
         assert caught.value.field == f"benches.{row}.{name}"
@@ -433,10 +299,4 @@ def test_wrong_shapes_are_refused(poses: object, lengths: object, widths: object
 def test_a_bad_margin_is_refused(margin: float) -> None:
     with pytest.raises(InvalidValue) as caught:
         overlaps(*benches((0, 0, 0)), margin=margin)
-    assert caught.value.field == "margin"
-
-
-def test_the_angle_sum_rule_refuses_a_margin() -> None:
-    with pytest.raises(InvalidValue, match="margin must be 0 m for the angle-sum rule") as caught:
-        overlaps(*benches((0, 0, 0)), engine=Engine.ANGLE_SUM, margin=0.05)
     assert caught.value.field == "margin"

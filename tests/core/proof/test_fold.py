@@ -14,10 +14,11 @@ from core import Dragon, LimitedBy, Spiral, minimum_pitch
 from core.dance import end_theta
 from core.errors import ProofRefused
 from core.proof import Certificate, check, prove_minimum_pitch
-from core.proof.chain import Chain, _rises_to, bend
+from core.proof.chain import Chain, bend, rises_to
 from core.proof.fold import check_fold
 from core.proof.pairs import Unproven
-from tests.core.test_proof import at, edit, places, refusal, stretches, through_json
+from tests.core.forgeries import edit, places, refusal, stretches, through_json
+from tests.core.forgeries import put_at as at
 
 DRAGON, RADIUS, TURNS = Dragon(14, 2.21, 1.47, 0.06, 0.12), 0.85, 5.0
 ONE = Dragon(1, 2.21, 1.47, 0.06, 0.12)
@@ -180,8 +181,8 @@ def test_only_up_to_its_first_crest_a_distance_is_shown_to_rise(theta: float) ->
     later = int(np.argmax(distance[crest:] > distance[crest] + SAMPLED)) + crest
     assert 0 < crest < later
     with ctx.workprec(96):
-        assert _rises_to(arb(theta), arb(float(bends[crest]) - SAMPLED))
-        assert not _rises_to(arb(theta), arb(float(bends[later])))
+        assert rises_to(arb(theta), arb(float(bends[crest]) - SAMPLED))
+        assert not rises_to(arb(theta), arb(float(bends[later])))
 
 
 def claim(name: str, more: float) -> Callable[[dict[str, Any]], None]:

@@ -31,7 +31,6 @@ from core import (
     Turn,
     Venue,
     check,
-    clearance_profile,
     first_contact,
     highest_speed,
     least_clearance,
@@ -40,7 +39,6 @@ from core import (
     trajectory,
     venue_clearance,
 )
-from core.contact.least_clearance import PROOF_WIDTHS
 from core.motion.speed import SPEED_ROUNDING
 
 BEND_LIMIT = 0.999  # half a chord over the radius of the tightest bend that a route may have [1]
@@ -49,10 +47,7 @@ CLEARANCE = json.loads((REFERENCE / "turn.json").read_text())["clearance"]
 SPEED = json.loads((REFERENCE / "maximum_head_speed.json").read_text())
 
 REFERENCE_ERROR = 1e-9  # [m], [m/s], [s]
-ANGLE_ERROR = 1e-12  # [rad]
-ONSET_ERROR = 1e-5  # [s]: the root of the error of the angle, some times over
 EXCESS_ERROR = 1e-9  # [s]: a first excess is bracketed so closely at 1 m/s and more
-PROVEN = 1.1e-5  # [m]: a least clearance is proven to this
 
 TURN = Turn(1.7)
 SQUARE = Venue.from_geojson(
@@ -420,111 +415,7 @@ def test_the_default_start_is_when_the_whole_dragon_is_on_the_route() -> None:
     assert check(Dance(dragon, Spiral()), stop=50.0).start == 0.0
 
 
-# -- least clearance -----------------------------------------------------------------------------------------
-
-
-@pytest.mark.parametrize(
-    ("dragon", "path", "start", "stop"),
-    [
-        (Dragon(), Spiral(), 0.0, 412.0),
-        (Dragon(benches=60), Spiral(pitch=0.7), 100.0, 250.0),
-        (Dragon(benches=40, head_length=2.2), TURN, -10.0, 60.0),
-        (Dragon.of([2.6, 1.9, 2.2, 2.0, 2.4] * 4, [0.3, 0.5] * 10, [0.2] * 20), TURN, 0.0, 40.0),
-    ],
-    ids=["default", "wide coil", "turn", "benches of many sizes"],
-)
-def test_the_least_clearance_is_below_dense_samples_and_proven(
-    dragon: Dragon, path: Spiral | Route, start: float, stop: float
-) -> None:
-    least = least_clearance(Dance(dragon, path), start=start, stop=stop)
-    profile = clearance_profile(Dance(dragon, path), np.linspace(start, stop, 800))
-    assert least is not None
-    assert least.at_least is not None
-    lowest = min(profile.clearance.min(), *(graze.clearance for graze in profile.grazes))
-    assert least.at_least <= least.distance <= lowest + 1e-12
-    assert least.distance - least.at_least < PROVEN
-    there = clearance_profile(Dance(dragon, path), [least.time])
-    assert there.clearance[0] == pytest.approx(least.distance, abs=1e-12)
-    assert tuple(there.benches[0]) == least.benches
-
-
-# Beyond the width of the proof: its own rounding [m].
-PROOF_ROUNDING = 1e-9
-
-
-@pytest.mark.parametrize("pitch", [0.7, 0.8, 0.9, 1.2])
-def test_the_least_clearance_of_a_run_to_its_fold_is_proven(pitch: float) -> None:
-    least = least_clearance(Dance(Dragon(), Spiral(pitch)))
-    end = Dance(Dragon(), Spiral(pitch)).end
-    assert end.reason is EndReason.FOLD
-    assert least is not None
-    assert least.at_least is not None
-    assert 0.0 < least.distance - least.at_least <= PROOF_WIDTHS[0] + PROOF_ROUNDING
-    towards_the_fold = end.time * (1.0 - np.linspace(1.0, 0.0, 400) ** 4)
-    assert least.at_least <= clearance_profile(Dance(Dragon(), Spiral(pitch)), towards_the_fold).clearance.min()
-
-
-def test_a_least_clearance_that_takes_more_steps_than_a_search_may_is_proven_within_a_millimetre() -> None:
-    least = least_clearance(Dance(Dragon(20), Spiral(2.0, 6.0)))
-    assert least is not None
-    assert least.at_least is not None
-    assert 0.0 < least.distance - least.at_least <= PROOF_WIDTHS[1] + PROOF_ROUNDING
-
-
-def test_a_first_touch_is_a_least_clearance_of_zero() -> None:
-    least = least_clearance(Dance(Dragon(), Spiral()))
-    contact = first_contact(Dance(Dragon(), Spiral()))
-    assert least is not None
-    assert (least.distance, least.at_least, least.benches) == (0.0, 0.0, contact.benches)
-    assert least.time == pytest.approx(contact.time, abs=1e-12)
-
-
-# -- sharpest bend -------------------------------------------------------------------------------------------
-
-
-def test_there_is_no_bend_on_a_line() -> None:
-    route = Route([Line((0, 0), (60, 0))])
-    found = sharpest_bend(Dance(Dragon(benches=5), route), start=20.0)
-    assert found is not None
-    assert found.angle == 0.0
-
-
-def test_a_bend_on_an_arc_is_half_of_both_chords_angles() -> None:
-    route = Route([Line((-60, 0), (0, 0)), Arc((0, 4), 4.0, -0.5 * math.pi, 9.0)], start=60.0)
-    dragon = Dragon(benches=8)
-    found = sharpest_bend(Dance(dragon, route), start=0.0, stop=30.0)
-    assert found is not None
-    head, body = (math.asin(0.5 * chord / 4.0) for chord in dragon.chords[:2])
-    assert found.angle == pytest.approx(head + body, abs=ANGLE_ERROR)
-    assert found.benches == (0, 1)
-    # once all three handles are on it; until then it falls short by the square of the arc left
-    assert found.time == pytest.approx(4.0 * 2.0 * (head + body), abs=ONSET_ERROR)
-
-
-def dense_bends(dragon: Dragon, path: Spiral | Route, times: np.ndarray) -> np.ndarray:
-    along = np.diff(trajectory(Dance(dragon, path), times).position, axis=1)
-    heading = np.unwrap(np.arctan2(along[..., 1], along[..., 0]), axis=1)
-    return np.abs(np.diff(heading, axis=1))
-
-
-@pytest.mark.parametrize(
-    ("dragon", "path", "start", "stop"),
-    [
-        (Dragon(), TURN, -100.0, 100.0),
-        (Dragon(benches=50), TURN, 30.0, 34.0),
-        (Dragon(benches=50), TURN, 60.0, 60.9),
-        (Dragon.of([2.6, 1.9, 2.2, 2.0, 2.4] * 4, [0.3, 0.5] * 10, [0.2] * 20), TURN, 0.0, 40.0),
-        (Dragon(benches=40), Spiral(), 0.0, 400.0),
-    ],
-    ids=["turn", "turn behind the head", "a moment", "benches of many sizes", "spiral"],
-)
-def test_no_dense_sample_bends_more_sharply(dragon: Dragon, path: Spiral | Route, start: float, stop: float) -> None:
-    found = sharpest_bend(Dance(dragon, path), start=start, stop=stop)
-    assert found is not None
-    dense = dense_bends(dragon, path, np.linspace(start, stop, 2_500))
-    assert found.angle >= dense.max() - ANGLE_ERROR
-    there = dense_bends(dragon, path, np.array([found.time]))[0]
-    assert there[found.benches[0]] == pytest.approx(found.angle, abs=ANGLE_ERROR)
+# -- laws ----------------------------------------------------------------------------------------------------
 
 
 @settings(max_examples=15, deadline=None)

@@ -3,11 +3,9 @@
 from __future__ import annotations
 
 import cmath
-import json
 import math
 from collections.abc import Callable
 from itertools import pairwise
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -38,16 +36,12 @@ from core import (
     clearance_profile,
     first_contact,
     highest_speed,
-    least_clearance,
     maximum_head_speed,
     trajectory,
 )
 from core.shapes.rectangles import corners
 
-REFERENCE = json.loads((Path(__file__).parents[1] / "reference" / "turn.json").read_text())
 TURN = Turn(1.7, 4.5, 2.0)
-
-REFERENCE_ERROR = 1e-9  # [m], [m/s], [s]: what was asked of the reference values
 SAME = 1e-10  # [m], [m/s], [s]: one curve written in two ways
 CHORD_ERROR = 1e-11  # [m], at coordinates to 100 m
 PLACE_ERROR = 1e-9  # [m]: handles by a scan and brentq, each good to 1e-12 m, along a chain
@@ -270,70 +264,6 @@ def test_a_path_a_hair_longer_than_the_dragon_has_room() -> None:
     length = float(DRAGON.chords.sum())
     path = Route([Line((0, 0), (length + 1e-6, 0))])
     assert check(Dance(DRAGON, path)).start == pytest.approx(length, abs=1e-6)
-
-
-# -- the reference turn --------------------------------------------------------------------------------------
-
-
-@pytest.mark.parametrize(
-    ("asked", "field", "got"),
-    [
-        ({"pitch": 1.7, "start_turns": 2.0}, "start_turns", 2.0),
-        ({"pitch": 1.7, "turning_radius": 4.5, "start_turns": 4.5 / 1.7 * (1 + 1e-12)}, "start_turns", None),
-        (
-            {"pitch": 1e-3, "turning_radius": 0.1, "start_turns": 200, "entry_radius": 3e-3, "ratio": 0.01},
-            "ratio",
-            0.01,
-        ),
-        ({"pitch": 1e-3, "turning_radius": 1e-3}, "turning_radius", 1e-3),
-        ({"pitch": 1e-3, "turning_radius": 0.01, "entry_radius": 1e-3}, "entry_radius", 1e-3),
-        ({"pitch": 1e4, "start_turns": 200.0}, "start_turns", 200.0),
-    ],
-    ids=["inside the circle", "on the circle", "an arc too small", "the circle", "the entry", "a coil too long"],
-)
-def test_a_turn_that_is_none_names_what_was_asked_and_never_a_piece(asked: dict, field: str, got: float | None) -> None:
-    with pytest.raises(InvalidValue) as refused:
-        Turn(**asked)
-    assert refused.value.field == field
-    assert got is None or refused.value.got == got
-    assert refused.value.message.startswith(f"{field} must ")
-    assert "path" not in refused.value.message
-
-
-@pytest.mark.uncompiled
-def test_the_turn_has_the_reference_arcs() -> None:
-    known = REFERENCE["turn"]
-    assert TURN.length == pytest.approx(known["length"], abs=REFERENCE_ERROR)
-    for name in ("radii", "angles", "entry", "exit", "tangent_point"):
-        assert getattr(TURN, name) == pytest.approx(known[name], abs=REFERENCE_ERROR), name
-    assert np.array(TURN.centres) == pytest.approx(np.array(known["centres"]), abs=REFERENCE_ERROR)
-
-
-@pytest.mark.uncompiled
-@pytest.mark.parametrize("table", REFERENCE["tables"], ids=lambda table: f"{table['time']:g} s")
-def test_every_handle_on_the_turn_is_the_reference_one(table: dict) -> None:
-    found = trajectory(Dance(Dragon(), TURN), [table["time"]])
-    handles = [row["handle"] for row in table["handles"]]
-    known = np.array([[row["x"], row["y"], row["speed"]] for row in table["handles"]])
-    assert len(handles) > 5
-    assert np.abs(found.position[0, handles] - known[:, :2]).max() < REFERENCE_ERROR
-    assert np.abs(found.speed[0, handles] - known[:, 2]).max() < REFERENCE_ERROR
-
-
-@pytest.mark.uncompiled
-def test_the_least_clearance_on_the_turn_is_the_reference_one() -> None:
-    known = REFERENCE["clearance"]
-    start, stop = known["interval"]
-    least = least_clearance(Dance(Dragon(), TURN), start=start, stop=stop)
-    assert least is not None
-    assert least.distance == pytest.approx(known["least"], abs=REFERENCE_ERROR)
-    assert least.time == pytest.approx(known["time"], abs=REFERENCE_ERROR)
-    assert list(least.benches) == known["benches"]
-    assert least.at_least is not None
-    assert least.distance - 1.1e-5 < least.at_least <= least.distance
-    assert first_contact(Dance(Dragon(), TURN), start=start, stop=stop, margin=known["least"] - 1e-9).time is None
-    graze = first_contact(Dance(Dragon(), TURN), start=start, stop=stop, margin=known["least"] + 1e-9)
-    assert graze.time == pytest.approx(known["time"], abs=1e-3)
 
 
 # -- a spiral written as a route -----------------------------------------------------------------------------

@@ -32,7 +32,7 @@ from core import (
 from core.contact.search import Search
 from core.motion.speed import RATE_TOLERANCE
 
-SPEED = json.loads((Path(__file__).parent.parent / "reference" / "maximum_head_speed.json").read_text())
+SPEED = json.loads((Path(__file__).parents[2] / "reference" / "maximum_head_speed.json").read_text())
 REFERENCE_ERROR = 1e-9  # [m/s] and [s]
 ROUNDING = 1e-12  # of a speed ratio, relative [1]
 TURN = Turn(1.7)

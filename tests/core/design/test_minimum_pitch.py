@@ -29,7 +29,7 @@ from tests.core.slow_pitch import SlowWay
 from tests.core.slow_search import SlowDance, chord_squared
 from tests.core.sweep_pitch import random_case
 
-CASES = json.loads((Path(__file__).parents[1] / "reference" / "minimum_pitch.json").read_text())["cases"]
+CASES = json.loads((Path(__file__).parents[2] / "reference" / "minimum_pitch.json").read_text())["cases"]
 # Pitches are promised to this [m].
 ACCURACY = 1e-9
 # Within this of its minimum a pitch is neither surely feasible nor surely not [m].

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import itertools
 import json
 import math
 from collections.abc import Callable
@@ -12,25 +11,22 @@ from typing import Any
 import numpy as np
 import pytest
 import shapely
-from flint import acb, arb, ctx
+from flint import acb, arb
 
 from core import Arc, Coil, Dance, Dragon, Line, Route, Spiral, Turn, Waypoints, bench_poses, first_contact, trajectory
 from core.contact.least_clearance import least_clearance
 from core.errors import InvalidValue, OutsideRun, ProofRefused
 from core.proof import Certificate, check, prove_clear, prove_collision_time, prove_contact, prove_minimum_pitch
-from core.proof.chain import bend
-from core.proof.pairs import Benches, Size, Unproven
+from core.proof.pairs import Benches, Size
 from core.proof.paths import chain_on, recorded_path
-from core.proof.route import RouteChain
-from core.proof.route_stretch import RouteStretch, _half_turn
 from core.shapes.rectangles import corners
-from tests.core.test_proof import at, edit, places, refusal, stretches, through_json
+from tests.core.forgeries import edit, places, refusal, stretches, through_json
+from tests.core.forgeries import put_at as at
 
-ROOT = Path(__file__).parents[2]
+ROOT = Path(__file__).parents[3]
 CONTACTS = {
     case["name"]: case for case in json.loads((ROOT / "tests/reference/first_contact.json").read_text())["cases"]
 }
-TURN = json.loads((ROOT / "tests/reference/turn.json").read_text())
 # Chains in doubles, as trajectory() has them, are this near to the true ones [m].
 DOUBLES = 1e-11
 # A time that is so much off a contact is refused [s], and a margin so much off the least clearance [m].
@@ -40,8 +36,6 @@ MARGIN_OFF = 1e-6
 HALF_BRACKET = 5e-10
 # Instants of the dance through the turn [s].
 INSTANTS = np.linspace(-7.9, 39.9, 60)
-# An integral over so many samples is this near to the true one [m], [rad].
-SAMPLES, SAMPLED = 4001, 1e-5
 
 LOOP = Route(
     [
@@ -247,96 +241,6 @@ def test_every_pair_in_its_own_right_proves_the_same_on_the_turn() -> None:
     assert check(once).statement == check(each).statement
 
 
-@pytest.mark.parametrize("name", ROUTES)
-def test_the_chain_in_balls_is_the_dance_of_core(name: str) -> None:
-    path = ROUTES[name]
-    route = path
-    chain = chain_on(SMALL, recorded_path(path), 0.0)
-    assert isinstance(chain, RouteChain)
-    with ctx.workprec(128):
-        for time in np.linspace(30.0, 55.0, 26) - (35.0 if name == "turn" else 0.0):
-            pose = chain.pose_at(0, arb(-time))
-            pose.grow_to(SMALL.benches)
-            there = trajectory(Dance(SMALL, route), [float(time)]).position[0]
-            away = np.array([complex(point) for point in pose.points]) - there @ [1.0, 1.0j]
-            assert np.abs(away).max() < DOUBLES
-            for (piece, t), place in zip(pose.handles, pose.places, strict=True):
-                assert abs(float(piece.bends(t)) - float(route.curvature(-float(place)))) < DOUBLES
-
-
-@pytest.mark.parametrize("name", ROUTES)
-@pytest.mark.parametrize("width", [0.1, 1.0])
-def test_a_stretch_of_a_route_encloses_every_pose_in_it_and_every_velocity(name: str, width: float) -> None:
-    chain = chain_on(SMALL, recorded_path(ROUTES[name]), 0.0)
-    assert isinstance(chain, RouteChain)
-    start = 0.0 if name == "turn" else 42.0
-    with ctx.workprec(128):
-        for high in np.arange(-start, -start - 8.0, -1.3):
-            stretch = RouteStretch(chain, 0, float(high) - width, float(high), SMALL.benches)
-            poses = [chain.pose_at(0, arb(place)) for place in np.linspace(high, high - width, 6)]
-            for pose in poses:
-                pose.grow_to(9)
-            while len(stretch.placed) < 9:
-                stretch.grow()
-            for before, after in itertools.pairwise(poses):
-                step = before.places[0] - after.places[0]
-                for k, (velocity, rate) in enumerate(stretch.placed):
-                    assert stretch.speeds[k + 1].overlaps((before.places[k + 1] - after.places[k + 1]) / step)
-                    # A difference quotient is a velocity somewhere between.
-                    assert rate.overlaps((after.along[k] * before.along[k].conjugate()).arg() / step)
-                    if k >= 2:
-                        assert_seen(stretch, before, after, k, step)
-                    middle = (after.centres[k] - before.centres[k]) / step
-                    assert (abs(velocity) - abs(middle)).upper() >= 0
-
-
-def assert_seen(stretch: RouteStretch, before: Benches, after: Benches, k: int, step: arb) -> None:
-    """Bench k as seen from the first one: place, direction and velocity are enclosed."""
-    along, velocity = stretch._relative(k)
-    place = stretch._between(k, along, velocity)
-    (there, turned), (then, _) = before.seen(0, k), after.seen(0, k)
-    assert along.overlaps(turned)
-    assert place.overlaps(there)
-    move = velocity - acb(0, 1) * stretch.placed[0][1] * place
-    assert move.overlaps((then - there) / step)
-
-
-def test_the_angles_of_a_chord_stay_within_those_that_the_curvature_allows() -> None:
-    random = np.random.default_rng(7)
-    for _ in range(300):
-        bends = np.sort(random.uniform(-1.0, 1.0, 2))
-        length = random.uniform(0.1, math.pi) / np.abs(bends).max()
-        s = np.linspace(0.0, length, SAMPLES)
-        curvature = bends[random.integers(0, 2, 6)][np.minimum((s / length * 6).astype(int), 5)]
-        turned = np.concatenate([[0.0], np.cumsum((curvature[1:] + curvature[:-1]) / 2 * np.diff(s))])
-        steps = np.exp(1j * (turned[1:] + turned[:-1]) / 2) * np.diff(s)
-        chord = steps.sum()
-        if np.abs(bends).max() * abs(chord) >= 2.0 - SAMPLED:
-            continue
-        allowed = _half_turn(arb(float(bends[0])), arb(float(bends[1])), arb(float(abs(chord))))
-        heading = float(np.angle(chord))
-        for angle in (turned[-1] - heading, heading):
-            assert float(allowed.lower()) - SAMPLED <= angle <= float(allowed.upper()) + SAMPLED
-
-
-def test_on_a_circle_the_angles_are_exact() -> None:
-    angle = _half_turn(arb("0.5"), arb("0.5"), arb("1.65"))
-    assert angle.contains((arb("0.5") * arb("1.65") / 2).asin())
-    assert float(angle.rad()) < DOUBLES
-
-
-@pytest.mark.parametrize("theta", [0.01, 0.3, 0.8, 1.0, 2.0])
-@pytest.mark.parametrize("chord", [1.65, 4.0, 6.0])
-def test_a_bend_beyond_pi_near_the_centre_is_the_first_root_or_unproven(theta: float, chord: float) -> None:
-    needed = arb(chord) ** 2
-    try:
-        found = float(bend(arb(theta), needed))
-    except Unproven:
-        return
-    before = np.linspace(0.0, found - DOUBLES, 100_000)
-    assert np.all(before**2 + 2 * theta * (theta + before) * (1 - np.cos(before)) < float(needed))
-
-
 @pytest.mark.parametrize("seed", range(6))
 def test_benches_are_within_a_margin_exactly_when_shapely_says_so(seed: int) -> None:
     random = np.random.default_rng(seed)
@@ -449,7 +353,10 @@ ROUTE_FORGERIES: dict[str, Forgery] = {
     "a margin": (at("claim", "margin", put=0.05), "not apart by face"),
     "a faster head": (at("claim", "head_speed", put=1.0001), "short of|not shown"),
     "a clear run": (lambda c: c["claim"].__setitem__("kind", "clear"), "overlap is no member of it"),
-    "a piece of another kind": (at("claim", "path", "pieces", 0, "kind", put="waypoints"), "must be line, arc or coil"),
+    "a piece of another kind": (
+        at("claim", "path", "pieces", 0, "kind", put="waypoints"),
+        "must be line, arc or coil",
+    ),
     "a line to nowhere": (at("claim", "path", "pieces", 0, "end", put=[0.0]), "must be a list of 2"),
     "no pieces": (at("claim", "path", "pieces", put=[]), "must be a list with entries"),
 }

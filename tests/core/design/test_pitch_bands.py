@@ -15,7 +15,7 @@ from core.contact.search import Search
 from core.design.pitch_bands import Strips
 from core.values import Floats
 
-CASES = json.loads((Path(__file__).parents[1] / "reference" / "minimum_pitch.json").read_text())["cases"]
+CASES = json.loads((Path(__file__).parents[2] / "reference" / "minimum_pitch.json").read_text())["cases"]
 GRAZES = [case for case in CASES if case["limited_by"] != "start"]
 # Pitches are promised to this [m].
 ACCURACY = 1e-9

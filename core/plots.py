@@ -1,0 +1,176 @@
+"""Drawings of a dance and of its answers on axes of matplotlib, which is imported only here and only when one is drawn.
+
+Lengths are in metres on both axes, x to the right. Colours are safe for colour-blind readers (cividis; Okabe and Ito's
+set) and differ in brightness, hatch or line style for print.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any, Protocol
+
+import numpy as np
+
+from core.extras import wanted
+from core.paths.route import Route
+from core.paths.spiral import Spiral
+from core.values import Floats
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+VERMILION, BLUE, GREY, PALE = "#D55E00", "#0072B2", "#7F7F7F", "#DDDDDD"
+# Beyond this many benches an SVG holds them as one picture instead of as shapes.
+SHAPES_MAX = 3_000
+# Length of the arrow ahead of the head, and how far inwards its name stands [m].
+HEAD_ARROW, HEAD_LABEL = 1.2, 1.0
+# Half the side of the enlarged view, in widths of the wider bench, and at least in margins.
+ENLARGED_WIDTHS = 1.5
+ENLARGED_MARGINS = 1.5
+# A route is drawn this far around its start [m], as a line of so many points; a spiral with so many points a turn.
+ROUTE_DRAWN = 2_000.0
+PATH_POINTS = 20_000
+TURN_POINTS = 120
+
+
+class Named(Protocol):
+    """A corner or an edge of a bench."""
+
+    @property
+    def bench(self) -> int: ...
+    @property
+    def name(self) -> str: ...
+
+
+def wanted_axes(axes: Axes | None, what: str) -> Axes:
+    """The axes given, or those of a new figure.
+
+    raises: ImportError naming the extra `figures` where matplotlib is not installed
+    """
+    if axes is not None:
+        return axes
+    new: Axes = wanted("matplotlib.pyplot", "figures", what).subplots(layout="constrained")[1]
+    return new
+
+
+def plan(axes: Axes) -> None:
+    """A map: one metre is as long in x as in y."""
+    axes.set_aspect("equal")
+    axes.set_xlabel("x [m]")
+    axes.set_ylabel("y [m]")
+    axes.tick_params(labelsize=9)
+
+
+def draw_dance(axes: Axes, path: Spiral | Route, handles: Floats, outlines: Floats, linewidth: float = 0.5) -> None:
+    """The path and every bench, faint, in metres.
+
+    handles: (n + 1, 2) [m]; outlines: corners (n, 4, 2) [m]
+    """
+    plan(axes)
+    _draw_path(axes, path, handles)
+    _draw_benches(axes, outlines, facecolor="none", edgecolor=GREY, linewidth=linewidth, zorder=2)
+    axes.autoscale_view()
+
+
+def _draw_path(axes: Axes, path: Spiral | Route, handles: Floats) -> None:
+    """A spiral from the centre to the outermost handle or the start, a route as it is."""
+    if isinstance(path, Route):
+        s = np.linspace(max(path.begin, -ROUTE_DRAWN), min(path.end, ROUTE_DRAWN), PATH_POINTS)
+        line = path.position(s).T
+    else:
+        radius = max(float(np.hypot(*handles.T).max()), path.growth * path.start_theta)
+        theta = np.linspace(0.0, radius / path.growth, TURN_POINTS * int(radius / path.pitch + 2))
+        line = path.growth * theta * np.stack([np.cos(theta), np.sin(theta)])
+    axes.plot(*line, color=PALE, linewidth=0.6, zorder=1)
+
+
+def _draw_benches(axes: Axes, outlines: Floats, **style: Any) -> None:
+    from matplotlib.collections import PolyCollection
+
+    axes.add_collection(PolyCollection(list(outlines), rasterized=len(outlines) > SHAPES_MAX, **style))
+
+
+def draw_speeds(axes: Axes, handles: Floats, speed: Floats) -> None:
+    """Every handle, coloured by its speed, with a bar that says which colour is which.
+
+    handles: (n + 1, 2) [m]; speed: (n + 1,) [m/s]
+    """
+    dots = axes.scatter(
+        handles[:, 0], handles[:, 1], c=speed, s=16, cmap="cividis", zorder=3, linewidths=0,
+        rasterized=len(handles) > SHAPES_MAX,
+    )  # fmt: skip
+    bar = axes.figure.colorbar(dots, ax=axes, label="speed of the handle [m/s]", shrink=0.85)
+    bar.ax.ticklabel_format(useOffset=False)
+
+
+def mark_head(axes: Axes, head: Floats, velocity: Floats) -> None:
+    """A ring around the head, an arrow where it goes, its name on the inner side."""
+    ahead = head + HEAD_ARROW * velocity / np.hypot(*velocity)
+    inwards = head - HEAD_LABEL * head / max(float(np.hypot(*head)), HEAD_LABEL)
+    arrow = {"arrowstyle": "->", "color": VERMILION, "shrinkA": 5, "linewidth": 1.5}
+    axes.plot(*head, marker="o", markersize=9, markerfacecolor="none", markeredgecolor=VERMILION, zorder=4)
+    axes.annotate("", (ahead[0], ahead[1]), xytext=(head[0], head[1]), arrowprops=arrow, zorder=5)
+    axes.text(inwards[0], inwards[1], "head", color=VERMILION, fontsize=10, ha="center", va="center", zorder=5)
+
+
+def mark_pair(axes: Axes, outlines: Floats, benches: Sequence[int]) -> None:
+    """The two benches that meet, filled: one plain, one hatched."""
+    from matplotlib.patches import Polygon
+
+    for k, (bench, colour, hatch) in enumerate(zip(benches, (VERMILION, BLUE), ("", "////"), strict=True)):
+        label = f"bench {bench}" + (" (head)" if bench == 0 else "")
+        style: dict[str, Any] = {"facecolor": colour, "hatch": hatch, "label": label, "zorder": 3 + k}
+        axes.add_patch(Polygon(outlines[bench], edgecolor="black", alpha=0.85, linewidth=0.6, **style))
+
+
+def draw_enlarged(
+    axes: Axes, outlines: Floats, benches: Sequence[int], point: Sequence[float], half: float,
+    corner: Named | None, edge: Named | None,
+) -> None:  # fmt: skip
+    """The neighbourhood of a contact: the two benches, corner, edge and point; two corners may meet, or two edges.
+
+    outlines: corners (n, 4, 2) [m]; point: x, y [m]; half: half the side of what is shown [m]
+    """
+    plan(axes)
+    _draw_benches(axes, outlines, facecolor="white", edgecolor=GREY, linewidth=0.8, zorder=2)
+    mark_pair(axes, outlines, benches)
+    if edge:
+        sides = _edge(outlines[edge.bench], edge.name)
+        axes.plot(*sides.T, color="black", linewidth=2.5, zorder=6, label=f"{edge.name} edge of bench {edge.bench}")
+    nearest = f"{corner.name} corner of bench {corner.bench}" if corner else "nearest point"
+    axes.plot(
+        *point, marker="o", linestyle="none", markersize=11, markerfacecolor="white", markeredgecolor="black",
+        markeredgewidth=2, zorder=7, label=nearest,
+    )  # fmt: skip
+    x, y = point
+    axes.set(xlim=(x - half, x + half), ylim=(y - half, y + half))
+
+
+def _edge(outline: Floats, name: str) -> Floats:
+    """The two ends of a named edge of one bench; outline: (4, 2) front-left, front-right, rear-right, rear-left."""
+    sides = sorted((outline[[0, 3]], outline[[1, 2]]), key=lambda side: float(np.hypot(*side.mean(axis=0))))
+    return {"front": outline[[0, 1]], "rear": outline[[2, 3]], "inner": sides[0], "outer": sides[1]}[name]
+
+
+def draw_clearance(axes: Axes, time: Floats, clearance: Floats, grazes: Sequence[tuple[float, float]]) -> None:
+    """The clearance against time, and its local minima as dots. grazes: time [s], clearance [m]"""
+    axes.plot(time, clearance, color=BLUE, linewidth=1.4, marker="." if time.size == 1 else "", label="clearance")
+    if grazes:
+        axes.plot(*np.transpose(grazes), "o", color=VERMILION, markersize=5, label="graze")
+    axes.axhline(0.0, color="black", linewidth=0.8, linestyle="dashed", label="touch")
+    axes.set(xlabel="time [s]", ylabel="clearance of the nearest pair [m]")
+    axes.legend(fontsize=9)
+
+
+def draw_scan(axes: Axes, points: Floats, pieces: Sequence[tuple[int, int]], jump: float, label: str) -> None:
+    """The radius of the head at first contact against the pitch, a staircase with its jumps dotted.
+
+    points: (N, 2) pitch, radius [m]; pieces: (start, end) indices; jump: pitches no further apart have a jump between
+    them [m]; label: of the stairs
+    """
+    from matplotlib.collections import LineCollection
+
+    stairs = [points[a:b] for a, b in pieces]
+    axes.add_collection(LineCollection(stairs, colors=BLUE, linewidths=1.8, label=label))
+    falls = [points[a - 1 : a + 1] for a, _ in pieces[1:] if points[a, 0] - points[a - 1, 0] <= jump]
+    axes.add_collection(LineCollection(falls, colors=GREY, linewidths=0.8, linestyles="dotted", label="jump"))

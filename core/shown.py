@@ -1,0 +1,157 @@
+"""How values and results show themselves: one line in a console, a small table in a notebook."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import fields
+from enum import Enum
+
+import numpy as np
+
+# Significant digits of a number in one line, and in a table, where both ends of a bracket must differ.
+LINE_DIGITS, TABLE_DIGITS = 9, 15
+# A text longer than this is left out of a line, and a longer repr of an input gives way to a line [characters].
+TEXT_MOST, REPR_MOST = 60, 160
+# Entries of a list that a table shows; of a longer one the first few.
+ENTRIES_MOST = 6
+# Units by the name of the field: one word, one meaning. A class whose field means something else has `_units`.
+UNITS = {
+    "angle": "rad",
+    "at_least": "m",
+    "bound": "1/m",
+    "centre": "m",
+    "chords": "m",
+    "clear_until": "s",
+    "clearance": "m",
+    "distance": "m",
+    "end_heading": "rad",
+    "end_turns": "turns",
+    "entry_bracket": "m",
+    "gap": "m",
+    "head_radius": "m",
+    "head_speed": "m/s",
+    "head_speed_bracket": "m/s",
+    "lengths": "m",
+    "margin": "m",
+    "normal": "",
+    "other_feasible_intervals": "m",
+    "overhangs": "m",
+    "peak_speed": "m/s",
+    "peak_time": "s",
+    "pitch": "m",
+    "pitch_bracket": "m",
+    "point": "m",
+    "points": "m",
+    "position": "m",
+    "proven_from": "m",
+    "proven_up_to": "m",
+    "radius": "m",
+    "rings": "m",
+    "rotation": "rad",
+    "scan_step": "m",
+    "separation": "m",
+    "speed": "m/s",
+    "speed_bracket": "m/s",
+    "speed_ratio": "",
+    "start": "s",
+    "start_angle": "rad",
+    "start_heading": "rad",
+    "start_turns": "turns",
+    "stop": "s",
+    "sweep": "rad",
+    "theta": "rad",
+    "time": "s",
+    "time_at_unit_head_speed": "s",
+    "time_bracket": "s",
+    "velocity": "m/s",
+    "wall": "m",
+    "widths": "m",
+    "witness_a": "m",
+    "witness_b": "m",
+    "x": "m",
+    "y": "m",
+}
+
+
+class Shown:
+    """A dataclass that shows itself in one line and, in a notebook, as a table of its fields with their units.
+
+    A class with more to say than its fields says it in `_line` and `_rows`.
+    """
+
+    __slots__ = ()
+    _units: dict[str, str] = {}  # noqa: RUF012 - a field of a dataclass may not be annotated here
+
+    def __repr__(self) -> str:
+        return f"<{type(self).__name__}: {self._line()}>"
+
+    def _repr_html_(self) -> str:
+        from html import escape
+
+        rows = (f'<tr><th scope="row">{escape(name)}</th><td>{escape(text)}</td></tr>' for name, text in self._rows())
+        return f"<table><caption>{escape(type(self).__name__)}</caption>{''.join(rows)}</table>"
+
+    def _line(self) -> str:
+        """The fields that are short, each with its unit."""
+        told = ((name, worded(value, unit, LINE_DIGITS)) for name, value, unit in self._told())
+        return ", ".join(f"{name} {text}" for name, text in told if len(text) <= TEXT_MOST)
+
+    def _rows(self) -> list[tuple[str, str]]:
+        """Name and value of every row of the table."""
+        return [(name, worded(value, unit, TABLE_DIGITS)) for name, value, unit in self._told()]
+
+    def _told(self) -> list[tuple[str, object, str]]:
+        """Name, value and unit of every field that has a value."""
+        every = [field.name for field in fields(self) if field.repr]  # type: ignore[arg-type]
+        units = UNITS | self._units
+        told = [(name, getattr(self, name)) for name in every]
+        return [(name.replace("_", " "), value, units.get(name, "")) for name, value in told if value is not None]
+
+
+def worded(value: object, unit: str = "", digits: int = LINE_DIGITS) -> str:
+    """A value in words: a number or some with their unit, an array by its shape and range, a result by its line.
+
+    >>> worded((2.5, 1 / 3), "m", 4)
+    '2.5, 0.3333 m'
+    >>> worded(np.arange(12.0).reshape(3, 4), "s")
+    'array of 3 x 4, 0 to 11 s'
+    """
+    if isinstance(value, np.ndarray):
+        shape = " x ".join(map(str, value.shape))
+        return f"array of {shape or 'one'}" + (f", {extent(value, unit, digits)}" if value.size else "")
+    if isinstance(value, (tuple, list)):
+        between = "; " if value and isinstance(value[0], Shown) else ", "
+        some = between.join(_entry(entry, digits) for entry in value[:ENTRIES_MOST]) or "none"
+        more = f" and {len(value) - ENTRIES_MOST} more" if len(value) > ENTRIES_MOST else ""
+        return f"{some}{more} {unit if value else ''}".rstrip()
+    return f"{_entry(value, digits)} {unit}".rstrip()
+
+
+def extent(values: Sequence[float] | np.ndarray, unit: str = "", digits: int = LINE_DIGITS) -> str:
+    """From the least to the most, or the one value that all have.
+
+    values: (...), at least one
+    """
+    least, most = float(np.min(values)), float(np.max(values))
+    return f"{least:.{digits}g}{'' if least == most else f' to {most:.{digits}g}'} {unit}".rstrip()
+
+
+def counted(count: int, noun: str) -> str:
+    """So many of something.
+
+    >>> counted(1, "pair"), counted(0, "graze")
+    ('1 pair', '0 grazes')
+    """
+    return f"{count} {noun}{'' if count == 1 else 's'}"
+
+
+def _entry(value: object, digits: int) -> str:
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    if isinstance(value, Enum):
+        return str(value.value)
+    if isinstance(value, float):
+        return f"{value + 0.0:.{digits}g}"  # no -0
+    if isinstance(value, tuple):
+        return f"({', '.join(_entry(entry, digits) for entry in value)})"
+    return value._line() if isinstance(value, Shown) and type(value).__repr__ is Shown.__repr__ else str(value)

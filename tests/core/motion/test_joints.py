@@ -1,0 +1,69 @@
+"""The sharpest bend between two consecutive benches."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from core import (
+    Arc,
+    Dance,
+    Dragon,
+    Line,
+    Route,
+    Spiral,
+    Turn,
+    sharpest_bend,
+    trajectory,
+)
+
+ANGLE_ERROR = 1e-12  # [rad]
+ONSET_ERROR = 1e-5  # [s]: the root of the error of the angle, some times over
+TURN = Turn(1.7)
+
+
+def test_there_is_no_bend_on_a_line() -> None:
+    route = Route([Line((0, 0), (60, 0))])
+    found = sharpest_bend(Dance(Dragon(benches=5), route), start=20.0)
+    assert found is not None
+    assert found.angle == 0.0
+
+
+def test_a_bend_on_an_arc_is_half_of_both_chords_angles() -> None:
+    route = Route([Line((-60, 0), (0, 0)), Arc((0, 4), 4.0, -0.5 * math.pi, 9.0)], start=60.0)
+    dragon = Dragon(benches=8)
+    found = sharpest_bend(Dance(dragon, route), start=0.0, stop=30.0)
+    assert found is not None
+    head, body = (math.asin(0.5 * chord / 4.0) for chord in dragon.chords[:2])
+    assert found.angle == pytest.approx(head + body, abs=ANGLE_ERROR)
+    assert found.benches == (0, 1)
+    # once all three handles are on it; until then it falls short by the square of the arc left
+    assert found.time == pytest.approx(4.0 * 2.0 * (head + body), abs=ONSET_ERROR)
+
+
+def dense_bends(dragon: Dragon, path: Spiral | Route, times: np.ndarray) -> np.ndarray:
+    along = np.diff(trajectory(Dance(dragon, path), times).position, axis=1)
+    heading = np.unwrap(np.arctan2(along[..., 1], along[..., 0]), axis=1)
+    return np.abs(np.diff(heading, axis=1))
+
+
+@pytest.mark.parametrize(
+    ("dragon", "path", "start", "stop"),
+    [
+        (Dragon(), TURN, -100.0, 100.0),
+        (Dragon(benches=50), TURN, 30.0, 34.0),
+        (Dragon(benches=50), TURN, 60.0, 60.9),
+        (Dragon.of([2.6, 1.9, 2.2, 2.0, 2.4] * 4, [0.3, 0.5] * 10, [0.2] * 20), TURN, 0.0, 40.0),
+        (Dragon(benches=40), Spiral(), 0.0, 400.0),
+    ],
+    ids=["turn", "turn behind the head", "a moment", "benches of many sizes", "spiral"],
+)
+def test_no_dense_sample_bends_more_sharply(dragon: Dragon, path: Spiral | Route, start: float, stop: float) -> None:
+    found = sharpest_bend(Dance(dragon, path), start=start, stop=stop)
+    assert found is not None
+    dense = dense_bends(dragon, path, np.linspace(start, stop, 2_500))
+    assert found.angle >= dense.max() - ANGLE_ERROR
+    there = dense_bends(dragon, path, np.array([found.time]))[0]
+    assert there[found.benches[0]] == pytest.approx(found.angle, abs=ANGLE_ERROR)

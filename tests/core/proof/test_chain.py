@@ -1,0 +1,90 @@
+"""Chains in ball arithmetic on a spiral: what they enclose, and what they do not prove."""
+
+from __future__ import annotations
+
+import itertools
+
+import numpy as np
+import pytest
+import shapely
+from flint import arb, ctx
+
+from core import Dragon, Spiral
+from core.proof.chain import Chain, Pose, Stretch, bend, newton
+from core.proof.pairs import Unproven
+
+# A bend from doubles, where F is steep, is this near to the true one [rad].
+DOUBLES = 1e-9
+# The default dragon, where handle 1 turns back near the fold (combo_b), and bench by bench.
+PLACES = {
+    "far outside": (Dragon(), Spiral(), 0, 90.0, 90.8),
+    "before the contact": (Dragon(), Spiral(), 0, 26.2, 26.5),
+    "handle 1 turns back": (Dragon(400, 3.61, 2.4, 0.12, 0.1), Spiral(0.48, 25.0), 0, 20.732, 20.7326),
+    "bench by bench": (Dragon.of([3.0, 1.5, 2.5, 1.2, 2.0], [0.3] * 5, [0.2] * 5), Spiral(), 1, 30.0, 30.6),
+}
+
+
+@pytest.mark.parametrize("name", PLACES)
+def test_a_stretch_encloses_every_pose_in_it_and_every_velocity(name: str) -> None:
+    dragon, path, bench, low, high = PLACES[name]
+    chain = Chain(dragon, arb(path.pitch), path.start_turns)
+    with ctx.workprec(128):
+        stretch = Stretch(chain, bench, low, high, dragon.benches)
+        poses = [Pose(chain, bench, arb(theta)) for theta in np.linspace(low, high, 9)]
+        for pose in poses:
+            pose.grow(4)
+        for _ in range(3):
+            stretch.grow()
+        assert stretch.rising == (name != "handle 1 turns back")
+        for before, after in itertools.pairwise(poses):
+            step = after.thetas[0] - before.thetas[0]
+            for k, (centre, along, centre_move, along_move) in enumerate(stretch.placed):
+                assert stretch.thetas[k + 1].contains(before.thetas[k + 1])
+                assert centre.contains(before.centres[k])
+                assert along.contains(before.along[k])
+                # A difference quotient is a velocity somewhere between.
+                assert centre_move.overlaps((after.centres[k] - before.centres[k]) / step)
+                assert along_move.overlaps((after.along[k] - before.along[k]) / step)
+                assert stretch.rates[k + 1].overlaps((after.thetas[k + 1] - before.thetas[k + 1]) / step)
+            assert stretch.rear[0] <= float(before.thetas[1]) <= stretch.rear[1]
+
+
+def test_a_bench_called_far_is_clear_of_the_ring_inside_it() -> None:
+    dragon, chain = Dragon(), Chain(Dragon(), arb(0.55), 16.0)
+    for theta in (27.0, 60.0, 100.0):
+        pose = Pose(chain, 0, arb(theta))
+        pose.grow(120)
+        shapes = [
+            shapely.Polygon(
+                [(float(z.real), float(z.imag)) for z in (centre + along * corner for corner in size.corners)]
+            )
+            for centre, along, size in zip(pose.centres, pose.along, chain.sizes, strict=False)
+        ]
+        far = [k for k in range(2, 120) if chain.far(0, pose.thetas[1], pose.thetas[k])]
+        assert 0 < len(far) < 110
+        assert min(shapes[0].distance(shapes[k]) for k in far) > 0.0
+    assert dragon.benches == chain.count
+
+
+@pytest.mark.parametrize("theta", [14.76, 15.0, 16.0, 30.0, 100.0])
+@pytest.mark.parametrize("chord", [0.1, 1.65, 2.86])
+def test_a_bend_is_the_first_root(theta: float, chord: float) -> None:
+    needed = (arb(chord) / (arb("0.55") / (2 * arb.pi()))) ** 2
+    found = float(bend(arb(theta), needed))
+    before = np.linspace(0.0, found - DOUBLES, 100_000)
+    assert np.all(before**2 + 2 * theta * (theta + before) * (1 - np.cos(before)) < float(needed))
+
+
+def test_there_is_no_bend_past_the_fold_and_one_beyond_pi_just_before() -> None:
+    needed = (arb("2.86") / (arb("0.55") / (2 * arb.pi()))) ** 2
+    assert bend(arb("14.735"), needed) > arb.pi()
+    with pytest.raises(Unproven):
+        bend(arb("14.73"), needed)
+
+
+def test_a_newton_step_that_leaves_its_ball_or_finds_no_slope_proves_nothing() -> None:
+    near = arb(2.0, 1e-8)
+    assert newton(arb(2.0), near, arb(1e-9), arb(4.0, 1e-7)).contains(2.0 - 2.5e-10)
+    for value, slope in ((arb(1e-7), arb(4.0, 1e-7)), (arb(1e-9), arb(0.0, 1e-7))):
+        with pytest.raises(Unproven):
+            newton(arb(2.0), near, value, slope)

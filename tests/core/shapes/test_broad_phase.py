@@ -1,0 +1,95 @@
+"""The broad phase: it misses no pair, and refuses what is too much."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from numpy.typing import NDArray
+
+from core.errors import TooLarge
+from core.shapes.broad_phase import CROSS_CANDIDATES_MAX, PAIRS_MAX, meeting_pairs
+from core.shapes.overlaps import overlaps
+from core.shapes.rectangles import frames, separation
+from core.values import SIZE_MAX
+
+Floats = NDArray[np.float64]
+Pairs = NDArray[np.int64]
+Scene = tuple[Floats, Floats, Floats]
+LENGTH, WIDTH = 2.2, 0.3
+
+
+def crowd(count: int, seed: int, *, side: float, smallest: float = 0.05, largest: float = 5.0) -> Scene:
+    """Benches of mixed sizes in a square."""
+    random = np.random.default_rng(seed)
+    pose = np.stack([*random.uniform(0.0, side, (2, count)), random.uniform(-4.0, 4.0, count)], axis=-1)
+    size = 10 ** random.uniform(math.log10(smallest), math.log10(largest), (2, count))
+    return pose, size[0], size[1]
+
+
+def all_gaps(scene: Scene) -> Floats:
+    """Oracle: the separation of every pair, (n, n) [m]."""
+    pose, length, width = scene
+    size = np.stack([length, width], axis=-1)
+    return separation(pose[:, None], size[:, None], pose[None], size[None]).separation
+
+
+def all_pairs(scene: Scene, margin: float = 0.0) -> Pairs:
+    return np.argwhere(np.triu(all_gaps(scene) <= margin, k=1))
+
+
+def close_pairs(poses: Floats, lengths: Floats, widths: Floats, *, margin: float = 0.0, chained: bool = False) -> Pairs:
+    """Pairs whose upright boxes come within the margin."""
+    frame = frames(poses, np.stack([lengths, widths], axis=-1))
+    return meeting_pairs(frame, margin, chained, exact=False)
+
+
+@settings(deadline=None)
+@given(st.integers(0, 2**32), st.integers(0, 60), st.sampled_from([0.0, 1e-9, 0.3]), st.sampled_from([0.0, 1e3, 1e8]))
+def test_broad_phase_is_a_superset_of_the_narrow_phase(seed: int, count: int, margin: float, shift: float) -> None:
+    pose, length, width = crowd(count, seed, side=12.0)
+    scene = pose + np.array([shift, -shift, 0.0]), length, width
+    wide = {tuple(pair) for pair in close_pairs(*scene, margin=margin)}
+    narrow = {tuple(pair) for pair in all_pairs(scene, margin)}
+    assert narrow <= wide
+    assert {tuple(pair) for pair in overlaps(*scene, margin=margin, chained=False).pairs} == narrow
+
+
+LAYOUTS = {
+    "mixed sizes": crowd(1_000, seed=3, side=70.0, smallest=1e-3, largest=20.0),
+    "in a row": (np.stack([np.arange(1_000) * 0.7, np.zeros(1_000), np.zeros(1_000)], -1), *np.full((2, 1_000), 0.9)),
+    "in a column": (np.stack([np.zeros(1_000), np.arange(1_000) * 0.7, np.ones(1_000)], -1), *np.full((2, 1_000), 0.9)),
+    "all in one place": (np.zeros((300, 3)), *np.ones((2, 300))),
+}
+with_giants = LAYOUTS["mixed sizes"][0].copy(), LAYOUTS["mixed sizes"][1].copy(), LAYOUTS["mixed sizes"][2]
+with_giants[0][:2, :2] = [[1e9, -1e9], [-1e9, 5.0]]
+with_giants[1][2] = SIZE_MAX
+LAYOUTS["a giant and two far away"] = with_giants
+
+
+@pytest.mark.parametrize("scene", LAYOUTS.values(), ids=LAYOUTS.keys())
+def test_separating_axis_finds_what_all_pairs_finds(scene: Scene) -> None:
+    found = overlaps(*scene, chained=False).pairs
+    np.testing.assert_array_equal(found, all_pairs(scene))
+    assert len(found) > 100
+
+
+def test_close_benches_that_do_not_overlap_are_refused_when_too_many_must_be_looked_at() -> None:
+    count = 7_000  # their boxes all meet: 24 million pairs
+    abreast = np.arange(count) * 0.25
+    poses = np.stack([abreast, -abreast, np.full(count, math.pi / 4)], axis=-1)
+    with pytest.raises(TooLarge, match="20000000 pairs close by"):
+        overlaps(poses, np.full(count, SIZE_MAX), np.full(count, WIDTH))
+
+
+# n benches in one place are n (n - 1) / 2 pairs
+@pytest.mark.parametrize(("find", "limit"), [(overlaps, PAIRS_MAX), (close_pairs, CROSS_CANDIDATES_MAX)])
+def test_as_many_pairs_as_the_limit_allows_are_found(find: object, limit: int) -> None:
+    most = (1 + math.isqrt(1 + 8 * limit)) // 2
+    found = find(np.zeros((most, 3)), np.ones(most), np.ones(most), chained=False)
+    assert len(getattr(found, "pairs", found)) == most * (most - 1) // 2
+    with pytest.raises(TooLarge, match=f"at most {limit} pairs"):
+        find(np.zeros((most + 1, 3)), np.ones(most + 1), np.ones(most + 1), chained=False)

@@ -1,0 +1,62 @@
+"""The engines: boxes kept from pose to pose, many instants at once."""
+
+from __future__ import annotations
+
+from concurrent.futures import ThreadPoolExecutor
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from core.shapes.engines import KEPT_DRAGONS, Engine, found_pairs
+from core.shapes.rectangles import separation
+
+Floats = NDArray[np.float64]
+THREADS = 4
+
+
+def close_pairs(pose: Floats, size: Floats, margin: float = 0.0) -> set[tuple[int, int]]:
+    """Oracle: every pair that shares no handle, one by one, within the margin."""
+    gaps = separation(pose[:, None], size[:, None], pose[None], size[None]).separation
+    return {(int(a), int(b)) for a, b in np.argwhere(np.triu(gaps <= margin, k=2))}
+
+
+def crowds(count: int) -> list[tuple[Floats, Floats]]:
+    """Dragons more than are kept, each at several instants: poses (T, n, 3) and sizes (n, 2)."""
+    random = np.random.default_rng(4)
+    scenes = []
+    for _ in range(count):
+        benches = int(random.integers(2, 60))
+        place, heading = random.uniform(0.0, 9.0, (3, benches, 2)), random.uniform(-4.0, 4.0, (3, benches, 1))
+        scenes.append((np.concatenate([place, heading], axis=-1), random.uniform(0.1, 3.0, (benches, 2))))
+    return scenes
+
+
+@pytest.mark.parametrize("margin", [0.0, 0.1])
+def test_boxes_used_again_find_what_new_ones_find_in_any_order_and_from_several_threads(margin: float) -> None:
+    scenes = crowds(KEPT_DRAGONS + 4)
+    truth = [[close_pairs(pose, size, margin) for pose in poses] for poses, size in scenes]
+    assert sum(len(pairs) for instants in truth for pairs in instants) > 1_000
+    random = np.random.default_rng(5)
+    order = random.integers(0, (len(scenes), 3), (400, 2)).tolist()
+
+    def found(asked: list[int]) -> set[tuple[int, int]]:
+        scene, instant = asked
+        poses, size = scenes[scene]
+        (pairs,) = found_pairs(Engine.FCL, poses[instant : instant + 1], size, margin, chained=True)
+        return {(a, b) for a, b in pairs.tolist()}
+
+    wanted = [truth[scene][instant] for scene, instant in order]
+    assert [found(asked) for asked in order] == wanted
+    with ThreadPoolExecutor(THREADS) as pool:
+        assert list(pool.map(found, order)) == wanted
+
+
+@pytest.mark.parametrize("engine", Engine)
+def test_many_instants_at_once_are_as_one_by_one(engine: Engine) -> None:
+    for poses, size in crowds(5):
+        for chained in (True, False):
+            together = found_pairs(engine, poses, size, 0.0, chained=chained)
+            for instant, pairs in enumerate(together):
+                (alone,) = found_pairs(engine, poses[instant : instant + 1], size, 0.0, chained=chained)
+                np.testing.assert_array_equal(pairs, alone)

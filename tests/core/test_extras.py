@@ -1,0 +1,57 @@
+"""Optional packages: asked for by name where they are missing, never imported before."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from core import Dance, Dragon, Spiral, clearance_profile, first_contact, trajectory
+from core.extras import wanted
+
+ROOT = Path(__file__).parents[2]
+DANCE = Dance(Dragon(5), Spiral())
+
+
+@pytest.mark.parametrize(
+    ("package", "extra", "ask"),
+    [
+        ("pandas", "data", lambda: trajectory(DANCE, 0.0).to_dataframe()),
+        ("pandas", "data", lambda: clearance_profile(DANCE, 0.0).to_dataframe()),
+        ("xarray", "data", lambda: trajectory(DANCE, 0.0).to_xarray()),
+        ("xarray", "data", lambda: clearance_profile(DANCE, 0.0).to_xarray()),
+        ("matplotlib", "figures", lambda: trajectory(DANCE, 0.0).plot()),
+        ("matplotlib", "figures", lambda: clearance_profile(DANCE, 0.0).plot()),
+        ("matplotlib", "figures", lambda: first_contact(DANCE).plot()),
+    ],
+)
+def test_a_missing_package_is_named_with_the_extra_that_brings_it(
+    package: str, extra: str, ask: Callable[[], object], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    # None in sys.modules is Python's own word for a module that cannot be imported.
+    for name in [name for name in sys.modules if name.partition(".")[0] == package]:
+        monkeypatch.delitem(sys.modules, name)
+    monkeypatch.setitem(sys.modules, package, None)
+    with pytest.raises(ImportError, match=rf"needs {package}: pip install 'bench-dragon\[{extra}\]'"):
+        ask()
+
+
+def test_a_package_that_lacks_something_itself_says_so(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "half_a_package.py").write_text("import something_else_that_is_missing")
+    monkeypatch.syspath_prepend(tmp_path)
+    with pytest.raises(ModuleNotFoundError, match="something_else_that_is_missing"):
+        wanted("half_a_package", "data", "this test")
+
+
+def test_asking_core_imports_no_optional_package() -> None:
+    code = """
+import sys
+from core import *
+dance = Dance(Dragon(5), Spiral())
+found = [trajectory(dance, 0.0), first_contact(dance), clearance_profile(dance, 0.0)]
+print([repr(one) for one in found] == 0, *(name for name in ("matplotlib", "pandas", "xarray") if name in sys.modules))
+"""
+    assert subprocess.check_output([sys.executable, "-c", code], cwd=ROOT, text=True).split() == ["False"]

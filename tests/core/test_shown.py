@@ -1,0 +1,207 @@
+"""What a console and a notebook show of every public value: short, with units, and escaped."""
+
+from __future__ import annotations
+
+import typing
+from collections.abc import Iterator
+from dataclasses import fields, is_dataclass
+from enum import Enum
+from typing import Any
+
+import numpy as np
+import pytest
+
+import core
+from core import (
+    Arc,
+    Area,
+    Coil,
+    Dance,
+    Dragon,
+    Line,
+    Route,
+    Spiral,
+    Turn,
+    Venue,
+    Waypoints,
+)
+from core.errors import BenchDragonError
+from core.shown import UNITS, Shown
+
+# A line of a console and a half: nothing public is longer [characters].
+LINE_MOST = 220
+DANCE = Dance(Dragon(), Spiral())
+SQUARE = Venue(Area("square", (((-20, -20), (20, -20), (20, 20), (-20, 20), (-20, -20)),)))
+CURVE = Waypoints(tuple((float(k), 0.01 * k * k) for k in range(1000)))
+THREE = ([[0, 0, 0], [3, 0, 0], [1, 0, 1.57]], [2.2] * 3, [0.3] * 3)
+
+
+def results() -> Iterator[Any]:
+    """One of every public result."""
+    contact = core.first_contact(DANCE)
+    yield from (contact, contact.certificate, contact.certificate.least_clearance, contact.head, contact.corner)
+    yield core.contact_check(contact, DANCE)
+    yield DANCE.end
+    yield core.trajectory(DANCE, np.arange(301.0))
+    yield core.clearance_profile(DANCE, np.arange(380.0, 412.0))
+    yield core.least_clearance(DANCE, stop=10.0)
+    yield core.highest_speed(DANCE, stop=10.0)
+    yield core.maximum_head_speed(DANCE, 2.0, stop=10.0)
+    yield core.first_excess(Dance(Dragon(4), Spiral(1.2, 3.0)), 3.0)
+    yield core.sharpest_bend(DANCE, stop=10.0)
+    yield core.minimum_pitch(Dragon())
+    yield core.shortest_turn(Dragon(3), 1.7)
+    yield core.pitch_scan(Dragon(30), np.linspace(0.4, 0.45, 2), start_turns=8.0)
+    report = core.check(DANCE, venue=SQUARE)
+    yield from (report, *report.failures, report.venue)
+    square = core.venue_clearance(DANCE, SQUARE, stop=5.0)
+    yield from (square, *square.areas, square.areas[0].nearest)
+    yield core.Stray("well", 3, (1.0, 2.0))
+    overlaps = core.overlaps(*THREE)
+    checked = core.cross_check(*THREE)
+    yield from (overlaps, overlaps.contact, checked)
+    yield from core.verdicts([[0, 0, 0], [0, 0.4, 0]], [[0, 0, 0], [0, 0.2, 0]], [2.2] * 2, [0.3] * 2).values()
+
+
+INPUTS = [
+    Dragon(),
+    Dragon(benches=1, overhang=0.0),
+    Dragon.of([3.0, 2.0, 4.0], [0.3, 0.2, 0.3], [0.2, 0.1, 0.2]),
+    Spiral(pitch=0.8),
+    Line((0.0, 1.0), (2.0, 3.0)),
+    Arc((0.0, 0.0), 4.5, 0.25, -1.5),
+    Coil(0.55, 3.0, 2.0),
+    Waypoints(((0.0, 0.0), (6.0, 1.0), (11.0, 6.0)), start_heading=0.5),
+    Dance(Dragon(3), Spiral(), head_speed=0.5),
+]
+FOUND = {type(value).__name__: value for value in results()}
+GIVEN = {f"{type(value).__name__} {k}": value for k, value in enumerate(INPUTS)} | {
+    "Dragon bench by bench": Dragon.of(np.linspace(2.0, 3.0, 300), [0.3] * 300, [0.2] * 300),
+    "Waypoints, many": CURVE,
+    "Route, long": Route([CURVE]),
+    "Turn": Turn(1.7),
+    "Venue": SQUARE,
+    "Area": SQUARE.square,
+}
+
+
+def public() -> list[type]:
+    """The public classes but enumerations, errors and names of kinds."""
+    every = (getattr(core, name) for name in core.__all__)
+    return [one for one in every if isinstance(one, type) and not issubclass(one, (Enum, BenchDragonError))]
+
+
+def inside(hint: Any) -> Iterator[Any]:
+    """A hint and all that it is made of."""
+    yield hint
+    for part in typing.get_args(hint):
+        yield from inside(part)
+
+
+def hints(kind: type) -> dict[str, Any]:
+    """Types of the public fields of a dataclass; names known to type checkers alone stand for anything."""
+    names = {**vars(__import__(kind.__module__, fromlist=["_"])), "pandas": core, "xarray": core, "Axes": object}
+    told = typing.get_type_hints(kind, globalns=names)
+    return {field.name: told[field.name] for field in fields(kind)}
+
+
+def test_every_public_result_is_shown_here() -> None:
+    shown = {type(value) for value in [*FOUND.values(), *GIVEN.values()]}
+    assert {kind.__name__ for kind in public()} - {kind.__name__ for kind in shown} == set()
+
+
+@pytest.mark.parametrize("kind", [kind for kind in public() if is_dataclass(kind)], ids=lambda kind: kind.__name__)
+def test_the_types_of_public_fields_are_public(kind: type) -> None:
+    held = {part for hint in hints(kind).values() for part in inside(hint) if isinstance(part, type)}
+    ours = {part.__name__ for part in held if part.__module__.startswith("core.")}
+    assert ours - set(core.__all__) == set()
+
+
+@pytest.mark.parametrize("kind", [kind for kind in public() if is_dataclass(kind)], ids=lambda kind: kind.__name__)
+def test_every_number_of_a_public_result_has_its_unit(kind: type) -> None:
+    own: dict[str, str] = getattr(kind, "_units", {})
+    floats = {name for name, hint in hints(kind).items() if {float, np.float64} & set(inside(hint))}
+    assert floats - {*UNITS, *own} == set()
+
+
+@pytest.mark.parametrize("value", [*FOUND.values(), *GIVEN.values()], ids=[*FOUND, *GIVEN])
+def test_a_repr_is_one_short_line(value: object) -> None:
+    line = repr(value)
+    assert type(value).__name__ in line
+    assert "\n" not in line
+    assert len(line) <= LINE_MOST
+
+
+@pytest.mark.parametrize("value", [*FOUND.values(), *GIVEN.values()], ids=[*FOUND, *GIVEN])
+def test_a_notebook_gets_a_table(value: Shown) -> None:
+    html = value._repr_html_()
+    assert html.startswith(f"<table><caption>{type(value).__name__}</caption><tr>")
+    assert html.count("<tr>") == html.count("</td></tr>") == html.count("<th") > 0
+    assert "object at 0x" not in html
+
+
+@pytest.mark.parametrize("value", INPUTS, ids=repr)
+def test_a_short_input_prints_the_call_that_makes_it(value: object) -> None:
+    assert eval(repr(value), vars(core)) == value
+
+
+@pytest.mark.parametrize("path", [Route([Line((0.0, 0.0), (9.0, 0.0))], start=2.0), Turn(1.7, entry_radius=4.0)])
+def test_a_short_route_prints_the_call_that_makes_it(path: Route) -> None:
+    again = eval(repr(path), vars(core))
+    assert type(again) is type(path)
+    assert np.array_equal(again.table, path.table)
+
+
+@pytest.mark.parametrize(
+    ("value", "line"),
+    [
+        (DANCE.end, "<RunEnd: reason fold, time 432.917924 s, theta 14.7346193 rad, bench 0>"),
+        (core.first_contact(DANCE), "<FirstContact: benches 0 and 8 touch at 412.473838 s>"),
+        (
+            core.first_contact(DANCE, margin=0.05),
+            "<FirstContact: benches 0 and 14 come within 0.05 m at 383.867583 s>",
+        ),
+        (core.first_contact(DANCE, stop=100.0), "<FirstContact: no two benches touch until 100 s>"),
+        (
+            core.first_contact(Dance(Dragon(), Spiral(0.8))),
+            "<FirstContact: no two benches touch until 637.662028 s, where bench 0 folds>",
+        ),
+        (core.trajectory(DANCE, 300.0), "<Trajectory: 1 instant at 300 s; 224 handles, 0.99647754 to 1 m/s>"),
+        (core.trajectory(DANCE, []), "<Trajectory: 0 instants; 224 handles>"),
+        (
+            core.minimum_pitch(Dragon()),
+            "<MinimumPitch: 0.450337393 m, limited by graze of benches 0 and 19; proven without end>",
+        ),
+        (core.check(DANCE, stop=10.0), "<Report: passes from 0 to 10 s>"),
+        (CURVE, "<Waypoints: 1000 points from (0.0, 0.0) to (999.0, 9980.01) m>"),
+        (core.separation([0, 0, 0], [2, 1], [3, 0, 0], [2, 1]), "<Separation: 1 m>"),
+    ],
+    ids=lambda value: type(value).__name__ if isinstance(value, Shown) else "",
+)
+def test_a_line_says_what_was_found_with_its_unit(value: object, line: str) -> None:
+    assert repr(value) == line
+
+
+def test_a_table_has_every_field_with_its_unit() -> None:
+    html = core.first_contact(DANCE)._repr_html_()
+    assert '<tr><th scope="row">time</th><td>412.473837682115 s</td></tr>' in html
+    assert '<tr><th scope="row">benches</th><td>0, 8</td></tr>' in html
+    assert '<tr><th scope="row">margin</th><td>0 m</td></tr>' in html
+
+
+def test_a_name_in_a_table_is_escaped() -> None:
+    named = Area("<script>alert('&')</script>", SQUARE.square.rings)
+    html = Venue(named)._repr_html_()
+    assert "<script>" not in html
+    assert "&lt;script&gt;alert(&#x27;&amp;&#x27;)&lt;/script&gt;" in html
+
+
+def test_ends_of_a_bracket_differ_in_a_table() -> None:
+    low, high = core.first_contact(DANCE).time_bracket or (0.0, 0.0)
+    assert f"{low:.15g}, {high:.15g} s" in core.first_contact(DANCE)._repr_html_()
+    assert f"{low:.15g}" != f"{high:.15g}"
+
+
+def test_a_long_route_is_told_by_its_pieces() -> None:
+    lines = [Line((float(k), 0.0), (k + 1.0, 0.0)) for k in range(40)]
+    assert repr(Route(lines, start=2.5)) == "<Route: 40 pieces (Line, Line, Line, Line, ...), s from -2.5 to 37.5 m>"

@@ -1,0 +1,39 @@
+"""Tests mirror core: core/paths/turn.py has tests/core/paths/test_turn.py."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+pytestmark = pytest.mark.uncompiled
+
+ROOT = Path(__file__).parent.parent
+CORE, TESTS = ROOT / "core", ROOT / "tests" / "core"
+# Modules that are tested with others, as the parts of one answer.
+TESTED_WITH = {
+    "contact/search.py": "contact/test_first_contact.py",
+    "errors.py": "test_wrong_types.py",
+    "proof/claims.py": "proof/test_certificate.py",
+    "proof/pairs.py": "proof/test_certificate.py",
+    "proof/paths.py": "proof/test_dances.py",
+    "proof/route_stretch.py": "proof/test_route.py",
+    "proof/sweeps.py": "proof/test_certificate.py",
+    "proof/words.py": "proof/test_certificate.py",
+}
+# All kernels are tested through what uses them, compiled against uncompiled.
+MODULES = [
+    path.relative_to(CORE)
+    for path in sorted(CORE.rglob("*.py"))
+    if path.name != "__init__.py" and path.parent.name != "kernels"
+]
+
+
+@pytest.mark.parametrize("module", MODULES, ids=str)
+def test_every_module_has_its_file_of_tests(module: Path) -> None:
+    own = module.with_name(f"test_{module.name}")
+    assert (TESTS / TESTED_WITH.get(module.as_posix(), own)).is_file()
+
+
+def test_no_module_is_said_to_be_tested_elsewhere_that_is_not_there() -> None:
+    assert set(TESTED_WITH) <= {module.as_posix() for module in MODULES}

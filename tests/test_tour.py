@@ -1,0 +1,69 @@
+"""The notebook examples/tour.py: it converts, every cell runs, and what its sentences say is so."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import jupytext
+import matplotlib.pyplot as plt
+import pytest
+from matplotlib.axes import Axes
+
+TOUR = Path(__file__).parents[1] / "examples" / "tour.py"
+NOTEBOOK = jupytext.reads(TOUR.read_text(encoding="utf-8"), fmt="py:percent")
+CODE = [cell.source for cell in NOTEBOOK.cells if cell.cell_type == "code"]
+# A line of an answer that a reader sees under a cell is no longer than this [characters].
+SHOWN_MOST = 220
+
+
+def shown(source: str, names: dict[str, Any]) -> Any:
+    """Runs a cell; what a notebook shows under it: the value of its last line, if that is an expression."""
+    tree = ast.parse(source)
+    last = tree.body.pop() if isinstance(tree.body[-1], ast.Expr) else None
+    exec(compile(tree, str(TOUR), "exec"), names)
+    return eval(compile(ast.Expression(last.value), str(TOUR), "eval"), names) if last else None
+
+
+@pytest.fixture(scope="module")
+def tour() -> Iterator[tuple[dict[str, Any], list[Any]]]:
+    """Names after all cells ran in order, and what each one shows."""
+    names: dict[str, Any] = {"__name__": "__main__"}
+    before = plt.get_backend()
+    plt.switch_backend("Agg")
+    yield names, [shown(source, names) for source in CODE]
+    plt.close("all")
+    plt.switch_backend(before)
+
+
+def test_it_is_a_notebook_of_words_and_code() -> None:
+    words = [cell.source for cell in NOTEBOOK.cells if cell.cell_type == "markdown"]
+    assert words[0].startswith("# A dragon of benches")
+    assert len(words) > 10
+    assert len(CODE) > 10
+    assert jupytext.reads(jupytext.writes(NOTEBOOK, fmt="ipynb"), fmt="ipynb").cells[-1].source == words[-1]
+
+
+def test_every_cell_runs_and_shows_something_short_or_a_picture(tour: tuple[dict[str, Any], list[Any]]) -> None:
+    _, answers = tour
+    assert sum(isinstance(answer, Axes) for answer in answers) >= 4
+    told = [repr(answer) for answer in answers if hasattr(answer, "to_dataframe") or hasattr(answer, "_line")]
+    assert len(told) >= 6
+    assert max(map(len, told)) <= SHOWN_MOST
+
+
+def test_its_sentences_are_so(tour: tuple[dict[str, Any], list[Any]]) -> None:
+    names, _ = tour
+    low, high = names["contact"].time_bracket
+    assert 0.0 < high - low < 1e-9  # "a fraction of a nanosecond apart"
+    assert names["contact"].corner.name == "front-outer"
+    assert names["contact"].corner.bench == 0
+    assert 0.0 < names["profile"].grazes[-1].clearance < 1e-3  # "less than a millimetre"
+    assert names["tightest"].proven_up_to is None  # "every larger one works too"
+    assert names["walk"].speed[-1, -1] < names["walk"].speed[-1, 0]  # "a little slower than the head"
+    radius = names["stairs"].radius
+    assert not ((radius > 4.41) & (radius < 4.57)).any()  # "it never crosses"
+    assert 0.02 < names["stray"] < 0.05  # "a few centimetres"
+    assert names["kinder"] > names["stray"]
