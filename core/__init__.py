@@ -20,7 +20,7 @@ from core.design.minimum_pitch import LimitedBy, MinimumPitch, minimum_pitch
 from core.design.pitch_scan import PitchScan, pitch_scan
 from core.design.shortest_turn import ShortestTurn, TurnLimit, shortest_turn
 from core.dragon import Dragon
-from core.errors import BenchDragonError, InvalidValue, OutsideRun, ProofRefused, TooLarge
+from core.errors import BenchDragonError, InvalidValue, OutsideRun, ProofRefused, TooLarge, TooMuchWork
 from core.motion.joints import SharpestBend, sharpest_bend
 from core.motion.speed import (
     FirstExcess,
@@ -85,6 +85,7 @@ __all__ = [
     "Spiral",
     "Stray",
     "TooLarge",
+    "TooMuchWork",
     "Trajectory",
     "Turn",
     "TurnLimit",

@@ -3,6 +3,7 @@
     BenchDragonError          code, field, message
       InvalidValue            a parameter is outside what its type allows (also a ValueError)
       TooLarge                the work asked for is beyond a stated limit
+      TooMuchWork             an answer was not found within the work that one question may take
       OutsideRun              an instant lies after the end of the run (fold, centre or end of path)
       ProofRefused            a claim could not be proven, or a certificate does not prove what it says
 
@@ -85,6 +86,12 @@ class TooLarge(BenchDragonError):
     """The work asked for is beyond a stated limit."""
 
     code = "too-large"
+
+
+class TooMuchWork(BenchDragonError):
+    """An answer was not found within the work that one question may take."""
+
+    code = "too-much-work"
 
 
 class OutsideRun(BenchDragonError):

@@ -104,7 +104,8 @@ def _extent(path: Route, row: Floats, centre: Floats) -> float:
 def rings_clear(dragon: Dragon, coils: TwoCoils, margin: float) -> float | None:
     """A radius >= extent from which both coils are clear of themselves and of each other [m], None if not known."""
     growth, chords = coils.growth, dragon.chords[: dragon.uniform_from + 1]
-    longest, shortest = float(chords.max()), float(chords.min())
+    # the head lies between no two others
+    longest, shortest = float(chords.max()), float(chords[min(1, chords.size - 1) :].min())
     overhang, half = _sideways(dragon)
     foot = max(0.5 * longest, FOOT * growth)
     if 2.0 * math.pi * growth + longest + 2.0 * (overhang + half) > RADIUS_MAX:

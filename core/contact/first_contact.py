@@ -24,7 +24,7 @@ from numpy.typing import NDArray
 from core import kernels, plots
 from core.contact.claim import ENDS, UNDECIDED_THEN, claim, claim_at_start, claim_undecided, contact_then
 from core.contact.near_graze import narrowed
-from core.contact.search import BRACKETS_GRAZING, MARGIN_MAX, NO_GRAZE, Search
+from core.contact.search import BRACKETS_GRAZING, MARGIN_MAX, NO_GRAZE, Budget, Search
 from core.dance import Dance, EndReason, RunEnd
 from core.errors import InvalidValue
 from core.motion.trajectory import bench_outlines, instants, trajectory
@@ -273,11 +273,18 @@ def first_contact(dance: Dance, *, margin: float = 0.0, start: float = 0.0, stop
     >>> contact.outcome.value, round(contact.time, 6), contact.benches
     ('contact', 412.473838, (0, 8))
     """
+    return contact_within(Budget(), dance, margin=margin, start=start, stop=stop)
+
+
+def contact_within(
+    budget: Budget, dance: Dance, *, margin: float = 0.0, start: float = 0.0, stop: float | None = None
+) -> FirstContact:
+    """first_contact() as a part of a larger question, undecided also where the budget of that is spent."""
     checked_type("dance", dance, Dance)
     margin = checked_number("margin", margin, "m", 0.0, MARGIN_MAX)
     begin, until = dance.span(start, stop)
     head_speed, end = dance.head_speed, dance.end
-    search = Search(dance.dragon, dance.path, margin)
+    search = Search(dance.dragon, dance.path, margin, budget=budget)
     to_fold = dance.ends_by(until)
     last = search.last_travel(until * head_speed, to_fold)
     state, found, tolerance = search.approach(begin * head_speed, last, head_speed)

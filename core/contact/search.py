@@ -15,19 +15,27 @@ from core import kernels
 from core.contact.coils import two_coils, way_out
 from core.dance import RunEnd
 from core.dragon import Dragon
-from core.kernels.constants import ALL_RADIUS, ERROR, LEFT_OUT, LEFT_OUT_TOO, RING_END, RING_PLACE
+from core.kernels.constants import (
+    ALL_RADIUS,
+    EDGES_PER_WORK,
+    ERROR,
+    LEFT_OUT,
+    LEFT_OUT_TOO,
+    RING_CLEAR,
+    RING_END,
+    RING_PLACE,
+    WORK,
+)
 from core.paths.route import Route
 from core.paths.spiral import Spiral
 from core.values import Floats
 
 MARGIN_MAX = 1e4  # [m]
-# Steps after which a search gives up as undecided; the default case takes about a hundred.
-STEP_BUDGET = 200_000
-# And work after which it gives up [1]: a bench placed for a step, or 64 edges at rest tried against one. Of first
-# contact, 2 to 5 s; of a least distance, whose steps end near a bench or an edge and cost more, about the same.
+# Work after which a search gives up as undecided, see WORK of core/kernels/constants.py [1]: of first contact, 2 to
+# 8 s; of a least distance, whose steps end near a bench or an edge and cost more, about the same. The default case
+# takes about 5,000.
 WORK_BUDGET = 2e7
 NEAR_WORK_BUDGET = 5e6
-EDGES_PER_WORK = 64
 # A dance is sampled so many times at most [1], and with this share of the work.
 SAMPLES = 20_000
 SAMPLED_SHARE = 0.1
@@ -49,6 +57,8 @@ FOLD_STRETCHES = 200
 # Angles at which dragons fold, and those of handles from leader to follower, are good to far less than this part [1]:
 # see _least_left().
 THETA_ROUNDING = 1e-12
+# One stretch takes as long as so much work, besides FOLD_WORK for each bench [1].
+STRETCH_WORK, FOLD_WORK = 1000.0, 20.0
 # No radius is known to be clear [m].
 NO_BOUND = 1e150
 # A spiral is no route.
@@ -62,6 +72,17 @@ NO_PAIR = (-1.0, -1.0)
 RING_ROUNDING = 1e-11
 
 
+class Budget:
+    """What all searches of one question may still do together.
+
+    left: work, see WORK of core/kernels/constants.py [1]; 1e7 take 1 to 4 s. Nothing is interrupted at 0: whoever asks
+    for more then raises TooMuchWork.
+    """
+
+    def __init__(self, work: float = math.inf) -> None:
+        self.left = work
+
+
 class Search:
     """The arrays that the kernels need for one dragon, and the path and margin they are used for now.
 
@@ -72,7 +93,7 @@ class Search:
     clear_radius: on a spiral, no pair whose inner bench leads at this radius or further out comes within the margin [m]
     ring[RING_PLACE], ring[RING_END]: on a route that begins (and ends) with a coil the same as places, see those of
         the kernels; where they are known there is room for the leading benches only, as on a spiral
-    work: what its marches may still do, see WORK_BUDGET
+    work: what its marches may still do, see WORK_BUDGET, as far as the budget of the whole question has that left
     place: what the kernels count places from, at time 0: arc length from the centre of a spiral, minus s on a route [m]
     """
 
@@ -87,8 +108,9 @@ class Search:
         edges: Floats | None = None,
         *,
         work: float = WORK_BUDGET,
+        budget: Budget | None = None,
     ) -> None:
-        self.dragon, self.work = dragon, work
+        self.dragon, self.work, self.budget = dragon, work, budget or Budget()
         self.edges = np.empty((0, 4)) if edges is None else edges
         self.statics = -len(self.edges)
         alike = dragon.uniform_from
@@ -120,7 +142,11 @@ class Search:
         else:
             self.growth, self.pieces, self.place = path.growth, NO_PIECES, path.length
             self.clear_radius = self._clear_radius(path.growth)
-        self.ring[0] = self.clear_radius
+        self.ring[RING_CLEAR] = self.clear_radius
+
+    def clear_beyond(self, radius: float) -> None:
+        """Take a radius for the clear_radius, from which another bound exceeds the margin on the spiral used [m]."""
+        self.clear_radius = self.ring[RING_CLEAR] = radius * (1.0 + kernels.CLEAR_SPARE)
 
     def travel_rounding(self, *travels: float) -> float:
         """What travels up to these may be off by, in the kernels and as times [m]."""
@@ -153,13 +179,18 @@ class Search:
         """How many leading benches there is room for."""
         return int(self.sizes.shape[0]) - 1 - len(self.edges)
 
+    def spend(self, work: float) -> None:
+        """Take work that was done from what may still be done [1]."""
+        self.work -= work
+        self.budget.left -= work
+
     @property
     def _step_work(self) -> float:
-        return self.room * (1.0 + len(self.edges) / EDGES_PER_WORK)
+        return float(self.room * (1.0 + len(self.edges) / EDGES_PER_WORK))
 
     def samples(self, span: float, step: float) -> int:
         """How many instants to look at over a span [m]: a step apart [m], or as many as the work allows."""
-        affordable = min(float(SAMPLES), SAMPLED_SHARE * self.work / self._step_work)
+        affordable = min(float(SAMPLES), SAMPLED_SHARE * min(self.work, self.budget.left) / self._step_work)
         return max(3, int(min(3.0 + span / step, affordable)))
 
     def ring_least(self, radius: float) -> float:
@@ -256,7 +287,6 @@ class Search:
             return "reached", dict.fromkeys(kernels.MARCH_FIELDS, 0.0) | {"proven": asked[1], "graze_gap": NO_GRAZE}
         out = np.empty(32)
         while True:
-            budget = min(float(STEP_BUDGET), max(self.work / self._step_work, 1.0))
             code = kernels.march(
                 self.growth,
                 self.pieces,
@@ -268,7 +298,7 @@ class Search:
                 self.margin,
                 tolerance,
                 rounding,
-                int(budget),
+                max(min(self.work, self.budget.left), 1.0),
                 self.dragon.benches,
                 self.statics,
                 self.ring,
@@ -279,7 +309,7 @@ class Search:
                 out,
             )
             state = kernels.MARCH_STATES[code]
-            self.work -= out[4] * self._step_work
+            self.spend(float(out[WORK]))
             if state != "capacity":
                 found = dict(zip(kernels.MARCH_FIELDS, out.tolist(), strict=False))
                 found["proven"] = asked[1] if state == "reached" else max(found["proven"] - rounding, asked[0])
@@ -461,6 +491,7 @@ class Search:
         Every pair's gap after that travel, less what both can still move, each bench by its own sizes; -NO_BOUND where
         a bench that has no place in rows[0] could come near one that leads a pair.
         """
+        self.spend(STRETCH_WORK + FOLD_WORK * self.room)
         gap, _ = self.clearance(travel)
         arcs, moved = self.moved_until(theta)
         reached = 2.0 * float(moved.max())

@@ -9,12 +9,12 @@ from enum import StrEnum
 import numpy as np
 
 from core import kernels
-from core.contact.search import MARGIN_MAX, NO_PIECES, THETA_ROUNDING, Search
+from core.contact.search import MARGIN_MAX, NO_PIECES, THETA_ROUNDING, Budget, Search
 from core.dance import EndReason, RunEnd, end_theta
 from core.design.pitch_bands import BORDER_WIDTH, Strips
 from core.design.straight import Straight
 from core.dragon import Dragon
-from core.errors import InvalidValue
+from core.errors import InvalidValue, TooMuchWork
 from core.paths.spiral import START_TURNS_MAX, Spiral
 from core.shown import Shown, worded
 from core.values import SIZE_MAX, SIZE_MIN, checked_number, checked_size, checked_type
@@ -28,8 +28,12 @@ PASSED_OVER = 1e-9
 PASSED_OVER_WIDE = 1e-6
 # The pitch is bisected to this width [m]; closer to a graze or a contact on the circle rounding hides which it is.
 PITCH_WIDTH = 2.0 * BORDER_WIDTH
-# A way that a march leaves undecided is marched once more, in finer steps and with so much work, see WORK_BUDGET of
-# core/contact/search.py; so many pitches that stay undecided end a bisection [1].
+# All ways and strips together do at most so much work, see WORK of core/kernels/constants.py: about 5 s; the default
+# case does about 150,000 [1].
+PITCH_WORK = 4e7
+# A march of one way does at most so much of it. What that leaves undecided is marched once more, in finer steps and
+# with less work; so many pitches that stay undecided end a bisection [1].
+WAY_WORK = 5e6
 FINER_WORK = 1e6
 UNDECIDED_MAX = 4
 # Where no bound on the change of a clearance with the pitch is at hand, so many pitches are tried.
@@ -44,6 +48,8 @@ RANGES = (0.95, 0.99, 0.998)
 NEAR_FOLD = 0.1
 # What limits the pitch is looked at this far below it, where a graze has become a contact of some length [m of pitch].
 BELOW = 1e-11
+# How much nearer the bound for wide spirals must let a march begin, and in what steps it is asked how near [1].
+NEARER = 0.8
 # At both ends of a way the pairs led by so many benches are looked at before it is marched.
 LOOKED_AT = 2
 # A search that found no contact.
@@ -118,24 +124,30 @@ class _PitchSearch:
     def __init__(self, dragon: Dragon, radius: float, start_turns: float, margin: float) -> None:
         self.radius, self.start_turns, self.margin = radius, start_turns, margin
         self.lowest = max(radius / start_turns, SIZE_MIN)
-        self.search = Search(dragon, Spiral(self.lowest, start_turns), margin, work=math.inf)
+        self.search = Search(dragon, Spiral(self.lowest, start_turns), margin, work=WAY_WORK, budget=Budget(PITCH_WORK))
         self.strips = Strips(self.search, radius, start_turns, margin)
         self.ways = 0
         self.alone = dragon.benches == 1
         self.scanned_from: float | None = None
         self.scan_step: float | None = None
 
-    def way(self, pitch: float, width: float = 0.0) -> tuple[str, dict[str, float]]:
+    def way(self, pitch: float, width: float = 0.0, work: float = WAY_WORK) -> tuple[str, dict[str, float]]:
         """March from the start to the circle: 'reached' proves every clearance on the way larger than the margin.
 
-        width: half width of the bracket around a contact, 0 if any instant of it will do [m of travel]
+        width: half width of the bracket around a contact, 0 if any instant of it will do [m of travel]; work: at most
+        raises: TooMuchWork where all ways and strips have done PITCH_WORK
         """
         search = self.search
+        if search.budget.left <= 0.0:
+            raise self.too_much(pitch)
         path = Spiral(pitch, self.start_turns)
         search.use(path, self.margin)
+        search.work = work
         self.ways += 1
+        self.start_nearer(path)
         circle = self.radius / path.growth
         stop = max(search.travel_at(circle), 0.0)
+        width = width and max(width, 2.0 * search.travel_rounding(0.0, stop))
         fold, bench = (0.0, None) if self.strips.bent_little else end_theta(search.dragon, path)
         if fold > circle * (1.0 - THETA_ROUNDING):
             nothing = dict.fromkeys(kernels.MARCH_FIELDS, 0.0)
@@ -154,12 +166,41 @@ class _PitchSearch:
             state = "reached" if search.clear_to_fold(min(found["proven"], last), end) else "stuck"
         return state, found
 
+    def start_nearer(self, path: Spiral) -> None:
+        """Let the march begin where the bound for wide spirals says that nothing touches further out.
+
+        Only where it says so at NEARER of the radius from which the ring bound does: short benches on wide spirals.
+        """
+        search, clears = self.search, self.strips.straight.clears
+        radius = min(search.clear_radius, path.growth * path.start_theta)
+        if NEARER * radius <= self.radius or not clears(path.growth, NEARER * radius, self.margin):
+            return
+        while radius > self.radius and clears(path.growth, NEARER * radius, self.margin):
+            radius *= NEARER
+        search.clear_beyond(max(radius, self.radius))
+
+    def too_much(self, pitch: float) -> TooMuchWork:
+        """The error where the work is done before the pitch is found; pitch: the one that was to be tried next [m]."""
+        dragon = self.search.dragon
+        k = int(dragon.chords[: dragon.uniform_from + 1].argmin())
+        alike = all((column[1:] == column[1:2]).all() for column in (dragon.lengths, dragon.widths, dragon.overhangs))
+        field = f"dragon.lengths.{k}"
+        if alike:
+            field = "dragon.head_length" if k == 0 and dragon.uniform_from else "dragon.body_length"
+        return TooMuchWork.of(
+            field,
+            f"must be larger, or benches fewer: their minimum pitch was not found by {PITCH_WORK:g} steps of work, "
+            f"each a bench placed or a pair of benches tried; the shortest of {dragon.benches} chords is "
+            f"{float(dragon.chords[k]):g} m long, the turning circle {2.0 * self.radius:g} m across, and the next "
+            f"pitch to be tried was {pitch:g} m",
+            float(dragon.lengths[k]),
+            "m",
+        )
+
     def is_clear(self, pitch: float) -> bool | None:
         """Is the whole way free of contact? None where neither is known, within rounding of a graze."""
-        for width, work in ((0.0, math.inf), (CONTACT_WIDTH, FINER_WORK)):
-            self.search.work = work
-            state, found = self.way(pitch, width)
-            self.search.work = math.inf
+        for width, work in ((0.0, WAY_WORK), (CONTACT_WIDTH, FINER_WORK)):
+            state, found = self.way(pitch, width, work)
             if state != "stuck" or found["touching"] >= 0.0:
                 return state == "reached"
         return None
@@ -168,7 +209,8 @@ class _PitchSearch:
         """A feasible pitch to descend from, and up to which every larger one is feasible [m], None: without end.
 
         From the least growth at which the bound of `core/design/straight.py` clears that growth and every larger one,
-        it and the ring bound are asked about ranges of growths further down. raises: InvalidValue where that is beyond
+        it and the ring bound are asked about ranges of growths further down.
+        raises: InvalidValue where that is beyond
         the largest pitch allowed, and that pitch is infeasible
         """
         turn = 2.0 * math.pi
@@ -304,7 +346,12 @@ class _PitchSearch:
             self.search.use(Spiral(infeasible, self.start_turns), self.margin)
             travel = self.search.travel_at(graze[1] / self.search.growth)
             return self._met(travel, travel, graze[0])
-        state, found = self.way(infeasible - BELOW, width=CONTACT_WIDTH)
+        below = BELOW
+        state, found = self.way(infeasible - below, width=CONTACT_WIDTH)
+        # on a wide spiral rounding hides what meets so little below
+        while state == "stuck" and found["touching"] < 0.0 and below < PASSED_OVER_WIDE * infeasible:
+            below *= 10.0
+            state, found = self.way(infeasible - below, width=CONTACT_WIDTH)
         if state == "reached":
             state, found = self.way(infeasible, width=CONTACT_WIDTH)
         pair = (int(found["first"]), int(found["second"]))
@@ -335,9 +382,9 @@ def minimum_pitch(
     (`core/design/straight.py`). Downwards from there strips of pitches are proven clear, each for all its pitches at
     once (`core/design/pitch_bands.py`), to where a pair of benches grazes: no infeasible pitch is stepped over. Where
     strips have no bound (benches so long that handles turn back on the way, or a start inside the region where benches
-    can touch while ways from further out do touch) a stated scan takes their place. raises: InvalidValue; also where
-    benches touch on a straight line, so that no pitch is large enough source: the model of Yang et al., section 2.5;
-    their bisection of the contact radius cannot converge, because that
+    can touch while ways from further out do touch) a stated scan takes their place.
+    raises: InvalidValue; also where benches touch on a straight line, so that no pitch is large enough. TooMuchWork
+    source: the model of Yang et al., section 2.5; their bisection of the contact radius cannot converge, because that
         radius jumps over the circle
 
     >>> round(minimum_pitch(Dragon()).pitch, 9)

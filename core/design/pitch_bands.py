@@ -30,8 +30,9 @@ STEP_MIN = 1e-7
 WIDTH_FOLLOWED = 0.1
 # Where no bound holds a strip is halved down to this part of its pitch [1].
 UNBOUNDED_WITHIN = 1e-3
-# All strips of a descent together take at most so many steps; the default case takes about 500.
-STRIP_BUDGET = 40_000
+# All strips of a descent together do at most so much work, see WORK of core/kernels/constants.py [1]: about a second;
+# the default case does about 130,000.
+STRIP_WORK = 1e7
 # Where no bound of `clears` holds before so many turning radii, starts and pitches, nothing is marched [1].
 FAR = 2.0
 # First stride along the way in search of the bottom of a dip [m of travel], and how often it doubles at most.
@@ -48,13 +49,13 @@ class Strips:
     A proven strip holds for all ways to the circle, however far outside they start: by a bound that needs no chain from
     where it holds outwards, and from there inwards by the march for the leading benches, whose every pose the body
     repeats.
-    steps: that all strips took; marches: strips tried; graze: the pair that ends the last descent and where the head
+    work: that all strips did; marches: strips tried; graze: the pair that ends the last descent and where the head
         then is [m], if that was found
     """
 
     def __init__(self, search: Search, radius: float, start_turns: float, margin: float) -> None:
         self.search, self.radius, self.start_turns, self.margin = search, radius, start_turns, margin
-        self.steps = self.marches = 0
+        self.work, self.marches = 0.0, 0
         self.graze: tuple[tuple[int, int], float] | None = None
         self.straight = Straight(search.dragon)
         # the benches are bent little enough everywhere outside the circle: none turns back, none folds
@@ -102,7 +103,7 @@ class Strips:
                 self.margin,
                 TRAVEL_ROUNDING * outer * max(outer / (low / turn), 1.0),
                 max(STEP_MIN, STEP_PER_WIDTH * (high - low)),
-                STRIP_BUDGET - self.steps,
+                min(STRIP_WORK - self.work, search.budget.left),
                 search.dragon.benches,
                 search.ring,
                 search.sizes,
@@ -112,7 +113,8 @@ class Strips:
                 out,
             )
             found = dict(zip(kernels.MARCH_FIELDS, out.tolist(), strict=False))
-            self.steps += int(found["steps"])
+            self.work += found["work"]
+            search.spend(found["work"])
             if kernels.MARCH_STATES[code] != "capacity":
                 return kernels.MARCH_STATES[code], found
             search.resize(min(4 * search.room, search.dragon.benches))
@@ -132,7 +134,7 @@ class Strips:
 
         'lowest': nothing, all is clear; 'border': a contact that, by the doubles, is a graze less than 2 BORDER_WIDTH
         below; 'stuck': nothing was proven of the next STRIP_MIN; 'unbounded': no bound holds, a handle turns back, or
-        STRIP_BUDGET is spent.
+        STRIP_WORK is done.
         A strip that is not proven is halved, the upper half first. Where its lowest pitch touches, the pitch at
         which that contact becomes a graze is looked for, and the strip ends there instead.
         """
@@ -148,7 +150,7 @@ class Strips:
                 continue
             outer = found["proven"]
             middle = math.sqrt(low * high)
-            if self.steps >= STRIP_BUDGET:
+            if self.work >= STRIP_WORK or self.search.budget.left <= 0.0:
                 return proven, "unbounded"
             if high - low < STRIP_MIN:
                 self.graze = None

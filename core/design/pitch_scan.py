@@ -10,16 +10,15 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from core import plots
-from core.contact.first_contact import Outcome, first_contact
-from core.dance import Dance
+from core.contact.search import MARGIN_MAX, WORK_BUDGET, Budget, Search
+from core.dance import Dance, EndReason
 from core.design.minimum_pitch import MinimumPitch, minimum_pitch
 from core.dragon import Dragon
-from core.errors import InvalidValue
-from core.motion.trajectory import trajectory
+from core.errors import InvalidValue, TooMuchWork
 from core.paths.spiral import Spiral
 from core.shown import Shown, counted, extent
 from core.tables import data_frame
-from core.values import SIZE_MIN, Floats, checked_size, checked_type
+from core.values import SIZE_MIN, Floats, checked_number, checked_size, checked_type
 
 if TYPE_CHECKING:
     import pandas
@@ -28,6 +27,11 @@ if TYPE_CHECKING:
 # A fall of the first-contact radius [m] between two pitches closer than JUMP_WIDTH [m] is a jump.
 JUMP = 0.02
 JUMP_WIDTH = 1e-6
+# Half width of the bracket around a contact [m of head travel], and so of its radius: a picture shows 1e-3 m.
+RADIUS_WIDTH = 1e-8
+# All pitches together do at most so much work, see WORK of core/kernels/constants.py: about 5 s; the default scan does
+# about 2,000,000 [1].
+SCAN_WORK = 4e7
 # The scanned pitches, in minimum pitches.
 SCAN_FROM, SCAN_TO = 0.8, 1.35
 
@@ -75,18 +79,54 @@ class PitchScan(Shown):
         return axes
 
 
-def stop_radius(dragon: Dragon, path: Spiral, *, margin: float = 0.0) -> float | None:
-    """Where the head stands at first contact [m]; None when nothing touches.
+class Stops:
+    """Where the head stands at first contact, of one dragon on one spiral after another.
 
-    A search that ends undecided has met a graze too close to the margin to tell: then, where it met it.
+    The search is that of first_contact(), proven likewise to miss no contact, with a bracket of RADIUS_WIDTH in place
+    of its 1e-10 m: a radius changes by less than the travel, so it is as good as that.
     """
-    found = first_contact(Dance(dragon, path), margin=margin)
-    if found.outcome is Outcome.CLEAR:
-        return None
-    if found.head is not None:
-        return found.head.radius
-    time = found.time_bracket[0] if found.time_bracket else 0.0
-    return float(np.hypot(*trajectory(Dance(Dragon(benches=1), path), [time]).position[0, 0]))
+
+    def __init__(self, dragon: Dragon, margin: float, budget: Budget | None = None) -> None:
+        self.dragon, self.budget = dragon, budget or Budget()
+        self.margin = checked_number("margin", margin, "m", 0.0, MARGIN_MAX)
+        self.search: Search | None = None
+
+    def radius(self, path: Spiral) -> float | None:
+        """The radius [m], None when nothing touches.
+
+        It is good to RADIUS_WIDTH, or so near a graze that rounding hides when it begins to a wider bracket
+        (BRACKETS_GRAZING in core/contact/search.py).
+
+        A search that ends undecided has met a graze too close to the margin to tell: then, where it met it.
+        raises: InvalidValue as Dance
+        """
+        end = Dance(self.dragon, path).end
+        search = self._search(path)
+        to_fold = end.reason is EndReason.FOLD
+        last = search.last_travel(end.time, to_fold)
+        tolerance = max(RADIUS_WIDTH, 2.0 * search.travel_rounding(last))
+        state, found = search.march(last, tolerance)
+        if state == "stuck" and found["touching"] >= 0.0:
+            state, found, tolerance = search.approach(0.0, last, 1.0)
+        if state in ("reached", "stuck") and found["touching"] < 0.0 and to_fold:
+            state = "reached" if search.clear_to_fold(min(found["proven"], last), end) else "stuck"
+        if state == "reached":
+            return None
+        travel = {"touched": found["touching"] - tolerance, "stuck": found["proven"]}.get(state, 0.0)
+        return search.growth * search.theta_at(travel)
+
+    def _search(self, path: Spiral) -> Search:
+        if self.search is None:
+            self.search = Search(self.dragon, path, self.margin, budget=self.budget)
+        else:
+            self.search.use(path, self.margin)
+            self.search.work = WORK_BUDGET
+        return self.search
+
+
+def stop_radius(dragon: Dragon, path: Spiral, *, margin: float = 0.0) -> float | None:
+    """Where the head stands at first contact [m]; None when nothing touches. See Stops."""
+    return Stops(dragon, margin).radius(path)
 
 
 def pitch_scan(
@@ -103,13 +143,16 @@ def pitch_scan(
     than JUMP_WIDTH, then it is a jump. A jump smaller than JUMP between two samples is not found.
 
     pitches: (N,) [m], ascending; progress: called with the share of the samples that is done
-    raises: InvalidValue
+    raises: TooMuchWork where SCAN_WORK is done before; InvalidValue
     """
     checked_type("dragon", dragon, Dragon)
     pitches = _checked_pitches(pitches)
+    stops = Stops(dragon, margin, Budget(SCAN_WORK))
 
     def radius(pitch: float) -> float | None:
-        return stop_radius(dragon, Spiral(pitch, start_turns), margin=margin)
+        if stops.budget.left <= 0.0:
+            raise TooMuchWork.of("pitches", _too_much(dragon, pitch), len(pitches), "")
+        return stops.radius(Spiral(pitch, start_turns))
 
     known: dict[float, float | None] = {}
     jumps: list[float] = []
@@ -147,6 +190,15 @@ def _checked_pitches(pitches: object) -> Floats:
     return np.array([checked_size(f"pitches.{k}", float(pitch)) for k, pitch in enumerate(column)])
 
 
+def _too_much(dragon: Dragon, pitch: float) -> str:
+    """What to change where the work is done before the scan is; pitch: the next one [m]."""
+    return (
+        f"must be fewer, or benches: the first contacts up to a pitch of {pitch:g} m took {SCAN_WORK:g} steps of work, "
+        f"each a bench placed or a pair of benches tried; the {dragon.benches} chords are "
+        f"{float(dragon.chords.min()):g} to {float(dragon.chords.max()):g} m long"
+    )
+
+
 def _scan(known: dict[float, float | None], jumps: list[float]) -> PitchScan:
     pitches = sorted(known)
     found = [pitch for pitch in pitches if known[pitch] is not None]
@@ -167,7 +219,7 @@ def scan_near_minimum(
 ) -> tuple[PitchScan, MinimumPitch]:
     """The scan from SCAN_FROM to SCAN_TO times the minimum pitch at so many samples, and that minimum.
 
-    raises: InvalidValue as minimum_pitch()
+    raises: InvalidValue and TooMuchWork as minimum_pitch() and pitch_scan()
     """
     least = minimum_pitch(dragon, turning_radius=turning_radius, start_turns=start_turns, margin=margin)
     if SCAN_FROM * least.pitch < SIZE_MIN:
@@ -175,4 +227,7 @@ def scan_near_minimum(
         raise InvalidValue.of("turning_radius", rule, turning_radius, "m")
     pitches = np.linspace(SCAN_FROM * least.pitch, SCAN_TO * least.pitch, samples)
     pitches = np.sort(np.append(pitches, least.pitch_bracket))
-    return pitch_scan(dragon, pitches, start_turns=start_turns, margin=margin, progress=progress), least
+    try:
+        return pitch_scan(dragon, pitches, start_turns=start_turns, margin=margin, progress=progress), least
+    except TooMuchWork as error:
+        raise error.named("samples", samples) from error

@@ -21,11 +21,11 @@ import numpy as np
 
 from core import kernels
 from core.contact.coils import STRETCH, TwoCoils, beyond, way_out
-from core.contact.first_contact import FirstContact, Outcome, first_contact
-from core.contact.search import MARGIN_MAX
+from core.contact.first_contact import FirstContact, Outcome, contact_within
+from core.contact.search import MARGIN_MAX, Budget
 from core.dance import Dance, follows
 from core.dragon import Dragon
-from core.errors import InvalidValue
+from core.errors import InvalidValue, TooMuchWork
 from core.paths.spiral import Spiral
 from core.paths.turn import Turn
 from core.shown import Shown, worded
@@ -35,6 +35,9 @@ from core.values import checked_number, checked_size, checked_type
 ENTRY_STEP = 0.01
 # ... and the border is bisected to this width [m].
 ENTRY_WIDTH = 1e-9
+# All entries together do at most so much work, see WORK of core/kernels/constants.py: about 8 s, as a step on a route
+# takes longer than one on a spiral; the default turn does about 90,000 [1].
+TURN_WORK = 2.5e7
 # Turn takes no deeper entry [m].
 ENTRY_MIN = 1e-3
 # A longer coil than needed by this part ends after the instant asked for also in rounding [1].
@@ -42,6 +45,7 @@ SPARE_TURNS = 1e-9
 
 # The pair and the time [s] of a first contact; None where the search is undecided.
 Touch = tuple[tuple[int, int] | None, float | None]
+UNDECIDED: Touch = (None, None)
 
 
 class TurnLimit(StrEnum):
@@ -91,7 +95,9 @@ def shortest_turn(
     pitch, turning_radius, margin [m]; ratio: radius of the first arc over that of the second; start_turns: of the coils
     Each entry tried is proven; between them, ENTRY_STEP of the turning radius apart, this is a scan and may miss a
     narrower infeasible range.
-    raises: InvalidValue (turning_radius) when even the turn at the circle cannot be danced
+    entry_bracket is ENTRY_WIDTH wide at most, or what it is when TURN_WORK is done.
+    raises: TooMuchWork where that is before an entry was found that cannot be danced; InvalidValue (turning_radius)
+        when even the turn at the circle cannot be danced
 
     >>> round(shortest_turn(Dragon(), 1.7).turn.entry_radius, 6)
     4.285762
@@ -104,23 +110,30 @@ def shortest_turn(
         return Turn(pitch, radius, ratio, start_turns=start_turns, entry_radius=entry)
 
     def touching(entry: float, clear: float | None) -> Touch | None:
-        return _contact(dragon, turned(entry), start_turns, margin, clear)
+        return _contact(budget, dragon, turned(entry), start_turns, margin, clear)
 
+    budget = Budget(TURN_WORK)
     bend, floor = _bend(dragon, turned, radius)
     evaluations, limit = 1, touching(radius, None)
+    if limit == UNDECIDED and budget.left <= 0.0:
+        raise TooMuchWork.of("turning_radius", _too_much(dragon, radius), radius, "m")
     if limit is not None:
         raise InvalidValue.of("turning_radius", _refusal(limit, margin), radius, "m")
     feasible = infeasible = radius
     while limit is None and infeasible > floor:
         feasible, infeasible = infeasible, max(infeasible - ENTRY_STEP * radius, floor)
         evaluations, limit = evaluations + 1, touching(infeasible, feasible)
+        if limit == UNDECIDED and budget.left <= 0.0:
+            raise TooMuchWork.of("turning_radius", _too_much(dragon, infeasible), radius, "m")
     if limit is None:
         limited_by = TurnLimit.CENTRE if bend is None else TurnLimit.BEND
         bracket = (0.0 if bend is None else bend, floor)
         return ShortestTurn(turned(floor), bracket, limited_by, None, None, ENTRY_STEP * radius, evaluations)
-    while feasible - infeasible > ENTRY_WIDTH:
+    while feasible - infeasible > ENTRY_WIDTH and budget.left > 0.0:
         middle = 0.5 * (feasible + infeasible)
         evaluations, found = evaluations + 1, touching(middle, feasible)
+        if found == UNDECIDED and budget.left <= 0.0:  # for want of work alone
+            break
         if found is None:
             feasible = middle
         else:
@@ -150,7 +163,9 @@ def _bend(dragon: Dragon, turned: Callable[[float], Turn], radius: float) -> tup
     return low, high
 
 
-def _contact(dragon: Dragon, danced: Turn, start_turns: float, margin: float, clear: float | None) -> Touch | None:
+def _contact(
+    budget: Budget, dragon: Dragon, danced: Turn, start_turns: float, margin: float, clear: float | None
+) -> Touch | None:
     """The first contact of a dance through the turn, time 0 at its entry; None when proven clear.
 
     clear: a larger radius [m] down to which the coil is known to be
@@ -161,7 +176,7 @@ def _contact(dragon: Dragon, danced: Turn, start_turns: float, margin: float, cl
         for r in (danced.entry_radius, clear)
     )
     if before > start:
-        found = first_contact(Dance(dragon, coil), margin=margin, start=start, stop=before)
+        found = contact_within(budget, Dance(dragon, coil), margin=margin, start=start, stop=before)
         if found.outcome is not Outcome.CLEAR:
             return _touch(found, before)
     stop, front = way_followed(dragon, danced, margin)
@@ -169,7 +184,7 @@ def _contact(dragon: Dragon, danced: Turn, start_turns: float, margin: float, cl
     turns = max(start_turns, (1.0 + SPARE_TURNS) * kernels.spiral_theta(arc / coil.growth) / (2.0 * math.pi))
     entry, radius = danced.entry_radius, danced.turning_radius
     path = Turn(danced.pitch, radius, danced.ratio, start_turns=turns, entry_radius=entry)
-    found = first_contact(Dance(front, path), margin=margin, stop=stop)
+    found = contact_within(budget, Dance(front, path), margin=margin, stop=stop)
     return None if found.outcome is Outcome.CLEAR else _touch(found, 0.0)
 
 
@@ -195,6 +210,16 @@ def coils_of(danced: Turn) -> TwoCoils:
     """The coils before and after a turn."""
     extent = max(math.hypot(*c) + r for c, r in zip(danced.centres, danced.radii, strict=True))
     return TwoCoils(danced.pitch / (2.0 * math.pi), math.pi, extent, danced.length, danced.entry_radius)
+
+
+def _too_much(dragon: Dragon, entry: float) -> str:
+    """What to change where the work is done before the shortest turn is found; entry: the radius tried last [m]."""
+    longest, shortest = float(dragon.chords.max()), float(dragon.chords.min())
+    return (
+        f"must be smaller, or benches fewer or more alike: turns down to an entry radius of {entry:g} m were not all "
+        f"decided within {TURN_WORK:g} steps of work, each a bench placed or a pair of benches tried; the "
+        f"{dragon.benches} chords are {shortest:g} to {longest:g} m long"
+    )
 
 
 def _refusal(touch: Touch, margin: float) -> str:

@@ -17,7 +17,7 @@ def extend(growth, pieces, first, last, sizes, chain):
     """Handles after `first` to the `last`; returns last, -1 at a fold."""
     if pieces.shape[0] == 0:
         return extend_chain(growth, first, last, FREE, sizes, chain)
-    return extend_route(pieces, first, last, 0.0, sizes, chain)
+    return extend_route(pieces, first, last, FREE, sizes, chain)
 
 
 def place_chain(growth, pieces, place, last, sizes, chain):
@@ -40,7 +40,7 @@ def chain_rounding(growth, pieces, last, sizes, chain):
 def route_tail(pieces, s, benches, sizes, chain):
     """Where the last handle stands with the head at s on a route [m]."""
     start_route(pieces, s, chain)
-    extend_route(pieces, 0, benches, 0.0, sizes, chain)
+    extend_route(pieces, 0, benches, FREE, sizes, chain)
     return -chain[benches, PLACE]
 
 
@@ -50,7 +50,7 @@ def route_trajectory(pieces, s, head_speed, sizes, chain, position, velocity, sp
     with cython.nogil:
         for row in range(s.shape[0]):
             start_route(pieces, s[row], chain)
-            extend_route(pieces, 0, last, 0.0, sizes, chain)
+            extend_route(pieces, 0, last, FREE, sizes, chain)
             for k in range(last + 1):
                 position[row, k, 0] = chain[k, PX]
                 position[row, k, 1] = chain[k, PY]

@@ -12,6 +12,8 @@ cdef extern from *:
     const double BLEND "1.0"
     const double CLEAR_SPARE "1e-09"
     const double PLACE_SPARE "1e-06"
+    const double STEP_WORK "5.0"
+    const double EDGES_PER_WORK "64.0"
     const double SPIRAL_CURVATURE_MOST "1.0887"
 
 cdef enum:
@@ -30,5 +32,5 @@ cdef enum:
     ALL_CHORD = 5, ALL_OVERHANG = 6, ALL_HALF_WIDTH = 7
     ALL_SHORT = 8, ALL_RADIUS = 9, LEFT_OUT = 10, LEFT_OUT_TOO = 11, RING_PLACE = 12, RING_END = 13
     PROVEN = 0, TOUCHING = 1, FIRST = 2, SECOND = 3, STEPS = 4, BEND = 5, GRAZE_GAP = 6, GRAZE_TRAVEL = 7
-    GRAZE_FIRST = 8, GRAZE_SECOND = 9, MARCH_ENTRIES = 10
+    GRAZE_FIRST = 8, GRAZE_SECOND = 9, WORK = 10, MARCH_ENTRIES = 11
     SHIFT_CENTRE = 0, SHIFT_CORNER = 1, SHIFT_PULL = 2, SHIFT_TURN = 3

@@ -3,7 +3,7 @@ from core.kernels.constants cimport *
 from core.kernels.spiral cimport extend_chain, spiral_curvature, spiral_theta, start_chain
 from core.kernels.bounds cimport followed_error
 from core.kernels.chain cimport chain_rounding, extend
-from core.kernels.rings cimport coil_radius, coil_reach, drift, leaders_reach, radius_beyond
+from core.kernels.rings cimport coil_place, coil_radius, coil_reach, drift, leaders_reach, radius_beyond
 from core.kernels.route cimport extend_route, stands_first, start_route
 from core.kernels.pairs cimport interval_least, pair_most
 from core.kernels.clearance cimport crossing, gap_at, row_clearance, row_gap
@@ -58,7 +58,7 @@ cdef bint slid_back(
 )
 cpdef int march(
     double growth, const double[:, ::1] pieces, double place, double start, double stop, Py_ssize_t leaders,
-    bint at_start, double margin, double tolerance, double rounding, Py_ssize_t budget, Py_ssize_t benches,
+    bint at_start, double margin, double tolerance, double rounding, double budget, Py_ssize_t benches,
     Py_ssize_t statics, double[::1] ring, double[:, ::1] sizes, double[:, :, ::1] rows, double[:, ::1] motion,
     Py_ssize_t[::1] pair, double[::1] out
 ) noexcept

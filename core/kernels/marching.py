@@ -9,7 +9,7 @@ if not cython.compiled:  # for the compiler the same stands in the .pxd
     from core.kernels.clearance import crossing, gap_at, row_clearance, row_gap
     from core.kernels.constants import *
     from core.kernels.pairs import interval_least, pair_most
-    from core.kernels.rings import coil_radius, coil_reach, drift, leaders_reach, radius_beyond
+    from core.kernels.rings import coil_place, coil_radius, coil_reach, drift, leaders_reach, radius_beyond
     from core.kernels.route import extend_route, stands_first, start_route
     from core.kernels.spiral import extend_chain, spiral_curvature, spiral_theta, start_chain
 
@@ -106,19 +106,18 @@ def route_between(pieces, place, leaders, benches, margin, allowance, ring, size
     start_route(pieces, -place, chain)
     k = leaders
     if ring[RING_PLACE] < FREE:
-        k = 0
-        while k < leaders and chain[k, PLACE] < ring[RING_PLACE]:
-            k = extend_route(pieces, k, k + 1, 0.0, sizes, chain)
+        k = extend_route(pieces, 0, leaders, ring[RING_PLACE], sizes, chain)
     found[0] = k
     if ring[RING_PLACE] >= FREE:
-        return extend_route(pieces, 0, benches, 0.0, sizes, chain)
+        return extend_route(pieces, 0, benches, FREE, sizes, chain)
     if k == 0:
         return 0
     radius = radius_beyond(pieces[0, 7], coil_reach(pieces, k, sizes, chain) + margin + allowance, ring) + allowance
-    while k < benches and (
+    k = extend_route(pieces, k, benches, coil_place(pieces, radius), sizes, chain)
+    while k < benches and (  # a handle within rounding of that place
         not stands_first(pieces, k, chain) or coil_radius(pieces, chain[k, PX], chain[k, PY]) < radius
     ):
-        k = extend_route(pieces, k, k + 1, 0.0, sizes, chain)
+        k = extend_route(pieces, k, k + 1, FREE, sizes, chain)
     return k
 
 
@@ -241,8 +240,8 @@ def march(
     place: at travel 0, see chain.py [m]; leaders: benches whose pairs must be followed; at_start: follow all pairs
     until every bench has passed the start of the one before it; tolerance: half width of the bracket around a
     contact [m], 0 or less for none: to end at any instant found to be within the margin, and with 0 without looking
-    for grazes; rounding: what a travel may be off by [m]; budget: steps; benches: n; statics: edges at rest in
-    the rows after the last handle's, on a route only; negative: these alone, without pairs of benches
+    for grazes; rounding: what a travel may be off by [m]; budget: of WORK; benches: n; statics: edges at rest in the
+    rows after the last handle's, on a route only; negative: these alone, without pairs of benches
     sizes: (R - 1, SIZE_COLUMNS) at least; rows: (4, R, CHAIN_COLUMNS), motion: (R, MOTION_COLUMNS) scratch; out:
         (MARCH_ENTRIES,)
     returns: REACHED, TOUCHED, TOUCHED_AT_START, STUCK (budget spent or interval at rounding) or CAPACITY (R too small)
@@ -277,7 +276,7 @@ def march(
         followers = cap
     out[GRAZE_GAP] = FREE
     out[TOUCHING] = -1.0
-    out[STEPS] = out[BEND] = 0.0
+    out[STEPS] = out[BEND] = out[WORK] = 0.0
     with cython.nogil:
         placed = chain_between(
             growth, pieces, place - start, followers, cap, margin, h, False, ring, sizes, before, pair
@@ -303,9 +302,10 @@ def march(
             return STUCK
         while travel < stop and (at_start or place - travel > ring[RING_END]):
             out[PROVEN] = travel
-            if out[STEPS] >= budget or h < rounding or h < (LEAST_STEP * tolerance if tolerance > 0.0 else LEAST_WAY):
+            if out[WORK] >= budget or h < rounding or h < (LEAST_STEP * tolerance if tolerance > 0.0 else LEAST_WAY):
                 return STUCK
             out[STEPS] += 1.0
+            out[WORK] += STEP_WORK
             if h > stop - travel:
                 h = stop - travel
             handles = chain_between(
@@ -329,6 +329,7 @@ def march(
                 h *= 0.5
                 target = -1.0
                 continue
+            out[WORK] += handles * (1.0 + edges / EDGES_PER_WORK)
             room = FREE
             least = FREE
             wide = h * (1.0 + WIDTH_ROUNDING) + 2.0 * rounding
@@ -352,6 +353,7 @@ def march(
                     scratch,
                 )
                 room = 0.95 * scratch[3]
+                out[WORK] += scratch[9]
                 if scratch[4] > allowed:  # a bench beyond the clear radius or place might not be there
                     least = -FREE
             if least <= margin:

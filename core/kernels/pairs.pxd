@@ -81,7 +81,7 @@ cpdef double pair_least(
 
 @cython.locals(
     edges=cython.Py_ssize_t, i=cython.Py_ssize_t, j=cython.Py_ssize_t, a=cython.Py_ssize_t, b=cython.Py_ssize_t,
-    roughly=cython.bint, filled=cython.bint
+    tried=cython.Py_ssize_t, roughly=cython.bint, filled=cython.bint
 )
 cdef double interval_least(
     double growth, const double[:, ::1] pieces, Py_ssize_t statics, double h, Py_ssize_t active, Py_ssize_t handles,
@@ -109,8 +109,8 @@ cdef void strip_rounding(
 ) noexcept nogil
 
 @cython.locals(
-    i=cython.Py_ssize_t, j=cython.Py_ssize_t, a=cython.Py_ssize_t, b=cython.Py_ssize_t, roughly=cython.bint,
-    filled=cython.bint
+    i=cython.Py_ssize_t, j=cython.Py_ssize_t, a=cython.Py_ssize_t, b=cython.Py_ssize_t, tried=cython.Py_ssize_t,
+    roughly=cython.bint, filled=cython.bint
 )
 cdef double strip_least(
     double low, double high, Py_ssize_t leaders, Py_ssize_t handles, double margin, double h_low, double h_high,

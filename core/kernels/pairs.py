@@ -290,12 +290,14 @@ def interval_least(
     """Proven least separation over an interval of all pairs led by the first `active` benches [m]; -FREE: too wide.
 
     out: (14,) [0] K of the least pair, [1] and [2] that pair, [3] the widest interval the same pairs would allow [m],
-    [4] what points may be off by [m]; the rest is scratch
+    [4] what points may be off by [m], [9] the pairs tried; the rest is scratch
     """
     edges = statics if statics >= 0 else -statics
     best = FREE
     bend = 0.0
     room = FREE
+    tried = 0
+    out[9] = 0.0
     a = 0
     b = 0
     if pieces.shape[0] > 0:
@@ -355,6 +357,7 @@ def interval_least(
             width = sizes[i, RADIUS] + sizes[j, RADIUS] + reach + distance
             if square > width * width or (i == ring[LEFT_OUT] and j == ring[LEFT_OUT_TOO]):
                 continue
+            tried += 1
             distance += sqrt(square)
             least = rounding if roughly else pair_rounding(i, j, distance, sizes, before, after)
             least = pair_least(growth, i, j, margin, margin + least, distance, h, sizes, before, after, motion, out)
@@ -382,6 +385,7 @@ def interval_least(
     out[2] = b
     out[3] = room
     out[4] = error
+    out[9] = tried
     return best
 
 
@@ -464,7 +468,10 @@ def strip_least(
     low, high, leaders, handles, margin, h_low, h_high, ring, sizes, before, after, before_high, after_high, motion,
     motion_high, shifts, out
 ):  # fmt: skip
-    """interval_least() over a rectangle of (r_0, b), of pairs led by the first `leaders` benches; out: [1] to [3]."""
+    """interval_least() over a rectangle of (r_0, b), of pairs led by the first `leaders` benches.
+
+    out: [1] to [3], [9]
+    """
     error = 0.0
     rounding = 0.0
     if motion[handles, RATE_LOW] > 0.0 and motion_high[handles, RATE_LOW] > 0.0:
@@ -483,6 +490,8 @@ def strip_least(
         return -FREE
     best = FREE
     room = FREE
+    tried = 0
+    out[9] = 0.0
     a = 0
     b = 0
     for i in range(leaders):
@@ -499,6 +508,7 @@ def strip_least(
             slack += 16.0 * error
             if distance - slack > (sizes[i, RADIUS] + sizes[j, RADIUS] + margin) * (1.0 + 1e-12):
                 continue  # far apart
+            tried += 1
             distance += slack
             least = rounding
             if not roughly:
@@ -533,4 +543,5 @@ def strip_least(
     out[1] = a
     out[2] = b
     out[3] = room
+    out[9] = tried
     return best

@@ -1,6 +1,7 @@
 cimport cython
 from core.kernels.constants cimport *
-from core.kernels.route cimport stands_first
+from core.kernels.route cimport first_place, stands_first
+from core.kernels.spiral cimport spiral_arc
 
 cdef double RING_ROUNDING
 cdef double DISCERNED
@@ -16,6 +17,7 @@ cpdef double ring_least(
 ) noexcept nogil
 
 cdef double coil_radius(const double[:, ::1] pieces, double x, double y) noexcept nogil
+cdef double coil_place(const double[:, ::1] pieces, double radius) noexcept nogil
 
 @cython.locals(i=cython.Py_ssize_t)
 cdef double coil_reach(

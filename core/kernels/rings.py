@@ -5,7 +5,8 @@ from cython.cimports.libc.math import asin, sin, sqrt
 
 if not cython.compiled:  # for the compiler the same stands in the .pxd
     from core.kernels.constants import *
-    from core.kernels.route import stands_first
+    from core.kernels.route import first_place, stands_first
+    from core.kernels.spiral import spiral_arc
 
 
 # A point at distance x along the extended centre line of a bench from the foot of the perpendicular from the
@@ -141,6 +142,12 @@ def coil_radius(pieces, x, y):
     x -= pieces[0, 5]
     y -= pieces[0, 6]
     return sqrt(x * x + y * y)
+
+
+def coil_place(pieces, radius):
+    """Where handles on the first coil, before it is led to the next piece, are at least so far from its centre [m]."""
+    growth = pieces[0, 7]
+    return max(first_place(pieces), growth * spiral_arc(radius / growth) - pieces[0, 10] - pieces[0, S_START])
 
 
 def coil_reach(pieces, leaders, sizes, chain):

@@ -1,6 +1,6 @@
 cimport cython
 from core.kernels.constants cimport *
-from core.kernels.spiral cimport next_arc, slipped, spiral_curvature, spiral_theta, swayed
+from core.kernels.spiral cimport next_arc, slipped, spiral_arc, spiral_curvature, spiral_theta, swayed
 
 cdef double cubic_speed(const double[:, ::1] pieces, Py_ssize_t p, double t) noexcept nogil
 cdef double cubic_arc(const double[:, ::1] pieces, Py_ssize_t p, double t) noexcept nogil
@@ -49,14 +49,15 @@ cpdef void joint_misses(const double[:, ::1] pieces, double[:, ::1] out) noexcep
 @cython.locals(p=cython.Py_ssize_t)
 cpdef void piece_slides(const double[:, ::1] pieces, double[::1] out) noexcept
 
+cdef double first_place(const double[:, ::1] pieces) noexcept nogil
 cdef bint stands_first(const double[:, ::1] pieces, Py_ssize_t k, double[:, ::1] chain) noexcept nogil
 
 @cython.locals(p=cython.Py_ssize_t)
 cdef void start_route(const double[:, ::1] pieces, double s, double[:, ::1] chain) noexcept nogil
 
-@cython.locals(k=cython.Py_ssize_t, p=cython.Py_ssize_t, i=cython.int)
+@cython.locals(k=cython.Py_ssize_t, p=cython.Py_ssize_t, i=cython.int, alike=cython.Py_ssize_t)
 cdef Py_ssize_t extend_route(
-    const double[:, ::1] pieces, Py_ssize_t first, Py_ssize_t last, double calm, double[:, ::1] sizes,
+    const double[:, ::1] pieces, Py_ssize_t first, Py_ssize_t last, double until, double[:, ::1] sizes,
     double[:, ::1] chain
 ) noexcept nogil
 

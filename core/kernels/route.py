@@ -5,7 +5,7 @@ from cython.cimports.libc.math import asin, cos, fabs, sin, sqrt
 
 if not cython.compiled:  # for the compiler the same stands in the .pxd
     from core.kernels.constants import *
-    from core.kernels.spiral import next_arc, slipped, spiral_curvature, spiral_theta, swayed
+    from core.kernels.spiral import next_arc, slipped, spiral_arc, spiral_curvature, spiral_theta, swayed
 
 
 def cubic_speed(pieces, p, t):
@@ -136,7 +136,12 @@ def set_piece_theta(pieces, p, k, chain):
 
 def stands_first(pieces, k, chain):
     """Does handle k stand on the first piece, where that is not led together with the next one?"""
-    return chain[k, PIECE] <= 0.0 and -chain[k, PLACE] <= pieces[0, S_END] - BLEND
+    return chain[k, PIECE] <= 0.0 and chain[k, PLACE] >= first_place(pieces)
+
+
+def first_place(pieces):
+    """The place from which backwards handles stand on the first piece, where that is not led together with the next."""
+    return BLEND - pieces[0, S_END]
 
 
 def start_route(pieces, s, chain):
@@ -265,13 +270,17 @@ def piece_slides(pieces, out):
 # path, and whatever comes near further back along the path is never taken for it.
 
 
-def extend_route(pieces, first, last, calm, sizes, chain):
+def extend_route(pieces, first, last, until, sizes, chain):
     """Handles after `first` to the `last`, each the first point behind its leader at the bench's chord.
 
-    returns: last, or where calm > 0 a handle before it that stands on the first piece
+    returns: last, or a handle before it that stands at the place `until` or further back
     """
+    # the links before this one on its spiral: how many (since its chord came up, that and one more), what they turned
+    # by, the last one first, and the arc where they end
+    alike = 0
+    d1 = d2 = d3 = d4 = d5 = begin = 0.0
     for k in range(first, last):
-        if calm > 0.0 and stands_first(pieces, k, chain):
+        if chain[k, PLACE] >= until:
             return k
         s = -chain[k, PLACE]
         p = cython.cast(cython.Py_ssize_t, chain[k, PIECE])
@@ -289,8 +298,18 @@ def extend_route(pieces, first, last, calm, sizes, chain):
             # on an outward spiral the follower is further in: the same equation with theta negative
             theta = -pieces[p, 9] * chain[k, PIECE_THETA]
             distance = chord / pieces[p, 7]
-            delta, arc = next_arc(theta, distance * distance, step / (pieces[p, 7] * sqrt(1.0 + theta * theta)))
-            arc *= pieces[p, 7]
+            if alike == 0:
+                begin = spiral_arc(theta)
+            elif sizes[k - 1, CHORD] != chord:
+                alike = 1
+            if alike > 5:
+                delta = 5.0 * (d1 - d4) + 10.0 * (d3 - d2) + d5
+            elif alike > 3:
+                delta = 3.0 * (d1 - d2) + d3
+            else:
+                delta = step / (pieces[p, 7] * sqrt(1.0 + theta * theta))
+            delta, rear = next_arc(theta, distance * distance, delta)
+            arc = (rear - begin) * pieces[p, 7] if delta > 0.0 else -1.0
             if low <= arc <= high:
                 step = arc
                 if p == 0 or s - arc >= pieces[p, S_START]:
@@ -305,7 +324,15 @@ def extend_route(pieces, first, last, calm, sizes, chain):
                     chain[k + 1, PLACE] = step - s
                     chain[k + 1, PIECE] = p
                     finish_link(k, chord, chain)
+                    alike += 1
+                    d5 = d4
+                    d4 = d3
+                    d3 = d2
+                    d2 = d1
+                    d1 = delta
+                    begin = rear
                     continue
+        alike = 0
         for i in range(80):
             if not (low <= step <= high):
                 step = 0.5 * (low + high)

@@ -1,7 +1,7 @@
 cimport cython
 from core.kernels.constants cimport *
 from core.kernels.spiral cimport extend_chain, spiral_curvature, spiral_theta, start_chain, steepest_bend
-from core.kernels.route cimport extend_route, start_route
+from core.kernels.route cimport extend_route, first_place, start_route
 from core.kernels.chain cimport chain_rounding, extend
 from core.kernels.bounds cimport LOOSEN, SPIRAL_TURN, blur_of, followed_error, link_cosines, motion_bounds, route_bounds
 from core.kernels.rings cimport drift

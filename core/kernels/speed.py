@@ -16,7 +16,7 @@ if not cython.compiled:  # for the compiler the same stands in the .pxd
     from core.kernels.chain import chain_rounding, extend
     from core.kernels.constants import *
     from core.kernels.rings import drift
-    from core.kernels.route import extend_route, start_route
+    from core.kernels.route import extend_route, first_place, start_route
     from core.kernels.spiral import extend_chain, spiral_curvature, spiral_theta, start_chain, steepest_bend
 
 # Samples on a spiral, whose rates change ever faster towards its centre, lie nearer each other there: by this part of
@@ -50,7 +50,7 @@ def lively_chain(growth, pieces, place, last, calm, sizes, chain):
         start_chain(spiral_theta(place / growth), chain)
         return extend_chain(growth, 0, last, 2.0 * calm, sizes, chain)
     start_route(pieces, -place, chain)
-    return extend_route(pieces, 0, last, calm, sizes, chain)
+    return extend_route(pieces, 0, last, first_place(pieces) if calm > 0.0 else FREE, sizes, chain)
 
 
 def fastest(benches, chain):

@@ -64,7 +64,7 @@ cdef double swayed(
     Py_ssize_t k, double[:, ::1] chain, double ratio, double local, double spread, double inverse
 ) noexcept nogil
 
-@cython.locals(k=cython.Py_ssize_t)
+@cython.locals(k=cython.Py_ssize_t, alike=cython.Py_ssize_t)
 cpdef Py_ssize_t extend_chain(
     double growth, Py_ssize_t first, Py_ssize_t last, double radius, double[:, ::1] sizes, double[:, ::1] chain
 ) noexcept nogil

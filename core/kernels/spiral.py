@@ -164,11 +164,11 @@ def next_handle(theta, chord2, guess):
 
 
 def next_arc(theta, chord2, guess):
-    """delta of the next handle and the arc length to it; -1.0 for both when the chain folds or turns at the centre."""
+    """delta of the next handle and spiral_arc() there; delta -1.0 when the chain folds or turns at the centre."""
     delta, _, _ = next_handle(theta, chord2, guess)
     if delta > 0.0 and theta * (theta + delta) > 0.0:
-        return delta, spiral_arc(theta + delta) - spiral_arc(theta)
-    return -1.0, -1.0
+        return delta, spiral_arc(theta + delta)
+    return -1.0, 0.0
 
 
 def theta_ratio(theta, delta, s, c):
@@ -409,13 +409,22 @@ def extend_chain(growth, first, last, radius, sizes, chain):
     """Handles after `first` until one stands at `radius` [m] or is the `last`; returns its index, -1 at a fold."""
     delta = 0.0
     k = first
+    alike = 0
+    while alike < 5 and alike < first < last and sizes[first - 1 - alike, CHORD] == sizes[first, CHORD]:
+        alike += 1
     while k < last and growth * chain[k, THETA] < radius:
         theta = chain[k, THETA]
         chord = sizes[k, CHORD]
         inverse = 1.0 / chord
         reach = (chord / growth) * (chord / growth)
-        if k > 2 and sizes[k - 1, CHORD] == chord and sizes[k - 2, CHORD] == chord and sizes[k - 3, CHORD] == chord:
-            delta = 3.0 * (theta - chain[k - 1, THETA] - chain[k - 1, THETA] + chain[k - 2, THETA])
+        if k > first:
+            alike = alike + 1 if sizes[k - 1, CHORD] == chord else 0
+        if alike > 4:
+            delta = 5.0 * (theta - chain[k - 1, THETA] - (chain[k - 3, THETA] - chain[k - 4, THETA]))
+            delta += 10.0 * (chain[k - 2, THETA] - chain[k - 3, THETA] - (chain[k - 1, THETA] - chain[k - 2, THETA]))
+            delta += chain[k - 4, THETA] - chain[k - 5, THETA]
+        elif alike > 2:
+            delta = 3.0 * (theta - chain[k - 1, THETA] - (chain[k - 1, THETA] - chain[k - 2, THETA]))
             delta += chain[k - 2, THETA] - chain[k - 3, THETA]
         else:
             delta = first_guess(theta, reach)

@@ -7,6 +7,7 @@ from core.kernels.pairs cimport STRIP_ROUNDING, strip_least
 from core.kernels.clearance cimport row_gap
 
 cdef double TURNED_WITHIN
+cdef double CHAIN_WORK
 cdef double WIDTH_ROUNDING
 cdef double ACROSS
 
@@ -22,6 +23,6 @@ cdef bint shift_bounds(
 )
 cpdef int strip(
     double low, double high, double outer, double inner, Py_ssize_t leaders, double margin, double rounding,
-    double least_step, Py_ssize_t budget, Py_ssize_t benches, double[::1] ring, double[:, ::1] sizes,
+    double least_step, double budget, Py_ssize_t benches, double[::1] ring, double[:, ::1] sizes,
     double[:, :, ::1] rows, double[:, :, ::1] motions, double[:, ::1] shifts, double[::1] out
 ) noexcept

@@ -173,6 +173,15 @@ def test_too_much_work_is_refused_before_it_starts() -> None:
     assert "instants x handles must be at most 1000000 here, got 67200000224" in done.stderr
 
 
+def test_too_much_work_before_an_answer_is_said_and_gets_exit_code_2() -> None:
+    done = run("minimum-pitch", "--body-length", "0.001", "--overhang", "0")
+    assert (done.returncode, done.stdout) == (2, "")
+    assert done.stderr.startswith(
+        "Error: body_length must be larger, or benches fewer: their minimum pitch was not found"
+    )
+    assert done.stderr.endswith("got 0.001 m\n")
+
+
 def test_the_limits_are_those_of_the_settings() -> None:
     done = run("collision-time", "--benches", "11", BENCH_DRAGON_BENCHES_MAX="10")
     assert done.returncode == 2

@@ -34,8 +34,8 @@ def document(client: httpx.Client) -> Any:
 
 
 def can_be_asked(call: str, mode: GenerationMode) -> bool:
-    """Every call with right values, but for the scans of arbitrary dragons, which may take longer than a test waits;
-    with wrong ones if it takes any."""
+    """Every call with right values, but for the scans of arbitrary dragons, which take up to ten seconds each; with
+    wrong ones if it takes any."""
     method, path = call.split()
     if mode.is_positive:
         return not path.endswith(("pitch-scan", "pitch-scan.{format}"))

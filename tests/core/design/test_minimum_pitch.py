@@ -12,9 +12,22 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.optimize import brentq
 
-from core import Dance, Dragon, InvalidValue, LimitedBy, MinimumPitch, Outcome, Spiral, first_contact, minimum_pitch
+import core.design.minimum_pitch
+from core import (
+    Dance,
+    Dragon,
+    InvalidValue,
+    LimitedBy,
+    MinimumPitch,
+    Outcome,
+    Spiral,
+    TooMuchWork,
+    first_contact,
+    minimum_pitch,
+)
 from tests.core.slow_pitch import SlowWay
 from tests.core.slow_search import SlowDance, chord_squared
+from tests.core.sweep_pitch import random_case
 
 CASES = json.loads((Path(__file__).parents[2] / "reference" / "minimum_pitch.json").read_text())["cases"]
 # Pitches are promised to this [m].
@@ -322,3 +335,52 @@ def test_a_value_beyond_its_limits_is_refused_by_name(name: str, value: object) 
     with pytest.raises(InvalidValue) as refused:
         minimum_pitch(Dragon(5), **{name: value})  # type: ignore[arg-type]
     assert refused.value.field == name
+
+
+# Benches of millimetres, 30 cm wide: those beside the head's neighbour touch unless the spiral is nearly straight.
+TINY = {"body_length": 0.00390625, "head_length": 1.0, "overhang": 0.0}
+
+
+def test_tiny_benches_on_wide_spirals_are_answered() -> None:
+    """Ways that begin kilometres further out than anything can touch took 1.4 s each, 30 minutes in all."""
+    found = minimum_pitch(Dragon(**TINY))
+    assert (found.limited_by, found.benches, found.head_radius) == (LimitedBy.CIRCLE, (0, 2), 4.5)
+    assert found.pitch - found.pitch_bracket[0] <= WIDE_BRACKET * found.pitch
+    low, high = (SlowWay.of(Dragon(60, **TINY), pitch, 16.0, 4.5).least() for pitch in found.pitch_bracket)
+    assert low < 0.0 < high
+
+
+def test_work_that_ends_before_the_minimum_pitch_is_found_is_an_error() -> None:
+    with pytest.raises(TooMuchWork) as caught:
+        minimum_pitch(Dragon(body_length=0.001, overhang=0.0))
+    assert caught.value.field == "dragon.body_length"
+    assert "4e+07 steps of work" in caught.value.message
+    assert "the shortest of 223 chords is 0.001 m long" in caught.value.message
+    assert caught.value.message.endswith("got 0.001 m")
+
+
+@pytest.mark.parametrize(
+    ("dragon", "field"),
+    [
+        (Dragon(head_length=1.0), "dragon.head_length"),
+        (Dragon.of([2.2, 2.1, 2.0] * 20, [0.3] * 60, [0.2] * 60), "dragon.lengths.2"),
+    ],
+    ids=["a short head", "bench by bench"],
+)
+def test_the_shortest_bench_is_named_where_the_work_ends(
+    dragon: Dragon, field: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(core.design.minimum_pitch, "PITCH_WORK", 1e2)
+    with pytest.raises(TooMuchWork) as caught:
+        minimum_pitch(dragon)
+    assert caught.value.field == field
+
+
+@pytest.mark.parametrize("seed", [27, 62])
+def test_a_contact_on_the_circle_of_a_wide_spiral_is_said_to_be_there(seed: int) -> None:
+    """Rounding hides a contact 1e-11 m of pitch below the border; the pair approaches on the whole way."""
+    dragon, radius, turns, margin = random_case(seed)
+    found = minimum_pitch(dragon, turning_radius=radius, start_turns=turns, margin=margin)
+    assert (found.limited_by, found.head_radius) == (LimitedBy.CIRCLE, radius)
+    way = SlowWay.of(dragon, found.pitch, turns, radius)
+    assert way.least() == pytest.approx(margin, abs=ACCURACY)

@@ -7,8 +7,9 @@ import math
 import numpy as np
 import pytest
 
-from core import Dragon, InvalidValue, minimum_pitch
-from core.design.pitch_scan import JUMP, JUMP_WIDTH, pitch_scan
+import core.design.pitch_scan
+from core import Dance, Dragon, InvalidValue, Spiral, TooMuchWork, first_contact, minimum_pitch
+from core.design.pitch_scan import JUMP, JUMP_WIDTH, RADIUS_WIDTH, Stops, pitch_scan, scan_near_minimum, stop_radius
 
 SMALL = Dragon(benches=30)
 BRACKET = 1e-9  # [m]: how well the minimum pitch is known
@@ -59,3 +60,43 @@ def test_pitches_that_do_not_ascend_are_refused(pitches: list[float], said: str)
 def test_a_pitch_given_twice_counts_once() -> None:
     scan = pitch_scan(Dragon(30), [0.4, 0.4], start_turns=8.0)
     assert scan.pitch.tolist() == [0.4]
+
+
+def test_radii_are_those_of_first_contact_also_beside_jumps() -> None:
+    """Beside a jump a contact is within rounding of a graze: first_contact() narrows it in decimals."""
+    scan = pitch_scan(Dragon(), np.linspace(0.40, 0.60, 41))
+    beside = {k for start, _ in scan.pieces[1:] for k in (start - 1, start)}
+    chosen = sorted(beside | set(range(0, len(scan.pitch), 8)))
+    assert len(chosen) >= 100
+    stops = Stops(Dragon(), 0.0)
+    for pitch in scan.pitch[chosen].tolist():
+        head = first_contact(Dance(Dragon(), Spiral(pitch))).head
+        assert head is not None
+        assert stops.radius(Spiral(pitch)) == pytest.approx(head.radius, rel=0.0, abs=RADIUS_WIDTH), pitch
+
+
+@pytest.mark.parametrize(
+    ("dragon", "pitch", "margin"),
+    [
+        pytest.param(Dragon(), 0.8, 0.0, id="clear to the fold"),
+        pytest.param(Dragon(benches=2), 0.5, 0.0, id="two benches"),
+        pytest.param(Dragon(), 0.55, 0.05, id="a margin"),
+        pytest.param(Dragon(), 0.3, 0.0, id="touching at the start"),
+        pytest.param(Dragon(benches=40, head_length=0.9, overhang=0.1), 0.5, 0.0, id="a short head"),
+    ],
+)
+def test_a_run_to_a_fold_is_told_from_a_contact_as_by_first_contact(
+    dragon: Dragon, pitch: float, margin: float
+) -> None:
+    head = first_contact(Dance(dragon, Spiral(pitch)), margin=margin).head
+    radius = stop_radius(dragon, Spiral(pitch), margin=margin)
+    assert (radius is None) == (head is None)
+    assert head is None or radius == pytest.approx(head.radius, rel=0.0, abs=RADIUS_WIDTH)
+
+
+def test_work_that_ends_before_the_scan_does_is_an_error(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(core.design.pitch_scan, "SCAN_WORK", 1e4)
+    with pytest.raises(TooMuchWork, match=r"pitches must be fewer, .*up to a pitch of 0\..* m took 10000 steps"):
+        pitch_scan(Dragon(), np.linspace(0.44, 0.46, 5))
+    with pytest.raises(TooMuchWork, match=r"samples must be fewer, .*, got 7$"):
+        scan_near_minimum(Dragon(), turning_radius=4.5, start_turns=16.0, margin=0.0, samples=7)

@@ -16,6 +16,7 @@ from core import (
     InvalidValue,
     Outcome,
     ShortestTurn,
+    TooMuchWork,
     Turn,
     TurnLimit,
     bench_poses,
@@ -174,3 +175,26 @@ def test_a_margin_that_is_none_is_refused(margin: Any) -> None:
     with pytest.raises(InvalidValue) as e:
         shortest_turn(Dragon(), 1.7, margin=margin)
     assert e.value.field == "margin"
+
+
+def test_the_turn_of_a_short_head_is_searched_only_until_nothing_can_follow() -> None:
+    """The search of the whole dance, 590 m at each entry, was given up near the bend, which was taken for a contact."""
+    found = shortest_turn(Dragon(head_length=1.001), 1.7, ratio=1.0)
+    assert found.limited_by is TurnLimit.BEND
+
+
+def test_work_that_ends_before_the_turn_is_found_is_an_error(monkeypatch: pytest.MonkeyPatch) -> None:
+    for work in (1e4, 4e4):  # on the first entry, and on one further in
+        monkeypatch.setattr(core.design.shortest_turn, "TURN_WORK", work)
+        with pytest.raises(TooMuchWork, match=rf"turning_radius must .* within {work:g} steps of work.*, got 4.5 m"):
+            shortest_turn(Dragon(), 1.7)
+
+
+def test_work_that_ends_while_the_turn_is_bisected_leaves_a_wider_bracket(monkeypatch: pytest.MonkeyPatch) -> None:
+    dragon, options = Dragon(benches=60), {"pitch": 1.7, "ratio": 1.0, "margin": 0.2}
+    whole = shortest_turn(dragon, **options)
+    monkeypatch.setattr(core.design.shortest_turn, "TURN_WORK", 9e5)
+    least = shortest_turn(dragon, **options)
+    assert least.entry_bracket[0] <= whole.entry_bracket[0]
+    assert whole.entry_bracket[1] <= least.entry_bracket[1]
+    assert least.evaluations < whole.evaluations
