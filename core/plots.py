@@ -27,10 +27,6 @@ HEAD_ARROW, HEAD_LABEL = 1.2, 1.0
 # Half the side of the enlarged view, in widths of the wider bench, and at least in margins.
 ENLARGED_WIDTHS = 1.5
 ENLARGED_MARGINS = 1.5
-# A route is drawn this far around its start [m], as a line of so many points; a spiral with so many points a turn.
-ROUTE_DRAWN = 2_000.0
-PATH_POINTS = 20_000
-TURN_POINTS = 120
 
 
 class Named(Protocol):
@@ -67,21 +63,9 @@ def draw_dance(axes: Axes, path: Spiral | Route, handles: Floats, outlines: Floa
     handles: (n + 1, 2) [m]; outlines: corners (n, 4, 2) [m]
     """
     plan(axes)
-    _draw_path(axes, path, handles)
+    axes.plot(*path.drawn(float(np.hypot(*handles.T).max())).T, color=PALE, linewidth=0.6, zorder=1)
     _draw_benches(axes, outlines, facecolor="none", edgecolor=GREY, linewidth=linewidth, zorder=2)
     axes.autoscale_view()
-
-
-def _draw_path(axes: Axes, path: Spiral | Route, handles: Floats) -> None:
-    """A spiral from the centre to the outermost handle or the start, a route as it is."""
-    if isinstance(path, Route):
-        s = np.linspace(max(path.begin, -ROUTE_DRAWN), min(path.end, ROUTE_DRAWN), PATH_POINTS)
-        line = path.position(s).T
-    else:
-        radius = max(float(np.hypot(*handles.T).max()), path.growth * path.start_theta)
-        theta = np.linspace(0.0, radius / path.growth, TURN_POINTS * int(radius / path.pitch + 2))
-        line = path.growth * theta * np.stack([np.cos(theta), np.sin(theta)])
-    axes.plot(*line, color=PALE, linewidth=0.6, zorder=1)
 
 
 def _draw_benches(axes: Axes, outlines: Floats, **style: Any) -> None:

@@ -18,6 +18,9 @@ from core.values import Floats, checked_number, checked_size
 
 # Coordinates beyond this lose the digits that the chords need [m].
 COORDINATE_MAX = 1e5
+# A route is drawn this far around its start [m], with so many points.
+DRAWN = 2_000.0
+DRAWN_POINTS = 20_000
 # Pieces that meet within this are joined [m], [rad]: rounding of coordinates up to 1 km.
 JOINT_GAP = 1e-9
 JOINT_KINK = 1e-9
@@ -314,6 +317,11 @@ class Route(Shown):
     def position(self, s: Floats | float) -> Floats:
         """Points at arc length s. s: (...) [m]; returns (..., 2) x, y [m]."""
         return self._points(s)[..., 0:2]
+
+    def drawn(self, reach: float) -> Floats:
+        """Points (N, 2) [m] for a picture: the whole route, however far the dragon reaches."""
+        s = np.linspace(max(self.begin, -DRAWN), min(self.end, DRAWN), DRAWN_POINTS)
+        return self.position(s)
 
     def tangent(self, s: Floats | float) -> Floats:
         """Unit tangents in the direction of travel. s: (...) [m]; returns (..., 2)."""

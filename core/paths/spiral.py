@@ -16,6 +16,8 @@ from core.shown import TABLE_DIGITS, Shown, worded
 from core.values import Floats, checked_number, checked_size
 
 START_TURNS_MAX = 1e5
+# A spiral is drawn with so many points a turn.
+DRAWN_POINTS = 120
 # Width to which gentle_theta() is bisected, relative [1].
 GENTLE_WIDTH = 1e-9
 
@@ -98,6 +100,13 @@ class Spiral(Shown):
         theta = self.theta(s)
         direction: Floats = np.stack([np.cos(theta), np.sin(theta)], axis=-1)
         return direction * (self.growth * theta[..., None])
+
+    def drawn(self, reach: float) -> Floats:
+        """Points (N, 2) [m] for a picture: from the centre to the start, or further out to `reach` from it [m]."""
+        radius = max(reach, self.growth * self.start_theta)
+        theta = np.linspace(0.0, radius / self.growth, DRAWN_POINTS * int(radius / self.pitch + 2))
+        line: Floats = np.stack([np.cos(theta), np.sin(theta)], axis=-1)
+        return line * (self.growth * theta[:, None])
 
     def tangent(self, s: Floats | float) -> Floats:
         """Unit tangents in the direction of travel. s: (...) [m]; returns (..., 2)."""
