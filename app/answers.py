@@ -141,7 +141,10 @@ class PairCheck(Answer):
         "where a corner meets two benches of a straight row at once: apart just before, and hardly within the margin "
         "just after"
     )
-    left_out: list[Engine] = Field(description="Engines that cannot judge this margin, and were not asked")
+    left_out: list[Engine] = Field(
+        description="Engines that were not asked, as they cannot judge this: the angle sum looks at corners alone, so "
+        "it knows no margin, and at the start no benches that cross with no corner of one inside the other"
+    )
 
 
 class CollisionTime(Answer):
@@ -240,7 +243,10 @@ class OverlapsCheck(Answer):
 
     agree: bool = Field(description="All engines asked found the same pairs")
     engines: dict[Engine, list[Pair]] = Field(description="The pairs that each engine found")
-    left_out: list[Engine] = Field(description="Engines that cannot judge this margin, and were not asked")
+    left_out: list[Engine] = Field(
+        description="Engines that were not asked, as they cannot judge this: the angle sum looks at corners alone, so "
+        "it knows no margin, and at the start no benches that cross with no corner of one inside the other"
+    )
 
 
 class OverlapsAnswer(Answer):

@@ -220,7 +220,7 @@ def dance(
     if asked.venue is not None or asked.speed_limit is not None:
         print("The venue and the speed limit are no part of the proof.", file=sys.stderr)
     dance = core.Dance(dragon, path, asked.head_speed)
-    start = dance.default_start if asked.start is None else asked.start
+    start = dance.begin if asked.start is None else asked.start
     times = {"start": start, "stop": asked.stop, "margin": asked.margin}
     _finish(_dance_proven(dance, times, every_pair), output)
 

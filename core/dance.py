@@ -26,6 +26,9 @@ DEFAULT_SPAN = 300
 # A run ends this much before its fold, so that rounding leaves every chord a place at the end too; 1e-14 was enough for
 # 1,494 random dragons, 2026-11-21 [1].
 FOLD_ROUNDING = 1e-13
+# A run that stops so near to its fold [m of head travel] is searched to the fold: steps shrink to nothing there, where
+# handles are fast without bound, and a bound on the motion left takes their place.
+NEAR_FOLD = 1e-5
 # Width to which the earliest time is bisected, of 1 m and of the way [1].
 ROOM_WIDTH = 1e-9
 
@@ -184,6 +187,10 @@ class Dance(Shown):
     def ends_by(self, stop: float) -> bool:
         """Is a run until `stop` [s] one to a fold?"""
         return stop >= self.end.time and self.end.reason is EndReason.FOLD
+
+    def nears_fold(self, stop: float) -> bool:
+        """Is a run until `stop` [s] one to the fold or within NEAR_FOLD of it?"""
+        return self.ends_by(stop + NEAR_FOLD / self.head_speed)
 
     def after_the_end(self, time: Floats, index: int) -> OutsideRun:
         """The error about one of the times, which is after the end of the run."""

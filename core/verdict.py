@@ -179,7 +179,7 @@ def _touch_failures(contact: FirstContact, least: LeastClearance | None, margin:
     if told or least is None or least.distance > 0.0:
         return []
     a, b = least.benches
-    message = f"Benches {a} and {b} touch at {least.time:.6f} s, where the dance stops."
+    message = f"Benches {a} and {b} have no gap left at {least.time:.6f} s, where the dance stops."
     return [Failure(FailureKind.CONTACT, least.time, least.benches, None, message)]
 
 

@@ -21,7 +21,7 @@ from core.paths.spiral import Spiral
 from core.shapes.broad_phase import Pairs, meeting_pairs
 from core.shapes.engines import JUDGES, Engine, able, found_pairs
 from core.shapes.overlaps import Verdict
-from core.shapes.rectangles import frames, frames_separation
+from core.shapes.rectangles import corners, frames, frames_separation
 from core.shown import Shown, worded
 from core.values import Floats, checked_number, checked_type
 
@@ -59,7 +59,8 @@ class ContactCheck(Shown):
     together: other pairs that meet with the reported one, as nearly as the two poses can tell: apart before, within the
         margin after by no more than TOGETHER_DEPTH. A corner that meets a straight row where two benches of it overlap
         touches both at once. Told by the exact separation alone; the engines may find them or not.
-    left_out: engines that cannot judge the margin
+    left_out: engines that cannot judge: the angle sum, which looks at corners alone, knows no margin, and at the start
+        no benches that cross with no corner of one inside the other
     """
 
     agree: bool
@@ -151,7 +152,9 @@ def judged_contact(
             engine: _word(JUDGES[engine](poses[:, list(pair)], sizes[list(pair)], margin), at_start)
             for engine in able(margin)
         }
-        return _check(words, np.array(pair), (), margin)
+        if at_start:
+            _leave_out_blind(words, poses[:, list(pair)], sizes[list(pair)])
+        return _check(words, np.array(pair), ())
     judged = judged_benches(poses[1], sizes, pair, margin)
     if len(judged) == len(pair):
         return judged_contact(poses, sizes, pair, margin=margin, whole=False, at_start=at_start)
@@ -166,14 +169,32 @@ def judged_contact(
             words[engine] = _word([pair in before, pair in after], at_start)
         else:
             words[engine] = Verdict(bool(before), pair in after and after <= together | {pair})
-    return _check(words, judged, tuple(sorted(together)), margin)
+    if at_start:
+        _leave_out_blind(words, poses[:, list(pair)], sizes[list(pair)])
+    return _check(words, judged, tuple(sorted(together)))
+
+
+def _leave_out_blind(words: dict[Engine, Verdict], poses: Floats, sizes: Floats) -> None:
+    """Leave the angle sum out where no corner of either bench is inside the other: then it sees none that cross.
+
+    poses: (2, 2, 3) of the reported pair at both instants; sizes: (2, 2) length and width [m]
+    """
+    frame, places = frames(poses, sizes), corners(poses, sizes)
+    for own, other in ((0, 1), (1, 0)):
+        offset = places[:, other] - frame[:, own, None, :2]
+        cos, sin = frame[:, own, 2, None], frame[:, own, 3, None]
+        along, left = offset[..., 0] * cos + offset[..., 1] * sin, offset[..., 1] * cos - offset[..., 0] * sin
+        inside = (np.abs(along) <= frame[:, own, 4, None]) & (np.abs(left) <= frame[:, own, 5, None])
+        if inside.any():
+            return
+    words.pop(Engine.ANGLE_SUM, None)
 
 
 def _word(found: list[bool], at_start: bool) -> Verdict:
     return Verdict(None, any(found)) if at_start else Verdict(*found)
 
 
-def _check(words: dict[Engine, Verdict], judged: Indices, together: tuple[Pair, ...], margin: float) -> ContactCheck:
+def _check(words: dict[Engine, Verdict], judged: Indices, together: tuple[Pair, ...]) -> ContactCheck:
     agree = all(word.after and not word.before for word in words.values())
     left_out = tuple(engine for engine in Engine if engine not in words)
     return ContactCheck(agree, tuple(judged.tolist()), words, together, left_out)

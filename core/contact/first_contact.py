@@ -285,7 +285,7 @@ def contact_within(
     begin, until = dance.span(start, stop)
     head_speed, end = dance.head_speed, dance.end
     search = Search(dance.dragon, dance.path, margin, budget=budget)
-    to_fold = dance.ends_by(until)
+    to_fold = dance.nears_fold(until)
     last = search.last_travel(until * head_speed, to_fold)
     state, found, tolerance = search.approach(begin * head_speed, last, head_speed)
     narrow = BRACKETS_GRAZING[0] * min(1.0, head_speed)

@@ -51,7 +51,7 @@ def least_clearance(dance: Dance, *, start: float = 0.0, stop: float | None = No
     head_speed, end = dance.head_speed, dance.end
     if dance.dragon.benches < 3:
         return None
-    to_fold = dance.ends_by(until)
+    to_fold = dance.nears_fold(until)
     search = Search(dance.dragon, dance.path, 0.0, work=NEAR_WORK_BUDGET)
     last = search.last_travel(until * head_speed, to_fold)
     fold = end if to_fold else None

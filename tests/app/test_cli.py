@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import contextlib
 import csv
-import doctest
 import fcntl
 import json
 import os
@@ -495,12 +494,6 @@ def test_the_shell_completes_commands_and_options() -> None:
 def test_completion_is_offered_once_and_not_by_each_command() -> None:
     assert answer_of("--help", COLUMNS="100").count("--install-completion") == 1
     assert "completion" not in answer_of("collision-time", "--help", COLUMNS="100")
-
-
-def test_the_python_session_of_the_readme_is_true() -> None:
-    found = doctest.testfile(str(Path(__file__).parents[2] / "README.md"), module_relative=False)
-    assert found.attempted > 5
-    assert found.failed == 0
 
 
 @pytest.mark.parametrize(

@@ -151,7 +151,7 @@ def test_a_margin_is_missed_before_the_touch_and_the_dance_goes_on_until_then() 
         report.failures[0].message
         == "Benches 0 and 14 come nearer than 0.05 m at 383.867583 s, with a gap of 0.050000 m."
     )
-    assert report.failures[1].message == "Benches 0 and 8 touch at 412.473838 s, where the dance stops."
+    assert report.failures[1].message == "Benches 0 and 8 have no gap left at 412.473838 s, where the dance stops."
 
 
 def test_benches_that_touch_at_the_start_are_a_verdict() -> None:

@@ -326,3 +326,12 @@ def test_benches_left_out_make_no_neighbours_of_those_beside_them() -> None:
     check = judged_contact(np.array([before, pose]), size, (0, 2))
     assert 1 not in check.judged
     assert check.engines == dict.fromkeys(Engine, AS_REPORTED)
+
+
+@pytest.mark.parametrize("whole", [True, False], ids=["dragon", "pair"])
+def test_the_angle_sum_is_left_out_where_benches_cross_at_the_start_with_no_corner_inside(whole: bool) -> None:
+    dance = Dance(Dragon(59, 3.48, 2.2, 0.08, 0.26), Spiral(0.21, 9.4))
+    check = contact_check(first_contact(dance), dance, whole=whole)
+    assert check is not None
+    assert check.agree
+    assert check.left_out == (Engine.ANGLE_SUM,)

@@ -9,6 +9,7 @@ from core import (
     Dance,
     Dragon,
     EndReason,
+    Outcome,
     Route,
     Spiral,
     Turn,
@@ -76,3 +77,16 @@ def test_a_first_touch_is_a_least_clearance_of_zero() -> None:
     assert least is not None
     assert (least.distance, least.at_least, least.benches) == (0.0, 0.0, contact.benches)
     assert least.time == pytest.approx(contact.time, abs=1e-12)
+
+
+@pytest.mark.parametrize("before", [1e-12, 1e-9, 1e-7, 1e-6])
+@pytest.mark.parametrize(
+    "dance", [Dance(Dragon(40), Spiral(1.2, 8.0)), Dance(Dragon(), Spiral(0.8))], ids=["short", "default"]
+)
+def test_a_stop_just_before_the_fold_is_proven_as_the_fold_is(dance: Dance, before: float) -> None:
+    stop = dance.end.time - before
+    least = least_clearance(dance, stop=stop)
+    assert least is not None
+    assert least.at_least is not None
+    assert least.at_least >= least.distance - 1.01 * PROOF_WIDTHS[0]
+    assert first_contact(dance, stop=stop).outcome is Outcome.CLEAR
