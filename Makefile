@@ -17,9 +17,9 @@ help:
 	@echo 'make rounding 10,000 computed gaps against 50-digit arithmetic and the bounds on rounding (ARGS="GAPS SEED")'
 	@echo 'make lint     ruff and mypy'
 	@echo 'make sweep-pitch  the minimum pitch of 2,000 random dragons against a slow scan, 10 minutes (DRAGONS=, FIRST=)'
-	@echo 'make bench    benchmarks against a plain SciPy baseline, into the table of README.md'
+	@echo 'make bench    benchmarks against a plain SciPy baseline, into docs/performance.md'
 	@echo 'make examples the answers that /docs shows, asked anew'
-	@echo 'make figures  the figures of README.md'
+	@echo 'make figures  the figures of README.md and docs/'
 	@echo 'make dist     the sdist and the wheel in dist/, checked'
 	@echo 'make lock     new exact versions in requirements.lock'
 	@echo 'make clean    remove everything that make made'
@@ -60,7 +60,7 @@ sweep-pitch: setup
 	@$(BIN)/python -m tests.core.sweep_pitch $(or $(DRAGONS),2000) $(or $(FIRST),0)
 
 bench: setup
-	@$(BIN)/python -m benchmarks.report README.md
+	@$(BIN)/python -m benchmarks.report docs/performance.md
 
 examples: setup
 	@$(BIN)/python -m tests.app.renew_examples

@@ -1,4 +1,4 @@
-"""python -m benchmarks.report README.md: run every benchmark and rewrite the table between the two markers."""
+"""python -m benchmarks.report docs/performance.md: run every benchmark, rewrite the tables between the markers."""
 
 from __future__ import annotations
 
