@@ -39,7 +39,7 @@ class Dragon(Shown):
     """n benches in a row, joined by n + 1 handles; bench 0 is the head, handle 0 leads.
 
     lengths, widths, overhangs, chords: (n,) [m], read-only; chord = length - 2 overhang > 0
-    uniform_from: the first bench from which all to the tail are alike (1 at most for a uniform body)
+    uniform_from: index of the bench from which all benches to the tail are equal (0 or 1 for a uniform body)
 
     >>> dragon = Dragon()
     >>> dragon.benches, dragon.chords[0].round(3), dragon.chords[1].round(3)
@@ -120,7 +120,7 @@ class Dragon(Shown):
         object.__setattr__(self, "uniform_from", int(different[-1]) + 1 if different.size else 0)
 
     def leading(self, benches: int) -> Dragon:
-        """The dragon of the first so many benches, 1 to all."""
+        """The dragon of the first `benches` benches, from 1 to all of them."""
         dragon = Dragon.__new__(Dragon)
         dragon._freeze(self.lengths[:benches], self.widths[:benches], self.overhangs[:benches])
         return dragon

@@ -2,10 +2,10 @@
 
     BenchDragonError          code, field, message
       InvalidValue            a parameter is outside what its type allows (also a ValueError)
-      TooLarge                the work asked for is beyond a stated limit
+      TooLarge                the requested work is beyond a stated limit
       TooMuchWork             an answer was not found within the work that one question may take
       OutsideRun              an instant lies after the end of the run (fold, centre or end of path)
-      ProofRefused            a claim could not be proven, or a certificate does not prove what it says
+      ProofRefused            a claim could not be proven, or a certificate does not prove its claim
 
 A message names the field, the value, its unit and the limit. A collision is an answer, never an error.
 """
@@ -19,8 +19,8 @@ from typing import Self
 class BenchDragonError(Exception):
     """Root of the tree.
 
-    code: stable word for programs; field: the parameter at fault, dotted, and in the message as spoken() writes it
-    got: the number given, where of() made it
+    code: stable word for programs; field: dotted name of the parameter at fault, which the message has as spoken()
+    writes it; got: the given number, if of() made the error
     """
 
     code = "error"
@@ -46,9 +46,9 @@ class BenchDragonError(Exception):
         return error
 
     def named(self, field: str, got: float | None = None) -> Self:
-        """The same error about a parameter of another name, and of another value where `got` is given.
+        """The same error under another parameter name, and with another value if `got` is given.
 
-        For a caller whose own parameters became those of core: a range of times, a diameter.
+        For a caller that derives the parameters of core from its own: times from a range, a radius from a diameter.
         """
         if self.got is not None:
             return type(self).of(field, self._rule, self.got if got is None else got, self._unit)
@@ -59,7 +59,7 @@ class BenchDragonError(Exception):
 
 
 def said(number: float) -> str:
-    """A number as sentences print it: all its digits, no point where nothing follows, and no sign of a zero.
+    """A number as sentences print it: all its digits, no trailing point, and no sign before zero.
 
     >>> said(0.1 + 0.2), said(9.0), said(-0.0)
     ('0.30000000000000004', '9', '0')
@@ -83,7 +83,7 @@ class InvalidValue(BenchDragonError, ValueError):
 
 
 class TooLarge(BenchDragonError):
-    """The work asked for is beyond a stated limit."""
+    """The requested work is beyond a stated limit."""
 
     code = "too-large"
 
@@ -101,6 +101,6 @@ class OutsideRun(BenchDragonError):
 
 
 class ProofRefused(BenchDragonError):
-    """A claim could not be proven, or a certificate does not prove what it says."""
+    """A claim could not be proven, or a certificate does not prove its claim."""
 
     code = "proof-refused"

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import http.client
 import os
+import shutil
 import signal
 import socket
 import subprocess
@@ -24,10 +25,11 @@ STOP_TIMEOUT = 30.0  # [s] from the signal to the end; uvicorn lets running comp
 STRICT = bool(os.environ.get("CI"))
 LEFT_OUT = pytest.StashKey[list[str]]()
 UNCOMPILED = "they would take hours with uncompiled loops: apt install gcc python3-dev, then make clean test"
+NO_CURL = "they run the commands of the documentation as they stand: apt install curl"
 
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
-    """Leave out what this machine cannot run, told after the tests in one line a reason.
+    """Leave out the tests that this machine cannot run; one line for each reason is printed after the tests.
 
     raises: UsageError where nothing may be left out
     """
@@ -39,6 +41,8 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
             groups.setdefault(UNCOMPILED, []).append(item)
         elif not has_browser and _needs_browser(item):
             groups.setdefault(browser.MISSING, []).append(item)
+        elif item.get_closest_marker("curl") and not shutil.which("curl"):
+            groups.setdefault(NO_CURL, []).append(item)
         else:
             kept.append(item)
     lines = [f"{len(group)} tests are left out: {reason}" for reason, group in groups.items()]

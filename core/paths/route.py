@@ -1,4 +1,4 @@
-"""Route: pieces joined into one path by arc length, each joint checked for position and tangent."""
+"""Route: pieces joined into one path by arc length; the position and the tangent of every joint are checked."""
 
 from __future__ import annotations
 
@@ -18,15 +18,15 @@ from core.values import Floats, checked_number, checked_size
 
 # Coordinates beyond this lose the digits that the chords need [m].
 COORDINATE_MAX = 1e5
-# A route is drawn this far around its start [m], with so many points.
+# Largest distance from its start to which a route is drawn [m], and the number of points.
 DRAWN = 2_000.0
 DRAWN_POINTS = 20_000
-# Pieces that meet within this are joined [m], [rad]: rounding of coordinates up to 1 km.
+# Largest gap [m] and kink [rad] of two joined pieces: rounding of coordinates up to 1 km.
 JOINT_GAP = 1e-9
 JOINT_KINK = 1e-9
-# Waypoints nearer to each other than this are one [m]: a slip of the hand, no step of a dance.
+# Least distance of two consecutive waypoints [m]: nearer ones are a slip of the hand.
 WAYPOINT_GAP = 1e-3
-# A piece shorter than this has no direction to speak of [m].
+# Least length of a piece [m]: the direction of a shorter one is lost in rounding.
 LENGTH_MIN = 1e-6
 # Angles beyond this lose the digits that the joints need [rad].
 ANGLE_MAX = 1e6
@@ -49,7 +49,10 @@ def _checked_angle(name: str, value: Any) -> float:
 
 
 def _listed(name: str, value: Any, what: str) -> list[Any]:
-    """The value's entries, where it has some and is no text."""
+    """The entries of a value that is a sequence and not a text.
+
+    raises: InvalidValue naming the field and what it must be
+    """
     try:
         if not isinstance(value, str | bytes | Mapping):
             return list(value)
@@ -122,7 +125,7 @@ class Arc(Shown):
 class Coil(Shown):
     """Part of an Archimedean spiral between two turns: inwards (clockwise) or outwards (counter-clockwise).
 
-    pitch: [m]; start_turns, end_turns: turns from its centre, danced from the one to the other
+    pitch: [m]; start_turns, end_turns: turns from its centre, danced from the first to the second
     centre: (x, y) [m]; rotation: of the whole spiral [rad]
     """
 
@@ -155,7 +158,7 @@ class Coil(Shown):
 class Waypoints(Shown):
     """A smooth curve through points (x, y) [m]: the cubic spline over the length of its polygon, curvature-continuous.
 
-    start_heading, end_heading: direction at its ends [rad]; None leaves the end without curvature
+    start_heading, end_heading: direction at its ends [rad]; None: no curvature at that end
     """
 
     points: tuple[Point, ...]
@@ -179,7 +182,7 @@ class Waypoints(Shown):
         return f"{len(self.points)} points from {self.points[0]!r} to {self.points[-1]!r} m"
 
     def rows(self, name: str, s: float) -> Floats:
-        """Rows of the kernels' table from arc length s on: as many cubics as exact arc lengths take."""
+        """Rows of the kernels' table from arc length s on: as many cubics as exact arc lengths need."""
         from scipy.interpolate import CubicSpline  # type: ignore[import-untyped]
 
         points = np.array(self.points)
@@ -219,10 +222,10 @@ class Route(Shown):
     """Pieces joined into one path, s = 0 at `start` metres from the beginning of the first one.
 
     pieces: in the order they are danced; joints must agree within JOINT_GAP and JOINT_KINK
-    table: rows for the kernels; joints: s of every joint [m]; begin, end: s of both ends [m]. A first piece that coils
-    inwards goes on outwards behind `begin`, so that the tail has a place: then tail_begin is None, else begin.
-    calm_beginning: along the first piece curvature does not fall, so that no handle there is faster than its leader
-    slide: how far the head's point may be from its s along the path, by rounding and at joints [m]
+    table: rows for the kernels; joints: s of every joint [m]; begin, end: s of both ends [m]
+    tail_begin: least s of a handle [m]; None if the first piece coils inwards: it continues outwards for the tail
+    calm_beginning: the curvature does not fall along the first piece, so no handle there is faster than its leader
+    slide: largest distance along the path of the head's point from its s, by rounding and at joints [m]
     raises: InvalidValue naming the piece or the joint and its gap
     """
 
@@ -253,14 +256,14 @@ class Route(Shown):
         for k, (s, row) in enumerate(joints[1:], start=1):
             self._check_joint(k, s, row)
 
-    # Pieces that miss each other are led together, on the longer of the two, by a polynomial of degree 5 over a length
-    # l of at most 1 m (BLEND in core/kernels/constants.py): from a gap g across the path, a kink k and a step of
-    # curvature d inside a part to none, it lies within g + k l + d l^2 of the piece, its second derivative within 10 g
-    # / l^2 + 6 k / l + 3 d, its third within 60 g / l^3 + 36 k / l^2 + 9 d / l. Both ends of a piece may do so, hence
-    # twice that; and a curve beside a bend is more curved by the square of the bend times its distance. Gaps along the
-    # path displace the head alone.
+    # Two pieces that do not quite meet are blended, on the longer of the two, by a polynomial of degree 5 over a length
+    # l of at most 1 m (BLEND in core/kernels/constants.py). It takes a gap g across the path, a kink k and a step d of
+    # the curvature inside a part to zero. It stays within g + k l + d l^2 of the piece, its second derivative within
+    # 10 g / l^2 + 6 k / l + 3 d, its third within 60 g / l^3 + 36 k / l^2 + 9 d / l. A piece may have one at either
+    # end, hence twice that. A curve at some distance beside a bend has more curvature, by the square of the bend times
+    # the distance. Gaps along the path displace the head alone.
     def _smooth(self) -> float:
-        """Fills in how near the pieces are to a smooth path; how far the head's point is from its s at most [m]."""
+        """Fill in the distance of the pieces from a smooth path; returns `slide` [m]."""
         table, misses, slides = self.table, np.zeros((len(self.table), 4)), np.zeros(len(self.table))
         kernels.joint_misses(table, misses)
         kernels.piece_slides(table, slides)
@@ -319,7 +322,7 @@ class Route(Shown):
         return self._points(s)[..., 0:2]
 
     def drawn(self, reach: float) -> Floats:
-        """Points (N, 2) [m] for a picture: the whole route, however far the dragon reaches."""
+        """Points (N, 2) [m] for a picture: the whole route, whatever the reach of the dragon."""
         s = np.linspace(max(self.begin, -DRAWN), min(self.end, DRAWN), DRAWN_POINTS)
         return self.position(s)
 
@@ -333,7 +336,7 @@ class Route(Shown):
 
     @cached_property
     def sharpest(self) -> tuple[float, float]:
-        """The largest |curvature| [1/m] and an s [m] where it is reached (for a cubic, bounded)."""
+        """The largest |curvature| [1/m], on a cubic its bound, and an s [m] where it occurs."""
         bends = np.abs(self.table[:, 3:5])
         row, end = np.unravel_index(int(bends.argmax()), bends.shape)
         return float(bends[row, end]), float(self.table[row, 1 + end])

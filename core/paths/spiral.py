@@ -1,4 +1,4 @@
-"""Paths: arc length s -> point and tangent. s grows in the direction of travel, the tail has the smaller s.
+"""Spiral: arc length s -> point and tangent. s grows in the direction of travel; the tail has the smaller s.
 
 Spiral is the whole dance of the contest; Route joins pieces (Line, Arc, Coil, Waypoints) into one path.
 """
@@ -16,7 +16,7 @@ from core.shown import TABLE_DIGITS, Shown, worded
 from core.values import Floats, checked_number, checked_size
 
 START_TURNS_MAX = 1e5
-# A spiral is drawn with so many points a turn.
+# Points in each drawn turn of a spiral.
 DRAWN_POINTS = 120
 # Width to which gentle_theta() is bisected, relative [1].
 GENTLE_WIDTH = 1e-9
@@ -46,7 +46,7 @@ class Spiral(Shown):
     def _rows(self) -> list[tuple[str, str]]:
         return [*super()._rows(), ("length", worded(self.length, "m", TABLE_DIGITS))]
 
-    # The head enters at s = 0 and may go to the centre; the tail stands on the extension, which has no beginning.
+    # The head enters at s = 0 and may go to the centre; the tail stands on the outward extension, which has no end.
     begin = 0.0
     tail_begin = None
 
@@ -78,7 +78,7 @@ class Spiral(Shown):
         return theta.reshape(from_centre.shape)
 
     def gentle_theta(self, curvature: float) -> float:
-        """Polar angle from which outwards the spiral bends no more than this [1/m], from above [rad].
+        """Polar angle beyond which the |curvature| stays below this [1/m]; rounded up [rad].
 
         Curvature growth is (2 + theta^2) / (1 + theta^2)^(3/2), which falls and is at most 2 / theta.
         """
@@ -102,7 +102,7 @@ class Spiral(Shown):
         return direction * (self.growth * theta[..., None])
 
     def drawn(self, reach: float) -> Floats:
-        """Points (N, 2) [m] for a picture: from the centre to the start, or further out to `reach` from it [m]."""
+        """Points (N, 2) [m] for a picture: from the centre to the start, or further out to a radius of `reach` [m]."""
         radius = max(reach, self.growth * self.start_theta)
         theta = np.linspace(0.0, radius / self.growth, DRAWN_POINTS * int(radius / self.pitch + 2))
         line: Floats = np.stack([np.cos(theta), np.sin(theta)], axis=-1)
