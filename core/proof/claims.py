@@ -1,4 +1,4 @@
-"""The claims about the spiral, collision time and minimum pitch: what each says, its way, and its overlap."""
+"""The claims about the spiral, collision time and minimum pitch: statement, way and overlap of each."""
 
 from __future__ import annotations
 
@@ -25,10 +25,10 @@ from core.values import SIZE_MIN, checked_number, checked_size
 # Half the bracket around a collision time [s], and the step below a minimum pitch [m]: exact decimals, in balls.
 TIME_BRACKET = "1e-10"
 PITCH_STEP = "1e-6"
-# A fold is shown between two places of the head, each so far from where doubles see it [1]. They see it within 1e-12;
-# where it only just exists, 12. finds no wall from farther away.
+# A fold is proven between two places of the head, each at this relative distance from the place that doubles find [1].
+# Doubles are within 1e-12 of it; if the fold only just exists, 12. finds no wall from farther away.
 FOLD_WITHIN = (1e-9, 1e-11)
-# Halvings that bring the head's theta to the last digit of a double.
+# Halvings that give the head's theta to the last digit of a double.
 HALVINGS = 60
 
 
@@ -36,10 +36,10 @@ HALVINGS = 60
 class CollisionTime:
     """Nothing touches in [0, time - 1e-10], and one pair strictly overlaps at time + 1e-10 [s].
 
-    margin: [m]; where it is more than 0, nothing comes within it, and one pair is strictly nearer
+    margin: [m]; if positive, nothing comes within it, and one pair is strictly nearer
     way: (highest, lowest) theta of the head between which nothing may touch [rad]
     find_overlap(): the record of an overlap that check_overlap() verifies, returning the whole claim in words
-    search_share: how much of the work of a proof find_overlap() is; follows: as swept() has it
+    search_share: fraction of a proof's work in find_overlap(); follows: see swept()
     """
 
     kind: ClassVar[str] = "collision-time"
@@ -142,7 +142,7 @@ class MinimumPitch:
         raise ProofRefused("claim", f"{PITCH_STEP} m less than pitch {said(self.pitch)} m {free}")
 
     def _find_fold(self, start: float, circle: float) -> dict[str, Any]:
-        """Where a bench folds on the way with PITCH_STEP less, as doubles see it; empty where none does. [rad]"""
+        """The fold on the way with PITCH_STEP less, as doubles find it; empty if no bench folds [rad]."""
         less = Spiral(max(self.pitch - float(PITCH_STEP), SIZE_MIN), self.start_turns)
         theta, bench = end_theta(self.dragon, less)
         if bench is None or not circle < theta < start:
@@ -183,7 +183,7 @@ class MinimumPitch:
 
 
 def checked_margin(margin: float) -> float:
-    """margin [m] if it lies in the range allowed."""
+    """margin [m] if it lies in the allowed range."""
     return checked_number("margin", margin, "m", 0.0, MARGIN_MAX)
 
 
@@ -194,9 +194,9 @@ def settle(claim: object, **checked: float) -> None:
 
 
 def near_pair(chain: AnyChain, head: arb, when: str) -> list[int]:
-    """Two benches a < b, no neighbours, that strictly overlap, or are nearer than the margin, when the head is there.
+    """Two benches a < b, no neighbours, that strictly overlap, or are nearer than the margin, at a place of the head.
 
-    head: its place [rad], [m]; raises: ProofRefused when there are none
+    head: the place [rad], [m]; raises: ProofRefused if there are none
     """
     place = head
     for bench in range(chain.count - 2):
@@ -214,9 +214,9 @@ def near_pair(chain: AnyChain, head: arb, when: str) -> list[int]:
 
 
 def check_near(chain: AnyChain, head: arb, a: int, b: int, when: str) -> None:
-    """Check that benches a < b, no neighbours, strictly overlap, or are nearer than the margin, when the head is there.
+    """Check that benches a < b, no neighbours, strictly overlap, or are nearer than the margin, at a place of the head.
 
-    head: its place [rad], [m]; raises: Unproven
+    head: the place [rad], [m]; raises: Unproven
     """
     if not 0 <= a < b - 1 < chain.count - 1:
         raise Unproven(f"benches {a} and {b} are no pair")
@@ -230,7 +230,7 @@ def check_near(chain: AnyChain, head: arb, a: int, b: int, when: str) -> None:
 
 
 def head_theta(chain: Chain, handle: int, theta: float, low: float, high: float) -> float:
-    """Where the head is, between low and high, when a handle is at theta, about [rad]."""
+    """Place of the head, between low and high, when a handle is at theta, approximately [rad]."""
     for _ in range(HALVINGS if handle else 0):
         theta_handle = middle = (low + high) / 2
         for needed in chain.needed[:handle]:
@@ -241,7 +241,7 @@ def head_theta(chain: Chain, handle: int, theta: float, low: float, high: float)
 
 @contextmanager
 def refusing(field: str) -> Iterator[None]:
-    """Turn what is not proven into ProofRefused."""
+    """Turn Unproven into ProofRefused."""
     try:
         yield
     except (Overlap, Unproven) as why:

@@ -1,4 +1,4 @@
-"""Folds in balls: that a bench cannot follow any more (12.)."""
+"""Folds in balls: proofs that a bench cannot follow any further (12.)."""
 
 from __future__ import annotations
 
@@ -9,15 +9,15 @@ from flint import arb
 from core.proof.chain import Chain, Stretch, slopes
 from core.proof.pairs import Unproven, above, below
 
-# Pieces of a bend that are looked at before a fold counts as not shown; 20 to 60 are usual.
+# Largest number of pieces of a bend before a fold counts as not proven; 20 to 60 are usual.
 FOLD_PIECES = 10_000
-# Where the wall of 12. is looked for: by steps of these [rad], up to so far. Where a fold only just exists F falls only
-# on a short way.
+# Search for the wall of 12.: its steps and its reach [rad]. If a fold only just exists, F falls only over a short
+# distance.
 WALL_STEPS, WALL_MOST = (0.01, 0.0001), 7.0
 
 
 def folding(chain: Chain, before: arb, after: arb) -> int:
-    """The bench that cannot follow any more when the head gets from one theta to another [rad].
+    """The bench that can no longer follow when the head goes from one theta to another [rad].
 
     raises: Unproven
     """
@@ -33,7 +33,7 @@ def folding(chain: Chain, before: arb, after: arb) -> int:
 
 
 def check_fold(chain: Chain, bench: int, before: arb, after: arb) -> None:
-    """Check that this bench cannot follow any more when the head gets from one theta to another [rad].
+    """Check that this bench can no longer follow when the head goes from one theta to another [rad].
 
     raises: Unproven
     """
@@ -61,7 +61,7 @@ def _moved(theta: arb, d: arb) -> arb:
 
 
 def _wall(theta: float, d: float) -> float:
-    """About the first local minimum of F(theta, .) beyond d [rad]."""
+    """Approximate first local minimum of F(theta, .) beyond d [rad]."""
     for step in WALL_STEPS:
         falls, wall = False, d
         while wall < d + WALL_MOST:
@@ -74,7 +74,7 @@ def _wall(theta: float, d: float) -> float:
 
 
 def _stays_short(theta: arb, wall: float, needed: arb) -> bool:
-    """Is F(theta, d) < needed for all d from 0 to the wall [rad]?"""
+    """Whether F(theta, d) < needed for all d from 0 to the wall [rad]."""
     pieces = [(0.0, wall)]
     for _ in range(FOLD_PIECES):
         if not pieces:

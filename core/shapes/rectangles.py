@@ -1,7 +1,7 @@
 """Exact signed separation of two oriented rectangles, with witness points and normal.
 
-The derivation stands in core/kernels/rectangles.py: the separating axis theorem when they meet, the least
-distance from a corner of the one to the other when they are apart.
+The derivation stands in core/kernels/rectangles.py: the separating axis theorem for rectangles that meet, the least
+distance from a corner of one to the other for rectangles apart.
 """
 
 from __future__ import annotations
@@ -16,10 +16,10 @@ from core.errors import InvalidValue, said
 from core.shown import Shown, worded
 from core.values import SIZE_MAX, SIZE_MIN, Floats
 
-# Further out than any dance: a double resolves only 1e-7 m there [m].
+# Beyond any dance: a double resolves only 1e-7 m there [m].
 POSITION_MAX = 1e9
 
-# Lowest and highest value, and unit, of everything that describes a rectangle in the plane.
+# Lowest and highest value, and unit, of each number that describes a rectangle in the plane.
 LIMITS = {
     "x": (-POSITION_MAX, POSITION_MAX, "m"),
     "y": (-POSITION_MAX, POSITION_MAX, "m"),
@@ -56,10 +56,10 @@ class Separation(Shown):
 def separation(poses_a: ArrayLike, sizes_a: ArrayLike, poses_b: ArrayLike, sizes_b: ArrayLike) -> Separation:
     """Signed separation of rectangles a and b, pair by pair.
 
-    Apart, the Euclidean distance and the nearest points; overlapping, minus the length of the shortest
-    translation that parts them, the corner that reaches deepest and the point of the face over it. Where
-    parallel edges meet, the witnesses are the middle of the stretch that they share. Off by a few ulp of the
-    larger of the sizes and the distance, and witnesses also by an ulp of their own coordinates.
+    Rectangles apart: the Euclidean distance and the nearest points. Overlapping rectangles: minus the length of the
+    shortest translation that separates them, the deepest corner, and the point of the face above it. If parallel edges
+    meet, the witnesses are the middle of their common stretch. The error is a few ulp of the larger of the sizes and
+    the distance; witnesses also round by an ulp of their own coordinates.
 
     poses: (..., 3) x [m], y [m], heading [rad]; sizes: (..., 2) length [m], width [m]; shapes broadcast
     raises: InvalidValue for a shape that does not fit, a value that is not finite, or one outside LIMITS
@@ -93,10 +93,10 @@ def frames_separation(a: Floats, b: Floats) -> Separation:
 
 
 def frames(poses: Floats, sizes: Floats) -> Floats:
-    """What the kernels take for a rectangle: x, y, unit vector (x, y) along it, half length, half width.
+    """Rectangles as the kernels take them: x, y, unit vector (x, y) along it, half length, half width.
 
     poses: (..., 3) x [m], y [m], heading [rad]; sizes: (..., 2) length [m], width [m]; shapes broadcast
-    returns: (..., 6) in memory of its own
+    returns: (..., 6), never a view
     """
     shape = np.broadcast_shapes(poses.shape[:-1], sizes.shape[:-1])
     out = np.empty((*shape, 6))
@@ -147,7 +147,7 @@ def checked_columns(subject: str, columns: Floats, names: tuple[str, ...]) -> No
 def checked_array(name: str, values: ArrayLike, shape: str, last: int | None) -> Floats:
     """The values as float64 with a last axis of that length (a plain list if None).
 
-    raises: InvalidValue when they are no numbers or have another shape
+    raises: InvalidValue if they are no numbers or have another shape
     """
     try:
         array = np.asarray(values, dtype=np.float64)
