@@ -44,7 +44,7 @@ def blocks(language: str) -> list[tuple[str, str]]:
     ]
 
 
-SNIPPETS, SESSIONS = blocks("python"), blocks("console")
+SNIPPETS, SESSIONS, DANCES = blocks("python"), blocks("console"), blocks("toml")
 
 
 def test_readme_is_short() -> None:
@@ -99,6 +99,12 @@ def test_a_command_gives_what_is_printed_below_it(place: str, session: str, serv
         done = run(command.replace("localhost:8000", urlsplit(server).netloc), tmp_path)
         assert (done.returncode != 0) is expected.startswith("Error: "), done.stdout
         assert_alike(done.stdout, expected)
+
+
+@pytest.mark.parametrize(("place", "dance"), DANCES, ids=[place for place, _ in DANCES])
+def test_a_dance_that_is_shown_passes_its_check(place: str, dance: str, tmp_path: Path) -> None:
+    (tmp_path / "dance.toml").write_text(dance, encoding="utf-8")
+    assert run("bench-dragon check dance.toml", tmp_path).stdout.startswith("Passes. ")
 
 
 @pytest.mark.parametrize(("values", "command"), RESULTS, ids=[command for _, command in RESULTS])
