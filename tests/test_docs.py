@@ -56,6 +56,21 @@ def test_readme_leads_to_every_page() -> None:
     assert set(PAGES) - {"README.md"} <= linked
 
 
+def test_the_house_is_drawn_as_it_stands() -> None:
+    picture = re.search(r"^```\n(core/.*?)^```", PAGES["docs/architecture.md"], re.DOTALL | re.MULTILINE)
+    assert picture
+    drawn: dict[str, set[str]] = {}
+    for line in picture[1].splitlines():
+        names = re.findall(r"[\w.]+(?:\.py|/)", re.split(r"(?<=\S)  +", line)[0])
+        if not line.startswith(" "):
+            drawn[floor := names[0]] = set()
+        elif re.match(r"  \S", line):
+            drawn[floor] |= set(names)
+    assert all((ROOT / floor / name).exists() for floor, names in drawn.items() for name in names)
+    rooms = {f"{path.parent.name}/" for path in (ROOT / "core").glob("*/__init__.py")}
+    assert drawn["core/"] == rooms | {path.name for path in (ROOT / "core").glob("*.py")} - {"__init__.py"}
+
+
 def test_each_claim_names_a_test() -> None:
     rows = [line for line in PAGES["docs/claims.md"].splitlines() if line.startswith("| ")][1:]
     assert len(rows) > 10
