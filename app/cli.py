@@ -25,6 +25,7 @@ from app.options import asks, checked, given, numbers, unused
 from app.refusals import refusing
 from app.settings import WORKERS_MAX, Settings
 from core import BenchDragonError, Dragon, InvalidValue, Route, Spiral, Venue
+from core.errors import said
 from core.values import Floats
 
 Json = Annotated[bool, typer.Option("--json", help="The service's JSON instead of a table.")]
@@ -180,7 +181,7 @@ def collision_time(asked: schemas.CollisionQuery, json: Json = False) -> None:
     with show.waiting("first contact"):
         found = core.first_contact(core.Dance(dragon, path, asked.head_speed), margin=asked.margin)
         answer = answers.CollisionTime.of(found, dragon, path, asked)
-    title = f"First time that two benches are nearer than {asked.margin:g} m" if asked.margin else "First contact"
+    title = f"First time that two benches are nearer than {said(asked.margin)} m" if asked.margin else "First contact"
     show.print_answer(title, answer, json, margin=asked.margin, benches=dragon.benches)
 
 
@@ -192,8 +193,8 @@ def minimum_pitch(asked: schemas.MinimumPitchQuery, json: Json = False) -> None:
     with show.waiting("minimum pitch"):
         found = core.minimum_pitch(dragon, turning_radius=radius, start_turns=asked.start_turns, margin=asked.margin)
         answer = answers.MinimumPitch.of(found, dragon, asked)
-    gap = f" and no bench nearer than {asked.margin:g} m to another" if asked.margin else ""
-    title = f"Minimum pitch for a turning circle of {asked.turning_diameter:g} m{gap}"
+    gap = f" and no bench nearer than {said(asked.margin)} m to another" if asked.margin else ""
+    title = f"Minimum pitch for a turning circle of {said(asked.turning_diameter)} m{gap}"
     show.print_answer(title, answer, json, margin=asked.margin, benches=dragon.benches)
 
 
@@ -210,7 +211,7 @@ def shortest_turn(asked: schemas.ShortestTurnQuery, json: Json = False) -> None:
     """The turn that begins as deep inside its circle as the dragon can dance, and what limits it."""
     with show.waiting("shortest turn"):
         found = asked.to_shortest_turn(Settings().checked_benches_max)
-    gap = f" with no bench nearer than {asked.margin:g} m to another" if asked.margin else ""
+    gap = f" with no bench nearer than {said(asked.margin)} m to another" if asked.margin else ""
     show.print_answer(f"Shortest turn{gap}", report.ShortestTurn.of_shortest(found), json, margin=asked.margin)
 
 
@@ -222,7 +223,7 @@ def maximum_head_speed(asked: schemas.MaximumHeadSpeedQuery, json: Json = False)
     with show.waiting("maximum head speed"):
         found = core.maximum_head_speed(core.Dance(dragon, path), asked.speed_limit)
     answer = report.MaximumHeadSpeed.model_validate(found)
-    show.print_answer(f"Maximum head speed for {asked.speed_limit:g} m/s", answer, json)
+    show.print_answer(f"Maximum head speed for {said(asked.speed_limit)} m/s", answer, json)
 
 
 @app.command()

@@ -32,6 +32,7 @@ from app.wire import (
 from app.wire_paths import KINDS, AnyPath, SpiralFields, SpiralPath, TurnCircle, TurnFields
 from core import Dance, Dragon, InvalidValue, Report, Route, ShortestTurn, Spiral, check, shortest_turn
 from core.dragon import BENCHES_MAX
+from core.errors import said
 from core.values import Floats
 
 # The last instant of a range may miss `stop` by this share of a step, so that 0 to 0.3 by 0.1 has four instants.
@@ -99,7 +100,8 @@ class TimeRange(Wire):
         """
         if self.stop < self.start:
             raise InvalidValue(
-                "times.stop", f"times.stop must not be before times.start ({self.start:g} s), got {self.stop:g} s"
+                "times.stop",
+                f"times.stop must not be before times.start ({said(self.start)} s), got {said(self.stop)} s",
             )
         return math.floor((self.stop - self.start) / self.step + LAST_STEP_TOLERANCE) + 1
 

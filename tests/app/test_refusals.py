@@ -57,6 +57,8 @@ FLAT = [
 ]
 FLAT_GET = [
     Asked("clearance", {"stop": 440.5}, "stop", "must be at most 432.917924228 s, when bench 0 folds, got 440.5 s"),
+    Asked("clearance", {"start": 432.9179242284, "stop": 433}, "start", "must be at most 432.917924228 s, when bench 0"),
+    Asked("clearance", {"start": 432.9179242284, "stop": 433}, "start", "got 432.9179242284 s"),
     Asked("clearance", {"start": 435, "stop": 440}, "start", "must be at most 432.917924228 s"),
     Asked("clearance", {"start": 5, "stop": 1}, "stop", "must not be before start (5 s), got 1 s"),
     Asked("clearance", {"step": 1e-4}, "step", "instants x handles must be at most 1000000 here"),
