@@ -217,8 +217,9 @@ def dance(
     asked = checked(schemas.CheckRequest, read_dance(file))
     dragon = asked.dragon.to_dragon(Settings().checked_benches_max)
     path = asked.path.to_path()
-    if asked.venue is not None or asked.speed_limit is not None:
-        print("The venue and the speed limit are no part of the proof.", file=sys.stderr)
+    for name in ("venue", "speed_limit"):
+        if getattr(asked, name) is not None:
+            print(f"The {name.replace('_', ' ')} is no part of the proof.", file=sys.stderr)
     dance = core.Dance(dragon, path, asked.head_speed)
     start = dance.begin if asked.start is None else asked.start
     times = {"start": start, "stop": asked.stop, "margin": asked.margin}
