@@ -198,7 +198,10 @@ def trajectory_tables(
     count = sum(map(len, blocks))
     of_handles, of_instants = _plural("handle", range(number)), _plural("instant", range(instants))
     words = f"{len(rows)} of {number} {of_handles}, {count} of {instants} {of_instants}"
-    shown.append(f"{words}: --output has all, --handles and --times choose.")
+    choose = ["--handles"] * (handles is None) + ["--times"] * (not all_instants)
+    verb = "choose" if len(choose) > 1 else "chooses"
+    advice = ["--output has all", *([f"{' and '.join(choose)} {verb}"] if choose else [])]
+    shown.append(f"{words}: {', '.join(advice)}.")
     if fold and any(instant_names[t].endswith(NEAR_FOLD) for block in blocks for t in block):
         when = f"Just before bench {fold.bench} folds, at {fold.time:.9f} s"
         shown.append(
