@@ -189,10 +189,9 @@ def collision_time(asked: schemas.CollisionQuery, json: Json = False) -> None:
 @asks(schemas.MinimumPitchQuery)
 def minimum_pitch(asked: schemas.MinimumPitchQuery, json: Json = False) -> None:
     """The smallest pitch such that every larger one lets the head reach the turning circle."""
-    dragon, radius = asked.to_dragon(Settings().benches_max), asked.turning_diameter / 2
+    dragon = asked.to_dragon(Settings().benches_max)
     with show.waiting("minimum pitch"):
-        found = core.minimum_pitch(dragon, turning_radius=radius, start_turns=asked.start_turns, margin=asked.margin)
-        answer = answers.MinimumPitch.of(found, dragon, asked)
+        answer = answers.MinimumPitch.of(asked.to_minimum_pitch(dragon), dragon, asked)
     gap = f" and no bench nearer than {said(asked.margin)} m to another" if asked.margin else ""
     title = f"Minimum pitch for a turning circle of {said(asked.turning_diameter)} m{gap}"
     show.print_answer(title, answer, json, margin=asked.margin, benches=dragon.benches)

@@ -36,12 +36,14 @@ class BenchDragonError(Exception):
 
     @classmethod
     def of(cls, field: str, rule: str, got: float, unit: str) -> Self:
-        """The error of a number that breaks a rule.
+        """The error of a number that breaks a rule; what follows a colon in the rule is why, and stands at the end.
 
         >>> InvalidValue.of("times.3", "must be at most 9 s", 12.5, "s").message
         'times[3] must be at most 9 s, got 12.5 s'
         """
-        error = cls(field, f"{spoken(field)} {rule}, got {said(got)} {unit}".rstrip())
+        rule_itself, colon, why = rule.partition(": ")
+        value = f"{said(got)} {unit}".rstrip()
+        error = cls(field, f"{spoken(field)} {rule_itself}, got {value}{colon}{why}")
         error.got, error._rule, error._unit = got, rule, unit
         return error
 
