@@ -51,6 +51,7 @@ from core.values import Floats
 
 # The last instant of a range may miss `stop` by this share of a step, so that 0 to 0.3 by 0.1 has four instants.
 LAST_STEP_TOLERANCE = 1e-9
+NARROWER = "must be smaller, or the benches narrower"
 FEWER_CELLS = "take a larger step, a shorter range or fewer benches"
 # Objects and lists in one another: a collection of features of polygons has nine.
 VENUE_DEPTH_MAX = 20
@@ -320,7 +321,7 @@ class CircleQuery(UniformDragon):
             turns = said(self.turning_diameter / 2 / PITCH_MAX)
             name, rule, unit = "start_turns", f"must be at least {turns} turns, or the turning circle smaller", "turns"
         elif found.benches and found.benches[1] - found.benches[0] == 2:  # hardly apart even on a straight line
-            name, rule = "margin" if self.margin else "overhang", "must be smaller"
+            name, rule = ("margin", "must be smaller") if self.margin else ("overhang", NARROWER)
         why = f"the minimum pitch is {found.pitch:.9g} m, and pitches are at most {said(PITCH_MAX)} m here"
         raise InvalidValue(name, f"{name} {rule}, got {said(getattr(self, name))} {unit}: {why}")
 

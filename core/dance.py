@@ -263,7 +263,7 @@ def _check_bends(dragon: Dragon, path: Route) -> None:
     raise InvalidValue(
         "path",
         f"path must not bend tighter than a radius of {tightest:.4g} m for the chord of "
-        f"bench {bench} ({said(chord)} m), got {1.0 / curvature:.4g} m near ({x:.4g}, {y:.4g}) m, s = {s:.4g} m",
+        f"bench {bench} ({chord:g} m), got {1.0 / curvature:.4g} m near ({x:.4g}, {y:.4g}) m, s = {s:.4g} m",
     )
 
 

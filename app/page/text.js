@@ -221,6 +221,7 @@ const RULES = [
   [/^a(?: finite)? number(?: \[.+\])?$/, "应为数字"],
   [/^a whole number$/, "应为整数"],
   [/^smaller$/, "应更小"],
+  [/^smaller, or the benches narrower$/, "应更小，或缩小板宽"],
   [/^larger$/, "应更大"],
   [/^larger than (.+ m)$/, "应大于 $1"],
 ];
