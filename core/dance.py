@@ -15,6 +15,7 @@ from core.dragon import Dragon
 from core.errors import InvalidValue, OutsideRun, said
 from core.paths.route import Route
 from core.paths.spiral import Spiral
+from core.sampling import bisected
 from core.shown import Shown
 from core.values import Floats, checked_number, checked_type
 
@@ -288,10 +289,7 @@ def _earliest_place(dragon: Dragon, path: Route, tail_begin: float) -> float:
             f"path is too short for the whole dragon, which takes {straight:.9g} m of it from handle 0 to handle "
             f"{dragon.benches} (more along bends), got {path.end - path.begin:.9g} m",
         )
-    while high - low > ROOM_WIDTH * (1.0 + abs(high)):
-        middle = 0.5 * (low + high)
-        low, high = (low, middle) if has_room(middle) else (middle, high)
-    return min(high, path.end)
+    return min(bisected(has_room, low, high, width=ROOM_WIDTH, relative=ROOM_WIDTH)[1], path.end)
 
 
 def _instant(time: Floats, k: int) -> str:

@@ -38,6 +38,7 @@ ORDER = (
     "core.shown",
     "core.tables",
     "core.values",
+    "core.sampling",
     "core.dragon",
     "core.paths",
     "core.motion",

@@ -9,6 +9,7 @@ import numpy as np
 from core.contact.first_contact import DIP_WIDTH, PROFILE_STEP
 from core.contact.search import NEAR_WORK_BUDGET, Search
 from core.dance import Dance, RunEnd
+from core.sampling import dips
 from core.shown import Shown
 from core.values import checked_type
 
@@ -119,10 +120,8 @@ def _sampled(search: Search, begin: float, until: float) -> Dip:
     grid = np.linspace(begin, until, search.samples(until - begin, PROFILE_STEP * search.extremes[1])).tolist()
     leaders = min(search.dragon.uniform_from + 1, search.dragon.benches)
     gaps = np.array([search.clearance(travel, leaders)[0] for travel in grid])
-    inner = 1 + np.flatnonzero((gaps[1:-1] <= gaps[:-2]) & (gaps[1:-1] <= gaps[2:]))
-    deepest = inner[np.argsort(gaps[inner], kind="stable")[:DIPS_REFINED]]
     ends = [(gap, travel, pair) for travel in (begin, until) for gap, pair in (search.clearance(travel),)]
-    return min(ends + [_refined(search, *grid[k - 1 : k + 2]) for k in deepest.tolist()])
+    return min(ends + [_refined(search, *grid[k - 1 : k + 2]) for k in dips(gaps, DIPS_REFINED).tolist()])
 
 
 def _refined(search: Search, low: float, middle: float, high: float) -> Dip:

@@ -22,6 +22,7 @@ from core import kernels
 from core.contact.search import Search
 from core.kernels.constants import PIECE, PLACE, SPIRAL, TX, UX
 from core.paths.spiral import Spiral
+from core.sampling import falls_to_zero
 
 DIGITS = 40
 # A chord is met within this [m].
@@ -112,22 +113,6 @@ class Pair:
     def gap(self, travel: Decimal) -> Decimal:
         """By how much the two are further apart than the margin [m]."""
         return separation(*self.benches(travel))[0] - Decimal(self.search.margin)
-
-    def crossing(self, low: Decimal, high: Decimal, above: Decimal, below: Decimal, width: Decimal) -> Decimal:
-        """Travel at which the gap falls to 0, from above at one to below at another, no earlier and within a width [m].
-
-        By the false position, halved now and then.
-        """
-        looks = 0
-        while high - low > width:
-            looks += 1
-            middle = (low + high) / 2
-            if looks % 3:  # aimed a little beyond the crossing, then before it, so that both ends come near
-                middle = low + (high - low) * above / (above - below) + (width / 3 if looks % 3 == 1 else -width / 3)
-                middle = min(max(middle, low + width / 4), high - width / 4)
-            gap = self.gap(middle)
-            low, above, high, below = (middle, gap, high, below) if gap > 0 else (low, above, middle, gap)
-        return high
 
     def stays_apart(self, start: float, stop: float) -> bool:
         """Are the two proven to be further apart than the margin from one travel to another [m]?"""
@@ -287,7 +272,7 @@ def narrowed(search: Search, found: dict[str, float], half: float, head_speed: f
         above, below = pair.gap(low), pair.gap(high)
         if not above > GAP_ROUNDING or not below < -GAP_ROUNDING:
             return None
-        contact = float(pair.crossing(low, high, above, below, Decimal(half) / 1000))
+        contact = float(falls_to_zero(pair.gap, low, high, above, below, Decimal(half) / 1000))
         clear, touching = contact - half, contact + half
         later = Decimal(touching / head_speed) * Decimal(head_speed)
         beyond = clear + abs(clear) * TIME_ROUNDING

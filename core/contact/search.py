@@ -28,6 +28,7 @@ from core.kernels.constants import (
 )
 from core.paths.route import Route
 from core.paths.spiral import Spiral
+from core.sampling import bisected
 from core.values import Floats
 
 MARGIN_MAX = 1e4  # [m]
@@ -59,6 +60,8 @@ FOLD_STRETCHES = 200
 THETA_ROUNDING = 1e-12
 # One stretch takes as long as so much work, besides FOLD_WORK for each bench [1].
 STRETCH_WORK, FOLD_WORK = 1000.0, 20.0
+# Width to which the clear radius is bisected, relative [1].
+CLEAR_WIDTH = 1e-3
 # No radius is known to be clear [m].
 NO_BOUND = 1e150
 # A spiral is no route.
@@ -215,8 +218,8 @@ class Search:
         return isinstance(self.path, Route) and float(self.ring[RING_PLACE]) >= NO_BOUND
 
     def _clear_radius(self, growth: float) -> float:
-        """The least radius, within 1e-3, from which the ring bound exceeds the margin, and CLEAR_SPARE more, so that a
-        handle which is computed to be there is; 1e150 if none."""
+        """The least radius, within CLEAR_WIDTH, from which the ring bound exceeds the margin, and CLEAR_SPARE more, so
+        that a handle which is computed to be there is; NO_BOUND if none."""
 
         def clear(radius: float) -> bool:
             least = float(kernels.ring_least(growth, growth, radius, *self.ring_extremes))
@@ -227,11 +230,7 @@ class Search:
             high *= 4.0
             if high > 1e9:
                 return NO_BOUND
-        low = 0.0
-        while high - low > 1e-3 * high:
-            middle = 0.5 * (low + high)
-            low, high = (low, middle) if clear(middle) else (middle, high)
-        return float(high * (1.0 + kernels.CLEAR_SPARE))
+        return bisected(clear, 0.0, high, relative=CLEAR_WIDTH)[1] * (1.0 + float(kernels.CLEAR_SPARE))
 
     def _clear_places(self, path: Route) -> tuple[float, float]:
         """RING_PLACE and RING_END of the kernels [m]: 1e150 and -1e150 if not known, or where edges at rest may lie

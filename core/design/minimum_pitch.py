@@ -16,6 +16,7 @@ from core.design.straight import Straight
 from core.dragon import Dragon
 from core.errors import InvalidValue, TooMuchWork
 from core.paths.spiral import START_TURNS_MAX, Spiral
+from core.sampling import bisected
 from core.shown import Shown, worded
 from core.values import SIZE_MAX, SIZE_MIN, checked_number, checked_size, checked_type
 
@@ -221,10 +222,13 @@ class _PitchSearch:
                 rule = f"must be larger for this dragon, which gets to such a circle at no pitch up to {SIZE_MAX:g} m"
                 raise InvalidValue.of("turning_radius", rule, self.radius, "m")
             return SIZE_MAX, SIZE_MAX
-        beyond = 0.5 * lowest
-        while growth > lowest and growth - beyond > TOP_WIDTH * growth:
-            middle = math.sqrt(beyond * growth)
-            beyond, growth = (beyond, middle) if clears(middle, self.radius, self.margin) else (middle, growth)
+        _, growth = bisected(
+            lambda wide: clears(wide, self.radius, self.margin),
+            0.5 * lowest,
+            growth,
+            relative=TOP_WIDTH,
+            middle=lambda low, high: math.sqrt(low * high),
+        )
         for factor in RANGES:
             while growth > lowest and self.strips.clears(factor * growth, growth, self.radius):
                 growth *= factor
@@ -280,22 +284,20 @@ class _PitchSearch:
 
     def bisect(self, infeasible: float, feasible: float) -> tuple[float, float]:
         """The same with a bracket of PITCH_WIDTH [m], wider by what can be neither proven nor refuted in between."""
-        undecided, left = infeasible, UNDECIDED_MAX
-        while feasible - undecided > PITCH_WIDTH and left:
-            middle = 0.5 * (undecided + feasible)
-            if middle in (undecided, feasible):
-                break
-            clear = self.is_clear(middle)
+        refuted, left = infeasible, UNDECIDED_MAX
+
+        def asked(pitch: float, undecided: bool) -> bool | None:
+            """Is a pitch feasible? `undecided` where neither is known, None once too many were so."""
+            nonlocal refuted, left
+            if not left:
+                return None
+            clear = self.is_clear(pitch)
             left -= clear is None
-            undecided, feasible = (undecided, middle) if clear else (middle, feasible)
-            infeasible = middle if clear is False else infeasible
-        while undecided - infeasible > PITCH_WIDTH and left:
-            middle = 0.5 * (infeasible + undecided)
-            if middle in (infeasible, undecided):
-                break
-            clear = self.is_clear(middle)
-            left -= clear is None
-            infeasible, undecided = (middle, undecided) if clear is False else (infeasible, middle)
+            refuted = pitch if clear is False else refuted
+            return undecided if clear is None else clear
+
+        below, feasible = bisected(lambda pitch: asked(pitch, False), infeasible, feasible, width=PITCH_WIDTH)
+        infeasible, _ = bisected(lambda pitch: asked(pitch, True), refuted, below, width=PITCH_WIDTH)
         return infeasible, feasible
 
     def islands(self, pitch: float) -> tuple[tuple[float, float], ...]:
@@ -313,7 +315,7 @@ class _PitchSearch:
                 pair = int(result["first"]), int(result["second"])
                 touching = None if state in ("reached", "folded") or result["touching"] < 0.0 else (radius, *pair)
             if feasible and not end:
-                end = self._end_of_island(sample, grid[k - 1])
+                end, _ = bisected(lambda pitch: not self.is_clear(pitch), sample, grid[k - 1], width=PITCH_WIDTH)
             elif end and not feasible:
                 found.insert(0, (self.bisect(sample, grid[k - 1])[1], end))
                 end = 0.0
@@ -330,14 +332,6 @@ class _PitchSearch:
         place = growth * kernels.spiral_arc(radius / growth)
         gap = kernels.gap_at(growth, NO_PIECES, place, search.room, a, b, search.sizes, search.rows[0])
         return float(gap) <= self.margin
-
-    def _end_of_island(self, feasible: float, infeasible: float) -> float:
-        while infeasible - feasible > PITCH_WIDTH:
-            middle = 0.5 * (feasible + infeasible)
-            if middle in (feasible, infeasible):
-                break
-            feasible, infeasible = (middle, infeasible) if self.is_clear(middle) else (feasible, middle)
-        return feasible
 
     def limit(self, infeasible: float) -> tuple[LimitedBy, tuple[int, int] | None, float | None]:
         """What meets just below the minimum pitch, and where."""

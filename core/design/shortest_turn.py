@@ -28,6 +28,7 @@ from core.dragon import Dragon
 from core.errors import InvalidValue, TooMuchWork
 from core.paths.spiral import Spiral
 from core.paths.turn import Turn
+from core.sampling import bisected
 from core.shown import Shown, worded
 from core.values import checked_number, checked_size, checked_type
 
@@ -129,17 +130,22 @@ def shortest_turn(
         limited_by = TurnLimit.CENTRE if bend is None else TurnLimit.BEND
         bracket = (0.0 if bend is None else bend, floor)
         return ShortestTurn(turned(floor), bracket, limited_by, None, None, ENTRY_STEP * radius, evaluations)
-    while feasible - infeasible > ENTRY_WIDTH and budget.left > 0.0:
-        middle = 0.5 * (feasible + infeasible)
-        evaluations, found = evaluations + 1, touching(middle, feasible)
+
+    def is_clear(entry: float) -> bool | None:
+        nonlocal evaluations, feasible, limit
+        if budget.left <= 0.0:
+            return None
+        evaluations, found = evaluations + 1, touching(entry, feasible)
         if found == UNDECIDED and budget.left <= 0.0:  # for want of work alone
-            break
+            return None
         if found is None:
-            feasible = middle
-        else:
-            infeasible, limit = middle, found if found[0] else limit
-    bracket = (infeasible, feasible)
-    return ShortestTurn(turned(feasible), bracket, TurnLimit.CONTACT, *limit, ENTRY_STEP * radius, evaluations)
+            feasible = entry
+        elif found[0]:
+            limit = found
+        return found is None
+
+    bracket = bisected(is_clear, infeasible, feasible, width=ENTRY_WIDTH)
+    return ShortestTurn(turned(bracket[1]), bracket, TurnLimit.CONTACT, *limit, ENTRY_STEP * radius, evaluations)
 
 
 def _bend(dragon: Dragon, turned: Callable[[float], Turn], radius: float) -> tuple[float | None, float]:
@@ -157,10 +163,7 @@ def _bend(dragon: Dragon, turned: Callable[[float], Turn], radius: float) -> tup
     low, high = min(max(ENTRY_STEP * radius, ENTRY_MIN), radius), radius
     if follows(dragon, turned(low)):
         return None, low
-    while high - low > ENTRY_WIDTH:
-        middle = 0.5 * (low + high)
-        low, high = (low, middle) if follows(dragon, turned(middle)) else (middle, high)
-    return low, high
+    return bisected(lambda entry: follows(dragon, turned(entry)), low, high, width=ENTRY_WIDTH)
 
 
 def _contact(

@@ -11,6 +11,7 @@ from core.contact.first_contact import PROFILE_STEP
 from core.contact.search import SAMPLES
 from core.dance import Dance
 from core.motion.trajectory import trajectory
+from core.sampling import dips
 from core.shown import Shown
 from core.values import Floats, checked_type
 
@@ -75,9 +76,7 @@ def _sharpest(dance: Dance, grid: Floats) -> SharpestBend:
     batches = [_angles(dance, grid[k : k + BATCH]) for k in range(0, grid.size, BATCH)]
     angle = np.concatenate([batch.max(axis=1) for batch in batches])
     joint = np.concatenate([batch.argmax(axis=1) for batch in batches])
-    around = np.pad(angle, 1, constant_values=-1.0)
-    peaks = np.flatnonzero((angle >= around[:-2]) & (angle >= around[2:]))
-    highest = peaks[np.argsort(-angle[peaks], kind="stable")[:PEAKS_REFINED]].tolist()
+    highest = (dips(np.pad(-angle, 1, constant_values=math.inf), PEAKS_REFINED) - 1).tolist()  # both ends too
     first = int(np.argmax(angle >= angle.max() - SAME_ANGLE))  # where it stays as sharp, as on an arc
     refined = [_refined(dance, grid[k], step, int(joint[k]), grid) for k in {first, *highest}]
     largest = max(bend.angle for bend in refined)

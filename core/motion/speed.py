@@ -11,6 +11,7 @@ from core.contact.search import Search
 from core.dance import HEAD_SPEED_MAX, HEAD_SPEED_MIN, TIME_MAX, Dance
 from core.errors import InvalidValue, said
 from core.paths.route import Route
+from core.sampling import bisected
 from core.shown import Shown
 from core.values import checked_number, checked_type
 
@@ -235,8 +236,7 @@ def _late_excess(search: Search, ratio: float, head_speed: float, proven: float,
     if high is None:
         return FirstExcess(None, (proven, until), None)
     low = max([proven, *(time for time in times if time < high)])
-    while low < (middle := 0.5 * (low + high)) < high:
-        low, high = (low, middle) if faster(middle) is not None else (middle, high)
+    low, high = bisected(lambda time: faster(time) is not None, low, high)
     return FirstExcess(high, (proven, high), faster(high))
 
 

@@ -12,6 +12,7 @@ from functools import cached_property
 import numpy as np
 
 from core import kernels
+from core.sampling import bisected
 from core.shown import TABLE_DIGITS, Shown, worded
 from core.values import Floats, checked_number, checked_size
 
@@ -82,12 +83,11 @@ class Spiral(Shown):
 
         Curvature growth is (2 + theta^2) / (1 + theta^2)^(3/2), which falls and is at most 2 / theta.
         """
-        low, high = 0.0, 2.0 / (self.growth * curvature)
-        while high - low > GENTLE_WIDTH * high:
-            middle = 0.5 * (low + high)
-            bends = kernels.spiral_curvature(middle) > curvature * self.growth
-            low, high = (middle, high) if bends else (low, middle)
-        return high
+
+        def is_gentle(theta: float) -> bool:
+            return bool(kernels.spiral_curvature(theta) <= curvature * self.growth)
+
+        return bisected(is_gentle, 0.0, 2.0 / (self.growth * curvature), relative=GENTLE_WIDTH)[1]
 
     def curvature(self, s: Floats | float) -> Floats:
         """Curvature, counter-clockwise positive, so negative here. s: (...) [m]; returns (...) [1/m]."""

@@ -20,6 +20,7 @@ from core.proof.fold import check_fold
 from core.proof.pairs import Unproven, above, below
 from core.proof.sweeps import AnyChain, Overlap, Progress, found, swept
 from core.proof.words import apart_words, contact_words, dragon_words, near_words
+from core.sampling import bisected
 from core.values import SIZE_MIN, checked_number, checked_size
 
 # Half the bracket around a collision time [s], and the step below a minimum pitch [m]: exact decimals, in balls.
@@ -28,8 +29,6 @@ PITCH_STEP = "1e-6"
 # A fold is shown between two places of the head, each so far from where doubles see it [1]. They see it within 1e-12;
 # where it only just exists, 12. finds no wall from farther away.
 FOLD_WITHIN = (1e-9, 1e-11)
-# Halvings that bring the head's theta to the last digit of a double.
-HALVINGS = 60
 
 
 @dataclass(frozen=True)
@@ -231,12 +230,13 @@ def check_near(chain: AnyChain, head: arb, a: int, b: int, when: str) -> None:
 
 def head_theta(chain: Chain, handle: int, theta: float, low: float, high: float) -> float:
     """Where the head is, between low and high, when a handle is at theta, about [rad]."""
-    for _ in range(HALVINGS if handle else 0):
-        theta_handle = middle = (low + high) / 2
+
+    def is_beyond(theta_handle: float) -> bool:
         for needed in chain.needed[:handle]:
             theta_handle += bend_guess(theta_handle, float(needed))
-        low, high = (low, middle) if theta_handle > theta else (middle, high)
-    return high if handle else theta
+        return theta_handle > theta
+
+    return bisected(is_beyond, low, high)[1] if handle else theta
 
 
 @contextmanager
