@@ -92,6 +92,7 @@ ORDER = (
     "app.settings",
     "app.wire",
     "app.wire_paths",
+    "app.geojson",
     "app.degrees",
     "app.schemas",
     "app.refusals",

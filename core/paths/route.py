@@ -35,7 +35,11 @@ Point = tuple[float, float]
 _KINDS = {name: float(code) for code, name in enumerate(kernels.PIECE_KINDS)}
 
 
-def _checked_point(name: str, value: Any) -> Point:
+def checked_point(name: str, value: Any) -> Point:
+    """The value as a point with both coordinates within COORDINATE_MAX.
+
+    raises: InvalidValue
+    """
     try:
         x, y = value
     except (TypeError, ValueError) as error:
@@ -48,8 +52,12 @@ def _checked_angle(name: str, value: Any) -> float:
     return checked_number(name, value, "rad", -ANGLE_MAX, ANGLE_MAX)
 
 
-def _listed(name: str, value: Any, what: str) -> list[Any]:
-    """The value's entries, where it has some and is no text."""
+def listed(name: str, value: Any, what: str) -> list[Any]:
+    """The value's entries, where it has some and is no text.
+
+    what: words for what it must be
+    raises: InvalidValue
+    """
     try:
         if not isinstance(value, str | bytes | Mapping):
             return list(value)
@@ -81,7 +89,7 @@ class Line(Shown):
     end: Point
 
     def __post_init__(self) -> None:
-        _settle(self, start=_checked_point("line.start", self.start), end=_checked_point("line.end", self.end))
+        _settle(self, start=checked_point("line.start", self.start), end=checked_point("line.end", self.end))
 
     def rows(self, name: str, s: float) -> Floats:
         """Rows of the kernels' table from arc length s on."""
@@ -105,7 +113,7 @@ class Arc(Shown):
     sweep: float
 
     def __post_init__(self) -> None:
-        _settle(self, centre=_checked_point("arc.centre", self.centre), radius=checked_size("arc.radius", self.radius))
+        _settle(self, centre=checked_point("arc.centre", self.centre), radius=checked_size("arc.radius", self.radius))
         _settle(self, start_angle=_checked_angle("arc.start_angle", self.start_angle))
         _settle(self, sweep=_checked_angle("arc.sweep", self.sweep))
 
@@ -133,7 +141,7 @@ class Coil(Shown):
     rotation: float = 0.0
 
     def __post_init__(self) -> None:
-        _settle(self, pitch=checked_size("coil.pitch", self.pitch), centre=_checked_point("coil.centre", self.centre))
+        _settle(self, pitch=checked_size("coil.pitch", self.pitch), centre=checked_point("coil.centre", self.centre))
         _settle(self, start_turns=checked_number("coil.start_turns", self.start_turns, "turns", 0.0, 1e5))
         _settle(self, end_turns=checked_number("coil.end_turns", self.end_turns, "turns", 0.0, 1e5))
         _settle(self, rotation=_checked_angle("coil.rotation", self.rotation))
@@ -163,10 +171,10 @@ class Waypoints(Shown):
     end_heading: float | None = None
 
     def __post_init__(self) -> None:
-        given = _listed("waypoints.points", self.points, "a list of points [x, y] in metres")
+        given = listed("waypoints.points", self.points, "a list of points [x, y] in metres")
         if len(given) < 2:
             raise InvalidValue("waypoints.points", f"waypoints.points must be at least 2 points, got {len(given)}")
-        _settle(self, points=tuple(_checked_point(f"waypoints.points.{k}", point) for k, point in enumerate(given)))
+        _settle(self, points=tuple(checked_point(f"waypoints.points.{k}", point) for k, point in enumerate(given)))
         for name in ("start_heading", "end_heading"):
             if (heading := getattr(self, name)) is not None:
                 _settle(self, **{name: _checked_angle(f"waypoints.{name}", heading)})
@@ -227,7 +235,7 @@ class Route(Shown):
     """
 
     def __init__(self, pieces: Sequence[Piece], start: float = 0.0) -> None:
-        self.pieces: tuple[Piece, ...] = tuple(_listed("path.pieces", pieces, "a list of pieces"))
+        self.pieces: tuple[Piece, ...] = tuple(listed("path.pieces", pieces, "a list of pieces"))
         if not self.pieces:
             raise InvalidValue("path.pieces", "path.pieces must hold at least one piece")
         self.start = checked_number("path.start", start, "m", -1e9, 1e9)
