@@ -2,19 +2,16 @@
 
 from typing import TYPE_CHECKING
 
+from core.contact.clearance import ClearanceProfile, Graze, LeastClearance, clearance_profile, least_clearance
 from core.contact.cross_check import ContactCheck, contact_check, pitch_check
 from core.contact.first_contact import (
     Certificate,
-    ClearanceProfile,
     Feature,
     FirstContact,
-    Graze,
     HeadState,
     Outcome,
-    clearance_profile,
     first_contact,
 )
-from core.contact.least_clearance import LeastClearance, least_clearance
 from core.dance import Dance, EndReason, RunEnd
 from core.design.minimum_pitch import LimitedBy, MinimumPitch, minimum_pitch
 from core.design.pitch_scan import PitchScan, pitch_scan

@@ -11,8 +11,8 @@ from itertools import pairwise
 import numpy as np
 
 from core import kernels
+from core.contact.clearance import Pair, first_pair, least_over
 from core.contact.first_contact import Outcome
-from core.contact.least_clearance import Pair, first_pair, least_over
 from core.contact.search import MARGIN_MAX, NEAR_WORK_BUDGET, Search
 from core.dance import Dance
 from core.errors import InvalidValue

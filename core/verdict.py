@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from enum import StrEnum
 
+from core.contact.clearance import LeastClearance, least_clearance
 from core.contact.first_contact import FirstContact, HeadState, Outcome, first_contact, head_state
-from core.contact.least_clearance import LeastClearance, least_clearance
 from core.dance import TIME_MAX, Dance, EndReason, RunEnd
 from core.motion.joints import SharpestBend, sharpest_bend
 from core.motion.speed import (
