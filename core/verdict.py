@@ -135,12 +135,7 @@ def check(
     if least is not None and least.distance == 0.0:
         until = min(until, max(least.time, begin + MOMENT))
     bend = sharpest_bend(dance, start=begin, stop=until)
-    square, seen = None, until
-    if venue is not None:
-        followed = venue_end(dance)
-        seen = min(until, followed) if followed >= begin + MOMENT else begin
-        if seen > begin:
-            square = venue_clearance(dance, venue, margin=margin, start=begin, stop=seen)
+    square, seen = _in_venue(dance, venue, margin, begin, until)
     folds = dance.ends_by(until)
     speed, excess = None, None
     if not folds:
@@ -153,10 +148,7 @@ def check(
     failures += _touch_failures(contact, least, margin)
     if folds:
         failures.append(_fold_failure(end, head_state(dance.path, end.time * dance.head_speed)))
-    clear_beyond = (
-        venue is None or seen >= until or is_clear_beyond(dance, venue, margin=margin, start=begin, seen=seen)
-    )
-    if not clear_beyond:
+    if venue and seen < until and not is_clear_beyond(dance, venue, margin=margin, start=begin, seen=seen):
         message = f"From {seen:.6f} s on the spiral is too tight to follow the benches against the venue."
         failures.append(Failure(FailureKind.UNDECIDED, seen, (), None, message))
     failures.sort(key=lambda failure: failure.time)
@@ -164,6 +156,17 @@ def check(
     verdict = _judgement(told)
     passed = verdict is Judgement.PASSES
     return Report(begin, until, verdict, passed, told, contact, least, square, speed, bend)
+
+
+def _in_venue(
+    dance: Dance, venue: Venue | None, margin: float, begin: float, until: float
+) -> tuple[VenueClearance | None, float]:
+    """The benches in the venue, as far as they can be followed there, and until when that is [s]."""
+    if venue is None:
+        return None, until
+    followed = venue_end(dance)
+    seen = min(until, followed) if followed >= begin + MOMENT else begin
+    return venue_clearance(dance, venue, margin=margin, start=begin, stop=seen) if seen > begin else None, seen
 
 
 def _judgement(failures: tuple[Failure, ...]) -> Judgement:

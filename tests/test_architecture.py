@@ -65,6 +65,7 @@ ORDER = (
     "core.contact.first_contact",
     "core.design.straight",
     "core.design.pitch_bands",
+    "core.design.ways",
     "core.design.minimum_pitch",
     "core.contact.cross_check",
     "core.design.pitch_scan",
@@ -119,6 +120,10 @@ ORDER = (
 )
 OUTSIDE_CORE = {"app", "fastapi", "http", "json", "orjson", "pathlib", "pydantic", "starlette", "time"}
 OVERLAP_ENGINES = {"fcl", "shapely"}
+# No function is longer, docstring included, or takes more parameters.
+LINES_MOST, PARAMETERS_MOST = 80, 8
+# The kernels do not keep these limits yet.
+NOT_YET_SHORT = "core.kernels"
 HEAVY = ("fcl", "flint", "matplotlib", "pandas", "scipy", "shapely", "xarray")
 
 
@@ -174,3 +179,19 @@ def test_importing_core_loads_nothing_heavy() -> None:
 def test_public_names_are_sorted_and_exist() -> None:
     assert core.__all__ == sorted(core.__all__)
     assert all(hasattr(core, name) for name in core.__all__)
+
+
+def functions(module: str) -> list[ast.FunctionDef | ast.AsyncFunctionDef]:
+    tree = ast.parse(MODULES[module].read_text(encoding="utf-8"))
+    return [node for node in ast.walk(tree) if isinstance(node, (ast.FunctionDef, ast.AsyncFunctionDef))]
+
+
+@pytest.mark.parametrize(
+    "module", [name for name in MODULES if name.startswith("core") and not name.startswith(NOT_YET_SHORT)]
+)
+def test_functions_are_short_and_take_few_parameters(module: str) -> None:
+    for function in functions(module):
+        given = function.args
+        parameters = [*given.posonlyargs, *given.args, *given.kwonlyargs, given.vararg, given.kwarg]
+        assert (function.end_lineno or 0) - function.lineno + 1 <= LINES_MOST, function.name
+        assert len([name for name in parameters if name]) <= PARAMETERS_MOST, function.name

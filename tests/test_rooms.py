@@ -13,6 +13,7 @@ CORE, TESTS = ROOT / "core", ROOT / "tests" / "core"
 # Modules that are tested with others, as the parts of one answer.
 TESTED_WITH = {
     "contact/search.py": "contact/test_first_contact.py",
+    "design/ways.py": "design/test_minimum_pitch.py",
     "errors.py": "test_wrong_types.py",
     "proof/claims.py": "proof/test_certificate.py",
     "proof/pairs.py": "proof/test_certificate.py",

@@ -149,7 +149,9 @@ def _at(search: Search, time: Floats, head_speed: float) -> tuple[Floats, NDArra
 
 def _grid(search: Search, begin: float, until: float) -> list[float]:
     """Travels at which clearances are sampled between two [m]."""
-    return np.linspace(begin, until, search.samples(until - begin, PROFILE_STEP * search.extremes[1])).tolist()
+    count = search.samples(until - begin, PROFILE_STEP * search.extremes[1])
+    grid: list[float] = np.linspace(begin, until, count).tolist()
+    return grid
 
 
 # Where the clearance passes from one pair to another it has a kink that points up, so each of its local minima is one

@@ -12,7 +12,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.optimize import brentq
 
-import core.design.minimum_pitch
+import core.design.ways
 from core import (
     Dance,
     Dragon,
@@ -370,7 +370,7 @@ def test_work_that_ends_before_the_minimum_pitch_is_found_is_an_error() -> None:
 def test_the_shortest_bench_is_named_where_the_work_ends(
     dragon: Dragon, field: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(core.design.minimum_pitch, "PITCH_WORK", 1e2)
+    monkeypatch.setattr(core.design.ways, "PITCH_WORK", 1e2)
     with pytest.raises(TooMuchWork) as caught:
         minimum_pitch(dragon)
     assert caught.value.field == field
