@@ -8,7 +8,6 @@ from core.contact.first_contact import (
     Certificate,
     Feature,
     FirstContact,
-    HeadState,
     Outcome,
     first_contact,
 )
@@ -28,6 +27,7 @@ from core.motion.speed import (
     maximum_head_speed,
 )
 from core.motion.trajectory import Trajectory, bench_outlines, bench_poses, trajectory
+from core.paths.path import HeadState
 from core.paths.route import Arc, Coil, Line, Piece, Route, Waypoints
 from core.paths.spiral import Spiral
 from core.paths.turn import Turn

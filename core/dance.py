@@ -13,6 +13,7 @@ import numpy as np
 from core import kernels
 from core.dragon import Dragon
 from core.errors import InvalidValue, OutsideRun, said
+from core.paths.path import Path
 from core.paths.route import Route
 from core.paths.spiral import Spiral
 from core.sampling import bisected
@@ -99,7 +100,7 @@ class Dance(Shown):
 
         raises: InvalidValue (path) for a route too short for the dragon
         """
-        if isinstance(self.path, Spiral) or self.path.tail_begin is None:
+        if self.path.tail_begin is None:
             return -TIME_MAX
         return _earliest_place(self.dragon, self.path, self.path.tail_begin) / self.head_speed
 
@@ -268,7 +269,7 @@ def _check_bends(dragon: Dragon, path: Route) -> None:
     )
 
 
-def _earliest_place(dragon: Dragon, path: Route, tail_begin: float) -> float:
+def _earliest_place(dragon: Dragon, path: Path, tail_begin: float) -> float:
     """Where the head is when the last handle is at the beginning of the path [m].
 
     A chord spans between its own length and pi / 2 times it of the path, so the place of the head is bisected, as far

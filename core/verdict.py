@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 from enum import StrEnum
 
 from core.contact.clearance import LeastClearance, least_clearance
-from core.contact.first_contact import FirstContact, HeadState, Outcome, first_contact, head_state
+from core.contact.first_contact import FirstContact, Outcome, first_contact
 from core.dance import TIME_MAX, Dance, EndReason, RunEnd
 from core.motion.joints import SharpestBend, sharpest_bend
 from core.motion.speed import (
@@ -18,6 +18,7 @@ from core.motion.speed import (
     first_excess,
     highest_speed,
 )
+from core.paths.path import HeadState
 from core.shown import Shown, worded
 from core.values import checked_number, checked_type
 from core.venue import AreaClearance, Venue, VenueClearance, is_clear_beyond, venue_clearance, venue_end
@@ -147,12 +148,12 @@ def check(
         failures.append(_speed_failure(excess, speed, limit, end))
     failures += _touch_failures(contact, least, margin)
     if folds:
-        failures.append(_fold_failure(end, head_state(dance.path, end.time * dance.head_speed)))
+        failures.append(_fold_failure(end, dance.path.head(end.time * dance.head_speed)))
     if venue and seen < until and not is_clear_beyond(dance, venue, margin=margin, start=begin, seen=seen):
         message = f"From {seen:.6f} s on the spiral is too tight to follow the benches against the venue."
         failures.append(Failure(FailureKind.UNDECIDED, seen, (), None, message))
     failures.sort(key=lambda failure: failure.time)
-    told = tuple(replace(failure, head=head_state(dance.path, failure.time * dance.head_speed)) for failure in failures)
+    told = tuple(replace(failure, head=dance.path.head(failure.time * dance.head_speed)) for failure in failures)
     verdict = _judgement(told)
     passed = verdict is Judgement.PASSES
     return Report(begin, until, verdict, passed, told, contact, least, square, speed, bend)

@@ -45,6 +45,7 @@ ORDER = (
     "core.shapes",
     "core.contact",
     "core.design",
+    "core.paths.path",
     "core.paths.spiral",
     "core.paths.cubics",
     "core.paths.route",

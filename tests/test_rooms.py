@@ -15,6 +15,7 @@ TESTED_WITH = {
     "contact/search.py": "contact/test_first_contact.py",
     "design/ways.py": "design/test_minimum_pitch.py",
     "errors.py": "test_wrong_types.py",
+    "paths/path.py": "paths/test_route.py",
     "proof/claims.py": "proof/test_certificate.py",
     "proof/pairs.py": "proof/test_certificate.py",
     "proof/paths.py": "proof/test_dances.py",

@@ -102,8 +102,7 @@ def contact_check(
         return None
     at_start = contact.outcome is Outcome.CONTACT_AT_START
     first, last = contact.time_bracket or (contact.time, contact.time)
-    length = path.length if isinstance(path, Spiral) else 0.0
-    rounding = CHECK_DIGITS * float(np.spacing(length + abs(contact.time) * head_speed))
+    rounding = CHECK_DIGITS * float(np.spacing(path.place + abs(contact.time) * head_speed))
     travel = max(CHECK_TRAVEL, rounding) / head_speed
     times = [first if at_start else first - travel, last + travel]
     front = dragon if whole else dragon.leading(contact.benches[1] + 1)  # No bench moves one in front of it.

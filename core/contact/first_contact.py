@@ -26,7 +26,7 @@ from core.contact.search import BRACKETS_GRAZING, MARGIN_MAX, NO_GRAZE, Budget, 
 from core.dance import Dance, EndReason, RunEnd
 from core.errors import InvalidValue
 from core.motion.trajectory import bench_outlines, trajectory
-from core.paths.route import Route
+from core.paths.path import HeadState
 from core.paths.spiral import Spiral
 from core.shown import Shown, worded
 from core.values import checked_number, checked_type
@@ -47,16 +47,6 @@ class Outcome(StrEnum):
     CONTACT_AT_START = "contact_at_start"
     CLEAR = "clear"
     UNDECIDED = "undecided"
-
-
-@dataclass(frozen=True, slots=True, repr=False)
-class HeadState(Shown):
-    """Handle 0 at one instant: theta [rad, unwrapped; None off a spiral], radius from the origin [m], x [m], y [m]."""
-
-    theta: float | None
-    radius: float
-    x: float
-    y: float
 
 
 @dataclass(frozen=True, slots=True)
@@ -276,7 +266,7 @@ def _result(
         outcome,
         travel / head_speed,
         None if at_start else (proven, found["touching"] / head_speed),
-        head_state(search.path, travel),
+        search.path.head(travel),
         pair,
         corner,
         edge,
@@ -304,16 +294,6 @@ def _method(
     if not span[1] > span[0]:
         return claim_at_start(*asked, touching, pair)
     return claim(*asked, span, contact_then(pair, margin, touching))
-
-
-def head_state(path: Spiral | Route, travel: float) -> HeadState:
-    """The head after so much travel from time 0 [m]."""
-    if isinstance(path, Spiral):
-        theta = float(path.theta(travel))
-        radius = path.growth * theta
-        return HeadState(theta, radius, radius * math.cos(theta), radius * math.sin(theta))
-    x, y = path.position(travel).tolist()
-    return HeadState(None, math.hypot(x, y), x, y)
 
 
 def _touching_features(

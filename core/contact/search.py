@@ -64,8 +64,6 @@ STRETCH_WORK, FOLD_WORK = 1000.0, 20.0
 CLEAR_WIDTH = 1e-3
 # No radius is known to be clear [m].
 NO_BOUND = 1e150
-# A spiral is no route.
-NO_PIECES = np.empty((0, kernels.PIECE_COLUMNS))
 # The kernels' word for a run without a graze [m].
 NO_GRAZE = 1e150
 # A march leaves out no pair.
@@ -138,12 +136,11 @@ class Search:
     def use(self, path: Spiral | Route, margin: float) -> None:
         """Turn to another path or margin."""
         self.path, self.margin = path, margin
+        self.growth, self.pieces, self.place = path.growth, path.table, path.place
         if isinstance(path, Route):
-            self.growth, self.pieces, self.place = 1.0, path.table, 0.0
             self.clear_radius = NO_BOUND
             self.ring[RING_PLACE], self.ring[RING_END] = self._clear_places(path)
         else:
-            self.growth, self.pieces, self.place = path.growth, NO_PIECES, path.length
             self.clear_radius = self._clear_radius(path.growth)
         self.ring[RING_CLEAR] = self.clear_radius
 
@@ -153,9 +150,8 @@ class Search:
 
     def travel_rounding(self, *travels: float) -> float:
         """What travels up to these may be off by, in the kernels and as times [m]."""
-        if isinstance(self.path, Route):
-            return self.path.slide + TRAVEL_ROUNDING * max(map(abs, travels))
-        return TRAVEL_ROUNDING * max(self.place, *(self.place - travel for travel in travels), *map(abs, travels))
+        furthest = max(self.place, *(self.place - travel for travel in travels), *map(abs, travels))
+        return self.path.slide + TRAVEL_ROUNDING * furthest
 
     def resize(self, benches: int) -> None:
         """Room for so many leading benches, and the edges at rest after the row of the last handle."""
@@ -275,12 +271,11 @@ class Search:
         """
         rounding, asked = self.travel_rounding(start, stop), (start, stop)
         start -= rounding
-        stop = min(stop + rounding, max(stop, self.place)) if isinstance(self.path, Spiral) else stop + rounding
-        if isinstance(self.path, Spiral):
-            clear_until = self.travel_at(self.clear_radius / self.growth) if self.clear_radius < NO_BOUND else start
-            if clear_until > start:
-                opening = False
-                start = max(start, clear_until - rounding)
+        stop = min(stop + rounding, max(stop, self.path.limit))
+        clear_until = self.travel_at(self.clear_radius / self.growth) if self.clear_radius < NO_BOUND else start
+        if clear_until > start:
+            opening = False
+            start = max(start, clear_until - rounding)
         nothing = self.dragon.benches < 3 and not len(self.edges)
         if nothing or (start >= stop and not opening):
             return "reached", dict.fromkeys(kernels.MARCH_FIELDS, 0.0) | {"proven": asked[1], "graze_gap": NO_GRAZE}

@@ -10,7 +10,7 @@ import math
 import numpy as np
 
 from core import kernels
-from core.contact.search import NO_BOUND, NO_PIECES, TRAVEL_ROUNDING, Search
+from core.contact.search import NO_BOUND, TRAVEL_ROUNDING, Search
 from core.design.straight import Straight
 from core.paths.spiral import Spiral
 
@@ -218,5 +218,6 @@ class Strips:
                 travel = search.bottom(min(travel, ahead), max(travel, ahead), pair, BOTTOM_WIDTH)
                 break
             travel, stride = ahead, 2.0 * stride
-        gap = kernels.gap_at(growth, NO_PIECES, search.place - travel, search.room, *pair, search.sizes, search.rows[1])
+        place = (growth, search.pieces, search.place - travel)
+        gap = kernels.gap_at(*place, search.room, *pair, search.sizes, search.rows[1])
         return float(gap), growth * search.theta_at(travel)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from core import kernels
-from core.contact.search import NO_PIECES, THETA_ROUNDING, Budget, Search
+from core.contact.search import THETA_ROUNDING, Budget, Search
 from core.dance import EndReason, RunEnd, end_theta
 from core.design.pitch_bands import Strips
 from core.dragon import Dragon
@@ -108,7 +108,7 @@ class Ways:
         if radius > pitch * self.start_turns:
             return False
         place = growth * kernels.spiral_arc(radius / growth)
-        gap = kernels.gap_at(growth, NO_PIECES, place, search.room, a, b, search.sizes, search.rows[0])
+        gap = kernels.gap_at(growth, Spiral.table, place, search.room, a, b, search.sizes, search.rows[0])
         return float(gap) <= self.margin
 
     def _start_nearer(self, path: Spiral) -> None:

@@ -10,7 +10,6 @@ from core import kernels
 from core.contact.search import Search
 from core.dance import HEAD_SPEED_MAX, HEAD_SPEED_MIN, TIME_MAX, Dance
 from core.errors import InvalidValue, said
-from core.paths.route import Route
 from core.sampling import bisected
 from core.shown import Shown
 from core.values import checked_number, checked_type
@@ -144,9 +143,7 @@ def peak_over(search: Search, begin: float, until: float) -> tuple[float, float,
 
 def _calm(search: Search) -> float:
     """What kernels.peak_rate needs to leave out handles that are no faster than those before them."""
-    if isinstance(search.path, Route):
-        return 1.0 if search.path.calm_beginning else 0.0
-    return search.growth * search.path.gentle_theta(2.0 * kernels.BEND_LIMIT / search.extremes[0])
+    return search.path.calm(2.0 * kernels.BEND_LIMIT / search.extremes[0])
 
 
 def maximum_head_speed(

@@ -11,8 +11,9 @@ from typing import Any
 import numpy as np
 
 from core import kernels
-from core.errors import InvalidValue
+from core.errors import InvalidValue, said
 from core.paths.cubics import cut
+from core.paths.path import HeadState
 from core.shown import REPR_MOST, TABLE_DIGITS, Shown, counted, worded
 from core.values import Floats, checked_number, checked_size
 
@@ -30,6 +31,9 @@ WAYPOINT_GAP = 1e-3
 LENGTH_MIN = 1e-6
 # Angles beyond this lose the digits that the joints need [rad].
 ANGLE_MAX = 1e6
+
+# Kinds of pieces are listed one by one up to so many [1].
+PIECES_LISTED = 6
 
 Point = tuple[float, float]
 _KINDS = {name: float(code) for code, name in enumerate(kernels.PIECE_KINDS)}
@@ -234,6 +238,9 @@ class Route(Shown):
     raises: InvalidValue naming the piece or the joint and its gap
     """
 
+    # For the kernels: places are minus s, and a search may look a little past the end.
+    growth, place, limit = 1.0, 0.0, math.inf
+
     def __init__(self, pieces: Sequence[Piece], start: float = 0.0) -> None:
         self.pieces: tuple[Piece, ...] = tuple(listed("path.pieces", pieces, "a list of pieces"))
         if not self.pieces:
@@ -325,6 +332,21 @@ class Route(Shown):
     def position(self, s: Floats | float) -> Floats:
         """Points at arc length s. s: (...) [m]; returns (..., 2) x, y [m]."""
         return self._points(s)[..., 0:2]
+
+    def head(self, s: float) -> HeadState:
+        """The head at arc length s [m]."""
+        x, y = self.position(s).tolist()
+        return HeadState(None, math.hypot(x, y), x, y)
+
+    def calm(self, curvature: float) -> float:
+        """1 if no handle on the first piece is faster than its leader, else 0, as kernels.peak_rate() takes it."""
+        return 1.0 if self.calm_beginning else 0.0
+
+    def words(self) -> str:
+        """The route in a sentence that names all that matters for a proof."""
+        kinds = [type(piece).__name__.lower() for piece in self.pieces]
+        listed = kinds if len(kinds) <= PIECES_LISTED else sorted(set(kinds))
+        return f"a route from s = {said(self.begin)} m to {said(self.end)} m ({', '.join(listed)})"
 
     def drawn(self, reach: float) -> Floats:
         """Points (N, 2) [m] for a picture: the whole route, however far the dragon reaches."""

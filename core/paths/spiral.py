@@ -12,6 +12,8 @@ from functools import cached_property
 import numpy as np
 
 from core import kernels
+from core.errors import said
+from core.paths.path import HeadState
 from core.sampling import bisected
 from core.shown import TABLE_DIGITS, Shown, worded
 from core.values import Floats, checked_number, checked_size
@@ -50,11 +52,16 @@ class Spiral(Shown):
     # The head enters at s = 0 and may go to the centre; the tail stands on the extension, which has no beginning.
     begin = 0.0
     tail_begin = None
+    # For the kernels: no pieces, and points that are exact but for the rounding of s.
+    table = np.empty((0, kernels.PIECE_COLUMNS))
+    slide = 0.0
 
     @property
     def end(self) -> float:
         """s of the centre [m]."""
         return self.length
+
+    limit = place = end
 
     @cached_property
     def growth(self) -> float:
@@ -100,6 +107,20 @@ class Spiral(Shown):
         theta = self.theta(s)
         direction: Floats = np.stack([np.cos(theta), np.sin(theta)], axis=-1)
         return direction * (self.growth * theta[..., None])
+
+    def head(self, s: float) -> HeadState:
+        """The head at arc length s [m]."""
+        theta = float(self.theta(s))
+        radius = self.growth * theta
+        return HeadState(theta, radius, radius * math.cos(theta), radius * math.sin(theta))
+
+    def calm(self, curvature: float) -> float:
+        """Radius from which outwards the spiral bends no more than this [1/m], as kernels.peak_rate() takes it [m]."""
+        return self.growth * self.gentle_theta(curvature)
+
+    def words(self) -> str:
+        """The spiral in a sentence that names all that matters for a proof."""
+        return f"a spiral of {said(self.pitch)} m pitch from {said(self.start_turns)} turns"
 
     def drawn(self, reach: float) -> Floats:
         """Points (N, 2) [m] for a picture: from the centre to the start, or further out to `reach` from it [m]."""
