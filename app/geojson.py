@@ -14,7 +14,7 @@ from collections.abc import Mapping, Sequence
 from core import Area, InvalidValue, Venue
 from core.paths.route import COORDINATE_MAX, Point
 from core.values import checked_number
-from core.venue import Ring, check_edges
+from core.venue import Ring, refuse_many_edges
 
 # Name and rings.
 Polygon = tuple[str, tuple[Ring, ...]]
@@ -39,7 +39,9 @@ def read_polygons(geometry: object, scale: Scale = METRES) -> list[Polygon]:
     found = _polygons("venue", geometry)
     if not found:
         raise InvalidValue("venue", "venue must hold at least one polygon, the square")
-    check_edges(ring for _, _, rings in found if isinstance(rings, list) for ring in rings if isinstance(ring, list))
+    refuse_many_edges(
+        ring for _, _, rings in found if isinstance(rings, list) for ring in rings if isinstance(ring, list)
+    )
     named = [(name, _rings(field, rings, scale)) for name, field, rings in found]
     square = next((k for k, (name, _) in enumerate(named) if name == "square"), 0)
     others = [polygon for k, polygon in enumerate(named) if k != square]

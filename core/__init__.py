@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 from core.contact.clearance import ClearanceProfile, Graze, LeastClearance, clearance_profile, least_clearance
 from core.contact.cross_check import ContactCheck, contact_check, pitch_check
 from core.contact.first_contact import (
-    Certificate,
+    Evidence,
     Feature,
     FirstContact,
     Outcome,
@@ -42,7 +42,6 @@ __all__ = [
     "Area",
     "AreaClearance",
     "BenchDragonError",
-    "Certificate",
     "ClearanceProfile",
     "Coil",
     "ContactCheck",
@@ -51,6 +50,7 @@ __all__ = [
     "Dragon",
     "EndReason",
     "Engine",
+    "Evidence",
     "Failure",
     "FailureKind",
     "Feature",

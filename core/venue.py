@@ -29,11 +29,11 @@ Ring = tuple[Point, ...]
 EDGES_MAX = 2_000
 # What the rings of an area must be.
 WORDS = "a list of rings of points [x, y] in metres"
-# A spiral is danced a little past the last instant, so that rounding does not leave it outside [m].
+# A spiral is laid out this far beyond the last instant, so that rounding cannot put that instant outside it [m].
 SPARE = 1e-3
-# Places of handles are good to 1e-12 m (trajectory()): beyond a radius by this they are beyond it for sure [m].
+# Places of handles are good to 1e-12 m (trajectory()), so a computed place this far beyond a radius is beyond it [m].
 SURELY = 1e-9
-# What polygon_fault() calls a fault, in a sentence before its place.
+# Words for the faults that polygon_fault() finds, as messages say them before the place.
 FAULTS = {
     "self-intersection": "a self-intersection",
     "ring self-intersection": "a ring that touches itself",
@@ -44,7 +44,7 @@ FAULTS = {
 }
 
 
-def check_edges(rings: Iterable[Sequence[object]]) -> None:
+def refuse_many_edges(rings: Iterable[Sequence[object]]) -> None:
     """Refuse more edges than EDGES_MAX, counted by the lengths of the rings alone.
 
     raises: InvalidValue
@@ -72,7 +72,7 @@ class Area(Shown):
         rings = [listed(f"venue.{k}", ring, WORDS) for k, ring in enumerate(listed("venue", self.rings, WORDS))]
         if not rings:
             raise InvalidValue("venue", f"venue: {self.name!r} must have at least one ring")
-        check_edges(rings)
+        refuse_many_edges(rings)
         points = tuple(
             tuple(checked_point(f"venue.{k}.{i}", point) for i, point in enumerate(ring))
             for k, ring in enumerate(rings)
@@ -117,7 +117,7 @@ class Venue(Shown):
         checked_type("venue", self.square, Area)
         for area in listed("venue", self.obstacles, "a list of areas"):
             checked_type("venue", area, Area)
-        check_edges(ring for area in self.areas for ring in area.rings)
+        refuse_many_edges(ring for area in self.areas for ring in area.rings)
         names = [area.name for area in self.areas]
         for k, name in enumerate(names):
             if name in names[:k]:
@@ -152,9 +152,9 @@ class Nearest(Shown):
 
 @dataclass(frozen=True, slots=True, repr=False)
 class AreaClearance(Shown):
-    """The benches and the edges of one area, named.
+    """The benches and the edges of one area, by the name of the area.
 
-    outcome: does a bench come within the margin; time: when first [s], None when clear or undecided
+    outcome: does a bench come within the margin; time: when the first one does [s], None when clear or undecided
     time_bracket: (proven clear up to, within the margin at) [s]; for undecided up to the end; None when clear or at the
         start
     bench, point (x, y) [m]: the first one within the margin, and where it is nearest
@@ -185,7 +185,7 @@ class Stray(Shown):
 
 @dataclass(frozen=True, slots=True, repr=False)
 class VenueClearance(Shown):
-    """stray: the first bench that starts where it must not, None if all are well; areas: the square, then obstacles."""
+    """stray: the first bench that starts where it must not, None if none does; areas: the square, then obstacles."""
 
     stray: Stray | None
     areas: tuple[AreaClearance, ...]
@@ -206,8 +206,8 @@ def venue_clearance(
 ) -> VenueClearance:
     """How near the benches come to the square's edges and to each obstacle, and when first within the margin.
 
-    An edge is a rectangle without width that stands: benches and edges are marched like pairs of benches, with the same
-    proof. A bench that touches no edge at the start stays inside or outside with its centre.
+    An edge counts as a rectangle of no width at rest: benches and edges are marched like pairs of benches, with the
+    same proof. The centre of a bench that touches no edge stays inside an area, or outside, as it started.
     margin: [m]; start, stop: [s], None for the end of the run
     raises: InvalidValue, also for a path that bends too tightly for a chord by the stop; OutsideRun
     """
@@ -246,12 +246,12 @@ def venue_end(dance: Dance) -> float:
 
 
 def is_clear_beyond(dance: Dance, venue: Venue, *, margin: float, start: float, seen: float) -> bool:
-    """Does a spiral dance whose benches were clear of the venue from start to `seen` [s] stay so to its end, for sure?
+    """Is a spiral dance proven to stay clear of the venue to its end, if it was clear from start to `seen` [s]?
 
-    No head or bench before the first of the equal ones leaves the disc around the centre that its chords span from the
-    head, which goes inwards. Every other bench stands where the one before it stood since the start, once it has passed
-    where that one began, unless it slides back behind its own start (family lemma, core/kernels/marching.py); so it has
-    met nothing new, if all edges lie outside the disc by more than the margin.
+    The head goes inwards, so neither it nor a bench before the first of the equal ones leaves the disc around the
+    centre that the chords from the head to that bench span. Every other bench, once it has passed where the bench
+    before it began, stands where that one stood since the start, unless it slides back behind its own start (family
+    lemma, core/kernels/marching.py). So nothing new is met if all edges lie outside the disc by more than the margin.
     """
     dragon = dance.dragon
     ends = np.linalg.norm(trajectory(dance, [start, seen]).position, axis=-1)

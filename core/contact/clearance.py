@@ -29,13 +29,13 @@ if TYPE_CHECKING:
 # (Search.samples()); a dip is refined to this width [m of head travel], in a profile [s].
 PROFILE_STEP = 0.2
 DIP_WIDTH = 1e-11
-# The least distance is proven to this [m]; to the next one where that takes more steps than a search may.
+# Width to which the least distance is proven [m]; the second one where the first takes more steps than a search may.
 PROOF_WIDTHS = (1e-5, 1e-3)
-# So many of the lowest samples are refined before the proof begins.
+# Number of the lowest samples that are refined before the proof begins.
 DIPS_REFINED = 5
 # No bracket around a contact, but every dip that the march crosses is refined: a "tolerance" of Search.march [m].
 DIPS_ONLY = -1.0
-# So often the proof may come upon something nearer; each time the distance falls by PROOF_WIDTHS[0] or more.
+# Most times that a proof may come upon something nearer; each time the distance falls by PROOF_WIDTHS[0] or more.
 ROUNDS = 100
 
 Pair = tuple[int, int]
@@ -202,10 +202,11 @@ def graze_pair(found: dict[str, float]) -> Pair:
     return int(found["graze_first"]), int(found["graze_second"])
 
 
-# A sampled and refined gap is an upper bound of the least one, as it is met. A march whose margin is that gap less a
-# width either ends, and so proves that nothing comes nearer, or meets a lower gap: then that one is refined, and the
-# march goes on from there with the lower margin, since what was passed is clear of the higher one. A dip that ends
-# between that margin and the gap is crossed in steps far shorter than it is wide, so the march refines it.
+# The least gap that samples show does occur, so it is an upper bound of the least gap of all. The march gets that gap
+# less a width as its margin. Either it reaches the end, which proves that nothing comes nearer; or it meets a lower
+# gap. Then that one is refined, and the march goes on from there with a lower margin: what it has passed is clear of
+# the higher margin, and so of the lower. A dip whose bottom lies between the margin and the gap is crossed in steps
+# far shorter than it is wide, so the march refines it.
 def least_over(
     search: Search, begin: float, until: float, head_speed: float, fold: RunEnd | None = None
 ) -> tuple[Dip, float | None]:
@@ -243,7 +244,7 @@ def least_over(
 
 
 def _first_touch(search: Search, begin: float, until: float, head_speed: float, touching: Dip) -> tuple[Dip, float]:
-    """Something touches for certain: when first; at the instant known where the search gives up."""
+    """The first touch, where something touches for certain; the touch known already where the search gives up."""
     search.use(search.path, 0.0)
     state, found, tolerance = search.approach(begin, until, head_speed)
     if not state.startswith("touched"):
@@ -262,7 +263,7 @@ def _sampled(search: Search, begin: float, until: float) -> Dip:
 
 
 def _refined(search: Search, low: float, middle: float, high: float) -> Dip:
-    """The bottom of the dip that the middle travel lies in; a second time if another pair is nearer there."""
+    """The bottom of the dip around the middle travel; sought once more if another pair is nearer there."""
     gap, pair = search.clearance(middle)
     best = (gap, middle, pair)
     for _ in range(2):

@@ -36,7 +36,7 @@ if TYPE_CHECKING:
 
 # A run without contact is drawn this long before its end [s], where the chain still exists.
 BEFORE_END = 1e-6
-# So far beyond where a search gave up it looks for an overlap that is certain [m of head travel].
+# After giving up, a search looks for a certain overlap from this far ahead on [m of head travel].
 BEYOND = 1e-3
 
 
@@ -59,13 +59,13 @@ class Feature(Shown):
 
 
 @dataclass(frozen=True, slots=True, repr=False)
-class Certificate(Shown):
+class Evidence(Shown):
     """How the answer is known.
 
     method: the whole claim and how it is proven, in sentences (core/contact/claim.py)
     steps: proven steps taken
-    clear_until: nothing touches from the start to then [s]; None where no time is proven clear: benches touch at
-        the start, or it is not decided from there on
+    clear_until: nothing touches from the start to this time [s]; None where no time is proven clear, because benches
+        touch at the start or the search is undecided from there on
     bound: the largest bound on the second derivative of a gap along the head's way that a step used [1/m]
     least_clearance: the narrowest graze met before the contact (or over the whole run), None if none
     """
@@ -99,7 +99,7 @@ class FirstContact(Shown):
     edge: Feature | None
     point: tuple[float, float] | None
     end: RunEnd | None
-    certificate: Certificate
+    certificate: Evidence
     gap: float | None = None
     margin: float = field(kw_only=True)
     dance: Dance = field(kw_only=True, repr=False, compare=False)
@@ -167,8 +167,8 @@ class FirstContact(Shown):
         return (self.end or self.dance.end).time - BEFORE_END
 
 
-# By the kernels' codes, which count front-left, front-right, rear-right, rear-left and front, right, rear, left: first
-# for a bench that has the centre on its right, then for one that has it on its left.
+# Names by the kernels' codes, which count front-left, front-right, rear-right, rear-left and front, right, rear, left.
+# The first row is for benches with the centre on their right, the second for those with the centre on their left.
 CORNERS = (
     ("front-outer", "front-inner", "rear-inner", "rear-outer"),
     ("front-inner", "front-outer", "rear-outer", "rear-inner"),
@@ -181,11 +181,11 @@ def first_contact(dance: Dance, *, margin: float = 0.0, start: float = 0.0, stop
 
     margin: [m], the clearance required; contact means separation <= margin
     start, stop: the times between which to look [s]; None for the end of the run
-    returns: see FirstContact; times good to 1e-10 s at 1 m/s, bracketed by [proven clear up to, overlapping at], no
-        wider than 1e-9 s but where an arc length or a time itself is not that good (beyond 1e5 m, below 1e-3 m/s), and
-        within about 5e-5 m of a graze along waypoints, behind bench 60, or where a second pair meets at once; both
-        ends hold whatever rounding does (core/kernels/spiral.py, route.py, pairs.py), and what it hides is undecided:
-        benches whose clearance at the start is the margin to about 1e-12 m
+    returns: see FirstContact. Times are good to 1e-10 s at 1 m/s. The bracket [proven clear up to, overlapping at] is
+        at most 1e-9 s wide, except where arc lengths or times are less exact (beyond 1e5 m, below 1e-3 m/s), and
+        within about 5e-5 m of a graze along waypoints, behind bench 60, or where a second pair meets at once. Both
+        ends hold in spite of rounding (core/kernels/spiral.py, route.py, pairs.py). Where rounding hides the answer it
+        is undecided: benches whose clearance at the start equals the margin to about 1e-12 m
     raises: InvalidValue; OutsideRun for a stop after the end of the run
     source: the model of Yang et al., sections 2.4 and 2.5, whose times differ: see app/paper.py
 
@@ -200,7 +200,7 @@ def first_contact(dance: Dance, *, margin: float = 0.0, start: float = 0.0, stop
 def contact_within(
     budget: Budget, dance: Dance, *, margin: float = 0.0, start: float = 0.0, stop: float | None = None
 ) -> FirstContact:
-    """first_contact() as a part of a larger question, undecided also where the budget of that is spent."""
+    """first_contact() as a part of a larger question: also undecided once the budget of that question is spent."""
     checked_type("dance", dance, Dance)
     margin = checked_number("margin", margin, "m", 0.0, MARGIN_MAX)
     begin, until = dance.span(start, stop)
@@ -247,7 +247,7 @@ def _result(
     )
     method = _method(dance, search.margin, outcome, found, end, (span[0], proven))
     clear_until = proven if proven > span[0] and outcome is not Outcome.CONTACT_AT_START else None
-    certificate = Certificate(method, int(found["steps"]), clear_until, found["bend"], graze)
+    certificate = Evidence(method, int(found["steps"]), clear_until, found["bend"], graze)
     margin = search.margin
     if outcome is Outcome.CLEAR:
         return FirstContact(

@@ -37,7 +37,7 @@ MARGIN_MAX = 1e4  # [m]
 # takes about 5,000.
 WORK_BUDGET = 2e7
 NEAR_WORK_BUDGET = 5e6
-# A dance is sampled so many times at most [1], and with this share of the work.
+# Most samples of a dance [1], and the share of the work that they may take [1].
 SAMPLES = 20_000
 SAMPLED_SHARE = 0.1
 # Half width of the bracket around a contact [m of head travel] at head speeds of 1 m/s and more, and the least that
@@ -53,20 +53,20 @@ BRACKETS_GRAZING = (4.9e-10, 5e-9, 5e-8, 5e-7, 5e-6, 5e-5)
 TRAVEL_ROUNDING = 2e-15
 # The last stretch before a fold, where handle speeds grow without bound: dismissed by a bound on the motion left [m].
 FOLD_SLIVER = 1e-9
-# What is left is cut into so many stretches at most, 0.1 to 0.3 ms each.
+# Most stretches into which the way to a fold is cut; each takes 0.1 to 0.3 ms.
 FOLD_STRETCHES = 200
 # Angles at which dragons fold, and those of handles from leader to follower, are good to far less than this part [1]:
 # see _least_left().
 THETA_ROUNDING = 1e-12
-# One stretch takes as long as so much work, besides FOLD_WORK for each bench [1].
+# Work that one stretch counts as, and for each bench besides [1].
 STRETCH_WORK, FOLD_WORK = 1000.0, 20.0
 # Width to which the clear radius is bisected, relative [1].
 CLEAR_WIDTH = 1e-3
-# No radius is known to be clear [m].
+# Stands for a radius or place from which nothing is known to be clear [m].
 NO_BOUND = 1e150
-# The kernels' word for a run without a graze [m].
+# Gap that the kernels give for a run without a graze [m].
 NO_GRAZE = 1e150
-# A march leaves out no pair.
+# Stands for: a march leaves out no pair.
 NO_PAIR = (-1.0, -1.0)
 # What the ring bound may be off by, of the lengths in it [1]: at most 64 sums, products and roots, with d^2 = radius^2
 # - foot^2 at least a thousandth of radius^2 (core/kernels/rings.py), so that d is good to 2,000 u.
@@ -134,7 +134,7 @@ class Search:
         self.resize(dragon.benches if self.follows_all else min(dragon.benches, 255))
 
     def use(self, path: Spiral | Route, margin: float) -> None:
-        """Turn to another path or margin."""
+        """Search another path, or with another margin."""
         self.path, self.margin = path, margin
         self.growth, self.pieces, self.place = path.growth, path.table, path.place
         if isinstance(path, Route):
@@ -145,7 +145,7 @@ class Search:
         self.ring[RING_CLEAR] = self.clear_radius
 
     def clear_beyond(self, radius: float) -> None:
-        """Take a radius for the clear_radius, from which another bound exceeds the margin on the spiral used [m]."""
+        """Set clear_radius to a radius from which another bound exceeds the margin on this spiral [m]."""
         self.clear_radius = self.ring[RING_CLEAR] = radius * (1.0 + kernels.CLEAR_SPARE)
 
     def travel_rounding(self, *travels: float) -> float:
@@ -188,7 +188,7 @@ class Search:
         return float(self.room * (1.0 + len(self.edges) / EDGES_PER_WORK))
 
     def samples(self, span: float, step: float) -> int:
-        """How many instants to look at over a span [m]: a step apart [m], or as many as the work allows."""
+        """Number of samples over a span [m]: a step apart [m], or fewer where the work allows no more."""
         affordable = min(float(SAMPLES), SAMPLED_SHARE * min(self.work, self.budget.left) / self._step_work)
         return max(3, int(min(3.0 + span / step, affordable)))
 
@@ -210,7 +210,7 @@ class Search:
 
     @property
     def follows_all(self) -> bool:
-        """Must a march follow all benches: on a route that says of none that it is out of reach?"""
+        """Must a march follow all benches? Yes on a route that does not say which ones are out of reach."""
         return isinstance(self.path, Route) and float(self.ring[RING_PLACE]) >= NO_BOUND
 
     def _clear_radius(self, growth: float) -> float:
@@ -266,8 +266,8 @@ class Search:
         """kernels.march from start, or from where the ring bound ends, to stop [m of travel]: state, result by name.
 
         opening: nothing before the start was cleared, so all pairs are followed until the body repeats itself
-        The way marched begins and ends beyond both by what a travel may be off by, so that what is said of travels, and
-        of times, holds for the true ones.
+        The march begins earlier and ends later by the rounding of travels, so that what it claims of computed travels
+        and times holds for the true ones.
         """
         rounding, asked = self.travel_rounding(start, stop), (start, stop)
         start -= rounding
@@ -510,21 +510,21 @@ class Search:
         chords = self.sizes[:benches, 0]
         longest_behind = np.maximum.accumulate(chords[::-1])[::-1].tolist()
         low, high = theta * (1.0 - THETA_ROUNDING), float(self.rows[0, 0, 4]) * (1.0 + THETA_ROUNDING)
-        arcs, bends = np.empty(benches + 1), np.full(benches, NO_BOUND)
+        arcs, curvatures = np.empty(benches + 1), np.full(benches, NO_BOUND)
         for k in range(benches + 1):
             arcs[k] = growth * (high - low) * math.hypot(1.0, high)
             if k == benches:
                 break
             curvature = kernels.spiral_curvature(low) / growth
             if 0.5 * curvature * longest_behind[k] <= kernels.BEND_LIMIT:
-                arcs[k:], bends[k:] = arcs[k], curvature
+                arcs[k:], curvatures[k:] = arcs[k], curvature
                 break
             inner, outer = self._deltas(low, high, float(chords[k]))
             if 0.5 * curvature * chords[k] <= kernels.BEND_LIMIT:
-                inner, outer, bends[k] = outer, inner, curvature
+                inner, outer, curvatures[k] = outer, inner, curvature
             low, high = (low + inner) * (1.0 - THETA_ROUNDING), (high + outer) * (1.0 + THETA_ROUNDING)
         both = arcs[:-1] + arcs[1:]
-        turned = both * np.minimum(1.0 / chords, 0.5 * bends)
+        turned = both * np.minimum(1.0 / chords, 0.5 * curvatures)
         over = self.sizes[:benches, 1] - 0.5 * chords + self.sizes[:benches, 2]
         return arcs, np.maximum(arcs[:-1], arcs[1:]) + over * turned
 

@@ -19,24 +19,24 @@ from core.sampling import bisected
 from core.shown import Shown, worded
 from core.values import SIZE_MAX, checked_number, checked_size, checked_type
 
-# Just below what the strips prove, an infeasible pitch is looked for: an error below this [m of pitch].
+# An infeasible pitch is sought this far below what the bands prove: the error that this may leave [m of pitch].
 PASSED_OVER = 1e-9
-# On spirals so wide that a clearance hardly changes with the pitch it is looked for down to this part of it, and the
-# bracket is as wide [1].
+# The same relative to the pitch, on spirals so wide that a clearance hardly changes with it, and the width of the
+# bracket there [1].
 PASSED_OVER_WIDE = 1e-6
 # The pitch is bisected to this width [m]; closer to a graze or a contact on the circle rounding hides which it is.
 PITCH_WIDTH = 2.0 * BORDER_WIDTH
-# So many pitches that stay undecided end a bisection.
+# Number of undecided pitches that end a bisection.
 UNDECIDED_MAX = 4
-# Where no bound on the change of a clearance with the pitch is at hand, so many pitches are tried.
+# Number of pitches that a scan tries, where no bound on the change of a clearance with the pitch is known.
 SCAN_SAMPLES = 1000
-# Islands below the minimum pitch are looked for at so many pitches, evenly spaced.
+# Number of evenly spaced pitches at which islands below the minimum pitch are sought.
 ISLAND_SAMPLES = 400
-# The growth from which on a bound clears every spiral is found this well [1].
+# Relative width to which the growth is found from which a bound clears every spiral [1].
 TOP_WIDTH = 0.02
-# From there the bounds are asked about such ranges of growths, as parts of the upper one, further and further down [1].
+# From there downwards the bounds are asked about ranges of growths; the lower end as a part of the upper one [1].
 RANGES = (0.95, 0.99, 0.998)
-# What limits the pitch is looked at this far below it, where a graze has become a contact of some length [m of pitch].
+# What limits the pitch is examined this far below it, where a graze has become a contact of some length [m of pitch].
 BELOW = 1e-11
 # A contact this close to the circle or the start, with the pair still approaching, is on it [m of head travel].
 ON_CIRCLE = 1e-4
@@ -68,7 +68,7 @@ class MinimumPitch(Shown):
     proven_from, proven_up_to: every pitch in between is proven feasible [m]; the first is pitch itself without a scan,
         the second None for every larger pitch, without end
     scan_step: None without a scan
-    evaluations: ways from the start to the circle that were marched, and strips of pitches, see
+    evaluations: ways from the start to the circle that were marched, and bands of pitches, see
     `core/design/pitch_bands.py`
     """
 
@@ -109,7 +109,7 @@ class _PitchSearch:
     """
 
     def __init__(self, ways: Ways) -> None:
-        self.ways, self.search, self.strips, self.lowest = ways, ways.search, ways.strips, ways.lowest
+        self.ways, self.search, self.bands, self.lowest = ways, ways.search, ways.bands, ways.lowest
         self.radius, self.start_turns, self.margin = ways.radius, ways.start_turns, ways.margin
         self.is_clear = ways.is_clear
         self.alone = ways.search.dragon.benches == 1
@@ -124,9 +124,8 @@ class _PitchSearch:
         raises: InvalidValue where that is beyond
         the largest pitch allowed, and that pitch is infeasible
         """
-        turn = 2.0 * math.pi
-        lowest, growth = self.lowest / turn, SIZE_MAX / turn
-        clears = self.strips.straight.clears
+        lowest, growth = self.lowest / math.tau, SIZE_MAX / math.tau
+        clears = self.bands.straight.clears
         if not clears(growth, self.radius, self.margin):
             if not self.is_clear(SIZE_MAX):
                 rule = f"must be larger for this dragon, which gets to such a circle at no pitch up to {SIZE_MAX:g} m"
@@ -140,26 +139,26 @@ class _PitchSearch:
             middle=lambda low, high: math.sqrt(low * high),
         )
         for factor in RANGES:
-            while growth > lowest and self.strips.clears(factor * growth, growth, self.radius):
+            while growth > lowest and self.bands.clears(factor * growth, growth, self.radius):
                 growth *= factor
-        return turn * max(growth, lowest), None
+        return math.tau * max(growth, lowest), None
 
     def descend(self, top: float) -> tuple[float, float, str]:
         """From a feasible pitch down to (infeasible, feasible) [m], close together, and what justifies the way down."""
         if self.alone:
             pitch = self.lowest if self.is_clear(self.lowest) else top
             return *((pitch, pitch) if pitch < top else self.bisect(self.lowest, top)), "bound"
-        pitch, stopped = self.strips.descend(top, self.lowest)
+        pitch, stopped = self.bands.descend(top, self.lowest)
         if stopped == "lowest":
             return pitch, pitch, "bound"
         if stopped != "unbounded":
             step = max(PITCH_WIDTH, 2.0 * math.ulp(pitch))
             while step <= max(PASSED_OVER, PASSED_OVER_WIDE * pitch) and pitch - step > self.lowest:
                 if self.ways.grazes(pitch - step) or self.is_clear(pitch - step) is False:
-                    # single pitches below the strips may be clear too, but are not proven with all between
+                    # single pitches below the bands may be clear too, but are not proven with all between
                     return self.bisect(pitch - step, pitch)[0] if step <= PASSED_OVER else pitch - step, pitch, "bound"
                 step *= 2.0
-        # strips are proven however far outside a way starts; this one may begin inside what stops them
+        # bands are proven however far outside a way starts; this one may begin inside what stops them
         return *self.scan(pitch), "scan"
 
     def scan(self, pitch: float) -> tuple[float, float]:
@@ -222,8 +221,8 @@ class _PitchSearch:
         return ((self.lowest, end), *found) if end else tuple(found)
 
     def limit(self, infeasible: float) -> tuple[LimitedBy, tuple[int, int] | None, float | None]:
-        """What meets just below the minimum pitch, and where."""
-        graze = self.strips.graze
+        """What limits the minimum pitch, the pair that meets just below it, and the head's radius then [m]."""
+        graze = self.bands.graze
         if self.scan_step is None and graze and graze[1] < infeasible * self.start_turns:
             self.search.use(Spiral(infeasible, self.start_turns), self.margin)
             travel = self.search.travel_at(graze[1] / self.search.growth)
@@ -261,9 +260,9 @@ def minimum_pitch(
 
     turning_radius: [m]; start_turns: turns from the centre to the start; margin: [m], clearance required
     From some pitch on all are feasible, without end: the spiral is so wide there that the dragon stands nearly straight
-    (`core/design/straight.py`). Downwards from there strips of pitches are proven clear, each for all its pitches at
+    (`core/design/straight.py`). Downwards from there bands of pitches are proven clear, each for all its pitches at
     once (`core/design/pitch_bands.py`), to where a pair of benches grazes: no infeasible pitch is stepped over. Where
-    strips have no bound (benches so long that handles turn back on the way, or a start inside the region where benches
+    bands have no bound (benches so long that handles turn back on the way, or a start inside the region where benches
     can touch while ways from further out do touch) a stated scan takes their place.
     raises: InvalidValue; also where benches touch on a straight line, so that no pitch is large enough. TooMuchWork
     source: the model of Yang et al., section 2.5; their bisection of the contact radius cannot converge, because that
@@ -279,7 +278,7 @@ def minimum_pitch(
         rule = f"must be at least {radius / SIZE_MAX:g} turns to start outside the circle at a pitch of {SIZE_MAX:g} m"
         raise InvalidValue.of("start_turns", rule, turns, "turns")
     margin = checked_number("margin", margin, "m", 0.0, MARGIN_MAX)
-    _check_straight(dragon, Straight(dragon), margin)
+    _refuse_touching(dragon, Straight(dragon), margin)
     search = _PitchSearch(Ways(dragon, radius, turns, margin))
     top, proven_up_to = search.top()
     infeasible = feasible = search.lowest
@@ -303,11 +302,11 @@ def minimum_pitch(
         search.scanned_from or feasible,
         proven_up_to,
         search.scan_step,
-        search.ways.marched + search.strips.marches,
+        search.ways.marched + search.bands.marches,
     )
 
 
-def _check_straight(dragon: Dragon, straight: Straight, margin: float) -> None:
+def _refuse_touching(dragon: Dragon, straight: Straight, margin: float) -> None:
     """Refuse a dragon whose benches come within the margin on a straight line, and so on every wide spiral.
 
     raises: InvalidValue (margin or the overhang)

@@ -7,7 +7,7 @@ import math
 from core import kernels
 from core.contact.search import THETA_ROUNDING, Budget, Search
 from core.dance import EndReason, RunEnd, end_theta
-from core.design.pitch_bands import Strips
+from core.design.pitch_bands import Bands
 from core.dragon import Dragon
 from core.errors import TooMuchWork
 from core.paths.spiral import Spiral
@@ -15,18 +15,18 @@ from core.values import SIZE_MIN
 
 # Half width of the bracket around a contact [m of head travel].
 CONTACT_WIDTH = 2e-11
-# All ways and strips together do at most so much work, see WORK of core/kernels/constants.py: about 5 s; the default
-# case does about 150,000 [1].
+# Most work of all ways and bands together, see WORK of core/kernels/constants.py: about 5 s. The default case takes
+# about 150,000 [1].
 PITCH_WORK = 4e7
-# A march of one way does at most so much of it. What that leaves undecided is marched once more, in finer steps and
-# with less work [1].
+# Most work of one way, and of its second march in finer steps where the first one leaves it undecided [1].
 WAY_WORK = 5e6
 FINER_WORK = 1e6
 # A way that ends this close to a fold, where handles are fast, is marched in finer steps [m of head travel].
-NEAR_FOLD = 0.1
-# How much nearer the bound for wide spirals must let a march begin, and in what steps it is asked how near [1].
+FINE_NEAR_FOLD = 0.1
+# The bound for wide spirals is used if it lets a march begin at this part of the radius that the ring bound gives, or
+# nearer; radii are tried in steps of this factor [1].
 NEARER = 0.8
-# At both ends of a way the pairs led by so many benches are looked at before it is marched.
+# Number of leading benches whose pairs are examined at both ends of a way before it is marched.
 LOOKED_AT = 2
 # A search that found no contact.
 NOWHERE = {"touching": -1.0}
@@ -35,7 +35,7 @@ NOWHERE = {"touching": -1.0}
 class Ways:
     """The ways of one dragon from the start to the circle, one for each pitch.
 
-    lowest: the pitch whose way begins on the circle, or SIZE_MIN [m]; marched: how many ways were; strips: proofs for
+    lowest: the pitch whose way begins on the circle, or SIZE_MIN [m]; marched: how many ways were; bands: proofs for
         whole intervals of pitches
     """
 
@@ -43,14 +43,14 @@ class Ways:
         self.radius, self.start_turns, self.margin = radius, start_turns, margin
         self.lowest = max(radius / start_turns, SIZE_MIN)
         self.search = Search(dragon, Spiral(self.lowest, start_turns), margin, work=WAY_WORK, budget=Budget(PITCH_WORK))
-        self.strips = Strips(self.search, radius, start_turns, margin)
+        self.bands = Bands(self.search, radius, start_turns, margin)
         self.marched = 0
 
     def march(self, pitch: float, width: float = 0.0, work: float = WAY_WORK) -> tuple[str, dict[str, float]]:
         """March from the start to the circle: 'reached' proves every clearance on the way larger than the margin.
 
         width: half width of the bracket around a contact, 0 if any instant of it will do [m of travel]; work: at most
-        raises: TooMuchWork where all ways and strips have done PITCH_WORK
+        raises: TooMuchWork where all ways and bands have done PITCH_WORK
         """
         search = self.search
         if search.budget.left <= 0.0:
@@ -63,7 +63,7 @@ class Ways:
         circle = self.radius / path.growth
         stop = max(search.travel_at(circle), 0.0)
         width = width and max(width, 2.0 * search.travel_rounding(0.0, stop))
-        fold, bench = (0.0, None) if self.strips.bent_little else end_theta(search.dragon, path)
+        fold, bench = (0.0, None) if self.bands.bent_little else end_theta(search.dragon, path)
         if fold > circle * (1.0 - THETA_ROUNDING):
             nothing = dict.fromkeys(kernels.MARCH_FIELDS, 0.0)
             return ("folded", nothing) if fold > circle * (1.0 + THETA_ROUNDING) else ("stuck", nothing | NOWHERE)
@@ -72,7 +72,7 @@ class Ways:
             gap, pair = search.clearance(travel, min(LOOKED_AT, search.room))
             if gap <= self.margin and search.surely_within(travel, pair):
                 return state, {"touching": travel, "first": pair[0], "second": pair[1]}
-        if bench is None or search.travel_at(fold) - stop > NEAR_FOLD:
+        if bench is None or search.travel_at(fold) - stop > FINE_NEAR_FOLD:
             return search.march(stop, width)
         end = RunEnd(EndReason.FOLD, search.travel_at(fold), fold, bench)
         last = min(stop, search.last_travel(end.time, True))
@@ -90,11 +90,11 @@ class Ways:
         return None
 
     def grazes(self, pitch: float) -> bool:
-        """Is the pair whose graze ended the strips within the margin on the way, as far as its dip is followed?"""
-        if not self.strips.graze:
+        """Is the pair whose graze ended the bands within the margin on the way, as far as its dip is followed?"""
+        if not self.bands.graze:
             return False
-        pair, radius = self.strips.graze
-        gap, radius = self.strips.dip(pitch, radius, pair)
+        pair, radius = self.bands.graze
+        gap, radius = self.bands.dip(pitch, radius, pair)
         if gap > self.margin or radius > pitch * self.start_turns:
             return False
         return self.search.surely_within(self.search.travel_at(radius / self.search.growth), pair)
@@ -116,7 +116,7 @@ class Ways:
 
         Only where it says so at NEARER of the radius from which the ring bound does: short benches on wide spirals.
         """
-        search, clears = self.search, self.strips.straight.clears
+        search, clears = self.search, self.bands.straight.clears
         radius = min(search.clear_radius, path.growth * path.start_theta)
         if NEARER * radius <= self.radius or not clears(path.growth, NEARER * radius, self.margin):
             return

@@ -15,7 +15,8 @@ from core.sampling import dips
 from core.shown import Shown
 from core.values import Floats, checked_type
 
-# Peaks are narrowed down with so many instants at a time, so many times, and so many of the highest: to 1e-9 of a step.
+# A peak is refined to 1e-9 of a step: the instants of a round, in steps around it; the number of rounds; and how many
+# of the highest peaks are refined.
 ZOOM = np.linspace(-1.0, 1.0, 33)
 ZOOM_ROUNDS = 7
 PEAKS_REFINED = 5
@@ -34,8 +35,8 @@ class SharpestBend(Shown):
     benches: tuple[int, int]
 
 
-# Alike benches follow each other's way: benches (i, i + 1) bend as (m, m + 1) did when handle m stood where handle i
-# stands. So beyond the first stretch, until each handle has passed where the one before it began, m + 2 benches do.
+# Alike benches follow each other's way: the angle between benches (i, i + 1) is that between (m, m + 1) when handle m
+# stood where handle i stands. So m + 2 benches are enough once each handle has passed where the one before it began.
 def sharpest_bend(dance: Dance, *, start: float = 0.0, stop: float | None = None) -> SharpestBend | None:
     """The sharpest bend between start and stop [s], None for the end of the run; None for a single bench.
 

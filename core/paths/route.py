@@ -99,7 +99,7 @@ class Line(Shown):
         """Rows of the kernels' table from arc length s on."""
         (x, y), end = self.start, self.end
         length = math.hypot(end[0] - x, end[1] - y)
-        _check_length(name, length)
+        _refuse_short(name, length)
         dx, dy = (end[0] - x) / length, (end[1] - y) / length
         return _row("line", s, s + length, (0.0, 0.0), x, y, dx, dy)
 
@@ -124,10 +124,10 @@ class Arc(Shown):
     def rows(self, name: str, s: float) -> Floats:
         """Rows of the kernels' table from arc length s on."""
         (x, y), radius, angle, sweep = self.centre, self.radius, self.start_angle, self.sweep
-        _check_length(name, radius * abs(sweep))
+        _refuse_short(name, radius * abs(sweep))
         sign = math.copysign(1.0, sweep)
-        bend = sign / radius
-        return _row("arc", s, s + radius * abs(sweep), (bend, bend), x, y, radius, angle, sign)
+        curvature = sign / radius
+        return _row("arc", s, s + radius * abs(sweep), (curvature, curvature), x, y, radius, angle, sign)
 
 
 @dataclass(frozen=True)
@@ -156,11 +156,11 @@ class Coil(Shown):
         start, end = 2.0 * math.pi * self.start_turns, 2.0 * math.pi * self.end_turns
         (x, y), rotation = self.centre, self.rotation
         arc, end_arc = growth * kernels.spiral_arc(start), growth * kernels.spiral_arc(end)
-        _check_length(name, abs(end_arc - arc))
+        _refuse_short(name, abs(end_arc - arc))
         sign = 1.0 if end > start else -1.0
-        bends = (sign * kernels.spiral_curvature(start) / growth, sign * kernels.spiral_curvature(end) / growth)
+        curvatures = (sign * kernels.spiral_curvature(start) / growth, sign * kernels.spiral_curvature(end) / growth)
         slope = kernels.steepest_bend(min(start, end)) / growth**2
-        return _row("spiral", s, s + abs(end_arc - arc), bends, x, y, growth, rotation, sign, arc, slope=slope)
+        return _row("spiral", s, s + abs(end_arc - arc), curvatures, x, y, growth, rotation, sign, arc, slope=slope)
 
 
 @dataclass(frozen=True, repr=False)
@@ -222,7 +222,7 @@ class Waypoints(Shown):
 Piece = Line | Arc | Coil | Waypoints
 
 
-def _check_length(name: str, length: float) -> None:
+def _refuse_short(name: str, length: float) -> None:
     if length < LENGTH_MIN:
         raise InvalidValue(name, f"{name} must be at least {LENGTH_MIN:g} m long, got {length:g} m")
 
@@ -266,7 +266,7 @@ class Route(Shown):
         self.slide = self._smooth()
         self.table.flags.writeable = False
         for k, (s, row) in enumerate(joints[1:], start=1):
-            self._check_joint(k, s, row)
+            self._refuse_joint(k, s, row)
 
     # Pieces that miss each other are led together, on the longer of the two, by a polynomial of degree 5 over a length
     # l of at most 1 m (BLEND in core/kernels/constants.py): from a gap g across the path, a kink k and a step of
@@ -291,7 +291,7 @@ class Route(Shown):
         table[:, kernels.K_SLOPE] += slope
         return float(slides.max() + along.sum())
 
-    def _check_joint(self, k: int, s: float, row: int) -> None:
+    def _refuse_joint(self, k: int, s: float, row: int) -> None:
         ends = np.empty((2, 5))
         for side, part in enumerate((self.table[:row], self.table[row:])):
             kernels.route_points(np.ascontiguousarray(part), np.array([s]), ends[side : side + 1])
@@ -364,6 +364,6 @@ class Route(Shown):
     @cached_property
     def sharpest(self) -> tuple[float, float]:
         """The largest |curvature| [1/m] and an s [m] where it is reached (for a cubic, bounded)."""
-        bends = np.abs(self.table[:, 3:5])
-        row, end = np.unravel_index(int(bends.argmax()), bends.shape)
-        return float(bends[row, end]), float(self.table[row, 1 + end])
+        curvatures = np.abs(self.table[:, 3:5])
+        row, end = np.unravel_index(int(curvatures.argmax()), curvatures.shape)
+        return float(curvatures[row, end]), float(self.table[row, 1 + end])

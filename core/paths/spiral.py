@@ -99,8 +99,8 @@ class Spiral(Shown):
     def curvature(self, s: Floats | float) -> Floats:
         """Curvature, counter-clockwise positive, so negative here. s: (...) [m]; returns (...) [1/m]."""
         square = self.theta(s) ** 2
-        bends: Floats = -(2.0 + square) / (self.growth * (1.0 + square) ** 1.5)
-        return bends
+        curvature: Floats = -(2.0 + square) / (self.growth * (1.0 + square) ** 1.5)
+        return curvature
 
     def position(self, s: Floats | float) -> Floats:
         """Points at arc length s. s: (...) [m]; returns (..., 2) x, y [m]."""

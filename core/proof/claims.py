@@ -15,7 +15,7 @@ from core.dance import checked_head_speed, end_theta
 from core.dragon import Dragon
 from core.errors import ProofRefused, said
 from core.paths.spiral import Spiral
-from core.proof.chain import Chain, bend_guess
+from core.proof.chain import Chain, delta_guess
 from core.proof.fold import check_fold
 from core.proof.pairs import Unproven, above, below
 from core.proof.sweeps import AnyChain, Overlap, Progress, found, swept
@@ -32,7 +32,7 @@ FOLD_WITHIN = (1e-9, 1e-11)
 
 
 @dataclass(frozen=True)
-class CollisionTime:
+class CollisionTimeClaim:
     """Nothing touches in [0, time - 1e-10], and one pair strictly overlaps at time + 1e-10 [s].
 
     margin: [m]; where it is more than 0, nothing comes within it, and one pair is strictly nearer
@@ -85,11 +85,11 @@ class CollisionTime:
 
 
 @dataclass(frozen=True)
-class MinimumPitch:
+class MinimumPitchClaim:
     """Every bench follows and nothing touches on the head's way from the start to the circle; with 1e-6 m less one pair
     overlaps on it, or one bench folds.
 
-    margin, way, find_overlap(), check_overlap(), search_share, follows: as of CollisionTime
+    margin, way, find_overlap(), check_overlap(), search_share, follows: as of CollisionTimeClaim
     """
 
     kind: ClassVar[str] = "minimum-pitch"
@@ -233,7 +233,7 @@ def head_theta(chain: Chain, handle: int, theta: float, low: float, high: float)
 
     def is_beyond(theta_handle: float) -> bool:
         for needed in chain.needed[:handle]:
-            theta_handle += bend_guess(theta_handle, float(needed))
+            theta_handle += delta_guess(theta_handle, float(needed))
         return theta_handle > theta
 
     return bisected(is_beyond, low, high)[1] if handle else theta

@@ -268,14 +268,14 @@ def test_a_pitch_at_which_rounding_hides_whether_benches_graze_is_not_called_inf
     """Pitches around that at which benches 0 and 19 graze by the doubles, nearer than gaps are proven good to."""
     dragon, found = Dragon(60), minimum_pitch(Dragon(60))
     ways = Ways(dragon, 4.5, 16.0, 0.0)
-    ways.strips.graze = found.benches, found.head_radius
+    ways.bands.graze = found.benches, found.head_radius
     low, high = found.pitch_bracket
     while low < (middle := 0.5 * (low + high)) < high:
-        low, high = (middle, high) if ways.strips.dip(middle, *reversed(ways.strips.graze))[0] <= 0.0 else (low, middle)
+        low, high = (middle, high) if ways.bands.dip(middle, *reversed(ways.bands.graze))[0] <= 0.0 else (low, middle)
     said = []
     for pitch in np.concatenate([high + NEAR * np.linspace(-4.0, 4.0, 41), found.pitch_bracket]).tolist():
         said.append(ways.grazes(pitch))
-        gap, radius = ways.strips.dip(pitch, *reversed(ways.strips.graze))
+        gap, radius = ways.bands.dip(pitch, *reversed(ways.bands.graze))
         travel = ways.search.travel_at(radius / ways.search.growth)
         exact = exact_gap(dragon, Spiral(pitch), travel, 1.0, found.benches)
         assert abs(exact - gap) <= NEAR

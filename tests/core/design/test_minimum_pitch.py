@@ -173,7 +173,7 @@ def test_a_short_dragon_is_proven_up_from_its_start_whatever_bounds_hold_at_lowe
         assert is_feasible(dragon, pitch, 1.32, 10.0, 0.29)
 
 
-def test_benches_far_across_the_circle_are_proven_by_strips_too() -> None:
+def test_benches_far_across_the_circle_are_proven_by_bands_too() -> None:
     found = minimum_pitch(Dragon(20), turning_radius=1.5, start_turns=12.0)
     assert (found.justified_by, found.limited_by, found.scan_step) == ("bound", LimitedBy.CIRCLE, None)
     assert is_feasible(Dragon(20), found.pitch + BESIDE, 1.5, 12.0, 0.0)
