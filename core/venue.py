@@ -13,6 +13,7 @@ import numpy as np
 from core import kernels
 from core.contact.clearance import Pair, first_pair, least_over
 from core.contact.first_contact import Outcome
+from core.contact.fold import moved_until
 from core.contact.search import MARGIN_MAX, NEAR_WORK_BUDGET, Search
 from core.dance import Dance
 from core.errors import InvalidValue
@@ -261,7 +262,7 @@ def is_clear_beyond(dance: Dance, venue: Venue, *, margin: float, start: float, 
     search = Search(dragon, dance.path, margin)
     search.resize(dragon.benches)
     search.place_leaders(seen * dance.head_speed, dragon.benches)
-    arcs, _ = search.moved_until(dance.end.theta or 0.0)
+    arcs, _ = moved_until(search, dance.end.theta or 0.0)
     outwards = arcs / np.hypot(1.0, search.rows[0, : dragon.benches + 1, 4])  # radii grow by this part of an arc
     if (ends[1] + outwards + SURELY > ends[0])[alike:].any():
         return False

@@ -60,6 +60,7 @@ ORDER = (
     "core.shapes.overlaps",
     "core.contact.coils",
     "core.contact.search",
+    "core.contact.fold",
     "core.contact.clearance",
     "core.contact.near_graze",
     "core.contact.claim",

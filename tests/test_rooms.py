@@ -12,6 +12,7 @@ ROOT = Path(__file__).parent.parent
 CORE, TESTS = ROOT / "core", ROOT / "tests" / "core"
 # Modules that are tested with others, as the parts of one answer.
 TESTED_WITH = {
+    "contact/fold.py": "contact/test_first_contact.py",
     "contact/search.py": "contact/test_first_contact.py",
     "design/ways.py": "design/test_minimum_pitch.py",
     "errors.py": "test_wrong_types.py",

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from core import plots
+from core.contact.fold import least_to_fold
 from core.contact.search import NEAR_WORK_BUDGET, Search
 from core.dance import Dance, RunEnd
 from core.errors import InvalidValue
@@ -214,7 +215,7 @@ def least_over(
 
     A gap of 0 stands for the first touch. The search's margin is another one afterwards.
     fold: where the run ends, if right after `until` and at a fold. Steps shrink to nothing before it, where handles
-        are fast without bound, so a bound on the motion left takes the place of the last ones: Search.least_to_fold()
+        are fast without bound, so a bound on the motion left takes the place of the last ones: least_to_fold()
     """
     best = _sampled(search, begin, until)
     proven_to, proven = begin, None
@@ -231,7 +232,7 @@ def least_over(
             if state in ("reached", "stuck"):
                 left = margin if state == "reached" else None
                 if fold is not None:
-                    left = search.least_to_fold(min(found["proven"], until), fold)
+                    left = least_to_fold(search, min(found["proven"], until), fold)
                 if left is not None and left >= margin:
                     return best, margin
                 proven = max(proven or 0.0, left or 0.0) or None

@@ -21,6 +21,7 @@ import numpy as np
 from core import kernels, plots
 from core.contact.claim import ENDS, UNDECIDED_THEN, claim, claim_at_start, claim_undecided, contact_then
 from core.contact.clearance import Graze, first_pair, graze_pair
+from core.contact.fold import clear_to_fold
 from core.contact.near_graze import narrowed
 from core.contact.search import BRACKETS_GRAZING, MARGIN_MAX, NO_GRAZE, Budget, Search
 from core.dance import Dance, EndReason, RunEnd
@@ -215,7 +216,7 @@ def contact_within(
         if narrower is not None:
             found, tolerance = narrower, narrow
     if to_fold and (state == "reached" or (state == "stuck" and found["touching"] < 0.0)):
-        state = "reached" if search.clear_to_fold(min(found["proven"], last), end) else "stuck"
+        state = "reached" if clear_to_fold(search, min(found["proven"], last), end) else "stuck"
     if state == "stuck":
         until = _known_overlap(search, found["proven"], last, head_speed, until)
     if stop is not None and state == "reached":

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from core import plots
+from core.contact.fold import clear_to_fold
 from core.contact.search import MARGIN_MAX, WORK_BUDGET, Budget, Search
 from core.dance import Dance, EndReason
 from core.design.minimum_pitch import MinimumPitch, minimum_pitch
@@ -109,7 +110,7 @@ class Stops:
         if state == "stuck" and found["touching"] >= 0.0:
             state, found, tolerance = search.approach(0.0, last, 1.0)
         if state in ("reached", "stuck") and found["touching"] < 0.0 and to_fold:
-            state = "reached" if search.clear_to_fold(min(found["proven"], last), end) else "stuck"
+            state = "reached" if clear_to_fold(search, min(found["proven"], last), end) else "stuck"
         if state == "reached":
             return None
         travel = {"touched": found["touching"] - tolerance, "stuck": found["proven"]}.get(state, 0.0)

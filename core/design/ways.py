@@ -5,7 +5,8 @@ from __future__ import annotations
 import math
 
 from core import kernels
-from core.contact.search import THETA_ROUNDING, Budget, Search
+from core.contact.fold import THETA_ROUNDING, clear_to_fold
+from core.contact.search import Budget, Search
 from core.dance import EndReason, RunEnd, end_theta
 from core.design.pitch_bands import Bands
 from core.dragon import Dragon
@@ -78,7 +79,7 @@ class Ways:
         last = min(stop, search.last_travel(end.time, True))
         state, found = search.march(last, width or CONTACT_WIDTH)
         if (state == "stuck" and found["touching"] < 0.0) or (state == "reached" and last < stop):
-            state = "reached" if search.clear_to_fold(min(found["proven"], last), end) else "stuck"
+            state = "reached" if clear_to_fold(search, min(found["proven"], last), end) else "stuck"
         return state, found
 
     def is_clear(self, pitch: float) -> bool | None:

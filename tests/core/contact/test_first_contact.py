@@ -23,6 +23,7 @@ from core import (
     first_contact,
     minimum_pitch,
 )
+from core.contact.fold import least_left, least_to_fold
 from core.contact.search import BRACKET, MARGIN_MAX, Search
 from core.design.pitch_bands import BORDER_WIDTH
 from tests.core.slow_search import SlowDance
@@ -227,11 +228,11 @@ def test_no_instant_before_a_fold_has_benches_nearer_than_the_bound_on_the_motio
     search = Search(dragon, spiral, 0.0)
     for left in LEFT:
         travel = (1.0 - left) * end.time
-        least = search.least_to_fold(travel, end)
+        least = least_to_fold(search, travel, end)
         assert least is not None
         gaps, _ = SlowDance.of(dragon, spiral).clearance(end.time - left * end.time * np.linspace(1.0, 1e-3, 60) ** 2)
         assert least <= gaps.min() + TIED
-        one = search._least_left(travel - search.travel_rounding(travel), end.theta)
+        one = least_left(search, travel - search.travel_rounding(travel), end.theta)
         assert one <= least
 
 
