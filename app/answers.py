@@ -203,6 +203,7 @@ class MinimumPitch(Answer):
     benches: Pair | None = Field(
         description="The pair that touches, or is nearer than the margin, just below; null at a fold or without one"
     )
+    bench: int | None = Field(description="The bench that folds just below; null if none does")
     head_radius: float | None = Field(description="Where the head is then [m]")
     other_feasible_intervals: list[Point] = Field(description="Feasible islands below [m]")
     justified_by: str = Field(

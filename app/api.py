@@ -140,9 +140,8 @@ def minimum_pitch(reply: QueryReply, wanted: Annotated[MinimumPitchQuery, Query(
     """The smallest pitch such that every larger one reaches the circle with no touch, or no two within a margin."""
 
     def compute() -> bytes:
-        dragon, radius = wanted.to_dragon(reply.settings.benches_max), wanted.turning_diameter / 2
-        found = core.minimum_pitch(dragon, turning_radius=radius, start_turns=wanted.start_turns, margin=wanted.margin)
-        return MinimumPitch.of(found, dragon, wanted).to_json()
+        dragon = wanted.to_dragon(reply.settings.benches_max)
+        return MinimumPitch.of(wanted.to_minimum_pitch(dragon), dragon, wanted).to_json()
 
     return reply(wanted, compute)
 
@@ -160,7 +159,7 @@ def pitch_scan(reply: QueryReply, wanted: Annotated[PitchScanQuery, Query()]) ->
             samples=wanted.samples,
         )
         table = {"pitch": scan.pitch, "radius": scan.radius, "pieces": scan.pieces}
-        return columns_json(table | {"minimum_pitch": least.pitch})
+        return columns_json(table | {"minimum_pitch": wanted.allowed(least).pitch})
 
     return reply(wanted, compute)
 

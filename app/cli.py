@@ -25,6 +25,7 @@ from app.options import asks, checked, given, numbers, unused
 from app.refusals import refusing
 from app.settings import WORKERS_MAX, Settings
 from core import BenchDragonError, Dragon, InvalidValue, Route, Spiral, Venue
+from core.errors import said
 from core.values import Floats
 
 Json = Annotated[bool, typer.Option("--json", help="The service's JSON instead of a table.")]
@@ -180,7 +181,7 @@ def collision_time(asked: schemas.CollisionQuery, json: Json = False) -> None:
     with show.waiting("first contact"):
         found = core.first_contact(core.Dance(dragon, path, asked.head_speed), margin=asked.margin)
         answer = answers.CollisionTime.of(found, dragon, path, asked)
-    title = f"First time that two benches are nearer than {asked.margin:g} m" if asked.margin else "First contact"
+    title = f"First time that two benches are nearer than {said(asked.margin)} m" if asked.margin else "First contact"
     show.print_answer(title, answer, json, margin=asked.margin, benches=dragon.benches)
 
 
@@ -188,12 +189,11 @@ def collision_time(asked: schemas.CollisionQuery, json: Json = False) -> None:
 @asks(schemas.MinimumPitchQuery)
 def minimum_pitch(asked: schemas.MinimumPitchQuery, json: Json = False) -> None:
     """The smallest pitch such that every larger one lets the head reach the turning circle."""
-    dragon, radius = asked.to_dragon(Settings().benches_max), asked.turning_diameter / 2
+    dragon = asked.to_dragon(Settings().benches_max)
     with show.waiting("minimum pitch"):
-        found = core.minimum_pitch(dragon, turning_radius=radius, start_turns=asked.start_turns, margin=asked.margin)
-        answer = answers.MinimumPitch.of(found, dragon, asked)
-    gap = f" and no bench nearer than {asked.margin:g} m to another" if asked.margin else ""
-    title = f"Minimum pitch for a turning circle of {asked.turning_diameter:g} m{gap}"
+        answer = answers.MinimumPitch.of(asked.to_minimum_pitch(dragon), dragon, asked)
+    gap = f" and no bench nearer than {said(asked.margin)} m to another" if asked.margin else ""
+    title = f"Minimum pitch for a turning circle of {said(asked.turning_diameter)} m{gap}"
     show.print_answer(title, answer, json, margin=asked.margin, benches=dragon.benches)
 
 
@@ -210,7 +210,7 @@ def shortest_turn(asked: schemas.ShortestTurnQuery, json: Json = False) -> None:
     """The turn that begins as deep inside its circle as the dragon can dance, and what limits it."""
     with show.waiting("shortest turn"):
         found = asked.to_shortest_turn(Settings().checked_benches_max)
-    gap = f" with no bench nearer than {asked.margin:g} m to another" if asked.margin else ""
+    gap = f" with no bench nearer than {said(asked.margin)} m to another" if asked.margin else ""
     show.print_answer(f"Shortest turn{gap}", report.ShortestTurn.of_shortest(found), json, margin=asked.margin)
 
 
@@ -222,7 +222,7 @@ def maximum_head_speed(asked: schemas.MaximumHeadSpeedQuery, json: Json = False)
     with show.waiting("maximum head speed"):
         found = core.maximum_head_speed(core.Dance(dragon, path), asked.speed_limit)
     answer = report.MaximumHeadSpeed.model_validate(found)
-    show.print_answer(f"Maximum head speed for {asked.speed_limit:g} m/s", answer, json)
+    show.print_answer(f"Maximum head speed for {said(asked.speed_limit)} m/s", answer, json)
 
 
 @app.command()

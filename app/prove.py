@@ -29,7 +29,7 @@ from app.wire import Instant, Margin, StartTurns, TurningDiameter, Wire
 from app.wire_paths import TurnFields
 from core import InvalidValue, Outcome
 from core.dance import Dance
-from core.errors import ProofRefused
+from core.errors import ProofRefused, said
 
 if TYPE_CHECKING:
     from core.proof import Proof
@@ -131,7 +131,7 @@ def collision_time(
         if time is None:
             time = core.first_contact(core.Dance(dragon, path, asked.head_speed), margin=asked.margin).time
         if time is None:
-            near = f"no two benches come nearer than {asked.margin:g} m" if asked.margin else "nothing touches"
+            near = f"no two benches come nearer than {said(asked.margin)} m" if asked.margin else "nothing touches"
             raise ProofRefused("time", f"{near}, so there is no collision time to prove: prove clear")
         certificate = prove_collision_time(
             Dance(dragon, path, asked.head_speed),
@@ -217,8 +217,9 @@ def dance(
     asked = checked(schemas.CheckRequest, read_dance(file))
     dragon = asked.dragon.to_dragon(Settings().checked_benches_max)
     path = asked.path.to_path()
-    if asked.venue is not None or asked.speed_limit is not None:
-        print("The venue and the speed limit are no part of the proof.", file=sys.stderr)
+    for name in ("venue", "speed_limit"):
+        if getattr(asked, name) is not None:
+            print(f"The {name.replace('_', ' ')} is no part of the proof.", file=sys.stderr)
     dance = core.Dance(dragon, path, asked.head_speed)
     start = dance.begin if asked.start is None else asked.start
     times = {"start": start, "stop": asked.stop, "margin": asked.margin}
@@ -238,11 +239,11 @@ def _dance_proven(dance: core.Dance, times: dict[str, Any], every_pair: bool) ->
         if found.outcome is Outcome.CONTACT and found.time is not None:
             return prove_contact(dance, found.time, **times, **asked)
         if found.benches is None:
-            near = f"come nearer than {times['margin']:g} m" if times["margin"] else "touch"
+            near = f"come nearer than {said(times['margin'])} m" if times["margin"] else "touch"
             raise ProofRefused("time", f"the search did not decide whether two benches {near}")
         a, b = found.benches
-        near = f"are nearer than {times['margin']:g} m" if times["margin"] else "overlap"
-        raise ProofRefused("start", f"benches {a} and {b} {near} at the start already, {times['start']:g} s")
+        near = f"are nearer than {said(times['margin'])} m" if times["margin"] else "overlap"
+        raise ProofRefused("start", f"benches {a} and {b} {near} at the start already, {said(times['start'])} s")
 
 
 def _checked(certificate: Any) -> Proof:

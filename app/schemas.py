@@ -17,6 +17,7 @@ from pydantic_core import PydanticCustomError
 from app.degrees import Coordinates, Place, place_of
 from app.settings import check_limit
 from app.wire import (
+    PITCH_MAX,
     Coordinate,
     CrossCheck,
     Instant,
@@ -30,12 +31,27 @@ from app.wire import (
     Wire,
 )
 from app.wire_paths import KINDS, AnyPath, SpiralFields, SpiralPath, TurnCircle, TurnFields
-from core import Dance, Dragon, InvalidValue, Report, Route, ShortestTurn, Spiral, check, shortest_turn
+from core import (
+    Dance,
+    Dragon,
+    InvalidValue,
+    LimitedBy,
+    MinimumPitch,
+    Report,
+    Route,
+    ShortestTurn,
+    Spiral,
+    check,
+    minimum_pitch,
+    shortest_turn,
+)
 from core.dragon import BENCHES_MAX
+from core.errors import said
 from core.values import Floats
 
 # The last instant of a range may miss `stop` by this share of a step, so that 0 to 0.3 by 0.1 has four instants.
 LAST_STEP_TOLERANCE = 1e-9
+NARROWER = "must be smaller, or the benches narrower"
 FEWER_CELLS = "take a larger step, a shorter range or fewer benches"
 # Objects and lists in one another: a collection of features of polygons has nine.
 VENUE_DEPTH_MAX = 20
@@ -99,7 +115,8 @@ class TimeRange(Wire):
         """
         if self.stop < self.start:
             raise InvalidValue(
-                "times.stop", f"times.stop must not be before times.start ({self.start:g} s), got {self.stop:g} s"
+                "times.stop",
+                f"times.stop must not be before times.start ({said(self.start)} s), got {said(self.stop)} s",
             )
         return math.floor((self.stop - self.start) / self.step + LAST_STEP_TOLERANCE) + 1
 
@@ -289,6 +306,24 @@ class CircleQuery(UniformDragon):
     turning_diameter: TurningDiameter = Field(9.0, description="Diameter of the circle that the head must reach [m]")
     start_turns: StartTurns = 16.0
     margin: Margin = 0.0
+
+    def to_minimum_pitch(self, dragon: Dragon) -> MinimumPitch:
+        """raises: InvalidValue, TooMuchWork"""
+        radius, turns = self.turning_diameter / 2, self.start_turns
+        return self.allowed(minimum_pitch(dragon, turning_radius=radius, start_turns=turns, margin=self.margin))
+
+    def allowed(self, found: MinimumPitch) -> MinimumPitch:
+        """The minimum pitch if other questions take it. raises: InvalidValue naming what makes it so large"""
+        if found.pitch <= PITCH_MAX:
+            return found
+        name, rule, unit = "turning_diameter", "must be larger", "m"
+        if found.limited_by is LimitedBy.START and found.benches is None:
+            turns = said(self.turning_diameter / 2 / PITCH_MAX)
+            name, rule, unit = "start_turns", f"must be at least {turns} turns, or the turning circle smaller", "turns"
+        elif found.benches and found.benches[1] - found.benches[0] == 2:  # hardly apart even on a straight line
+            name, rule = ("margin", "must be smaller") if self.margin else ("overhang", NARROWER)
+        why = f"the minimum pitch is {found.pitch:.9g} m, and pitches are at most {said(PITCH_MAX)} m here"
+        raise InvalidValue(name, f"{name} {rule}, got {said(getattr(self, name))} {unit}: {why}")
 
 
 class MinimumPitchQuery(CircleQuery):

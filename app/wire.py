@@ -17,7 +17,8 @@ NAMES_MAX = 100
 Length = Annotated[float, Field(ge=1e-3, le=50)]
 Width = Annotated[float, Field(ge=1e-3, le=5)]
 Overhang = Annotated[float, Field(ge=0, le=5)]
-Pitch = Annotated[float, Field(ge=1e-3, le=10, description="Radial advance of the spiral per full turn [m]")]
+PITCH_MAX = 10.0  # [m]
+Pitch = Annotated[float, Field(ge=1e-3, le=PITCH_MAX, description="Radial advance of the spiral per full turn [m]")]
 StartTurns = Annotated[float, Field(gt=0, le=200, description="Turns between the centre and the start [turns]")]
 Margin = Annotated[
     float, Field(ge=0, le=2, description="Clearance required: nearer benches count as a contact; 0: a touch does [m]")

@@ -15,6 +15,7 @@ from schemathesis.checks import CHECKS
 from app.examples import EXAMPLES, FILE
 from app.main import create_app
 from app.settings import Settings
+from tests.app.conftest import ANSWER_TIMEOUT
 from tests.app.renew_examples import text
 
 EXAMPLES_PER_CALL = 25
@@ -52,7 +53,7 @@ def test_every_call_conforms_to_its_description(server: str, call: str, mode: Ge
     @given(case=CALLS[call].as_strategy(generation_mode=mode))
     @settings(max_examples=EXAMPLES_PER_CALL, deadline=None, derandomize=True, suppress_health_check=list(HealthCheck))
     def conforms(case: Any) -> None:
-        case.call_and_validate(base_url=server, checks=CHECKED)
+        case.call_and_validate(base_url=server, checks=CHECKED, timeout=ANSWER_TIMEOUT)
 
     conforms()
 
