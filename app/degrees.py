@@ -13,8 +13,9 @@ from typing import Literal
 
 import numpy as np
 
+from app.geojson import Polygon, Scale, read_polygons, venue_of
 from core import Dragon, InvalidValue, Venue
-from core.venue import Polygon, Ring, geojson_polygons
+from core.venue import Ring
 
 Coordinates = Literal["metres", "degrees"]
 
@@ -27,6 +28,8 @@ ACROSS_MAX = 20_000.0
 # CGCS2000, ETRS89 and NAD83.
 GEOGRAPHIC = re.compile(r"CRS:?84|\bEPSG:+[\d.]*:*(?:4326|4979|4490|4258|4269)$", re.IGNORECASE)
 
+DEGREES: Scale = ("degrees", 180.0, 90.0)
+LATITUDE_FIRST: Scale = ("degrees", 90.0, 180.0)
 SWAPPED = "longitude comes first and latitude second, and here they look swapped"
 
 
@@ -67,9 +70,9 @@ def place_of(geometry: Mapping[str, object], coordinates: Coordinates | None, dr
         )
     if coordinates == "degrees" or geographic:
         return _laid_out(_in_degrees(geometry))
-    polygons = geojson_polygons(geometry)
+    polygons = read_polygons(geometry)
     _refuse_degrees(polygons, float(dragon.lengths.max()))
-    return Place(Venue.of(polygons))
+    return Place(venue_of(polygons))
 
 
 def _named_system(geometry: Mapping[str, object]) -> str | None:
@@ -100,10 +103,10 @@ def _refuse_systems_inside(field: str, part: object) -> None:
 def _in_degrees(geometry: Mapping[str, object]) -> list[Polygon]:
     """The polygons in degrees. raises: InvalidValue, which says so where longitude and latitude look swapped"""
     try:
-        return geojson_polygons(geometry, unit="degrees", limits=(180.0, 90.0))
+        return read_polygons(geometry, DEGREES)
     except InvalidValue as error:
         try:
-            geojson_polygons(geometry, unit="degrees", limits=(90.0, 180.0))
+            read_polygons(geometry, LATITUDE_FIRST)
         except InvalidValue:
             raise error from None
         raise InvalidValue(error.field, f"{error.message}: {SWAPPED}") from error
@@ -155,7 +158,7 @@ def _laid_out(polygons: list[Polygon]) -> Place:
         limit, size = ACROSS_MAX / 1000.0, across / 1000.0
         raise InvalidValue("venue", f"venue must be at most {limit:g} km across, got about {size:.4g} km")
     metres = [(name, tuple(placed(ring) for ring in rings)) for name, rings in turned]
-    return Place(Venue.of(metres), Origin((longitude + 180.0) % 360.0 - 180.0, latitude))
+    return Place(venue_of(metres), Origin((longitude + 180.0) % 360.0 - 180.0, latitude))
 
 
 def _unwrapped(ring: Ring, near: float) -> Ring:

@@ -13,8 +13,10 @@ import numpy as np
 from core import kernels
 from core.dragon import Dragon
 from core.errors import InvalidValue, OutsideRun, said, said_bound
+from core.paths.path import Path
 from core.paths.route import Route
 from core.paths.spiral import Spiral
+from core.sampling import bisected
 from core.shown import Shown
 from core.values import Floats, checked_number, checked_type
 
@@ -26,10 +28,10 @@ DEFAULT_SPAN = 300
 # A run ends this much before its fold, so that rounding leaves every chord a place at the end too; 1e-14 was enough for
 # 1,494 random dragons, 2026-11-21 [1].
 FOLD_ROUNDING = 1e-13
-# A run that stops so near to its fold [m of head travel] is searched to the fold: steps shrink to nothing there, where
-# handles are fast without bound, and a bound on the motion left takes their place.
+# A run that stops within this of its fold is searched up to the fold. Handle speeds grow without bound there, so steps
+# would shrink to nothing; a bound on the remaining motion replaces them [m of head travel].
 NEAR_FOLD = 1e-5
-# Width to which the earliest time is bisected, of 1 m and of the way [1].
+# Width of the bracket around the earliest place of the head: absolute [m], and relative to that place [1].
 ROOM_WIDTH = 1e-9
 
 
@@ -62,7 +64,7 @@ class RunEnd(Shown):
 
 @dataclass(frozen=True)
 class Dance(Shown):
-    """A dragon that follows a path, its head at a constant speed: what every question about a given path is asked of.
+    """A dragon that follows a path with its head at a constant speed. Every question about a given path takes a dance.
 
     head_speed: [m/s]
     end: where the run ends: at the fold or the centre of a spiral, at the end of a route
@@ -88,7 +90,7 @@ class Dance(Shown):
     def end(self) -> RunEnd:
         """Where the run ends."""
         if isinstance(self.path, Route):
-            _check_bends(self.dragon, self.path)
+            _refuse_tight_bends(self.dragon, self.path)
             return RunEnd(EndReason.END, self.path.end / self.head_speed, None, None)
         return _spiral_end(self.dragon, self.path, self.head_speed)
 
@@ -98,7 +100,7 @@ class Dance(Shown):
 
         raises: InvalidValue (path) for a route too short for the dragon
         """
-        if isinstance(self.path, Spiral) or self.path.tail_begin is None:
+        if self.path.tail_begin is None:
             return -TIME_MAX
         return _earliest_place(self.dragon, self.path, self.path.tail_begin) / self.head_speed
 
@@ -166,7 +168,7 @@ class Dance(Shown):
         return time
 
     def span(self, start: float, stop: float | None = None) -> tuple[float, float]:
-        """start and stop [s] if the run has them, in that order; None stands for the end of the run.
+        """start and stop [s], checked to lie in the run and in this order; None stands for the end of the run.
 
         raises: InvalidValue; OutsideRun
         """
@@ -185,11 +187,11 @@ class Dance(Shown):
         return begin, until
 
     def ends_by(self, stop: float) -> bool:
-        """Is a run until `stop` [s] one to a fold?"""
+        """Does a run until `stop` [s] end at a fold?"""
         return stop >= self.end.time and self.end.reason is EndReason.FOLD
 
     def nears_fold(self, stop: float) -> bool:
-        """Is a run until `stop` [s] one to the fold or within NEAR_FOLD of it?"""
+        """Does a run until `stop` [s] end at a fold or within NEAR_FOLD of it?"""
         return self.ends_by(stop + NEAR_FOLD / self.head_speed)
 
     def after_the_end(self, time: Floats, index: int) -> OutsideRun:
@@ -208,9 +210,9 @@ def checked_head_speed(head_speed: float) -> float:
 def end_theta(dragon: Dragon, path: Spiral) -> tuple[float, int | None]:
     """The head angle [rad] at which the run ends, and the bench that folds (0 and None at the centre).
 
-    Bench k folds when handle k falls to the fold of its chord; that handle gets there when handle k - 1 first
-    stands one chord further in. So from the tail forwards: the limit of handle k is the larger of its own fold
-    and the place from which handle k + 1 reaches its limit. In a uniform tail the own fold always wins.
+    Bench k folds when handle k reaches the fold of its chord, which is when handle k - 1 first stands one chord
+    further in. So limits are found from the tail forwards: the limit of handle k is the larger of its own fold and
+    the place from which handle k + 1 reaches its limit. In a uniform tail the own fold is always the larger.
     """
     chords2 = ((dragon.chords[: dragon.uniform_from + 1] / path.growth) ** 2).tolist()
     fold = {chord2: float(kernels.fold_theta(chord2)) for chord2 in set(chords2)}
@@ -238,18 +240,18 @@ def _spiral_end(dragon: Dragon, path: Spiral, head_speed: float) -> RunEnd:
 
 
 def follows(dragon: Dragon, path: Route) -> bool:
-    """Does no piece of the route bend too tight for a chord?"""
+    """Is every bend of the route wide enough for every chord?"""
     longest = float(dragon.chords[: dragon.uniform_from + 1].max())
     return bool(0.5 * path.sharpest[0] * longest <= kernels.ROUTE_BEND_LIMIT)
 
 
 def tightest_bend(dragon: Dragon) -> tuple[float, int]:
-    """The least radius of a bend that all can follow [m], and the bench that needs it."""
+    """The least radius of a bend that every bench can follow [m], and the bench that needs that radius."""
     bench = int(dragon.chords[: dragon.uniform_from + 1].argmax())
     return 0.5 * float(dragon.chords[bench]) / kernels.ROUTE_BEND_LIMIT, bench
 
 
-def _check_bends(dragon: Dragon, path: Route) -> None:
+def _refuse_tight_bends(dragon: Dragon, path: Route) -> None:
     """Refuse a bend that a bench cannot follow.
 
     With |curvature| chord / 2 below the limit the next handle is unique and never turns back.
@@ -267,7 +269,7 @@ def _check_bends(dragon: Dragon, path: Route) -> None:
     )
 
 
-def _earliest_place(dragon: Dragon, path: Route, tail_begin: float) -> float:
+def _earliest_place(dragon: Dragon, path: Path, tail_begin: float) -> float:
     """Where the head is when the last handle is at the beginning of the path [m].
 
     A chord spans between its own length and pi / 2 times it of the path, so the place of the head is bisected, as far
@@ -288,10 +290,7 @@ def _earliest_place(dragon: Dragon, path: Route, tail_begin: float) -> float:
             f"path is too short for the whole dragon, which takes {straight:.9g} m of it from handle 0 to handle "
             f"{dragon.benches} (more along bends), got {path.end - path.begin:.9g} m",
         )
-    while high - low > ROOM_WIDTH * (1.0 + abs(high)):
-        middle = 0.5 * (low + high)
-        low, high = (low, middle) if has_room(middle) else (middle, high)
-    return min(high, path.end)
+    return min(bisected(has_room, low, high, width=ROOM_WIDTH, relative=ROOM_WIDTH)[1], path.end)
 
 
 def _instant(time: Floats, k: int) -> str:

@@ -12,8 +12,11 @@ ROOT = Path(__file__).parent.parent
 CORE, TESTS = ROOT / "core", ROOT / "tests" / "core"
 # Modules that are tested with others, as the parts of one answer.
 TESTED_WITH = {
+    "contact/fold.py": "contact/test_first_contact.py",
     "contact/search.py": "contact/test_first_contact.py",
+    "design/ways.py": "design/test_minimum_pitch.py",
     "errors.py": "test_wrong_types.py",
+    "paths/path.py": "paths/test_route.py",
     "proof/claims.py": "proof/test_certificate.py",
     "proof/pairs.py": "proof/test_certificate.py",
     "proof/paths.py": "proof/test_dances.py",

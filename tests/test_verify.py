@@ -404,7 +404,7 @@ def test_its_bends_are_those_of_core_proof(verify: ModuleType, theta: float, cho
         for end, side in ((low, -1), (high, 1)):
             reached = end**2 + 2 * arb(theta) * (arb(theta) + end) * (1 - end.cos())
             assert side * (reached - needed) > 0
-        assert chain.bend(arb(theta), needed).overlaps(low.union(high))
+        assert chain.delta(arb(theta), needed).overlaps(low.union(high))
 
 
 def test_past_the_fold_there_is_no_bend(verify: ModuleType) -> None:

@@ -1,6 +1,7 @@
-"""Two coils of one route: from where on outwards nothing touches on them, so that no search need go on.
+"""Two coils of one route: the place from which outwards nothing touches on them, so that a search may end there.
 
-A dance through the turn, and any other that comes in along a coil and leaves along one with the same centre and pitch.
+For a dance through the turn, and any other that comes in along a coil and leaves along one with the same centre and
+pitch.
 """
 
 from __future__ import annotations
@@ -16,7 +17,7 @@ from core.kernels.constants import ALL_HALF_WIDTH, RING_ENTRIES
 from core.paths.route import Route
 from core.values import Floats
 
-# Where the rings are clear is looked for in radii that grow by this factor [1], up to this one [m].
+# The radius from which rings are clear is sought among radii that grow by this factor [1], up to this one [m].
 RADIUS_FACTOR = 1.1
 RADIUS_MAX = 1e4
 # No arc under a chord is longer by more [1].

@@ -4,10 +4,10 @@ The same model as the kernels': their doubles (growth, chords, the table of a ro
 is solved again in decimal arithmetic, starting from the kernels' own. Not for curves through waypoints, whose arc
 length is itself a quadrature.
 
-Sine, cosine and the separation are written out here, as decimal has none: with mpmath in its place, which would be one
-more requirement and spare 20 lines, the same contacts take 1.25 to 1.4 times as long (44 instead of 35 ms, measured
-2026-11-21), for its multiplications take 1 microsecond, those of decimal 0.1. python-flint would be faster, but not
-every installation has it, and two ways to one answer are one too many.
+Sine, cosine and the separation are written out here, because decimal has none. mpmath would be one more requirement and
+spare 20 lines, but the same contacts would take 1.25 to 1.4 times as long (44 instead of 35 ms, measured 2026-11-21).
+python-flint needs 0.6 microseconds for a sine with its cosine and 1.4 for an arc length, where decimal needs 21 and 26
+(measured 2026-11-22), but it is 27 MB that not every installation has, and two ways to one answer are one too many.
 """
 
 from __future__ import annotations
@@ -22,6 +22,7 @@ from core import kernels
 from core.contact.search import Search
 from core.kernels.constants import PIECE, PLACE, SPIRAL, TX, UX
 from core.paths.spiral import Spiral
+from core.sampling import falls_to_zero
 
 DIGITS = 40
 # A chord is met within this [m].
@@ -36,11 +37,11 @@ SHORTEST = 1e-13
 # A travel divided by the head speed, in doubles, and multiplied again, is within this part of it [1].
 TIME_ROUNDING = 4.0 * kernels.ULP
 TWO_PI = Decimal("6.2831853071795864769252867665590057683943387987502")
-# Pairs up to this bench are followed, a third of a millisecond for each handle and instant [1], and so many intervals
-# are tried before a proof is given up: about a second in all.
+# Last bench of the pairs that are followed, which takes a third of a millisecond for each handle and instant [1], and
+# most intervals that are tried before a proof is given up: about a second in all.
 LAST_BENCH = 60
-# A bend computed once from bounds that hold, and its product with h^2, are good to this part of them [1].
-BEND_ROUNDING = 1e-12
+# A bound on a second derivative, computed once, and its product with h^2, are good to this part of them [1].
+BOUND_ROUNDING = 1e-12
 INTERVALS_MAX = 60
 # Columns of a chain row of the kernels that belong together.
 TANGENT, LINK = slice(TX, TX + 2), slice(UX, UX + 2)
@@ -69,7 +70,7 @@ class Axis(NamedTuple):
     left: Decimal
 
 
-class Pair:
+class ExactPair:
     """Two benches of a search: where they are, and how far apart.
 
     can_follow: the path has no curve through waypoints, and the pair is not further back than LAST_BENCH
@@ -113,25 +114,9 @@ class Pair:
         """By how much the two are further apart than the margin [m]."""
         return separation(*self.benches(travel))[0] - Decimal(self.search.margin)
 
-    def crossing(self, low: Decimal, high: Decimal, above: Decimal, below: Decimal, width: Decimal) -> Decimal:
-        """Travel at which the gap falls to 0, from above at one to below at another, no earlier and within a width [m].
-
-        By the false position, halved now and then.
-        """
-        looks = 0
-        while high - low > width:
-            looks += 1
-            middle = (low + high) / 2
-            if looks % 3:  # aimed a little beyond the crossing, then before it, so that both ends come near
-                middle = low + (high - low) * above / (above - below) + (width / 3 if looks % 3 == 1 else -width / 3)
-                middle = min(max(middle, low + width / 4), high - width / 4)
-            gap = self.gap(middle)
-            low, above, high, below = (middle, gap, high, below) if gap > 0 else (low, above, middle, gap)
-        return high
-
     def stays_apart(self, start: float, stop: float) -> bool:
         """Are the two proven to be further apart than the margin from one travel to another [m]?"""
-        search, bends, margin = self.search, np.empty(2), Decimal(self.search.margin)
+        search, bounds, margin = self.search, np.empty(2), Decimal(self.search.margin)
         a, b = self.pair
         tried = 0
         while start < stop:
@@ -140,12 +125,12 @@ class Pair:
             while True:
                 slack = search.travel_rounding(start, stop)
                 place = (search.growth, search.pieces, search.place - start + slack, h + 2.0 * slack, a, b)
-                if not kernels.pair_bends(*place, search.sizes, search.rows, search.motion, bends):
+                if not kernels.pair_bends(*place, search.sizes, search.rows, search.motion, bounds):
                     return False
                 there = self.benches(Decimal(start + h))
                 axis = separation(*there)[1]
                 least = min(gap_along(*here, axis), gap_along(*there, axis)) - margin
-                if least > GAP_ROUNDING + Decimal((1.0 + BEND_ROUNDING) * bends[axis.owner] * h * h / 8.0):
+                if least > GAP_ROUNDING + Decimal((1.0 + BOUND_ROUNDING) * bounds[axis.owner] * h * h / 8.0):
                     break
                 h *= 0.5
                 tried += 1
@@ -270,15 +255,15 @@ def _cos_sin(angle: Decimal) -> Vector:
 # benches, its sign too, the gap falls below its chord by no more than K x (h - x) / 2, with the kernels' K, in as many
 # intervals as that takes. All other pairs are marched over the same stretch in doubles.
 #
-# What is said is said of times, travels over the head speed in doubles: the pair is within the margin at the true
-# travel of the later one, and apart a little beyond that of the earlier one.
+# The claims are about times, which are travels over the head speed in doubles: the pair is within the margin at the
+# true travel of the later time, and apart until a little beyond that of the earlier one.
 def narrowed(search: Search, found: dict[str, float], half: float, head_speed: float = 1.0) -> dict[str, float] | None:
     """A contact that was found in a wide bracket, in one of half width `half` [m]; None where that is not proven.
 
     found: of Search.march(): `proven`, `touching` and the pair; so is the result, with `touching` - `half` the contact
     head_speed: by which travels are divided for times [m/s]
     """
-    pair = Pair(search, (int(found["first"]), int(found["second"])))
+    pair = ExactPair(search, (int(found["first"]), int(found["second"])))
     if not pair.can_follow or not search.others_clear(pair.pair, found["proven"], found["touching"]):
         return None
     with localcontext() as context:
@@ -287,7 +272,7 @@ def narrowed(search: Search, found: dict[str, float], half: float, head_speed: f
         above, below = pair.gap(low), pair.gap(high)
         if not above > GAP_ROUNDING or not below < -GAP_ROUNDING:
             return None
-        contact = float(pair.crossing(low, high, above, below, Decimal(half) / 1000))
+        contact = float(falls_to_zero(pair.gap, low, high, above, below, Decimal(half) / 1000))
         clear, touching = contact - half, contact + half
         later = Decimal(touching / head_speed) * Decimal(head_speed)
         beyond = clear + abs(clear) * TIME_ROUNDING

@@ -5,7 +5,6 @@ The proof of a march is written above the loops that carry it out: `core/kernels
 
 from __future__ import annotations
 
-import heapq
 import math
 from functools import cached_property
 
@@ -13,12 +12,10 @@ import numpy as np
 
 from core import kernels
 from core.contact.coils import two_coils, way_out
-from core.dance import RunEnd
 from core.dragon import Dragon
 from core.kernels.constants import (
     ALL_RADIUS,
     EDGES_PER_WORK,
-    ERROR,
     LEFT_OUT,
     LEFT_OUT_TOO,
     RING_CLEAR,
@@ -28,6 +25,7 @@ from core.kernels.constants import (
 )
 from core.paths.route import Route
 from core.paths.spiral import Spiral
+from core.sampling import bisected
 from core.values import Floats
 
 MARGIN_MAX = 1e4  # [m]
@@ -36,7 +34,7 @@ MARGIN_MAX = 1e4  # [m]
 # takes about 5,000.
 WORK_BUDGET = 2e7
 NEAR_WORK_BUDGET = 5e6
-# A dance is sampled so many times at most [1], and with this share of the work.
+# Most samples of a dance [1], and the share of the work that they may take [1].
 SAMPLES = 20_000
 SAMPLED_SHARE = 0.1
 # Half width of the bracket around a contact [m of head travel] at head speeds of 1 m/s and more, and the least that
@@ -52,20 +50,13 @@ BRACKETS_GRAZING = (4.9e-10, 5e-9, 5e-8, 5e-7, 5e-6, 5e-5)
 TRAVEL_ROUNDING = 2e-15
 # The last stretch before a fold, where handle speeds grow without bound: dismissed by a bound on the motion left [m].
 FOLD_SLIVER = 1e-9
-# What is left is cut into so many stretches at most, 0.1 to 0.3 ms each.
-FOLD_STRETCHES = 200
-# Angles at which dragons fold, and those of handles from leader to follower, are good to far less than this part [1]:
-# see _least_left().
-THETA_ROUNDING = 1e-12
-# One stretch takes as long as so much work, besides FOLD_WORK for each bench [1].
-STRETCH_WORK, FOLD_WORK = 1000.0, 20.0
-# No radius is known to be clear [m].
+# Width to which the clear radius is bisected, relative [1].
+CLEAR_WIDTH = 1e-3
+# Stands for a radius or place from which nothing is known to be clear [m].
 NO_BOUND = 1e150
-# A spiral is no route.
-NO_PIECES = np.empty((0, kernels.PIECE_COLUMNS))
-# The kernels' word for a run without a graze [m].
+# Gap that the kernels give for a run without a graze [m].
 NO_GRAZE = 1e150
-# A march leaves out no pair.
+# Stands for: a march leaves out no pair.
 NO_PAIR = (-1.0, -1.0)
 # What the ring bound may be off by, of the lengths in it [1]: at most 64 sums, products and roots, with d^2 = radius^2
 # - foot^2 at least a thousandth of radius^2 (core/kernels/rings.py), so that d is good to 2,000 u.
@@ -133,26 +124,24 @@ class Search:
         self.resize(dragon.benches if self.follows_all else min(dragon.benches, 255))
 
     def use(self, path: Spiral | Route, margin: float) -> None:
-        """Turn to another path or margin."""
+        """Search another path, or with another margin."""
         self.path, self.margin = path, margin
+        self.growth, self.pieces, self.place = path.growth, path.table, path.place
         if isinstance(path, Route):
-            self.growth, self.pieces, self.place = 1.0, path.table, 0.0
             self.clear_radius = NO_BOUND
             self.ring[RING_PLACE], self.ring[RING_END] = self._clear_places(path)
         else:
-            self.growth, self.pieces, self.place = path.growth, NO_PIECES, path.length
             self.clear_radius = self._clear_radius(path.growth)
         self.ring[RING_CLEAR] = self.clear_radius
 
     def clear_beyond(self, radius: float) -> None:
-        """Take a radius for the clear_radius, from which another bound exceeds the margin on the spiral used [m]."""
+        """Set clear_radius to a radius from which another bound exceeds the margin on this spiral [m]."""
         self.clear_radius = self.ring[RING_CLEAR] = radius * (1.0 + kernels.CLEAR_SPARE)
 
     def travel_rounding(self, *travels: float) -> float:
         """What travels up to these may be off by, in the kernels and as times [m]."""
-        if isinstance(self.path, Route):
-            return self.path.slide + TRAVEL_ROUNDING * max(map(abs, travels))
-        return TRAVEL_ROUNDING * max(self.place, *(self.place - travel for travel in travels), *map(abs, travels))
+        furthest = max(self.place, *(self.place - travel for travel in travels), *map(abs, travels))
+        return self.path.slide + TRAVEL_ROUNDING * furthest
 
     def resize(self, benches: int) -> None:
         """Room for so many leading benches, and the edges at rest after the row of the last handle."""
@@ -189,7 +178,7 @@ class Search:
         return float(self.room * (1.0 + len(self.edges) / EDGES_PER_WORK))
 
     def samples(self, span: float, step: float) -> int:
-        """How many instants to look at over a span [m]: a step apart [m], or as many as the work allows."""
+        """Number of samples over a span [m]: a step apart [m], or fewer where the work allows no more."""
         affordable = min(float(SAMPLES), SAMPLED_SHARE * min(self.work, self.budget.left) / self._step_work)
         return max(3, int(min(3.0 + span / step, affordable)))
 
@@ -211,12 +200,12 @@ class Search:
 
     @property
     def follows_all(self) -> bool:
-        """Must a march follow all benches: on a route that says of none that it is out of reach?"""
+        """Must a march follow all benches? Yes on a route that does not say which ones are out of reach."""
         return isinstance(self.path, Route) and float(self.ring[RING_PLACE]) >= NO_BOUND
 
     def _clear_radius(self, growth: float) -> float:
-        """The least radius, within 1e-3, from which the ring bound exceeds the margin, and CLEAR_SPARE more, so that a
-        handle which is computed to be there is; 1e150 if none."""
+        """The least radius, within CLEAR_WIDTH, from which the ring bound exceeds the margin, and CLEAR_SPARE more, so
+        that a handle which is computed to be there is; NO_BOUND if none."""
 
         def clear(radius: float) -> bool:
             least = float(kernels.ring_least(growth, growth, radius, *self.ring_extremes))
@@ -227,11 +216,7 @@ class Search:
             high *= 4.0
             if high > 1e9:
                 return NO_BOUND
-        low = 0.0
-        while high - low > 1e-3 * high:
-            middle = 0.5 * (low + high)
-            low, high = (low, middle) if clear(middle) else (middle, high)
-        return float(high * (1.0 + kernels.CLEAR_SPARE))
+        return bisected(clear, 0.0, high, relative=CLEAR_WIDTH)[1] * (1.0 + float(kernels.CLEAR_SPARE))
 
     def _clear_places(self, path: Route) -> tuple[float, float]:
         """RING_PLACE and RING_END of the kernels [m]: 1e150 and -1e150 if not known, or where edges at rest may lie
@@ -271,17 +256,16 @@ class Search:
         """kernels.march from start, or from where the ring bound ends, to stop [m of travel]: state, result by name.
 
         opening: nothing before the start was cleared, so all pairs are followed until the body repeats itself
-        The way marched begins and ends beyond both by what a travel may be off by, so that what is said of travels, and
-        of times, holds for the true ones.
+        The march begins earlier and ends later by the rounding of travels, so that what it claims of computed travels
+        and times holds for the true ones.
         """
         rounding, asked = self.travel_rounding(start, stop), (start, stop)
         start -= rounding
-        stop = min(stop + rounding, max(stop, self.place)) if isinstance(self.path, Spiral) else stop + rounding
-        if isinstance(self.path, Spiral):
-            clear_until = self.travel_at(self.clear_radius / self.growth) if self.clear_radius < NO_BOUND else start
-            if clear_until > start:
-                opening = False
-                start = max(start, clear_until - rounding)
+        stop = min(stop + rounding, max(stop, self.path.limit))
+        clear_until = self.travel_at(self.clear_radius / self.growth) if self.clear_radius < NO_BOUND else start
+        if clear_until > start:
+            opening = False
+            start = max(start, clear_until - rounding)
         nothing = self.dragon.benches < 3 and not len(self.edges)
         if nothing or (start >= stop and not opening):
             return "reached", dict.fromkeys(kernels.MARCH_FIELDS, 0.0) | {"proven": asked[1], "graze_gap": NO_GRAZE}
@@ -327,7 +311,7 @@ class Search:
 
     @staticmethod
     def last_travel(until: float, to_fold: bool) -> float:
-        """How far to march for a run until a travel [m]: short of a fold by a sliver, see clear_to_fold()."""
+        """How far to march for a run until a travel [m]: short of a fold by a sliver, see core/contact/fold.py."""
         return until - (FOLD_SLIVER + 5e2 * TRAVEL_ROUNDING * until if to_fold else 0.0)
 
     def approach(self, begin: float, until: float, head_speed: float) -> tuple[str, dict[str, float], float]:
@@ -424,11 +408,6 @@ class Search:
             )
         )
 
-    def clear_to_fold(self, travel: float, end: RunEnd) -> bool:
-        """Do all pairs stay further apart than the margin from a travel [m] to the fold?"""
-        least = self.least_to_fold(travel, end)
-        return least is not None and least > self.margin
-
     def gap_rounding(self, travel: float, within: float) -> float:
         """What gaps of up to `within` [m] may be off by after a travel, see core/kernels/pairs.py [m]."""
         self.place_leaders(travel, self.room)
@@ -436,109 +415,3 @@ class Search:
         error, sway = self.rows[0, : self.room, kernels.ERROR].max(), self.rows[0, : self.room, kernels.SWAY].max()
         reach = 4.0 * float(self.ring[ALL_RADIUS]) + within
         return float(2.0 * (2.0 * error + (2.0 * sway + 50.0 * kernels.ULP) * reach))
-
-    # Towards the fold handles move as the square root of what is left of the travel, so a stretch whose bound is too
-    # low is split where a quarter of it is left: about half of its motion lies on each side. Its bound holds for both.
-    def least_to_fold(self, travel: float, end: RunEnd) -> float | None:
-        """No two benches come nearer than this, or than the margin, from a travel to the fold [m]; None: not known.
-
-        By FOLD_STRETCHES at most, or until the bound exceeds the margin.
-        """
-        assert end.theta is not None
-        if self.dragon.benches < 3:
-            return NO_GRAZE
-        travel, last = travel - self.travel_rounding(travel), self.travel_at(end.theta)
-        stretches = [(self._least_left(travel, end.theta), travel, last)]
-        while stretches[0][0] <= self.margin and len(stretches) < FOLD_STRETCHES:
-            least, start, stop = heapq.heappop(stretches)
-            middle = stop - 0.25 * (stop - start)
-            ends = (
-                (start, middle, self.theta_at(middle)),
-                (middle, stop, end.theta if stop == last else self.theta_at(stop)),
-            )
-            for begin, until, theta in ends:
-                heapq.heappush(stretches, (max(least, self._least_left(begin, theta)), begin, until))
-        least = stretches[0][0]
-        return least if least > -NO_BOUND else None
-
-    # From a travel to a later one handle 0 stands in [low_0, high_0] = [theta then, theta now]. Follower and leader
-    # differ by delta(theta), which falls with theta (spiral.py), so handle k + 1 stands in
-    #     [low_k + delta(high_k), high_k + delta(low_k)],
-    # and where the curvature at low_k times half the chord is at most BEND_LIMIT (chord lemma, bounds.py) in
-    #     [low_k + delta(low_k), high_k + delta(high_k)],
-    # as the follower then moves in the direction of its leader. It goes no further than its leader there (Vogt), so
-    # once this holds for all chords that follow, no handle behind moves further than that one. A handle moves by no
-    # more than D_k, the arc between the ends of its interval. A bench (front handle a, rear handle b, chord c) turns by
-    #     turn = min((D_a + D_b) / c, k (D_a + D_b) / 2)
-    # at most, the second under the lemma, which bounds omega by k (a' + b') / 2 there; and a point of it, beyond a
-    # handle by o at most and sideways by w / 2, moves by no more than
-    #     max(D_a, D_b) + (o + w / 2) turn.
-    # Where delta folds for low_k, or rounds to a fold, the delta of the fold itself takes its place, which is larger.
-    #
-    # Rounding. Stretches meet at the same computed theta, so that they leave no gap; the first one begins before its
-    # travel by what that may be off by, and every interval is wider at both ends by w = THETA_ROUNDING of theta. That
-    # covers delta, near the fold too. A computed delta is the root for a chord^2 = f that is off by 14 u f (spiral.py).
-    # Where theta f_theta >= 0.03 f, that is a theta off by less than 500 u, far less than w. Else 4 theta (theta +
-    # delta) s^2 < 0.03 f, s = sin(delta / 2), and delta^2 > 0.97 f; up to delta = pi f_delta / 2 >= delta, and from
-    # there to the crest s >= 0.64 and theta (theta + delta) |sin delta| <= 2 theta (theta + delta) s <= 0.12 delta, so
-    # f_delta / 2 >= 0.88 delta: delta is off by 9 u of itself, far less than w again. The arcs, widened by growth w
-    # theta sqrt(1 + theta^2), and what follows from them are products and sums of terms >= 0. Gaps are good to
-    # gap_rounding(): that grows with a gap by far less than the gap itself, so it need only reach as far as any pair
-    # that can be the least.
-    def _least_left(self, travel: float, theta: float) -> float:
-        """No two benches come nearer than this, or than the margin, from a travel until the head is at theta [m].
-
-        Every pair's gap after that travel, less what both can still move, each bench by its own sizes; -NO_BOUND where
-        a bench that has no place in rows[0] could come near one that leads a pair.
-        """
-        self.spend(STRETCH_WORK + FOLD_WORK * self.room)
-        gap, _ = self.clearance(travel)
-        arcs, moved = self.moved_until(theta)
-        reached = 2.0 * float(moved.max())
-        rounding = self.gap_rounding(travel, min(gap, NO_BOUND) + reached)
-        arcs += self.rows[0, self.room - 1, ERROR]
-        radii = self.growth * self.rows[0, : self.room + 1, 4]
-        outside = np.flatnonzero(radii[:-1] - arcs[:-1] >= self.clear_radius)
-        leaders = int(outside[0]) if outside.size else self.room
-        if self.room < self.dragon.benches:
-            reach = (self.growth * theta * (1.0 - THETA_ROUNDING), float(radii[leaders] + arcs[leaders]), self.ring)
-            reach = kernels.leaders_reach(self.growth, *reach) + self.margin
-            if radii[-1] - arcs[-1] < kernels.radius_beyond(self.growth, reach, self.ring):
-                return -NO_BOUND
-        least = gap - reached
-        if least <= self.margin:
-            least = kernels.clearance_left(leaders, self.room, self.sizes, self.rows[0], moved)
-        return float(least) - rounding
-
-    def moved_until(self, theta: float) -> tuple[Floats, Floats]:
-        """How far each handle in rows[0], and any point of each bench, moves until the head is at theta at most [m]."""
-        growth, benches = self.growth, self.room
-        chords = self.sizes[:benches, 0]
-        longest_behind = np.maximum.accumulate(chords[::-1])[::-1].tolist()
-        low, high = theta * (1.0 - THETA_ROUNDING), float(self.rows[0, 0, 4]) * (1.0 + THETA_ROUNDING)
-        arcs, bends = np.empty(benches + 1), np.full(benches, NO_BOUND)
-        for k in range(benches + 1):
-            arcs[k] = growth * (high - low) * math.hypot(1.0, high)
-            if k == benches:
-                break
-            curvature = kernels.spiral_curvature(low) / growth
-            if 0.5 * curvature * longest_behind[k] <= kernels.BEND_LIMIT:
-                arcs[k:], bends[k:] = arcs[k], curvature
-                break
-            inner, outer = self._deltas(low, high, float(chords[k]))
-            if 0.5 * curvature * chords[k] <= kernels.BEND_LIMIT:
-                inner, outer, bends[k] = outer, inner, curvature
-            low, high = (low + inner) * (1.0 - THETA_ROUNDING), (high + outer) * (1.0 + THETA_ROUNDING)
-        both = arcs[:-1] + arcs[1:]
-        turned = both * np.minimum(1.0 / chords, 0.5 * bends)
-        over = self.sizes[:benches, 1] - 0.5 * chords + self.sizes[:benches, 2]
-        return arcs, np.maximum(arcs[:-1], arcs[1:]) + over * turned
-
-    def _deltas(self, low: float, high: float, chord: float) -> tuple[float, float]:
-        """delta of a follower whose leader stands at high, and at low [rad]; where there is none, that of the fold."""
-        chord2 = (chord / self.growth) ** 2
-        inner, outer = (float(kernels.first_root(theta, chord2)) for theta in (high, low))
-        if min(inner, outer) < 0.0:
-            fold = float(kernels.first_crest(kernels.fold_theta(chord2)))
-            inner, outer = (fold if delta < 0.0 else delta for delta in (inner, outer))
-        return inner, outer

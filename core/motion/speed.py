@@ -10,7 +10,7 @@ from core import kernels
 from core.contact.search import Search
 from core.dance import HEAD_SPEED_MAX, HEAD_SPEED_MIN, TIME_MAX, Dance
 from core.errors import InvalidValue, said
-from core.paths.route import Route
+from core.sampling import bisected
 from core.shown import Shown
 from core.values import checked_number, checked_type
 
@@ -18,7 +18,7 @@ from core.values import checked_number, checked_type
 RATE_TOLERANCE = 1e-9
 # Rates are first sampled in steps of this part of the longest chord [1] ...
 SAMPLE_STEP = 0.5
-# ... or in as many as take so many links of chains, on ways of many kilometres [1].
+# ... or, on ways of many kilometres, in as many steps as take so many links of chains [1].
 SAMPLED_LINKS = 1_000_000
 SAMPLES_MIN = 16
 # The tolerance grows fourfold after so many links of chains, 15 to 250 ms, so that nearly equal peaks of many handles
@@ -37,9 +37,9 @@ SPEED_PROVEN = 1e-6
 # travel is good to: TRAVEL_WIDTH of the longest one [1].
 EXCESS_WIDTH = 5e-10
 TRAVEL_WIDTH = 1e-14
-# And given up after so many links of chains: about a second.
+# The search for it is given up after so many links of chains: about a second.
 EXCESS_LINKS = 1_000_000
-# Then instants are tried ever nearer to the end of the stretch, where the fold may be: so many, each at half the
+# After that, so many instants are tried ever nearer to the end of the stretch, where the fold may be: each at half the
 # distance of the one before.
 HALVINGS = 50
 # Outcomes of kernels.first_excess().
@@ -143,9 +143,7 @@ def peak_over(search: Search, begin: float, until: float) -> tuple[float, float,
 
 def _calm(search: Search) -> float:
     """What kernels.peak_rate needs to leave out handles that are no faster than those before them."""
-    if isinstance(search.path, Route):
-        return 1.0 if search.path.calm_beginning else 0.0
-    return search.growth * search.path.gentle_theta(2.0 * kernels.BEND_LIMIT / search.extremes[0])
+    return search.path.calm(2.0 * kernels.BEND_LIMIT / search.extremes[0])
 
 
 def maximum_head_speed(
@@ -223,7 +221,7 @@ def _excess(
 
 
 def _late_excess(search: Search, ratio: float, head_speed: float, proven: float, until: float) -> FirstExcess:
-    """Some excess between where a proof was given up and the end [s], looked for ever nearer to that."""
+    """Some excess between the time where a proof was given up and the end [s], sought ever nearer to the end."""
 
     def faster(time: float) -> int | None:
         """A handle that is faster than the limit at an instant for certain."""
@@ -235,8 +233,7 @@ def _late_excess(search: Search, ratio: float, head_speed: float, proven: float,
     if high is None:
         return FirstExcess(None, (proven, until), None)
     low = max([proven, *(time for time in times if time < high)])
-    while low < (middle := 0.5 * (low + high)) < high:
-        low, high = (low, middle) if faster(middle) is not None else (middle, high)
+    low, high = bisected(lambda time: faster(time) is not None, low, high)
     return FirstExcess(high, (proven, high), faster(high))
 
 

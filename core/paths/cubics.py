@@ -103,14 +103,14 @@ def _curvatures(coefficients: Floats, ends: Floats) -> tuple[Floats, Floats, Flo
     # In u = t / end, which does not change curvatures.
     _, c1, c2, c3 = np.moveaxis(coefficients * ends[:, None, None] ** np.arange(4)[:, None], 1, 0)
     first, second = np.stack([c1, 2 * c2, 3 * c3], axis=1), np.stack([2 * c2, 6 * c3], axis=1)
-    turn = (_product(first[..., 0], second[..., 1]) - _product(first[..., 1], second[..., 0]))[:, :3]
+    cross = (_product(first[..., 0], second[..., 1]) - _product(first[..., 1], second[..., 0]))[:, :3]
     fast = _product(first[..., 0], first[..., 0]) + _product(first[..., 1], first[..., 1])
-    change = _bernstein(_product(_derivative(turn), fast) - 1.5 * _product(turn, _derivative(fast)))
+    change = _bernstein(_product(_derivative(cross), fast) - 1.5 * _product(cross, _derivative(fast)))
     speeds = _bernstein(fast)
     slowest = speeds.min(axis=1)
     moves = slowest > SPEED_ROUNDING * speeds.max(axis=1)
     slowest[~moves], fast[~moves] = 1.0, np.eye(1, 5)  # these are cut in any case
-    k0, k1 = turn[:, 0] / fast[:, 0] ** 1.5, turn.sum(axis=1) / fast.sum(axis=1) ** 1.5
+    k0, k1 = cross[:, 0] / fast[:, 0] ** 1.5, cross.sum(axis=1) / fast.sum(axis=1) ** 1.5
     least, most = change.min(axis=1) / slowest**2.5, change.max(axis=1) / slowest**2.5
     monotonic = (least >= 0.0) | (most <= 0.0)
     span = np.where(monotonic, 1.0, most - least)

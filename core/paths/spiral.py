@@ -12,6 +12,9 @@ from functools import cached_property
 import numpy as np
 
 from core import kernels
+from core.errors import said
+from core.paths.path import HeadState
+from core.sampling import bisected
 from core.shown import TABLE_DIGITS, Shown, worded
 from core.values import Floats, checked_number, checked_size
 
@@ -49,11 +52,16 @@ class Spiral(Shown):
     # The head enters at s = 0 and may go to the centre; the tail stands on the outward extension, which has no end.
     begin = 0.0
     tail_begin = None
+    # For the kernels: no pieces, and points that are exact but for the rounding of s.
+    table = np.empty((0, kernels.PIECE_COLUMNS))
+    slide = 0.0
 
     @property
     def end(self) -> float:
         """s of the centre [m]."""
         return self.length
+
+    limit = place = end
 
     @cached_property
     def growth(self) -> float:
@@ -82,24 +90,37 @@ class Spiral(Shown):
 
         Curvature growth is (2 + theta^2) / (1 + theta^2)^(3/2), which falls and is at most 2 / theta.
         """
-        low, high = 0.0, 2.0 / (self.growth * curvature)
-        while high - low > GENTLE_WIDTH * high:
-            middle = 0.5 * (low + high)
-            bends = kernels.spiral_curvature(middle) > curvature * self.growth
-            low, high = (middle, high) if bends else (low, middle)
-        return high
+
+        def is_gentle(theta: float) -> bool:
+            return bool(kernels.spiral_curvature(theta) <= curvature * self.growth)
+
+        return bisected(is_gentle, 0.0, 2.0 / (self.growth * curvature), relative=GENTLE_WIDTH)[1]
 
     def curvature(self, s: Floats | float) -> Floats:
         """Curvature, counter-clockwise positive, so negative here. s: (...) [m]; returns (...) [1/m]."""
         square = self.theta(s) ** 2
-        bends: Floats = -(2.0 + square) / (self.growth * (1.0 + square) ** 1.5)
-        return bends
+        curvature: Floats = -(2.0 + square) / (self.growth * (1.0 + square) ** 1.5)
+        return curvature
 
     def position(self, s: Floats | float) -> Floats:
         """Points at arc length s. s: (...) [m]; returns (..., 2) x, y [m]."""
         theta = self.theta(s)
         direction: Floats = np.stack([np.cos(theta), np.sin(theta)], axis=-1)
         return direction * (self.growth * theta[..., None])
+
+    def head(self, s: float) -> HeadState:
+        """The head at arc length s [m]."""
+        theta = float(self.theta(s))
+        radius = self.growth * theta
+        return HeadState(theta, radius, radius * math.cos(theta), radius * math.sin(theta))
+
+    def calm(self, curvature: float) -> float:
+        """Radius from which outwards the spiral bends no more than this [1/m], as kernels.peak_rate() takes it [m]."""
+        return self.growth * self.gentle_theta(curvature)
+
+    def words(self) -> str:
+        """The spiral in a sentence that names all that matters for a proof."""
+        return f"a spiral of {said(self.pitch)} m pitch from {said(self.start_turns)} turns"
 
     def drawn(self, reach: float) -> Floats:
         """Points (N, 2) [m] for a picture: from the centre to the start, or further out to a radius of `reach` [m]."""

@@ -67,7 +67,7 @@ class Turn(Route):
         start, end = _angle(entry - first), _angle(middle - first)
         begin, finish = _angle(middle - second), _angle(-entry - second)
         angles = ((start - end) % (2.0 * math.pi), (finish - begin) % (2.0 * math.pi))
-        _check_arcs(radii, angles, ratio, radius, entry_radius)
+        _refuse_arcs(radii, angles, ratio, radius, entry_radius)
         here = inner / pitch
         pieces = (
             Coil(pitch, turns, here),
@@ -99,7 +99,7 @@ class Turn(Route):
         return [(name.replace("_", " "), worded(value, unit, TABLE_DIGITS)) for name, value, unit in named]
 
 
-def _check_arcs(radii: Point, angles: Point, ratio: float, radius: float, entry_radius: float | None) -> None:
+def _refuse_arcs(radii: Point, angles: Point, ratio: float, radius: float, entry_radius: float | None) -> None:
     """Refuse impossible arcs by the parameter at fault: the ratio if equal arcs would be possible."""
     shorter = min(r * angle for r, angle in zip(radii, angles, strict=True))
     if min(radii) >= SIZE_MIN and max(radii) <= SIZE_MAX and shorter >= LENGTH_MIN:

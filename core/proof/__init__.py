@@ -14,7 +14,7 @@ Four claims about a dragon, each number exactly the double given:
 
 With a margin, "touches" is "comes within the margin", and "strictly overlaps" is "is strictly nearer than the margin".
 
-Handles. With chord c, the bend d from a handle at theta to the next one, at f(theta) = theta + d, is the first
+Handles. With chord c, the angle d from a handle at theta to the next one, at f(theta) = theta + d, is the first
 root of F(theta, d) = d^2 + 2 theta (theta + d) (1 - cos d) = (c / b)^2.
   1. F_d = 2 d + 2 theta (1 - cos d) + 2 theta (theta + d) sin d > 0 for 0 < d <= pi: a root there is the first.
      A root d > pi is the first if F_d > 0 at d and F_dd = 2 + 4 theta sin d + 2 theta (theta + d) cos d < 0 on
@@ -96,13 +96,13 @@ of travel phi and the direction psi of the chord, alpha = phi - psi at the front
 
 Fold. The claim: bench k folds while the head goes from theta = M in to m, where its handle k is at t(m). (A minimum
 pitch need not prove how the dance gets to M: if a bench folds earlier, the head does not reach the circle either.)
- 12. Until bench k folds, all handles up to k follow continuously, and so does the bend d of bench k, from d1 on. Let
+ 12. Until bench k folds, all handles up to k follow continuously, and so does the angle d of bench k, from d1 on. Let
      T be above all places of handle k on the way. If F(T, D) < (c / b)^2 for some D > d1, then F(theta, D) < (c / b)^2
      for all theta <= T by 2.: d never equals D, so it stays below. If moreover F(t(m), d) < (c / b)^2 for all d in
-     [0, D], then no bend is left at m.
+     [0, D], then no root is left at m.
  13. Sweeps that cover the way of the head prove that all benches follow on it. Over a stretch F_d > 0 on the box of
-     every placed bend, so it is the first root and changes without a jump; where two stretches join it is the same
-     root. The bends further out are below pi by 5., so 1. applies to them. 6. holds for bends as for pairs. One or
+     every placed angle, so it is the first root and changes without a jump; where two stretches join it is the same
+     root. The angles further out are below pi by 5., so 1. applies to them. 6. holds for them as for pairs. One or
      two benches have no pair, but a minimum pitch has sweep 0 for them too, which proves only that they follow.
 
 A certificate holds the parameters, the stretches as [highest place, lowest place, faces], and the overlap, or the bench

@@ -14,9 +14,9 @@ from core.dance import Dance
 from core.dragon import BENCHES_MAX, Dragon
 from core.errors import InvalidValue, OutsideRun, ProofRefused, spoken
 from core.paths.spiral import Spiral
-from core.proof.claims import CollisionTime, MinimumPitch, refusing
+from core.proof.claims import CollisionTimeClaim, MinimumPitchClaim, refusing
 from core.proof.dances import Clear, Contact, last_stop
-from core.proof.members import CLAIMS, SHOWN_MOST, check_members
+from core.proof.members import CLAIMS, SHOWN_MOST, refuse_malformed
 from core.proof.paths import recorded_path
 from core.proof.sweeps import Progress, found, recorded, swept
 from core.proof.words import runs
@@ -26,7 +26,7 @@ FORMAT = "bench-dragon proof 1"
 PRECISION = 96
 
 Certificate = dict[str, Any]
-Claim = CollisionTime | MinimumPitch | Clear | Contact
+Claim = CollisionTimeClaim | MinimumPitchClaim | Clear | Contact
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,7 +57,7 @@ def prove_collision_time(
     path = dance.path
     if not isinstance(path, Spiral):
         raise InvalidValue("path", "path must be a spiral: prove_contact() takes any other")
-    claim = CollisionTime(dance.dragon, path.pitch, path.start_turns, dance.head_speed, time, margin)
+    claim = CollisionTimeClaim(dance.dragon, path.pitch, path.start_turns, dance.head_speed, time, margin)
     return _proven(claim, every_pair, progress)
 
 
@@ -77,7 +77,7 @@ def prove_minimum_pitch(
     within the circle; then the certificate proves that instead. It proves nothing about larger pitches.
     pitch, turning_radius: [m]; margin, every_pair, progress, returns, raises: as prove_collision_time()
     """
-    return _proven(MinimumPitch(dragon, pitch, start_turns, turning_radius, margin), every_pair, progress)
+    return _proven(MinimumPitchClaim(dragon, pitch, start_turns, turning_radius, margin), every_pair, progress)
 
 
 def prove_clear(
@@ -161,7 +161,7 @@ def check(certificate: Certificate, *, progress: Progress = lambda share: None) 
     stated = certificate.get("format") if isinstance(certificate, dict) else None
     if isinstance(stated, str) and stated != FORMAT:
         raise ProofRefused("format", f"the certificate's format is not {FORMAT!r}: {stated[:SHOWN_MOST]!r}")
-    check_members(certificate)
+    refuse_malformed(certificate)
     content = {name: value for name, value in certificate.items() if name != "digest"}
     if certificate["digest"] != digest(content):
         raise ProofRefused("digest", "the certificate was changed after it was made")

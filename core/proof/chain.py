@@ -1,4 +1,4 @@
-"""The dragon on its spiral in balls: bends, the chain at one exact place, and over a stretch of places."""
+"""The dragon on its spiral in balls: deltas, the chain at one exact place, and over a stretch of places."""
 
 from __future__ import annotations
 
@@ -94,7 +94,7 @@ class Chain(Follower):
         """P[bench], ..., P[n - 3] of 6., rounded up. highest: P[bench] [rad]"""
         places, theta = [highest], arb(highest)
         for needed in self.needed[bench : max(bench, self.count - 3)]:
-            theta += bend(theta, needed)
+            theta += delta(theta, needed)
             places.append(above(theta))
         return places
 
@@ -109,7 +109,7 @@ def newton(guess: arb, around: arb, value: arb, slope: arb) -> arb:
     return root
 
 
-def bend_guess(theta: float, needed: float) -> float:
+def delta_guess(theta: float, needed: float) -> float:
     """The first root of F, unverified. A long chord starts at pi: there F is concave, so Newton comes from below."""
     chord = math.sqrt(needed)
     found = 2.0 * math.asin(min(1.0, chord / (2.0 * math.sqrt(theta * theta + chord))))
@@ -132,9 +132,9 @@ def slopes(theta: arb, d: arb) -> tuple[arb, arb]:
     return (theta + outer) * rest, 2 * d + theta * (rest + 2 * outer * sine)
 
 
-def bend(theta: arb, needed: arb) -> arb:
+def delta(theta: arb, needed: arb) -> arb:
     """The first root d of F(theta, d) = needed (1.) [rad]."""
-    guess = arb(bend_guess(float(theta), float(needed)))
+    guess = arb(delta_guess(float(theta), float(needed)))
     around = guess + arb(0, GUESS_RADIUS)
     value = guess**2 + 2 * theta * (theta + guess) * (1 - guess.cos()) - needed
     found = newton(guess, around, value, slopes(theta, around)[1])
@@ -163,7 +163,7 @@ def rises_to(theta: arb, d: arb) -> bool:
 
 
 def _rises(theta: arb, start: arb, end: arb) -> bool:
-    """Whether F_d > 0 from one bend to another: by one ball, or from the middle by the mean value theorem."""
+    """Whether F_d > 0 from one delta to another: by one ball, or from the middle by the mean value theorem."""
     hull, middle = start.union(end), (start + end) / 2
     return bool(slopes(theta, hull)[1] > 0 or slopes(theta, middle)[1] + _curving(theta, hull) * (hull - middle) > 0)
 
@@ -177,14 +177,14 @@ def _curving(theta: arb, d: arb) -> arb:
 class Pose(Benches):
     """The benches from one on when its front handle is at theta, in the frame that turns with that handle.
 
-    thetas, turns [rad], points [m]: of the handles; bends: of the benches, grown one by one
+    thetas, turns [rad], points [m]: of the handles; deltas: of the benches, grown one by one
     """
 
     def __init__(self, chain: Chain, bench: int, theta: arb) -> None:
         super().__init__(chain.sizes[bench:])
         self.chain, self.bench = chain, bench
         self.thetas, self.turns, self.points = [theta], [arb(0)], [acb(chain.growth * theta)]
-        self.bends: list[arb] = []
+        self.deltas: list[arb] = []
 
     @property
     def places(self) -> list[arb]:
@@ -197,15 +197,15 @@ class Pose(Benches):
 
     def grow_to(self, count: int) -> None:
         """Place at least this number of benches, if the dragon has as many."""
-        self.grow(count - len(self.bends))
+        self.grow(count - len(self.deltas))
 
     def grow(self, benches: int = 1) -> None:
         """Place the next benches, if the dragon has more."""
-        first = self.bench + len(self.bends)
+        first = self.bench + len(self.deltas)
         for k in range(first, min(first + benches, self.chain.count)):
-            self.bends.append(bend(self.thetas[-1], self.chain.needed[k]))
-            self.thetas.append(self.thetas[-1] + self.bends[-1])
-            self.turns.append(self.turns[-1] + self.bends[-1])
+            self.deltas.append(delta(self.thetas[-1], self.chain.needed[k]))
+            self.thetas.append(self.thetas[-1] + self.deltas[-1])
+            self.turns.append(self.turns[-1] + self.deltas[-1])
             sine, cosine = self.turns[-1].sin_cos()
             radius = self.chain.growth * self.thetas[-1]
             self.points.append(acb(radius * cosine, radius * sine))
@@ -240,13 +240,13 @@ class Stretch:
         after.grow_to(k + 1)
         needed = self.chain.needed[self.bench + k]
         if self._hull:
-            bends = after.bends[k].union(before.bends[k])
+            deltas = after.deltas[k].union(before.deltas[k])
         else:
-            bends = bend(theta.upper(), needed).union(bend(theta.lower(), needed))
-        by_theta, by_bend = slopes(theta, bends)
-        if not by_bend > 0:
+            deltas = delta(theta.upper(), needed).union(delta(theta.lower(), needed))
+        by_theta, by_delta = slopes(theta, deltas)
+        if not by_delta > 0:
             raise Unproven(f"handle {self.bench + k + 1} is not enclosed")
-        rise = 1 - by_theta / by_bend
+        rise = 1 - by_theta / by_delta
         self.rates.append(self.rates[k] * rise)
         self._hull = self._hull and bool(rise > 0)
         if self._hull:

@@ -15,11 +15,12 @@ from core.dance import checked_head_speed, end_theta
 from core.dragon import Dragon
 from core.errors import ProofRefused, said
 from core.paths.spiral import Spiral
-from core.proof.chain import Chain, bend_guess
+from core.proof.chain import Chain, delta_guess
 from core.proof.fold import check_fold
 from core.proof.pairs import Unproven, above, below
 from core.proof.sweeps import AnyChain, Overlap, Progress, found, swept
 from core.proof.words import apart_words, contact_words, dragon_words, near_words
+from core.sampling import bisected
 from core.values import SIZE_MIN, checked_number, checked_size
 
 # Half the bracket around a collision time [s], and the step below a minimum pitch [m]: exact decimals, in balls.
@@ -28,12 +29,10 @@ PITCH_STEP = "1e-6"
 # A fold is proven between two places of the head, each at this relative distance from the place that doubles find [1].
 # Doubles are within 1e-12 of it; if the fold only just exists, 12. finds no wall from farther away.
 FOLD_WITHIN = (1e-9, 1e-11)
-# Halvings that give the head's theta to the last digit of a double.
-HALVINGS = 60
 
 
 @dataclass(frozen=True)
-class CollisionTime:
+class CollisionTimeClaim:
     """Nothing touches in [0, time - 1e-10], and one pair strictly overlaps at time + 1e-10 [s].
 
     margin: [m]; if positive, nothing comes within it, and one pair is strictly nearer
@@ -86,11 +85,11 @@ class CollisionTime:
 
 
 @dataclass(frozen=True)
-class MinimumPitch:
+class MinimumPitchClaim:
     """Every bench follows and nothing touches on the head's way from the start to the circle; with 1e-6 m less one pair
     overlaps on it, or one bench folds.
 
-    margin, way, find_overlap(), check_overlap(), search_share, follows: as of CollisionTime
+    margin, way, find_overlap(), check_overlap(), search_share, follows: as of CollisionTimeClaim
     """
 
     kind: ClassVar[str] = "minimum-pitch"
@@ -231,12 +230,13 @@ def check_near(chain: AnyChain, head: arb, a: int, b: int, when: str) -> None:
 
 def head_theta(chain: Chain, handle: int, theta: float, low: float, high: float) -> float:
     """Place of the head, between low and high, when a handle is at theta, approximately [rad]."""
-    for _ in range(HALVINGS if handle else 0):
-        theta_handle = middle = (low + high) / 2
+
+    def is_beyond(theta_handle: float) -> bool:
         for needed in chain.needed[:handle]:
-            theta_handle += bend_guess(theta_handle, float(needed))
-        low, high = (low, middle) if theta_handle > theta else (middle, high)
-    return high if handle else theta
+            theta_handle += delta_guess(theta_handle, float(needed))
+        return theta_handle > theta
+
+    return bisected(is_beyond, low, high)[1] if handle else theta
 
 
 @contextmanager

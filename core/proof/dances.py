@@ -31,7 +31,7 @@ class Clear:
 
     path: as paths.py writes it; until: "stop", or the end that the run has reached END_BRACKET later: a fold, the
     centre of the spiral, the end of the route
-    way, find_overlap(), check_overlap(), search_share, follows: as of CollisionTime
+    way, find_overlap(), check_overlap(), search_share, follows: as of CollisionTimeClaim
     """
 
     kind: ClassVar[str] = "clear"
@@ -90,7 +90,7 @@ class Contact:
     """Nothing touches in [start, time - 1e-10], and one pair strictly overlaps at time + 1e-10 [s].
 
     path: as paths.py writes it; margin, way, find_overlap(), check_overlap(), search_share, follows: as of
-    CollisionTime
+    CollisionTimeClaim
     """
 
     kind: ClassVar[str] = "contact"

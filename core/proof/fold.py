@@ -9,7 +9,7 @@ from flint import arb
 from core.proof.chain import Chain, Stretch, slopes
 from core.proof.pairs import Unproven, above, below
 
-# Largest number of pieces of a bend before a fold counts as not proven; 20 to 60 are usual.
+# Largest number of pieces of an angle delta before a fold counts as not proven; 20 to 60 are usual.
 FOLD_PIECES = 10_000
 # Search for the wall of 12.: its steps and its reach [rad]. If a fold only just exists, F falls only over a short
 # distance.
@@ -25,7 +25,7 @@ def folding(chain: Chain, before: arb, after: arb) -> int:
     try:
         pose.grow(chain.count)
     except Unproven:
-        bench = len(pose.bends)
+        bench = len(pose.deltas)
     else:
         raise Unproven("every bench is shown to follow past the end that is claimed")
     check_fold(chain, bench, before, after)
@@ -48,8 +48,8 @@ def check_fold(chain: Chain, bench: int, before: arb, after: arb) -> None:
     needed, lowest = chain.needed[bench], pose.thetas[bench]
     start = chain.pose_at(0, before)
     start.grow(bench + 1)
-    wall = _wall(float(lowest), float(start.bends[bench]))
-    if not (start.bends[bench] < wall and _moved(highest, arb(wall)) < needed):
+    wall = _wall(float(lowest), float(start.deltas[bench]))
+    if not (start.deltas[bench] < wall and _moved(highest, arb(wall)) < needed):
         raise Unproven(f"no wall is found behind bench {bench}")
     if not _stays_short(lowest, wall, needed):
         raise Unproven(f"bench {bench} is not shown to fold")
@@ -70,7 +70,7 @@ def _wall(theta: float, d: float) -> float:
                 return wall
             falls = falls or slope < 0.0
             wall += step
-    raise Unproven("bends of every size are possible")
+    raise Unproven("angles of every size are possible")
 
 
 def _stays_short(theta: arb, wall: float, needed: arb) -> bool:

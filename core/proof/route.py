@@ -10,7 +10,7 @@ from flint import acb, arb
 
 from core.dragon import Dragon
 from core.errors import said
-from core.proof.chain import GUESS_RADIUS, POSES_KEPT, Follower, bend, newton
+from core.proof.chain import GUESS_RADIUS, POSES_KEPT, Follower, delta, newton
 from core.proof.pairs import Benches, Unproven, above
 
 # Newton steps towards a guess in doubles: each doubles the digits.
@@ -57,7 +57,7 @@ class Piece:
         """-ds / dt at a parameter [m]."""
         return arb(1)
 
-    def bends(self, t: arb) -> arb:
+    def curvature_at(self, t: arb) -> arb:
         """The curvature at a parameter [1/m]."""
         return self.curvature
 
@@ -126,13 +126,13 @@ class Coil(Piece):
     def slope(self, t: arb) -> arb:
         return self.growth * (1 + t**2).sqrt()
 
-    def bends(self, t: arb) -> arb:
+    def curvature_at(self, t: arb) -> arb:
         square = 1 + self._theta(t) ** 2
         size = (square + 1) / (square * square.sqrt()) / self.growth
         return -size if self.inwards else size
 
     def behind(self, t: arb, chord: arb) -> arb:
-        return t + bend(t, (chord / self.growth) ** 2)
+        return t + delta(t, (chord / self.growth) ** 2)
 
 
 class Path:
@@ -180,10 +180,10 @@ class Path:
 
     def curvature(self, front: tuple[Piece, arb], rear: tuple[Piece, arb]) -> tuple[arb, arb]:
         """Lower and upper bound of the curvature from a place back to another one [1/m]."""
-        found = [front[0].bends(front[1]), rear[0].bends(rear[1])]
+        found = [front[0].curvature_at(front[1]), rear[0].curvature_at(rear[1])]
         for k in range(rear[0].index + 1, front[0].index + 1):
             start, end = self.ends(k)
-            found += [self.pieces[k].bends(start), self.pieces[k - 1].bends(end)]
+            found += [self.pieces[k].curvature_at(start), self.pieces[k - 1].curvature_at(end)]
         hull = found[0]
         for other in found[1:]:
             hull = hull.union(other)
@@ -284,7 +284,10 @@ class RouteChain(Follower):
         """
         first, (piece, t) = self.path.pieces[0], handle
         if not (
-            isinstance(first, Coil) and first.inwards and piece is first and abs(first.bends(t)) * self.longest < 2
+            isinstance(first, Coil)
+            and first.inwards
+            and piece is first
+            and abs(first.curvature_at(t)) * self.longest < 2
         ):
             return None
         inner = (first.growth * t.lower()) ** 2 - arb(self.longest) ** 2 / 4

@@ -41,8 +41,8 @@ class RouteStretch:
         after, before = self.ends
         chord, front, rear, speed = after.sizes[k].chord, after.handles[k], before.handles[k + 1], self.speeds[k]
         if front[0] is rear[0] and not isinstance(front[0], Coil):
-            bend = front[0].curvature
-            self.placed.append((acb(speed * (1 - (bend * chord / 2) ** 2).sqrt()), speed * bend))
+            curvature = front[0].curvature
+            self.placed.append((acb(speed * (1 - (curvature * chord / 2) ** 2).sqrt()), speed * curvature))
             self.speeds.append(speed)
             return
         low, high = self.chain.path.curvature(front, rear)
@@ -56,7 +56,7 @@ class RouteStretch:
         self.placed.append((speed * acb(cosine, (sine + across) / 2), speed * (sine - across) / chord))
         self.speeds.append(speed * ratio)
 
-    def _from_ends(self, k: int, alpha: arb, bend: arb) -> tuple[arb, arb]:
+    def _from_ends(self, k: int, alpha: arb, curvature: arb) -> tuple[arb, arb]:
         """alpha and beta of bench k, also enclosed from their values at both ends (8.)."""
         after, before = self.ends
         half_way = (before.places[k] - after.places[k]) / 2
@@ -67,7 +67,11 @@ class RouteStretch:
         turning = (alpha.sin() - ratio * (-alpha).sin()) / after.sizes[k].chord
         found = []
         for last, first, wide, rate in zip(
-            after.angles(k), before.angles(k), (alpha, -alpha), (bend - turning, ratio * bend - turning), strict=True
+            after.angles(k),
+            before.angles(k),
+            (alpha, -alpha),
+            (curvature - turning, ratio * curvature - turning),
+            strict=True,
         ):
             near = first.union(last) + arb(0, 1) * abs(rate).upper() * half_way
             found.append(near.intersection(wide))

@@ -26,7 +26,7 @@ from core import (
     trajectory,
 )
 from core.contact.search import Search
-from core.design.minimum_pitch import _PitchSearch
+from core.design.ways import Ways
 from core.kernels.constants import CLIMB, CLIMB_ERROR, ERROR, RATE, RATE_ERROR
 from core.motion.speed import EXCEEDED, SPEED_ROUNDING, _excess
 from tests.core.exact_chain import BITS, middle, next_delta, separation, spiral_place
@@ -267,18 +267,16 @@ def test_a_speed_that_is_said_to_exceed_a_limit_does(seed: int) -> None:
 def test_a_pitch_at_which_rounding_hides_whether_benches_graze_is_not_called_infeasible() -> None:
     """Pitches around that at which benches 0 and 19 graze by the doubles, nearer than gaps are proven good to."""
     dragon, found = Dragon(60), minimum_pitch(Dragon(60))
-    search = _PitchSearch(dragon, 4.5, 16.0, 0.0)
-    search.strips.graze = found.benches, found.head_radius
+    ways = Ways(dragon, 4.5, 16.0, 0.0)
+    ways.bands.graze = found.benches, found.head_radius
     low, high = found.pitch_bracket
     while low < (middle := 0.5 * (low + high)) < high:
-        low, high = (
-            (middle, high) if search.strips.dip(middle, *reversed(search.strips.graze))[0] <= 0.0 else (low, middle)
-        )
+        low, high = (middle, high) if ways.bands.dip(middle, *reversed(ways.bands.graze))[0] <= 0.0 else (low, middle)
     said = []
     for pitch in np.concatenate([high + NEAR * np.linspace(-4.0, 4.0, 41), found.pitch_bracket]).tolist():
-        said.append(search.grazes(pitch))
-        gap, radius = search.strips.dip(pitch, *reversed(search.strips.graze))
-        travel = search.search.travel_at(radius / search.search.growth)
+        said.append(ways.grazes(pitch))
+        gap, radius = ways.bands.dip(pitch, *reversed(ways.bands.graze))
+        travel = ways.search.travel_at(radius / ways.search.growth)
         exact = exact_gap(dragon, Spiral(pitch), travel, 1.0, found.benches)
         assert abs(exact - gap) <= NEAR
         assert not said[-1] or exact <= 0.0

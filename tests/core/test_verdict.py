@@ -16,6 +16,7 @@ from hypothesis import strategies as st
 import core.motion.speed
 from core import (
     Arc,
+    Area,
     Coil,
     Dance,
     Dragon,
@@ -50,18 +51,17 @@ REFERENCE_ERROR = 1e-9  # [m], [m/s], [s]
 EXCESS_ERROR = 1e-9  # [s]: a first excess is bracketed so closely at 1 m/s and more
 
 TURN = Turn(1.7)
-SQUARE = Venue.from_geojson(
-    {"type": "Polygon", "coordinates": [[[-30, -30], [30, -30], [30, 30], [-30, 30], [-30, -30]]]}
-)
 
 
-def box(name: str, x: float, y: float, right: float, top: float) -> dict:
-    ring = [[x, y], [right, y], [right, top], [x, top], [x, y]]
-    return {"type": "Feature", "properties": {"name": name}, "geometry": {"type": "Polygon", "coordinates": [ring]}}
+def box(name: str, x: float, y: float, right: float, top: float) -> Area:
+    return Area(name, (((x, y), (right, y), (right, top), (x, top), (x, y)),))
 
 
-def venue(*boxes: dict) -> Venue:
-    return Venue.from_geojson({"type": "FeatureCollection", "features": list(boxes)})
+def venue(square: Area, *obstacles: Area) -> Venue:
+    return Venue(square, obstacles)
+
+
+SQUARE = venue(box("square", -30, -30, 30, 30))
 
 
 # -- the verdict ---------------------------------------------------------------------------------------------

@@ -11,7 +11,7 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from core import Dance, Dragon, Outcome, Route, Spiral, Turn, Waypoints, first_contact, minimum_pitch, separation
-from core.contact.near_graze import DIGITS, LAST_BENCH, Bench, Pair, gap_along, narrowed
+from core.contact.near_graze import DIGITS, LAST_BENCH, Bench, ExactPair, gap_along, narrowed
 from core.contact.near_graze import separation as precise_separation
 from core.contact.search import Search
 
@@ -22,10 +22,10 @@ BRACKET = 1e-9  # [s]
 TURN = Turn(1.7)
 
 
-def pair_of(path: Spiral | Route, pair: tuple[int, int]) -> Pair:
+def pair_of(path: Spiral | Route, pair: tuple[int, int]) -> ExactPair:
     search = Search(Dragon(60), path, 0.0)
     search.resize(60)
-    return Pair(search, pair)
+    return ExactPair(search, pair)
 
 
 @pytest.mark.parametrize(

@@ -12,7 +12,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.optimize import brentq
 
-import core.design.minimum_pitch
+import core.design.ways
 from core import (
     Dance,
     Dragon,
@@ -173,7 +173,7 @@ def test_a_short_dragon_is_proven_up_from_its_start_whatever_bounds_hold_at_lowe
         assert is_feasible(dragon, pitch, 1.32, 10.0, 0.29)
 
 
-def test_benches_far_across_the_circle_are_proven_by_strips_too() -> None:
+def test_benches_far_across_the_circle_are_proven_by_bands_too() -> None:
     found = minimum_pitch(Dragon(20), turning_radius=1.5, start_turns=12.0)
     assert (found.justified_by, found.limited_by, found.scan_step) == ("bound", LimitedBy.CIRCLE, None)
     assert is_feasible(Dragon(20), found.pitch + BESIDE, 1.5, 12.0, 0.0)
@@ -389,7 +389,7 @@ def test_work_that_ends_before_the_minimum_pitch_is_found_is_an_error() -> None:
 def test_the_shortest_bench_is_named_where_the_work_ends(
     dragon: Dragon, field: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(core.design.minimum_pitch, "PITCH_WORK", 1e2)
+    monkeypatch.setattr(core.design.ways, "PITCH_WORK", 1e2)
     with pytest.raises(TooMuchWork) as caught:
         minimum_pitch(dragon)
     assert caught.value.field == field

@@ -1,4 +1,4 @@
-"""Strips: bounds on the shift with the pitch against difference quotients, proofs against samples and the reference."""
+"""Bands: bounds on the shift with the pitch against difference quotients, proofs against samples and the reference."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ import pytest
 
 from core import Dragon, Spiral, kernels
 from core.contact.search import Search
-from core.design.pitch_bands import Strips
+from core.design.pitch_bands import Bands
 from core.values import Floats
 
 CASES = json.loads((Path(__file__).parents[2] / "reference" / "minimum_pitch.json").read_text())["cases"]
@@ -48,7 +48,7 @@ def corners(dragon: Dragon, rows: Floats) -> Floats:
     )
 
 
-def random_strips(seed: int) -> tuple[Strips, float, float]:
+def random_bands(seed: int) -> tuple[Bands, float, float]:
     """A random dragon and circle, and two pitches at which there may or may not be room."""
     rng = np.random.default_rng(seed)
     chord = 10 ** rng.uniform(-0.3, 0.5)
@@ -59,17 +59,17 @@ def random_strips(seed: int) -> tuple[Strips, float, float]:
     radius, turns = chords.max() * rng.uniform(0.7, 4.0), rng.uniform(5.0, 20.0)
     margin = rng.choice([0.0, 0.2 * chord])
     high = min(10 ** rng.uniform(0.1, 0.9) * (width + margin), 3.0 * chords.min())
-    strips = Strips(Search(dragon, Spiral(high, turns), margin), radius, turns, margin)
-    return strips, high / (1.0 + 10 ** rng.uniform(-3.5, -0.5)), high
+    bands = Bands(Search(dragon, Spiral(high, turns), margin), radius, turns, margin)
+    return bands, high / (1.0 + 10 ** rng.uniform(-3.5, -0.5)), high
 
 
 @pytest.mark.parametrize("seed", range(40))
 def test_no_bench_shifts_faster_with_the_growth_than_its_bounds(seed: int) -> None:
-    """At random growths within a strip, in one short step at a random radius."""
-    strips, low, high = random_strips(seed)
-    search, rng = strips.search, np.random.default_rng(seed)
+    """At random growths within a band, in one short step at a random radius."""
+    bands, low, high = random_bands(seed)
+    search, rng = bands.search, np.random.default_rng(seed)
     low, high = low / (2 * math.pi), high / (2 * math.pi)
-    inner = strips.radius * rng.uniform(1.0, 2.0)
+    inner = bands.radius * rng.uniform(1.0, 2.0)
     outer = inner * (1.0 + 1e-6)
     leaders, benches = min(search.dragon.uniform_from + 1, search.dragon.benches), search.dragon.benches
     out = np.empty(32)
@@ -87,14 +87,14 @@ def test_no_bench_shifts_faster_with_the_growth_than_its_bounds(seed: int) -> No
         benches,
         search.ring,
         search.sizes,
-        strips.rows,
-        strips.motions,
-        strips.shifts,
+        bands.rows,
+        bands.motions,
+        bands.shifts,
         out,
     )
     assert kernels.MARCH_STATES[state] == "reached"
     assert out[4] == 1.0  # one step, whose bounds are there still
-    moved = int(np.count_nonzero(strips.shifts[:, 0]))
+    moved = int(np.count_nonzero(bands.shifts[:, 0]))
     assert moved > 2
     for growth in rng.uniform(low, high, 8):
         step = STEP * growth
@@ -110,7 +110,7 @@ def test_no_bench_shifts_faster_with_the_growth_than_its_bounds(seed: int) -> No
         pull = np.linalg.norm(places[2] - 2 * places[1] + places[0], axis=-1).max(-1) / step**2
         heading = np.unwrap(np.arctan2(rows[:, :, 9], rows[:, :, 8]), axis=0)
         turn = np.abs(heading[2] - heading[0]) / (2 * step)
-        bounds = strips.shifts[:moved]
+        bounds = bands.shifts[:moved]
         rounding = ROUNDING / step
         assert (centre <= bounds[:, 0] * slack + rounding).all()
         assert (corner <= bounds[:, 1] * slack + rounding).all()
@@ -119,42 +119,42 @@ def test_no_bench_shifts_faster_with_the_growth_than_its_bounds(seed: int) -> No
 
 
 @pytest.mark.parametrize("seed", range(60))
-def test_nothing_touches_at_any_pitch_of_what_a_strip_proves(seed: int) -> None:
+def test_nothing_touches_at_any_pitch_of_what_a_band_proves(seed: int) -> None:
     """At 9 x 30 samples between the two pitches, down to the radius that is reached, often not the circle."""
-    strips, low, high = random_strips(seed)
-    state, found = strips.prove(low, high, 3.0 * strips.radius)
+    bands, low, high = random_bands(seed)
+    state, found = bands.prove(low, high, 3.0 * bands.radius)
     if state == "unbounded":
         return
-    outer = max(3.0 * strips.radius, found["proven"])
-    benches = min(strips.search.dragon.benches, strips.search.room)
+    outer = max(3.0 * bands.radius, found["proven"])
+    benches = min(bands.search.dragon.benches, bands.search.room)
     for growth in np.linspace(low, high, 9) / (2 * math.pi):
         for radius in np.linspace(found["proven"], outer, 30):
-            assert chain(strips.search, growth, radius, benches)[0] > strips.margin
+            assert chain(bands.search, growth, radius, benches)[0] > bands.margin
     if state == "touched":
         growth = low / (2 * math.pi)
-        gap = chain(strips.search, growth, found["touching"], benches)[0]
-        assert gap <= strips.margin
+        gap = chain(bands.search, growth, found["touching"], benches)[0]
+        assert gap <= bands.margin
 
 
-def strips_of(case: dict[str, Any]) -> Strips:
+def bands_of(case: dict[str, Any]) -> Bands:
     dragon, radius = Dragon(**case["dragon"]), case["turning_diameter"] / 2
-    return Strips(Search(dragon, Spiral(1.0, case["start_turns"]), 0.0), radius, case["start_turns"], 0.0)
+    return Bands(Search(dragon, Spiral(1.0, case["start_turns"]), 0.0), radius, case["start_turns"], 0.0)
 
 
 @pytest.mark.parametrize("case", GRAZES, ids=[case["name"] for case in GRAZES])
-def test_a_strip_is_proven_just_above_a_minimum_and_not_across_it(case: dict[str, Any]) -> None:
-    strips, pitch = strips_of(case), case["pitch"]
-    assert strips.prove(pitch + ACCURACY, pitch + 1e-6, math.inf)[0] == "reached"
+def test_a_band_is_proven_just_above_a_minimum_and_not_across_it(case: dict[str, Any]) -> None:
+    bands, pitch = bands_of(case), case["pitch"]
+    assert bands.prove(pitch + ACCURACY, pitch + 1e-6, math.inf)[0] == "reached"
     for below, above in ((ACCURACY, ACCURACY), (ACCURACY, 1e-4), (1e-4, 1e-3)):
-        assert strips.prove(pitch - below, pitch + above, math.inf)[0] in ("stuck", "touched")
+        assert bands.prove(pitch - below, pitch + above, math.inf)[0] in ("stuck", "touched")
 
 
-def test_a_strip_from_an_island_to_the_minimum_is_not_proven() -> None:
+def test_a_band_from_an_island_to_the_minimum_is_not_proven() -> None:
     """Ways with 16 turns are clear at both of its ends, not between them."""
     [case] = [case for case in CASES if case["other_feasible_intervals"]]
-    strips, [[start, end]] = strips_of(case), case["other_feasible_intervals"]
+    bands, [[start, end]] = bands_of(case), case["other_feasible_intervals"]
     for low in np.linspace(start, end - ACCURACY, 5):
-        assert strips.prove(low, case["pitch"] + ACCURACY, case["pitch"] * case["start_turns"])[0] != "reached"
+        assert bands.prove(low, case["pitch"] + ACCURACY, case["pitch"] * case["start_turns"])[0] != "reached"
 
 
 @pytest.mark.parametrize("seed", range(30))
@@ -162,11 +162,11 @@ def test_benches_of_a_short_dragon_are_no_closer_than_the_ring_bound(seed: int) 
     """Of dragons that go around less than once, also at pitches below the width of a bench."""
     rng = np.random.default_rng(seed)
     dragon = Dragon(int(rng.integers(3, 12)), 2.2, rng.uniform(1.4, 2.2), rng.uniform(0.1, 0.5), rng.uniform(0.0, 0.3))
-    strips = Strips(Search(dragon, Spiral(0.3, 16.0), 0.0), 3.0, 16.0, 0.0)
-    search, bounds = strips.search, 0
+    bands = Bands(Search(dragon, Spiral(0.3, 16.0), 0.0), 3.0, 16.0, 0.0)
+    search, bounds = bands.search, 0
     for growth in np.geomspace(0.01, 0.2, 8):
         for radius in np.linspace(1.5, 8.0, 12):
-            bound = kernels.ring_least(growth, growth, radius, *search.ring_extremes, strips.total)
+            bound = kernels.ring_least(growth, growth, radius, *search.ring_extremes, bands.total)
             bounds += bound > 0.0
             assert chain(search, growth, radius, dragon.benches)[0] >= bound
     assert bounds

@@ -39,6 +39,7 @@ from core import (
     maximum_head_speed,
     trajectory,
 )
+from core.paths.path import Path
 from core.shapes.rectangles import corners
 
 TURN = Turn(1.7, 4.5, 2.0)
@@ -556,3 +557,14 @@ def test_a_coil_bends_no_faster_than_its_row_says(pitch: float, start: float, en
     row = route.table[0]
     assert steepest <= row[14] * (1.0 + 1e-9) + 1e-9
     assert min(start, end) < 0.5 or steepest >= 0.4 * row[14]
+
+
+@pytest.mark.uncompiled
+@pytest.mark.parametrize("path", [Spiral(), Turn(1.7), Route([Line((3, 4), (60, 4))])], ids=["spiral", "turn", "line"])
+def test_the_head_of_any_path_is_at_its_position(path: Path) -> None:
+    for s in np.linspace(path.begin, 0.9 * path.end, 7).tolist():
+        head, (x, y) = path.head(s), path.position(s).tolist()
+        assert (head.x, head.y) == pytest.approx((x, y), abs=SAME)
+        assert head.radius == pytest.approx(math.hypot(x, y), abs=SAME)
+        assert (head.theta is None) == isinstance(path, Route)
+        assert path.limit >= path.end

@@ -1,4 +1,4 @@
-"""The least clearance over a stretch of a dance: below every sample, and proven from below."""
+"""Clearance along time against a slow search; the least over a stretch below every sample, and proven from below."""
 
 from __future__ import annotations
 
@@ -9,7 +9,9 @@ from core import (
     Dance,
     Dragon,
     EndReason,
+    InvalidValue,
     Outcome,
+    OutsideRun,
     Route,
     Spiral,
     Turn,
@@ -17,7 +19,9 @@ from core import (
     first_contact,
     least_clearance,
 )
-from core.contact.least_clearance import PROOF_WIDTHS
+from core.contact.clearance import PROOF_WIDTHS
+from tests.core.contact.test_first_contact import ROUNDING, random_dance
+from tests.core.slow_search import SlowDance
 
 PROVEN = 1.1e-5  # [m]: a least clearance is proven to this
 TURN = Turn(1.7)
@@ -90,3 +94,53 @@ def test_a_stop_just_before_the_fold_is_proven_as_the_fold_is(dance: Dance, befo
     assert least.at_least is not None
     assert least.at_least >= least.distance - 1.01 * PROOF_WIDTHS[0]
     assert first_contact(dance, stop=stop).outcome is Outcome.CLEAR
+
+
+# -- clearance along time --------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("seed", range(400, 406))
+def test_the_profile_is_the_least_separation_of_all_pairs(seed: int) -> None:
+    dragon, spiral = random_dance(seed, seed % 2 == 0)
+    times = np.linspace(0.0, 0.999 * Dance(dragon, spiral).end.time, 25)
+    profile = clearance_profile(Dance(dragon, spiral), times)
+    slow, pairs = SlowDance.of(dragon, spiral).clearance(times)
+    np.testing.assert_allclose(profile.clearance, slow, rtol=0, atol=1e-10)
+    for k in np.flatnonzero((profile.benches != pairs).any(axis=1)):
+        gap = SlowDance.of(dragon, spiral).pair_gap(times[k], tuple(profile.benches[k]))
+        assert gap == pytest.approx(slow[k], abs=1e-10)
+
+
+def test_the_grazes_of_a_profile_are_the_bottoms_of_its_dips() -> None:
+    """At pitch 0.55 the benches overlap from 412.47 to 415.02 s, are clear to 415.375 s and overlap again."""
+    profile = clearance_profile(Dance(Dragon(30), Spiral()), np.linspace(405.0, 416.0, 50))
+    assert profile.grazes
+    slow = SlowDance.of(Dragon(30), Spiral())
+    for graze in profile.grazes:
+        around = graze.time + np.linspace(-1e-3, 1e-3, 11)
+        values, pairs = slow.clearance(around)
+        assert graze.clearance == pytest.approx(values[5], abs=ROUNDING)
+        assert values.min() >= graze.clearance - ROUNDING
+        assert tuple(pairs[5]) == graze.benches
+
+
+@pytest.mark.parametrize("benches", [1, 2])
+def test_a_profile_needs_two_benches_that_share_no_handle(benches: int) -> None:
+    with pytest.raises(InvalidValue) as refused:
+        clearance_profile(Dance(Dragon(benches), Spiral()), [0.0])
+    assert refused.value.field == "dragon.benches"
+
+
+def test_a_profile_past_the_end_is_outside_the_run() -> None:
+    with pytest.raises(OutsideRun) as refused:
+        clearance_profile(Dance(Dragon(5), Spiral()), [0.0, 433.0])
+    assert refused.value.field == "times.1"
+
+
+def test_the_profile_of_one_time_is_that_instant() -> None:
+    many = clearance_profile(Dance(Dragon(30), Spiral()), [400.0, 410.0])
+    for k, time in enumerate([400.0, 410.0]):
+        one = clearance_profile(Dance(Dragon(30), Spiral()), time)
+        assert (one.time.shape, one.clearance.shape, one.benches.shape, one.grazes) == ((), (), (2,), ())
+        assert one.clearance == many.clearance[k]
+        assert one.benches.tolist() == many.benches[k].tolist()
