@@ -7,7 +7,7 @@ from pydantic_settings import BaseSettings, SettingsConfigDict
 
 from core import TooLarge
 
-# Where prometheus_client keeps the counts of several processes; app/workers.py sets it for those that it starts.
+# Where prometheus_client keeps the counts of several processes, which app/service/workers.py sets for those it starts.
 SHARED_COUNTS = "PROMETHEUS_MULTIPROC_DIR"
 # Most processes of one service, about 100 MB each.
 WORKERS_MAX = 64

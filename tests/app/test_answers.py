@@ -6,7 +6,8 @@ import re
 
 import pytest
 
-from app import answers, report
+from app.questions import check as report
+from app.wire import answers
 
 TOUCHING = re.compile(r"\b(touch|overlap|meet)", re.IGNORECASE)
 # What is said of a touch alone, of both by `nearest`, or of no contact.

@@ -9,8 +9,8 @@ from xml.etree import ElementTree
 
 import pytest
 
-from app import figures
-from app.drawing import Format
+from app.files import figures
+from app.files.drawing import Format
 from core import Dance, Dragon, Line, OutsideRun, Route, Spiral, first_contact, minimum_pitch
 
 SMALL = Dragon(benches=30)

@@ -7,8 +7,8 @@ from typing import Any
 import httpx
 import pytest
 
-from app.messages import names_at
-from app.schemas import CheckRequest, CollisionQuery, OverlapsRequest, TrajectoryRequest
+from app.wire.messages import names_at
+from app.wire.requests import CheckRequest, CollisionQuery, OverlapsRequest, TrajectoryRequest
 
 
 @pytest.mark.parametrize(

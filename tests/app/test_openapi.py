@@ -12,8 +12,8 @@ from hypothesis import HealthCheck, given, settings
 from schemathesis import GenerationMode
 from schemathesis.checks import CHECKS
 
-from app.examples import EXAMPLES, FILE
-from app.main import create_app
+from app.service.examples import EXAMPLES, FILE
+from app.service.main import create_app
 from app.settings import Settings
 from tests.app.renew_examples import text
 

@@ -7,7 +7,7 @@ import dataclasses
 import numpy as np
 import pytest
 
-from app.paper import Comparison, comparison
+from app.questions.paper import Comparison, comparison
 from core import Dance, Dragon, Outcome, Spiral, first_contact, minimum_pitch, separation, trajectory
 from core.motion.trajectory import bench_poses
 

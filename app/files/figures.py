@@ -12,7 +12,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
 
-from app.drawing import (
+from app.files.drawing import (
     BLUE,
     GREY,
     SHAPES_MAX,

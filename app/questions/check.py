@@ -7,9 +7,9 @@ from typing import Self
 from pydantic import Field
 
 import core
-from app import degrees
-from app.answers import Answer, CollisionTime, Head, Pair, Point
-from app.schemas import CheckRequest
+from app.wire import degrees
+from app.wire.answers import Answer, CollisionTime, Head, Pair, Point
+from app.wire.requests import CheckRequest
 from core import Dragon, Outcome, Route, Spiral
 
 

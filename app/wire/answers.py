@@ -12,7 +12,7 @@ import orjson
 from pydantic import BaseModel, ConfigDict, Field
 
 import core
-from app.schemas import CheckRequest, CollisionQuery, MinimumPitchQuery
+from app.wire.requests import CheckRequest, CollisionQuery, MinimumPitchQuery
 from core import Dragon, Engine, Outcome, Route, Spiral
 
 Pair = tuple[int, int]

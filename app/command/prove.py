@@ -21,12 +21,12 @@ from rich.console import Console
 from rich.progress import Progress
 
 import core
-from app import schemas
-from app.files import checked_output, read_dance, write_whole
-from app.options import checked
+from app.command.options import checked
+from app.files.disk import checked_output, read_dance, write_whole
 from app.settings import Settings
-from app.wire import Instant, Margin, StartTurns, TurningDiameter, Wire
-from app.wire_paths import TurnFields
+from app.wire import requests as schemas
+from app.wire.measures import Instant, Margin, StartTurns, TurningDiameter, Wire
+from app.wire.paths import TurnFields
 from core import InvalidValue, Outcome
 from core.dance import Dance
 from core.errors import ProofRefused

@@ -14,9 +14,9 @@ import numpy as np
 from pydantic import AfterValidator, Discriminator, Field, Tag
 from pydantic_core import PydanticCustomError
 
-from app.degrees import Coordinates, Place, place_of
 from app.settings import check_limit
-from app.wire import (
+from app.wire.degrees import Coordinates, Place, place_of
+from app.wire.measures import (
     Coordinate,
     CrossCheck,
     Instant,
@@ -29,7 +29,7 @@ from app.wire import (
     Width,
     Wire,
 )
-from app.wire_paths import KINDS, AnyPath, SpiralFields, SpiralPath, TurnCircle, TurnFields
+from app.wire.paths import KINDS, AnyPath, SpiralFields, SpiralPath, TurnCircle, TurnFields
 from core import Dance, Dragon, InvalidValue, Report, Route, ShortestTurn, Spiral, check, shortest_turn
 from core.dragon import BENCHES_MAX
 from core.values import Floats

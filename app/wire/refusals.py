@@ -13,8 +13,8 @@ from typing import Any
 
 from pydantic import BaseModel
 
-from app.schemas import TimeSteps
-from app.wire_paths import TurnFields
+from app.wire.paths import TurnFields
+from app.wire.requests import TimeSteps
 from core import BenchDragonError, Dragon
 from core.dance import follows, tightest_bend
 from core.dragon import BENCHES_MAX

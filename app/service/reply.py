@@ -12,9 +12,9 @@ from fastapi import Depends, Request, Response
 from prometheus_client import Gauge
 from pydantic import BaseModel
 
-from app.problems import ErrorItem, Refused
-from app.refusals import refusing
+from app.service.problems import ErrorItem, Refused
 from app.settings import Settings
+from app.wire.refusals import refusing
 
 JSON = "application/json"
 VERSION = version("bench-dragon")

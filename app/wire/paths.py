@@ -12,7 +12,7 @@ from pydantic import Discriminator, Field, Tag
 
 import core
 from app.settings import check_limit
-from app.wire import Angle, Coordinate, Pitch, StartTurns, TurningDiameter, Wire
+from app.wire.measures import Angle, Coordinate, Pitch, StartTurns, TurningDiameter, Wire
 from core import InvalidValue, Route, Spiral
 
 # A sharp zigzag of 1,000 points becomes a path in 0.02 s, 1,000 arcs too (measured 2026-11-21).

@@ -11,8 +11,8 @@ from typing import Annotated, Any, get_args, get_origin
 
 from pydantic import BaseModel, Tag
 
-from app.schemas import UNITS
-from app.wire_paths import KINDS
+from app.wire.paths import KINDS
+from app.wire.requests import UNITS
 from core.errors import said
 
 # Longer values are shortened [characters].

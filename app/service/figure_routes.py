@@ -6,11 +6,11 @@ from typing import Annotated, Any
 
 from fastapi import APIRouter, Query, Response
 
-from app import figures
-from app.api import BODY_STATUSES, FILE, QUERY_STATUSES, documented
-from app.drawing import Format
-from app.reply import BodyReply, QueryReply
-from app.schemas import (
+from app.files import figures
+from app.files.drawing import Format
+from app.service.reply import BodyReply, QueryReply
+from app.service.routes import BODY_STATUSES, FILE, QUERY_STATUSES, documented
+from app.wire.requests import (
     ContactFigureRequest,
     ContactQuery,
     PitchScanQuery,

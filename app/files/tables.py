@@ -13,8 +13,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 import orjson
 
-from app.answers import columns_json
 from app.extras import require
+from app.wire.answers import columns_json
 from core import TooLarge, Trajectory
 from core.values import Floats
 

@@ -18,12 +18,16 @@ from pydantic import Field
 from typer.core import TyperGroup
 
 import core
-from app import answers, prove, report, schemas, show, tables
+from app.command import prove, show
+from app.command.options import asks, checked, given, numbers, unused
 from app.extras import require
-from app.files import TABLE_ENDINGS, checked_output, read_dance, read_json, trajectory_writer, write_whole
-from app.options import asks, checked, given, numbers, unused
-from app.refusals import refusing
+from app.files import tables
+from app.files.disk import TABLE_ENDINGS, checked_output, read_dance, read_json, trajectory_writer, write_whole
+from app.questions import check as report
 from app.settings import WORKERS_MAX, Settings
+from app.wire import answers
+from app.wire import requests as schemas
+from app.wire.refusals import refusing
 from core import BenchDragonError, Dragon, InvalidValue, Route, Spiral, Venue
 from core.values import Floats
 
@@ -272,8 +276,8 @@ def _drawn_check(
     format: str,
     time: float | None,
 ) -> bytes:
-    from app import figures as draw
-    from app.drawing import Format as Drawn
+    from app.files import figures as draw
+    from app.files.drawing import Format as Drawn
 
     if time is None:
         closest = answer.least_clearance.time if answer.least_clearance else answer.start
@@ -347,8 +351,8 @@ def figures(
 
 
 def _drawn(asked: FigureOptions, kind: Kind, format: Format, progress: Callable[[float], None]) -> bytes:
-    from app import figures as draw
-    from app.drawing import Format as Drawn
+    from app.files import figures as draw
+    from app.files.drawing import Format as Drawn
 
     dragon, path = asked.to_dragon(Settings().drawn_benches_max), asked.to_path()
     kind_of_file = Drawn(format)
@@ -373,7 +377,7 @@ def _drawn(asked: FigureOptions, kind: Kind, format: Format, progress: Callable[
 @app.command()
 def paper(json: Json = False) -> None:
     """What the paper reports beside what this program computes, with the reason for each difference."""
-    from app import paper as reported
+    from app.questions import paper as reported
 
     with show.waiting("recomputing the paper"):
         found = reported.comparison()
@@ -393,7 +397,7 @@ def serve(
 ) -> None:
     """The HTTP service."""
     require("service", "serve", "serve")
-    from app import workers as processes
+    from app.service import workers as processes
 
     count = processes.process_count(workers)
     try:

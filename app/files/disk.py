@@ -13,7 +13,7 @@ from pathlib import Path
 
 import orjson
 
-from app import tables
+from app.files import tables
 from core import InvalidValue, Trajectory
 
 # What a new file may be read and written by, before the user's mask.

@@ -17,9 +17,10 @@ from rich.progress import Progress
 from rich.table import Table
 from rich.text import Text
 
-from app import answers, tables
-from app.paper import Comparison
-from app.report import LeastClearance, Nearest, Report
+from app.files import tables
+from app.questions.check import LeastClearance, Nearest, Report
+from app.questions.paper import Comparison
+from app.wire import answers
 from core import Judgement, RunEnd, Trajectory
 from core.errors import said
 

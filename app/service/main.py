@@ -1,6 +1,6 @@
 """The service: create_app(settings) puts the calls, their limits and what surrounds them together.
 
-uvicorn --factory app.main:create_app
+uvicorn --factory app.service.main:create_app
 """
 
 from __future__ import annotations
@@ -22,18 +22,18 @@ from prometheus_client.multiprocess import MultiProcessCollector
 from starlette.middleware import Middleware
 from starlette.staticfiles import StaticFiles
 
-from app import api, figure_calls, problems
-from app.answers import State
-from app.examples import EXAMPLES
-from app.middleware import BodyLimit, HeadAsGet, Metrics, Mistakes, SafetyHeaders
-from app.reply import VERSION, refuse_query
+from app.service import figure_routes, problems, routes
+from app.service.examples import EXAMPLES
+from app.service.middleware import BodyLimit, HeadAsGet, Metrics, Mistakes, SafetyHeaders
+from app.service.reply import VERSION, refuse_query
 from app.settings import SHARED_COUNTS, Settings
+from app.wire.answers import State
 from core import Dragon, Spiral, first_contact, trajectory
 from core.dance import Dance
 
 logger = logging.getLogger("uvicorn.error")
 
-PAGE = Path(__file__).parent / "page"
+PAGE = Path(__file__).parent.parent / "page"
 DESCRIPTION = """Where is every bench of a bench dragon and how fast, when do two benches first touch, and how
 tight may the spiral be? SI units and radians throughout. A collision is an answer, never an error; errors are problem
 details (RFC 9457). An answer depends on its request alone and carries a strong ETag.
@@ -117,8 +117,8 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     app.state.registry = registry
     app.openapi = lambda: _openapi(app)  # type: ignore[method-assign]
     problems.install(app)
-    app.include_router(api.router)
-    app.include_router(figure_calls.router)
+    app.include_router(routes.router)
+    app.include_router(figure_routes.router)
     _add_health(app)
     _add_pages(app)
     return app

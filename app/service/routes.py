@@ -9,8 +9,14 @@ from typing import Annotated, Any
 from fastapi import APIRouter, Body, Query, Response
 
 import core
-from app import paper, tables
-from app.answers import (
+from app.files import tables
+from app.questions import paper
+from app.questions.check import MaximumHeadSpeed, Report, ShortestTurn, Turn
+from app.service.examples import EXAMPLES
+from app.service.problems import PROBLEM_TYPE
+from app.service.reply import JSON, BodyReply, QueryReply
+from app.settings import check_limit
+from app.wire.answers import (
     ClearanceTable,
     CollisionTime,
     MinimumPitch,
@@ -20,11 +26,7 @@ from app.answers import (
     TrajectoryTable,
     columns_json,
 )
-from app.examples import EXAMPLES
-from app.problems import PROBLEM_TYPE
-from app.reply import JSON, BodyReply, QueryReply
-from app.report import MaximumHeadSpeed, Report, ShortestTurn, Turn
-from app.schemas import (
+from app.wire.requests import (
     CheckRequest,
     ClearanceQuery,
     ClearanceRequest,
@@ -38,7 +40,6 @@ from app.schemas import (
     TrajectoryRequest,
     TurnQuery,
 )
-from app.settings import check_limit
 from core.design.pitch_scan import scan_near_minimum
 
 router = APIRouter()

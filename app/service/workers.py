@@ -99,7 +99,7 @@ class _Supervisor(Multiprocess):
 
 def create_child_app() -> FastAPI:
     """create_app() in a process that ends when its parent has, also when that was killed and could not say so."""
-    from app.main import create_app
+    from app.service.main import create_app
 
     parent = multiprocessing.parent_process()
     assert parent is not None
@@ -118,10 +118,10 @@ def serve(host: str, port: int, workers: int) -> None:
     raises: OSError when the port is taken or the address is not ours; with one process uvicorn says so and exits
     """
     if workers == 1:
-        uvicorn.run("app.main:create_app", factory=True, host=host, port=port, http=PARSER)
+        uvicorn.run("app.service.main:create_app", factory=True, host=host, port=port, http=PARSER)
         return
     config = uvicorn.Config(
-        "app.workers:create_child_app", factory=True, host=host, port=port, http=PARSER, workers=workers
+        "app.service.workers:create_child_app", factory=True, host=host, port=port, http=PARSER, workers=workers
     )
     with listen(host, port) as shared, TemporaryDirectory(prefix="bench-dragon-") as counts:
         # Where the processes add up what /metrics shows; prometheus_client reads it when they import it.

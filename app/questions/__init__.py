@@ -1,0 +1,1 @@
+"""The questions: what each is asked with, and what it answers."""
