@@ -74,8 +74,9 @@ class Dragon(Shown):
             if length - 2.0 * overhang < SIZE_MIN:
                 raise InvalidValue(
                     "dragon.overhang",
-                    f"dragon.overhang must be less than half of dragon.{name} "
-                    f"({length:g} m / 2 = {length / 2:g} m), got {overhang:g} m",
+                    f"{{field}} must be less than half of {{length}} ({length:g} m / 2 = {length / 2:g} m), "
+                    f"got {overhang:g} m",
+                    length=f"dragon.{name}",
                 )
         lengths = np.full(int(benches), body_length)
         lengths[0] = head_length

@@ -27,6 +27,7 @@ from app.questions import check as report
 from app.settings import WORKERS_MAX, Settings
 from app.wire import answers
 from app.wire import requests as schemas
+from app.wire.models import measure
 from app.wire.refusals import refusing
 from core import BenchDragonError, Dragon, InvalidValue, Route, Spiral, Venue
 from core.values import Floats
@@ -81,7 +82,9 @@ class TrajectoryOptions(schemas.TimeRange, schemas.DanceQuery):
     decimals: int | None = Field(
         None, ge=0, le=15, description="Decimals of x, y and speed; else all (xlsx and the table on a terminal: 6)"
     )
-    times: str | None = Field(None, description="Instants such as 0,60,120, in place of --start, --stop and --step [s]")
+    times: str | None = measure(
+        None, description="Instants such as 0,60,120, in place of --start, --stop and --step", unit="s"
+    )
     handles: str | None = Field(
         None, description="Handles in the table, such as 0,1,51, in place of those that the contest asks for"
     )

@@ -10,9 +10,9 @@ import typer
 from pydantic import BaseModel, ValidationError
 from rich.markup import escape
 
+from app.wire.dances import SHAPES
 from app.wire.messages import message
 from app.wire.refusals import refusing
-from app.wire.requests import SHAPES
 from core import InvalidValue
 from core.errors import spoken
 

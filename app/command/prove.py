@@ -25,7 +25,7 @@ from app.command.options import checked
 from app.files.disk import checked_output, read_dance, write_whole
 from app.settings import Settings
 from app.wire import requests as schemas
-from app.wire.measures import Instant, Margin, StartTurns, TurningDiameter, Wire
+from app.wire.models import Instant, Margin, StartTurns, TurningDiameter, Wire, measure
 from app.wire.paths import TurnFields
 from core import InvalidValue, Outcome
 from core.dance import Dance
@@ -49,15 +49,19 @@ class _Thorough(Wire):
 class CollisionClaim(_Thorough, schemas.DanceQuery):
     """When two benches first touch, or come nearer than the margin."""
 
-    time: float | None = Field(None, ge=0, description="The claim; else what collision-time answers [s]")
+    time: float | None = measure(None, ge=0, description="The claim; else what collision-time answers", unit="s")
     margin: Margin = 0.0
 
 
 class PitchClaim(_Thorough, schemas.UniformDragon):
     """How tight the spiral may be."""
 
-    pitch: float | None = Field(None, ge=1e-3, le=10, description="The claim; else what minimum-pitch answers [m]")
-    turning_diameter: TurningDiameter = Field(9.0, description="Diameter of the circle that the head must reach [m]")
+    pitch: float | None = measure(
+        None, ge=1e-3, le=10, description="The claim; else what minimum-pitch answers", unit="m"
+    )
+    turning_diameter: TurningDiameter = measure(
+        9.0, description="Diameter of the circle that the head must reach", unit="m"
+    )
     start_turns: StartTurns = 16.0
     margin: Margin = 0.0
 
@@ -65,16 +69,18 @@ class PitchClaim(_Thorough, schemas.UniformDragon):
 class ClearClaim(_Thorough, schemas.DanceQuery):
     """A run on the spiral without a contact."""
 
-    start: Instant = Field(0.0, description="From when [s]")
-    stop: Instant | None = Field(None, description="Until when; else the end of the run, which is proven too [s]")
+    start: Instant = measure(0.0, description="From when", unit="s")
+    stop: Instant | None = measure(
+        None, description="Until when; else the end of the run, which is proven too", unit="s"
+    )
     margin: Margin = 0.0
 
 
 class TurnClaim(_Thorough, schemas.HeadSpeed, TurnFields, schemas.UniformDragon):
     """A dance through the turn."""
 
-    start: Instant = Field(-100.0, description="From when; 0 is the entry into the turn [s]")
-    stop: Instant = Field(100.0, description="Until when [s]")
+    start: Instant = measure(-100.0, description="From when; 0 is the entry into the turn", unit="s")
+    stop: Instant = measure(100.0, description="Until when", unit="s")
     margin: Margin = 0.0
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 import sys
 import threading
 from collections.abc import Callable, Iterator, Sequence
@@ -21,6 +20,7 @@ from app.files import tables
 from app.questions.check import LeastClearance, Nearest, Report
 from app.questions.paper import Comparison
 from app.wire import answers
+from app.wire.models import unit_of
 from core import Judgement, RunEnd, Trajectory
 from core.errors import said
 
@@ -115,10 +115,10 @@ def _flat(answer: BaseModel, prefix: str = "", *, benches: int) -> Iterator[tupl
         elif isinstance(value, BaseModel):
             yield from _flat(value, f"{label}: ", benches=benches)
         elif value is not None:
-            unit = re.search(r"\[([^\]]+)\]$", field.description or "")
+            unit = unit_of(field)
             exact = isinstance(value, (float, tuple)) and (name in PROVEN or name.endswith("_bracket"))
             words = _digits(value) if exact else _shown(value)
-            yield label, f"{words} {unit[1] if unit and value != [] else ''}".rstrip()
+            yield label, f"{words} {unit if value != [] else ''}".rstrip()
         elif name in SAID_BY_NULL:
             yield label, SAID_BY_NULL[name]
 

@@ -7,7 +7,6 @@ for colour-blind readers (cividis; Okabe and Ito's set) and differ in brightness
 from __future__ import annotations
 
 import io
-from enum import StrEnum
 from typing import Any
 
 import matplotlib
@@ -40,13 +39,6 @@ PATH_POINTS = 20_000
 AROUND = 0.6
 
 
-class Format(StrEnum):
-    """File format of a figure."""
-
-    SVG = "svg"
-    PNG = "png"
-
-
 def canvas(width: float, height: float) -> Figure:
     """Empty paper. width, height: [inch]"""
     figure = Figure(figsize=(width, height), layout="constrained")
@@ -54,11 +46,11 @@ def canvas(width: float, height: float) -> Figure:
     return figure
 
 
-def file_bytes(figure: Figure, format: Format) -> bytes:
+def file_bytes(figure: Figure, format: str) -> bytes:
     """The figure as a file, the same bytes for the same figure: no date, no version, no random names."""
     sink = io.BytesIO()
-    metadata = {"Date": None} if format is Format.SVG else {"Software": None}
-    figure.savefig(sink, format=format.value, dpi=PNG_DPI, metadata=metadata)
+    metadata = {"Date": None} if format == "svg" else {"Software": None}
+    figure.savefig(sink, format=format, dpi=PNG_DPI, metadata=metadata)
     return sink.getvalue()
 
 

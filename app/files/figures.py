@@ -17,7 +17,6 @@ from app.files.drawing import (
     GREY,
     SHAPES_MAX,
     VERMILION,
-    Format,
     bench_outlines,
     canvas,
     draw_dance,
@@ -49,24 +48,22 @@ _DRAWING = threading.Lock()
 
 
 def trajectory_figure(
-    dragon: Dragon,
-    path: Spiral | Route,
+    dance: Dance,
     *,
     venue: Venue | None = None,
     time: float = 300.0,
-    head_speed: float = 1.0,
-    format: Format = Format.SVG,
+    format: str = "svg",
 ) -> bytes:
     """Figure 6: every handle at one instant, coloured by its speed; on any path, in any venue.
 
     time: [s]; raises: OutsideRun after the end of the run
     """
-    result = trajectory(Dance(dragon, path, head_speed), [time])
+    result = trajectory(dance, [time])
     handles, speed = result.position[0], result.speed[0]
     with _DRAWING:
         figure = canvas(7.2, 6.2)
         axes = figure.add_subplot()
-        draw_dance(axes, path, venue, handles, bench_outlines(dragon, handles), linewidth=0.4)
+        draw_dance(axes, dance.path, venue, handles, bench_outlines(dance.dragon, handles), linewidth=0.4)
         dots = axes.scatter(
             handles[:, 0],
             handles[:, 1],
@@ -82,7 +79,7 @@ def trajectory_figure(
         bar.ax.ticklabel_format(useOffset=False)
         if venue:
             look_around(figure, axes, handles)
-        axes.set_title(f"Handles and their speeds at {time:g} s{_pitch_words(path)}", fontsize=11)
+        axes.set_title(f"Handles and their speeds at {time:g} s{_pitch_words(dance.path)}", fontsize=11)
         return file_bytes(figure, format)
 
 
@@ -91,44 +88,42 @@ def _pitch_words(path: Spiral | Route) -> str:
 
 
 def contact_figure(
-    dragon: Dragon,
-    path: Spiral | Route,
+    dance: Dance,
     *,
     venue: Venue | None = None,
-    head_speed: float = 1.0,
     margin: float = 0.0,
     start: float = 0.0,
     stop: float | None = None,
-    format: Format = Format.SVG,
+    format: str = "svg",
 ) -> bytes:
     """Figure 7: the dance at first contact, the two benches marked, corner, edge and point enlarged.
 
     Without a contact it shows the dance just before the run ends, and says so.
     """
-    found = first_contact(Dance(dragon, path, head_speed), margin=margin, start=start, stop=stop)
-    time = _shown_time(dragon, path, head_speed, found)
-    handles = trajectory(Dance(dragon, path, head_speed), [time]).position[0]
-    outlines = bench_outlines(dragon, handles)
+    found = first_contact(dance, margin=margin, start=start, stop=stop)
+    time = _shown_time(dance, found)
+    handles = trajectory(dance, [time]).position[0]
+    outlines = bench_outlines(dance.dragon, handles)
     with _DRAWING:
         figure = canvas(11.0 if found.benches else 7.2, 6.0)
         axes = figure.add_subplot(1, 2, 1) if found.benches else figure.add_subplot()
-        draw_dance(axes, path, venue, handles, outlines, linewidth=0.5)
+        draw_dance(axes, dance.path, venue, handles, outlines, linewidth=0.5)
         mark_pair(axes, outlines, found, legend=True)
         axes.autoscale_view()
         axes.set_title(_contact_title(found, margin), fontsize=11)
         if found.benches:
             enlarged = figure.add_subplot(1, 2, 2)
-            draw_enlarged(enlarged, outlines, found, float(dragon.widths[list(found.benches)].max()), margin)
+            draw_enlarged(enlarged, outlines, found, float(dance.dragon.widths[list(found.benches)].max()), margin)
             axes.indicate_inset_zoom(enlarged, edgecolor="black", linewidth=0.8)
         return file_bytes(figure, format)
 
 
-def _shown_time(dragon: Dragon, path: Spiral | Route, head_speed: float, found: FirstContact) -> float:
+def _shown_time(dance: Dance, found: FirstContact) -> float:
     if found.time is not None:
         return found.time
     if found.time_bracket is not None:
         return found.time_bracket[0]
-    end = found.end or Dance(dragon, path, head_speed).end
+    end = found.end or dance.end
     return end.time - BEFORE_END
 
 
@@ -158,7 +153,7 @@ def pitch_scan_figure(
     start_turns: float = 16.0,
     margin: float = 0.0,
     samples: int = 101,
-    format: Format = Format.SVG,
+    format: str = "svg",
     progress: Callable[[float], None] = lambda share: None,
 ) -> bytes:
     """Figure 8: where the head stands at first contact against the pitch, its jumps as jumps, the minimum pitch marked.

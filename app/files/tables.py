@@ -14,7 +14,7 @@ import numpy as np
 import orjson
 
 from app.extras import require
-from app.wire.answers import columns_json
+from app.wire.answers import Columns
 from core import TooLarge, Trajectory
 from core.values import Floats
 
@@ -74,13 +74,13 @@ def _columns(result: Trajectory, decimals: int | None) -> dict[str, np.ndarray]:
     return dict(zip(COLUMNS, values, strict=True))
 
 
-def trajectory_json(result: Trajectory, *, decimals: int | None = None) -> bytes:
+def trajectory_json(result: Trajectory, decimals: int | None = None) -> bytes:
     """JSON columns time (T,) [s]; x, y (T, H) [m]; speed (T, H) [m/s]."""
     x, y = result.position[..., 0], result.position[..., 1]
-    return columns_json({"time": result.time, "x": x, "y": y, "speed": result.speed}, decimals)
+    return Columns({"time": result.time, "x": x, "y": y, "speed": result.speed}, decimals).to_json()
 
 
-def trajectory_csv(result: Trajectory, *, decimals: int | None = None) -> bytes:
+def trajectory_csv(result: Trajectory, decimals: int | None = None) -> bytes:
     """CSV with the columns time [s], handle, x [m], y [m], speed [m/s].
 
     decimals: of x, y and speed; None writes the shortest text that reads back as the same double
@@ -95,7 +95,7 @@ def trajectory_csv(result: Trajectory, *, decimals: int | None = None) -> bytes:
     return b"\n".join(rows) + b"\n"
 
 
-def trajectory_arrow(result: Trajectory, *, decimals: int | None = None) -> bytes:
+def trajectory_arrow(result: Trajectory, decimals: int | None = None) -> bytes:
     """Arrow IPC file with the columns of the CSV.
 
     raises: MissingPackage without pyarrow
@@ -110,7 +110,7 @@ def trajectory_arrow(result: Trajectory, *, decimals: int | None = None) -> byte
     return sink.getvalue()
 
 
-def trajectory_xlsx(result: Trajectory, *, decimals: int | None = None, language: Language = Language.ENGLISH) -> bytes:
+def trajectory_xlsx(result: Trajectory, decimals: int | None = None, language: Language = Language.ENGLISH) -> bytes:
     """Workbook with a sheet of positions and a sheet of speeds: handles as rows, instants as columns.
 
     Positions have two rows for each handle, x above y.

@@ -1,4 +1,4 @@
-"""Answers about a turn, the speed limit and a whole dance."""
+"""Can the dragon dance this path here?"""
 
 from __future__ import annotations
 
@@ -7,86 +7,48 @@ from typing import Self
 from pydantic import Field
 
 import core
+from app.questions.collision_time import CollisionTime, Contact
+from app.questions.question import Question
+from app.settings import Settings
 from app.wire import degrees
-from app.wire.answers import Answer, CollisionTime, Head, Pair, Point
-from app.wire.requests import CheckRequest
-from core import Dragon, Outcome, Route, Spiral
+from app.wire.answers import Head, Pair, Point
+from app.wire.dances import PlacedDance
+from app.wire.models import Answer, Instant, SpeedLimit, measure
+from core import Outcome
 
 
-class Turn(Answer):
-    """Two tangent arcs between two coils: the first clockwise, the second counter-clockwise."""
+class CheckRequest(Contact, PlacedDance, strict=True):
+    """Can this dragon dance this path here?"""
 
-    pitch: float = Field(description="Of both coils [m]")
-    turning_diameter: float = Field(description="Diameter of the circle in which the turn lies [m]")
-    ratio: float = Field(description="Radius of the first arc over that of the second")
-    entry_radius: float = Field(description="Distance of the entry from the centre [m]")
-    radii: Point = Field(description="Radii of both arcs [m]")
-    centres: tuple[Point, Point] = Field(description="Centres of both arcs, x and y [m]")
-    angles: Point = Field(description="Angle turned on each arc [rad]")
-    entry: Point = Field(description="Where the first arc begins, x and y [m]")
-    tangent_point: Point = Field(description="Where the two arcs meet, x and y [m]")
-    exit: Point = Field(description="Where the second arc ends, x and y [m]")
-    length: float = Field(description="Of both arcs together [m]")
-
-    @classmethod
-    def of(cls, found: core.Turn) -> Self:
-        return cls.known(found, turning_diameter=2 * found.turning_radius)
-
-
-class ShortestTurn(Turn):
-    """The turn whose entry lies as deep inside the circle as this dragon can dance."""
-
-    entry_bracket: Point = Field(description="Entry radii: infeasible, feasible [m]")
-    limited_by: core.TurnLimit = Field(
-        description="bend: a chord cannot follow; contact: benches come nearer than the margin, or touch if it is 0; "
-        "centre: nothing down to the centre"
+    speed_limit: SpeedLimit | None = measure(None, description="Of every handle; null: none", unit="m/s")
+    start: Instant | None = measure(
+        None, description="From when; null: the start of the dance, or when the whole dragon is on the path", unit="s"
     )
-    benches: Pair | None = Field(
-        description="The pair that comes nearer than the margin, or touches, just below; null if none does"
-    )
-    time: float | None = Field(description="When, at a head speed of 1 m/s; 0 is the entry into the turn [s]")
-    scan_step: float = Field(
-        description="Entries down from the circle were tried this far apart, each one proven: a narrower range of "
-        "infeasible ones is not excluded [m]"
-    )
-    evaluations: int = Field(description="Entries tried")
-
-    @classmethod
-    def of_shortest(cls, found: core.ShortestTurn) -> Self:
-        return cls.known(found, **Turn.of(found.turn).model_dump())
-
-
-class MaximumHeadSpeed(Answer):
-    """The largest constant head speed at which no handle ever exceeds the limit."""
-
-    head_speed: float = Field(description="[m/s]")
-    head_speed_bracket: tuple[float | None, float] = Field(
-        description="Proven to keep the limit (null where that proof was given up), found to reach it [m/s]"
-    )
-    speed_ratio: float = Field(description="Highest speed of a handle over that of the head")
-    handles: list[int] = Field(description="The handles that reach the limit together")
-    time: float = Field(description="When they do, at that head speed; 0 is the entry into the turn [s]")
-    time_at_unit_head_speed: float = Field(description="The same at a head speed of 1 m/s [s]")
+    stop: Instant | None = measure(None, description="Until when; null: the end of the run", unit="s")
 
 
 class LeastClearance(Answer):
     """The least clearance over the dance."""
 
-    distance: float = Field(description="The least that was met; 0 at the first touch [m]")
-    at_least: float | None = Field(description="Proven: nothing comes nearer; null: the search gave up first [m]")
-    time: float = Field(description="When it is met [s]")
+    distance: float = measure(description="The least that was met; 0 at the first touch", unit="m")
+    at_least: float | None = measure(
+        description="Proven: nothing comes nearer; null: the search gave up first", unit="m"
+    )
+    time: float = measure(description="When it is met", unit="s")
     benches: Pair = Field(description="The pair that is so near")
 
 
 class Nearest(Answer):
     """How near the benches come to the edges of one area."""
 
-    distance: float = Field(description="The least that was met; 0 at the first touch [m]")
-    at_least: float | None = Field(description="Proven: no bench comes nearer; null: the search gave up first [m]")
-    time: float = Field(description="When it is met [s]")
+    distance: float = measure(description="The least that was met; 0 at the first touch", unit="m")
+    at_least: float | None = measure(
+        description="Proven: no bench comes nearer; null: the search gave up first", unit="m"
+    )
+    time: float = measure(description="When it is met", unit="s")
     bench: int = Field(description="The bench that comes so near")
-    point: Point = Field(description="The point of the bench, x and y [m]")
-    wall: Point = Field(description="The point of the area, x and y [m]")
+    point: Point = measure(description="The point of the bench, x and y", unit="m")
+    wall: Point = measure(description="The point of the area, x and y", unit="m")
 
 
 class AreaClearance(Answer):
@@ -94,15 +56,15 @@ class AreaClearance(Answer):
 
     name: str = Field(description="Name of the area")
     outcome: Outcome = Field(description="Does a bench come nearer than the margin, or touch if it is 0?")
-    time: float | None = Field(description="When first; null when clear or undecided [s]")
-    time_bracket: Point | None = Field(
-        description="Proven not to be so up to, nearer than the margin, or touching if it is 0, at [s]"
+    time: float | None = measure(description="When first; null when clear or undecided", unit="s")
+    time_bracket: Point | None = measure(
+        description="Proven not to be so up to, nearer than the margin, or touching if it is 0, at", unit="s"
     )
     bench: int | None = Field(description="The first bench nearer than the margin")
-    gap: float | None = Field(
-        description="What is left then between it and the area: the margin, or less from the start on [m]"
+    gap: float | None = measure(
+        description="What is left then between it and the area: the margin, or less from the start on", unit="m"
     )
-    point: Point | None = Field(description="Its point that is nearest then, x and y [m]")
+    point: Point | None = measure(description="Its point that is nearest then, x and y", unit="m")
     nearest: Nearest = Field(description="The least distance over the dance")
 
 
@@ -111,7 +73,7 @@ class Stray(Answer):
 
     name: str = Field(description="The area: the square that it is outside of, or the obstacle that it is in")
     bench: int = Field(description="The bench")
-    point: Point = Field(description="Its centre, x and y [m]")
+    point: Point = measure(description="Its centre, x and y", unit="m")
 
 
 class VenueClearance(Answer):
@@ -124,19 +86,19 @@ class VenueClearance(Answer):
 class HighestSpeed(Answer):
     """The highest speed of any handle over continuous time."""
 
-    speed: float = Field(description="The highest found [m/s]")
-    speed_bracket: tuple[float, float | None] = Field(
-        description="Found, proven not to be exceeded (null where that proof was given up) [m/s]"
+    speed: float = measure(description="The highest found", unit="m/s")
+    speed_bracket: tuple[float, float | None] = measure(
+        description="Found, proven not to be exceeded (null where that proof was given up)", unit="m/s"
     )
-    time: float = Field(description="When it is reached [s]")
+    time: float = measure(description="When it is reached", unit="s")
     handles: list[int] = Field(description="The handles that reach it together")
 
 
 class SharpestBend(Answer):
     """The largest angle between two consecutive benches."""
 
-    angle: float = Field(description="Between their headings [rad]")
-    time: float = Field(description="When it is reached [s]")
+    angle: float = measure(description="Between their headings", unit="rad")
+    time: float = measure(description="When it is reached", unit="s")
     benches: Pair = Field(description="The two benches")
 
 
@@ -144,28 +106,30 @@ class Failure(Answer):
     """One thing that fails."""
 
     kind: core.FailureKind = Field(description="What fails")
-    time: float = Field(
+    time: float = measure(
         description="When it first does; of what is undecided, proven good until then; of a speed, the first instant "
-        "above the limit [s]"
+        "above the limit",
+        unit="s",
     )
     benches: list[int] = Field(description="The benches at fault; of a speed: the handle")
     area: str | None = Field(description="The area of the venue; null where it has no part")
     message: str = Field(description="One sentence")
-    time_bracket: Point | None = Field(
-        description="Proven not to fail up to, failing at; null for a fold and for what fails from the start [s]"
+    time_bracket: Point | None = measure(
+        description="Proven not to fail up to, failing at; null for a fold and for what fails from the start", unit="s"
     )
     head: Head | None = Field(description="The head at that time")
-    peak_speed: float | None = Field(
-        description="Of a speed: the highest over the dance; null where it grows without bound, towards a fold [m/s]"
+    peak_speed: float | None = measure(
+        description="Of a speed: the highest over the dance; null where it grows without bound, towards a fold",
+        unit="m/s",
     )
-    peak_time: float | None = Field(description="Of a speed: when it is highest, or the time of the fold [s]")
+    peak_time: float | None = measure(description="Of a speed: when it is highest, or the time of the fold", unit="s")
 
 
 class Origin(Answer):
     """A place on earth."""
 
-    longitude: float = Field(description="Eastwards [degrees]")
-    latitude: float = Field(description="Northwards [degrees]")
+    longitude: float = measure(description="Eastwards", unit="degrees")
+    latitude: float = measure(description="Northwards", unit="degrees")
 
 
 class Report(Answer):
@@ -178,8 +142,8 @@ class Report(Answer):
     failures: list[Failure] = Field(
         description="What fails, in order of time, until the dance stops; and what is undecided"
     )
-    start: float = Field(description="Looked at from here [s]")
-    stop: float = Field(description="Looked at until here [s]")
+    start: float = measure(description="Looked at from here", unit="s")
+    stop: float = measure(description="Looked at until here", unit="s")
     first_contact: CollisionTime = Field(
         description="When two benches first come nearer than the margin, or touch if it is 0"
     )
@@ -191,13 +155,23 @@ class Report(Answer):
     origin: Origin | None = Field(description="Where x = y = 0 lies; null unless the venue was given in degrees")
 
     @classmethod
-    def of(
-        cls,
-        found: core.Report,
-        dragon: Dragon,
-        path: Spiral | Route,
-        wanted: CheckRequest,
-        origin: degrees.Origin | None = None,
-    ) -> Self:
-        contact = CollisionTime.of(found.first_contact, dragon, path, wanted)
-        return cls.known(found, first_contact=contact, origin=origin)
+    def of(cls, found: core.Report, dance: core.Dance, asked: CheckRequest, origin: degrees.Origin | None) -> Self:
+        return cls.known(found, first_contact=CollisionTime.of(found.first_contact, dance, asked), origin=origin)
+
+
+def check(asked: CheckRequest, settings: Settings) -> Report:
+    """Can the dragon dance this path here: first contact, least clearance, venue, speed, sharpest bend."""
+    dance = asked.to_dance(settings.checked_benches_max)
+    place = asked.to_place(dance.dragon)
+    found = core.check(
+        dance,
+        venue=place.venue,
+        margin=asked.margin,
+        speed_limit=asked.speed_limit,
+        start=asked.start,
+        stop=asked.stop,
+    )
+    return Report.of(found, dance, asked, place.origin)
+
+
+QUESTION = Question(check, Report, body=CheckRequest)

@@ -7,11 +7,14 @@ Its own four numbers and its search range are typed in here; every other number 
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from functools import cache
 
 import numpy as np
+from pydantic import Field
 
+from app.questions.question import Question
+from app.settings import Settings
+from app.wire.models import Answer, Wire
 from core import (
     Dragon,
     FirstContact,
@@ -54,31 +57,39 @@ SUM_BATCHES = 20
 Outline = Callable[[Floats, Floats], Floats]
 
 
-@dataclass(frozen=True, slots=True)
-class Evidence:
-    """One computation that bears on a difference: what was computed, its value and unit."""
-
-    what: str
-    value: float
-    unit: str
+class Nothing(Wire):
+    """No parameters at all."""
 
 
-@dataclass(frozen=True, slots=True)
-class Comparison:
-    """One number of the paper: where it stands there, ours, ours minus the paper's, and why they differ."""
+class Evidence(Answer):
+    """One computation that bears on a difference."""
 
-    quantity: str
-    unit: str
-    source: str
-    paper: float
-    ours: float
-    difference: float
-    reason: str
-    evidence: tuple[Evidence, ...]
+    what: str = Field(description="What was computed")
+    value: float = Field(description="In the unit given beside it")
+    unit: str = Field(description="Unit of the value")
+
+
+class PaperNumber(Answer):
+    """One number that the paper reports, beside ours."""
+
+    quantity: str = Field(description="What it measures")
+    unit: str = Field(description="Unit of paper, ours and difference")
+    source: str = Field(description="Where it stands in the paper")
+    paper: float = Field(description="As the paper reports it, in the unit given beside it")
+    ours: float = Field(description="As computed here, in the unit given beside it")
+    difference: float = Field(description="Ours minus the paper's, in the unit given beside it")
+    reason: str = Field(description="Why the two differ, as far as a computation shows it")
+    evidence: list[Evidence] = Field(description="The computations")
+
+
+class PaperTable(Answer):
+    """The paper's reported numbers beside ours."""
+
+    rows: list[PaperNumber] = Field(description="One for each number that the paper reports")
 
 
 @cache
-def comparison() -> tuple[Comparison, ...]:
+def comparison() -> tuple[PaperNumber, ...]:
     """The four numbers that the paper reports, for its own dragon and spiral."""
     found = first_contact(Dance(Dragon(), Spiral()))
     return (_arc_length(), _collision_time(found), _collision_radius(found), _minimum_pitch())
@@ -86,18 +97,26 @@ def comparison() -> tuple[Comparison, ...]:
 
 def _compared(
     quantity: str, unit: str, source: str, paper: float, ours: float, reason: str, evidence: list[Evidence]
-) -> Comparison:
-    return Comparison(quantity, unit, source, paper, ours, ours - paper, reason, tuple(evidence))
+) -> PaperNumber:
+    difference = ours - paper
+    return PaperNumber(
+        quantity=quantity, unit=unit, source=source, paper=paper, ours=ours, difference=difference, reason=reason,
+        evidence=evidence,
+    )  # fmt: skip
 
 
-def _arc_length() -> Comparison:
+def _fact(what: str, value: float, unit: str) -> Evidence:
+    return Evidence(what=what, value=value, unit=unit)
+
+
+def _arc_length() -> PaperNumber:
     length = Spiral().length
     return _compared(
         "arc length of the spiral", "m", "eq. 2", PAPER_LENGTH, length, "The same, to the paper's six decimals.", []
     )
 
 
-def _collision_time(found: FirstContact) -> Comparison:
+def _collision_time(found: FirstContact) -> PaperNumber:
     assert found.time is not None
     loose = _first_time(corners, LOOSE_ANGLE)
     literal = _first_time(literal_corners, EXACT_ANGLE)
@@ -110,16 +129,16 @@ def _collision_time(found: FirstContact) -> Comparison:
         f"without a contact: it passes {LOOSE_ANGLE:g} degrees at {loose:.2f} s, where benches {a} and {b} are "
         f"{1000 * gap:.1f} mm apart. Rounding such a sum up to 360 gives the paper's time.",
         [
-            Evidence("largest angle sum at the paper's time", _largest_sum(corners, PAPER_TIME), "deg"),
-            Evidence(f"first time of an angle sum of {LOOSE_ANGLE:g} degrees", loose, "s"),
-            Evidence(f"clearance at the paper's time, benches {a} and {b}", gap, "m"),
-            Evidence("first time of an angle sum of 360 degrees", _first_time(corners, EXACT_ANGLE), "s"),
-            Evidence("the same with eq. 12 as printed: w/2 cos theta of the wrong sign in all four y", literal, "s"),
+            _fact("largest angle sum at the paper's time", _largest_sum(corners, PAPER_TIME), "deg"),
+            _fact(f"first time of an angle sum of {LOOSE_ANGLE:g} degrees", loose, "s"),
+            _fact(f"clearance at the paper's time, benches {a} and {b}", gap, "m"),
+            _fact("first time of an angle sum of 360 degrees", _first_time(corners, EXACT_ANGLE), "s"),
+            _fact("the same with eq. 12 as printed: w/2 cos theta of the wrong sign in all four y", literal, "s"),
         ],
     )  # fmt: skip
 
 
-def _collision_radius(found: FirstContact) -> Comparison:
+def _collision_radius(found: FirstContact) -> PaperNumber:
     assert found.head is not None
     head = trajectory_of(Dance(Dragon(benches=1), Spiral()), [PAPER_TIME]).position[0, 0]
     radius = float(np.hypot(*head))
@@ -130,13 +149,13 @@ def _collision_radius(found: FirstContact) -> Comparison:
         f"The paper's own numbers exclude each other: at its {PAPER_TIME:g} s the head is at {radius:.3f} m, and "
         f"it passes {PAPER_RADIUS:g} m at {passed:.2f} s. No reading was found that gives the paper's number.",
         [
-            Evidence("radius of the head at the paper's time", radius, "m"),
-            Evidence("time at which the head passes the paper's radius", passed, "s"),
+            _fact("radius of the head at the paper's time", radius, "m"),
+            _fact("time at which the head passes the paper's radius", passed, "s"),
         ],
     )  # fmt: skip
 
 
-def _minimum_pitch() -> Comparison:
+def _minimum_pitch() -> PaperNumber:
     found = minimum_pitch(Dragon(), turning_radius=TURNING_RADIUS)
     below, above = _bisected_radius()
     head = first_contact(Dance(Dragon(), Spiral(PAPER_PITCH))).head
@@ -149,12 +168,12 @@ def _minimum_pitch() -> Comparison:
         f"{TURNING_RADIUS:g} m, so the error that it drives to 1e-10 cannot vanish. At the paper's pitch the head "
         f"gets to {at_paper:.3f} m, well inside the circle. No reading was found that gives the paper's number.",
         [
-            Evidence("pitch at which a bisection of the radius ends", above, "m"),
-            Evidence("radius of first contact just below it", _contact_radius(below), "m"),
-            Evidence("radius of first contact just above it", _contact_radius(above), "m"),
-            Evidence("radius of first contact at the paper's pitch", at_paper, "m"),
-            Evidence("largest pitch at which the pose on the circle alone touches", alone, "m"),
-            Evidence("the same with the pairs of the head only, as in eqs. 14-17", head_alone, "m"),
+            _fact("pitch at which a bisection of the radius ends", above, "m"),
+            _fact("radius of first contact just below it", _contact_radius(below), "m"),
+            _fact("radius of first contact just above it", _contact_radius(above), "m"),
+            _fact("radius of first contact at the paper's pitch", at_paper, "m"),
+            _fact("largest pitch at which the pose on the circle alone touches", alone, "m"),
+            _fact("the same with the pairs of the head only, as in eqs. 14-17", head_alone, "m"),
         ],
     )  # fmt: skip
 
@@ -231,3 +250,11 @@ def _head_touches_at_start(path: Spiral) -> bool:
     poses = bench_poses(trajectory_of(Dance(dragon, path), [0.0]).position[0])
     sizes = np.stack([dragon.lengths, dragon.widths], axis=-1)
     return bool(separation(poses[0], sizes[0], poses[2:], sizes[2:]).separation.min() <= 0.0)
+
+
+def paper(asked: Nothing, settings: Settings) -> PaperTable:
+    """The paper's reported numbers beside ours, with the reason for each difference."""
+    return PaperTable(rows=list(comparison()))
+
+
+QUESTION = Question(paper, PaperTable, flat=Nothing)

@@ -19,25 +19,38 @@ from fastapi.responses import FileResponse, HTMLResponse
 from prometheus_client import CollectorRegistry, Gauge, generate_latest
 from prometheus_client.exposition import CONTENT_TYPE_LATEST
 from prometheus_client.multiprocess import MultiProcessCollector
+from pydantic import Field
 from starlette.middleware import Middleware
 from starlette.staticfiles import StaticFiles
 
-from app.service import figure_routes, problems, routes
+from app.service import problems, routes
 from app.service.examples import EXAMPLES
 from app.service.middleware import BodyLimit, HeadAsGet, Metrics, Mistakes, SafetyHeaders
 from app.service.reply import VERSION, refuse_query
 from app.settings import SHARED_COUNTS, Settings
-from app.wire.answers import State
+from app.wire.models import Answer
 from core import Dragon, Spiral, first_contact, trajectory
 from core.dance import Dance
 
 logger = logging.getLogger("uvicorn.error")
+
+
+class State(Answer):
+    """Is the service alive, and is it ready?"""
+
+    status: str = Field(description="ok or ready")
+
 
 PAGE = Path(__file__).parent.parent / "page"
 DESCRIPTION = """Where is every bench of a bench dragon and how fast, when do two benches first touch, and how
 tight may the spiral be? SI units and radians throughout. A collision is an answer, never an error; errors are problem
 details (RFC 9457). An answer depends on its request alone and carries a strong ETag.
 """
+TAGS = [
+    {"name": "Questions", "description": "Answers in numbers, by a query or by a body with a dragon and a path."},
+    {"name": "Figures", "description": "Answers as pictures, in SVG or PNG."},
+    {"name": "Service", "description": "Is it alive, and is it right?"},
+]
 # Swagger UI's files come from a pip package; its start is a file of its own, because pages here run no inline script.
 DOCS = """<!doctype html>
 <html lang="en">
@@ -96,6 +109,9 @@ def create_app(settings: Settings | None = None) -> FastAPI:
         title="Bench Dragon",
         version=VERSION,
         description=DESCRIPTION,
+        servers=[{"url": "/", "description": "This service"}],
+        license_info={"name": "MIT", "identifier": "MIT"},
+        openapi_tags=TAGS,
         docs_url=None,
         redoc_url=None,
         redirect_slashes=False,
@@ -117,8 +133,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     app.state.registry = registry
     app.openapi = lambda: _openapi(app)  # type: ignore[method-assign]
     problems.install(app)
-    app.include_router(routes.router)
-    app.include_router(figure_routes.router)
+    app.include_router(routes.router())
     _add_health(app)
     _add_pages(app)
     return app
@@ -126,7 +141,15 @@ def create_app(settings: Settings | None = None) -> FastAPI:
 
 def _openapi(app: FastAPI) -> dict[str, Any]:
     if app.openapi_schema is None:
-        schema = get_openapi(title=app.title, version=app.version, description=app.description, routes=app.routes)
+        schema = get_openapi(
+            title=app.title,
+            version=app.version,
+            description=app.description,
+            routes=app.routes,
+            tags=app.openapi_tags,
+            servers=app.servers,
+            license_info=app.license_info,
+        )
         problem = problems.Problem.model_json_schema(ref_template="#/components/schemas/{model}")
         schema["components"]["schemas"] |= problem.pop("$defs") | {"Problem": problem}
         for name, example in EXAMPLES.items():  # FastAPI drops every null of an example.
@@ -153,15 +176,22 @@ def _state_benches(part: Any, most: int) -> None:
 
 
 def _add_health(app: FastAPI) -> None:
-    no_query = [Depends(refuse_query)]
+    problem = {"description": "A query was given, and this call takes none", "content": routes.PROBLEM}
+    described: dict[str, Any] = {
+        "response_model": State,
+        "dependencies": [Depends(refuse_query)],
+        "tags": ["Service"],
+        "responses": {422: problem},
+        "openapi_extra": {"security": []},
+    }
 
-    @app.get("/healthz", response_model=State, dependencies=no_query, tags=["Service"])
+    @app.get("/healthz", operation_id="healthz", **described)
     async def healthz(response: Response) -> State:
         """Is the process alive?"""
         response.headers["Cache-Control"] = "no-store"
         return State(status="ok")
 
-    @app.get("/readyz", response_model=State, dependencies=no_query, tags=["Service"])
+    @app.get("/readyz", operation_id="readyz", **described)
     async def readyz(request: Request, response: Response) -> State:
         """Does this installation give known answers?"""
         if request.app.state.fault:

@@ -11,8 +11,8 @@ from fastapi.exceptions import RequestValidationError
 from pydantic import BaseModel, Field
 from starlette.exceptions import HTTPException
 
+from app.wire.dances import SHAPES
 from app.wire.messages import message, shown
-from app.wire.requests import SHAPES
 from core import BenchDragonError
 
 PROBLEM_TYPE = "application/problem+json"

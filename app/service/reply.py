@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from importlib.metadata import version
 from threading import BoundedSemaphore
 from typing import Annotated
@@ -12,16 +12,19 @@ from fastapi import Depends, Request, Response
 from prometheus_client import Gauge
 from pydantic import BaseModel
 
+from app.questions import Question
+from app.questions.figures import Format
 from app.service.problems import ErrorItem, Refused
 from app.settings import Settings
-from app.wire.refusals import refusing
+from app.wire.models import JSON
+from app.wire.refusals import reworded
+from core import BenchDragonError
 
-JSON = "application/json"
 VERSION = version("bench-dragon")
 
 
 class Reply:
-    """Answers a request with what compute() gives, unless the client has it already or the service is full."""
+    """Answers a request, unless the client has the answer already or the service is full."""
 
     def __init__(self, request: Request) -> None:
         state = request.app.state
@@ -30,7 +33,7 @@ class Reply:
         self._free: BoundedSemaphore = state.free
         self._busy: Gauge = state.busy
 
-    def media_type(self, offers: Sequence[str] = (JSON,)) -> str:
+    def media_type(self, offers: Sequence[str]) -> str:
         """The form to answer in.
 
         raises: Refused (406) when the client takes none of the offers
@@ -42,14 +45,14 @@ class Reply:
             raise Refused(406, detail, [ErrorItem(name="Accept", detail=detail)])
         return chosen
 
-    def __call__(self, wanted: BaseModel, compute: Callable[[], bytes], media_type: str = "") -> Response:
-        """The bytes of compute() in the media type, JSON when none is given.
+    def __call__(self, question: Question, asked: BaseModel, *form: Format) -> Response:
+        """The answer to the request, in the best form that the client takes; a figure in the form of its address.
 
         raises: Refused (503) when as many computations run as may run at once
         """
-        media_type = media_type or self.media_type()
+        media_type = self.media_type([one.media_type for one in form] or question.forms)
         headers = {
-            "ETag": self._tag(wanted, media_type),
+            "ETag": self._tag(asked, media_type),
             "Cache-Control": f"public, max-age={self.settings.cache_seconds}",
             "Vary": "Accept",
         }
@@ -58,16 +61,21 @@ class Reply:
         if not self._free.acquire(blocking=False):
             detail = f"{self.settings.concurrent_max} computations are running, as many as may: try again later."
             raise Refused(503, detail, headers={"Retry-After": str(self.settings.retry_after)})
+        forms = form or (media_type,) * (len(question.forms) > 1)
         try:
-            with self._busy.track_inprogress(), refusing(wanted):
-                return Response(compute(), headers=headers, media_type=media_type)
+            with self._busy.track_inprogress():
+                found = question.answer(asked, self.settings, *forms)
+                data = found if isinstance(found, bytes) else found.to_json()
+                return Response(data, headers=headers, media_type=media_type)
+        except BenchDragonError as error:
+            raise reworded(error, asked) from error
         finally:
             self._free.release()
 
-    def _tag(self, wanted: BaseModel, media_type: str) -> str:
+    def _tag(self, asked: BaseModel, media_type: str) -> str:
         """Strong ETag: an answer depends on the call, its values with all defaults, the form and the version alone."""
-        asked = "\n".join((VERSION, self.request.url.path, media_type, wanted.model_dump_json()))
-        return f'"{hashlib.blake2b(asked.encode(), digest_size=16).hexdigest()}"'
+        values = "\n".join((VERSION, self.request.url.path, media_type, asked.model_dump_json()))
+        return f'"{hashlib.blake2b(values.encode(), digest_size=16).hexdigest()}"'
 
 
 async def reply_body(request: Request) -> Reply:

@@ -6,13 +6,14 @@ import difflib
 import json
 import math
 from collections.abc import Mapping, Sequence
+from functools import cache
 from itertools import takewhile
 from typing import Annotated, Any, get_args, get_origin
 
 from pydantic import BaseModel, Tag
 
+from app.wire.models import Wire, unit_of
 from app.wire.paths import KINDS
-from app.wire.requests import UNITS
 from core.errors import said
 
 # Longer values are shortened [characters].
@@ -36,11 +37,12 @@ def message(error: Mapping[str, Any], asked: Any) -> str:
 
     asked: type of the request
     """
+    units = known_units()
     names = [part for part in error["loc"][1:] if isinstance(part, str)]
-    name = next((part for part in reversed(names) if part in UNITS), names[-1] if names else "the body")
+    name = next((part for part in reversed(names) if part in units), names[-1] if names else "the body")
     kind, value, limits = error["type"], error["input"], error.get("ctx", {})
     told_apart = next((part for part in reversed(names) if part in KINDS), "")
-    unit = UNITS.get(f"{told_apart}.{name}", UNITS.get(name, ""))
+    unit = units.get(f"{told_apart}.{name}", units.get(name, ""))
     name += "".join(f"[{part}]" for part in _last_indices(error["loc"]))
     number = _number(value, text=error["loc"][0] == "query")
     words = str(value) if isinstance(value, str) and number is not None else shown(value)
@@ -63,7 +65,7 @@ def message(error: Mapping[str, Any], asked: Any) -> str:
         case "missing":
             return f"{names[-1] if names else name} is missing"
         case "extra_forbidden":
-            alike = ALIKE if names[-1] in UNITS else ALIKE_SLIP
+            alike = ALIKE if names[-1] in units else ALIKE_SLIP
             near = difflib.get_close_matches(names[-1], names_at(asked, error["loc"][1:-1]), n=1, cutoff=alike)
             return f"{shown(names[-1])} is unknown here: " + (f"did you mean {near[0]}?" if near else "leave it out")
         case "model_type" | "model_attributes_type" | "dict_type":
@@ -85,6 +87,24 @@ def message(error: Mapping[str, Any], asked: Any) -> str:
         case "too_many_names":
             return f"{name} must have at most {limits['most']} names, got {limits['given']}: see /docs for all names"
     return f"{name}: {error['msg'][:1].lower()}{error['msg'][1:]}, {got}"
+
+
+@cache
+def known_units() -> dict[str, str]:
+    """Name of every field of a request -> its unit, empty for a pure number; of a path also by its kind and name."""
+    return _units(Wire.__subclasses__())
+
+
+def _units(models: list[type[Wire]]) -> dict[str, str]:
+    found: dict[str, str] = {}
+    for model in sorted(models, key=lambda model: "kind" in model.model_fields):
+        kind = model.model_fields.get("kind")
+        for name, field in model.model_fields.items():
+            for word in get_args(kind.annotation) if kind else ():
+                found[f"{word}.{name}"] = unit_of(field)
+            found.setdefault(name, unit_of(field))
+        found = _units(model.__subclasses__()) | found
+    return found
 
 
 def names_at(kind: Any, place: Sequence[Any]) -> list[str]:

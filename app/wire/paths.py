@@ -8,11 +8,10 @@ from __future__ import annotations
 
 from typing import Annotated, Any, Literal
 
-from pydantic import Discriminator, Field, Tag
+from pydantic import ConfigDict, Discriminator, Field, Tag
 
 import core
-from app.settings import check_limit
-from app.wire.measures import Angle, Coordinate, Pitch, StartTurns, TurningDiameter, Wire
+from app.wire.models import Angle, Coordinate, Pitch, StartTurns, TurningDiameter, Wire, check_limit, measure
 from core import InvalidValue, Route, Spiral
 
 # A sharp zigzag of 1,000 points becomes a path in 0.02 s, 1,000 arcs too (measured 2026-11-21).
@@ -22,11 +21,12 @@ PIECES_MAX = 1_000
 Radius = Annotated[float, Field(ge=1e-3, le=1e4)]
 Point = Annotated[list[Coordinate], Field(min_length=2, max_length=2)]
 Start = Annotated[
-    float, Field(ge=-1e6, le=1e6, description="How far from the beginning of the path the head is at time 0 [m]")
+    float,
+    measure(ge=-1e6, le=1e6, description="How far from the beginning of the path the head is at time 0", unit="m"),
 ]
 # An entry deeper inside the circle makes the turn shorter.
 EntryRadius = Annotated[
-    float | None, Field(ge=1e-3, le=100, description="Where the turn begins; null: on the circle [m]")
+    float | None, measure(ge=1e-3, le=100, description="Where the turn begins; null: on the circle", unit="m")
 ]
 
 
@@ -45,7 +45,9 @@ class TurnCircle(Wire):
     """Two coils, and the circle in which the dance turns from the one to the other."""
 
     pitch: Pitch = 1.7
-    turning_diameter: TurningDiameter = Field(9.0, description="Diameter of the circle in which the turn lies [m]")
+    turning_diameter: TurningDiameter = measure(
+        9.0, description="Diameter of the circle in which the turn lies", unit="m"
+    )
     ratio: float = Field(2.0, ge=0.01, le=100, description="Radius of the first arc over that of the second")
     start_turns: StartTurns = 16.0
 
@@ -65,7 +67,7 @@ class TurnFields(TurnCircle):
             entry_radius=self.entry_radius,
         )
 
-    def to_path(self) -> Route:
+    def to_path(self) -> core.Turn:
         """raises: InvalidValue, named by the place in a body"""
         try:
             return self.to_turn()
@@ -73,8 +75,11 @@ class TurnFields(TurnCircle):
             raise error.named(f"path.{error.field}") from error
 
 
-class SpiralPath(SpiralFields, strict=True):
+class SpiralPath(SpiralFields):
     """An Archimedean spiral, danced inwards."""
+
+    # A body without a kind is a spiral too, but a client must name what tells the paths apart.
+    model_config = ConfigDict(strict=True, json_schema_extra={"required": ["kind"]})
 
     kind: Literal["spiral"] = Field("spiral", description="Kind of path")
 
@@ -89,8 +94,8 @@ class LinePiece(Wire, strict=True):
     """A straight piece."""
 
     kind: Literal["line"] = Field(description="Kind of piece")
-    start: Point = Field(description="Where it begins, x and y [m]")
-    end: Point = Field(description="Where it ends, x and y [m]")
+    start: Point = measure(description="Where it begins, x and y", unit="m")
+    end: Point = measure(description="Where it ends, x and y", unit="m")
 
     def to_piece(self) -> core.Piece:
         return core.Line(_point(self.start), _point(self.end))
@@ -100,10 +105,10 @@ class ArcPiece(Wire, strict=True):
     """Part of a circle."""
 
     kind: Literal["arc"] = Field(description="Kind of piece")
-    centre: Point = Field(description="Centre of the circle, x and y [m]")
-    radius: Radius = Field(description="Radius of the circle [m]")
-    start_angle: Angle = Field(description="Direction from the centre to where it begins [rad]")
-    sweep: Angle = Field(description="Angle covered, counter-clockwise positive [rad]")
+    centre: Point = measure(description="Centre of the circle, x and y", unit="m")
+    radius: Radius = measure(description="Radius of the circle", unit="m")
+    start_angle: Angle = measure(description="Direction from the centre to where it begins", unit="rad")
+    sweep: Angle = measure(description="Angle covered, counter-clockwise positive", unit="rad")
 
     def to_piece(self) -> core.Piece:
         return core.Arc(_point(self.centre), self.radius, self.start_angle, self.sweep)
@@ -114,10 +119,10 @@ class CoilPiece(Wire, strict=True):
 
     kind: Literal["coil"] = Field(description="Kind of piece")
     pitch: Pitch = 0.55
-    start_turns: float = Field(ge=0, le=200, description="Turns between the centre and where it begins [turns]")
-    end_turns: float = Field(ge=0, le=200, description="Turns between the centre and where it ends [turns]")
-    centre: Point = Field([0.0, 0.0], description="Centre of the spiral, x and y [m]")
-    rotation: Angle = Field(0.0, description="Of the whole spiral about its centre [rad]")
+    start_turns: float = measure(ge=0, le=200, description="Turns between the centre and where it begins", unit="turns")
+    end_turns: float = measure(ge=0, le=200, description="Turns between the centre and where it ends", unit="turns")
+    centre: Point = measure([0.0, 0.0], description="Centre of the spiral, x and y", unit="m")
+    rotation: Angle = measure(0.0, description="Of the whole spiral about its centre", unit="rad")
 
     def to_piece(self) -> core.Piece:
         return core.Coil(self.pitch, self.start_turns, self.end_turns, _point(self.centre), self.rotation)
@@ -127,11 +132,13 @@ class WaypointsPiece(Wire, strict=True):
     """A smooth curve through points, without a jump of curvature."""
 
     kind: Literal["waypoints"] = Field(description="Kind of piece, or of path")
-    points: list[Point] = Field(
-        min_length=2, max_length=POINTS_MAX, fail_fast=True, description="Points to pass, x and y [m]"
+    points: list[Point] = measure(
+        min_length=2, max_length=POINTS_MAX, fail_fast=True, description="Points to pass, x and y", unit="m"
     )
-    start_heading: Angle | None = Field(None, description="Direction at the start; null: no curvature there [rad]")
-    end_heading: Angle | None = Field(None, description="Direction at the end; null: no curvature there [rad]")
+    start_heading: Angle | None = measure(
+        None, description="Direction at the start; null: no curvature there", unit="rad"
+    )
+    end_heading: Angle | None = measure(None, description="Direction at the end; null: no curvature there", unit="rad")
 
     def to_piece(self) -> core.Piece:
         return core.Waypoints(tuple(map(_point, self.points)), self.start_heading, self.end_heading)
@@ -194,4 +201,14 @@ AnyPath = Annotated[
     | Annotated[WaypointsPath, Tag("waypoints")],
     Discriminator(_kind),
 ]
+# What OpenAPI needs to know of AnyPath, whose choice pydantic leaves to a function.
+BY_KIND: dict[str, Any] = {
+    "propertyName": "kind",
+    "mapping": {
+        "spiral": "#/components/schemas/SpiralPath",
+        "turn": "#/components/schemas/TurnPath",
+        "route": "#/components/schemas/RoutePath",
+        "waypoints": "#/components/schemas/WaypointsPath",
+    },
+}
 KINDS = frozenset({"spiral", "turn", "route", "waypoints", "line", "arc", "coil"})

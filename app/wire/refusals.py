@@ -13,16 +13,15 @@ from typing import Any
 
 from pydantic import BaseModel
 
+from app.wire.dances import TimeSteps
 from app.wire.paths import TurnFields
-from app.wire.requests import TimeSteps
 from core import BenchDragonError, Dragon
 from core.dance import follows, tightest_bend
 from core.dragon import BENCHES_MAX
 from core.errors import said
 
-# A request without these names its fields flat.
-NESTED = frozenset({"dragon", "path"})
-PREFIX = re.compile(r"\b(?:dragon|path|times)\.(?=[a-z])")
+# A request that has no object of this name has its fields in its own place.
+OUTER = re.compile(r"^(dragon|path|times)\.(?=[a-z])")
 # What of a turn may make it too tight, where its default would do; else its circle is too small.
 MEND_A_TURN = ("entry_radius", "ratio", "pitch")
 INSTANT = re.compile(r"times(?:\.(\d+))?")
@@ -47,9 +46,7 @@ def reworded(error: BenchDragonError, request: BaseModel) -> BenchDragonError:
         error = error.named(radius.replace("radius", "diameter"), None if error.got is None else 2.0 * error.got)
     if error.field == "path" and isinstance(getattr(request, "path", request), TurnFields):
         error = _of_a_turn(error, request)
-    if names & NESTED:
-        return error
-    return type(error)(PREFIX.sub("", error.field), PREFIX.sub("", error.message))
+    return error.renamed(lambda name: OUTER.sub(lambda outer: outer[0] * (outer[1] in names), name))
 
 
 def _of_instants(error: BenchDragonError, request: Any, index: int) -> BenchDragonError:

@@ -445,8 +445,9 @@ def _check_straight(dragon: Dragon, straight: Straight, margin: float) -> None:
         body = dragon.lengths[a + 1]
         raise InvalidValue(
             "dragon.overhang",
-            f"dragon.overhang must be less than a quarter of dragon.body_length ({body:g} m / 4 = {0.25 * body:g} m), "
+            f"{{field}} must be less than a quarter of {{length}} ({body:g} m / 4 = {0.25 * body:g} m), "
             f"got {front:g} m: {why}",
+            length="dragon.body_length",
         )
     raise InvalidValue(
         f"dragon.overhangs.{a}",

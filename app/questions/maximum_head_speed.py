@@ -1,0 +1,69 @@
+"""How fast may the head dance?"""
+
+from __future__ import annotations
+
+from pydantic import Field
+
+import core
+from app.questions.question import Question
+from app.settings import Settings
+from app.wire.dances import DragonFields, UniformDragon
+from app.wire.models import Answer, Instant, SpeedLimit, Wire, measure
+from app.wire.paths import BY_KIND, AnyPath, TurnFields, TurnPath
+
+
+class Limit(Wire):
+    """What no handle may exceed."""
+
+    speed_limit: SpeedLimit = measure(2.0, description="Of every handle", unit="m/s")
+
+
+class MaximumHeadSpeedQuery(Limit, TurnFields, UniformDragon):
+    """How fast may the head dance through a turn?"""
+
+    def to_dance(self, benches_max: int) -> core.Dance:
+        """raises: TooLarge, InvalidValue"""
+        return core.Dance(self.to_dragon(benches_max), self.to_turn())
+
+
+class MaximumHeadSpeedRequest(Limit, DragonFields, strict=True):
+    """How fast may the head dance, on any path?"""
+
+    path: AnyPath = Field(
+        default_factory=lambda: TurnPath(kind="turn"),
+        description="The path; a turn where none is given",
+        json_schema_extra={"discriminator": BY_KIND},
+    )
+    start: Instant | None = measure(
+        None, description="From when, at a head speed of 1 m/s; null: the start of the dance", unit="s"
+    )
+    stop: Instant | None = measure(
+        None, description="Until when, at a head speed of 1 m/s; null: the end of the run", unit="s"
+    )
+
+    def to_dance(self, benches_max: int) -> core.Dance:
+        """raises: TooLarge, InvalidValue"""
+        return core.Dance(self.to_dragon(benches_max), self.path.to_path())
+
+
+class MaximumHeadSpeed(Answer):
+    """The largest constant head speed at which no handle ever exceeds the limit."""
+
+    head_speed: float = measure(description="", unit="m/s")
+    head_speed_bracket: tuple[float | None, float] = measure(
+        description="Proven to keep the limit (null where that proof was given up), found to reach it", unit="m/s"
+    )
+    speed_ratio: float = Field(description="Highest speed of a handle over that of the head")
+    handles: list[int] = Field(description="The handles that reach the limit together")
+    time: float = measure(description="When they do, at that head speed; 0 is the entry into the turn", unit="s")
+    time_at_unit_head_speed: float = measure(description="The same at a head speed of 1 m/s", unit="s")
+
+
+def maximum_head_speed(asked: MaximumHeadSpeedQuery | MaximumHeadSpeedRequest, settings: Settings) -> MaximumHeadSpeed:
+    """The largest constant head speed at which no handle ever exceeds the limit."""
+    dance = asked.to_dance(settings.checked_benches_max)
+    span = {} if isinstance(asked, MaximumHeadSpeedQuery) else {"start": asked.start, "stop": asked.stop}
+    return MaximumHeadSpeed.model_validate(core.maximum_head_speed(dance, asked.speed_limit, **span))
+
+
+QUESTION = Question(maximum_head_speed, MaximumHeadSpeed, flat=MaximumHeadSpeedQuery, body=MaximumHeadSpeedRequest)

@@ -1,0 +1,82 @@
+"""How tight may the spiral be?"""
+
+from __future__ import annotations
+
+from typing import Self
+
+from pydantic import Field
+
+import core
+from app.questions.question import Question
+from app.settings import Settings
+from app.wire.answers import Pair, PairCheck, Point
+from app.wire.dances import Circle, DragonFields, UniformDragon
+from app.wire.models import Answer, CrossCheck, measure
+from core import Dragon
+
+
+class PitchFields(Circle):
+    """How tight may the spiral be?"""
+
+    cross_check: CrossCheck = "dragon"
+
+
+class MinimumPitchQuery(PitchFields, UniformDragon):
+    """How tight may the spiral be?"""
+
+
+class MinimumPitchRequest(PitchFields, DragonFields, strict=True):
+    """How tight may the spiral be, for any dragon?"""
+
+
+class MinimumPitch(Answer):
+    """The smallest pitch such that every larger one lets the head reach the turning circle with no two benches nearer
+    than the margin, or touching if it is 0."""
+
+    pitch: float = measure(description="", unit="m")
+    pitch_bracket: Point = measure(
+        description="Infeasible, feasible; twice the same where smaller pitches would begin inside the circle", unit="m"
+    )
+    limited_by: core.LimitedBy = Field(
+        description="Just below: a graze on the way; contact on the circle; the start: contact there or, where benches "
+        "is null, a start inside the circle (contact: nearer than the margin, or a touch if it is 0); or a "
+        "fold: a bench cannot follow the head as far as the circle"
+    )
+    benches: Pair | None = Field(
+        description="The pair that touches, or is nearer than the margin, just below; null at a fold or without one"
+    )
+    head_radius: float | None = measure(description="Where the head is then", unit="m")
+    other_feasible_intervals: list[Point] = measure(description="Feasible islands below", unit="m")
+    justified_by: str = Field(
+        description="How larger pitches are known to be feasible. bound: proven for all; scan: below proven_from "
+        "single ones are proven, at most scan_step apart: a narrower range of infeasible ones is not excluded there"
+    )
+    proven_from: float = measure(
+        description="From here on every pitch is proven feasible; pitch itself without a scan", unit="m"
+    )
+    proven_up_to: float | None = measure(description="Up to here; null: every larger pitch, without end", unit="m")
+    scan_step: float | None = measure(
+        description="How far apart the pitches of a scan are at most; null: no scan", unit="m"
+    )
+    evaluations: int = Field(description="Ways to the circle, and strips of pitches at once, that were marched")
+    cross_check: PairCheck | None = Field(
+        description="Engines on the dance at a pitch 1e-6 m larger and smaller, the head where the pair is nearer than "
+        "the margin, or touches; null without a pair, and when not asked for"
+    )
+
+    @classmethod
+    def of(cls, found: core.MinimumPitch, dragon: Dragon, asked: PitchFields) -> Self:
+        check = None
+        if asked.cross_check != "none":
+            check = core.pitch_check(found, dragon, margin=asked.margin, whole=asked.cross_check == "dragon")
+        return cls.known(found, cross_check=check)
+
+
+def minimum_pitch(asked: MinimumPitchQuery | MinimumPitchRequest, settings: Settings) -> MinimumPitch:
+    """The smallest pitch such that every larger one reaches the circle with no touch, or no two within a margin."""
+    dragon = asked.to_dragon(asked.most_benches(settings))
+    found = core.minimum_pitch(dragon, **asked.to_circle())
+    return MinimumPitch.of(found, dragon, asked)
+
+
+QUESTION = Question(minimum_pitch, MinimumPitch, flat=MinimumPitchQuery, body=MinimumPitchRequest)
