@@ -12,7 +12,7 @@ import numpy as np
 
 from core import kernels
 from core.dragon import Dragon
-from core.errors import InvalidValue, OutsideRun, said
+from core.errors import InvalidValue, OutsideRun, said, said_bound
 from core.paths.route import Route
 from core.paths.spiral import Spiral
 from core.shown import Shown
@@ -161,7 +161,7 @@ class Dance(Shown):
         early = np.flatnonzero(time < earliest)
         if early.size:
             k = int(early[0])
-            rule = f"must be at least {earliest:.6f} s, when the whole dragon is on the path"
+            rule = f"must be at least {said_bound(earliest, 6, 1)} s, when the whole dragon is on the path"
             raise OutsideRun.of(_instant(time, k), rule, time.flat[k], "s")
         return time
 
@@ -173,15 +173,15 @@ class Dance(Shown):
         until = self.end.time if stop is None else checked_number("stop", stop, "s", -TIME_MAX, TIME_MAX)
         begin = checked_number("start", start, "s", -TIME_MAX, TIME_MAX)
         if begin < self.earliest:
-            rule = f"must be at least {self.earliest:.6f} s, when the whole dragon is on the path"
+            rule = f"must be at least {said_bound(self.earliest, 6, 1)} s, when the whole dragon is on the path"
             raise OutsideRun.of("start", rule, begin, "s")
-        limit = f"{self.end.time:.9f} s, when {self.end.why}"
+        limit = f"{said_bound(self.end.time, 9, -1)} s, when {self.end.why}"
         if until > self.end.time:
             raise OutsideRun.of("stop", f"must be at most {limit}", until, "s")
         if until <= begin:
             if stop is None:
                 raise OutsideRun.of("start", f"must be before {limit}", begin, "s")
-            raise InvalidValue.of("stop", f"must be after start ({begin:g} s)", until, "s")
+            raise InvalidValue.of("stop", f"must be after start ({said(begin)} s)", until, "s")
         return begin, until
 
     def ends_by(self, stop: float) -> bool:
@@ -194,7 +194,7 @@ class Dance(Shown):
 
     def after_the_end(self, time: Floats, index: int) -> OutsideRun:
         """The error about one of the times, which is after the end of the run."""
-        rule = f"must be at most {self.end.time:.9f} s, when {self.end.why}"
+        rule = f"must be at most {said_bound(self.end.time, 9, -1)} s, when {self.end.why}"
         return OutsideRun.of(_instant(time, index), rule, time.flat[index], "s")
 
 
@@ -231,7 +231,7 @@ def _spiral_end(dragon: Dragon, path: Spiral, head_speed: float) -> RunEnd:
         raise InvalidValue(
             "path.start_turns",
             f"path.start_turns must be more than {theta / (2 * math.pi):.6g} turns, where bench {bench} of this "
-            f"dragon folds, got {path.start_turns:g} turns",
+            f"dragon folds, got {said(path.start_turns)} turns",
         )
     time = (path.length - path.growth * kernels.spiral_arc(theta)) / head_speed
     return RunEnd(EndReason.CENTRE if bench is None else EndReason.FOLD, time, theta, bench)

@@ -74,8 +74,8 @@ class Dragon(Shown):
             if length - 2.0 * overhang < SIZE_MIN:
                 raise InvalidValue(
                     "dragon.overhang",
-                    f"{{field}} must be less than half of {{length}} ({length:g} m / 2 = {length / 2:g} m), "
-                    f"got {overhang:g} m",
+                    f"{{field}} must be less than half of {{length}} "
+                    f"({said(length)} m / 2 = {said(length / 2)} m), got {said(overhang)} m",
                     length=f"dragon.{name}",
                 )
         lengths = np.full(int(benches), body_length)
@@ -100,7 +100,7 @@ class Dragon(Shown):
             raise InvalidValue(
                 f"dragon.overhangs.{k}",
                 f"dragon.overhangs[{k}] must be less than half of dragon.lengths[{k}] "
-                f"({length_column[k]:g} m / 2 = {length_column[k] / 2:g} m), got {overhang_column[k]:g} m",
+                f"({said(length_column[k])} m / 2 = {said(length_column[k] / 2)} m), got {said(overhang_column[k])} m",
             )
         dragon = cls.__new__(cls)
         dragon._freeze(length_column, width_column, overhang_column)

@@ -47,12 +47,14 @@ class BenchDragonError(Exception):
 
     @classmethod
     def of(cls, field: str, rule: str, got: float, unit: str) -> Self:
-        """The error of a number that breaks a rule.
+        """The error of a number that breaks a rule; what follows a colon in the rule is why, and stands at the end.
 
         >>> InvalidValue.of("times.3", "must be at most 9 s", 12.5, "s").message
         'times[3] must be at most 9 s, got 12.5 s'
         """
-        error = cls(field, f"{spoken(field)} {rule}, got {got:.12g} {unit}".rstrip())
+        rule_itself, colon, why = rule.partition(": ")
+        value = f"{said(got)} {unit}".rstrip()
+        error = cls(field, f"{spoken(field)} {rule_itself}, got {value}{colon}{why}")
         error.got, error._rule, error._unit = got, rule, unit
         return error
 
@@ -82,6 +84,16 @@ def said(number: float) -> str:
     ('0.30000000000000004', '9', '0')
     """
     return repr(float(number) + 0.0).removesuffix(".0")
+
+
+def said_bound(number: float, decimals: int, side: int) -> str:
+    """A bound with so many decimals, rounded to the side (-1: down, 1: up) on which it stays true.
+
+    >>> said_bound(432.9179242286, 9, -1), said_bound(16.0000001, 6, 1)
+    ('432.917924228', '16.000001')
+    """
+    text = f"{number:.{decimals}f}"
+    return text if side * (float(text) - number) >= 0.0 else f"{float(text) + side * 10.0**-decimals:.{decimals}f}"
 
 
 def spoken(field: str) -> str:

@@ -8,6 +8,7 @@ from enum import StrEnum
 from core.contact.first_contact import FirstContact, HeadState, Outcome, first_contact, head_state
 from core.contact.least_clearance import LeastClearance, least_clearance
 from core.dance import TIME_MAX, Dance, EndReason, RunEnd
+from core.errors import said, said_bound
 from core.motion.joints import SharpestBend, sharpest_bend
 from core.motion.speed import (
     SPEED_PROVEN,
@@ -199,7 +200,7 @@ def _contact_failures(contact: FirstContact, margin: float) -> list[Failure]:
 def _meeting(margin: float, come: str, near: str) -> str:
     """What things nearer than the margin do, in words; near: to what, if it is not one another."""
     if margin > 0.0:
-        return f"{come} nearer than {margin:g} m{near and ' to '}{near}"
+        return f"{come} nearer than {said(margin)} m{near and ' to '}{near}"
     return f"{'touches' if come == 'comes' else 'touch'}{near and ' '}{near}"
 
 
@@ -249,9 +250,9 @@ def _speed_failure(excess: FirstExcess, speed: HighestSpeed | None, limit: float
     handles: tuple[int, ...] = ()
     if time is None and speed is not None and speed.speed > limit * (1.0 + SPEED_ROUNDING):
         time, handle = speed.time, speed.handles[0]
-    kept = f"{limit:g} m/s is proven to be kept up to {proven:.6f} s"
+    kept = f"{said(limit)} m/s is proven to be kept up to {said_bound(proven, 6, -1)} s"
     if time is None and speed is not None:
-        message = f"Whether a handle exceeds {limit:g} m/s is not decided; {kept}, and no higher speed was found."
+        message = f"Whether a handle exceeds {said(limit)} m/s is not decided; {kept}, and no higher speed was found."
         return Failure(FailureKind.UNDECIDED, proven, (), None, message, (proven, latest))
     if speed is None:
         peak = f"towards {end.time:.6f} s, when bench {end.bench} folds, speeds grow without bound"
@@ -260,13 +261,13 @@ def _speed_failure(excess: FirstExcess, speed: HighestSpeed | None, limit: float
         peak = f"the highest speed is {speed.speed:.6f} m/s, of handle {speed.handles[0]} at {speed.time:.6f} s"
         speed_then, then = speed.speed, speed.time
     if time is None or handle is None:
-        time, message = end.time, f"A handle exceeds {limit:g} m/s: {peak}; {kept}."
+        time, message = end.time, f"A handle exceeds {said(limit)} m/s: {peak}; {kept}."
     elif time - proven > EXCESS_KNOWN:
         handles = (handle,)
-        message = f"Handle {handle} exceeds {limit:g} m/s at {time:.6f} s at the latest ({kept}); {peak}."
+        message = f"Handle {handle} exceeds {said(limit)} m/s at {time:.6f} s at the latest ({kept}); {peak}."
     else:
         handles = (handle,)
-        message = f"Handle {handle} first exceeds {limit:g} m/s at {time:.6f} s; {peak}."
+        message = f"Handle {handle} first exceeds {said(limit)} m/s at {time:.6f} s; {peak}."
     bracket = (proven, time)
     return Failure(FailureKind.SPEED, time, handles, None, message, bracket, None, speed_then, then)
 

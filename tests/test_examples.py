@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from app.files.disk import read_dance
-from app.wire.requests import CheckRequest
+from app.questions.check import CheckRequest
 from core import FailureKind, Outcome, Report
 
 EXAMPLES = Path(__file__).parents[1] / "examples"

@@ -194,7 +194,7 @@ def test_a_forged_certificate_is_refused(
     judged: Callable[[Any], subprocess.CompletedProcess[str]], small: Certificate, name: str
 ) -> None:
     change, reason = FORGERIES[name]
-    words = OWN_WORDS.get(name, reason).replace("malformed", "malformed|no other form of certificate")
+    words = OWN_WORDS.get(name, reason).replace("malformed", "malformed|this is neither")
     assert re.search(words, refusal(judged(edit(change)(small))))
 
 
@@ -334,7 +334,7 @@ def test_a_true_certificate_of_another_kind_is_refused_by_name(
         prove_clear(Dance(dragon, path), time - 1.0),
         prove_clear(Dance(Dragon(5), Turn(1.7)), 10.0),
     ):
-        known = "this verifier knows collision times and minimum pitches at margin 0 on a spiral, no other form of"
+        known = "judges only collision times and minimum pitches at margin 0 without a fold, and this is neither: "
         line = refusal(judged(certificate))
         assert known in line
         assert "malformed" not in line

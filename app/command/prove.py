@@ -23,13 +23,14 @@ from rich.progress import Progress
 import core
 from app.command.options import checked
 from app.files.disk import checked_output, read_dance, write_whole
+from app.questions.check import CheckRequest
 from app.settings import Settings
-from app.wire import requests as schemas
-from app.wire.models import Instant, Margin, StartTurns, TurningDiameter, Wire, measure
+from app.wire.dances import Circle, DanceQuery, HeadSpeed, UniformDragon
+from app.wire.models import Instant, Margin, Wire, measure
 from app.wire.paths import TurnFields
 from core import InvalidValue, Outcome
 from core.dance import Dance
-from core.errors import ProofRefused
+from core.errors import ProofRefused, said
 
 if TYPE_CHECKING:
     from core.proof import Proof
@@ -46,27 +47,22 @@ class _Thorough(Wire):
     )
 
 
-class CollisionClaim(_Thorough, schemas.DanceQuery):
+class CollisionClaim(_Thorough, DanceQuery):
     """When two benches first touch, or come nearer than the margin."""
 
     time: float | None = measure(None, ge=0, description="The claim; else what collision-time answers", unit="s")
     margin: Margin = 0.0
 
 
-class PitchClaim(_Thorough, schemas.UniformDragon):
+class PitchClaim(_Thorough, Circle, UniformDragon):
     """How tight the spiral may be."""
 
     pitch: float | None = measure(
         None, ge=1e-3, le=10, description="The claim; else what minimum-pitch answers", unit="m"
     )
-    turning_diameter: TurningDiameter = measure(
-        9.0, description="Diameter of the circle that the head must reach", unit="m"
-    )
-    start_turns: StartTurns = 16.0
-    margin: Margin = 0.0
 
 
-class ClearClaim(_Thorough, schemas.DanceQuery):
+class ClearClaim(_Thorough, DanceQuery):
     """A run on the spiral without a contact."""
 
     start: Instant = measure(0.0, description="From when", unit="s")
@@ -76,7 +72,7 @@ class ClearClaim(_Thorough, schemas.DanceQuery):
     margin: Margin = 0.0
 
 
-class TurnClaim(_Thorough, schemas.HeadSpeed, TurnFields, schemas.UniformDragon):
+class TurnClaim(_Thorough, HeadSpeed, TurnFields, UniformDragon):
     """A dance through the turn."""
 
     start: Instant = measure(-100.0, description="From when; 0 is the entry into the turn", unit="s")
@@ -137,7 +133,7 @@ def collision_time(
         if time is None:
             time = core.first_contact(core.Dance(dragon, path, asked.head_speed), margin=asked.margin).time
         if time is None:
-            near = f"no two benches come nearer than {asked.margin:g} m" if asked.margin else "nothing touches"
+            near = f"no two benches come nearer than {said(asked.margin)} m" if asked.margin else "nothing touches"
             raise ProofRefused("time", f"{near}, so there is no collision time to prove: prove clear")
         certificate = prove_collision_time(
             Dance(dragon, path, asked.head_speed),
@@ -220,11 +216,12 @@ def dance(
 ) -> None:
     """A dance on any path but waypoints: clear from its start to its stop or end, or its first contact."""
     checked_output("output", output, (".json",))
-    asked = checked(schemas.CheckRequest, read_dance(file))
+    asked = checked(CheckRequest, read_dance(file))
     dragon = asked.dragon.to_dragon(Settings().checked_benches_max)
     path = asked.path.to_path()
-    if asked.venue is not None or asked.speed_limit is not None:
-        print("The venue and the speed limit are no part of the proof.", file=sys.stderr)
+    for name in ("venue", "speed_limit"):
+        if getattr(asked, name) is not None:
+            print(f"The {name.replace('_', ' ')} is no part of the proof.", file=sys.stderr)
     dance = core.Dance(dragon, path, asked.head_speed)
     start = dance.begin if asked.start is None else asked.start
     times = {"start": start, "stop": asked.stop, "margin": asked.margin}
@@ -244,11 +241,11 @@ def _dance_proven(dance: core.Dance, times: dict[str, Any], every_pair: bool) ->
         if found.outcome is Outcome.CONTACT and found.time is not None:
             return prove_contact(dance, found.time, **times, **asked)
         if found.benches is None:
-            near = f"come nearer than {times['margin']:g} m" if times["margin"] else "touch"
+            near = f"come nearer than {said(times['margin'])} m" if times["margin"] else "touch"
             raise ProofRefused("time", f"the search did not decide whether two benches {near}")
         a, b = found.benches
-        near = f"are nearer than {times['margin']:g} m" if times["margin"] else "overlap"
-        raise ProofRefused("start", f"benches {a} and {b} {near} at the start already, {times['start']:g} s")
+        near = f"are nearer than {said(times['margin'])} m" if times["margin"] else "overlap"
+        raise ProofRefused("start", f"benches {a} and {b} {near} at the start already, {said(times['start'])} s")
 
 
 def _checked(certificate: Any) -> Proof:

@@ -18,11 +18,12 @@ from rich.text import Text
 
 from app.files import tables
 from app.questions.check import LeastClearance, Nearest, Report
-from app.questions.paper import Comparison
+from app.questions.overlaps import OverlapsAnswer
+from app.questions.paper import PaperNumber
 from app.wire import answers
-from app.wire.models import unit_of
+from app.wire.models import Answer, unit_of
 from core import Judgement, RunEnd, Trajectory
-from core.errors import said
+from core.errors import said, said_bound
 
 # A trajectory on a terminal: the handles that the contest asks for, at this many instants, or as many as fit.
 SHOWN_HANDLES = (0, 1, 51, 101, 151, 201)
@@ -82,7 +83,7 @@ def print_parts(*parts: Part) -> None:
         console.print(part)
 
 
-def print_answer(title: str, answer: answers.Answer, json: bool, *, margin: float = 0.0, benches: int = 0) -> None:
+def print_answer(title: str, answer: Answer, json: bool, *, margin: float = 0.0, benches: int = 0) -> None:
     """An answer as its JSON, or as two columns: each field by its name on the wire, and its value with its unit.
 
     margin: what counts as a contact [m], told where it is more than a touch
@@ -99,7 +100,7 @@ def print_answer(title: str, answer: answers.Answer, json: bool, *, margin: floa
 
 def _near(word: str, margin: float) -> str:
     """The word of an outcome: with a margin a contact is no touch."""
-    near = f"nearer than {margin:g} m"
+    near = f"nearer than {said(margin)} m"
     words = {"contact": near, "contact_at_start": f"{near} from the start on", "clear": f"never {near}"}
     return words.get(word, word) if margin else word
 
@@ -127,12 +128,6 @@ def _digits(value: float | tuple[float | None, ...]) -> str:
     """What is proven, with all its digits: a rounded one would say more than is proven."""
     ends = value if isinstance(value, tuple) else (value,)
     return ", ".join("unknown" if end is None else said(end) for end in ends)
-
-
-def _down(value: float) -> str:
-    """A lower bound with SHOWN_DECIMALS, not rounded above itself."""
-    text = f"{value:.{SHOWN_DECIMALS}f}"
-    return text if float(text) <= value else f"{float(text) - 10**-SHOWN_DECIMALS:.{SHOWN_DECIMALS}f}"
 
 
 def _check_words(check: answers.PairCheck, benches: int) -> Iterator[tuple[str, str]]:
@@ -205,7 +200,10 @@ def trajectory_tables(
     count = sum(map(len, blocks))
     of_handles, of_instants = _plural("handle", range(number)), _plural("instant", range(instants))
     words = f"{len(rows)} of {number} {of_handles}, {count} of {instants} {of_instants}"
-    shown.append(f"{words}: --output has all, --handles and --times choose.")
+    choose = ["--handles"] * (handles is None) + ["--times"] * (not all_instants)
+    verb = "choose" if len(choose) > 1 else "chooses"
+    advice = ["--output has all", *([f"{' and '.join(choose)} {verb}"] if choose else [])]
+    shown.append(f"{words}: {', '.join(advice)}.")
     if fold and any(instant_names[t].endswith(NEAR_FOLD) for block in blocks for t in block):
         when = f"Just before bench {fold.bench} folds, at {fold.time:.9f} s"
         shown.append(
@@ -259,8 +257,19 @@ def _entry(value: float, decimals: int) -> str:
     return f"{round(value, decimals) + 0.0:.{decimals}f}"
 
 
-def overlap_tables(answer: answers.OverlapsAnswer, margin: float = 0.0) -> list[Part]:
-    title = f"Pairs nearer than {margin:g} m" if margin else "Overlapping pairs"
+def clearance_tables(columns: dict[str, Any]) -> list[Part]:
+    """Clearance at every instant, and the local minima between them."""
+    table = _table("Clearance", "time [s]", "clearance [m]", "benches")
+    for time, clearance, benches in zip(columns["time"], columns["clearance"], columns["benches"], strict=True):
+        table.add_row(said(time), _shown(float(clearance)), _shown(tuple(benches)))
+    grazes = _table("Local minima", "time [s]", "clearance [m]", "benches")
+    for graze in columns["grazes"]:
+        grazes.add_row(_shown(graze.time), _shown(graze.clearance), _shown(graze.benches))
+    return [table, grazes if columns["grazes"] else "No local minimum between the first and the last instant."]
+
+
+def overlap_tables(answer: OverlapsAnswer, margin: float = 0.0) -> list[Part]:
+    title = f"Pairs nearer than {said(margin)} m" if margin else "Overlapping pairs"
     table = _table(title, "benches", "separation [m]", "witness a [m]", "witness b [m]")
     for one in answer.overlaps:
         table.add_row(*map(_shown, (one.benches, one.separation, one.witness_a, one.witness_b)))
@@ -270,7 +279,7 @@ def overlap_tables(answer: answers.OverlapsAnswer, margin: float = 0.0) -> list[
     return [table, f"{asked} {'agree' if check.agree else 'DISAGREE'}; pairs found: {found}"]
 
 
-def paper_tables(rows: Sequence[Comparison]) -> list[Part]:
+def paper_tables(rows: Sequence[PaperNumber]) -> list[Part]:
     """The numbers side by side, then each reason with its evidence."""
     table = _table("The paper beside this program", "quantity", "paper", "here", "difference")
     for one in rows:
@@ -306,7 +315,7 @@ def _measured(report: Report, margin: float, benches: int) -> Iterator[tuple[str
     """What, how much, when, who."""
     contact = report.first_contact
     pair = f"benches {_shown(contact.benches)}" if contact.benches else ""
-    what = f"first nearer than {margin:g} m" if margin else "first contact"
+    what = f"first nearer than {said(margin)} m" if margin else "first contact"
     yield what, _near(contact.outcome.value, margin), contact.time, pair
     if check := contact.cross_check:
         yield (
@@ -342,5 +351,6 @@ def _plural(word: str, things: Sequence[Any]) -> str:
 
 
 def _distance(found: LeastClearance | Nearest) -> str:
-    proven = "not proven" if found.at_least is None else f"proven: at least {_down(found.at_least)} m"
+    least = found.at_least
+    proven = "not proven" if least is None else f"proven: at least {said_bound(least, SHOWN_DECIMALS, -1)} m"
     return f"{found.distance:.6f} m, {proven}"

@@ -17,6 +17,7 @@ from matplotlib.collections import PolyCollection
 from matplotlib.figure import Figure
 
 from core import Dragon, FirstContact, Route, Spiral, Venue, bench_poses
+from core.errors import said
 from core.shapes.rectangles import corners
 from core.values import Floats
 
@@ -176,7 +177,7 @@ def draw_enlarged(axes: Axes, outlines: Floats, found: FirstContact, width: floa
     axes.set(xlim=(x - half, x + half), ylim=(y - half, y + half))
     axes.legend(loc="upper right", fontsize=9, framealpha=0.95)
     place = f"({x:.6f} m, {y:.6f} m)"
-    near = f"Nearer than {margin:g} m: a gap of {found.gap:.6f} m at {place}"
+    near = f"Nearer than {said(margin)} m: a gap of {found.gap:.6f} m at {place}"
     axes.set_title(near if margin else f"They meet at {place}", fontsize=11)
 
 

@@ -40,6 +40,7 @@ from core import (
 )
 from core.dance import Dance
 from core.design.pitch_scan import JUMP_WIDTH, SCAN_FROM, SCAN_TO, PitchScan, scan_near_minimum
+from core.errors import said
 
 # The figure of a run without contact shows the dance this long before its end [s], where the chain still exists.
 BEFORE_END = 1e-6
@@ -84,7 +85,7 @@ def trajectory_figure(
 
 
 def _pitch_words(path: Spiral | Route) -> str:
-    return f" (pitch {path.pitch:g} m)" if isinstance(path, Spiral) else ""
+    return f" (pitch {said(path.pitch)} m)" if isinstance(path, Spiral) else ""
 
 
 def contact_figure(
@@ -128,14 +129,14 @@ def _shown_time(dance: Dance, found: FirstContact) -> float:
 
 
 def _contact_title(found: FirstContact, margin: float) -> str:
-    what = f"First nearer than {margin:g} m" if margin else "First contact"
+    what = f"First nearer than {said(margin)} m" if margin else "First contact"
     if found.outcome is Outcome.CONTACT:
         assert found.head is not None
         return f"{what}: {found.time:.6f} s, head at radius {found.head.radius:.6f} m"
     if found.outcome is Outcome.CONTACT_AT_START:
-        return f"Nearer than {margin:g} m from the start on" if margin else f"{what}: already at the start"
+        return f"Nearer than {said(margin)} m from the start on" if margin else f"{what}: already at the start"
     if found.outcome is Outcome.CLEAR and found.end is not None:
-        none = f"Never nearer than {margin:g} m" if margin else "No contact"
+        none = f"Never nearer than {said(margin)} m" if margin else "No contact"
         if found.end.reason is EndReason.FOLD:
             return f"{none}, but bench {found.end.bench} folds at {found.end.time:.6f} s"
         return f"{none}: the run ends clear at the {found.end.reason.value}, {found.end.time:.6f} s"
@@ -172,14 +173,14 @@ def pitch_scan_figure(
     with _DRAWING:
         figure = canvas(9.0, 5.6)
         axes = figure.add_subplot()
-        near_words = f"first nearer than {margin:g} m" if margin else "first contact"
+        near_words = f"first nearer than {said(margin)} m" if margin else "first contact"
         when = f"when two benches are {near_words}" if margin else f"at {near_words}"
         _draw_scan(axes, scan, least, turning_radius, near_words)
         axes.plot(pitches, start_turns * pitches, color=GREY, linewidth=0.9, zorder=1, label="start of the dance")
         axes.set(xlim=(pitches[0], pitches[-1]), xlabel="pitch [m]", ylabel=f"radius of the head {when} [m]")
         axes.set_ylim(0.0, 1.2 * scan.radius.max(initial=turning_radius))
         axes.legend(loc="lower left", fontsize=9)
-        none = f"Never nearer than {margin:g} m at any" if margin else "No contact at any"
+        none = f"Never nearer than {said(margin)} m at any" if margin else "No contact at any"
         title = f"Where the head stands {when}, against the pitch" if scan.pitch.size else f"{none} of these pitches"
         axes.set_title(title, fontsize=11)
         near = axes.inset_axes((0.56, 0.64, 0.41, 0.33))
@@ -196,9 +197,8 @@ def _draw_scan(axes: Axes, scan: PitchScan, least: MinimumPitch, turning_radius:
     axes.add_collection(LineCollection([points[a:b] for a, b in scan.pieces], colors=BLUE, linewidths=1.8, label=near))
     falls = [points[a - 1 : a + 1] for a, _ in scan.pieces[1:] if scan.pitch[a] - scan.pitch[a - 1] <= JUMP_WIDTH]
     axes.add_collection(LineCollection(falls, colors=GREY, linewidths=0.8, linestyles="dotted", label="jump"))
-    axes.axhline(
-        turning_radius, color="black", linewidth=0.9, linestyle="dashed", label=f"turning circle, {turning_radius:g} m"
-    )
+    circle = f"turning circle, {said(turning_radius)} m"
+    axes.axhline(turning_radius, color="black", linewidth=0.9, linestyle="dashed", label=circle)
     axes.axvline(
         least.pitch, color=VERMILION, linewidth=1.2, linestyle="dashdot", label=f"minimum pitch, {least.pitch:.9f} m"
     )

@@ -2,7 +2,7 @@
 
 import { make, onClick } from "./elements.js";
 import { FIELDS } from "./state.js";
-import { say } from "./text.js";
+import { refusalWords, say } from "./text.js";
 
 /** Half-typed numbers are not asked: a text counts after a pause of the hand [ms], or with Enter. */
 const TYPING = 300;
@@ -30,7 +30,7 @@ export class Controls {
       slider: make("input", { type: "range", min, max, step }),
       reset: make("button", { type: "button", className: "reset", textContent: "↺" }),
       limits: make("span", { id: `${name}-limits`, className: "limits" }),
-      error: make("p", { id: `${name}-error`, className: "error", lang: "en", hidden: true }),
+      error: make("p", { id: `${name}-error`, className: "error", hidden: true }),
     };
     let typing = 0;
     row.text.addEventListener("input", (event) => {
@@ -69,10 +69,11 @@ export class Controls {
   /** errors: name -> the service's words; a name that is no field is not shown here */
   refuse(errors) {
     for (const [name, row] of this.#rows) {
-      const words = errors.get(name) ?? "";
-      if (row.error.textContent !== words) row.error.textContent = words;
-      row.error.hidden = !words;
-      row.text.setAttribute("aria-invalid", Boolean(words));
+      const detail = errors.get(name) ?? "";
+      const said = refusalWords(detail);
+      if (row.error.textContent !== said.textContent) Object.assign(row.error, said);
+      row.error.hidden = !detail;
+      row.text.setAttribute("aria-invalid", Boolean(detail));
     }
   }
 }

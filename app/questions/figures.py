@@ -48,6 +48,10 @@ class ContactQuery(DanceQuery):
     margin: Margin = 0.0
 
 
+class InstantQuery(TrajectoryFigureQuery, ContactQuery):
+    """The dance at one instant, and what counts as a contact."""
+
+
 class ContactFigureRequest(PlacedDance):
     """The dance at first contact, drawn on any path."""
 

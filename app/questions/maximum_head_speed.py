@@ -7,7 +7,7 @@ from pydantic import Field
 import core
 from app.questions.question import Question
 from app.settings import Settings
-from app.wire.dances import DragonFields, UniformDragon
+from app.wire.dances import DanceFields, UniformDragon
 from app.wire.models import Answer, Instant, SpeedLimit, Wire, measure
 from app.wire.paths import BY_KIND, AnyPath, TurnFields, TurnPath
 
@@ -26,7 +26,7 @@ class MaximumHeadSpeedQuery(Limit, TurnFields, UniformDragon):
         return core.Dance(self.to_dragon(benches_max), self.to_turn())
 
 
-class MaximumHeadSpeedRequest(Limit, DragonFields, strict=True):
+class MaximumHeadSpeedRequest(Limit, DanceFields, strict=True):
     """How fast may the head dance, on any path?"""
 
     path: AnyPath = Field(
@@ -35,15 +35,13 @@ class MaximumHeadSpeedRequest(Limit, DragonFields, strict=True):
         json_schema_extra={"discriminator": BY_KIND},
     )
     start: Instant | None = measure(
-        None, description="From when, at a head speed of 1 m/s; null: the start of the dance", unit="s"
+        None, description="From when, at head_speed; null: when the whole dragon is on the path", unit="s"
     )
     stop: Instant | None = measure(
-        None, description="Until when, at a head speed of 1 m/s; null: the end of the run", unit="s"
+        None,
+        description="Until when, at head_speed; null: the end of the path; before a bench folds",
+        unit="s",
     )
-
-    def to_dance(self, benches_max: int) -> core.Dance:
-        """raises: TooLarge, InvalidValue"""
-        return core.Dance(self.to_dragon(benches_max), self.path.to_path())
 
 
 class MaximumHeadSpeed(Answer):
@@ -61,9 +59,12 @@ class MaximumHeadSpeed(Answer):
 
 def maximum_head_speed(asked: MaximumHeadSpeedQuery | MaximumHeadSpeedRequest, settings: Settings) -> MaximumHeadSpeed:
     """The largest constant head speed at which no handle ever exceeds the limit."""
-    dance = asked.to_dance(settings.checked_benches_max)
-    span = {} if isinstance(asked, MaximumHeadSpeedQuery) else {"start": asked.start, "stop": asked.stop}
-    return MaximumHeadSpeed.model_validate(core.maximum_head_speed(dance, asked.speed_limit, **span))
+    dance, limit = asked.to_dance(settings.checked_benches_max), asked.speed_limit
+    if isinstance(asked, MaximumHeadSpeedQuery):
+        return MaximumHeadSpeed.model_validate(core.maximum_head_speed(dance, limit))
+    # Core takes times at a head speed of 1 m/s.
+    start, stop = (None if time is None else time * asked.head_speed for time in (asked.start, asked.stop))
+    return MaximumHeadSpeed.model_validate(core.maximum_head_speed(dance, limit, start=start, stop=stop))
 
 
 QUESTION = Question(maximum_head_speed, MaximumHeadSpeed, flat=MaximumHeadSpeedQuery, body=MaximumHeadSpeedRequest)

@@ -10,9 +10,10 @@ import core
 from app.questions.question import Question
 from app.settings import Settings
 from app.wire.answers import Pair, PairCheck, Point
-from app.wire.dances import Circle, DragonFields, UniformDragon
-from app.wire.models import Answer, CrossCheck, measure
-from core import Dragon
+from app.wire.dances import BenchByBench, Circle, DragonFields, UniformDragon
+from app.wire.models import PITCH_MAX, Answer, CrossCheck, measure
+from core import Dragon, InvalidValue, LimitedBy
+from core.errors import said
 
 
 class PitchFields(Circle):
@@ -45,6 +46,7 @@ class MinimumPitch(Answer):
     benches: Pair | None = Field(
         description="The pair that touches, or is nearer than the margin, just below; null at a fold or without one"
     )
+    bench: int | None = Field(description="The bench that folds just below; null if none does")
     head_radius: float | None = measure(description="Where the head is then", unit="m")
     other_feasible_intervals: list[Point] = measure(description="Feasible islands below", unit="m")
     justified_by: str = Field(
@@ -72,10 +74,32 @@ class MinimumPitch(Answer):
         return cls.known(found, cross_check=check)
 
 
+def allowed(found: core.MinimumPitch, asked: Circle, dragon: Dragon) -> core.MinimumPitch:
+    """The minimum pitch if other questions take it. raises: InvalidValue naming what makes it so large"""
+    if found.pitch <= PITCH_MAX:
+        return found
+    why = f"the minimum pitch is {found.pitch:.9g} m, and pitches are at most {said(PITCH_MAX)} m here"
+    if found.limited_by is LimitedBy.START and found.benches is None:
+        turns = said(asked.turning_diameter / 2 / PITCH_MAX)
+        rule = f"must be at least {turns} turns, or the turning circle smaller: {why}"
+        raise InvalidValue.of("start_turns", rule, asked.start_turns, "turns")
+    if found.benches is None or found.benches[1] - found.benches[0] > 2:
+        raise InvalidValue.of("turning_diameter", f"must be larger: {why}", asked.turning_diameter, "m")
+    # Hardly apart even on a straight line.
+    if asked.margin:
+        raise InvalidValue.of("margin", f"must be smaller: {why}", asked.margin, "m")
+    bench = found.benches[0]
+    field = (
+        f"dragon.overhangs.{bench}" if isinstance(getattr(asked, "dragon", None), BenchByBench) else "dragon.overhang"
+    )
+    narrower = f"must be smaller, or the benches narrower: {why}"
+    raise InvalidValue.of(field, narrower, float(dragon.overhangs[bench]), "m")
+
+
 def minimum_pitch(asked: MinimumPitchQuery | MinimumPitchRequest, settings: Settings) -> MinimumPitch:
     """The smallest pitch such that every larger one reaches the circle with no touch, or no two within a margin."""
     dragon = asked.to_dragon(asked.most_benches(settings))
-    found = core.minimum_pitch(dragon, **asked.to_circle())
+    found = allowed(core.minimum_pitch(dragon, **asked.to_circle()), asked, dragon)
     return MinimumPitch.of(found, dragon, asked)
 
 

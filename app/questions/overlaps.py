@@ -8,6 +8,7 @@ import numpy as np
 from pydantic import Field
 
 import core
+from app.questions.figures import InstantQuery
 from app.questions.question import Question
 from app.settings import Settings
 from app.wire.answers import LEFT_OUT, Pair, Point
@@ -84,10 +85,17 @@ class OverlapsAnswer(Answer):
 def overlaps(asked: OverlapsRequest, settings: Settings) -> OverlapsAnswer:
     """Which benches overlap, or are nearer than a margin, how deep and where, by each of four engines."""
     poses, lengths, widths = asked.to_poses(settings.poses_max)
-    return judged(poses, lengths, widths, settings, margin=asked.margin, chained=asked.chained)
+    return _judged(poses, lengths, widths, settings, margin=asked.margin, chained=asked.chained)
 
 
-def judged(
+def of_dance(asked: InstantQuery, settings: Settings) -> OverlapsAnswer:
+    """The same of the benches of a dance at one instant."""
+    dance = asked.to_dance(settings.poses_max)
+    dragon, poses = dance.dragon, core.bench_poses(core.trajectory(dance, [asked.time]).position[0])
+    return _judged(poses, dragon.lengths, dragon.widths, settings, margin=asked.margin, chained=True)
+
+
+def _judged(
     poses: Floats, lengths: Floats, widths: Floats, settings: Settings, *, margin: float, chained: bool
 ) -> OverlapsAnswer:
     """The overlaps of benches, and what each engine says of them. raises: TooLarge, InvalidValue"""

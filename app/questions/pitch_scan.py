@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from pydantic import Field
 
+from app.questions.minimum_pitch import allowed
 from app.questions.question import Question
 from app.settings import Settings
 from app.wire.answers import Columns, Pair
@@ -41,7 +42,7 @@ def pitch_scan(asked: PitchScanQuery | PitchScanRequest, settings: Settings) -> 
     dragon = asked.to_dragon(min(settings.scanned_benches_max, asked.most_benches(settings)))
     scan, least = scan_near_minimum(dragon, samples=asked.samples, **asked.to_circle())
     table = {"pitch": scan.pitch, "radius": scan.radius, "pieces": scan.pieces}
-    return Columns(table | {"minimum_pitch": least.pitch})
+    return Columns(table | {"minimum_pitch": allowed(least, asked, dragon).pitch})
 
 
 QUESTION = Question(pitch_scan, PitchScanTable, flat=PitchScanQuery, body=PitchScanRequest)

@@ -29,6 +29,7 @@ from app.wire.models import (
 from app.wire.paths import BY_KIND, KINDS, AnyPath, SpiralFields, SpiralPath
 from core import Dance, Dragon, InvalidValue
 from core.dragon import BENCHES_MAX
+from core.errors import said
 from core.values import Floats
 
 # The last instant of a range may miss `stop` by this share of a step, so that 0 to 0.3 by 0.1 has four instants.
@@ -69,9 +70,14 @@ class BenchByBench(Wire, strict=True):
         unit="m",
     )
 
+    @property
+    def benches(self) -> int:
+        """Number of benches."""
+        return len(self.lengths)
+
     def to_dragon(self, benches_max: int) -> Dragon:
         """raises: TooLarge, InvalidValue"""
-        check_limit("dragon.lengths", "benches", len(self.lengths), benches_max, "shorten the dragon")
+        check_limit("dragon.lengths", "benches", self.benches, benches_max, "shorten the dragon")
         return Dragon.of(self.lengths, self.widths, self.overhangs)
 
 
@@ -100,7 +106,7 @@ class TimeRange(Wire):
         if self.stop < self.start:
             raise InvalidValue(
                 "times.stop",
-                f"{{field}} must not be before {{start}} ({self.start:g} s), got {self.stop:g} s",
+                f"{{field}} must not be before {{start}} ({said(self.start)} s), got {said(self.stop)} s",
                 start="times.start",
             )
         return math.floor((self.stop - self.start) / self.step + LAST_STEP_TOLERANCE) + 1
@@ -142,6 +148,11 @@ class DragonFields(Wire, strict=True):
     """A dragon, as the body of a request."""
 
     dragon: AnyDragon = Field(default_factory=UniformBody, description="The dragon")
+
+    @property
+    def benches(self) -> int:
+        """Number of benches."""
+        return self.dragon.benches
 
     def to_dragon(self, benches_max: int) -> Dragon:
         """raises: TooLarge, InvalidValue"""

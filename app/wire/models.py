@@ -34,7 +34,10 @@ def unit_of(field: FieldInfo) -> str:
 Length = Annotated[float, Field(ge=1e-3, le=50)]
 Width = Annotated[float, Field(ge=1e-3, le=5)]
 Overhang = Annotated[float, Field(ge=0, le=5)]
-Pitch = Annotated[float, measure(ge=1e-3, le=10, description="Radial advance of the spiral per full turn", unit="m")]
+PITCH_MAX = 10.0  # [m]
+Pitch = Annotated[
+    float, measure(ge=1e-3, le=PITCH_MAX, description="Radial advance of the spiral per full turn", unit="m")
+]
 StartTurns = Annotated[float, measure(gt=0, le=200, description="Turns between the centre and the start", unit="turns")]
 Margin = Annotated[
     float,

@@ -14,7 +14,7 @@ from core.dance import EndReason, RunEnd, end_theta
 from core.design.pitch_bands import BORDER_WIDTH, Strips
 from core.design.straight import Straight
 from core.dragon import Dragon
-from core.errors import InvalidValue, TooMuchWork
+from core.errors import InvalidValue, TooMuchWork, said
 from core.paths.spiral import START_TURNS_MAX, Spiral
 from core.shown import Shown, worded
 from core.values import SIZE_MAX, SIZE_MIN, checked_number, checked_size, checked_type
@@ -77,7 +77,8 @@ class MinimumPitch(Shown):
         what lies in between is undecided: more than 1e-9 m on wide spirals and where a fold vanishes within the way
     limited_by: a graze on the way, contact exactly on the circle, the start: the dance would touch there, or, without
         benches, begin inside the circle; or the fold: a bench could not follow the head as far as the circle
-    benches: the pair that touches just below; head_radius: of the head then [m], at a fold that of the circle
+    benches: the pair that touches just below; bench: the one that folds then; head_radius: of the head then [m], at a
+        fold that of the circle
     other_feasible_intervals: [m], islands below pitch, found on a grid of ISLAND_SAMPLES pitches
     justified_by: how every larger pitch is known to be feasible: 'bound': proven for all; 'scan': below proven_from
         single ones are proven, scan_step [m] apart at most: a narrower range of infeasible ones is not excluded there
@@ -92,6 +93,7 @@ class MinimumPitch(Shown):
     pitch_bracket: tuple[float, float]
     limited_by: LimitedBy
     benches: tuple[int, int] | None
+    bench: int | None
     head_radius: float | None
     other_feasible_intervals: tuple[tuple[float, float], ...]
     justified_by: str
@@ -101,8 +103,10 @@ class MinimumPitch(Shown):
     evaluations: int
 
     def _line(self) -> str:
-        pair = f" of benches {self.benches[0]} and {self.benches[1]}" if self.benches else ""
-        limit = f"{worded(self.pitch, 'm')}, limited by {self.limited_by.value}{pair}"
+        whose = f" of benches {self.benches[0]} and {self.benches[1]}" if self.benches else ""
+        if self.bench is not None:
+            whose = f" of bench {self.bench}"
+        limit = f"{worded(self.pitch, 'm')}, limited by {self.limited_by.value}{whose}"
         scan = f"scanned every {worded(self.scan_step, 'm')} up to {worded(self.proven_from, 'm')}, then "
         most = "without end" if self.proven_up_to is None else f"up to {worded(self.proven_up_to, 'm')}"
         return f"{limit}; {scan if self.scan_step else ''}proven {most}"
@@ -218,6 +222,9 @@ class _PitchSearch:
         clears = self.strips.straight.clears
         if not clears(growth, self.radius, self.margin):
             if not self.is_clear(SIZE_MAX):
+                state, found = self.way(SIZE_MAX)
+                if state.startswith("touched") and found["second"] - found["first"] == 2.0:
+                    raise _too_near(self.search.dragon, int(found["first"]), self.margin)
                 rule = f"must be larger for this dragon, which gets to such a circle at no pitch up to {SIZE_MAX:g} m"
                 raise InvalidValue.of("turning_radius", rule, self.radius, "m")
             return SIZE_MAX, SIZE_MAX
@@ -410,11 +417,13 @@ def minimum_pitch(
     else:
         limited_by, pair, head_radius = search.limit(infeasible)
         islands = () if search.alone else search.islands(infeasible)
+    folding = end_theta(dragon, Spiral(infeasible, turns))[1] if limited_by is LimitedBy.FOLD else None
     return MinimumPitch(
         feasible,
         (infeasible, feasible),
         limited_by,
         pair,
+        folding,
         head_radius,
         islands,
         justified_by,
@@ -430,27 +439,32 @@ def _check_straight(dragon: Dragon, straight: Straight, margin: float) -> None:
 
     raises: InvalidValue (margin or the overhang)
     """
-    if straight.gap > margin:
-        return
-    a, b = straight.at, straight.at + 2
-    chord, front, rear = dragon.chords[a + 1], dragon.overhangs[a], dragon.overhangs[b]
-    why = (
-        f"on a straight line, and so on every wide enough spiral, benches {a} and {b} "
-        + (f"are {straight.gap:.9g} m apart" if straight.gap > 0.0 else "touch")
-        + f": the chord of bench {a + 1} between them is {chord:.9g} m, their overhangs {front:.9g} m and {rear:.9g} m"
-    )
-    if straight.gap > 0.0:
-        raise InvalidValue("margin", f"margin must be less than {straight.gap:.9g} m, got {margin:.9g} m: {why}")
+    if straight.gap <= margin:
+        raise _too_near(dragon, straight.at, margin)
+
+
+def _too_near(dragon: Dragon, a: int, margin: float) -> InvalidValue:
+    """The error where benches a and a + 2 come within the margin on a straight line, or on the widest spiral."""
+    b = a + 2
+    chord, front, rear = (float(size) for size in (dragon.chords[a + 1], dragon.overhangs[a], dragon.overhangs[b]))
+    gap = chord - front - rear
+    hardly, pair = gap > margin, f"benches {a} and {b}"
+    if hardly:
+        near = "are nearer than that" if margin else "touch"
+        why = f"at a pitch of {SIZE_MAX:g} m {pair} {near}, and on a straight line they are {gap:.9g} m apart"
+    else:
+        apart = f"are {gap:.9g} m apart" if gap > 0.0 else "touch"
+        why = f"on a straight line, and so on every wide enough spiral, {pair} {apart}"
+    overhangs = f"their overhangs {said(front)} m and {said(rear)} m"
+    why += f": the chord of bench {a + 1} between them is {chord:.9g} m, {overhangs}"
+    if gap > 0.0 and margin:
+        rule = "smaller" if hardly else f"less than {gap:.9g} m"
+        return InvalidValue("margin", f"margin must be {rule}, got {said(margin)} m: {why}")
     if all((column[1:] == column[1]).all() for column in (dragon.lengths, dragon.widths)) and front == rear:
-        body = dragon.lengths[a + 1]
-        raise InvalidValue(
-            "dragon.overhang",
-            f"{{field}} must be less than a quarter of {{length}} ({body:g} m / 4 = {0.25 * body:g} m), "
-            f"got {front:g} m: {why}",
-            length="dragon.body_length",
-        )
-    raise InvalidValue(
-        f"dragon.overhangs.{a}",
-        f"dragon.overhangs[{a}] + dragon.overhangs[{b}] must be less than the chord of bench {a + 1} ({chord:.9g} m), "
-        f"got {front:.9g} m + {rear:.9g} m: {why}",
-    )
+        body = float(dragon.lengths[a + 1])
+        quarter = f"less than a quarter of {{body}} ({said(body)} m / 4 = {said(0.25 * body)} m)"
+        rule = f"must be {'smaller' if hardly else quarter}, got {said(front)} m: {why}"
+        return InvalidValue("dragon.overhang", f"{{field}} {rule}", body="dragon.body_length")
+    field, other = f"dragon.overhangs.{a}", f"dragon.overhangs[{b}]"
+    rule = "must be smaller" if hardly else f"must be less than the chord of bench {a + 1} ({chord:.9g} m)"
+    return InvalidValue(field, f"{field} + {other} {rule}, got {said(front)} m + {said(rear)} m: {why}")

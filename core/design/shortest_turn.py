@@ -25,7 +25,7 @@ from core.contact.first_contact import FirstContact, Outcome, contact_within
 from core.contact.search import MARGIN_MAX, Budget
 from core.dance import Dance, follows
 from core.dragon import Dragon
-from core.errors import InvalidValue, TooMuchWork
+from core.errors import InvalidValue, TooMuchWork, said
 from core.paths.spiral import Spiral
 from core.paths.turn import Turn
 from core.shown import Shown, worded
@@ -226,9 +226,9 @@ def _refusal(touch: Touch, margin: float) -> str:
     """What is wrong with a circle on which no turn can begin."""
     benches, time = touch
     if benches is None or time is None:
-        what = f"benches come so near to the margin of {margin:g} m that it is not decided whether they keep it"
+        what = f"benches come so near to the margin of {said(margin)} m that it is not decided whether they keep it"
     else:
-        near = f"come nearer than {margin:g} m" if margin else "touch"
+        near = f"come nearer than {said(margin)} m" if margin else "touch"
         side = f"{time:.6f} s after" if time >= 0.0 else f"{-time:.6f} s before"
         what = f"benches {benches[0]} and {benches[1]} {near} {side} the entry at 1 m/s"
     return f"must be larger, or the pitch: in a turn that begins on the circle {what}"

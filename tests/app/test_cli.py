@@ -272,7 +272,9 @@ def test_handles_and_times_choose_what_is_shown() -> None:
     assert headings(said) == [["0", "60", "120"]] * 3
     rows = [line.split()[0] for line in said.splitlines() if re.match(r"  \d+ (head|body)", line)]
     assert rows == ["51", "0", "1"] * 3
-    assert "3 of 224 handles, 3 of 3 instants" in said
+    assert said.endswith("3 of 224 handles, 3 of 3 instants: --output has all.\n")
+    assert answer_of("trajectory", "--times", "0,1").endswith(": --output has all, --handles chooses.\n")
+    assert answer_of("trajectory", "--handles", "0").endswith(": --output has all, --times chooses.\n")
 
 
 def test_times_that_were_asked_for_are_all_shown_in_as_many_tables_as_they_take() -> None:

@@ -287,7 +287,8 @@ def test_a_speed_failure_is_at_the_first_instant_above_the_limit(
 
 
 def test_a_head_that_is_too_fast_is_so_from_the_start() -> None:
-    (speed,) = check(Dance(Dragon(5), TURN, 1.5), speed_limit=1.0, start=-20.0, stop=0.0).failures
+    (speed,) = check(Dance(Dragon(5), TURN, 1.5), speed_limit=1.0000001, start=-20.0, stop=0.0).failures
+    assert "exceeds 1.0000001 m/s" in speed.message
     assert (speed.time, speed.time_bracket, speed.benches) == (-20.0, (-20.0, -20.0), (0,))
 
 
