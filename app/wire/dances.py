@@ -134,8 +134,9 @@ def _shape_of_times(value: Any) -> str:
 # Names of shapes: pydantic puts them into the place of an error, though they stand in no body.
 SHAPES = frozenset({"uniform", "bench_by_bench", "range", "list"}) | KINDS
 
+# The one that has required names stands first: generated clients take the first that fits.
 AnyDragon = Annotated[
-    Annotated[UniformBody, Tag("uniform")] | Annotated[BenchByBench, Tag("bench_by_bench")],
+    Annotated[BenchByBench, Tag("bench_by_bench")] | Annotated[UniformBody, Tag("uniform")],
     Discriminator(_shape_of_dragon),
 ]
 AnyTimes = Annotated[

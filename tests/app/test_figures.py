@@ -94,8 +94,8 @@ def test_pitch_scan_figure_marks_minimum_pitch_and_circle() -> None:
 
 
 @pytest.mark.parametrize("kind", ["trajectory", "contact", "scan"])
-@pytest.mark.parametrize("format", Format)
-def test_equal_questions_give_equal_bytes(kind: str, format: Format) -> None:
+@pytest.mark.parametrize("format", ["svg", "png"])
+def test_equal_questions_give_equal_bytes(kind: str, format: str) -> None:
     def drawn() -> bytes:
         if kind == "trajectory":
             return figures.trajectory_figure(Dance(SMALL, Spiral()), format=format)
