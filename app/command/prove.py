@@ -50,33 +50,29 @@ class _Thorough(Wire):
 class CollisionClaim(_Thorough, DanceQuery):
     """When two benches first touch, or come nearer than the margin."""
 
-    time: float | None = measure(None, ge=0, description="The claim; else what collision-time answers", unit="s")
+    time: float | None = measure("s", "The claim; else what collision-time answers", None, ge=0)
     margin: Margin = 0.0
 
 
 class PitchClaim(_Thorough, Circle, UniformDragon):
     """How tight the spiral may be."""
 
-    pitch: float | None = measure(
-        None, ge=1e-3, le=10, description="The claim; else what minimum-pitch answers", unit="m"
-    )
+    pitch: float | None = measure("m", "The claim; else what minimum-pitch answers", None, ge=1e-3, le=10)
 
 
 class ClearClaim(_Thorough, DanceQuery):
     """A run on the spiral without a contact."""
 
-    start: Instant = measure(0.0, description="From when", unit="s")
-    stop: Instant | None = measure(
-        None, description="Until when; else the end of the run, which is proven too", unit="s"
-    )
+    start: Instant = measure("s", "From when", 0.0)
+    stop: Instant | None = measure("s", "Until when; else the end of the run, which is proven too", None)
     margin: Margin = 0.0
 
 
 class TurnClaim(_Thorough, HeadSpeed, TurnFields, UniformDragon):
     """A dance through the turn."""
 
-    start: Instant = measure(-100.0, description="From when; 0 is the entry into the turn", unit="s")
-    stop: Instant = measure(100.0, description="Until when", unit="s")
+    start: Instant = measure("s", "From when; 0 is the entry into the turn", -100.0)
+    stop: Instant = measure("s", "Until when", 100.0)
     margin: Margin = 0.0
 
 

@@ -27,9 +27,7 @@ class TrajectoryOptions(TimeRange, DanceQuery):
     decimals: int | None = Field(
         None, ge=0, le=15, description="Decimals of x, y and speed; else all (xlsx and the table on a terminal: 6)"
     )
-    times: str | None = measure(
-        None, description="Instants such as 0,60,120, in place of --start, --stop and --step", unit="s"
-    )
+    times: str | None = measure("s", "Instants such as 0,60,120, in place of --start, --stop and --step", None)
     handles: str | None = Field(
         None, description="Handles in the table, such as 0,1,51, in place of those that the contest asks for"
     )

@@ -20,35 +20,31 @@ from core import Outcome
 class CheckRequest(Contact, PlacedDance, strict=True):
     """Can this dragon dance this path here?"""
 
-    speed_limit: SpeedLimit | None = measure(None, description="Of every handle; null: none", unit="m/s")
+    speed_limit: SpeedLimit | None = measure("m/s", "Of every handle; null: none", None)
     start: Instant | None = measure(
-        None, description="From when; null: the start of the dance, or when the whole dragon is on the path", unit="s"
+        "s", "From when; null: the start of the dance, or when the whole dragon is on the path", None
     )
-    stop: Instant | None = measure(None, description="Until when; null: the end of the run", unit="s")
+    stop: Instant | None = measure("s", "Until when; null: the end of the run", None)
 
 
 class LeastClearance(Answer):
     """The least clearance over the dance."""
 
-    distance: float = measure(description="The least that was met; 0 at the first touch", unit="m")
-    at_least: float | None = measure(
-        description="Proven: nothing comes nearer; null: the search gave up first", unit="m"
-    )
-    time: float = measure(description="When it is met", unit="s")
+    distance: float = measure("m", "The least that was met; 0 at the first touch")
+    at_least: float | None = measure("m", "Proven: nothing comes nearer; null: the search gave up first")
+    time: float = measure("s", "When it is met")
     benches: Pair = Field(description="The pair that is so near")
 
 
 class Nearest(Answer):
     """How near the benches come to the edges of one area."""
 
-    distance: float = measure(description="The least that was met; 0 at the first touch", unit="m")
-    at_least: float | None = measure(
-        description="Proven: no bench comes nearer; null: the search gave up first", unit="m"
-    )
-    time: float = measure(description="When it is met", unit="s")
+    distance: float = measure("m", "The least that was met; 0 at the first touch")
+    at_least: float | None = measure("m", "Proven: no bench comes nearer; null: the search gave up first")
+    time: float = measure("s", "When it is met")
     bench: int = Field(description="The bench that comes so near")
-    point: Point = measure(description="The point of the bench, x and y", unit="m")
-    wall: Point = measure(description="The point of the area, x and y", unit="m")
+    point: Point = measure("m", "The point of the bench, x and y")
+    wall: Point = measure("m", "The point of the area, x and y")
 
 
 class AreaClearance(Answer):
@@ -56,15 +52,13 @@ class AreaClearance(Answer):
 
     name: str = Field(description="Name of the area")
     outcome: Outcome = Field(description="Does a bench come nearer than the margin, or touch if it is 0?")
-    time: float | None = measure(description="When first; null when clear or undecided", unit="s")
+    time: float | None = measure("s", "When first; null when clear or undecided")
     time_bracket: Point | None = measure(
-        description="Proven not to be so up to, nearer than the margin, or touching if it is 0, at", unit="s"
+        "s", "Proven not to be so up to, nearer than the margin, or touching if it is 0, at"
     )
     bench: int | None = Field(description="The first bench nearer than the margin")
-    gap: float | None = measure(
-        description="What is left then between it and the area: the margin, or less from the start on", unit="m"
-    )
-    point: Point | None = measure(description="Its point that is nearest then, x and y", unit="m")
+    gap: float | None = measure("m", "What is left then between it and the area: the margin, or less from the start on")
+    point: Point | None = measure("m", "Its point that is nearest then, x and y")
     nearest: Nearest = Field(description="The least distance over the dance")
 
 
@@ -73,7 +67,7 @@ class Stray(Answer):
 
     name: str = Field(description="The area: the square that it is outside of, or the obstacle that it is in")
     bench: int = Field(description="The bench")
-    point: Point = measure(description="Its centre, x and y", unit="m")
+    point: Point = measure("m", "Its centre, x and y")
 
 
 class VenueClearance(Answer):
@@ -86,19 +80,19 @@ class VenueClearance(Answer):
 class HighestSpeed(Answer):
     """The highest speed of any handle over continuous time."""
 
-    speed: float = measure(description="The highest found", unit="m/s")
+    speed: float = measure("m/s", "The highest found")
     speed_bracket: tuple[float, float | None] = measure(
-        description="Found, proven not to be exceeded (null where that proof was given up)", unit="m/s"
+        "m/s", "Found, proven not to be exceeded (null where that proof was given up)"
     )
-    time: float = measure(description="When it is reached", unit="s")
+    time: float = measure("s", "When it is reached")
     handles: list[int] = Field(description="The handles that reach it together")
 
 
 class SharpestBend(Answer):
     """The largest angle between two consecutive benches."""
 
-    angle: float = measure(description="Between their headings", unit="rad")
-    time: float = measure(description="When it is reached", unit="s")
+    angle: float = measure("rad", "Between their headings")
+    time: float = measure("s", "When it is reached")
     benches: Pair = Field(description="The two benches")
 
 
@@ -107,29 +101,28 @@ class Failure(Answer):
 
     kind: core.FailureKind = Field(description="What fails")
     time: float = measure(
-        description="When it first does; of what is undecided, proven good until then; of a speed, the first instant "
+        "s",
+        "When it first does; of what is undecided, proven good until then; of a speed, the first instant "
         "above the limit",
-        unit="s",
     )
     benches: list[int] = Field(description="The benches at fault; of a speed: the handle")
     area: str | None = Field(description="The area of the venue; null where it has no part")
     message: str = Field(description="One sentence")
     time_bracket: Point | None = measure(
-        description="Proven not to fail up to, failing at; null for a fold and for what fails from the start", unit="s"
+        "s", "Proven not to fail up to, failing at; null for a fold and for what fails from the start"
     )
     head: Head | None = Field(description="The head at that time")
     peak_speed: float | None = measure(
-        description="Of a speed: the highest over the dance; null where it grows without bound, towards a fold",
-        unit="m/s",
+        "m/s", "Of a speed: the highest over the dance; null where it grows without bound, towards a fold"
     )
-    peak_time: float | None = measure(description="Of a speed: when it is highest, or the time of the fold", unit="s")
+    peak_time: float | None = measure("s", "Of a speed: when it is highest, or the time of the fold")
 
 
 class Origin(Answer):
     """A place on earth."""
 
-    longitude: float = measure(description="Eastwards", unit="degrees")
-    latitude: float = measure(description="Northwards", unit="degrees")
+    longitude: float = measure("degrees", "Eastwards")
+    latitude: float = measure("degrees", "Northwards")
 
 
 class Report(Answer):
@@ -142,8 +135,8 @@ class Report(Answer):
     failures: list[Failure] = Field(
         description="What fails, in order of time, until the dance stops; and what is undecided"
     )
-    start: float = measure(description="Looked at from here", unit="s")
-    stop: float = measure(description="Looked at until here", unit="s")
+    start: float = measure("s", "Looked at from here")
+    stop: float = measure("s", "Looked at until here")
     first_contact: CollisionTime = Field(
         description="When two benches first come nearer than the margin, or touch if it is 0"
     )

@@ -23,8 +23,8 @@ class ClearanceRequest(TimedDance):
 class ClearanceTable(Answer):
     """Columns: one entry per instant; and what lies between them."""
 
-    time: list[float] = measure(description="Instants, T of them", unit="s")
-    clearance: list[float] = measure(description="Smallest separation of two benches that are no neighbours", unit="m")
+    time: list[float] = measure("s", "Instants, T of them")
+    clearance: list[float] = measure("m", "Smallest separation of two benches that are no neighbours")
     benches: list[Pair] = Field(description="The pair that is so near")
     grazes: list[Graze] = Field(description="Local minima between the first and the last instant, refined")
 

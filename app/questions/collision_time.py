@@ -30,9 +30,9 @@ class CollisionRequest(Contact, DanceFields, strict=True):
     """When do two benches first touch, or come nearer than a margin, on any path?"""
 
     start: Instant | None = measure(
-        None, description="From when; null: the start of the dance, or when the whole dragon is on the path", unit="s"
+        "s", "From when; null: the start of the dance, or when the whole dragon is on the path", None
     )
-    stop: Instant | None = measure(None, description="Until when; null: the end of the run", unit="s")
+    stop: Instant | None = measure("s", "Until when; null: the end of the run", None)
 
 
 class Certificate(Answer):
@@ -41,11 +41,11 @@ class Certificate(Answer):
     method: str = Field(description="The whole claim, and how it is proven, in sentences")
     steps: int = Field(description="Proven steps taken")
     clear_until: float | None = measure(
-        description="Nothing comes nearer than the margin, or touches if it is 0, from the start to here; null where "
+        "s",
+        "Nothing comes nearer than the margin, or touches if it is 0, from the start to here; null where "
         "no time is proven clear: benches touch, or are nearer, at the start, or it is not decided from there on",
-        unit="s",
     )
-    bound: float = measure(description="Largest bound on the second derivative of a gap that a step used", unit="1/m")
+    bound: float = measure("1/m", "Largest bound on the second derivative of a gap that a step used")
     least_clearance: Graze | None = Field(description="Narrowest graze before the contact, or over the whole run")
 
 
@@ -56,21 +56,21 @@ class CollisionTime(Answer):
         description="How the search ended; contact is the first time at which two benches are nearer than the margin, "
         "or touch if it is 0"
     )
-    margin: float = measure(description="Clearance that was asked for; 0 asks for a touch", unit="m")
+    margin: float = measure("m", "Clearance that was asked for; 0 asks for a touch")
     time: float | None = measure(
-        description="When first nearer than the margin, or touching if it is 0; null when clear or undecided", unit="s"
+        "s", "When first nearer than the margin, or touching if it is 0; null when clear or undecided"
     )
     time_bracket: Point | None = measure(
-        description="Proven not to be so up to, nearer than the margin, or overlapping if it is 0, at", unit="s"
+        "s", "Proven not to be so up to, nearer than the margin, or overlapping if it is 0, at"
     )
     head: Head | None = Field(description="The head at that time")
     benches: Pair | None = Field(description="The pair that is so near")
     gap: float | None = measure(
-        description="Between the two then: the margin, or less where they are nearer from the start on", unit="m"
+        "m", "Between the two then: the margin, or less where they are nearer from the start on"
     )
     corner: Feature | None = Field(description="The corner that is nearest, or touches")
     edge: Feature | None = Field(description="The edge that it is nearest to, or touches")
-    point: Point | None = measure(description="Where that corner is, x and y", unit="m")
+    point: Point | None = measure("m", "Where that corner is, x and y")
     end: End | None = Field(description="Where the run ends, when clear")
     certificate: Certificate = Field(description="How the answer is known")
     cross_check: PairCheck | None = Field(

@@ -29,16 +29,14 @@ FORMS = tuple(one.media_type for one in Format)
 class TrajectoryFigureQuery(DanceQuery):
     """Every handle at one instant, drawn."""
 
-    time: Instant = measure(300.0, description="The instant", unit="s")
+    time: Instant = measure("s", "The instant", 300.0)
 
 
 class TrajectoryFigureRequest(PlacedDance):
     """Every handle at one instant, drawn on any path."""
 
     time: Instant | None = measure(
-        None,
-        description="The instant; null: 0, or if the dance has no 0, when the whole dragon is on the path",
-        unit="s",
+        "s", "The instant; null: 0, or if the dance has no 0, when the whole dragon is on the path", None
     )
 
 
@@ -57,9 +55,9 @@ class ContactFigureRequest(PlacedDance):
 
     margin: Margin = 0.0
     start: Instant | None = measure(
-        None, description="From when; null: 0, or if the dance has no 0, when the whole dragon is on the path", unit="s"
+        "s", "From when; null: 0, or if the dance has no 0, when the whole dragon is on the path", None
     )
-    stop: Instant | None = measure(None, description="Until when; null: the end of the run", unit="s")
+    stop: Instant | None = measure("s", "Until when; null: the end of the run", None)
 
 
 def trajectory_figure(

@@ -15,7 +15,7 @@ from app.wire.paths import BY_KIND, AnyPath, TurnFields, TurnPath
 class Limit(Wire):
     """What no handle may exceed."""
 
-    speed_limit: SpeedLimit = measure(2.0, description="Of every handle", unit="m/s")
+    speed_limit: SpeedLimit = measure("m/s", "Of every handle", 2.0)
 
 
 class MaximumHeadSpeedQuery(Limit, TurnFields, UniformDragon):
@@ -34,27 +34,23 @@ class MaximumHeadSpeedRequest(Limit, DanceFields, strict=True):
         description="The path; a turn where none is given",
         json_schema_extra={"discriminator": BY_KIND},
     )
-    start: Instant | None = measure(
-        None, description="From when, at head_speed; null: when the whole dragon is on the path", unit="s"
-    )
+    start: Instant | None = measure("s", "From when, at head_speed; null: when the whole dragon is on the path", None)
     stop: Instant | None = measure(
-        None,
-        description="Until when, at head_speed; null: the end of the path; before a bench folds",
-        unit="s",
+        "s", "Until when, at head_speed; null: the end of the path; before a bench folds", None
     )
 
 
 class MaximumHeadSpeed(Answer):
     """The largest constant head speed at which no handle ever exceeds the limit."""
 
-    head_speed: float = measure(description="", unit="m/s")
+    head_speed: float = measure("m/s")
     head_speed_bracket: tuple[float | None, float] = measure(
-        description="Proven to keep the limit (null where that proof was given up), found to reach it", unit="m/s"
+        "m/s", "Proven to keep the limit (null where that proof was given up), found to reach it"
     )
     speed_ratio: float = Field(description="Highest speed of a handle over that of the head")
     handles: list[int] = Field(description="The handles that reach the limit together")
-    time: float = measure(description="When they do, at that head speed; 0 is the entry into the turn", unit="s")
-    time_at_unit_head_speed: float = measure(description="The same at a head speed of 1 m/s", unit="s")
+    time: float = measure("s", "When they do, at that head speed; 0 is the entry into the turn")
+    time_at_unit_head_speed: float = measure("s", "The same at a head speed of 1 m/s")
 
 
 def maximum_head_speed(asked: MaximumHeadSpeedQuery | MaximumHeadSpeedRequest, settings: Settings) -> MaximumHeadSpeed:

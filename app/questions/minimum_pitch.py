@@ -34,9 +34,9 @@ class MinimumPitch(Answer):
     """The smallest pitch such that every larger one lets the head reach the turning circle with no two benches nearer
     than the margin, or touching if it is 0."""
 
-    pitch: float = measure(description="", unit="m")
+    pitch: float = measure("m")
     pitch_bracket: Point = measure(
-        description="Infeasible, feasible; twice the same where smaller pitches would begin inside the circle", unit="m"
+        "m", "Infeasible, feasible; twice the same where smaller pitches would begin inside the circle"
     )
     limited_by: core.LimitedBy = Field(
         description="Just below: a graze on the way; contact on the circle; the start: contact there or, where benches "
@@ -47,19 +47,15 @@ class MinimumPitch(Answer):
         description="The pair that touches, or is nearer than the margin, just below; null at a fold or without one"
     )
     bench: int | None = Field(description="The bench that folds just below; null if none does")
-    head_radius: float | None = measure(description="Where the head is then", unit="m")
-    other_feasible_intervals: list[Point] = measure(description="Feasible islands below", unit="m")
+    head_radius: float | None = measure("m", "Where the head is then")
+    other_feasible_intervals: list[Point] = measure("m", "Feasible islands below")
     justified_by: str = Field(
         description="How larger pitches are known to be feasible. bound: proven for all; scan: below proven_from "
         "single ones are proven, at most scan_step apart: a narrower range of infeasible ones is not excluded there"
     )
-    proven_from: float = measure(
-        description="From here on every pitch is proven feasible; pitch itself without a scan", unit="m"
-    )
-    proven_up_to: float | None = measure(description="Up to here; null: every larger pitch, without end", unit="m")
-    scan_step: float | None = measure(
-        description="How far apart the pitches of a scan are at most; null: no scan", unit="m"
-    )
+    proven_from: float = measure("m", "From here on every pitch is proven feasible; pitch itself without a scan")
+    proven_up_to: float | None = measure("m", "Up to here; null: every larger pitch, without end")
+    scan_step: float | None = measure("m", "How far apart the pitches of a scan are at most; null: no scan")
     evaluations: int = Field(description="Ways to the circle, and strips of pitches at once, that were marched")
     cross_check: PairCheck | None = Field(
         description="Engines on the dance at a pitch 1e-6 m larger and smaller, the head where the pair is nearer than "

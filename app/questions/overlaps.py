@@ -20,11 +20,11 @@ from core.values import Floats
 class BenchPose(Wire, strict=True):
     """One bench, anywhere."""
 
-    x: Coordinate = measure(description="Centre", unit="m")
-    y: Coordinate = measure(description="Centre", unit="m")
-    heading: float = measure(ge=-1000, le=1000, description="Direction, counter-clockwise from the x axis", unit="rad")
-    length: Length = measure(description="Along the heading", unit="m")
-    width: Width = measure(description="Across the heading", unit="m")
+    x: Coordinate = measure("m", "Centre")
+    y: Coordinate = measure("m", "Centre")
+    heading: float = measure("rad", "Direction, counter-clockwise from the x axis", ge=-1000, le=1000)
+    length: Length = measure("m", "Along the heading")
+    width: Width = measure("m", "Across the heading")
 
 
 class OverlapsRequest(Wire, strict=True):
@@ -45,9 +45,9 @@ class Overlap(Answer):
     """Two benches nearer than the margin, or overlapping if it is 0. witness_b - witness_a = separation * normal."""
 
     benches: Pair = Field(description="The pair a, b")
-    separation: float = measure(description="Signed: minus the penetration depth when they overlap", unit="m")
-    witness_a: Point = measure(description="Point of a that realises the separation, x and y", unit="m")
-    witness_b: Point = measure(description="Point of b that realises the separation, x and y", unit="m")
+    separation: float = measure("m", "Signed: minus the penetration depth when they overlap")
+    witness_a: Point = measure("m", "Point of a that realises the separation, x and y")
+    witness_b: Point = measure("m", "Point of b that realises the separation, x and y")
     normal: Point = Field(description="Unit vector from a to b")
 
 

@@ -31,10 +31,10 @@ class PitchScanTable(Answer):
     """Columns: one entry per pitch at which two benches come nearer than the margin, or touch, and where the radius
     jumps."""
 
-    pitch: list[float] = measure(description="Ascending", unit="m")
-    radius: list[float] = measure(description="Distance of the head from the centre at first contact", unit="m")
+    pitch: list[float] = measure("m", "Ascending")
+    radius: list[float] = measure("m", "Distance of the head from the centre at first contact")
     pieces: list[Pair] = Field(description="Continuous stretches, as indices [from, to) into pitch and radius")
-    minimum_pitch: float = measure(description="The minimum pitch, around which the pitches lie", unit="m")
+    minimum_pitch: float = measure("m", "The minimum pitch, around which the pitches lie")
 
 
 def pitch_scan(asked: PitchScanQuery | PitchScanRequest, settings: Settings) -> Columns:

@@ -33,7 +33,7 @@ class ShortestTurnRequest(ShortestTurnFields, DragonFields, strict=True):
 class ShortestTurn(Turn):
     """The turn whose entry lies as deep inside the circle as this dragon can dance."""
 
-    entry_bracket: Point = measure(description="Entry radii: infeasible, feasible", unit="m")
+    entry_bracket: Point = measure("m", "Entry radii: infeasible, feasible")
     limited_by: core.TurnLimit = Field(
         description="bend: a chord cannot follow; contact: benches come nearer than the margin, or touch if it is 0; "
         "centre: nothing down to the centre"
@@ -41,11 +41,11 @@ class ShortestTurn(Turn):
     benches: Pair | None = Field(
         description="The pair that comes nearer than the margin, or touches, just below; null if none does"
     )
-    time: float | None = measure(description="When, at a head speed of 1 m/s; 0 is the entry into the turn", unit="s")
+    time: float | None = measure("s", "When, at a head speed of 1 m/s; 0 is the entry into the turn")
     scan_step: float = measure(
-        description="Entries down from the circle were tried this far apart, each one proven: a narrower range of "
+        "m",
+        "Entries down from the circle were tried this far apart, each one proven: a narrower range of "
         "infeasible ones is not excluded",
-        unit="m",
     )
     evaluations: int = Field(description="Entries tried")
 

@@ -24,10 +24,10 @@ class TrajectoryRequest(TimedDance):
 class TrajectoryTable(Answer):
     """Columns: one row per instant, one entry per handle, handle 0 leading (H = benches + 1)."""
 
-    time: list[float] = measure(description="Instants, T of them", unit="s")
-    x: list[list[float]] = measure(description="T rows of H", unit="m")
-    y: list[list[float]] = measure(description="T rows of H", unit="m")
-    speed: list[list[float]] = measure(description="T rows of H", unit="m/s")
+    time: list[float] = measure("s", "Instants, T of them")
+    x: list[list[float]] = measure("m", "T rows of H")
+    y: list[list[float]] = measure("m", "T rows of H")
+    speed: list[list[float]] = measure("m/s", "T rows of H")
 
 
 # What a trajectory is written in: media type -> function of it and the decimals.

@@ -27,17 +27,17 @@ class TurnRequest(Wire, strict=True):
 class Turn(Answer):
     """Two tangent arcs between two coils: the first clockwise, the second counter-clockwise."""
 
-    pitch: float = measure(description="Of both coils", unit="m")
-    turning_diameter: float = measure(description="Diameter of the circle in which the turn lies", unit="m")
+    pitch: float = measure("m", "Of both coils")
+    turning_diameter: float = measure("m", "Diameter of the circle in which the turn lies")
     ratio: float = Field(description="Radius of the first arc over that of the second")
-    entry_radius: float = measure(description="Distance of the entry from the centre", unit="m")
-    radii: Point = measure(description="Radii of both arcs", unit="m")
-    centres: tuple[Point, Point] = measure(description="Centres of both arcs, x and y", unit="m")
-    angles: Point = measure(description="Angle turned on each arc", unit="rad")
-    entry: Point = measure(description="Where the first arc begins, x and y", unit="m")
-    tangent_point: Point = measure(description="Where the two arcs meet, x and y", unit="m")
-    exit: Point = measure(description="Where the second arc ends, x and y", unit="m")
-    length: float = measure(description="Of both arcs together", unit="m")
+    entry_radius: float = measure("m", "Distance of the entry from the centre")
+    radii: Point = measure("m", "Radii of both arcs")
+    centres: tuple[Point, Point] = measure("m", "Centres of both arcs, x and y")
+    angles: Point = measure("rad", "Angle turned on each arc")
+    entry: Point = measure("m", "Where the first arc begins, x and y")
+    tangent_point: Point = measure("m", "Where the two arcs meet, x and y")
+    exit: Point = measure("m", "Where the second arc ends, x and y")
+    length: float = measure("m", "Of both arcs together")
 
     @classmethod
     def of(cls, found: core.Turn) -> Self:

@@ -14,7 +14,6 @@ from threading import BoundedSemaphore
 from typing import Any
 
 from fastapi import Depends, FastAPI, Request, Response
-from fastapi.openapi.utils import get_openapi
 from fastapi.responses import FileResponse, HTMLResponse
 from prometheus_client import CollectorRegistry, Gauge, generate_latest
 from prometheus_client.exposition import CONTENT_TYPE_LATEST
@@ -141,15 +140,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
 
 def _openapi(app: FastAPI) -> dict[str, Any]:
     if app.openapi_schema is None:
-        schema = get_openapi(
-            title=app.title,
-            version=app.version,
-            description=app.description,
-            routes=app.routes,
-            tags=app.openapi_tags,
-            servers=app.servers,
-            license_info=app.license_info,
-        )
+        schema = FastAPI.openapi(app)
         problem = problems.Problem.model_json_schema(ref_template="#/components/schemas/{model}")
         schema["components"]["schemas"] |= problem.pop("$defs") | {"Problem": problem}
         for name, example in EXAMPLES.items():  # FastAPI drops every null of an example.
@@ -157,8 +148,7 @@ def _openapi(app: FastAPI) -> dict[str, Any]:
             call = schema["paths"][path][method.lower()]
             call["responses"]["200"]["content"]["application/json"]["example"] = example.answer
         _state_benches(schema, app.state.settings.benches_max)
-        app.openapi_schema = schema
-    return app.openapi_schema
+    return app.openapi_schema or {}
 
 
 def _state_benches(part: Any, most: int) -> None:

@@ -29,22 +29,24 @@ class BodyLimit:
         if scope["type"] != "http":
             return await self.app(scope, receive, send)
         read = 0
-        detail = f"The body must be at most {self.bytes_max} bytes: ask for less in one request."
-        refused = Refused(413, detail, [ErrorItem(pointer="", detail=detail)], {"Connection": "close"})
 
         async def counted() -> Message:
             nonlocal read
             message = await receive()
             read += len(message.get("body", b""))
             if read > self.bytes_max:
-                raise refused
+                raise self._refused()
             return message
 
         stated = Headers(scope=scope).get("content-length", "0")
         if stated.isdecimal() and int(stated) > self.bytes_max:
-            response = await http_problem(Request(scope), refused)
+            response = await http_problem(Request(scope), self._refused())
             return await response(scope, receive, send)
         return await self.app(scope, counted, send)
+
+    def _refused(self) -> Refused:
+        detail = f"The body must be at most {self.bytes_max} bytes: ask for less in one request."
+        return Refused(413, detail, [ErrorItem(pointer="", detail=detail)], {"Connection": "close"})
 
 
 class HeadAsGet:

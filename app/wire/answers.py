@@ -27,10 +27,10 @@ LEFT_OUT = (
 class Head(Answer):
     """Handle 0 at first contact."""
 
-    theta: float | None = measure(description="Polar angle on a spiral, unwrapped; null on any other path", unit="rad")
-    radius: float = measure(description="Distance from the origin, where a spiral has its centre", unit="m")
-    x: float = measure(description="", unit="m")
-    y: float = measure(description="", unit="m")
+    theta: float | None = measure("rad", "Polar angle on a spiral, unwrapped; null on any other path")
+    radius: float = measure("m", "Distance from the origin, where a spiral has its centre")
+    x: float = measure("m")
+    y: float = measure("m")
 
 
 class Feature(Answer):
@@ -49,18 +49,16 @@ class End(Answer):
         description="fold: a bench cannot follow any more; centre: the head arrived; end: the path ends; stop: the "
         "time asked for is over"
     )
-    time: float = measure(description="", unit="s")
-    theta: float | None = measure(
-        description="Polar angle of the head then, on a spiral that folds or ends", unit="rad"
-    )
+    time: float = measure("s")
+    theta: float | None = measure("rad", "Polar angle of the head then, on a spiral that folds or ends")
     bench: int | None = Field(description="The bench that folds; null if none does")
 
 
 class Graze(Answer):
     """A local minimum of the clearance over time."""
 
-    time: float = measure(description="", unit="s")
-    clearance: float = measure(description="", unit="m")
+    time: float = measure("s")
+    clearance: float = measure("m")
     benches: Pair = Field(description="The pair")
 
 

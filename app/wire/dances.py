@@ -43,10 +43,10 @@ class UniformDragon(Wire):
     """A head and a body of equal benches."""
 
     benches: int = Field(223, ge=1, le=BENCHES_MAX, description="Number of benches")
-    head_length: Length = measure(3.41, description="Length of the head's bench", unit="m")
-    body_length: Length = measure(2.20, description="Length of every other bench", unit="m")
-    width: Width = measure(0.30, description="Width of every bench", unit="m")
-    overhang: Overhang = measure(0.275, description="From a handle to the nearer end of its bench", unit="m")
+    head_length: Length = measure("m", "Length of the head's bench", 3.41)
+    body_length: Length = measure("m", "Length of every other bench", 2.20)
+    width: Width = measure("m", "Width of every bench", 0.30)
+    overhang: Overhang = measure("m", "From a handle to the nearer end of its bench", 0.275)
 
     def to_dragon(self, benches_max: int) -> Dragon:
         """raises: TooLarge, InvalidValue"""
@@ -61,13 +61,10 @@ class UniformDragon(Wire):
 class BenchByBench(Wire, strict=True):
     """A dragon given bench by bench, head first; the three lists are equally long."""
 
-    lengths: list[Length] = measure(min_length=1, fail_fast=True, description="Length of each bench", unit="m")
-    widths: list[Width] = measure(min_length=1, fail_fast=True, description="Width of each bench", unit="m")
+    lengths: list[Length] = measure("m", "Length of each bench", min_length=1, fail_fast=True)
+    widths: list[Width] = measure("m", "Width of each bench", min_length=1, fail_fast=True)
     overhangs: list[Overhang] = measure(
-        min_length=1,
-        fail_fast=True,
-        description="From a handle to the nearer end of its bench, for each bench",
-        unit="m",
+        "m", "From a handle to the nearer end of its bench, for each bench", min_length=1, fail_fast=True
     )
 
     @property
@@ -84,7 +81,7 @@ class BenchByBench(Wire, strict=True):
 class HeadSpeed(Wire):
     """How fast the head dances."""
 
-    head_speed: float = measure(1.0, ge=1e-3, le=20, description="Constant speed of the head", unit="m/s")
+    head_speed: float = measure("m/s", "Constant speed of the head", 1.0, ge=1e-3, le=20)
 
 
 class UniformBody(UniformDragon, strict=True):
@@ -94,9 +91,9 @@ class UniformBody(UniformDragon, strict=True):
 class TimeRange(Wire):
     """Evenly spaced instants, both ends included where the step meets them."""
 
-    start: Instant = measure(0.0, description="First instant", unit="s")
-    stop: Instant = measure(300.0, description="Last instant, if the step meets it", unit="s")
-    step: float = measure(1.0, ge=1e-6, le=1e6, description="Between two instants", unit="s")
+    start: Instant = measure("s", "First instant", 0.0)
+    stop: Instant = measure("s", "Last instant, if the step meets it", 300.0)
+    step: float = measure("s", "Between two instants", 1.0, ge=1e-6, le=1e6)
 
     def instants(self) -> int:
         """Number of instants, known before any is made.
@@ -183,11 +180,11 @@ class TimedDance(DanceFields):
     """A dance at some instants."""
 
     times: AnyTimes | None = measure(
-        None,
-        description="Instants: evenly spaced, or a list; 0 is the start of the dance; null: every second from 0 to "
+        "s",
+        "Instants: evenly spaced, or a list; 0 is the start of the dance; null: every second from 0 to "
         "300 s; on a path that is no spiral every second from 0, or if the dance has no 0, from the first at which the "
         "whole dragon is on the path, for 300 s or to the end of the path",
-        unit="s",
+        None,
     )
 
     def times_of(self, dance: Dance, cells_max: int) -> Floats:
@@ -263,9 +260,7 @@ class CoreCircle(TypedDict):
 class Circle(Wire):
     """A circle that the head must reach, from a start on a spiral of any pitch."""
 
-    turning_diameter: TurningDiameter = measure(
-        9.0, description="Diameter of the circle that the head must reach", unit="m"
-    )
+    turning_diameter: TurningDiameter = measure("m", "Diameter of the circle that the head must reach", 9.0)
     start_turns: StartTurns = 16.0
     margin: Margin = 0.0
 

@@ -19,7 +19,7 @@ JSON = "application/json"
 NAMES_MAX = 100
 
 
-def measure(default: Any = ..., *, unit: str, description: str, **limits: Any) -> Any:
+def measure(unit: str, description: str = "", default: Any = ..., **limits: Any) -> Any:
     """A field with a unit, which stands in the schema and for readers at the end of the description."""
     words = f"{description} [{unit}]".lstrip()
     return Field(default, description=words, json_schema_extra={"x-unit": unit}, **limits)
@@ -35,13 +35,11 @@ Length = Annotated[float, Field(ge=1e-3, le=50)]
 Width = Annotated[float, Field(ge=1e-3, le=5)]
 Overhang = Annotated[float, Field(ge=0, le=5)]
 PITCH_MAX = 10.0  # [m]
-Pitch = Annotated[
-    float, measure(ge=1e-3, le=PITCH_MAX, description="Radial advance of the spiral per full turn", unit="m")
-]
-StartTurns = Annotated[float, measure(gt=0, le=200, description="Turns between the centre and the start", unit="turns")]
+Pitch = Annotated[float, measure("m", "Radial advance of the spiral per full turn", ge=1e-3, le=PITCH_MAX)]
+StartTurns = Annotated[float, measure("turns", "Turns between the centre and the start", gt=0, le=200)]
 Margin = Annotated[
     float,
-    measure(ge=0, le=2, description="Clearance required: nearer benches count as a contact; 0: a touch does", unit="m"),
+    measure("m", "Clearance required: nearer benches count as a contact; 0: a touch does", ge=0, le=2),
 ]
 Coordinate = Annotated[float, Field(ge=-1e6, le=1e6)]
 Instant = Annotated[float, Field(ge=-1e6, le=1e6)]

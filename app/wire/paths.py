@@ -22,12 +22,10 @@ Radius = Annotated[float, Field(ge=1e-3, le=1e4)]
 Point = Annotated[list[Coordinate], Field(min_length=2, max_length=2)]
 Start = Annotated[
     float,
-    measure(ge=-1e6, le=1e6, description="How far from the beginning of the path the head is at time 0", unit="m"),
+    measure("m", "How far from the beginning of the path the head is at time 0", ge=-1e6, le=1e6),
 ]
 # An entry deeper inside the circle makes the turn shorter.
-EntryRadius = Annotated[
-    float | None, measure(ge=1e-3, le=100, description="Where the turn begins; null: on the circle", unit="m")
-]
+EntryRadius = Annotated[float | None, measure("m", "Where the turn begins; null: on the circle", ge=1e-3, le=100)]
 
 
 class SpiralFields(Wire):
@@ -45,9 +43,7 @@ class TurnCircle(Wire):
     """Two coils, and the circle in which the dance turns from the one to the other."""
 
     pitch: Pitch = 1.7
-    turning_diameter: TurningDiameter = measure(
-        9.0, description="Diameter of the circle in which the turn lies", unit="m"
-    )
+    turning_diameter: TurningDiameter = measure("m", "Diameter of the circle in which the turn lies", 9.0)
     ratio: float = Field(2.0, ge=0.01, le=100, description="Radius of the first arc over that of the second")
     start_turns: StartTurns = 16.0
 
@@ -94,8 +90,8 @@ class LinePiece(Wire, strict=True):
     """A straight piece."""
 
     kind: Literal["line"] = Field(description="Kind of piece")
-    start: Point = measure(description="Where it begins, x and y", unit="m")
-    end: Point = measure(description="Where it ends, x and y", unit="m")
+    start: Point = measure("m", "Where it begins, x and y")
+    end: Point = measure("m", "Where it ends, x and y")
 
     def to_piece(self) -> core.Piece:
         return core.Line(_point(self.start), _point(self.end))
@@ -105,10 +101,10 @@ class ArcPiece(Wire, strict=True):
     """Part of a circle."""
 
     kind: Literal["arc"] = Field(description="Kind of piece")
-    centre: Point = measure(description="Centre of the circle, x and y", unit="m")
-    radius: Radius = measure(description="Radius of the circle", unit="m")
-    start_angle: Angle = measure(description="Direction from the centre to where it begins", unit="rad")
-    sweep: Angle = measure(description="Angle covered, counter-clockwise positive", unit="rad")
+    centre: Point = measure("m", "Centre of the circle, x and y")
+    radius: Radius = measure("m", "Radius of the circle")
+    start_angle: Angle = measure("rad", "Direction from the centre to where it begins")
+    sweep: Angle = measure("rad", "Angle covered, counter-clockwise positive")
 
     def to_piece(self) -> core.Piece:
         return core.Arc(_point(self.centre), self.radius, self.start_angle, self.sweep)
@@ -119,10 +115,10 @@ class CoilPiece(Wire, strict=True):
 
     kind: Literal["coil"] = Field(description="Kind of piece")
     pitch: Pitch = 0.55
-    start_turns: float = measure(ge=0, le=200, description="Turns between the centre and where it begins", unit="turns")
-    end_turns: float = measure(ge=0, le=200, description="Turns between the centre and where it ends", unit="turns")
-    centre: Point = measure([0.0, 0.0], description="Centre of the spiral, x and y", unit="m")
-    rotation: Angle = measure(0.0, description="Of the whole spiral about its centre", unit="rad")
+    start_turns: float = measure("turns", "Turns between the centre and where it begins", ge=0, le=200)
+    end_turns: float = measure("turns", "Turns between the centre and where it ends", ge=0, le=200)
+    centre: Point = measure("m", "Centre of the spiral, x and y", [0.0, 0.0])
+    rotation: Angle = measure("rad", "Of the whole spiral about its centre", 0.0)
 
     def to_piece(self) -> core.Piece:
         return core.Coil(self.pitch, self.start_turns, self.end_turns, _point(self.centre), self.rotation)
@@ -132,13 +128,9 @@ class WaypointsPiece(Wire, strict=True):
     """A smooth curve through points, without a jump of curvature."""
 
     kind: Literal["waypoints"] = Field(description="Kind of piece, or of path")
-    points: list[Point] = measure(
-        min_length=2, max_length=POINTS_MAX, fail_fast=True, description="Points to pass, x and y", unit="m"
-    )
-    start_heading: Angle | None = measure(
-        None, description="Direction at the start; null: no curvature there", unit="rad"
-    )
-    end_heading: Angle | None = measure(None, description="Direction at the end; null: no curvature there", unit="rad")
+    points: list[Point] = measure("m", "Points to pass, x and y", min_length=2, max_length=POINTS_MAX, fail_fast=True)
+    start_heading: Angle | None = measure("rad", "Direction at the start; null: no curvature there", None)
+    end_heading: Angle | None = measure("rad", "Direction at the end; null: no curvature there", None)
 
     def to_piece(self) -> core.Piece:
         return core.Waypoints(tuple(map(_point, self.points)), self.start_heading, self.end_heading)
