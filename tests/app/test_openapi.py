@@ -16,6 +16,7 @@ from app.questions import QUESTIONS
 from app.service.examples import EXAMPLES, FILE
 from app.service.main import create_app
 from app.settings import Settings
+from tests.app.conftest import ANSWER_TIMEOUT
 from tests.app.renew_examples import text
 
 EXAMPLES_PER_CALL = 25
@@ -60,7 +61,7 @@ def test_every_call_conforms_to_its_description(server: str, call: str, mode: Ge
     @settings(max_examples=EXAMPLES_PER_CALL, deadline=None, derandomize=True, suppress_health_check=list(HealthCheck))
     def conforms(case: Any) -> None:
         assume(not (mode.is_negative and is_a_spiral_that_does_not_say_so(case.body)))
-        case.call_and_validate(base_url=server, checks=CHECKED)
+        case.call_and_validate(base_url=server, checks=CHECKED, timeout=ANSWER_TIMEOUT)
 
     conforms()
 

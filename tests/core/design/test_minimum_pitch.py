@@ -375,7 +375,7 @@ def test_work_that_ends_before_the_minimum_pitch_is_found_is_an_error() -> None:
     assert caught.value.field == "dragon.body_length"
     assert "4e+07 steps of work" in caught.value.message
     assert "the shortest of 223 chords is 0.001 m long" in caught.value.message
-    assert caught.value.message.endswith("got 0.001 m")
+    assert "must be larger, or benches fewer, got 0.001 m: " in caught.value.message
 
 
 @pytest.mark.parametrize(
