@@ -74,8 +74,9 @@ class Dragon(Shown):
             if length - 2.0 * overhang < SIZE_MIN:
                 raise InvalidValue(
                     "dragon.overhang",
-                    f"dragon.overhang must be less than half of dragon.{name} "
+                    f"{{field}} must be less than half of {{length}} "
                     f"({said(length)} m / 2 = {said(length / 2)} m), got {said(overhang)} m",
+                    length=f"dragon.{name}",
                 )
         lengths = np.full(int(benches), body_length)
         lengths[0] = head_length

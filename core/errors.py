@@ -13,6 +13,7 @@ A message names the field, the value, its unit and the limit. A collision is an 
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
 from typing import Self
 
 
@@ -21,6 +22,12 @@ class BenchDragonError(Exception):
 
     code: stable word for programs; field: dotted name of the parameter at fault, which the message has as spoken()
     writes it; got: the given number, if of() made the error
+    others: further parameters that the message names; the message then has {word} and {field} in their places
+
+    >>> InvalidValue("times.stop", "{field} must not be before {start}", start="times.start").renamed(
+    ...     lambda name: name.removeprefix("times.")
+    ... ).message
+    'stop must not be before start'
     """
 
     code = "error"
@@ -28,8 +35,12 @@ class BenchDragonError(Exception):
     _rule = ""
     _unit = ""
 
-    def __init__(self, field: str, message: str) -> None:
-        message = message.replace(field, spoken(field), 1) if spoken(field) != field else message
+    def __init__(self, field: str, message: str, **others: str) -> None:
+        self._template, self._others = message, others
+        if others:
+            message = message.format(field=spoken(field), **{word: spoken(name) for word, name in others.items()})
+        elif spoken(field) != field:
+            message = message.replace(field, spoken(field), 1)
         super().__init__(message)
         self.field = field
         self.message = message
@@ -58,6 +69,12 @@ class BenchDragonError(Exception):
         if self.message.startswith(old):
             return type(self)(field, spoken(field) + self.message[len(old) :])
         return type(self)(field, self.message)
+
+    def renamed(self, name_of: Callable[[str], str]) -> Self:
+        """The same error with other names for its field and for the parameters that its message names beside it."""
+        if self._others:
+            return type(self)(name_of(self.field), self._template, **{k: name_of(v) for k, v in self._others.items()})
+        return self.named(name_of(self.field))
 
 
 def said(number: float) -> str:

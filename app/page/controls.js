@@ -22,13 +22,14 @@ export class Controls {
     state.listen((names) => names.forEach((name) => this.#show(name === "path" ? "pitch" : name)));
   }
 
-  #row({ name, unit, slider: [min, max, step] }) {
+  #row({ name, slider: [min, max, step] }) {
     const change = (event) => this.state.set({ [name]: event.target.value.trim() });
     const described = { "aria-describedby": `${name}-limits ${name}-error` };
     const row = {
       text: make("input", { id: name, inputMode: "decimal", autocomplete: "off", spellcheck: false, ...described }),
       slider: make("input", { type: "range", min, max, step }),
       reset: make("button", { type: "button", className: "reset", textContent: "↺" }),
+      unit: make("span", { className: "unit" }),
       limits: make("span", { id: `${name}-limits`, className: "limits" }),
       error: make("p", { id: `${name}-error`, className: "error", hidden: true }),
     };
@@ -43,8 +44,7 @@ export class Controls {
     this.#rows.set(name, row);
     this.#show(name);
     const label = make("label", { htmlFor: name, "data-text": name });
-    const shownUnit = make("span", { className: "unit", ...(unit === "turns" ? { "data-text": unit } : { textContent: unit }) });
-    return make("div", { className: "field" }, label, row.text, shownUnit, row.reset, row.slider, row.limits, row.error);
+    return make("div", { className: "field" }, label, row.text, row.unit, row.reset, row.slider, row.limits, row.error);
   }
 
   #show(name) {
@@ -56,12 +56,13 @@ export class Controls {
     row.reset.disabled = text === this.state.initial(name);
   }
 
-  /** limits: name -> [low, high] as the service states them */
+  /** limits: name -> [low, high, unit] as the service states them */
   translate(limits) {
     for (const [name, row] of this.#rows) {
       row.slider.setAttribute("aria-label", say("slider", { name: say(name) }));
       row.reset.setAttribute("aria-label", say("reset", { name: say(name) }));
-      const [low, high] = limits[name] ?? [];
+      const [low, high, unit = ""] = limits[name] ?? [];
+      row.unit.textContent = unit === "turns" ? say(unit) : unit;
       row.limits.textContent = low === undefined ? "" : say("limits", { low, high });
     }
   }

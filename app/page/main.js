@@ -309,11 +309,11 @@ function restyle() {
   draw();
 }
 
-/** Limits of every number, from the service's own description of itself. */
+/** Limits and unit of every number, from the service's own description of itself. */
 async function readLimits() {
   const { paths } = await service.ask("openapi", "openapi.json");
   const parameters = ["/collision-time", "/minimum-pitch"].flatMap((path) => paths[path].get.parameters);
-  const range = ({ minimum, exclusiveMinimum, maximum }) => [minimum ?? exclusiveMinimum, maximum];
+  const range = ({ minimum, exclusiveMinimum, maximum, "x-unit": unit }) => [minimum ?? exclusiveMinimum, maximum, unit];
   limits = Object.fromEntries(parameters.map(({ name, schema }) => [name, range(schema)]));
   controls.translate(limits);
 }
@@ -321,6 +321,6 @@ async function readLimits() {
 listen();
 showState(new Set([...Object.keys(SHOW_STATE), "pitch"]));
 readLimits().catch((error) => {
-  // Without it the page only lacks the limits.
+  // Without it the page only lacks the limits and units.
   if (!(error instanceof Problem)) throw error;
 });

@@ -10,8 +10,8 @@ import httpx
 import numpy as np
 import pytest
 
-from app.degrees import Coordinates, place_of
-from app.geojson import read_polygons, venue_of
+from app.wire.degrees import Coordinates, place_of
+from app.wire.geojson import read_polygons, venue_of
 from core import Dragon, InvalidValue, Venue
 
 AT_ONCE_ASKED = 20.0  # [s], with what else the machine does

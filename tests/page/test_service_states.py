@@ -26,7 +26,7 @@ def port() -> int:
 
 
 def started(port: int) -> subprocess.Popen[bytes]:
-    command = [sys.executable, "-m", "uvicorn", "--factory", "app.main:create_app", "--port", str(port)]
+    command = [sys.executable, "-m", "uvicorn", "--factory", "app.service.main:create_app", "--port", str(port)]
     quiet = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
     process = subprocess.Popen(command, cwd=ROOT, env=dict(os.environ), **quiet)
     for _ in range(600):
@@ -138,6 +138,7 @@ def test_limits_and_units_are_the_services_own(open_page: Any, server: str) -> N
     for one in (one for one in parameters if one["name"] not in words):
         low = one["schema"].get("minimum", one["schema"].get("exclusiveMinimum"))
         page.locator(f"#{one['name']}-limits", has_text=f"{low:.15g} to {one['schema']['maximum']:.15g}").wait_for()
+        assert page.locator(f".field:has(#{one['name']}) .unit").text_content() == one["schema"].get("x-unit", "")
 
 
 def test_superseded_questions_are_aborted_and_the_slider_does_not_wait(
