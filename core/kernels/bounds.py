@@ -251,7 +251,7 @@ def stretch_slope(pieces, k, rear, front, before, after):
     if rear == front and pieces[rear, PIECE_KIND] == SPIRAL:
         theta = min(before[k + 1, PIECE_THETA], after[k, PIECE_THETA])
         if theta >= 0.5:
-            return steepest_bend(theta) / (pieces[rear, 7] * pieces[rear, 7])
+            return steepest_bend(theta) / (pieces[rear, COIL_GROWTH] * pieces[rear, COIL_GROWTH])
     for p in range(rear, front + 1):
         slope = max(slope, pieces[p, K_SLOPE])
     return slope

@@ -85,20 +85,38 @@ ROUTE_BEND_LIMIT = 0.999
 # Larger than any step or distance, and so is its square no overflow [m].
 FREE = 1e150
 
-# A route is a table of pieces joined by arc length s. One row a piece, curvature counter-clockwise positive:
-#   KIND, S_START, S_END, curvature at both ends, then
-#   line   x, y, dx, dy                     at S_START, unit direction
-#   arc    centre x, y, radius, angle, sign  angle at S_START, sign + counter-clockwise
-#   spiral centre x, y, growth, rotation, sign, arc   sign + outwards, arc length from its centre at S_START
-#   cubic  x0..x3, y0..y3, end              r(t) = sum of c_k t^k for t in [0, end], its curvature monotonic
-#   crest  the same for a cubic with a crest of curvature in it: in place of both ends lower and upper bounds
-# K_SLOPE, PART and, the same in every row, how near a smooth path runs: LOOSE, BENT.
+# A route is a table of pieces joined by arc length s. One row a piece, curvature counter-clockwise positive.
 # The first piece also serves before S_START and the last one after S_END.
 PIECE_KIND = 0
 S_START = 1
 S_END = 2
 K_START = 3
-K_END = 4
+K_END = 4  # on a crest K_START and K_END are a lower and an upper bound instead
+# and, on a line, its point at S_START [m] and its unit direction,
+LINE_X = 5
+LINE_Y = 6
+LINE_DX = 7
+LINE_DY = 8
+# on an arc and on a spiral its centre [m]
+CENTRE_X = 5
+CENTRE_Y = 6
+ARC_RADIUS = 7  # [m]
+ARC_ANGLE = 8  # at S_START [rad]
+SIGN = 9  # 1 for an arc that runs counter-clockwise and a spiral that runs outwards, else -1
+COIL_GROWTH = 7  # [m/rad]
+COIL_ROTATION = 8  # of the whole spiral [rad]
+COIL_ARC = 10  # arc length from its centre at S_START [m]
+# and on a cubic the coefficients of r(t) = sum of c_k t^k for t in [0, T_END] [m]. A cubic has a monotonic curvature,
+# a crest is a cubic with a crest of curvature in it.
+X0 = 5
+X1 = 6
+X2 = 7
+X3 = 8
+Y0 = 9
+Y1 = 10
+Y2 = 11
+Y3 = 12
+T_END = 13
 K_SLOPE = 14  # bound on |d curvature / d s| [1/m^2]
 PART = 15  # within a part of the route curvature has no jump
 # Pieces that miss each other are led together within so much of their joint [m].
@@ -111,6 +129,16 @@ ARC = 1
 SPIRAL = 2
 CREST = 4
 PIECE_KINDS = ("line", "arc", "spiral", "cubic", "crest")
+
+# Columns of a point of a route besides PX to TY: its curvature [1/m].
+POINT_CURVATURE = 4
+POINT_COLUMNS = 5
+# By how much a piece misses the one before it: across and along the path [m], in direction [rad], in curvature [1/m].
+MISS_ACROSS = 0
+MISS_ALONG = 1
+MISS_KINK = 2
+MISS_STEP = 3
+MISS_COLUMNS = 4
 
 # How march() ended.
 REACHED = 0

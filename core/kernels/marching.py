@@ -112,7 +112,7 @@ def route_between(pieces, place, leaders, benches, margin, allowance, ring, size
         return extend_route(pieces, 0, benches, FREE, sizes, chain)
     if k == 0:
         return 0
-    radius = radius_beyond(pieces[0, 7], coil_reach(pieces, k, sizes, chain) + margin + allowance, ring) + allowance
+    radius = radius_beyond(pieces[0, COIL_GROWTH], coil_reach(pieces, k, sizes, chain) + margin + allowance, ring) + allowance
     k = extend_route(pieces, k, benches, coil_place(pieces, radius), sizes, chain)
     while k < benches and (  # a handle within rounding of that place
         not stands_first(pieces, k, chain) or coil_radius(pieces, chain[k, PX], chain[k, PY]) < radius

@@ -139,15 +139,15 @@ def ring_least(
 
 def coil_radius(pieces, x, y):
     """Distance of a point from the centre of the coil that a route begins with [m]."""
-    x -= pieces[0, 5]
-    y -= pieces[0, 6]
+    x -= pieces[0, CENTRE_X]
+    y -= pieces[0, CENTRE_Y]
     return sqrt(x * x + y * y)
 
 
 def coil_place(pieces, radius):
     """Where handles on the first coil, before it is led to the next piece, are at least so far from its centre [m]."""
-    growth = pieces[0, 7]
-    return max(first_place(pieces), growth * spiral_arc(radius / growth) - pieces[0, 10] - pieces[0, S_START])
+    growth = pieces[0, COIL_GROWTH]
+    return max(first_place(pieces), growth * spiral_arc(radius / growth) - pieces[0, COIL_ARC] - pieces[0, S_START])
 
 
 def coil_reach(pieces, leaders, sizes, chain):
@@ -173,7 +173,7 @@ def stays_beyond(pieces, leaders, handles, h, margin, error, ring, sizes, before
         far += sizes[i, RADIUS] + 0.5 * h * motion[i, CENTRE_SPEED]
         if far > reach:
             reach = far
-    reach = radius_beyond(pieces[0, 7], (reach + margin) * (1.0 + RING_ROUNDING) + 8.0 * error, ring) + 8.0 * error
+    reach = radius_beyond(pieces[0, COIL_GROWTH], (reach + margin) * (1.0 + RING_ROUNDING) + 8.0 * error, ring) + 8.0 * error
     return stands_first(pieces, handles, after) and coil_radius(pieces, after[handles, PX], after[handles, PY]) >= reach
 
 

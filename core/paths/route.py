@@ -261,7 +261,7 @@ class Route(Shown):
     # path displace the head alone.
     def _smooth(self) -> float:
         """Fills in how near the pieces are to a smooth path; how far the head's point is from its s at most [m]."""
-        table, misses, slides = self.table, np.zeros((len(self.table), 4)), np.zeros(len(self.table))
+        table, misses, slides = self.table, np.zeros((len(self.table), kernels.MISS_COLUMNS)), np.zeros(len(self.table))
         kernels.joint_misses(table, misses)
         kernels.piece_slides(table, slides)
         across, along, kink, step = misses[1:].T
@@ -277,7 +277,7 @@ class Route(Shown):
         return float(slides.max() + along.sum())
 
     def _check_joint(self, k: int, s: float, row: int) -> None:
-        ends = np.empty((2, 5))
+        ends = np.empty((2, kernels.POINT_COLUMNS))
         for side, part in enumerate((self.table[:row], self.table[row:])):
             kernels.route_points(np.ascontiguousarray(part), np.array([s]), ends[side : side + 1])
         (x, y, tx, ty, _), (x2, y2, tx2, ty2, _) = ends
@@ -310,9 +310,9 @@ class Route(Shown):
 
     def _points(self, s: Floats | float) -> Floats:
         flat = np.ascontiguousarray(np.asarray(s, dtype=np.float64).reshape(-1))
-        out = np.empty((flat.size, 5))
+        out = np.empty((flat.size, kernels.POINT_COLUMNS))
         kernels.route_points(self.table, flat, out)
-        return out.reshape(*np.shape(s), 5)
+        return out.reshape(*np.shape(s), kernels.POINT_COLUMNS)
 
     def position(self, s: Floats | float) -> Floats:
         """Points at arc length s. s: (...) [m]; returns (..., 2) x, y [m]."""
