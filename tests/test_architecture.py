@@ -18,6 +18,7 @@ ROOT = Path(__file__).parent.parent
 # The pipeline: a module imports only modules that stand before it. kernels stands first, it knows no other.
 ORDER = (
     "core.kernels.constants",
+    "core.kernels.records",
     "core.kernels.spiral",
     "core.kernels.fold",
     "core.kernels.rectangles",

@@ -18,8 +18,9 @@ from tests.core.every_digit import every_digit
 
 ROOT = Path(__file__).parents[2]
 SOURCES = ROOT / "core" / "kernels"
-# Modules with a .pxd beside them are compiled; constants is one to the C compiler alone.
-COMPILED = sorted(path.stem for path in SOURCES.glob("*.pxd") if path.stem != "constants")
+# Modules with a .pxd beside them are compiled; these two hold names for the C compiler alone.
+NAMES = {"constants", "records"}
+COMPILED = sorted({path.stem for path in SOURCES.glob("*.pxd")} - NAMES)
 
 needs_compiled = pytest.mark.skipif(not kernels.COMPILED, reason="the kernels run uncompiled")
 
@@ -75,13 +76,13 @@ def uncompiled() -> dict[str, str]:
 @pytest.mark.parametrize("module", COMPILED)
 def test_compiled_file_is_not_older_than_its_source(module: str) -> None:
     compiled = Path(str(sys.modules[f"core.kernels.{module}"].__file__))
-    sources = (SOURCES / f"{module}.py", SOURCES / f"{module}.pxd", SOURCES / "constants.pxd")
+    sources = (SOURCES / f"{module}.py", SOURCES / f"{module}.pxd", *(SOURCES / f"{name}.pxd" for name in NAMES))
     assert compiled.suffix != ".py", "all modules are compiled, or none"
     assert compiled.stat().st_mtime >= max(source.stat().st_mtime for source in sources), "run make setup"
 
 
 def test_constants_are_the_same_for_the_compiler() -> None:
-    text = (SOURCES / "constants.pxd").read_text(encoding="utf-8")
+    text = (*(SOURCES / f"{name}.pxd" for name in NAMES)).read_text(encoding="utf-8")
     literals = re.findall(r'(\w+) "([^"]+)"', text) + re.findall(r"(\w+) = (\d+)", text)
     assert {name: float(value) for name, value in literals} == {
         name: value
