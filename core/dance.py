@@ -274,7 +274,7 @@ def _earliest_place(dragon: Dragon, path: Route, tail_begin: float) -> float:
     as the path goes: beyond its end there is nothing to stand on.
     """
     sizes = np.zeros((dragon.benches, kernels.SIZE_COLUMNS))
-    sizes[:, 0] = dragon.chords
+    sizes[:, kernels.CHORD] = dragon.chords
     chain = np.empty((dragon.benches + 1, kernels.CHAIN_COLUMNS))
 
     def has_room(s: float) -> bool:

@@ -9,7 +9,7 @@ from enum import StrEnum
 import numpy as np
 
 from core import kernels
-from core.contact.search import MARGIN_MAX, NO_PIECES, THETA_ROUNDING, Budget, Search
+from core.contact.search import MARGIN_MAX, THETA_ROUNDING, Budget, Marched, Search
 from core.dance import EndReason, RunEnd, end_theta
 from core.design.pitch_bands import BORDER_WIDTH, Strips
 from core.design.straight import Straight
@@ -28,7 +28,7 @@ PASSED_OVER = 1e-9
 PASSED_OVER_WIDE = 1e-6
 # The pitch is bisected to this width [m]; closer to a graze or a contact on the circle rounding hides which it is.
 PITCH_WIDTH = 2.0 * BORDER_WIDTH
-# All ways and strips together do at most so much work, see WORK of core/kernels/constants.py: about 5 s; the default
+# All ways and strips together do at most so much work, see STEP_WORK of core/kernels/constants.py: about 5 s; the default
 # case does about 150,000 [1].
 PITCH_WORK = 4e7
 # A march of one way does at most so much of it. What that leaves undecided is marched once more, in finer steps and
@@ -52,8 +52,6 @@ BELOW = 1e-11
 NEARER = 0.8
 # At both ends of a way the pairs led by so many benches are looked at before it is marched.
 LOOKED_AT = 2
-# A search that found no contact.
-NOWHERE = {"touching": -1.0}
 # A contact this close to the circle or the start, with the pair still approaching, is on it [m of head travel].
 ON_CIRCLE = 1e-4
 # From the instant found just below the minimum pitch, the bottom of the graze is within this [m of head travel].
@@ -131,7 +129,7 @@ class _PitchSearch:
         self.scanned_from: float | None = None
         self.scan_step: float | None = None
 
-    def way(self, pitch: float, width: float = 0.0, work: float = WAY_WORK) -> tuple[str, dict[str, float]]:
+    def way(self, pitch: float, width: float = 0.0, work: float = WAY_WORK) -> tuple[str, Marched]:
         """March from the start to the circle: 'reached' proves every clearance on the way larger than the margin.
 
         width: half width of the bracket around a contact, 0 if any instant of it will do [m of travel]; work: at most
@@ -150,20 +148,19 @@ class _PitchSearch:
         width = width and max(width, 2.0 * search.travel_rounding(0.0, stop))
         fold, bench = (0.0, None) if self.strips.bent_little else end_theta(search.dragon, path)
         if fold > circle * (1.0 - THETA_ROUNDING):
-            nothing = dict.fromkeys(kernels.MARCH_FIELDS, 0.0)
-            return ("folded", nothing) if fold > circle * (1.0 + THETA_ROUNDING) else ("stuck", nothing | NOWHERE)
+            return "folded" if fold > circle * (1.0 + THETA_ROUNDING) else "stuck", Marched(0.0)
         for state, travel in () if width else (("touched_at_start", 0.0), ("touched", stop)):
             # a look at both ends decides most ways that are not clear, without laying out a long dragon
             gap, pair = search.clearance(travel, min(LOOKED_AT, search.room))
             if gap <= self.margin and search.surely_within(travel, pair):
-                return state, {"touching": travel, "first": pair[0], "second": pair[1]}
+                return state, Marched(0.0, travel, pair)
         if bench is None or search.travel_at(fold) - stop > NEAR_FOLD:
             return search.march(stop, width)
         end = RunEnd(EndReason.FOLD, search.travel_at(fold), fold, bench)
         last = min(stop, search.last_travel(end.time, True))
         state, found = search.march(last, width or CONTACT_WIDTH)
-        if (state == "stuck" and found["touching"] < 0.0) or (state == "reached" and last < stop):
-            state = "reached" if search.clear_to_fold(min(found["proven"], last), end) else "stuck"
+        if (state == "stuck" and found.touching is None) or (state == "reached" and last < stop):
+            state = "reached" if search.clear_to_fold(min(found.proven, last), end) else "stuck"
         return state, found
 
     def start_nearer(self, path: Spiral) -> None:
@@ -201,7 +198,7 @@ class _PitchSearch:
         """Is the whole way free of contact? None where neither is known, within rounding of a graze."""
         for width, work in ((0.0, WAY_WORK), (CONTACT_WIDTH, FINER_WORK)):
             state, found = self.way(pitch, width, work)
-            if state != "stuck" or found["touching"] >= 0.0:
+            if state != "stuck" or found.touching is not None:
                 return state == "reached"
         return None
 
@@ -309,9 +306,10 @@ class _PitchSearch:
             if touching is None or not self.still_touches(sample, *touching):
                 state, result = self.way(sample)
                 feasible = state == "reached"
-                radius = self.search.theta_at(result["touching"]) * self.search.growth
-                pair = int(result["first"]), int(result["second"])
-                touching = None if state in ("reached", "folded") or result["touching"] < 0.0 else (radius, *pair)
+                touching = None
+                if state not in ("reached", "folded") and result.touching is not None:
+                    radius = self.search.theta_at(result.touching) * self.search.growth
+                    touching = (radius, *result.benches)
             if feasible and not end:
                 end = self._end_of_island(sample, grid[k - 1])
             elif end and not feasible:
@@ -328,8 +326,9 @@ class _PitchSearch:
         if radius > pitch * self.start_turns:
             return False
         place = growth * kernels.spiral_arc(radius / growth)
-        gap = kernels.gap_at(growth, NO_PIECES, place, search.room, a, b, search.sizes, search.rows[0])
-        return float(gap) <= self.margin
+        curve = kernels.spiral_curve(growth)
+        scene = kernels.Scene(curve, place, search.rings, search.sizes, search.dragon.benches, 0)
+        return float(kernels.gap_at(scene, place, a, b, search.rows[0])) <= self.margin
 
     def _end_of_island(self, feasible: float, infeasible: float) -> float:
         while infeasible - feasible > PITCH_WIDTH:
@@ -349,17 +348,18 @@ class _PitchSearch:
         below = BELOW
         state, found = self.way(infeasible - below, width=CONTACT_WIDTH)
         # on a wide spiral rounding hides what meets so little below
-        while state == "stuck" and found["touching"] < 0.0 and below < PASSED_OVER_WIDE * infeasible:
+        while state == "stuck" and found.touching is None and below < PASSED_OVER_WIDE * infeasible:
             below *= 10.0
             state, found = self.way(infeasible - below, width=CONTACT_WIDTH)
         if state == "reached":
             state, found = self.way(infeasible, width=CONTACT_WIDTH)
-        pair = (int(found["first"]), int(found["second"]))
+        pair = found.benches
         if state == "touched_at_start":
             return LimitedBy.START, pair, self.search.growth * 2.0 * math.pi * self.start_turns
         if state == "folded":
             return LimitedBy.FOLD, None, self.radius
-        travel = found["touching"] - (CONTACT_WIDTH if state == "touched" else 0.0)
+        assert found.touching is not None
+        travel = found.touching - (CONTACT_WIDTH if state == "touched" else 0.0)
         return self._met(travel, travel + BOTTOM_WITHIN, pair)
 
     def _met(self, travel: float, end: float, pair: tuple[int, int]) -> tuple[LimitedBy, tuple[int, int], float]:

@@ -6,6 +6,30 @@ Compiled, the same names are structs of C, from records.pxd.
 from typing import NamedTuple
 
 
+class Rectangle(NamedTuple):
+    """A rectangle in the plane."""
+
+    x: float  # its centre [m]
+    y: float
+    ux: float  # the unit vector along its length
+    uy: float
+    half_length: float  # [m]
+    half_width: float
+
+
+class Seen(NamedTuple):
+    """A rectangle in the frame of another, from which it is seen."""
+
+    along: float  # its centre [m]
+    left: float
+    c: float  # its unit vector
+    s: float
+    hl: float  # half length and half width of the one from which it is seen [m]
+    hw: float
+    other_hl: float  # and its own
+    other_hw: float
+
+
 class Link(NamedTuple):
     """Bounds on a link over an interval, the leader's rate given: see bounds.py."""
 
@@ -39,3 +63,53 @@ class Cosines(NamedTuple):
     front_high: float
     rear_low: float
     rear_high: float
+
+
+class Pair(NamedTuple):
+    """Two benches, or a bench and the row of an edge at rest."""
+
+    first: int
+    second: int
+
+
+class Closest(NamedTuple):
+    """The least separation at an instant [m], FREE without pairs, and its pair."""
+
+    gap: float
+    first: int
+    second: int
+
+
+class Laid(NamedTuple):
+    """How far a chain was laid out."""
+
+    last: int  # its last handle, -1 at a fold
+    leading: int  # how many benches can be the inner one of a touching pair
+
+
+class Nearest(NamedTuple):
+    """What is proven of all pairs over an interval."""
+
+    least: float  # a lower bound of their separations [m], FREE without pairs, -FREE where nothing is known
+    bend: float  # K of the least pair [1/m]
+    first: int  # that pair
+    second: int
+    room: float  # the widest interval that the same pairs would allow [m]
+    error: float  # what points may be off by [m]
+    tried: int  # how many pairs were near enough to be tried
+
+
+class Rounding(NamedTuple):
+    """What points and gaps of an interval may be off by."""
+
+    point: float  # [m]
+    gap: float  # of any pair that is not far apart [m]; 0 where only the sums of each pair serve
+
+
+class Bends(NamedTuple):
+    """Bounds on the second derivatives of a gap over a band: along the path at its lowest growth [1/m], at its highest
+    one [1/m], and across the growths [rad^2/m]."""
+
+    low: float
+    high: float
+    across: float
