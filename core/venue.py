@@ -264,7 +264,9 @@ def is_clear_beyond(dance: Dance, venue: Venue, *, margin: float, start: float, 
     search.resize(dragon.benches)
     search.place_leaders(seen * dance.head_speed, dragon.benches)
     arcs, _ = search.moved_until(dance.end.theta or 0.0)
-    outwards = arcs / np.hypot(1.0, search.rows[0, : dragon.benches + 1, kernels.THETA])  # radii grow by this part of an arc
+    outwards = arcs / np.hypot(
+        1.0, search.rows[0, : dragon.benches + 1, kernels.THETA]
+    )  # radii grow by this part of an arc
     if (ends[1] + outwards + SURELY > ends[0])[alike:].any():
         return False
     reach = (

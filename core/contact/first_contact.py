@@ -24,7 +24,7 @@ from numpy.typing import NDArray
 from core import kernels, plots
 from core.contact.claim import ENDS, UNDECIDED_THEN, claim, claim_at_start, claim_undecided, contact_then
 from core.contact.near_graze import narrowed
-from core.contact.search import BRACKETS_GRAZING, MARGIN_MAX, Budget, Marched, Search
+from core.contact.search import BRACKETS_GRAZING, MARGIN_MAX, Budget, Ended, Marched, Search
 from core.dance import Dance, EndReason, RunEnd
 from core.errors import InvalidValue
 from core.kernels.constants import FRONT, MX, UY
@@ -247,8 +247,8 @@ class ClearanceProfile(Shown):
         return axes
 
 
-# By the features of the kernels, FRONT_LEFT and so on: front-left, front-right, rear-right, rear-left and front, right, rear, left: first
-# for a bench that has the centre on its right, then for one that has it on its left.
+# In the order of the features of the kernels, FRONT_LEFT to REAR_LEFT and FRONT to LEFT: first for a bench that has the
+# centre on its right, then for one that has it on its left.
 CORNERS = (
     ("front-outer", "front-inner", "rear-inner", "rear-outer"),
     ("front-inner", "front-outer", "rear-outer", "rear-inner"),
@@ -295,7 +295,7 @@ def contact_within(
         if narrower is not None:
             found, tolerance = narrower, narrow
     if to_fold and (state == "reached" or (state == "stuck" and found.touching is None)):
-        state = "reached" if search.clear_to_fold(min(found.proven, last), end) else "stuck"
+        state = Ended.REACHED if search.clear_to_fold(min(found.proven, last), end) else Ended.STUCK
     if state == "stuck":
         until = _known_overlap(search, found.proven, last, head_speed, until)
     if stop is not None and state == "reached":

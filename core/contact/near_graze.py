@@ -179,7 +179,9 @@ class Pair:
         return True
 
     def _bench(self, k: int, front: Vector, rear: Vector) -> Bench:
-        chord, half_length, half_width = (Decimal(number) for number in self.search.sizes[k, CHORD : HALF_WIDTH + 1].tolist())
+        chord, half_length, half_width = (
+            Decimal(number) for number in self.search.sizes[k, CHORD : HALF_WIDTH + 1].tolist()
+        )
         centre = ((front[0] + rear[0]) / 2, (front[1] + rear[1]) / 2)
         return Bench(centre, ((front[0] - rear[0]) / chord, (front[1] - rear[1]) / chord), half_length, half_width)
 
@@ -303,8 +305,10 @@ def narrowed(search: Search, found: Marched, half: float, head_speed: float = 1.
     head_speed: by which travels are divided for times [m/s]
     """
     pair = Pair(search, found.benches)
-    if found.touching is None or not pair.can_follow or not search.others_clear(
-        pair.pair, found.proven, found.touching
+    if (
+        found.touching is None
+        or not pair.can_follow
+        or not search.others_clear(pair.pair, found.proven, found.touching)
     ):
         return None
     with localcontext() as context:

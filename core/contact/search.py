@@ -39,7 +39,7 @@ from core.paths.spiral import Spiral
 from core.values import Floats
 
 MARGIN_MAX = 1e4  # [m]
-# Work after which a search gives up as undecided, see STEP_WORK of core/kernels/constants.py [1]: of first contact, 2 to
+# Work after which a search gives up as undecided, see core/kernels/constants.py [1]: of first contact, 2 to
 # 8 s; of a least distance, whose steps end near a bench or an edge and cost more, about the same. The default case
 # takes about 5,000.
 WORK_BUDGET = 2e7
@@ -79,7 +79,7 @@ RING_ROUNDING = 1e-11
 class Budget:
     """What all searches of one question may still do together.
 
-    left: work, see STEP_WORK of core/kernels/constants.py [1]; 1e7 take 1 to 4 s. Nothing is interrupted at 0: whoever asks
+    left: work, see core/kernels/constants.py [1]; 1e7 take 1 to 4 s. Nothing is interrupted at 0: whoever asks
     for more then raises TooMuchWork.
     """
 
@@ -394,9 +394,7 @@ class Search:
         return self._clearance(travel, benches, leaders)
 
     def _clearance(self, travel: float, benches: int, leaders: int) -> tuple[float, tuple[int, int]]:
-        gap, a, b = kernels.clearance_at(
-            self.scene, self.place - travel, benches, leaders, self.rows[0], self.motion
-        )
+        gap, a, b = kernels.clearance_at(self.scene, self.place - travel, benches, leaders, self.rows[0], self.motion)
         return float(gap), (a, b)
 
     def _followed(self, travel: float, leaders: int) -> int:

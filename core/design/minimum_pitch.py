@@ -28,7 +28,7 @@ PASSED_OVER = 1e-9
 PASSED_OVER_WIDE = 1e-6
 # The pitch is bisected to this width [m]; closer to a graze or a contact on the circle rounding hides which it is.
 PITCH_WIDTH = 2.0 * BORDER_WIDTH
-# All ways and strips together do at most so much work, see STEP_WORK of core/kernels/constants.py: about 5 s; the default
+# All ways and strips together do at most so much work, see core/kernels/constants.py: about 5 s; the default
 # case does about 150,000 [1].
 PITCH_WORK = 4e7
 # A march of one way does at most so much of it. What that leaves undecided is marched once more, in finer steps and

@@ -30,7 +30,7 @@ STEP_MIN = 1e-7
 WIDTH_FOLLOWED = 0.1
 # Where no bound holds a strip is halved down to this part of its pitch [1].
 UNBOUNDED_WITHIN = 1e-3
-# All strips of a descent together do at most so much work, see STEP_WORK of core/kernels/constants.py [1]: about a second;
+# All strips of a descent together do at most so much work, see core/kernels/constants.py [1]: about a second;
 # the default case does about 130,000.
 STRIP_WORK = 1e7
 # Where no bound of `clears` holds before so many turning radii, starts and pitches, nothing is marched [1].
@@ -78,7 +78,7 @@ class Strips:
         self.motions = np.zeros((2, benches + 1, kernels.MOTION_COLUMNS))
         self.shifts = np.zeros((benches + 1, kernels.SHIFT_COLUMNS))
 
-    def _strip(self, growth_high: float) -> kernels.Strip:
+    def strip_to(self, growth_high: float) -> kernels.Strip:
         """The strip from the growth of the search to a higher one [m/rad]."""
         search = self.search
         curve = kernels.spiral_curve(growth_high)
@@ -107,7 +107,7 @@ class Strips:
         rounding = TRAVEL_ROUNDING * outer * max(outer / (low / turn), 1.0)
         least_step = max(STEP_MIN, STEP_PER_WIDTH * (high - low))
         while True:
-            strip = self._strip(high / turn)
+            strip = self.strip_to(high / turn)
             budget = min(STRIP_WORK - self.work, search.budget.left)
             ended = ENDS[strip.run(outer, self.radius, leaders, rounding, least_step, budget)]
             self.work += float(strip.work)

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from core import plots
-from core.contact.search import MARGIN_MAX, WORK_BUDGET, Budget, Search
+from core.contact.search import MARGIN_MAX, WORK_BUDGET, Budget, Ended, Search
 from core.dance import Dance, EndReason
 from core.design.minimum_pitch import MinimumPitch, minimum_pitch
 from core.dragon import Dragon
@@ -29,7 +29,7 @@ JUMP = 0.02
 JUMP_WIDTH = 1e-6
 # Half width of the bracket around a contact [m of head travel], and so of its radius: a picture shows 1e-3 m.
 RADIUS_WIDTH = 1e-8
-# All pitches together do at most so much work, see STEP_WORK of core/kernels/constants.py: about 5 s; the default scan does
+# All pitches together do at most so much work, see core/kernels/constants.py: about 5 s; the default scan does
 # about 2,000,000 [1].
 SCAN_WORK = 4e7
 # The scanned pitches, in minimum pitches.
@@ -109,7 +109,7 @@ class Stops:
         if state == "stuck" and found.touching is not None:
             state, found, tolerance = search.approach(0.0, last, 1.0)
         if state in ("reached", "stuck") and found.touching is None and to_fold:
-            state = "reached" if search.clear_to_fold(min(found.proven, last), end) else "stuck"
+            state = Ended.REACHED if search.clear_to_fold(min(found.proven, last), end) else Ended.STUCK
         if state == "reached":
             return None
         travel = {"touched": (found.touching or 0.0) - tolerance, "stuck": found.proven}.get(state, 0.0)

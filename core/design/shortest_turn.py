@@ -35,7 +35,7 @@ from core.values import checked_number, checked_size, checked_type
 ENTRY_STEP = 0.01
 # ... and the border is bisected to this width [m].
 ENTRY_WIDTH = 1e-9
-# All entries together do at most so much work, see STEP_WORK of core/kernels/constants.py: about 8 s, as a step on a route
+# All entries together do at most so much work, see core/kernels/constants.py: about 8 s, as a step on a route
 # takes longer than one on a spiral; the default turn does about 90,000 [1].
 TURN_WORK = 2.5e7
 # Turn takes no deeper entry [m].

@@ -21,7 +21,8 @@ cdef class Meetings:
     cdef readonly long long met
 
     @cython.locals(
-        leaves=cython.Py_ssize_t, i=cython.Py_ssize_t, j=cython.Py_ssize_t, k=cython.Py_ssize_t, last=cython.Py_ssize_t
+        leaves=cython.Py_ssize_t, i=cython.Py_ssize_t, j=cython.Py_ssize_t, k=cython.Py_ssize_t,
+        first=cython.Py_ssize_t, last=cython.Py_ssize_t
     )
     cpdef void find(
         self, double margin, bint exact, bint chained, long long most_found, long long most_met,

@@ -17,11 +17,19 @@ LEAF = BOXES_PER_LEAF
 
 def boxes_meet(a, i, b, j):
     """Whether row i of a and row j of b, both of columns X_LOW to Y_HIGH, meet or touch."""
-    return a[i, X_LOW] <= b[j, X_HIGH] and b[j, X_LOW] <= a[i, X_HIGH] and a[i, Y_LOW] <= b[j, Y_HIGH] and b[j, Y_LOW] <= a[i, Y_HIGH]
+    return (
+        a[i, X_LOW] <= b[j, X_HIGH]
+        and b[j, X_LOW] <= a[i, X_HIGH]
+        and a[i, Y_LOW] <= b[j, Y_HIGH]
+        and b[j, Y_LOW] <= a[i, Y_HIGH]
+    )
 
 
 def grow_tree(boxes, tree):
-    """Fill the tree over the boxes. boxes: (n, BOX_COLUMNS); tree: (2 leaves, BOX_COLUMNS), leaves a power of two >= n / 4."""
+    """Fill the tree over the boxes.
+
+    boxes: (n, BOX_COLUMNS); tree: (2 leaves, BOX_COLUMNS), leaves a power of two >= n / 4
+    """
     leaves = tree.shape[0] // 2
     with cython.nogil:
         for k in range(tree.shape[0]):
@@ -79,9 +87,9 @@ class Meetings:
                         if k < leaves:
                             k = 2 * k
                             continue
-                        j = (k - leaves) * LEAF
-                        last = j + LEAF if j + LEAF < boxes.shape[0] else boxes.shape[0]
-                        for j in range(i + 1 if j <= i else j, last):
+                        first = (k - leaves) * LEAF
+                        last = min(first + LEAF, boxes.shape[0])
+                        for j in range(max(first, i + 1), last):
                             if boxes_meet(boxes, i, boxes, j):
                                 self.met += 1
                                 self.note(i, j, margin, exact, chained, pairs)

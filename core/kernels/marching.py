@@ -142,8 +142,8 @@ def route_between(scene, place, leaders, allowance, chain):
 # (route.py). On a spiral a handle turns back where the link before it stands across the path, near the fold: while one
 # may stand behind its start (slid_back()), all pairs are followed again.
 #
-# Bench i leads no pair that may touch while place_i >= clear, clear_place on a route, clear_radius / growth on a spiral.
-# So with `opened` the first bench that started there, benches behind it need neither of the two: x < clear lies before
+# Bench i leads no pair that may touch while place_i >= clear, which is clear_place on a route and clear_radius / growth
+# on a spiral. So with `opened` the first bench that started there, benches behind it need neither of the two: x < clear lies before
 # place_opened(start), and the benches m to `opened` cover that by passed() alone. (With m >= opened bench m itself
 # covers all from clear on.) chain_between() leaves out those benches at the far end of every step. Where handles only
 # go forward they have been out there all along it; one that may turn back is kept among the leaders while it is within
@@ -285,7 +285,7 @@ class March:
         return LEAST_STEP * self.tolerance if self.tolerance > 0.0 else LEAST_WAY
 
     def open(self, scene):
-        """Lay out the chain at the start, and look whether a pair is within the margin there: ADVANCED where none is."""
+        """Lay out the chain at the start: ADVANCED where no pair is within the margin there, else how the march ends."""
         self.followers = scene.room if self.at_start else min(self.leaders, scene.room)
         self.opens = self.at_start and scene.curve.kind == ON_SPIRAL
         self.allowed = CLEAR_SPARE * scene.rings.clear_radius
@@ -320,7 +320,10 @@ class March:
 
     def surely_within(self, scene, place):
         """Is the pair `first`, `second` within the margin with the head at a place, whatever that is off by?"""
-        return pair_most(scene, self.probe, place + self.rounding, 2.0 * self.rounding, self.first, self.second) <= scene.margin
+        return (
+            pair_most(scene, self.probe, place + self.rounding, 2.0 * self.rounding, self.first, self.second)
+            <= scene.margin
+        )
 
     def refuse(self, part):
         """Take so much of the step for the next one, which stops short of no crossing."""
@@ -429,8 +432,7 @@ class March:
         return self.refuse(0.5)
 
     def peek(self, scene, a, b):
-        """A travel not far ahead at which a pair is within the margin, where rounding hides a slow contact; FREE if none.
-        """
+        """A travel not far ahead at which a pair is within the margin, as rounding hides a slow contact; FREE if none."""
         width = 2.0 * self.tolerance
         while width <= PEEK:
             if gap_at(scene, scene.place - self.travel - width, a, b, self.probe.before) <= scene.margin:

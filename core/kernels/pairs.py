@@ -531,7 +531,11 @@ def band_least(scene, band, leaders):
             dy = band.low.after[j, MY] - band.low.after[i, MY]
             distance = sqrt(dx * dx + dy * dy)
             slack = (band.low.motion[i, CENTRE_SPEED] + band.low.motion[j, CENTRE_SPEED]) * band.low.h
-            slack += (band.shifts[i, SHIFT_CENTRE] + band.shifts[j, SHIFT_CENTRE]) * (growth_high - growth) * (1.0 + STRIP_ROUNDING)
+            slack += (
+                (band.shifts[i, SHIFT_CENTRE] + band.shifts[j, SHIFT_CENTRE])
+                * (growth_high - growth)
+                * (1.0 + STRIP_ROUNDING)
+            )
             slack += 16.0 * error
             if distance - slack > (scene.sizes[i, RADIUS] + scene.sizes[j, RADIUS] + scene.margin) * (1.0 + 1e-12):
                 continue  # far apart

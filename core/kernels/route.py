@@ -62,7 +62,13 @@ def route_point(pieces, p, s):
     kind = cython.cast(cython.int, pieces[p, PIECE_KIND])
     u = s - pieces[p, S_START]
     if kind == LINE:
-        return (pieces[p, LINE_X] + u * pieces[p, LINE_DX], pieces[p, LINE_Y] + u * pieces[p, LINE_DY], pieces[p, LINE_DX], pieces[p, LINE_DY], 0.0)
+        return (
+            pieces[p, LINE_X] + u * pieces[p, LINE_DX],
+            pieces[p, LINE_Y] + u * pieces[p, LINE_DY],
+            pieces[p, LINE_DX],
+            pieces[p, LINE_DY],
+            0.0,
+        )
     if kind == ARC:
         a = pieces[p, ARC_ANGLE] + pieces[p, SIGN] * u / pieces[p, ARC_RADIUS]
         c = cos(a)
@@ -198,7 +204,11 @@ def spot_error(pieces, p, s, theta, x, y):
     elif kind == ARC:
         error += 5.0 * pieces[p, ARC_RADIUS]
     elif kind == SPIRAL:
-        error += pieces[p, COIL_GROWTH] * theta * (6.0 if pieces[p, COIL_ROTATION] == 0.0 else 6.0 + fabs(theta + pieces[p, COIL_ROTATION]))
+        error += (
+            pieces[p, COIL_GROWTH]
+            * theta
+            * (6.0 if pieces[p, COIL_ROTATION] == 0.0 else 6.0 + fabs(theta + pieces[p, COIL_ROTATION]))
+        )
     else:
         error += 12.0 * cubic_size(pieces, p)
     if s < pieces[p, S_START] + BLEND or s > pieces[p, S_END] - BLEND:

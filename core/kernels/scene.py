@@ -58,7 +58,7 @@ class Interval:
         self.before, self.after = self.after, self.before
 
     def widen(self, h, rounding):
-        """Set the way that the head truly travels at most, from the one computed and what both its ends may be off by."""
+        """Set how far the head truly travels at most: the way computed, and what both its ends may be off by [m]."""
         self.h = h * (1.0 + WIDTH_ROUNDING) + 2.0 * rounding
 
     def round(self):

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from core import kernels
+from core.errors import InvalidValue, said
 from core.kernels.constants import (
     FRAME_COLUMNS,
     FRAME_HALF_LENGTH,
@@ -28,7 +29,6 @@ from core.kernels.constants import (
     WITNESS_BX,
     WITNESS_BY,
 )
-from core.errors import InvalidValue, said
 from core.shown import Shown, worded
 from core.values import SIZE_MAX, SIZE_MIN, Floats
 
