@@ -339,7 +339,7 @@ class Search:
                 break
             self.resize(min(4 * self.room, self.dragon.benches))
         proven = asked[1] if ended is Ended.REACHED else max(float(march.proven) - rounding, asked[0])
-        touching = None if march.touching < 0.0 else float(march.touching)
+        touching = None if march.touching >= NO_GAP else float(march.touching)
         if ended is Ended.TOUCHED_AT_START:
             touching = asked[0]
         graze = None

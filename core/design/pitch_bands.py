@@ -113,7 +113,7 @@ class Strips:
             self.work += float(strip.work)
             search.spend(float(strip.work))
             if ended is not Ended.CAPACITY:
-                touching = None if strip.touching < 0.0 else float(strip.touching)
+                touching = None if strip.touching >= NO_BOUND else float(strip.touching)
                 return ended, Marched(float(strip.proven), touching, (strip.first, strip.second), strip.steps)
             search.resize(min(4 * search.room, search.dragon.benches))
             self._make_room(search.room)

@@ -58,8 +58,8 @@ if not cython.compiled:  # for the compiler the same stands in the .pxd
 # (tolerance <= 0) touching is the far end itself, if it is certain.
 # TOUCHED_AT_START: the nearest pair is within the margin at the start, for certain. Where rounding hides that: STUCK.
 # STUCK: h is below what could help (LEAST_STEP of the bracket, or rounding), the budget is spent, or the chain folds at
-# the start. proven = travel still holds. touching >= 0 is a crossing that could not be bracketed this narrowly, a
-# pair that closes slowly: a wider bracket may do. -1: none was found.
+# the start. proven = travel still holds. touching is then a crossing that could not be bracketed this narrowly, a
+# pair that closes slowly: a wider bracket may do. FREE: none was found.
 # CAPACITY: more handles matter than there are rows; nothing is claimed.
 # graze_...: what was seen on the way, refined but not proven to be the least.
 
@@ -143,11 +143,11 @@ def route_between(scene, place, leaders, allowance, chain):
 # may stand behind its start (slid_back()), all pairs are followed again.
 #
 # Bench i leads no pair that may touch while place_i >= clear, which is clear_place on a route and clear_radius / growth
-# on a spiral. So with `opened` the first bench that started there, benches behind it need neither of the two: x < clear lies before
-# place_opened(start), and the benches m to `opened` cover that by passed() alone. (With m >= opened bench m itself
-# covers all from clear on.) chain_between() leaves out those benches at the far end of every step. Where handles only
-# go forward they have been out there all along it; one that may turn back is kept among the leaders while it is within
-# a drift of clear_radius (`turning`).
+# on a spiral. So with `opened` the first bench that started there, benches behind it need neither of the two: x < clear
+# lies before place_opened(start), and the benches m to `opened` cover that by passed() alone. (With m >= opened bench m
+# itself covers all from clear on.) chain_between() leaves out those benches at the far end of every step. Where handles
+# only go forward they have been out there all along it; one that may turn back is kept among the leaders while it is
+# within a drift of clear_radius (`turning`).
 #
 # With edges at rest in place of the second bench the same holds of g(place_i), the separation of a bench and an edge.
 
@@ -222,7 +222,7 @@ class March:
     """The head of a scene, marched by proven steps until a pair comes within the margin: see the top of this file.
 
     interval: the chains of a step; probe: an interval to look at a pair alone; opening: rows for the chain at the start
-    proven: nothing touches up to here [m of head travel]; touching: a pair is within the margin here, -1 for none;
+    proven: nothing touches up to here [m of head travel]; touching: a pair is within the margin here, FREE for none;
         first, second: that pair
     steps, work: what was done; bend: the largest K that proved a step [1/m]
     graze_gap: the least local minimum of the clearance on the way [m], FREE if none; graze_travel, graze_first,
@@ -285,7 +285,7 @@ class March:
         return LEAST_STEP * self.tolerance if self.tolerance > 0.0 else LEAST_WAY
 
     def open(self, scene):
-        """Lay out the chain at the start: ADVANCED where no pair is within the margin there, else how the march ends."""
+        """Lay out the chain at the start: ADVANCED if no pair is within the margin there, else how the march ends."""
         self.followers = scene.room if self.at_start else min(self.leaders, scene.room)
         self.opens = self.at_start and scene.curve.kind == ON_SPIRAL
         self.allowed = CLEAR_SPARE * scene.rings.clear_radius
@@ -293,7 +293,8 @@ class March:
             self.allowed = 0.5 * PLACE_SPARE if scene.rings.clear_place < FREE else FREE
         self.travel = self.older_travel = self.last_travel = self.start
         self.h = scene.rings.shortest
-        self.target = self.touching = -1.0
+        self.target = -1.0
+        self.touching = FREE
         self.floor = self.graze_gap = FREE
         self.older_clearance = -FREE
         self.turning = False
@@ -432,7 +433,7 @@ class March:
         return self.refuse(0.5)
 
     def peek(self, scene, a, b):
-        """A travel not far ahead at which a pair is within the margin, as rounding hides a slow contact; FREE if none."""
+        """A travel a little ahead at which a pair is within the margin, as rounding hides a slow contact; else FREE."""
         width = 2.0 * self.tolerance
         while width <= PEEK:
             if gap_at(scene, scene.place - self.travel - width, a, b, self.probe.before) <= scene.margin:

@@ -277,6 +277,9 @@ def corner_axis(scene, i, j, chain):
 
 def interval_least(scene, interval, active):
     """Proven least separation over an interval of all pairs led by the first `active` benches; -FREE: too wide."""
+    before: cython.double[:, ::1] = interval.before
+    motion: cython.double[:, ::1] = interval.motion
+    sizes: cython.double[:, ::1] = scene.sizes
     best = FREE
     bend = 0.0
     room = FREE
@@ -298,13 +301,13 @@ def interval_least(scene, interval, active):
             first = interval.handles + 1
             end = first + scene.edges
         for j in range(first, end):
-            if far < FREE and innermost(scene, interval, j, interval.motion[j, HANDLE_SPEED]) - rounding.point > far:
+            if far < FREE and innermost(scene, interval, j, motion[j, HANDLE_SPEED]) - rounding.point > far:
                 break
-            dx = interval.before[j, MX] - interval.before[i, MX]
-            dy = interval.before[j, MY] - interval.before[i, MY]
-            distance = (interval.motion[i, CENTRE_SPEED] + interval.motion[j, CENTRE_SPEED]) * interval.h
+            dx = before[j, MX] - before[i, MX]
+            dy = before[j, MY] - before[i, MY]
+            distance = (motion[i, CENTRE_SPEED] + motion[j, CENTRE_SPEED]) * interval.h
             square = dx * dx + dy * dy
-            width = scene.sizes[i, RADIUS] + scene.sizes[j, RADIUS] + reach + distance
+            width = sizes[i, RADIUS] + sizes[j, RADIUS] + reach + distance
             if square > width * width or (i == scene.left_out and j == scene.left_out_too):
                 continue
             tried += 1

@@ -139,8 +139,8 @@ def smooth_bound(start, start_slope, end, end_slope, jerk, h, kink):
 # Rounding. Rates and slopes at the ends are good to RATE_ERROR and CLIMB_ERROR: on a route by route_bounds(), on a
 # spiral by spiral_errors(). There no rate exceeds 1 unless a handle is followed. What is computed from them once is
 # good to BOUND_ROUNDING of itself, and h is widened by what both travels may be off by, for the bounds (scene.py).
-# A handle that is calm by less than rounding is calm: on a spiral the lemma holds up to a bend of 1, and calm is what bends by BEND_LIMIT at most, on
-# a route stands_first() leaves BLEND to spare.
+# A handle that is calm by less than rounding is calm: on a spiral the lemma holds up to a bend of 1, and calm is what
+# bends by BEND_LIMIT at most, on a route stands_first() leaves BLEND to spare.
 #
 # The rounding d of a slope. By climbs(), divided by the chord, with e the rounding of a rate, curvature good to
 # `widened` (|d k / d s| <= 2 k / growth, bounds.py), directions to `blur`, and q = e_a + e_b + blur (|a'| + |b'|),

@@ -162,7 +162,7 @@ class Strip:
     """All growths between two at once, proven clear while the head goes inwards.
 
     proven: nothing touches down to this head radius [m]; touching: a pair is within the margin at this one, for the
-        lowest growth [m], -1 for none; first, second: that pair
+        lowest growth [m], FREE for none; first, second: that pair
     steps, work: what was done
     """
 
@@ -170,7 +170,7 @@ class Strip:
         self.band = Band(low, high, shifts)
         self.leaders = self.placed = self.first = self.second = self.steps = 0
         self.radius = self.place = self.h = self.rounding = self.proven = self.work = 0.0
-        self.touching = -1.0
+        self.touching = FREE
         self.bounded = True
 
     def run(self, outer, inner, leaders, rounding, least_step, budget):
@@ -185,7 +185,7 @@ class Strip:
         high = self.band.high.scene.curve.growth
         self.steps = 0
         self.work = 0.0
-        self.touching = -1.0
+        self.touching = FREE
         self.proven = self.radius = outer
         self.place = low * spiral_arc(outer / low)
         self.h = self.band.low.scene.rings.shortest

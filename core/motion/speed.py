@@ -176,7 +176,7 @@ def first_excess(
 
 
 def _excess(search: Search, first: float, last: float, head_speed: float, ratio: float) -> tuple[int, kernels.Excess]:
-    """The search for the first excess over a limit of this rate between two travels of the head [m], and its outcome."""
+    """The search for the first excess over a rate between two travels of the head [m], and its outcome."""
     rounding = search.travel_rounding(first, last)
     step, way = SAMPLE_STEP * float(search.extremes[0]), max(abs(first), abs(last), search.place)
     limit, kept = ratio * (1.0 + SPEED_ROUNDING), ratio * (1.0 + SPEED_PROVEN)

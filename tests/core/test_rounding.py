@@ -252,11 +252,11 @@ def test_a_speed_that_is_said_to_exceed_a_limit_does(seed: int) -> None:
         speed = float(trajectory(Dance(dragon, spiral), time).speed.max())
         for above in (-1e-3, -1e-9, *(units * kernels.ULP for units in range(-6, 7, 2)), 1e-9):
             limit = speed * (1.0 + above) / (1.0 + SPEED_ROUNDING)
-            outcome, _, found, handle = _excess(search, time, time, 1.0, limit)
+            outcome, excess = _excess(search, time, time, 1.0, limit)
             outcomes.add(outcome)
             if outcome == EXCEEDED:
-                rates, _ = exact_climbs(spiral.growth, exact_theta(spiral, found), dragon.chords)
-                assert abs(float(rates[handle])) > limit
+                rates, _ = exact_climbs(spiral.growth, exact_theta(spiral, excess.found), dragon.chords)
+                assert abs(float(rates[excess.handle])) > limit
         assert outcomes > {EXCEEDED}
 
 
