@@ -27,8 +27,9 @@ ORDER = (
     "core.kernels.chain",
     "core.kernels.bounds",
     "core.kernels.rings",
-    "core.kernels.pairs",
+    "core.kernels.scene",
     "core.kernels.clearance",
+    "core.kernels.pairs",
     "core.kernels.marching",
     "core.kernels.strips",
     "core.kernels.speed",
@@ -118,6 +119,7 @@ ORDER = (
 )
 OUTSIDE_CORE = {"app", "fastapi", "http", "json", "orjson", "pathlib", "pydantic", "starlette", "time"}
 OVERLAP_ENGINES = {"fcl", "shapely"}
+FUNCTIONS = (ast.FunctionDef, ast.AsyncFunctionDef)
 HEAVY = ("fcl", "flint", "matplotlib", "pandas", "scipy", "shapely", "xarray")
 
 
@@ -158,6 +160,21 @@ def test_imports_point_one_way_along_the_pipeline(module: str) -> None:
 @pytest.mark.parametrize("module", [name for name in MODULES if name.startswith("core")])
 def test_core_knows_no_http_json_files_or_clocks(module: str) -> None:
     assert top_names(module) & OUTSIDE_CORE == set()
+
+
+# A function past one of these is two functions.
+PARAMETERS_MOST, LINES_MOST = 8, 80
+
+
+@pytest.mark.parametrize("module", [name for name in MODULES if name.startswith("core")])
+def test_no_function_has_too_many_parameters_or_lines(module: str) -> None:
+    functions = [
+        node for node in ast.walk(ast.parse(MODULES[module].read_text(encoding="utf-8"))) if isinstance(node, FUNCTIONS)
+    ]
+    for function in functions:
+        names = [argument.arg for argument in ast.walk(function.args) if isinstance(argument, ast.arg)]
+        assert len([name for name in names if name not in ("self", "cls")]) <= PARAMETERS_MOST, function.name
+        assert function.end_lineno - function.lineno < LINES_MOST, function.name
 
 
 def test_only_the_engines_import_fcl_and_shapely() -> None:

@@ -496,8 +496,8 @@ class Search:
         outside = np.flatnonzero(radii[:-1] - arcs[:-1] >= self.clear_radius)
         leaders = int(outside[0]) if outside.size else self.room
         if self.room < self.dragon.benches:
-            reach = (self.growth * theta * (1.0 - THETA_ROUNDING), float(radii[leaders] + arcs[leaders]), self.rings)
-            reach = kernels.leaders_reach(self.growth, *reach) + self.margin
+            lead, rear = self.growth * theta * (1.0 - THETA_ROUNDING), float(radii[leaders] + arcs[leaders])
+            reach = kernels.leaders_reach(self.growth, lead, rear, self.rings) + self.margin
             if radii[-1] - arcs[-1] < kernels.radius_beyond(self.growth, reach, self.rings):
                 return -NO_BOUND
         least = gap - reached

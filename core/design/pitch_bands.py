@@ -80,14 +80,12 @@ class Strips:
 
     def strip_to(self, growth_high: float) -> kernels.Strip:
         """The strip from the growth of the search to a higher one [m/rad]."""
-        search = self.search
-        curve = kernels.spiral_curve(growth_high)
+        search, curve = self.search, kernels.spiral_curve(growth_high)
         high = kernels.Scene(curve, search.place, search.rings, search.sizes, search.dragon.benches, 0)
-        low, high = (
-            kernels.Interval(scene, *rows, motion)
-            for scene, rows, motion in zip((search.scene, high), self.rows, self.motions, strict=True)
-        )
-        return kernels.Strip(low, high, self.shifts)
+        (before, after), (before_high, after_high) = self.rows
+        low_interval = kernels.Interval(search.scene, before, after, self.motions[0])
+        high_interval = kernels.Interval(high, before_high, after_high, self.motions[1])
+        return kernels.Strip(low_interval, high_interval, self.shifts)
 
     def prove(self, low: float, high: float, outer: float) -> tuple[str, Marched]:
         """Are all pitches in [low, high] clear while the head's radius falls from outer to the circle [m]?
