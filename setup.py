@@ -74,7 +74,8 @@ class AllOrNothing(build_ext):
 
 def kernels() -> list[Extension]:
     """The modules of core/kernels, translated to C."""
-    names = sorted(path.stem for path in Path("core/kernels").glob("*.pxd") if path.stem != "constants")
+    declared = {path.stem for path in Path("core/kernels").glob("*.pxd")}
+    names = sorted(declared - {"constants", "records"})  # these hold names alone
     extensions = cythonize(
         [Extension(SHARED, ["build/_shared.c"])]
         + [Extension(f"core.kernels.{name}", [f"core/kernels/{name}.py"]) for name in names],

@@ -13,7 +13,6 @@ import numpy as np
 from core import kernels
 from core.dragon import Dragon
 from core.errors import InvalidValue, OutsideRun, said, said_bound
-from core.paths.path import Path
 from core.paths.route import Route
 from core.paths.spiral import Spiral
 from core.sampling import bisected
@@ -100,7 +99,7 @@ class Dance(Shown):
 
         raises: InvalidValue (path) for a route too short for the dragon
         """
-        if self.path.tail_begin is None:
+        if not isinstance(self.path, Route) or self.path.tail_begin is None:
             return -TIME_MAX
         return _earliest_place(self.dragon, self.path, self.path.tail_begin) / self.head_speed
 
@@ -269,14 +268,14 @@ def _refuse_tight_bends(dragon: Dragon, path: Route) -> None:
     )
 
 
-def _earliest_place(dragon: Dragon, path: Path, tail_begin: float) -> float:
+def _earliest_place(dragon: Dragon, path: Route, tail_begin: float) -> float:
     """Where the head is when the last handle is at the beginning of the path [m].
 
     A chord spans between its own length and pi / 2 times it of the path, so the place of the head is bisected, as far
     as the path goes: beyond its end there is nothing to stand on.
     """
     sizes = np.zeros((dragon.benches, kernels.SIZE_COLUMNS))
-    sizes[:, 0] = dragon.chords
+    sizes[:, kernels.CHORD] = dragon.chords
     chain = np.empty((dragon.benches + 1, kernels.CHAIN_COLUMNS))
 
     def has_room(s: float) -> bool:

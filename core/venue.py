@@ -11,7 +11,7 @@ from itertools import pairwise
 import numpy as np
 
 from core import kernels
-from core.contact.clearance import Pair, first_pair, least_over
+from core.contact.clearance import Pair, least_over
 from core.contact.first_contact import Outcome
 from core.contact.fold import moved_until
 from core.contact.search import MARGIN_MAX, NEAR_WORK_BUDGET, Search
@@ -263,7 +263,8 @@ def is_clear_beyond(dance: Dance, venue: Venue, *, margin: float, start: float, 
     search.resize(dragon.benches)
     search.place_leaders(seen * dance.head_speed, dragon.benches)
     arcs, _ = moved_until(search, dance.end.theta or 0.0)
-    outwards = arcs / np.hypot(1.0, search.rows[0, : dragon.benches + 1, 4])  # radii grow by this part of an arc
+    rates = np.hypot(1.0, search.rows[0, : dragon.benches + 1, kernels.THETA])
+    outwards = arcs / rates  # radii grow by this part of an arc
     if (ends[1] + outwards + SURELY > ends[0])[alike:].any():
         return False
     reach = (
@@ -280,13 +281,14 @@ def _area_clearance(search: Search, name: str, begin: float, until: float, head_
     state, found, tolerance = search.approach(begin * head_speed, until * head_speed, head_speed)
     outcome, time, bracket, bench, point, gap = Outcome.CLEAR, None, None, None, None, None
     if state == "stuck":
-        outcome, bracket = Outcome.UNDECIDED, (found["proven"] / head_speed, until)
+        outcome, bracket = Outcome.UNDECIDED, (found.proven / head_speed, until)
     elif state != "reached":
         at_start = state == "touched_at_start"
-        travel = found["touching"] - (0.0 if at_start else tolerance)
+        assert found.touching is not None
+        travel = found.touching - (0.0 if at_start else tolerance)
         outcome, time = Outcome.CONTACT_AT_START if at_start else Outcome.CONTACT, travel / head_speed
-        bracket = None if at_start else (found["proven"] / head_speed, found["touching"] / head_speed)
-        pair = first_pair(found)
+        bracket = None if at_start else (found.proven / head_speed, found.touching / head_speed)
+        pair = found.benches
         bench, (point, _, gap) = pair[0], _witnesses(search, travel, pair)
     (distance, travel, pair), at_least = least_over(search, begin * head_speed, until * head_speed, head_speed)
     nearest = Nearest(distance, at_least, travel / head_speed, pair[0], *_witnesses(search, travel, pair)[:2])
@@ -296,10 +298,8 @@ def _area_clearance(search: Search, name: str, begin: float, until: float, head_
 def _witnesses(search: Search, travel: float, pair: Pair) -> tuple[Point, Point, float]:
     """The points of a bench and an edge that are nearest to each other, and their separation [m]."""
     search.clearance(travel)
-    a, b = (search.rows[0, k, 6:10] for k in pair)
-    out = np.empty(8)
-    kernels.pair_separation(*a, *search.sizes[pair[0], 1:3], *b, *search.sizes[pair[1], 1:3], out)
-    return (float(out[1]), float(out[2])), (float(out[3]), float(out[4])), float(out[0])
+    met = kernels.bench_separation(*pair, search.sizes, search.rows[0])
+    return (float(met.ax), float(met.ay)), (float(met.bx), float(met.by)), float(met.separation)
 
 
 def _stray(dance: Dance, venue: Venue, begin: float) -> Stray | None:

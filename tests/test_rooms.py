@@ -24,12 +24,7 @@ TESTED_WITH = {
     "proof/sweeps.py": "proof/test_certificate.py",
     "proof/words.py": "proof/test_certificate.py",
 }
-# All kernels are tested through what uses them, compiled against uncompiled.
-MODULES = [
-    path.relative_to(CORE)
-    for path in sorted(CORE.rglob("*.py"))
-    if path.name != "__init__.py" and path.parent.name != "kernels"
-]
+MODULES = [path.relative_to(CORE) for path in sorted(CORE.rglob("*.py")) if path.name != "__init__.py"]
 
 
 @pytest.mark.parametrize("module", MODULES, ids=str)

@@ -193,16 +193,6 @@ def least_clearance(dance: Dance, *, start: float = 0.0, stop: float | None = No
     return LeastClearance(distance, at_least, travel / head_speed, pair)
 
 
-def first_pair(found: dict[str, float]) -> Pair:
-    """The pair that a march found within the margin."""
-    return int(found["first"]), int(found["second"])
-
-
-def graze_pair(found: dict[str, float]) -> Pair:
-    """The pair whose graze is the narrowest that a march met."""
-    return int(found["graze_first"]), int(found["graze_second"])
-
-
 # The least gap that samples show does occur, so it is an upper bound of the least gap of all. The march gets that gap
 # less a width as its margin. Either it reaches the end, which proves that nothing comes nearer; or it meets a lower
 # gap. Then that one is refined, and the march goes on from there with a lower margin: what it has passed is clear of
@@ -226,20 +216,20 @@ def least_over(
             search.use(search.path, max(best[0] - width, 0.0))
             margin = search.margin
             state, found = search.march(until, DIPS_ONLY, start=proven_to)
-            graze = found["graze_gap"]
-            if graze < best[0]:
-                best = (graze, found["graze_travel"], graze_pair(found))
+            if found.graze is not None and found.graze.gap < best[0]:
+                best = found.graze
             if state in ("reached", "stuck"):
                 left = margin if state == "reached" else None
                 if fold is not None:
-                    left = least_to_fold(search, min(found["proven"], until), fold)
+                    left = least_to_fold(search, min(found.proven, until), fold)
                 if left is not None and left >= margin:
                     return best, margin
                 proven = max(proven or 0.0, left or 0.0) or None
                 break
-            proven_to = max(proven_to, found["proven"])
+            proven_to = max(proven_to, found.proven)
             reach = PROFILE_STEP * search.extremes[1]
-            touching = found["touching"]
+            touching = found.touching
+            assert touching is not None
             best = min(best, _refined(search, max(begin, touching - reach), touching, min(until, touching + reach)))
     return best, proven
 
@@ -248,10 +238,9 @@ def _first_touch(search: Search, begin: float, until: float, head_speed: float, 
     """The first touch, where something touches for certain; the touch known already where the search gives up."""
     search.use(search.path, 0.0)
     state, found, tolerance = search.approach(begin, until, head_speed)
-    if not state.startswith("touched"):
+    if not state.startswith("touched") or found.touching is None:
         return (0.0, *touching[1:]), 0.0
-    travel = found["touching"] - (tolerance if state == "touched" else 0.0)
-    return (0.0, travel, first_pair(found)), 0.0
+    return (0.0, found.touching - (tolerance if state == "touched" else 0.0), found.benches), 0.0
 
 
 def _sampled(search: Search, begin: float, until: float) -> Dip:

@@ -16,16 +16,15 @@ from dataclasses import dataclass, field
 from enum import StrEnum
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 from core import kernels, plots
 from core.contact.claim import ENDS, UNDECIDED_THEN, claim, claim_at_start, claim_undecided, contact_then
-from core.contact.clearance import Graze, first_pair, graze_pair
+from core.contact.clearance import Graze
 from core.contact.fold import clear_to_fold
 from core.contact.near_graze import narrowed
-from core.contact.search import BRACKETS_GRAZING, MARGIN_MAX, NO_GRAZE, Budget, Search
+from core.contact.search import BRACKETS_GRAZING, MARGIN_MAX, Budget, Ended, Marched, Search
 from core.dance import Dance, EndReason, RunEnd
 from core.errors import InvalidValue, said
+from core.kernels.constants import FRONT, MX, UY
 from core.motion.trajectory import bench_outlines, trajectory
 from core.paths.path import HeadState
 from core.paths.spiral import Spiral
@@ -168,8 +167,8 @@ class FirstContact(Shown):
         return (self.end or self.dance.end).time - BEFORE_END
 
 
-# Names by the kernels' codes, which count front-left, front-right, rear-right, rear-left and front, right, rear, left.
-# The first row is for benches with the centre on their right, the second for those with the centre on their left.
+# In the order of the features of the kernels, FRONT_LEFT to REAR_LEFT and FRONT to LEFT. The first row is for benches
+# with the centre on their right, the second for those with the centre on their left.
 CORNERS = (
     ("front-outer", "front-inner", "rear-inner", "rear-outer"),
     ("front-inner", "front-outer", "rear-outer", "rear-inner"),
@@ -211,14 +210,14 @@ def contact_within(
     last = search.last_travel(until * head_speed, to_fold)
     state, found, tolerance = search.approach(begin * head_speed, last, head_speed)
     narrow = BRACKETS_GRAZING[0] * min(1.0, head_speed)
-    if state == "touched" and tolerance > narrow >= 2.0 * search.travel_rounding(found["touching"]):
+    if state == "touched" and tolerance > narrow >= 2.0 * search.travel_rounding(found.touching or 0.0):
         narrower = narrowed(search, found, narrow, head_speed)
         if narrower is not None:
             found, tolerance = narrower, narrow
-    if to_fold and (state == "reached" or (state == "stuck" and found["touching"] < 0.0)):
-        state = "reached" if clear_to_fold(search, min(found["proven"], last), end) else "stuck"
+    if to_fold and (state == "reached" or (state == "stuck" and found.touching is None)):
+        state = Ended.REACHED if clear_to_fold(search, min(found.proven, last), end) else Ended.STUCK
     if state == "stuck":
-        until = _known_overlap(search, found["proven"], last, head_speed, until)
+        until = _known_overlap(search, found.proven, last, head_speed, until)
     if stop is not None and state == "reached":
         end = RunEnd(EndReason.STOP, until, None, None)
     return _result(dance, search, state, found, end, (begin, until), tolerance)
@@ -227,28 +226,28 @@ def contact_within(
 def _known_overlap(search: Search, proven: float, last: float, head_speed: float, until: float) -> float:
     """When benches are within the margin for certain after a search gave up [s]; until if that is not known."""
     state, found, _ = search.approach(min(proven + BEYOND, last), last, head_speed)
-    return found["touching"] / head_speed if state.startswith("touched") else until
+    return until if state == "stuck" or found.touching is None else found.touching / head_speed
 
 
 def _result(
     dance: Dance,
     search: Search,
     state: str,
-    found: dict[str, float],
+    found: Marched,
     end: RunEnd,
     span: tuple[float, float],
     tolerance: float,
 ) -> FirstContact:
     graze, head_speed = None, dance.head_speed
-    if found["graze_gap"] < NO_GRAZE:
-        graze = Graze(found["graze_travel"] / head_speed, found["graze_gap"], graze_pair(found))
-    proven = end.time if state == "reached" else found["proven"] / head_speed
+    if found.graze is not None:
+        graze = Graze(found.graze.travel / head_speed, found.graze.gap, found.graze.benches)
+    proven = end.time if state == "reached" else found.proven / head_speed
     outcome = {"reached": Outcome.CLEAR, "stuck": Outcome.UNDECIDED, "touched": Outcome.CONTACT}.get(
         state, Outcome.CONTACT_AT_START
     )
     method = _method(dance, search.margin, outcome, found, end, (span[0], proven))
     clear_until = proven if proven > span[0] and outcome is not Outcome.CONTACT_AT_START else None
-    certificate = Evidence(method, int(found["steps"]), clear_until, found["bend"], graze)
+    certificate = Evidence(method, found.steps, clear_until, found.bend, graze)
     margin = search.margin
     if outcome is Outcome.CLEAR:
         return FirstContact(
@@ -260,13 +259,14 @@ def _result(
             outcome, None, bracket, None, None, None, None, None, None, certificate, margin=margin, dance=dance
         )
     at_start = outcome is Outcome.CONTACT_AT_START
-    travel = found["touching"] if at_start else found["touching"] - tolerance
-    pair = first_pair(found)
+    assert found.touching is not None
+    travel = found.touching if at_start else found.touching - tolerance
+    pair = found.benches
     corner, edge, point, gap = _touching_features(search, travel, pair)
     return FirstContact(
         outcome,
         travel / head_speed,
-        None if at_start else (proven, found["touching"] / head_speed),
+        None if at_start else (proven, found.touching / head_speed),
         search.path.head(travel),
         pair,
         corner,
@@ -281,17 +281,18 @@ def _result(
 
 
 def _method(
-    dance: Dance, margin: float, outcome: Outcome, found: dict[str, float], end: RunEnd, span: tuple[float, float]
+    dance: Dance, margin: float, outcome: Outcome, found: Marched, end: RunEnd, span: tuple[float, float]
 ) -> str:
     asked = (dance, margin)
     if outcome is Outcome.CLEAR:
         return claim(*asked, span, ENDS[end.reason])
     if outcome is Outcome.UNDECIDED:
         return claim(*asked, span, UNDECIDED_THEN) if span[1] > span[0] else claim_undecided(*asked, span[0])
-    pair = first_pair(found)
+    pair = found.benches
     if outcome is Outcome.CONTACT_AT_START:
         return claim_at_start(*asked, span[0], pair)
-    touching = found["touching"] / dance.head_speed
+    assert found.touching is not None
+    touching = found.touching / dance.head_speed
     if not span[1] > span[0]:
         return claim_at_start(*asked, touching, pair)
     return claim(*asked, span, contact_then(pair, margin, touching))
@@ -302,17 +303,16 @@ def _touching_features(
 ) -> tuple[Feature | None, Feature | None, tuple[float, float], float]:
     """The corner and the edge that meet, the corner's place in the world frame [m], and the separation [m]."""
     search.place_leaders(travel, pair[1] + 1)
-    a, b = (search.rows[0, bench, 6:10] for bench in pair)
-    out = np.empty(8)
-    kernels.pair_separation(*a, *search.sizes[pair[0], 1:3], *b, *search.sizes[pair[1], 1:3], out)
+    met = kernels.bench_separation(*pair, search.sizes, search.rows[0])
     corner, edge = None, None
-    for bench, row, code in zip(pair, (a, b), divmod(int(out[7]), 8), strict=True):
-        centre_on_left = int(row[1] * row[2] < row[0] * row[3])
-        if code >= 4:
-            edge = Feature(bench, EDGES[centre_on_left][code - 4])
+    for bench, feature in zip(pair, (met.feature_a, met.feature_b), strict=True):
+        x, y, ux, uy = search.rows[0, bench, MX : UY + 1]
+        centre_on_left = int(y * ux < x * uy)
+        if feature >= FRONT:
+            edge = Feature(bench, EDGES[centre_on_left][feature - FRONT])
         elif corner is None:
-            corner = Feature(bench, CORNERS[centre_on_left][code])
-    x, y = out[3:5] if corner and corner.bench == pair[1] else out[1:3]
+            corner = Feature(bench, CORNERS[centre_on_left][feature])
+    x, y = (met.bx, met.by) if corner and corner.bench == pair[1] else (met.ax, met.ay)
     turned = search.theta_at(travel) if isinstance(search.path, Spiral) else 0.0
     cos, sin = math.cos(turned), math.sin(turned)
-    return corner, edge, (float(x * cos - y * sin), float(x * sin + y * cos)), float(out[0])
+    return corner, edge, (float(x * cos - y * sin), float(x * sin + y * cos)), float(met.separation)

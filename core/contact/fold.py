@@ -11,9 +11,9 @@ import math
 import numpy as np
 
 from core import kernels
-from core.contact.search import NO_BOUND, NO_GRAZE, Search
+from core.contact.search import NO_BOUND, NO_GAP, Search
 from core.dance import RunEnd
-from core.kernels.constants import ERROR
+from core.kernels.constants import CHORD, ERROR, HALF_LENGTH, HALF_WIDTH, THETA
 from core.values import Floats
 
 # Most stretches into which the way to a fold is cut; each takes 0.1 to 0.3 ms.
@@ -40,7 +40,7 @@ def least_to_fold(search: Search, travel: float, end: RunEnd) -> float | None:
     """
     assert end.theta is not None
     if search.dragon.benches < 3:
-        return NO_GRAZE
+        return NO_GAP
     travel, last = travel - search.travel_rounding(travel), search.travel_at(end.theta)
     stretches = [(least_left(search, travel, end.theta), travel, last)]
     while stretches[0][0] <= search.margin and len(stretches) < FOLD_STRETCHES:
@@ -92,13 +92,13 @@ def least_left(search: Search, travel: float, theta: float) -> float:
     reached = 2.0 * float(moved.max())
     rounding = search.gap_rounding(travel, min(gap, NO_BOUND) + reached)
     arcs += search.rows[0, search.room - 1, ERROR]
-    radii = search.growth * search.rows[0, : search.room + 1, 4]
+    radii = search.growth * search.rows[0, : search.room + 1, THETA]
     outside = np.flatnonzero(radii[:-1] - arcs[:-1] >= search.clear_radius)
     leaders = int(outside[0]) if outside.size else search.room
     if search.room < search.dragon.benches:
-        reach = (search.growth * theta * (1.0 - THETA_ROUNDING), float(radii[leaders] + arcs[leaders]), search.ring)
-        reach = kernels.leaders_reach(search.growth, *reach) + search.margin
-        if radii[-1] - arcs[-1] < kernels.radius_beyond(search.growth, reach, search.ring):
+        lead, rear = search.growth * theta * (1.0 - THETA_ROUNDING), float(radii[leaders] + arcs[leaders])
+        reach = kernels.leaders_reach(search.growth, lead, rear, search.rings) + search.margin
+        if radii[-1] - arcs[-1] < kernels.radius_beyond(search.growth, reach, search.rings):
             return -NO_BOUND
     least = gap - reached
     if least <= search.margin:
@@ -109,9 +109,9 @@ def least_left(search: Search, travel: float, theta: float) -> float:
 def moved_until(search: Search, theta: float) -> tuple[Floats, Floats]:
     """How far each handle in rows[0], and any point of each bench, moves until the head is at theta at most [m]."""
     growth, benches = search.growth, search.room
-    chords = search.sizes[:benches, 0]
+    chords = search.sizes[:benches, CHORD]
     longest_behind = np.maximum.accumulate(chords[::-1])[::-1].tolist()
-    low, high = theta * (1.0 - THETA_ROUNDING), float(search.rows[0, 0, 4]) * (1.0 + THETA_ROUNDING)
+    low, high = theta * (1.0 - THETA_ROUNDING), float(search.rows[0, 0, THETA]) * (1.0 + THETA_ROUNDING)
     arcs, curvatures = np.empty(benches + 1), np.full(benches, NO_BOUND)
     for k in range(benches + 1):
         arcs[k] = growth * (high - low) * math.hypot(1.0, high)
@@ -127,7 +127,7 @@ def moved_until(search: Search, theta: float) -> tuple[Floats, Floats]:
         low, high = (low + inner) * (1.0 - THETA_ROUNDING), (high + outer) * (1.0 + THETA_ROUNDING)
     both = arcs[:-1] + arcs[1:]
     turned = both * np.minimum(1.0 / chords, 0.5 * curvatures)
-    over = search.sizes[:benches, 1] - 0.5 * chords + search.sizes[:benches, 2]
+    over = search.sizes[:benches, HALF_LENGTH] - 0.5 * chords + search.sizes[:benches, HALF_WIDTH]
     return arcs, np.maximum(arcs[:-1], arcs[1:]) + over * turned
 
 

@@ -19,8 +19,30 @@ from typing import NamedTuple
 import numpy as np
 
 from core import kernels
-from core.contact.search import Search
-from core.kernels.constants import PIECE, PLACE, SPIRAL, TX, UX
+from core.contact.search import Marched, Search
+from core.kernels.constants import (
+    ARC_ANGLE,
+    ARC_RADIUS,
+    CENTRE_X,
+    CENTRE_Y,
+    CHORD,
+    COIL_ARC,
+    COIL_GROWTH,
+    COIL_ROTATION,
+    HALF_WIDTH,
+    LINE_DX,
+    LINE_DY,
+    LINE_X,
+    LINE_Y,
+    PIECE,
+    PIECE_KIND,
+    PLACE,
+    S_START,
+    SIGN,
+    SPIRAL,
+    TX,
+    UX,
+)
 from core.paths.spiral import Spiral
 from core.sampling import falls_to_zero
 
@@ -78,25 +100,26 @@ class ExactPair:
 
     def __init__(self, search: Search, pair: tuple[int, int]) -> None:
         self.search, self.pair = search, pair
-        spiral = [SPIRAL, 0, 0, 0, 0, 0, 0, search.growth, 0, -1, search.place]  # one coil inwards, s = travel
-        self.pieces: list[list[Decimal]] = [
-            [Decimal(number) for number in row] for row in (search.pieces.tolist() or [spiral])
-        ]
+        if isinstance(search.path, Spiral):  # one coil inwards, s = travel
+            coil = np.zeros((1, kernels.PIECE_COLUMNS))
+            coil[0, PIECE_KIND], coil[0, COIL_GROWTH], coil[0, SIGN] = SPIRAL, search.growth, -1.0
+        table = coil if isinstance(search.path, Spiral) else search.path.table
+        self.pieces = [[Decimal(number) for number in row] for row in table.tolist()]
         if isinstance(search.path, Spiral):  # its doubles are growth and start_theta; their arc length is not one
             with localcontext() as context:
                 context.prec = DIGITS
-                self.pieces[0][10] = self.pieces[0][7] * _arc(Decimal(search.path.start_theta))
-        names = {kernels.PIECE_KINDS[int(row[0])] for row in self.pieces}
+                self.pieces[0][COIL_ARC] = self.pieces[0][COIL_GROWTH] * _arc(Decimal(search.path.start_theta))
+        names = {kernels.PIECE_KINDS[int(row[PIECE_KIND])] for row in self.pieces}
         self.can_follow = pair[1] <= LAST_BENCH and not names & {"cubic", "crest"}
 
     def benches(self, travel: Decimal) -> tuple[Bench, Bench]:
         """The two benches with the head at a travel [m]."""
         search = self.search
         search.place_leaders(float(travel), self.pair[1] + 1)
-        rows, spiral = search.rows[0], not len(search.pieces)
+        rows, spiral = search.rows[0], isinstance(search.path, Spiral)
         s, points = travel, [self._point(0 if spiral else int(rows[0, PIECE]), travel)]
         for k in range(self.pair[1] + 1):
-            chord, piece = Decimal(float(search.sizes[k, 0])), 0 if spiral else int(rows[k + 1, PIECE])
+            chord, piece = Decimal(float(search.sizes[k, CHORD])), 0 if spiral else int(rows[k + 1, PIECE])
             place = float(rows[k + 1, PLACE])
             s = Decimal(search.place - search.growth * kernels.spiral_arc(place) if spiral else -place)
             slope = Decimal(float(rows[k + 1, TANGENT] @ rows[k, LINK]))
@@ -116,7 +139,7 @@ class ExactPair:
 
     def stays_apart(self, start: float, stop: float) -> bool:
         """Are the two proven to be further apart than the margin from one travel to another [m]?"""
-        search, bounds, margin = self.search, np.empty(2), Decimal(self.search.margin)
+        search, margin = self.search, Decimal(self.search.margin)
         a, b = self.pair
         tried = 0
         while start < stop:
@@ -124,13 +147,14 @@ class ExactPair:
             h = stop - start
             while True:
                 slack = search.travel_rounding(start, stop)
-                place = (search.growth, search.pieces, search.place - start + slack, h + 2.0 * slack, a, b)
-                if not kernels.pair_bends(*place, search.sizes, search.rows, search.motion, bounds):
+                place = search.place - start + slack
+                bends = kernels.pair_bends(search.scene, search.probe, place, h + 2.0 * slack, a, b)
+                if max(bends) >= kernels.FREE:
                     return False
                 there = self.benches(Decimal(start + h))
                 axis = separation(*there)[1]
                 least = min(gap_along(*here, axis), gap_along(*there, axis)) - margin
-                if least > GAP_ROUNDING + Decimal((1.0 + BOUND_ROUNDING) * bounds[axis.owner] * h * h / 8.0):
+                if least > GAP_ROUNDING + Decimal((1.0 + BOUND_ROUNDING) * bends[axis.owner] * h * h / 8.0):
                     break
                 h *= 0.5
                 tried += 1
@@ -140,23 +164,25 @@ class ExactPair:
         return True
 
     def _bench(self, k: int, front: Vector, rear: Vector) -> Bench:
-        chord, half_length, half_width = (Decimal(number) for number in self.search.sizes[k, :3].tolist())
+        chord, half_length, half_width = (
+            Decimal(number) for number in self.search.sizes[k, CHORD : HALF_WIDTH + 1].tolist()
+        )
         centre = ((front[0] + rear[0]) / 2, (front[1] + rear[1]) / 2)
         return Bench(centre, ((front[0] - rear[0]) / chord, (front[1] - rear[1]) / chord), half_length, half_width)
 
     def _point(self, piece: int, s: Decimal) -> Vector:
         """Point at arc length s of a row of the table, see core/kernels/constants.py."""
         row = self.pieces[piece]
-        kind, u = kernels.PIECE_KINDS[int(row[0])], s - row[1]
+        kind, u = kernels.PIECE_KINDS[int(row[PIECE_KIND])], s - row[S_START]
         if kind == "line":
-            return row[5] + u * row[7], row[6] + u * row[8]
+            return row[LINE_X] + u * row[LINE_DX], row[LINE_Y] + u * row[LINE_DY]
         if kind == "arc":
-            radius, angle = row[7], row[8] + row[9] * u / row[7]
+            radius, angle = row[ARC_RADIUS], row[ARC_ANGLE] + row[SIGN] * u / row[ARC_RADIUS]
         else:
-            theta = _theta((row[10] + row[9] * u) / row[7])
-            radius, angle = row[7] * theta, theta + row[8]
+            theta = _theta((row[COIL_ARC] + row[SIGN] * u) / row[COIL_GROWTH])
+            radius, angle = row[COIL_GROWTH] * theta, theta + row[COIL_ROTATION]
         cos, sin = _cos_sin(angle)
-        return row[5] + radius * cos, row[6] + radius * sin
+        return row[CENTRE_X] + radius * cos, row[CENTRE_Y] + radius * sin
 
 
 def separation(first: Bench, second: Bench) -> tuple[Decimal, Axis]:
@@ -257,18 +283,22 @@ def _cos_sin(angle: Decimal) -> Vector:
 #
 # The claims are about times, which are travels over the head speed in doubles: the pair is within the margin at the
 # true travel of the later time, and apart until a little beyond that of the earlier one.
-def narrowed(search: Search, found: dict[str, float], half: float, head_speed: float = 1.0) -> dict[str, float] | None:
+def narrowed(search: Search, found: Marched, half: float, head_speed: float = 1.0) -> Marched | None:
     """A contact that was found in a wide bracket, in one of half width `half` [m]; None where that is not proven.
 
     found: of Search.march(): `proven`, `touching` and the pair; so is the result, with `touching` - `half` the contact
     head_speed: by which travels are divided for times [m/s]
     """
-    pair = ExactPair(search, (int(found["first"]), int(found["second"])))
-    if not pair.can_follow or not search.others_clear(pair.pair, found["proven"], found["touching"]):
+    pair = ExactPair(search, found.benches)
+    if (
+        found.touching is None
+        or not pair.can_follow
+        or not search.others_clear(pair.pair, found.proven, found.touching)
+    ):
         return None
     with localcontext() as context:
         context.prec = DIGITS
-        low, high = Decimal(found["proven"]), Decimal(found["touching"])
+        low, high = Decimal(found.proven), Decimal(found.touching)
         above, below = pair.gap(low), pair.gap(high)
         if not above > GAP_ROUNDING or not below < -GAP_ROUNDING:
             return None
@@ -276,6 +306,6 @@ def narrowed(search: Search, found: dict[str, float], half: float, head_speed: f
         clear, touching = contact - half, contact + half
         later = Decimal(touching / head_speed) * Decimal(head_speed)
         beyond = clear + abs(clear) * TIME_ROUNDING
-        if pair.gap(later) > -GAP_ROUNDING or not pair.stays_apart(found["proven"], beyond):
+        if pair.gap(later) > -GAP_ROUNDING or not pair.stays_apart(found.proven, beyond):
             return None
-    return found | {"proven": clear, "touching": touching}
+    return found._replace(proven=clear, touching=touching)

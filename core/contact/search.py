@@ -6,7 +6,8 @@ The proof of a march is written above the loops that carry it out: `core/kernels
 from __future__ import annotations
 
 import math
-from functools import cached_property
+from enum import StrEnum
+from typing import NamedTuple
 
 import numpy as np
 
@@ -14,14 +15,18 @@ from core import kernels
 from core.contact.coils import two_coils, way_out
 from core.dragon import Dragon
 from core.kernels.constants import (
-    ALL_RADIUS,
+    COIL_ARC,
+    COIL_GROWTH,
     EDGES_PER_WORK,
-    LEFT_OUT,
-    LEFT_OUT_TOO,
-    RING_CLEAR,
-    RING_END,
-    RING_PLACE,
-    WORK,
+    HALF_LENGTH,
+    MX,
+    MY,
+    RADIUS,
+    RATE,
+    S_END,
+    S_START,
+    UX,
+    UY,
 )
 from core.paths.route import Route
 from core.paths.spiral import Spiral
@@ -29,7 +34,7 @@ from core.sampling import bisected
 from core.values import Floats
 
 MARGIN_MAX = 1e4  # [m]
-# Work after which a search gives up as undecided, see WORK of core/kernels/constants.py [1]: of first contact, 2 to
+# Work after which a search gives up as undecided, see core/kernels/constants.py [1]: of first contact, 2 to
 # 8 s; of a least distance, whose steps end near a bench or an edge and cost more, about the same. The default case
 # takes about 5,000.
 WORK_BUDGET = 2e7
@@ -54,10 +59,8 @@ FOLD_SLIVER = 1e-9
 CLEAR_WIDTH = 1e-3
 # Stands for a radius or place from which nothing is known to be clear [m].
 NO_BOUND = 1e150
-# Gap that the kernels give for a run without a graze [m].
-NO_GRAZE = 1e150
-# Stands for: a march leaves out no pair.
-NO_PAIR = (-1.0, -1.0)
+# Stands for the gap of no pair, at no instant [m].
+NO_GAP = 1e150
 # What the ring bound may be off by, of the lengths in it [1]: at most 64 sums, products and roots, with d^2 = radius^2
 # - foot^2 at least a thousandth of radius^2 (core/kernels/rings.py), so that d is good to 2,000 u.
 RING_ROUNDING = 1e-11
@@ -66,7 +69,7 @@ RING_ROUNDING = 1e-11
 class Budget:
     """What all searches of one question may still do together.
 
-    left: work, see WORK of core/kernels/constants.py [1]; 1e7 take 1 to 4 s. Nothing is interrupted at 0: whoever asks
+    left: work, see core/kernels/constants.py [1]; 1e7 take 1 to 4 s. Nothing is interrupted at 0: whoever asks
     for more then raises TooMuchWork.
     """
 
@@ -74,16 +77,57 @@ class Budget:
         self.left = work
 
 
+class Ended(StrEnum):
+    """How a march ended, in the order of the kernels' states: see core/kernels/marching.py, strips.py for TURNED."""
+
+    REACHED = "reached"
+    TOUCHED = "touched"
+    TOUCHED_AT_START = "touched_at_start"
+    STUCK = "stuck"
+    CAPACITY = "capacity"
+    TURNED = "turned"
+
+
+ENDS = tuple(Ended)
+
+
+class Dip(NamedTuple):
+    """A local minimum of the clearance [m], at a travel of the head [m], of a pair."""
+
+    gap: float
+    travel: float
+    benches: tuple[int, int]
+
+
+class Marched(NamedTuple):
+    """What a march found.
+
+    proven: nothing comes within the margin up to this travel [m]; touching: benches are within it at this one [m], None
+        where nothing was found; benches: that pair
+    steps: taken; bend: the largest bound on the second derivative of a gap that proved one of them [1/m]
+    graze: the least local minimum of the clearance seen on the way
+    """
+
+    proven: float
+    touching: float | None = None
+    benches: tuple[int, int] = (0, 0)
+    steps: int = 0
+    bend: float = 0.0
+    graze: Dip | None = None
+
+
 class Search:
     """The arrays that the kernels need for one dragon, and the path and margin they are used for now.
 
     extremes: longest and shortest chord, longest overhang, half width of all benches, chord and half width of those
-        that can be the outer of a pair [m]; ring: the same for the kernels, see RING_... there
-    sizes: (rows, 4) of the leading benches; edges: (E, 4) x, y, x, y of edges at rest [m], on routes only; with
-        edges, the pairs are bench and edge alone: edge e is bench number room + 1 + e of a pair
+        that can be the outer of a pair [m]; rings: the same and more for the kernels, with the bounds that hold of the
+        path and the margin used
+    sizes: (rows, SIZE_COLUMNS) of the leading benches; edges: (E, 4) x, y, x, y of edges at rest [m], on routes only;
+        with edges, the pairs are bench and edge alone: edge e is bench number room + 1 + e of a pair
+    scene: the same benches on the path used; probe: an interval of it to look at single pairs
     clear_radius: on a spiral, no pair whose inner bench leads at this radius or further out comes within the margin [m]
-    ring[RING_PLACE], ring[RING_END]: on a route that begins (and ends) with a coil the same as places, see those of
-        the kernels; where they are known there is room for the leading benches only, as on a spiral
+    rings.clear_place, rings.end_place: on a route that begins (and ends) with a coil the same as places; where they are
+        known there is room for the leading benches only, as on a spiral
     work: what its marches may still do, see WORK_BUDGET, as far as the budget of the whole question has that left
     place: what the kernels count places from, at time 0: arc length from the centre of a spiral, minus s on a route [m]
     """
@@ -103,7 +147,6 @@ class Search:
     ) -> None:
         self.dragon, self.work, self.budget = dragon, work, budget or Budget()
         self.edges = np.empty((0, 4)) if edges is None else edges
-        self.statics = -len(self.edges)
         alike = dragon.uniform_from
         # The constructor's share of a first contact: a few reductions of all columns, not many of one each.
         sizes = (dragon.chords, dragon.overhangs, 0.5 * dragon.widths, dragon.lengths)
@@ -113,30 +156,35 @@ class Search:
         outer_chord, outer_overhang, outer_half_width, _ = outer.max(axis=1).tolist()
         shortest, outer_shortest = columns[0].min(), outer[0].min()
         self.extremes = (longest, shortest, overhang, half_width, outer_chord, outer_half_width)
-        ring = (0.0, outer_chord, outer_shortest, outer_overhang, outer_half_width)
-        self.ring = np.array(
-            [
-                *ring, longest, overhang, half_width, shortest, math.hypot(0.5 * self.longest, half_width), *NO_PAIR,
-                NO_BOUND, -NO_BOUND,
-            ]
-        )  # fmt: skip
+        self.rings = rings = kernels.Rings()
+        rings.chord, rings.shortest = outer_chord, outer_shortest
+        rings.overhang, rings.half_width = outer_overhang, outer_half_width
+        rings.all_chord, rings.all_shortest, rings.all_overhang = longest, shortest, overhang
+        rings.all_half_width, rings.all_radius = half_width, math.hypot(0.5 * self.longest, half_width)
+        rings.between_shortest = float(columns[0, min(1, alike) :].min())
+        self.room = 0
         self.use(path, margin)
         self.resize(dragon.benches if self.follows_all else min(dragon.benches, 255))
 
     def use(self, path: Spiral | Route, margin: float) -> None:
         """Search another path, or with another margin."""
         self.path, self.margin = path, margin
-        self.growth, self.pieces, self.place = path.growth, path.table, path.place
+        self.growth, self.place, self.curve = path.growth, path.place, path.curve
         if isinstance(path, Route):
             self.clear_radius = NO_BOUND
-            self.ring[RING_PLACE], self.ring[RING_END] = self._clear_places(path)
+            self.rings.clear_place, self.rings.end_place = self._clear_places(path)
         else:
             self.clear_radius = self._clear_radius(path.growth)
-        self.ring[RING_CLEAR] = self.clear_radius
+        self.rings.clear_radius = self.clear_radius
+        if self.room:
+            self._set_scene()
+
+    def _set_scene(self) -> None:
+        self.scene.curve, self.scene.place, self.scene.margin = self.curve, self.place, self.margin
 
     def clear_beyond(self, radius: float) -> None:
         """Set clear_radius to a radius from which another bound exceeds the margin on this spiral [m]."""
-        self.clear_radius = self.ring[RING_CLEAR] = radius * (1.0 + kernels.CLEAR_SPARE)
+        self.clear_radius = self.rings.clear_radius = radius * (1.0 + kernels.CLEAR_SPARE)
 
     def travel_rounding(self, *travels: float) -> float:
         """What travels up to these may be off by, in the kernels and as times [m]."""
@@ -151,22 +199,23 @@ class Search:
         self.sizes = np.zeros((benches + 1 + len(edges), kernels.SIZE_COLUMNS))
         self.sizes[:benches] = np.stack(columns, axis=1)
         # A chain writes what is read of it, but march() asks how fast handle 1 is before it is placed.
-        self.rows = np.empty((4, benches + 1 + len(edges), kernels.CHAIN_COLUMNS))
+        self.rows = np.empty((5, benches + 1 + len(edges), kernels.CHAIN_COLUMNS))
         self.rows[:, :2] = 0.0
         self.motion = np.zeros((benches + 1 + len(edges), kernels.MOTION_COLUMNS))
-        self.pair = np.zeros(3, dtype=np.intp)
         if len(edges):
             along = edges[:, 2:4] - edges[:, 0:2]
             half = 0.5 * np.hypot(along[:, 0], along[:, 1])
-            self.sizes[benches + 1 :, 1] = self.sizes[benches + 1 :, 3] = half
+            self.sizes[benches + 1 :, HALF_LENGTH] = self.sizes[benches + 1 :, RADIUS] = half
             self.rows[:, benches + 1 :] = 0.0
-            self.rows[:, benches + 1 :, 6:8] = 0.5 * (edges[:, 0:2] + edges[:, 2:4])
-            self.rows[:, benches + 1 :, 8:10] = along / (2.0 * half)[:, None]
-
-    @property
-    def room(self) -> int:
-        """How many leading benches there is room for."""
-        return int(self.sizes.shape[0]) - 1 - len(self.edges)
+            self.rows[:, benches + 1 :, MX : MY + 1] = 0.5 * (edges[:, 0:2] + edges[:, 2:4])
+            self.rows[:, benches + 1 :, UX : UY + 1] = along / (2.0 * half)[:, None]
+        self.room = benches
+        self.scene = kernels.Scene(self.curve, self.place, self.rings, self.sizes, dragon.benches, len(edges))
+        self._set_scene()
+        before, after, probe_before, probe_after, opening = self.rows
+        self.interval = kernels.Interval(self.scene, before, after, self.motion)
+        self.probe = kernels.Interval(self.scene, probe_before, probe_after, self.motion)
+        self._march = kernels.March(self.interval, self.probe, opening)
 
     def spend(self, work: float) -> None:
         """Take work that was done from what may still be done [1]."""
@@ -184,31 +233,24 @@ class Search:
 
     def ring_least(self, radius: float) -> float:
         """Lower bound of the separation of pairs whose inner bench leads at this radius or further out [m]."""
-        least = float(kernels.ring_least(self.growth, self.growth, radius, *self.ring_extremes))
+        least = float(kernels.ring_least(self.growth, self.growth, radius, self.rings))
         return least - self.ring_rounding(radius, self.growth)
 
     def ring_rounding(self, radius: float, growth: float) -> float:
         """What kernels.ring_least() may be off by for growths up to this one [m]."""
         return RING_ROUNDING * (radius + 2.0 * math.pi * growth + float(self.longest))
 
-    @cached_property
-    def ring_extremes(self) -> tuple[float, ...]:
-        """The extremes, but the shortest chord only of those benches that can lie between two others [m]."""
-        longest, _, *others = (float(extreme) for extreme in self.extremes)
-        alike = self.dragon.uniform_from
-        return longest, float(self.dragon.chords[min(1, alike) : alike + 1].min()), *others
-
     @property
     def follows_all(self) -> bool:
         """Must a march follow all benches? Yes on a route that does not say which ones are out of reach."""
-        return isinstance(self.path, Route) and float(self.ring[RING_PLACE]) >= NO_BOUND
+        return isinstance(self.path, Route) and self.rings.clear_place >= NO_BOUND
 
     def _clear_radius(self, growth: float) -> float:
         """The least radius, within CLEAR_WIDTH, from which the ring bound exceeds the margin, and CLEAR_SPARE more, so
         that a handle which is computed to be there is; NO_BOUND if none."""
 
         def clear(radius: float) -> bool:
-            least = float(kernels.ring_least(growth, growth, radius, *self.ring_extremes))
+            least = float(kernels.ring_least(growth, growth, radius, self.rings))
             return least > self.margin + self.ring_rounding(radius, growth)
 
         high = 1.0
@@ -219,27 +261,28 @@ class Search:
         return bisected(clear, 0.0, high, relative=CLEAR_WIDTH)[1] * (1.0 + float(kernels.CLEAR_SPARE))
 
     def _clear_places(self, path: Route) -> tuple[float, float]:
-        """RING_PLACE and RING_END of the kernels [m]: 1e150 and -1e150 if not known, or where edges at rest may lie
+        """Rings.clear_place and Rings.end_place [m]: 1e150 and -1e150 if not known, or where edges at rest may lie
         anywhere.
 
-        Both are PLACE_SPARE further than their bounds ask, for the rounding of handles, and RING_END beyond what
-        travels may be off by; RING_PLACE is BLEND behind where the coil ends, which is where it may be led to the next
+        Both are PLACE_SPARE further than their bounds ask, for the rounding of handles, and the latter beyond what
+        travels may be off by; the former is BLEND behind where the coil ends, which is where it may be led to the next
         piece.
         """
         if path.tail_begin is not None or len(self.edges) or self.dragon.benches < 3:
             return NO_BOUND, -NO_BOUND
         first = path.table[0].tolist()
-        radius = self._clear_radius(first[7])
+        growth = first[COIL_GROWTH]
+        radius = self._clear_radius(growth)
         if radius >= NO_BOUND:
             return NO_BOUND, -NO_BOUND
-        arc = first[7] * float(kernels.spiral_arc(radius / first[7])) * (1.0 + TRAVEL_ROUNDING)
-        clear = min(first[2] - kernels.BLEND, first[1] + first[10] - arc) - kernels.PLACE_SPARE
+        arc = growth * float(kernels.spiral_arc(radius / growth)) * (1.0 + TRAVEL_ROUNDING)
+        clear = min(first[S_END] - kernels.BLEND, first[S_START] + first[COIL_ARC] - arc) - kernels.PLACE_SPARE
         clear -= self.travel_rounding(clear)
         coils = two_coils(path)
         out = None if coils is None else way_out(self.dragon, coils, self.margin)
         if out is None:
             return -clear, -NO_BOUND
-        end = float(path.table[-1, 1]) + out + kernels.PLACE_SPARE
+        end = float(path.table[-1, S_START]) + out + kernels.PLACE_SPARE
         return -clear, -end - self.travel_rounding(end)
 
     def travel_at(self, theta: float) -> float:
@@ -252,8 +295,8 @@ class Search:
 
     def march(
         self, stop: float, tolerance: float, *, start: float = 0.0, opening: bool = True
-    ) -> tuple[str, dict[str, float]]:
-        """kernels.march from start, or from where the ring bound ends, to stop [m of travel]: state, result by name.
+    ) -> tuple[Ended, Marched]:
+        """March from start, or from where the ring bound ends, to stop [m of travel]: how it ended, what it found.
 
         opening: nothing before the start was cleared, so all pairs are followed until the body repeats itself
         The march begins earlier and ends later by the rounding of travels, so that what it claims of computed travels
@@ -268,45 +311,30 @@ class Search:
             start = max(start, clear_until - rounding)
         nothing = self.dragon.benches < 3 and not len(self.edges)
         if nothing or (start >= stop and not opening):
-            return "reached", dict.fromkeys(kernels.MARCH_FIELDS, 0.0) | {"proven": asked[1], "graze_gap": NO_GRAZE}
-        out = np.empty(32)
+            return Ended.REACHED, Marched(asked[1])
+        leaders = min(self.dragon.uniform_from + 1, self.dragon.benches)
         while True:
-            code = kernels.march(
-                self.growth,
-                self.pieces,
-                self.place,
-                start,
-                stop,
-                min(self.dragon.uniform_from + 1, self.dragon.benches),
-                opening,
-                self.margin,
-                tolerance,
-                rounding,
-                max(min(self.work, self.budget.left), 1.0),
-                self.dragon.benches,
-                self.statics,
-                self.ring,
-                self.sizes,
-                self.rows,
-                self.motion,
-                self.pair,
-                out,
-            )
-            state = kernels.MARCH_STATES[code]
-            self.spend(float(out[WORK]))
-            if state != "capacity":
-                found = dict(zip(kernels.MARCH_FIELDS, out.tolist(), strict=False))
-                found["proven"] = asked[1] if state == "reached" else max(found["proven"] - rounding, asked[0])
-                if state == "touched_at_start":
-                    found["touching"] = asked[0]
-                return state, found
+            budget = max(min(self.work, self.budget.left), 1.0)
+            ended = ENDS[self._march.run(start, stop, leaders, opening, tolerance, rounding, budget)]
+            march = self._march
+            self.spend(float(march.work))
+            if ended is not Ended.CAPACITY:
+                break
             self.resize(min(4 * self.room, self.dragon.benches))
+        proven = asked[1] if ended is Ended.REACHED else max(float(march.proven) - rounding, asked[0])
+        touching = None if march.touching >= NO_GAP else float(march.touching)
+        if ended is Ended.TOUCHED_AT_START:
+            touching = asked[0]
+        graze = None
+        if march.graze_gap < NO_GAP:
+            graze = Dip(float(march.graze_gap), float(march.graze_travel), (march.graze_first, march.graze_second))
+        return ended, Marched(proven, touching, (march.first, march.second), march.steps, float(march.bend), graze)
 
     def others_clear(self, pair: tuple[int, int], start: float, stop: float) -> bool:
         """Are all pairs but one proven to be clear between two travels [m]?"""
-        self.ring[LEFT_OUT], self.ring[LEFT_OUT_TOO] = pair
+        self.scene.left_out, self.scene.left_out_too = pair
         state, _ = self.march(stop, 0.0, start=start)
-        self.ring[LEFT_OUT], self.ring[LEFT_OUT_TOO] = NO_PAIR
+        self.scene.left_out = self.scene.left_out_too = -1
         return state == "reached"
 
     @staticmethod
@@ -314,28 +342,26 @@ class Search:
         """How far to march for a run until a travel [m]: short of a fold by a sliver, see core/contact/fold.py."""
         return until - (FOLD_SLIVER + 5e2 * TRAVEL_ROUNDING * until if to_fold else 0.0)
 
-    def approach(self, begin: float, until: float, head_speed: float) -> tuple[str, dict[str, float], float]:
-        """march() between two travels [m] with the bracket of a contact: state, result by name, its half width [m]."""
+    def approach(self, begin: float, until: float, head_speed: float) -> tuple[Ended, Marched, float]:
+        """march() between two travels [m] with the bracket of a contact: also its half width [m]."""
         tolerance = max(BRACKET * min(1.0, head_speed), BRACKET_MIN, 2.0 * self.travel_rounding(begin, until))
         state, found = self.march(until, tolerance, start=begin)
-        proven = found["proven"]
+        proven = found.proven
         slowed = [wider * min(1.0, head_speed) for wider in BRACKETS_GRAZING]
         for wider in sorted({*slowed, *BRACKETS_GRAZING}):
-            if state != "stuck" or found["touching"] < 0.0:
+            if state != "stuck" or found.touching is None:
                 break
             if wider > tolerance:
                 tolerance = wider
                 state, found = self.march(until, tolerance, start=begin)
-                proven = max(proven, found["proven"])
-        return state, found | {"proven": proven}, tolerance
+                proven = max(proven, found.proven)
+        return state, found._replace(proven=proven), tolerance
 
     def surely_within(self, travel: float, pair: tuple[int, int]) -> bool:
         """Are two benches within the margin after a travel [m], whatever rounding does?"""
-        slack, rows = self.travel_rounding(travel), self.rows
+        slack = self.travel_rounding(travel)
         place = self.place - travel + slack
-        chains = (self.sizes, rows[1], rows[2], self.motion, np.empty(8))
-        most = kernels.pair_most(self.growth, self.pieces, place, 2.0 * slack, *pair, self.dragon.benches, *chains)
-        return float(most) <= self.margin
+        return float(kernels.pair_most(self.scene, self.probe, place, 2.0 * slack, *pair)) <= self.margin
 
     def place_leaders(self, travel: float, leaders: int) -> None:
         """Put so many leading benches, and no pair of them, into rows[0] as they are after a travel [m]."""
@@ -348,70 +374,38 @@ class Search:
             leaders = benches
         elif isinstance(self.path, Spiral):
             benches = min(benches, leaders + self._followed(travel, leaders))
-        gap = self._clearance(travel, benches, leaders)
-        return gap, (int(self.pair[1]), int(self.pair[2]))
+        return self._clearance(travel, benches, leaders)
 
-    def _clearance(self, travel: float, benches: int, leaders: int) -> float:
-        gap: float = kernels.clearance_at(
-            self.growth,
-            self.pieces,
-            self.place - travel,
-            benches,
-            leaders,
-            self.statics,
-            self.sizes,
-            self.rows[0],
-            self.motion,
-            self.pair,
-        )
-        return gap
+    def _clearance(self, travel: float, benches: int, leaders: int) -> tuple[float, tuple[int, int]]:
+        gap, a, b = kernels.clearance_at(self.scene, self.place - travel, benches, leaders, self.rows[0], self.motion)
+        return float(gap), (a, b)
 
     def _followed(self, travel: float, leaders: int) -> int:
         """How many benches behind the leaders of a spiral can be as near to them as the leaders' own sizes."""
         start, growth = self.theta_at(travel), self.growth
         rear = growth * start + leaders * self.extremes[0]
-        reach = kernels.leaders_reach(growth, growth * start, rear, self.ring) + self.longest
-        beyond = kernels.radius_beyond(growth, reach, self.ring) / growth
+        reach = kernels.leaders_reach(growth, growth * start, rear, self.rings) + self.longest
+        beyond = kernels.radius_beyond(growth, reach, self.rings) / growth
         arc = growth * (kernels.spiral_arc(max(beyond, start)) - kernels.spiral_arc(start))
         return 2 + int(arc / self.extremes[1])
 
     def rates(self, travel: float) -> Floats:
         """Speed of every handle along the path over the head's after a travel, negative where one turns back [1]."""
         self.clearance(travel)
-        return self.rows[0, : self.room + 1, 5].copy()
+        return self.rows[0, : self.room + 1, RATE].copy()
 
     def gap_rate(self, travel: float, pair: tuple[int, int]) -> float:
         """How fast a pair parts after a travel, per metre of head travel [1]."""
-        return float(
-            kernels.gap_rate_at(
-                self.growth, self.pieces, self.place - travel, self.room, *pair, self.sizes, self.rows[1], np.empty(8)
-            )
-        )
+        return float(kernels.gap_rate_at(self.scene, self.place - travel, *pair, self.rows[1]))
 
     def bottom(self, low: float, high: float, pair: tuple[int, int], width: float) -> float:
         """Travel in [low, high] where a pair stops approaching [m]."""
-        return float(
-            kernels.crossing(
-                self.growth,
-                self.pieces,
-                self.place,
-                self.room,
-                low,
-                high,
-                *pair,
-                0.0,
-                width,
-                True,
-                self.sizes,
-                self.rows[1],
-                np.empty(8),
-            )
-        )
+        return float(kernels.bottom_between(self.scene, low, high, *pair, width, self.rows[1]))
 
     def gap_rounding(self, travel: float, within: float) -> float:
         """What gaps of up to `within` [m] may be off by after a travel, see core/kernels/pairs.py [m]."""
         self.place_leaders(travel, self.room)
-        kernels.chain_rounding(self.growth, self.pieces, self.room, self.sizes, self.rows[0])
+        kernels.chain_rounding(self.curve, self.room, self.sizes, self.rows[0])
         error, sway = self.rows[0, : self.room, kernels.ERROR].max(), self.rows[0, : self.room, kernels.SWAY].max()
-        reach = 4.0 * float(self.ring[ALL_RADIUS]) + within
+        reach = 4.0 * self.rings.all_radius + within
         return float(2.0 * (2.0 * error + (2.0 * sway + 50.0 * kernels.ULP) * reach))

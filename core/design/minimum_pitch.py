@@ -134,8 +134,8 @@ class _PitchSearch:
         if not clears(growth, self.radius, self.margin):
             if not self.is_clear(SIZE_MAX):
                 state, found = self.ways.march(SIZE_MAX)
-                if state.startswith("touched") and found["second"] - found["first"] == 2.0:
-                    raise _too_near(self.search.dragon, int(found["first"]), self.margin)
+                if state.startswith("touched") and found.benches[1] - found.benches[0] == 2:
+                    raise _too_near(self.search.dragon, found.benches[0], self.margin)
                 rule = f"must be larger for this dragon, which gets to such a circle at no pitch up to {SIZE_MAX:g} m"
                 raise InvalidValue.of("turning_radius", rule, self.radius, "m")
             return SIZE_MAX, SIZE_MAX
@@ -218,9 +218,10 @@ class _PitchSearch:
             if touching is None or not self.ways.still_touches(sample, *touching):
                 state, result = self.ways.march(sample)
                 feasible = state == "reached"
-                radius = self.search.theta_at(result["touching"]) * self.search.growth
-                pair = int(result["first"]), int(result["second"])
-                touching = None if state in ("reached", "folded") or result["touching"] < 0.0 else (radius, *pair)
+                touching = None
+                if state not in ("reached", "folded") and result.touching is not None:
+                    radius = self.search.theta_at(result.touching) * self.search.growth
+                    touching = (radius, *result.benches)
             if feasible and not end:
                 end, _ = bisected(lambda pitch: not self.is_clear(pitch), sample, grid[k - 1], width=PITCH_WIDTH)
             elif end and not feasible:
@@ -238,17 +239,18 @@ class _PitchSearch:
         below = BELOW
         state, found = self.ways.march(infeasible - below, width=CONTACT_WIDTH)
         # on a wide spiral rounding hides what meets so little below
-        while state == "stuck" and found["touching"] < 0.0 and below < PASSED_OVER_WIDE * infeasible:
+        while state == "stuck" and found.touching is None and below < PASSED_OVER_WIDE * infeasible:
             below *= 10.0
             state, found = self.ways.march(infeasible - below, width=CONTACT_WIDTH)
         if state == "reached":
             state, found = self.ways.march(infeasible, width=CONTACT_WIDTH)
-        pair = (int(found["first"]), int(found["second"]))
+        pair = found.benches
         if state == "touched_at_start":
             return LimitedBy.START, pair, self.search.growth * 2.0 * math.pi * self.start_turns
         if state == "folded":
             return LimitedBy.FOLD, None, self.radius
-        travel = found["touching"] - (CONTACT_WIDTH if state == "touched" else 0.0)
+        assert found.touching is not None
+        travel = found.touching - (CONTACT_WIDTH if state == "touched" else 0.0)
         return self._met(travel, travel + BOTTOM_WITHIN, pair)
 
     def _met(self, travel: float, end: float, pair: tuple[int, int]) -> tuple[LimitedBy, tuple[int, int], float]:

@@ -10,7 +10,7 @@ import math
 import numpy as np
 
 from core import kernels
-from core.contact.search import NO_BOUND, TRAVEL_ROUNDING, Search
+from core.contact.search import ENDS, NO_BOUND, TRAVEL_ROUNDING, Ended, Marched, Search
 from core.design.straight import Straight
 from core.paths.spiral import Spiral
 
@@ -30,7 +30,7 @@ STEP_MIN = 1e-7
 WIDTH_FOLLOWED = 0.1
 # Where no bound holds a band is halved down to this part of its pitch [1].
 UNBOUNDED_WITHIN = 1e-3
-# All bands of a descent together do at most so much work, see WORK of core/kernels/constants.py [1]: about a second;
+# All bands of a descent together do at most so much work, see core/kernels/constants.py [1]: about a second;
 # the default case does about 130,000.
 BAND_WORK = 1e7
 # Nothing is marched where no bound of `clears` holds within so many turning radii, starts or pitches [1].
@@ -70,53 +70,49 @@ class Bands:
 
     def ring_clears(self, low: float, high: float, radius: float) -> bool:
         """Does the ring bound clear all from a head radius outwards for all growths in [low, high]?"""
-        least = float(kernels.ring_least(low, high, radius, *self.search.ring_extremes, self.total))
+        least = float(kernels.ring_least(low, high, radius, self.search.rings, self.total))
         return least > self.margin + self.search.ring_rounding(radius, high)
 
     def _make_room(self, benches: int) -> None:
-        self.rows = np.zeros((4, benches + 1, kernels.CHAIN_COLUMNS))
+        self.rows = np.zeros((2, 2, benches + 1, kernels.CHAIN_COLUMNS))
         self.motions = np.zeros((2, benches + 1, kernels.MOTION_COLUMNS))
         self.shifts = np.zeros((benches + 1, kernels.SHIFT_COLUMNS))
 
-    def prove(self, low: float, high: float, outer: float) -> tuple[str, dict[str, float]]:
+    def band_to(self, growth_high: float) -> kernels.Strip:
+        """The band from the growth of the search to a higher one [m/rad]."""
+        search, curve = self.search, kernels.spiral_curve(growth_high)
+        high = kernels.Scene(curve, search.place, search.rings, search.sizes, search.dragon.benches, 0)
+        (before, after), (before_high, after_high) = self.rows
+        low_interval = kernels.Interval(search.scene, before, after, self.motions[0])
+        high_interval = kernels.Interval(high, before_high, after_high, self.motions[1])
+        return kernels.Strip(low_interval, high_interval, self.shifts)
+
+    def prove(self, low: float, high: float, outer: float) -> tuple[str, Marched]:
         """Are all pitches in [low, high] clear while the head's radius falls from outer to the circle [m]?
 
         'reached': yes; 'touched': not the lowest one; 'stuck': not provable in one band; 'turned', 'unbounded': nor,
-        perhaps, by splitting it, as a handle may turn back or no bound holds far out. Result by name: 'proven' down to
-        that radius, 'touching' at one, by the benches 'first' and 'second'.
+        perhaps, by splitting it, as a handle may turn back or no bound holds far out. What it found: `proven` down to
+        that radius, `touching` at one.
         """
         search = self.search
         search.use(Spiral(low, self.start_turns), self.margin)
         clear = self._clear_radius(low / math.tau, high / math.tau)
         if clear >= NO_BOUND:
-            return "unbounded", {"proven": outer}
+            return "unbounded", Marched(outer)
         outer = min(outer, max(clear, self.radius))
         self.marches += 1
+        leaders = min(search.dragon.uniform_from + 1, search.dragon.benches)
+        rounding = TRAVEL_ROUNDING * outer * max(outer / (low / math.tau), 1.0)
+        least_step = max(STEP_MIN, STEP_PER_WIDTH * (high - low))
         while True:
-            out = np.empty(32)
-            code = kernels.strip(
-                low / math.tau,
-                high / math.tau,
-                outer,
-                self.radius,
-                min(search.dragon.uniform_from + 1, search.dragon.benches),
-                self.margin,
-                TRAVEL_ROUNDING * outer * max(outer / (low / math.tau), 1.0),
-                max(STEP_MIN, STEP_PER_WIDTH * (high - low)),
-                min(BAND_WORK - self.work, search.budget.left),
-                search.dragon.benches,
-                search.ring,
-                search.sizes,
-                self.rows,
-                self.motions,
-                self.shifts,
-                out,
-            )
-            found = dict(zip(kernels.MARCH_FIELDS, out.tolist(), strict=False))
-            self.work += found["work"]
-            search.spend(found["work"])
-            if kernels.MARCH_STATES[code] != "capacity":
-                return kernels.MARCH_STATES[code], found
+            band = self.band_to(high / math.tau)
+            budget = min(BAND_WORK - self.work, search.budget.left)
+            ended = ENDS[band.run(outer, self.radius, leaders, rounding, least_step, budget)]
+            self.work += float(band.work)
+            search.spend(float(band.work))
+            if ended is not Ended.CAPACITY:
+                touching = None if band.touching >= NO_BOUND else float(band.touching)
+                return ended, Marched(float(band.proven), touching, (band.first, band.second), band.steps)
             search.resize(min(4 * search.room, search.dragon.benches))
             self._make_room(search.room)
 
@@ -148,7 +144,7 @@ class Bands:
             if state == "reached":
                 proven = low
                 continue
-            outer = found["proven"]
+            outer = found.proven
             middle = math.sqrt(low * high)
             if self.work >= BAND_WORK or self.search.budget.left <= 0.0:
                 return proven, "unbounded"
@@ -168,14 +164,15 @@ class Bands:
                 bands.append((border, high, outer))
         return proven, stopped
 
-    def border(self, low: float, high: float, found: dict[str, float]) -> float | None:
+    def border(self, low: float, high: float, found: Marched) -> float | None:
         """A pitch in (low, high) just above that at which a contact found at `low` becomes a graze [m]; None if lost.
 
         The dip is followed from pitch to pitch; the Illinois form of the false position finds where it reaches the
         margin.
         """
-        pair, radius = (int(found["first"]), int(found["second"])), found["touching"]
-        below, radius = self.dip(low, radius, pair)
+        assert found.touching is not None
+        pair = found.benches
+        below, radius = self.dip(low, found.touching, pair)
         if below > self.margin:
             return None
         below -= self.margin
@@ -218,6 +215,5 @@ class Bands:
                 travel = search.bottom(min(travel, ahead), max(travel, ahead), pair, BOTTOM_WIDTH)
                 break
             travel, stride = ahead, 2.0 * stride
-        place = (growth, search.pieces, search.place - travel)
-        gap = kernels.gap_at(*place, search.room, *pair, search.sizes, search.rows[1])
+        gap = kernels.gap_at(search.scene, search.place - travel, *pair, search.rows[1])
         return float(gap), growth * search.theta_at(travel)

@@ -11,7 +11,7 @@ import numpy as np
 
 from core import plots
 from core.contact.fold import clear_to_fold
-from core.contact.search import MARGIN_MAX, WORK_BUDGET, Budget, Search
+from core.contact.search import MARGIN_MAX, WORK_BUDGET, Budget, Ended, Search
 from core.dance import Dance, EndReason
 from core.design.minimum_pitch import MinimumPitch, minimum_pitch
 from core.dragon import Dragon
@@ -30,7 +30,7 @@ JUMP = 0.02
 JUMP_WIDTH = 1e-6
 # Half width of the bracket around a contact [m of head travel], and so of its radius: a picture shows 1e-3 m.
 RADIUS_WIDTH = 1e-8
-# Most work of all pitches together, see WORK of core/kernels/constants.py: about 5 s. The default scan takes about
+# Most work of all pitches together, see core/kernels/constants.py: about 5 s. The default scan takes about
 # 2,000,000 [1].
 SCAN_WORK = 4e7
 # The scanned pitches, in minimum pitches.
@@ -107,13 +107,13 @@ class Stops:
         last = search.last_travel(end.time, to_fold)
         tolerance = max(RADIUS_WIDTH, 2.0 * search.travel_rounding(last))
         state, found = search.march(last, tolerance)
-        if state == "stuck" and found["touching"] >= 0.0:
+        if state == "stuck" and found.touching is not None:
             state, found, tolerance = search.approach(0.0, last, 1.0)
-        if state in ("reached", "stuck") and found["touching"] < 0.0 and to_fold:
-            state = "reached" if clear_to_fold(search, min(found["proven"], last), end) else "stuck"
+        if state in ("reached", "stuck") and found.touching is None and to_fold:
+            state = Ended.REACHED if clear_to_fold(search, min(found.proven, last), end) else Ended.STUCK
         if state == "reached":
             return None
-        travel = {"touched": found["touching"] - tolerance, "stuck": found["proven"]}.get(state, 0.0)
+        travel = {"touched": (found.touching or 0.0) - tolerance, "stuck": found.proven}.get(state, 0.0)
         return search.growth * search.theta_at(travel)
 
     def _search(self, path: Spiral) -> Search:

@@ -36,7 +36,7 @@ from core.values import checked_number, checked_size, checked_type
 ENTRY_STEP = 0.01
 # ... and the border is bisected to this width [m].
 ENTRY_WIDTH = 1e-9
-# Most work of all entries together, see WORK of core/kernels/constants.py: about 8 s, because a step on a route takes
+# Most work of all entries together, see core/kernels/constants.py: about 8 s, because a step on a route takes
 # longer than one on a spiral. The default turn takes about 90,000 [1].
 TURN_WORK = 2.5e7
 # Turn takes no deeper entry [m].

@@ -6,7 +6,7 @@ import math
 
 from core import kernels
 from core.contact.fold import THETA_ROUNDING, clear_to_fold
-from core.contact.search import Budget, Search
+from core.contact.search import Budget, Ended, Marched, Search
 from core.dance import EndReason, RunEnd, end_theta
 from core.design.pitch_bands import Bands
 from core.dragon import Dragon
@@ -16,7 +16,7 @@ from core.values import SIZE_MIN
 
 # Half width of the bracket around a contact [m of head travel].
 CONTACT_WIDTH = 2e-11
-# Most work of all ways and bands together, see WORK of core/kernels/constants.py: about 5 s. The default case takes
+# Most work of all ways and bands together, see core/kernels/constants.py: about 5 s. The default case takes
 # about 150,000 [1].
 PITCH_WORK = 4e7
 # Most work of one way, and of its second march in finer steps where the first one leaves it undecided [1].
@@ -29,8 +29,6 @@ FINE_NEAR_FOLD = 0.1
 NEARER = 0.8
 # Number of leading benches whose pairs are examined at both ends of a way before it is marched.
 LOOKED_AT = 2
-# A search that found no contact.
-NOWHERE = {"touching": -1.0}
 
 
 class Ways:
@@ -47,7 +45,7 @@ class Ways:
         self.bands = Bands(self.search, radius, start_turns, margin)
         self.marched = 0
 
-    def march(self, pitch: float, width: float = 0.0, work: float = WAY_WORK) -> tuple[str, dict[str, float]]:
+    def march(self, pitch: float, width: float = 0.0, work: float = WAY_WORK) -> tuple[str, Marched]:
         """March from the start to the circle: 'reached' proves every clearance on the way larger than the margin.
 
         width: half width of the bracket around a contact, 0 if any instant of it will do [m of travel]; work: at most
@@ -66,27 +64,26 @@ class Ways:
         width = width and max(width, 2.0 * search.travel_rounding(0.0, stop))
         fold, bench = (0.0, None) if self.bands.bent_little else end_theta(search.dragon, path)
         if fold > circle * (1.0 - THETA_ROUNDING):
-            nothing = dict.fromkeys(kernels.MARCH_FIELDS, 0.0)
-            return ("folded", nothing) if fold > circle * (1.0 + THETA_ROUNDING) else ("stuck", nothing | NOWHERE)
+            return "folded" if fold > circle * (1.0 + THETA_ROUNDING) else "stuck", Marched(0.0)
         for state, travel in () if width else (("touched_at_start", 0.0), ("touched", stop)):
             # a look at both ends decides most ways that are not clear, without laying out a long dragon
             gap, pair = search.clearance(travel, min(LOOKED_AT, search.room))
             if gap <= self.margin and search.surely_within(travel, pair):
-                return state, {"touching": travel, "first": pair[0], "second": pair[1]}
+                return state, Marched(0.0, travel, pair)
         if bench is None or search.travel_at(fold) - stop > FINE_NEAR_FOLD:
             return search.march(stop, width)
         end = RunEnd(EndReason.FOLD, search.travel_at(fold), fold, bench)
         last = min(stop, search.last_travel(end.time, True))
         state, found = search.march(last, width or CONTACT_WIDTH)
-        if (state == "stuck" and found["touching"] < 0.0) or (state == "reached" and last < stop):
-            state = "reached" if clear_to_fold(search, min(found["proven"], last), end) else "stuck"
+        if (state == "stuck" and found.touching is None) or (state == "reached" and last < stop):
+            state = Ended.REACHED if clear_to_fold(search, min(found.proven, last), end) else Ended.STUCK
         return state, found
 
     def is_clear(self, pitch: float) -> bool | None:
         """Is the whole way free of contact? None where neither is known, within rounding of a graze."""
         for width, work in ((0.0, WAY_WORK), (CONTACT_WIDTH, FINER_WORK)):
             state, found = self.march(pitch, width, work)
-            if state != "stuck" or found["touching"] >= 0.0:
+            if state != "stuck" or found.touching is not None:
                 return state == "reached"
         return None
 
@@ -109,8 +106,9 @@ class Ways:
         if radius > pitch * self.start_turns:
             return False
         place = growth * kernels.spiral_arc(radius / growth)
-        gap = kernels.gap_at(growth, Spiral.table, place, search.room, a, b, search.sizes, search.rows[0])
-        return float(gap) <= self.margin
+        curve = kernels.spiral_curve(growth)
+        scene = kernels.Scene(curve, place, search.rings, search.sizes, search.dragon.benches, 0)
+        return float(kernels.gap_at(scene, place, a, b, search.rows[0])) <= self.margin
 
     def _start_nearer(self, path: Spiral) -> None:
         """Let the march begin where the bound for wide spirals says that nothing touches further out.

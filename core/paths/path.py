@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Protocol
 
+from core import kernels
 from core.shown import Shown
 from core.values import Floats
 
@@ -25,8 +26,9 @@ class Path(Protocol):
     begin, end: s between which the head may be [m]; tail_begin: s of the first place for the last handle [m], None
         where the path goes on without end behind its begin
     limit: no s of the head lies beyond this [m], infinity where a search may look a little past the end
-    growth, table, place: the path as the kernels take it: radial advance [m/rad], 1 on a route; pieces, none on a
-        spiral; and what they count places from at s = 0, the arc length from the centre of a spiral, 0 on a route [m]
+    growth: radial advance [m/rad], 1 on a route
+    curve, place: the path as the kernels take it, and what they count places from at s = 0: the arc length from the
+        centre of a spiral, 0 on a route [m]
     slide: how far a point may be from its s along the path, besides the rounding of s [m]
     """
 
@@ -41,7 +43,7 @@ class Path(Protocol):
     @property
     def growth(self) -> float: ...
     @property
-    def table(self) -> Floats: ...
+    def curve(self) -> kernels.Curve: ...
     @property
     def place(self) -> float: ...
     @property

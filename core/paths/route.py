@@ -275,7 +275,7 @@ class Route(Shown):
     # the distance. Gaps along the path displace the head alone.
     def _smooth(self) -> float:
         """Fill in the distance of the pieces from a smooth path; returns `slide` [m]."""
-        table, misses, slides = self.table, np.zeros((len(self.table), 4)), np.zeros(len(self.table))
+        table, misses, slides = self.table, np.zeros((len(self.table), kernels.MISS_COLUMNS)), np.zeros(len(self.table))
         kernels.joint_misses(table, misses)
         kernels.piece_slides(table, slides)
         across, along, kink, step = misses[1:].T
@@ -291,7 +291,7 @@ class Route(Shown):
         return float(slides.max() + along.sum())
 
     def _refuse_joint(self, k: int, s: float, row: int) -> None:
-        ends = np.empty((2, 5))
+        ends = np.empty((2, kernels.POINT_COLUMNS))
         for side, part in enumerate((self.table[:row], self.table[row:])):
             kernels.route_points(np.ascontiguousarray(part), np.array([s]), ends[side : side + 1])
         (x, y, tx, ty, _), (x2, y2, tx2, ty2, _) = ends
@@ -324,13 +324,18 @@ class Route(Shown):
 
     def _points(self, s: Floats | float) -> Floats:
         flat = np.ascontiguousarray(np.asarray(s, dtype=np.float64).reshape(-1))
-        out = np.empty((flat.size, 5))
+        out = np.empty((flat.size, kernels.POINT_COLUMNS))
         kernels.route_points(self.table, flat, out)
-        return out.reshape(*np.shape(s), 5)
+        return out.reshape(*np.shape(s), kernels.POINT_COLUMNS)
 
     def position(self, s: Floats | float) -> Floats:
         """Points at arc length s. s: (...) [m]; returns (..., 2) x, y [m]."""
         return self._points(s)[..., 0:2]
+
+    @property
+    def curve(self) -> kernels.Curve:
+        """The route as the kernels take it."""
+        return kernels.route_curve(self.table)
 
     def head(self, s: float) -> HeadState:
         """The head at arc length s [m]."""

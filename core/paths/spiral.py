@@ -52,9 +52,7 @@ class Spiral(Shown):
     # The head enters at s = 0 and may go to the centre; the tail stands on the outward extension, which has no end.
     begin = 0.0
     tail_begin = None
-    # For the kernels: no pieces, and points that are exact but for the rounding of s.
-    table = np.empty((0, kernels.PIECE_COLUMNS))
-    slide = 0.0
+    slide = 0.0  # points are exact but for the rounding of s
 
     @property
     def end(self) -> float:
@@ -67,6 +65,11 @@ class Spiral(Shown):
     def growth(self) -> float:
         """Radial advance per radian [m/rad]."""
         return self.pitch / (2.0 * math.pi)
+
+    @property
+    def curve(self) -> kernels.Curve:
+        """The spiral as the kernels take it."""
+        return kernels.spiral_curve(self.growth)
 
     @cached_property
     def start_theta(self) -> float:

@@ -58,21 +58,22 @@ def meeting_pairs(frame: Floats, margin: float, chained: bool, *, exact: bool) -
     boxes = np.hstack([frame[:, :2] - half, frame[:, :2] + half])
     leaves = 1 << max(0, (-(-len(frame) // kernels.BOXES_PER_LEAF) - 1).bit_length())
     order = _tree_order(frame[:, :2], leaves)
-    frame, boxes, tree = frame[order], boxes[order], np.empty((2 * leaves, 4))
+    frame, boxes, tree = frame[order], boxes[order], np.empty((2 * leaves, kernels.BOX_COLUMNS))
     kernels.grow_tree(boxes, tree)
     most = (PAIRS_MAX, CANDIDATES_MAX) if exact else (CROSS_CANDIDATES_MAX, CROSS_CANDIDATES_MAX)
     words = "within the margin" if exact else "close by", "close by"
-    counts = np.zeros(2, dtype=np.int64)
+    meetings = kernels.Meetings(frame, boxes, tree, order)
     pairs = np.empty((2 * len(frame), 2), dtype=np.int64)
     while True:
-        kernels.meeting_pairs(frame, boxes, tree, order, margin, exact, chained, np.array(most), pairs, counts)
+        meetings.find(margin, exact, chained, *most, pairs)
+        counts = (meetings.found, meetings.met)
         for count, limit, what in zip(counts, most, words, strict=True):
             if count > limit:
                 message = f"benches must have at most {limit} pairs {what}, got more among {len(frame)}"
                 raise TooLarge("benches", message)
-        if counts[0] <= len(pairs):
-            return pairs[: counts[0]]
-        pairs = np.empty((int(counts[0]), 2), dtype=np.int64)
+        if meetings.found <= len(pairs):
+            return pairs[: meetings.found]
+        pairs = np.empty((meetings.found, 2), dtype=np.int64)
 
 
 def _tree_order(centres: Floats, leaves: int) -> Pairs:

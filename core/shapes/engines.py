@@ -271,7 +271,10 @@ FINDERS: dict[Engine, Callable[[Floats, Floats, float, bool], Iterator[Pairs]]] 
 # One pair needs no search. poses: (T, 2, 3); sizes: (2, 2); each judge tells for each of the T instants whether the
 # pair is within the margin, by the method of its engine above.
 def _judged_by_separating_axis(poses: Floats, sizes: Floats, margin: float) -> list[bool]:
-    return [kernels.pair_gap(*a, *b) <= margin for a, b in frames(poses, sizes).tolist()]
+    pairs, gaps = frames(poses, sizes), np.empty(len(poses))
+    first, second = (np.ascontiguousarray(pairs[:, bench]) for bench in (0, 1))
+    kernels.pair_gaps(first, second, kernels.NO_LIMIT, gaps)
+    return [gap <= margin for gap in gaps.tolist()]
 
 
 def _judged_by_fcl(poses: Floats, sizes: Floats, margin: float) -> list[bool]:

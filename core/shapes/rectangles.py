@@ -13,6 +13,22 @@ from numpy.typing import ArrayLike
 
 from core import kernels
 from core.errors import InvalidValue, said
+from core.kernels.constants import (
+    FRAME_COLUMNS,
+    FRAME_HALF_LENGTH,
+    FRAME_UX,
+    FRAME_UY,
+    FRAME_X,
+    FRAME_Y,
+    NORMAL_X,
+    NORMAL_Y,
+    SEPARATION,
+    SEPARATION_COLUMNS,
+    WITNESS_AX,
+    WITNESS_AY,
+    WITNESS_BX,
+    WITNESS_BY,
+)
 from core.shown import Shown, worded
 from core.values import SIZE_MAX, SIZE_MIN, Floats
 
@@ -81,14 +97,14 @@ def separation(poses_a: ArrayLike, sizes_a: ArrayLike, poses_b: ArrayLike, sizes
 def frames_separation(a: Floats, b: Floats) -> Separation:
     """Signed separation of rectangles given as frames. a, b: (..., 6) as frames() returns, of equal shape."""
     shape = a.shape[:-1]
-    out = np.empty((a.size // 6, 8))
-    rows_a, rows_b = (np.require(frame, requirements=["C", "W"]).reshape(-1, 6) for frame in (a, b))
+    out = np.empty((a.size // FRAME_COLUMNS, SEPARATION_COLUMNS))
+    rows_a, rows_b = (np.require(frame, requirements=["C", "W"]).reshape(-1, FRAME_COLUMNS) for frame in (a, b))
     kernels.pair_separations(rows_a, rows_b, out)
     return Separation(
-        separation=out[:, 0].reshape(shape),
-        witness_a=out[:, 1:3].reshape(*shape, 2),
-        witness_b=out[:, 3:5].reshape(*shape, 2),
-        normal=out[:, 5:7].reshape(*shape, 2),
+        separation=out[:, SEPARATION].reshape(shape),
+        witness_a=out[:, WITNESS_AX : WITNESS_AY + 1].reshape(*shape, 2),
+        witness_b=out[:, WITNESS_BX : WITNESS_BY + 1].reshape(*shape, 2),
+        normal=out[:, NORMAL_X : NORMAL_Y + 1].reshape(*shape, 2),
     )
 
 
@@ -99,11 +115,11 @@ def frames(poses: Floats, sizes: Floats) -> Floats:
     returns: (..., 6), never a view
     """
     shape = np.broadcast_shapes(poses.shape[:-1], sizes.shape[:-1])
-    out = np.empty((*shape, 6))
-    out[..., :2] = poses[..., :2]
-    out[..., 2] = np.cos(poses[..., 2])
-    out[..., 3] = np.sin(poses[..., 2])
-    out[..., 4:] = 0.5 * sizes
+    out = np.empty((*shape, FRAME_COLUMNS))
+    out[..., FRAME_X : FRAME_Y + 1] = poses[..., :2]
+    out[..., FRAME_UX] = np.cos(poses[..., 2])
+    out[..., FRAME_UY] = np.sin(poses[..., 2])
+    out[..., FRAME_HALF_LENGTH:] = 0.5 * sizes
     return out
 
 

@@ -80,7 +80,7 @@ def test_towards_the_fold_the_bound_grows_with_the_error_until_nothing_is_claime
     assert bounds[-1] > 100.0 * bounds[0]
     kernels.start_chain(fold, search.rows[0])
     if kernels.extend_chain(search.growth, 0, 1, kernels.FREE, search.sizes, search.rows[0]) == 1:
-        kernels.chain_rounding(search.growth, search.pieces, 1, search.sizes, search.rows[0])
+        kernels.chain_rounding(search.curve, 1, search.sizes, search.rows[0])
         assert search.rows[0, 0, ERROR] > bounds[-1]
 
 
@@ -160,13 +160,9 @@ def test_what_is_within_a_margin_for_certain_stays_so_over_the_interval(seed: in
     a = int(rng.integers(0, 3))
     b = int(rng.integers(a + 2, 9))
     h, place = 10 ** rng.uniform(-12.0, -2.0), search.place - rng.uniform(0.0, 6.0)
-    rows = search.rows
-    most = kernels.pair_most(
-        search.growth, search.pieces, place, h, a, b, 9, search.sizes, rows[0], rows[1], search.motion, np.empty(8)
-    )
+    most = kernels.pair_most(search.scene, search.probe, place, h, a, b)
     gaps = [
-        kernels.gap_at(search.growth, search.pieces, place - part * h, 9, a, b, search.sizes, rows[2])
-        for part in np.linspace(0.0, 1.0, INSTANTS)
+        kernels.gap_at(search.scene, place - part * h, a, b, search.rows[0]) for part in np.linspace(0.0, 1.0, INSTANTS)
     ]
     assert max(gaps) <= max(most, 0.0)
 
@@ -184,7 +180,7 @@ def test_pieces_that_miss_each_other_count_as_rounding(joined: Callable[[float],
     assert route.slide >= abs(x)
     search = Search(Dragon(3), route, 0.0)
     search.clearance(30.5)
-    kernels.chain_rounding(search.growth, search.pieces, 3, search.sizes, search.rows[0])
+    kernels.chain_rounding(search.curve, 3, search.sizes, search.rows[0])
     assert search.rows[0, 0, ERROR] >= abs(y)
 
 
@@ -237,8 +233,8 @@ def test_rates_and_slopes_near_the_centre_are_good_to_what_is_said_of_them(seed:
     chain, growth = search.rows[0], spiral.growth
     kernels.start_chain(theta, chain)
     assert kernels.extend_chain(growth, 0, 9, kernels.FREE, search.sizes, chain) == 9
-    kernels.climbs(growth, search.pieces, 9, search.sizes, chain)
-    kernels.chain_rounding(growth, search.pieces, 9, search.sizes, chain)
+    kernels.climbs(search.curve, 9, search.sizes, chain)
+    kernels.chain_rounding(search.curve, 9, search.sizes, chain)
     kernels.spiral_errors(growth, 9, search.sizes, chain, chain, search.motion)
     rates, slopes = exact_climbs(growth, theta, dragon.chords)
     for k in range(1, 10):
@@ -256,11 +252,11 @@ def test_a_speed_that_is_said_to_exceed_a_limit_does(seed: int) -> None:
         speed = float(trajectory(Dance(dragon, spiral), time).speed.max())
         for above in (-1e-3, -1e-9, *(units * kernels.ULP for units in range(-6, 7, 2)), 1e-9):
             limit = speed * (1.0 + above) / (1.0 + SPEED_ROUNDING)
-            outcome, _, found, handle = _excess(search, time, time, 1.0, limit)
+            outcome, excess = _excess(search, time, time, 1.0, limit)
             outcomes.add(outcome)
             if outcome == EXCEEDED:
-                rates, _ = exact_climbs(spiral.growth, exact_theta(spiral, found), dragon.chords)
-                assert abs(float(rates[handle])) > limit
+                rates, _ = exact_climbs(spiral.growth, exact_theta(spiral, excess.found), dragon.chords)
+                assert abs(float(rates[excess.handle])) > limit
         assert outcomes > {EXCEEDED}
 
 

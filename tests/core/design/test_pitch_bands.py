@@ -13,13 +13,13 @@ import pytest
 from core import Dragon, Spiral, kernels
 from core.contact.search import Search
 from core.design.pitch_bands import Bands
+from core.kernels.constants import MX, MY, SHIFT_CENTRE, SHIFT_CORNER, SHIFT_PULL, SHIFT_TURN, UX, UY
 from core.values import Floats
 
 CASES = json.loads((Path(__file__).parents[2] / "reference" / "minimum_pitch.json").read_text())["cases"]
 GRAZES = [case for case in CASES if case["limited_by"] != "start"]
 # Pitches are promised to this [m].
 ACCURACY = 1e-9
-NO_PIECES = np.empty((0, kernels.PIECE_COLUMNS))
 # Rounding of a corner's place [m], of which a second difference quotient sees four times as much over the square step.
 ROUNDING = 1e-13
 # Difference quotients take steps of this part of the growth; what they leave out is the square of it [1].
@@ -31,19 +31,20 @@ def chain(search: Search, growth: float, radius: float, benches: int) -> tuple[f
     rows = np.zeros((search.room + 1, kernels.CHAIN_COLUMNS))
     leaders = min(search.dragon.uniform_from + 1, benches)
     place = growth * kernels.spiral_arc(radius / growth)
-    sizes, scratch = search.sizes, search.motion
-    gap = kernels.clearance_at(growth, NO_PIECES, place, benches, leaders, 0, sizes, rows, scratch, search.pair)
+    curve = kernels.spiral_curve(growth)
+    scene = kernels.Scene(curve, place, search.rings, search.sizes, search.dragon.benches, 0)
+    gap, *_ = kernels.clearance_at(scene, place, benches, leaders, rows, search.motion)
     return gap, rows[:benches]
 
 
 def corners(dragon: Dragon, rows: Floats) -> Floats:
     """(n, 4, 2) [m]"""
-    along = rows[:, 8:10]
+    along = rows[:, UX : UY + 1]
     left = np.stack([-along[:, 1], along[:, 0]], axis=-1)
     half = 0.5 * np.stack([dragon.lengths[: len(rows)], dragon.widths[: len(rows)]], axis=-1)
     signs = ((1, 1), (1, -1), (-1, -1), (-1, 1))
     return np.stack(
-        [rows[:, 6:8] + f * half[:, :1] * along + s * half[:, 1:] * left for f, s in signs],
+        [rows[:, MX : MY + 1] + f * half[:, :1] * along + s * half[:, 1:] * left for f, s in signs],
         axis=1,
     )
 
@@ -71,30 +72,12 @@ def test_no_bench_shifts_faster_with_the_growth_than_its_bounds(seed: int) -> No
     low, high = low / (2 * math.pi), high / (2 * math.pi)
     inner = bands.radius * rng.uniform(1.0, 2.0)
     outer = inner * (1.0 + 1e-6)
-    leaders, benches = min(search.dragon.uniform_from + 1, search.dragon.benches), search.dragon.benches
-    out = np.empty(32)
-    # no pair is within such a margin, so the step is taken at once
-    state = kernels.strip(
-        low,
-        high,
-        outer,
-        inner,
-        leaders,
-        -1e3,
-        0.0,
-        0.0,
-        9,
-        benches,
-        search.ring,
-        search.sizes,
-        bands.rows,
-        bands.motions,
-        bands.shifts,
-        out,
-    )
-    assert kernels.MARCH_STATES[state] == "reached"
-    assert out[4] == 1.0  # one step, whose bounds are there still
-    moved = int(np.count_nonzero(bands.shifts[:, 0]))
+    leaders = min(search.dragon.uniform_from + 1, search.dragon.benches)
+    search.use(Spiral(2 * math.pi * low, bands.start_turns), -1e3)  # no pair is within such a margin
+    band = bands.band_to(high)
+    assert kernels.MARCH_STATES[band.run(outer, inner, leaders, 0.0, 0.0, 9)] == "reached"
+    assert band.steps == 1  # whose bounds are there still
+    moved = int(np.count_nonzero(bands.shifts[:, SHIFT_CENTRE]))
     assert moved > 2
     for growth in rng.uniform(low, high, 8):
         step = STEP * growth
@@ -105,17 +88,17 @@ def test_no_bench_shifts_faster_with_the_growth_than_its_bounds(seed: int) -> No
         within = np.abs(growth - low) > step and np.abs(growth - high) > step
         if not within:
             continue
-        centre = np.linalg.norm(rows[2, :, 6:8] - rows[0, :, 6:8], axis=-1) / (2 * step)
+        centre = np.linalg.norm(rows[2, :, MX : MY + 1] - rows[0, :, MX : MY + 1], axis=-1) / (2 * step)
         corner = np.linalg.norm(places[2] - places[0], axis=-1).max(-1) / (2 * step)
         pull = np.linalg.norm(places[2] - 2 * places[1] + places[0], axis=-1).max(-1) / step**2
-        heading = np.unwrap(np.arctan2(rows[:, :, 9], rows[:, :, 8]), axis=0)
+        heading = np.unwrap(np.arctan2(rows[:, :, UY], rows[:, :, UX]), axis=0)
         turn = np.abs(heading[2] - heading[0]) / (2 * step)
         bounds = bands.shifts[:moved]
         rounding = ROUNDING / step
-        assert (centre <= bounds[:, 0] * slack + rounding).all()
-        assert (corner <= bounds[:, 1] * slack + rounding).all()
-        assert (pull <= bounds[:, 2] * slack + 4 * rounding / step).all()
-        assert (turn <= bounds[:, 3] * slack + rounding / search.dragon.chords.min()).all()
+        assert (centre <= bounds[:, SHIFT_CENTRE] * slack + rounding).all()
+        assert (corner <= bounds[:, SHIFT_CORNER] * slack + rounding).all()
+        assert (pull <= bounds[:, SHIFT_PULL] * slack + 4 * rounding / step).all()
+        assert (turn <= bounds[:, SHIFT_TURN] * slack + rounding / search.dragon.chords.min()).all()
 
 
 @pytest.mark.parametrize("seed", range(60))
@@ -125,14 +108,14 @@ def test_nothing_touches_at_any_pitch_of_what_a_band_proves(seed: int) -> None:
     state, found = bands.prove(low, high, 3.0 * bands.radius)
     if state == "unbounded":
         return
-    outer = max(3.0 * bands.radius, found["proven"])
+    outer = max(3.0 * bands.radius, found.proven)
     benches = min(bands.search.dragon.benches, bands.search.room)
     for growth in np.linspace(low, high, 9) / (2 * math.pi):
-        for radius in np.linspace(found["proven"], outer, 30):
+        for radius in np.linspace(found.proven, outer, 30):
             assert chain(bands.search, growth, radius, benches)[0] > bands.margin
     if state == "touched":
         growth = low / (2 * math.pi)
-        gap = chain(bands.search, growth, found["touching"], benches)[0]
+        gap = chain(bands.search, growth, found.touching, benches)[0]
         assert gap <= bands.margin
 
 
@@ -166,7 +149,7 @@ def test_benches_of_a_short_dragon_are_no_closer_than_the_ring_bound(seed: int) 
     search, bounds = bands.search, 0
     for growth in np.geomspace(0.01, 0.2, 8):
         for radius in np.linspace(1.5, 8.0, 12):
-            bound = kernels.ring_least(growth, growth, radius, *search.ring_extremes, bands.total)
+            bound = kernels.ring_least(growth, growth, radius, search.rings, bands.total)
             bounds += bound > 0.0
             assert chain(search, growth, radius, dragon.benches)[0] >= bound
     assert bounds

@@ -13,8 +13,12 @@ from core.kernels.constants import (
     CORNER_PULL,
     CORNER_SPEED,
     CROSSED,
+    HALF_LENGTH,
     HANDLE_SPEED,
     MOTION_COLUMNS,
+    MX,
+    MY,
+    RADIUS,
     RATE,
     RATE_HIGH,
     RATE_JERK,
@@ -25,9 +29,9 @@ from core.kernels.constants import (
     TX,
     UX,
 )
+from tests.core.kernels.test_pairs import AXES, corners
 from tests.core.paths.test_route import TURN as TURN_PATH
 from tests.core.rounding_sweep import ROUTES
-from tests.core.test_certified_motion import AXES, corners
 
 # Instants within an interval. Differences of a derivative are means of the next one, over APART instants.
 INSTANTS, APART = 161, 8
@@ -63,18 +67,21 @@ def sizes_of(dragon: Dragon) -> np.ndarray:
 
 def laid_out(path: Route, s: float, sizes: np.ndarray) -> np.ndarray:
     chain = np.zeros((len(sizes), CHAIN_COLUMNS))
-    kernels.place_chain(1.0, path.table, -s, len(sizes) - 1, sizes, chain)
-    kernels.chain_rounding(1.0, path.table, len(sizes) - 1, sizes, chain)
-    kernels.climbs(1.0, path.table, len(sizes) - 1, sizes, chain)
+    curve = kernels.route_curve(path.table)
+    kernels.place_chain(curve, -s, len(sizes) - 1, sizes, chain)
+    kernels.chain_rounding(curve, len(sizes) - 1, sizes, chain)
+    kernels.climbs(curve, len(sizes) - 1, sizes, chain)
     return chain
 
 
 def bounded(path: Route, start: float, h: float, sizes: np.ndarray) -> tuple[np.ndarray, float]:
     """Bounds of an interval that is narrow enough for any, and its width."""
     motion = np.zeros((len(sizes), MOTION_COLUMNS))
+    scene = kernels.Scene(kernels.route_curve(path.table), 0.0, kernels.Rings(), sizes, len(sizes) - 1, 0)
     while True:
-        rows = [laid_out(path, s, sizes) for s in (start, start + h)]
-        if kernels.route_bounds(path.table, h, len(sizes) - 1, sizes, *rows, True, motion):
+        interval = kernels.Interval(scene, *(laid_out(path, s, sizes) for s in (start, start + h)), motion)
+        interval.h, interval.handles = h, len(sizes) - 1
+        if interval.bound(True):
             return motion, h
         h *= 0.5
 
@@ -114,10 +121,10 @@ def test_no_sampled_derivative_on_a_route_exceeds_its_bound(seed: int) -> None:
     assert (np.linalg.norm(centre, axis=-1).max(axis=0) <= motion[:-1, CENTRE_SPEED] + ROUNDING).all()
     pull = np.linalg.norm(differences(centre, step), axis=-1).max(axis=0)
     assert (pull <= motion[:-1, CENTRE_PULL] + slack).all()
-    corner = centre + (omega * sizes[:-1, 3])[..., None] * np.stack([-along[..., 1], along[..., 0]], axis=-1)
+    corner = centre + (omega * sizes[:-1, RADIUS])[..., None] * np.stack([-along[..., 1], along[..., 0]], axis=-1)
     assert (np.linalg.norm(corner, axis=-1).max(axis=0) <= motion[:-1, CORNER_SPEED] + ROUNDING).all()
     pull = np.linalg.norm(differences(corner, step), axis=-1).max(axis=0)
-    assert (pull <= motion[:-1, CORNER_PULL] + slack * (1.0 + 2.0 * sizes[:-1, 3] / dragon.chords)).all()
+    assert (pull <= motion[:-1, CORNER_PULL] + slack * (1.0 + 2.0 * sizes[:-1, RADIUS] / dragon.chords)).all()
 
 
 @pytest.mark.parametrize("seed", range(100, 130))
@@ -127,13 +134,13 @@ def test_gaps_along_body_axes_on_a_route_bend_no_more_than_their_bound(seed: int
     motion, h = bounded(path, start, h, sizes)
     n, step = dragon.benches, h / (INSTANTS - 1)
     chains = np.array([laid_out(path, s, sizes) for s in np.linspace(start, start + h, INSTANTS)])
-    centres, along = chains[:, :n, UX - 2 : UX], chains[:, :n, UX : UX + 2]
+    centres, along = chains[:, :n, MX : MY + 1], chains[:, :n, UX : UX + 2]
     rounding = 4.0 * ROUNDING * (1.0 + np.abs(centres).max()) / (APART * step) ** 2
     for i, j in ((i, j) for i in range(n) for j in range(n) if abs(i - j) > 1):
         distance = np.linalg.norm(centres[0, j] - centres[0, i])
         distance += h * (motion[i, CENTRE_SPEED] + motion[j, CENTRE_SPEED])
         bound = kernels.axis_bend(1.0, i, j, distance, sizes, motion)
-        for corner in corners(centres, along, sizes[:, 1:4], i, j):
+        for corner in corners(centres, along, sizes[:, HALF_LENGTH : RADIUS + 1], i, j):
             for axis in AXES:
                 gap = np.cos(axis) * corner[:, 0] + np.sin(axis) * corner[:, 1]
                 bend = (gap[2 * APART :] - 2 * gap[APART:-APART] + gap[: -2 * APART]) / (APART * step) ** 2

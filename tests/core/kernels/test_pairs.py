@@ -43,23 +43,18 @@ def frames(dance: SlowDance, times: np.ndarray) -> tuple[np.ndarray, np.ndarray]
     return 0.5 * (handles[:, 1:] + handles[:, :-1]), -np.diff(handles, axis=1) / dance.chords[:, None]
 
 
-def laid_out(dragon: Dragon, spiral: Spiral, travel: float, sizes: np.ndarray) -> np.ndarray:
-    chain = np.zeros((dragon.benches + 1, kernels.CHAIN_COLUMNS))
-    kernels.start_chain(kernels.spiral_theta((spiral.length - travel) / spiral.growth), chain)
-    assert kernels.extend_chain(spiral.growth, 0, dragon.benches, kernels.FREE, sizes, chain) == dragon.benches
-    return chain
-
-
 @pytest.mark.parametrize("seed", range(30))
 def test_gaps_along_body_axes_bend_no_more_than_their_bound(seed: int) -> None:
     dragon, spiral, start, h = random_interval(np.random.default_rng(seed))
     half = 0.5 * np.stack([dragon.lengths, dragon.widths, np.hypot(dragon.lengths, dragon.widths)], axis=1)
-    sizes, motion = np.zeros((dragon.benches + 1, 4)), np.zeros((dragon.benches + 1, kernels.MOTION_COLUMNS))
+    sizes = np.zeros((dragon.benches + 1, kernels.SIZE_COLUMNS))
     sizes[:-1] = np.column_stack([dragon.chords, half])
-    rows = [laid_out(dragon, spiral, travel, sizes) for travel in (start, start + h)]
-    while not kernels.motion_bounds(spiral.growth, h, dragon.benches, sizes, *rows, motion):  # too wide for any bound
+    motion = np.zeros((dragon.benches + 1, kernels.MOTION_COLUMNS))
+    curve = kernels.spiral_curve(spiral.growth)
+    scene = kernels.Scene(curve, spiral.length, kernels.Rings(), sizes, dragon.benches, 0)
+    interval = kernels.Interval(scene, *np.zeros((2, dragon.benches + 1, kernels.CHAIN_COLUMNS)), motion)
+    while not interval.lay_out(spiral.length - start, h, dragon.benches):  # too wide for any bound
         h *= 0.5
-        rows[1] = laid_out(dragon, spiral, start + h, sizes)
     times = np.linspace(start, start + h, INSTANTS)
     centres, along = frames(SlowDance.of(dragon, spiral), times)
     apart = APART * (times[1] - times[0])
@@ -75,7 +70,7 @@ def test_gaps_along_body_axes_bend_no_more_than_their_bound(seed: int) -> None:
                 bend = (gap[2 * APART :] - 2 * gap[APART:-APART] + gap[: -2 * APART]) / apart**2
                 assert np.abs(bend).max() <= bound + 4 * rounding / apart**2
         if i < j:
-            least = kernels.pair_least(spiral.growth, i, j, 0.0, 0.0, distance, h, sizes, *rows, motion, np.zeros(16))
+            least, _ = kernels.pair_least(scene, interval, i, j, 0.0, distance)
             sampled = rectangles_gap(
                 centres[:, i], along[:, i], half[i : i + 1, :2], centres[:, j], along[:, j], half[j : j + 1, :2]
             )
