@@ -16,8 +16,6 @@ from core.values import checked_type
 PROOF_WIDTHS = (1e-5, 1e-3)
 # So many of the lowest samples are refined before the proof begins.
 DIPS_REFINED = 5
-# No bracket around a contact, but every dip that the march crosses is refined: a "tolerance" of Search.march [m].
-DIPS_ONLY = -1.0
 # So often the proof may come upon something nearer; each time the distance falls by PROOF_WIDTHS[0] or more.
 ROUNDS = 100
 
@@ -80,7 +78,7 @@ def least_over(
                 return _first_touch(search, proven_to, until, head_speed, best)
             search.use(search.path, max(best[0] - width, 0.0))
             margin = search.margin
-            state, found = search.march(until, DIPS_ONLY, start=proven_to)
+            state, found = search.march(until, 0.0, start=proven_to, dips=True)
             if found.graze is not None and found.graze.gap < best[0]:
                 best = found.graze
             if state in ("reached", "stuck"):

@@ -310,10 +310,12 @@ class Search:
         return float(kernels.spiral_theta((self.place - travel) / self.growth))
 
     def march(
-        self, stop: float, tolerance: float, *, start: float = 0.0, opening: bool = True
+        self, stop: float, tolerance: float, *, start: float = 0.0, opening: bool = True, dips: bool = False
     ) -> tuple[Ended, Marched]:
         """March from start, or from where the ring bound ends, to stop [m of travel]: how it ended, what it found.
 
+        tolerance: half width of the bracket around a contact, 0 if any instant of it will do [m]; dips: look for grazes
+            also where it is 0
         opening: nothing before the start was cleared, so all pairs are followed until the body repeats itself
         The way marched begins and ends beyond both by what a travel may be off by, so that what is said of travels, and
         of times, holds for the true ones.
@@ -330,9 +332,10 @@ class Search:
         if nothing or (start >= stop and not opening):
             return Ended.REACHED, Marched(asked[1])
         leaders = min(self.dragon.uniform_from + 1, self.dragon.benches)
+        grazes = dips or tolerance > 0.0
         while True:
             budget = max(min(self.work, self.budget.left), 1.0)
-            ended = ENDS[self._march.run(start, stop, leaders, opening, tolerance, rounding, budget)]
+            ended = ENDS[self._march.run(start, stop, leaders, opening, tolerance, grazes, rounding, budget)]
             march = self._march
             self.spend(float(march.work))
             if ended is not Ended.CAPACITY:
