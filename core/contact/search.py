@@ -343,6 +343,8 @@ class Search:
             self.resize(min(4 * self.room, self.dragon.benches))
         proven = asked[1] if ended is Ended.REACHED else max(float(march.proven) - rounding, asked[0])
         touching = None if march.touching >= NO_GAP else float(march.touching)
+        if touching is not None and touching < 0.0 and not ended.startswith("touched"):
+            touching = None  # before time 0 a crossing that could not be bracketed does not count
         if ended is Ended.TOUCHED_AT_START:
             touching = asked[0]
         graze = None

@@ -19,8 +19,8 @@ if not cython.compiled:  # for the compiler the same stands in the .pxd
 # Input. A scene: a chain for every head travel, the margin, the bounds on rings; start and stop; which pairs must be
 # followed (leaders, at_start); and how near a contact is to be bracketed (tolerance).
 # State. `travel`; the interval with the chains at travel and at travel + h, of all handles that matter there; h, the
-# step to try; `target`, the crossing that this step stops short of, -1 for none (a crossing before travel 0 is bracketed
-# by the step after it); `opening`, the chain at the start.
+# step to try; `target`, the crossing that this step stops short of, -1 for none (one before travel 0 is bracketed by
+# the step after it); `opening`, the chain at the start.
 # Output. One of five ends, and what is known then: see March.
 #
 # Invariant, whenever the loop begins: no two benches that share no handle come within the margin in [start, travel].

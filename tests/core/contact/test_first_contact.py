@@ -321,7 +321,7 @@ def test_a_search_whose_work_is_done_gives_up() -> None:
     search = Search(Dragon(), Turn(1.7), 0.0, work=2e4)
     state, found, _ = search.approach(-50.0, 100.0, 1.0)
     assert state == "stuck"
-    assert -50.0 < found["proven"] < 100.0
+    assert -50.0 < found.proven < 100.0
 
 
 # -- margin ------------------------------------------------------------------------------------------
