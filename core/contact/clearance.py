@@ -34,8 +34,6 @@ DIP_WIDTH = 1e-11
 PROOF_WIDTHS = (1e-5, 1e-3)
 # Number of the lowest samples that are refined before the proof begins.
 DIPS_REFINED = 5
-# No bracket around a contact, but every dip that the march crosses is refined: a "tolerance" of Search.march [m].
-DIPS_ONLY = -1.0
 # Most times that a proof may come upon something nearer; each time the distance falls by PROOF_WIDTHS[0] or more.
 ROUNDS = 100
 
@@ -215,7 +213,7 @@ def least_over(
                 return _first_touch(search, proven_to, until, head_speed, best)
             search.use(search.path, max(best[0] - width, 0.0))
             margin = search.margin
-            state, found = search.march(until, DIPS_ONLY, start=proven_to)
+            state, found = search.march(until, 0.0, start=proven_to, dips=True)
             if found.graze is not None and found.graze.gap < best[0]:
                 best = found.graze
             if state in ("reached", "stuck"):

@@ -294,10 +294,12 @@ class Search:
         return float(kernels.spiral_theta((self.place - travel) / self.growth))
 
     def march(
-        self, stop: float, tolerance: float, *, start: float = 0.0, opening: bool = True
+        self, stop: float, tolerance: float, *, start: float = 0.0, opening: bool = True, dips: bool = False
     ) -> tuple[Ended, Marched]:
         """March from start, or from where the ring bound ends, to stop [m of travel]: how it ended, what it found.
 
+        tolerance: half width of the bracket around a contact, 0 if any instant of it will do [m]; dips: look for grazes
+            also where it is 0
         opening: nothing before the start was cleared, so all pairs are followed until the body repeats itself
         The march begins earlier and ends later by the rounding of travels, so that what it claims of computed travels
         and times holds for the true ones.
@@ -313,9 +315,10 @@ class Search:
         if nothing or (start >= stop and not opening):
             return Ended.REACHED, Marched(asked[1])
         leaders = min(self.dragon.uniform_from + 1, self.dragon.benches)
+        grazes = dips or tolerance > 0.0
         while True:
             budget = max(min(self.work, self.budget.left), 1.0)
-            ended = ENDS[self._march.run(start, stop, leaders, opening, tolerance, rounding, budget)]
+            ended = ENDS[self._march.run(start, stop, leaders, opening, tolerance, grazes, rounding, budget)]
             march = self._march
             self.spend(float(march.work))
             if ended is not Ended.CAPACITY:
@@ -323,6 +326,8 @@ class Search:
             self.resize(min(4 * self.room, self.dragon.benches))
         proven = asked[1] if ended is Ended.REACHED else max(float(march.proven) - rounding, asked[0])
         touching = None if march.touching >= NO_GAP else float(march.touching)
+        if touching is not None and touching < 0.0 and not ended.startswith("touched"):
+            touching = None  # before time 0 a crossing that could not be bracketed does not count
         if ended is Ended.TOUCHED_AT_START:
             touching = asked[0]
         graze = None

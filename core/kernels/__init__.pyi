@@ -173,6 +173,7 @@ class March:
         leaders: int,
         at_start: bool,
         tolerance: float,
+        grazes: bool,
         rounding: float,
         budget: float,
     ) -> int: ...

@@ -64,6 +64,7 @@ cdef class March:
     cdef Py_ssize_t placed
     cdef Py_ssize_t opened
     cdef bint opens
+    cdef bint grazes
     cdef bint turning
     cdef double travel
     cdef double h
@@ -88,8 +89,8 @@ cdef class March:
 
     @cython.locals(state=cython.int)
     cpdef int run(
-        self, double start, double stop, Py_ssize_t leaders, bint at_start, double tolerance, double rounding,
-        double budget
+        self, double start, double stop, Py_ssize_t leaders, bint at_start, double tolerance, bint grazes,
+        double rounding, double budget
     ) noexcept
     cdef bint repeats_ahead(self, Scene scene) noexcept nogil
     cdef double least_step(self) noexcept nogil

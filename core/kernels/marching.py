@@ -19,7 +19,8 @@ if not cython.compiled:  # for the compiler the same stands in the .pxd
 # Input. A scene: a chain for every head travel, the margin, the bounds on rings; start and stop; which pairs must be
 # followed (leaders, at_start); and how near a contact is to be bracketed (tolerance).
 # State. `travel`; the interval with the chains at travel and at travel + h, of all handles that matter there; h, the
-# step to try; `target`, the crossing that this step stops short of, -1 for none; `opening`, the chain at the start.
+# step to try; `target`, the crossing that this step stops short of, -1 for none (one before travel 0 is bracketed by
+# the step after it); `opening`, the chain at the start.
 # Output. One of five ends, and what is known then: see March.
 #
 # Invariant, whenever the loop begins: no two benches that share no handle come within the margin in [start, travel].
@@ -55,7 +56,7 @@ if not cython.compiled:  # for the compiler the same stands in the .pxd
 # target + tolerance, for all true travels within `rounding` of it (pair_most()), the first contact of all lies between:
 # proven = travel, touching = target + tolerance. If travel is beyond target - tolerance already, the second condition
 # suffices. An earlier crossing, of this pair or another, makes the step fail and is found instead. Without a bracket
-# (tolerance <= 0) touching is the far end itself, if it is certain.
+# (tolerance 0) touching is the far end itself, if it is certain.
 # TOUCHED_AT_START: the nearest pair is within the margin at the start, for certain. Where rounding hides that: STUCK.
 # STUCK: h is below what could help (LEAST_STEP of the bracket, or rounding), the budget is spent, or the chain folds at
 # the start. proven = travel still holds. touching is then a crossing that could not be bracketed this narrowly, a
@@ -235,7 +236,7 @@ class March:
         self.opening = opening
         self.start = self.stop = self.tolerance = self.rounding = self.budget = 0.0
         self.leaders = self.followers = self.active = self.placed = self.opened = 0
-        self.at_start = self.opens = self.turning = False
+        self.at_start = self.opens = self.turning = self.grazes = False
         self.travel = self.h = self.target = self.allowed = 0.0
         self.floor = self.older_clearance = self.older_travel = self.last_travel = 0.0
         self.last = Closest(FREE, 0, 0)
@@ -243,13 +244,13 @@ class March:
         self.graze_gap = self.graze_travel = 0.0
         self.first = self.second = self.steps = self.graze_first = self.graze_second = 0
 
-    def run(self, start, stop, leaders, at_start, tolerance, rounding, budget):
+    def run(self, start, stop, leaders, at_start, tolerance, grazes, rounding, budget):
         """Advance the head from `start` to `stop` [m of travel]; how that ended: REACHED to CAPACITY.
 
         leaders: benches whose pairs must be followed; at_start: follow all pairs until every bench has passed the start
             of the one before it
-        tolerance: half width of the bracket around a contact [m], 0 or less for none: to end at any instant found to be
-            within the margin, and with 0 without looking for grazes
+        tolerance: half width of the bracket around a contact [m], 0 for none: to end at any instant found to be within
+            the margin; grazes: note the least one on the way
         rounding: what a travel may be off by [m]; budget: of work
         """
         self.start = start
@@ -257,6 +258,7 @@ class March:
         self.leaders = leaders
         self.at_start = at_start
         self.tolerance = tolerance
+        self.grazes = grazes
         self.rounding = rounding
         self.budget = budget
         with cython.nogil:
@@ -444,7 +446,7 @@ class March:
     def note_graze(self, scene, interval, least):
         """Note a local minimum of the clearance at the last three travels; least: the bound of the step just taken."""
         here = Closest(FREE, 0, 0)
-        if self.tolerance != 0.0:
+        if self.grazes:
             here = row_clearance(scene, self.active, interval.handles, interval.before, interval.motion)
         lowest = least if least < self.floor else self.floor
         self.floor = least

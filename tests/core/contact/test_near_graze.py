@@ -120,7 +120,7 @@ def test_where_a_second_pair_is_as_near_the_bracket_stays() -> None:
     state, found, half = search.approach(0.0, 300.0, 1.0)
     assert (state, half > 0.5 * BRACKET) == ("touched", True)
     assert narrowed(search, found, 0.4 * BRACKET) is not None
-    assert narrowed(search, found | {"first": 0.0, "second": 18.0}, 0.4 * BRACKET) is None
+    assert narrowed(search, found._replace(benches=(0, 18)), 0.4 * BRACKET) is None
 
 
 def test_a_curve_through_waypoints_is_followed_in_doubles_alone() -> None:

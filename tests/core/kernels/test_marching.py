@@ -18,7 +18,7 @@ def march_of(search: Search) -> kernels.March:
 
 
 def ended(march: kernels.March, start: float, stop: float, tolerance: float = TOLERANCE, budget: float = WORK) -> str:
-    return kernels.MARCH_STATES[march.run(start, stop, 2, True, tolerance, ROUNDING, budget)]
+    return kernels.MARCH_STATES[march.run(start, stop, 2, True, tolerance, True, ROUNDING, budget)]
 
 
 def test_a_way_that_is_proven_is_clear_at_every_sample() -> None:
