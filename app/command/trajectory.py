@@ -52,9 +52,9 @@ def trajectory(
     settings = Settings()
     dance = asked.to_dance(settings.benches_max)
     handles, times = _handles(context.params["handles"], dance.dragon), asked.times
+    if given(context, "times") and (ranged := given(context, "start", "stop", "step")):
+        raise InvalidValue("times", f"--times takes the place of --{ranged[0]}: give one of the two")
     if isinstance(times, str):
-        if ranged := given(context, "start", "stop", "step"):
-            raise InvalidValue("times", f"--times takes the place of --{ranged[0]}: give one of the two")
         asked = checked(TrajectoryRequest, {"times": numbers("times", times, float)})
     instants = asked.times_of(dance, settings.cells_max)
     with show.waiting("trajectory"):

@@ -61,7 +61,7 @@ class Nothing(Wire):
     """No parameters at all."""
 
 
-class Evidence(Answer):
+class Evidence(Answer, frozen=True):
     """One computation that bears on a difference."""
 
     what: str = Field(description="What was computed")
@@ -69,7 +69,7 @@ class Evidence(Answer):
     unit: str = Field(description="Unit of the value")
 
 
-class PaperNumber(Answer):
+class PaperNumber(Answer, frozen=True):
     """One number that the paper reports, beside ours."""
 
     quantity: str = Field(description="What it measures")

@@ -46,7 +46,9 @@ def reworded(error: BenchDragonError, request: BaseModel) -> BenchDragonError:
         error = error.named(radius.replace("radius", "diameter"), None if error.got is None else 2.0 * error.got)
     if error.field == "path" and isinstance(getattr(request, "path", request), TurnFields):
         error = _of_a_turn(error, request)
-    return error.renamed(lambda name: OUTER.sub(lambda outer: outer[0] * (outer[1] in names), name))
+    # A range of times may stand beside the name `times`, as among the options of the command.
+    objects = names - {"times"} if "stop" in names else names
+    return error.renamed(lambda name: OUTER.sub(lambda outer: outer[0] * (outer[1] in objects), name))
 
 
 def _of_instants(error: BenchDragonError, request: Any, index: int) -> BenchDragonError:

@@ -187,7 +187,7 @@ def first_contact(dance: Dance, *, margin: float = 0.0, start: float = 0.0, stop
         ends hold in spite of rounding (core/kernels/spiral.py, route.py, pairs.py). Where rounding hides the answer it
         is undecided: benches whose clearance at the start equals the margin to about 1e-12 m
     raises: InvalidValue; OutsideRun for a stop after the end of the run
-    source: the model of Yang et al., sections 2.4 and 2.5, whose times differ: see app/paper.py
+    source: the model of Yang et al., sections 2.4 and 2.5, whose times differ: see app/questions/paper.py
 
     >>> from core import Dragon
     >>> contact = first_contact(Dance(Dragon(), Spiral()))

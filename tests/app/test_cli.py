@@ -176,7 +176,7 @@ def test_too_much_work_before_an_answer_is_said_and_gets_exit_code_2() -> None:
     done = run("minimum-pitch", "--body-length", "0.001", "--overhang", "0")
     assert (done.returncode, done.stdout) == (2, "")
     assert done.stderr.startswith(
-        "Error: body_length must be larger, or benches fewer: their minimum pitch was not found"
+        "Error: body_length must be larger, or benches fewer, got 0.001 m: their minimum pitch was not found"
     )
     assert done.stderr.endswith("got 0.001 m\n")
 

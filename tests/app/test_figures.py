@@ -79,9 +79,9 @@ def test_contact_figure_of_two_corners_that_come_near_names_no_edge() -> None:
 
 
 def test_contact_figure_of_two_parallel_edges_names_no_corner() -> None:
-    in_line = Dragon(benches=5), Route([Line((0.0, 0.0), (60.0, 0.0))])
-    assert first_contact(Dance(*in_line), margin=1.2, start=20.0).corner is None
-    words = texts(figures.contact_figure(*in_line, margin=1.2, start=20.0))
+    in_line = Dance(Dragon(benches=5), Route([Line((0.0, 0.0), (60.0, 0.0))]))
+    assert first_contact(in_line, margin=1.2, start=20.0).corner is None
+    words = texts(figures.contact_figure(in_line, margin=1.2, start=20.0))
     assert "front edge of bench 2" in words
     assert "corner of bench" not in words
 

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import dataclasses
-
 import numpy as np
 import pytest
+from pydantic import ValidationError
 
 from app.questions.paper import PaperNumber, comparison
 from core import Dance, Dragon, Outcome, Spiral, first_contact, minimum_pitch, separation, trajectory
@@ -123,4 +122,5 @@ def test_the_pose_on_the_circle_alone_gives_smaller_pitches(rows: dict[str, Pape
 
 def test_the_table_is_computed_once() -> None:
     assert comparison() is comparison()
-    assert dataclasses.is_dataclass(comparison()[0])
+    with pytest.raises(ValidationError, match="frozen"):
+        comparison()[0].ours = 0.0
