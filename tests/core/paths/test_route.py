@@ -39,7 +39,6 @@ from core import (
     maximum_head_speed,
     trajectory,
 )
-from core.errors import said_bound
 from core.paths.path import Path
 from core.shapes.rectangles import corners
 
