@@ -1,4 +1,4 @@
-"""Packages that not every installation has, and the extra that brings each."""
+"""Optional packages, and the extra that installs each."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from importlib.util import find_spec
 from core import BenchDragonError
 
 _FIGURES, _XLSX = ("matplotlib",), ("xlsxwriter",)
-# The modules that each extra of pyproject.toml brings and that its use needs.
+# Modules that each extra of pyproject.toml installs and that its use needs.
 MODULES = {
     "arrow": ("pyarrow",),
     "data": ("pandas", "xarray"),
@@ -19,13 +19,13 @@ MODULES = {
 
 
 class MissingPackage(BenchDragonError):
-    """Something was asked for that needs a package which is not installed."""
+    """A package that the request needs is not installed."""
 
     code = "missing-package"
 
 
 def require(extra: str, field: str, what: str) -> None:
-    """raises: MissingPackage at the field when a module of the extra is missing, with what to install"""
+    """raises: MissingPackage, at the field and with what to install, when a module of the extra is missing"""
     for module in MODULES[extra]:
         if find_spec(module) is None:
             raise MissingPackage(

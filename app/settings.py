@@ -5,14 +5,14 @@ from __future__ import annotations
 from pydantic import Field
 from pydantic_settings import BaseSettings, SettingsConfigDict
 
-# Where prometheus_client keeps the counts of several processes, which app/service/workers.py sets for those it starts.
+# Folder in which prometheus_client adds up the counts of several processes; app/service/workers.py sets it for them.
 SHARED_COUNTS = "PROMETHEUS_MULTIPROC_DIR"
-# Most processes of one service, about 100 MB each.
+# Largest number of processes of one service; each takes about 100 MB.
 WORKERS_MAX = 64
 
 
 class Settings(BaseSettings):
-    """What one process is willing to do for one request, and for how many at once.
+    """Limits of one process for a single request and for requests at the same time.
 
     Each field is set by BENCH_DRAGON_ followed by its name in capitals, such as BENCH_DRAGON_BENCHES_MAX.
     """
@@ -29,9 +29,9 @@ class Settings(BaseSettings):
     )
     drawn_benches_max: int = Field(5_000, ge=1, description="Longest dragon in a figure [benches]")
     cells_max: int = Field(1_000_000, ge=1, description="Largest table: instants x handles")
-    workbook_cells_max: int = Field(200_000, ge=1, description="The same for xlsx, which is slow to write")
-    poses_max: int = Field(20_000, ge=1, description="Most benches in one /overlaps request")
-    pairs_max: int = Field(20_000, ge=1, description="Most overlapping pairs in one /overlaps answer")
-    concurrent_max: int = Field(8, ge=1, description="Computations at once in one process; one more gets a 503")
-    retry_after: int = Field(1, ge=1, description="Wait that a 503 asks for [s]")
+    workbook_cells_max: int = Field(200_000, ge=1, description="Largest xlsx table, which is slow to write")
+    poses_max: int = Field(20_000, ge=1, description="Largest number of benches in one /overlaps request")
+    pairs_max: int = Field(20_000, ge=1, description="Largest number of overlapping pairs in one /overlaps answer")
+    concurrent_max: int = Field(8, ge=1, description="Computations at once in one process; further requests get 503")
+    retry_after: int = Field(1, ge=1, description="Retry-After of a 503 [s]")
     cache_seconds: int = Field(86_400, ge=0, description="Cache-Control max-age of an answer [s]")

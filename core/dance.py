@@ -24,7 +24,7 @@ HEAD_SPEED_MAX = 1e4  # [m/s]
 TIME_MAX = 1e12  # [s]
 # Length of the default table of whole seconds, that of the contest [s].
 DEFAULT_SPAN = 300
-# A run ends this much before its fold, so that rounding leaves every chord a place at the end too; 1e-14 was enough for
+# A run ends this much before its fold, so that every chord has a place there in spite of rounding; 1e-14 was enough for
 # 1,494 random dragons, 2026-11-21 [1].
 FOLD_ROUNDING = 1e-13
 # A run that stops within this of its fold is searched up to the fold. Handle speeds grow without bound there, so steps
@@ -46,7 +46,7 @@ class EndReason(StrEnum):
 
 @dataclass(frozen=True, slots=True, repr=False)
 class RunEnd(Shown):
-    """Where the run ends: reason, time [s], theta of the head on a spiral [rad], the bench that folds if one does."""
+    """End of the run: reason, time [s], theta of the head on a spiral [rad], and the bench that folds if one does."""
 
     reason: EndReason
     time: float
@@ -66,8 +66,8 @@ class Dance(Shown):
     """A dragon that follows a path with its head at a constant speed. Every question about a given path takes a dance.
 
     head_speed: [m/s]
-    end: where the run ends: at the fold or the centre of a spiral, at the end of a route
-    raises: InvalidValue for values of other types, for a dragon that cannot even stand at the start of a spiral
+    end: end of the run: the fold or the centre of a spiral, the end of a route
+    raises: InvalidValue for values of other types, for a dragon that cannot stand at the start of a spiral
         (path.start_turns), and for a bend of a route too tight for a chord (path)
 
     >>> dance = Dance(Dragon(), Spiral())
@@ -87,7 +87,7 @@ class Dance(Shown):
 
     @cached_property
     def end(self) -> RunEnd:
-        """Where the run ends."""
+        """End of the run."""
         if isinstance(self.path, Route):
             _refuse_tight_bends(self.dragon, self.path)
             return RunEnd(EndReason.END, self.path.end / self.head_speed, None, None)
@@ -95,7 +95,7 @@ class Dance(Shown):
 
     @cached_property
     def earliest(self) -> float:
-        """When the last handle is at the beginning of the path [s]; -TIME_MAX where the path has no beginning.
+        """Time at which the last handle is at the beginning of the path [s]; -TIME_MAX if the path has no beginning.
 
         raises: InvalidValue (path) for a route too short for the dragon
         """
@@ -105,7 +105,7 @@ class Dance(Shown):
 
     @property
     def begin(self) -> float:
-        """When the head is at the beginning of the path and the whole dragon on it [s].
+        """Time at which the head is at the beginning of the path and the whole dragon on it [s].
 
         raises: InvalidValue (path) for a route too short for the dragon
         """
@@ -113,7 +113,7 @@ class Dance(Shown):
 
     @property
     def default_start(self) -> float:
-        """Default start time of tables and pictures [s]: 0, or `begin` where the whole dragon is not on the path at 0.
+        """Default start time of tables and pictures [s]: 0, or `begin` if the whole dragon is not on the path at 0.
 
         raises: InvalidValue (path) for a route too short for the dragon
         """
@@ -123,7 +123,7 @@ class Dance(Shown):
     def default_times(self) -> Floats:
         """Whole seconds (T,) from `default_start` on, for DEFAULT_SPAN or to the end of the run [s].
 
-        `default_start` alone where the run is too short for a whole second.
+        Only `default_start` if the run is too short for a whole second.
         raises: InvalidValue (path) for a route too short for the dragon
         """
         start = self.default_start
@@ -146,7 +146,7 @@ class Dance(Shown):
             array = np.asarray(given)
         except ValueError as error:
             raise InvalidValue("times", "times must be a list of numbers in seconds, or one number") from error
-        # numpy would read "1", True and None as numbers too
+        # NumPy would also accept "1", True and None as numbers.
         if array.dtype.kind not in "iuf":
             raise InvalidValue("times", f"times must be a list of numbers in seconds, or one number, got {given!r:.60}")
         if array.ndim > 1:
@@ -194,7 +194,7 @@ class Dance(Shown):
         return self.ends_by(stop + NEAR_FOLD / self.head_speed)
 
     def after_the_end(self, time: Floats, index: int) -> OutsideRun:
-        """The error about one of the times, which is after the end of the run."""
+        """The error for a time after the end of the run."""
         rule = f"must be at most {said_bound(self.end.time, 9, -1)} s, when {self.end.why}"
         return OutsideRun.of(_instant(time, index), rule, time.flat[index], "s")
 
@@ -269,10 +269,10 @@ def _refuse_tight_bends(dragon: Dragon, path: Route) -> None:
 
 
 def _earliest_place(dragon: Dragon, path: Route, tail_begin: float) -> float:
-    """Where the head is when the last handle is at the beginning of the path [m].
+    """Place of the head when the last handle is at the beginning of the path [m].
 
     A chord spans between its own length and pi / 2 times it of the path, so the place of the head is bisected, as far
-    as the path goes: beyond its end there is nothing to stand on.
+    as the path goes.
     """
     sizes = np.zeros((dragon.benches, kernels.SIZE_COLUMNS))
     sizes[:, kernels.CHORD] = dragon.chords

@@ -1,4 +1,4 @@
-"""Where a claim begins to hold, and where samples are lowest: the searches that everybody shares.
+"""Searches that other modules share: where a claim begins to hold, and where samples are lowest.
 
 Functions are sampled first, and what the samples show is refined: a border by bisected() or falls_to_zero(), a dip
 among the lowest ones of dips().
@@ -31,7 +31,7 @@ def bisected(
 ) -> tuple[float, float]:
     """Both ends of a bracket of the border beyond which a claim holds.
 
-    holds: asked between low, where it is False, and high, where it is True; None gives up
+    holds: the claim, which is False at low and True at high; the search ends when it returns None
     width, relative: the bracket is no wider than width + relative |high|, or its ends are neighbouring numbers
     middle: of both ends, where the claim is asked next
 
@@ -49,11 +49,11 @@ def bisected(
 def falls_to_zero(
     value: Callable[[Decimal], Decimal], low: Decimal, high: Decimal, above: Decimal, below: Decimal, width: Decimal
 ) -> Decimal:
-    """Where a function falls to 0 or below: no earlier, and later by less than a width.
+    """Place where a function falls to 0 or below, never too early and too late by less than a width.
 
     above, below: its values at low, where it is positive, and at high, where it is not
 
-    By the false position, halved now and then.
+    It uses the method of false position with an occasional bisection.
     """
     looks = 0
     while high - low > width:
@@ -68,7 +68,7 @@ def falls_to_zero(
 
 
 def dips(samples: Floats, most: int) -> NDArray[np.intp]:
-    """Indices of the inner samples that lie no higher than their neighbours: so many of the lowest, lowest first.
+    """Indices of the inner samples that are not higher than their neighbours: at most `most`, lowest first.
 
     samples: (N,)
 

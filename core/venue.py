@@ -1,4 +1,4 @@
-"""Venue: the square and what stands in it, and how near the benches come to them."""
+"""Venue: the square with its obstacles, and the clearance of the benches from them."""
 
 from __future__ import annotations
 
@@ -26,9 +26,9 @@ from core.values import Floats, checked_number, checked_type
 
 Ring = tuple[Point, ...]
 
-# Edges of one venue: each is followed like a bench, but it stands. Those between repeated points count too.
+# Largest number of edges in a venue: each is followed like a bench at rest. Edges between repeated points count too.
 EDGES_MAX = 2_000
-# What the rings of an area must be.
+# Form of the rings of an area, for messages.
 WORDS = "a list of rings of points [x, y] in metres"
 # A spiral is laid out this far beyond the last instant, so that rounding cannot put that instant outside it [m].
 SPARE = 1e-3
@@ -46,7 +46,7 @@ FAULTS = {
 
 
 def refuse_many_edges(rings: Iterable[Sequence[object]]) -> None:
-    """Refuse more edges than EDGES_MAX, counted by the lengths of the rings alone.
+    """Refuse more edges than EDGES_MAX, counted only by the lengths of the rings.
 
     raises: InvalidValue
     """
@@ -136,9 +136,9 @@ class Venue(Shown):
 
 @dataclass(frozen=True, slots=True, repr=False)
 class Nearest(Shown):
-    """How near the benches come to an area's edges, holes included.
+    """Smallest distance between the benches and an area's edges, holes included.
 
-    distance: the least found [m], met at `time` [s] by `bench`; 0 at the first touch
+    distance: the least found [m], reached at `time` [s] by `bench`; 0 at the first touch
     at_least: proven [m]: no bench comes nearer than this, see LeastClearance; None where the search gave up first
     point: of the bench; wall: of the area (x, y) [m]
     """
@@ -186,7 +186,7 @@ class Stray(Shown):
 
 @dataclass(frozen=True, slots=True, repr=False)
 class VenueClearance(Shown):
-    """stray: the first bench that starts where it must not, None if none does; areas: the square, then obstacles."""
+    """stray: first bench that starts outside the square or in an obstacle, or None; areas: square, then obstacles."""
 
     stray: Stray | None
     areas: tuple[AreaClearance, ...]
@@ -205,7 +205,7 @@ class VenueClearance(Shown):
 def venue_clearance(
     dance: Dance, venue: Venue, *, margin: float = 0.0, start: float = 0.0, stop: float | None = None
 ) -> VenueClearance:
-    """How near the benches come to the square's edges and to each obstacle, and when first within the margin.
+    """Distance of the benches from the square's edges and from each obstacle, and the first time within the margin.
 
     An edge counts as a rectangle of no width at rest: benches and edges are marched like pairs of benches, with the
     same proof. The centre of a bench that touches no edge stays inside an area, or outside, as it started.
@@ -237,7 +237,7 @@ def _route(path: Spiral | Route, stop: float) -> Route:
 
 
 def venue_end(dance: Dance) -> float:
-    """Until when venue_clearance() can follow the dance [s]: on a spiral, until it bends too tightly for a chord."""
+    """Last time to which venue_clearance() can follow the dance [s]: a spiral may bend too tightly for a chord."""
     end, path = dance.end.time, dance.path
     if isinstance(path, Route):
         return end

@@ -1,4 +1,4 @@
-"""One verdict on a dance: what happens, what fails, and when."""
+"""One verdict on a dance: its events, its failures, and their times."""
 
 from __future__ import annotations
 
@@ -24,16 +24,16 @@ from core.shown import Shown, worded
 from core.values import checked_number, checked_type
 from core.venue import AreaClearance, Venue, VenueClearance, is_clear_beyond, venue_clearance, venue_end
 
-# A first excess over a speed limit that is known less closely than this is told as the latest possible one [s].
+# A first excess over a speed limit in a wider bracket than this is reported as the latest possible one [s].
 EXCESS_KNOWN = 1e-6
 # A dance whose benches touch at its start is judged for this long [s].
 MOMENT = 1e-3
 
 
 class FailureKind(StrEnum):
-    """What fails: two benches come within the margin, or a bench and an edge of the venue; a bench starts outside the
-    square or in an obstacle; a handle is faster than the limit; a bench can follow the path no further. UNDECIDED is
-    none of these for certain: a search gave up first."""
+    """Kind of a failure: two benches, or a bench and an edge of the venue, come within the margin; a bench starts
+    outside the square or in an obstacle; a handle is faster than the limit; a bench cannot follow the path any further.
+    UNDECIDED: a search gave up before it could prove any of these."""
 
     CONTACT = "contact"
     VENUE = "venue"
@@ -53,15 +53,15 @@ class Judgement(StrEnum):
 
 @dataclass(frozen=True, slots=True, repr=False)
 class Failure(Shown):
-    """One thing that fails.
+    """One failed or undecided condition.
 
-    time: when it first fails [s]; for a search that gave up, until when it is proven not to fail
-    benches: those at fault (of a speed: the handle); area: the venue's polygon, None where it has no part
+    time: first time of the failure [s]; for a search that gave up, the time until which it is proven not to fail
+    benches: those at fault (for a speed: the handle); area: the venue's polygon, None if no area is involved
     message: one sentence
     time_bracket: (proven not to fail up to, failing at) [s]; None where there is no search
     head: the head at that time
-    peak_speed, peak_time: of a speed, the highest one and when it is reached [m/s], [s]; towards a fold speeds grow
-        without bound, then None and the time of the fold; None for all other failures
+    peak_speed, peak_time: for a speed, the highest one [m/s] and its time [s]; in a run to a fold, where speeds grow
+        without bound, None and the time of the fold; None for all other failures
     """
 
     kind: FailureKind
@@ -164,7 +164,7 @@ def check(
 def _in_venue(
     dance: Dance, venue: Venue | None, margin: float, begin: float, until: float
 ) -> tuple[VenueClearance | None, float]:
-    """The benches in the venue, as far as they can be followed there, and until when that is [s]."""
+    """Clearance of the benches in the venue, as far as they can be followed there, and the time of that end [s]."""
     if venue is None:
         return None, until
     followed = venue_end(dance)
@@ -180,7 +180,7 @@ def _judgement(failures: tuple[Failure, ...]) -> Judgement:
 
 
 def _touch_failures(contact: FirstContact, least: LeastClearance | None, margin: float) -> list[Failure]:
-    """The touch of two benches, where a margin was asked that they broke before: the dance stops there."""
+    """The touch of two benches that came within a positive margin before: the dance stops there."""
     told = margin == 0.0 or (contact.gap is not None and contact.gap <= 0.0)
     if told or least is None or least.distance > 0.0:
         return []

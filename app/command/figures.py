@@ -1,4 +1,4 @@
-"""The command bench-dragon figures: the pictures as files."""
+"""The command bench-dragon figures: the figures as files."""
 
 from __future__ import annotations
 
@@ -23,11 +23,11 @@ from core import InvalidValue
 
 
 class FigureOptions(drawn.InstantQuery, PitchScanQuery):
-    """GET /figures, all three."""
+    """The fields of all three GET /figures requests."""
 
 
 class Kind(StrEnum):
-    """The figures, by the names of the service."""
+    """The figures, by their names in the service."""
 
     TRAJECTORY = "trajectory"
     CONTACT = "contact"
@@ -41,12 +41,13 @@ ASKED = {Kind.TRAJECTORY: drawn.TRAJECTORY, Kind.CONTACT: drawn.CONTACT, Kind.PI
 def figures(
     asked: FigureOptions,
     context: typer.Context,
-    folder: Annotated[Path, typer.Argument(help="Where the files go; made if missing.")] = Path(),
+    folder: Annotated[Path, typer.Argument(help="Folder for the files; created if missing.")] = Path(),
     file: Annotated[
-        Path | None, typer.Argument(help="A dance, .toml or .json, as check takes it: any dragon, path and venue.")
+        Path | None, typer.Argument(help="Dance as a .toml or .json file, as for check: any dragon, path and venue.")
     ] = None,
     kind: Annotated[
-        list[Kind] | None, typer.Option(help="Which, once or more; else all three, of a FILE the first two.")
+        list[Kind] | None,
+        typer.Option(help="Figure to draw; may be repeated. Default: all three, for a FILE the first two."),
     ] = None,
     format: Annotated[Format, typer.Option(help="File format.")] = Format.PNG,
 ) -> None:
@@ -56,7 +57,7 @@ def figures(
         raise InvalidValue("folder", f"FOLDER must be a folder, got the file {folder}: give both, as in: . {folder}")
     kinds = kind or list(Kind)[: 2 if file else None]
     used = {name for one in kinds for name in (ASKED[one].flat or FigureOptions).model_fields}
-    why = f"has no part in the figure {' or '.join(kinds)}: leave it out, or draw another --kind too"
+    why = f"does not apply to the figure {' or '.join(kinds)}: leave it out, or draw another --kind too"
     unused(context, FigureOptions.model_fields.keys() - used, why)
     requests = {one: of_file(file, ASKED[one].body or FigureOptions, context) if file else asked for one in kinds}
     folder.mkdir(parents=True, exist_ok=True)

@@ -1,9 +1,9 @@
 """The command bench-dragon: the questions of the HTTP service, asked from a terminal.
 
-The options of a command are the fields of the service's request, with the same names, limits and words; a FILE holds
-the body of a request. Answers go to standard output, as tables for people or, with --json, as the service's JSON;
-progress and messages go to standard error. Exit code 0 for an answer, also when benches touch or a check fails; 2 for
-wrong usage.
+The options of a command are the fields of the service's request, with the same names, limits and descriptions; a FILE
+holds the body of a request. Answers go to standard output, as tables for people or, with --json, as the service's
+JSON; progress and messages go to standard error. The exit code is 0 for every answer, also when benches touch or a
+check fails, and 2 for wrong usage.
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ from core.errors import said
 
 
 class _Commands(TyperGroup):
-    """Turns what a user can mend into one line on standard error and exit code 2."""
+    """Turns errors that a user can correct into one line on standard error and exit code 2."""
 
     def invoke(self, ctx: Any) -> Any:
         try:
@@ -56,7 +56,7 @@ class _Commands(TyperGroup):
 app = typer.Typer(
     name="bench-dragon",
     cls=_Commands,
-    help="Where every bench of a dancing dragon is, when two first touch, and how tight the spiral may be.",
+    help="Where every bench of a dancing dragon is, when two benches first touch, and how tight the spiral may be.",
     no_args_is_help=True,
     pretty_exceptions_enable=False,
     context_settings={"help_option_names": ["-h", "--help"]},
@@ -75,7 +75,7 @@ def bench_dragon(
         bool, typer.Option("--version", callback=_print_version, is_eager=True, help="Print the version and exit.")
     ] = False,
 ) -> None:
-    """The options that stand before a command."""
+    """Options that come before a command."""
 
 
 app.command("trajectory")(asks(trajectory.TrajectoryOptions, TrajectoryRequest)(trajectory.trajectory))
@@ -85,7 +85,7 @@ app.command()(figures.figures)
 @app.command()
 @asks(CollisionQuery, CollisionRequest)
 def collision_time(asked: CollisionQuery | CollisionRequest, json: Json = False) -> None:
-    """When two benches first touch, or come nearer than a margin, and how that is known."""
+    """When two benches first touch, or come nearer than a margin, and how this is known."""
     with show.waiting("first contact"):
         answer = questions.collision_time.collision_time(asked, Settings())
     title = f"First time that two benches are nearer than {said(asked.margin)} m" if asked.margin else "First contact"
@@ -95,7 +95,7 @@ def collision_time(asked: CollisionQuery | CollisionRequest, json: Json = False)
 @app.command()
 @asks(ClearanceQuery, ClearanceRequest)
 def clearance(asked: ClearanceQuery | ClearanceRequest, json: Json = False) -> None:
-    """How near two benches that share no handle come, and which, at every instant."""
+    """Smallest distance between two benches that share no handle, and the pair, at every instant."""
     with show.waiting("clearance"):
         answer = questions.clearance.clearance(asked, Settings())
     if json:
@@ -125,7 +125,7 @@ def turn(asked: TurnQuery, json: Json = False) -> None:
 @app.command()
 @asks(ShortestTurnQuery)
 def shortest_turn(asked: ShortestTurnQuery, json: Json = False) -> None:
-    """The turn that begins as deep inside its circle as the dragon can dance, and what limits it."""
+    """The turn with the deepest entry inside its circle that the dragon can dance, and what limits it."""
     with show.waiting("shortest turn"):
         answer = questions.shortest_turn.shortest_turn(asked, Settings())
     gap = f" with no bench nearer than {said(asked.margin)} m to another" if asked.margin else ""
@@ -143,20 +143,24 @@ def maximum_head_speed(asked: MaximumHeadSpeedQuery | MaximumHeadSpeedRequest, j
 
 @app.command()
 def check(
-    file: Annotated[Path, typer.Argument(help="Dragon, path, venue and limits as for POST /check, .toml or .json.")],
-    figure: Annotated[Path | None, typer.Option(help="Draw the dance, in a .svg or .png file.")] = None,
+    file: Annotated[
+        Path, typer.Argument(help="Dragon, path, venue and limits as for POST /check, as a .toml or .json file.")
+    ],
+    figure: Annotated[Path | None, typer.Option(help="Draw the dance into a .svg or .png file.")] = None,
     time: Annotated[
-        float | None, typer.Option(help="When it is drawn; else at the first failure or the closest [s]")
+        float | None, typer.Option(help="Time to draw [s]; default: the first failure, else the least clearance")
     ] = None,
     cross_check: Annotated[
         str | None,
-        typer.Option(metavar="dragon|pair|none", help="Whom independent engines judge; else as the file says."),
+        typer.Option(
+            metavar="dragon|pair|none", help="Benches that independent engines check; default: as in the file."
+        ),
     ] = None,
     json: Json = False,
 ) -> None:
-    """Can the dragon dance this path here? What fails is an answer: the exit code is 0."""
+    """Can the dragon dance this path here? A failure is an answer too: the exit code is 0."""
     if time is not None and figure is None:
-        raise InvalidValue("time", "--time says when --figure draws the dance: give --figure too, or leave --time out")
+        raise InvalidValue("time", "--time is the time that --figure draws: give --figure too, or leave --time out")
     if figure:
         require("figures", "figure", "--figure")
     ending = checked_output("figure", figure, (".svg", ".png")) if figure else ""
@@ -181,7 +185,7 @@ def _drawn_check(asked: CheckRequest, answer: questions.check.Report, format: Fo
         closest = answer.least_clearance.time if answer.least_clearance else answer.start
         time = answer.failures[0].time if answer.failures else closest
     shown = {name: getattr(asked, name) for name in TrajectoryFigureRequest.model_fields if name != "time"}
-    # The time is no part of the file, and what is wrong with it is said of the option.
+    # The time does not come from the file, so a refusal of it must name the option.
     picture = TrajectoryFigureRequest.model_construct(**shown, time=time)
     with refusing(picture):
         return questions.figures.trajectory_figure(picture, Settings(), format)
@@ -193,13 +197,13 @@ def overlaps(
     asked: InstantQuery,
     context: typer.Context,
     file: Annotated[
-        Path | None, typer.Argument(help="Benches as for POST /overlaps (- for standard input), not the dance.")
+        Path | None, typer.Argument(help="Benches as for POST /overlaps, in place of a dance (- for standard input).")
     ] = None,
     json: Json = False,
 ) -> None:
-    """Which benches overlap, or are nearer than a margin, at one instant, by four engines."""
+    """Benches that overlap, or are nearer than a margin, at one instant, according to four engines."""
     if file:
-        why = "is about a dance, and the benches are those of FILE: give one of them"
+        why = "describes a dance, and FILE gives the benches: give one of the two"
         unused(context, InstantQuery.model_fields, why)
         benches = checked(OverlapsRequest, read_json(file))
     with show.waiting("overlaps"):
@@ -215,7 +219,7 @@ def overlaps(
 
 @app.command()
 def paper(json: Json = False) -> None:
-    """What the paper reports beside what this program computes, with the reason for each difference."""
+    """The paper's numbers beside those of this program, with the reason for each difference."""
     with show.waiting("recomputing the paper"):
         answer = questions.paper.paper(questions.paper.Nothing(), Settings())
     if json:
@@ -229,10 +233,11 @@ def serve(
     host: Annotated[str, typer.Option(help="Address to listen on.")] = "127.0.0.1",
     port: Annotated[int, typer.Option(min=0, max=65535, help="Port to listen on.")] = 8000,
     workers: Annotated[
-        int | None, typer.Option(min=1, max=WORKERS_MAX, help="Processes that share the port; else one for each core.")
+        int | None,
+        typer.Option(min=1, max=WORKERS_MAX, help="Processes that share the port; default: one for each core."),
     ] = None,
 ) -> None:
-    """The HTTP service."""
+    """Start the HTTP service and the web page."""
     require("service", "serve", "serve")
     from app.service import workers as processes
 
@@ -242,7 +247,7 @@ def serve(
     except OSError as taken:
         print(f"Error: cannot listen on {host}:{port}: {taken.strerror}", file=sys.stderr)
         raise typer.Exit(2) from taken
-    except SystemExit as stop:  # The port is taken, or the address is not ours; uvicorn has said so.
+    except SystemExit as stop:  # The port is taken, or the address is not local; uvicorn has printed it.
         raise typer.Exit(2 if stop.code else 0) from stop
 
 

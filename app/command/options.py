@@ -22,46 +22,46 @@ from core.errors import spoken
 
 Model = TypeVar("Model", bound=BaseModel)
 Number = TypeVar("Number", int, float)
-Json = Annotated[bool, typer.Option("--json", help="The service's JSON instead of a table.")]
-# What a command gets that may be asked about the dance of a file.
+Json = Annotated[bool, typer.Option("--json", help="Print the service's JSON instead of a table.")]
+# Parameters of a command that also answers for the dance in a file.
 FILE = inspect.Parameter(
     "file",
     inspect.Parameter.KEYWORD_ONLY,
     default=None,
     annotation=Annotated[
-        Path | None, typer.Argument(help="A dance, .toml or .json, as check takes it: any dragon, any path.")
+        Path | None, typer.Argument(help="Dance as a .toml or .json file, as for check: any dragon, any path.")
     ],
 )
 CONTEXT = inspect.Parameter("context", inspect.Parameter.KEYWORD_ONLY, annotation=typer.Context)
 
 
 def checked(model: type[Model], values: object) -> Model:
-    """The values as the service's own request; a wrong one is refused in the service's words."""
+    """The values as a request of the service; a wrong value is refused in the service's words."""
     try:
         return model.model_validate(values)
     except ValidationError as error:
         first = error.errors()[0]
         field = ".".join(str(part) for part in first["loc"] if part not in SHAPES)
         words = message({**first, "loc": ("", *first["loc"])}, model)
-        # Words such as `times[1] must be ...` name the place in a list already.
+        # Messages such as `times[1] must be ...` already name the place in a list.
         outer = field.rstrip("0123456789").rstrip(".") if "[" in words.partition(" ")[0] else field
         raise InvalidValue(field, f"{spoken(outer)}: {words}" if "." in outer else words) from error
 
 
 def given(context: typer.Context, *names: str) -> list[str]:
-    """Those of the options that stand on the command line."""
+    """Those of the options that were given on the command line."""
     sources = {name: context.get_parameter_source(name) for name in names}
     return [name for name, source in sources.items() if source is not None and source.name == "COMMANDLINE"]
 
 
 def unused(context: typer.Context, names: Iterable[str], why: str) -> None:
-    """Refuse those of the options that stand on the command line though nothing here uses them; why: and what to do."""
+    """Refuse the options that were given but are not used. why: the rest of the message, and what to change"""
     for name in given(context, *names):
         raise InvalidValue(name, f"--{name.replace('_', '-')} {why}")
 
 
 def numbers(option: str, text: str, kind: Callable[[str], Number]) -> list[Number]:
-    """A list such as 0,60,120. raises: InvalidValue naming the entry that is no number"""
+    """A list such as 0,60,120. raises: InvalidValue naming the entry that is not a number"""
     found = []
     for k, word in enumerate(text.split(",")):
         try:
@@ -74,12 +74,12 @@ def numbers(option: str, text: str, kind: Callable[[str], Number]) -> list[Numbe
 
 
 def of_file(file: Path, body: type[Model], context: typer.Context) -> Model:
-    """The request whose dance is that of a file, as `check` takes it, with what the options say of the question.
+    """The request for the dance in a file, as for `check`, with the options of the question.
 
-    What other questions ask of a dance, such as a venue, is left aside.
+    Fields of other questions in the file, such as a venue, are ignored.
     raises: InvalidValue, OSError
     """
-    unused(context, DanceQuery.model_fields, "is about a dance, and the dance is that of FILE: give one of them")
+    unused(context, DanceQuery.model_fields, "describes a dance, and FILE gives the dance: give one of the two")
     told, own = read_dance(file), body.model_fields.keys()
     if isinstance(told, dict):
         told = {name: value for name, value in told.items() if name in own or name not in _asked_of_a_dance()}
@@ -103,9 +103,9 @@ def _asked_of_a_dance() -> set[str]:
 def asks(
     model: type[BaseModel], body: type[BaseModel] | None = None
 ) -> Callable[[Callable[..., None]], Callable[..., None]]:
-    """Make the fields of a request the options of a command; the command gets the request as its first argument.
+    """Turn the fields of a request into options of a command, whose first argument becomes the request.
 
-    body: the request that a FILE of a dance becomes instead, where the command takes one
+    body: the request made from a FILE instead, if the command takes one
     """
 
     def decorated(command: Callable[..., None]) -> Callable[..., None]:
@@ -140,7 +140,7 @@ def asks(
 
 
 def _plain(annotation: Any) -> Any:
-    """A type without the limits of pydantic, which not every version of typer looks through."""
+    """A type without the limits of pydantic, which not every version of typer accepts."""
     if get_origin(annotation) is Annotated:
         return _plain(get_args(annotation)[0])
     if get_origin(annotation) in (Union, UnionType):

@@ -1,7 +1,7 @@
-"""The command bench-dragon prove: a certificate for a claim, and the check of one.
+"""The command bench-dragon prove: makes a certificate for a claim, or checks one.
 
-Exit code 0 for a proof, 1 when a claim or a certificate is refused, 2 for wrong usage, 130 when interrupted. A
-certificate is checked before it is written, and its file is there whole or not at all.
+The exit code is 0 for a proof, 1 when a claim or a certificate is refused, 2 for wrong usage, and 130 when
+interrupted. A certificate is checked before it is written, and its file is written completely or not at all.
 """
 
 from __future__ import annotations
@@ -43,42 +43,42 @@ INTERRUPTED = 130
 
 class _Thorough(Wire):
     every_pair: bool = Field(
-        False, description="Prove each pair in its own right, also those that equal benches repeat"
+        False, description="Prove every pair separately, also those that repeat because benches are equal"
     )
 
 
 class CollisionClaim(_Thorough, DanceQuery):
-    """When two benches first touch, or come nearer than the margin."""
+    """First time two benches touch or come nearer than the margin."""
 
-    time: float | None = measure("s", "The claim; else what collision-time answers", None, ge=0)
+    time: float | None = measure("s", "Time to prove; default: the answer of collision-time", None, ge=0)
     margin: Margin = 0.0
 
 
 class PitchClaim(_Thorough, Circle, UniformDragon):
-    """How tight the spiral may be."""
+    """Smallest pitch of the spiral."""
 
-    pitch: float | None = measure("m", "The claim; else what minimum-pitch answers", None, ge=1e-3, le=10)
+    pitch: float | None = measure("m", "Pitch to prove; default: the answer of minimum-pitch", None, ge=1e-3, le=10)
 
 
 class ClearClaim(_Thorough, DanceQuery):
     """A run on the spiral without a contact."""
 
-    start: Instant = measure("s", "From when", 0.0)
-    stop: Instant | None = measure("s", "Until when; else the end of the run, which is proven too", None)
+    start: Instant = measure("s", "Start time", 0.0)
+    stop: Instant | None = measure("s", "End time; default: the end of the run, which is proven too", None)
     margin: Margin = 0.0
 
 
 class TurnClaim(_Thorough, HeadSpeed, TurnFields, UniformDragon):
     """A dance through the turn."""
 
-    start: Instant = measure("s", "From when; 0 is the entry into the turn", -100.0)
-    stop: Instant = measure("s", "Until when", 100.0)
+    start: Instant = measure("s", "Start time; 0 is the entry into the turn", -100.0)
+    stop: Instant = measure("s", "End time", 100.0)
     margin: Margin = 0.0
 
 
 @contextmanager
 def _working(what: str) -> Iterator[Callable[[float], None]]:
-    """A bar on standard error; yields the function that takes the share done. Ends the command when it must."""
+    """A progress bar on standard error; yields a function of the share done. A refusal or Ctrl-C ends the command."""
     bar = Progress(console=Console(stderr=True), transient=True, disable=not sys.stderr.isatty())
     try:
         with bar:
@@ -98,9 +98,11 @@ def _working(what: str) -> Iterator[Callable[[float], None]]:
 
 def prove(
     context: typer.Context,
-    check: Annotated[Path | None, typer.Option(help="Verify this certificate, without a search; - reads it.")] = None,
+    check: Annotated[
+        Path | None, typer.Option(help="Verify this certificate without a search; - reads standard input.")
+    ] = None,
 ) -> None:
-    """Prove a contact, a clear run or a minimum pitch in ball arithmetic, or check a proof; needs python-flint."""
+    """Prove a contact, a clear run or a minimum pitch in ball arithmetic, or check a proof. Needs python-flint."""
     if (check is None) == (context.invoked_subcommand is None):
         raise typer.BadParameter("give either a claim to prove or --check FILE")
     if check is None:
@@ -115,11 +117,11 @@ def prove(
 
 def collision_time(
     asked: CollisionClaim,
-    output: Annotated[Path, typer.Option(help="The certificate.")] = Path("collision-time.proof.json"),
+    output: Annotated[Path, typer.Option(help="File for the certificate.")] = Path("collision-time.proof.json"),
 ) -> None:
-    """Nothing touches up to 1e-10 s before this time, and two benches overlap 1e-10 s after it.
+    """Prove that nothing touches until 1e-10 s before a time, and that two benches overlap 1e-10 s after it.
 
-    With a margin: nothing comes within it, and two benches are nearer.
+    With a margin: no two benches come nearer than it before, and two are nearer after.
     """
     checked_output("output", output, (".json",))
     dragon, path, time = asked.to_dragon(Settings().benches_max), asked.to_path(), asked.time
@@ -143,11 +145,12 @@ def collision_time(
 
 def minimum_pitch(
     asked: PitchClaim,
-    output: Annotated[Path, typer.Option(help="The certificate.")] = Path("minimum-pitch.proof.json"),
+    output: Annotated[Path, typer.Option(help="File for the certificate.")] = Path("minimum-pitch.proof.json"),
 ) -> None:
-    """Nothing touches on the way to the circle with this pitch; two benches overlap, or one folds, with 1e-6 m less.
+    """Prove that nothing touches on the way to the circle, and that two benches overlap or one folds with 1e-6 m less.
 
-    With a margin: nothing comes within it, and two benches are nearer. Larger pitches are no part of the proof.
+    With a margin: no two benches come nearer than it, and two are nearer with 1e-6 m less. Larger pitches are not part
+    of the proof.
     """
     checked_output("output", output, (".json",))
     dragon, radius, pitch = asked.to_dragon(Settings().benches_max), asked.turning_diameter / 2, asked.pitch
@@ -175,9 +178,9 @@ def minimum_pitch(
 
 def clear(
     asked: ClearClaim,
-    output: Annotated[Path, typer.Option(help="The certificate.")] = Path("clear.proof.json"),
+    output: Annotated[Path, typer.Option(help="File for the certificate.")] = Path("clear.proof.json"),
 ) -> None:
-    """Nothing touches on the spiral, or comes within the margin, until a time or the end of the run."""
+    """Prove that nothing touches, or comes nearer than the margin, on the spiral until a time or the end of the run."""
     checked_output("output", output, (".json",))
     dragon, path = asked.to_dragon(Settings().benches_max), asked.to_path()
     with _working("proof") as progress:
@@ -196,9 +199,9 @@ def clear(
 
 def turn(
     asked: TurnClaim,
-    output: Annotated[Path, typer.Option(help="The certificate.")] = Path("turn.proof.json"),
+    output: Annotated[Path, typer.Option(help="File for the certificate.")] = Path("turn.proof.json"),
 ) -> None:
-    """The contest's turn between two spirals: clear from start to stop, or its first contact."""
+    """Prove that the contest's turn between two spirals is clear from start to stop, or its first contact."""
     checked_output("output", output, (".json",))
     dance = core.Dance(asked.to_dragon(Settings().benches_max), asked.to_turn(), asked.head_speed)
     times = {"start": asked.start, "stop": asked.stop, "margin": asked.margin}
@@ -206,18 +209,20 @@ def turn(
 
 
 def dance(
-    file: Annotated[Path, typer.Argument(help="Dragon, path, margin and times as for check, .toml or .json.")],
-    every_pair: Annotated[bool, typer.Option(help="Prove each pair in its own right, also those that repeat.")] = False,
-    output: Annotated[Path, typer.Option(help="The certificate.")] = Path("dance.proof.json"),
+    file: Annotated[
+        Path, typer.Argument(help="Dragon, path, margin and times as for check, as a .toml or .json file.")
+    ],
+    every_pair: Annotated[bool, typer.Option(help="Prove every pair separately, also those that repeat.")] = False,
+    output: Annotated[Path, typer.Option(help="File for the certificate.")] = Path("dance.proof.json"),
 ) -> None:
-    """A dance on any path but waypoints: clear from its start to its stop or end, or its first contact."""
+    """Prove that a dance on any path but waypoints is clear from its start to its stop or end, or its first contact."""
     checked_output("output", output, (".json",))
     asked = checked(CheckRequest, read_dance(file))
     dragon = asked.dragon.to_dragon(Settings().checked_benches_max)
     path = asked.path.to_path()
     for name in ("venue", "speed_limit"):
         if getattr(asked, name) is not None:
-            print(f"The {name.replace('_', ' ')} is no part of the proof.", file=sys.stderr)
+            print(f"The {name.replace('_', ' ')} is not part of the proof.", file=sys.stderr)
     dance = core.Dance(dragon, path, asked.head_speed)
     start = dance.begin if asked.start is None else asked.start
     times = {"start": start, "stop": asked.stop, "margin": asked.margin}
@@ -225,7 +230,7 @@ def dance(
 
 
 def _dance_proven(dance: core.Dance, times: dict[str, Any], every_pair: bool) -> dict[str, Any]:
-    """A certificate for the first contact of a dance, or that it is clear."""
+    """A certificate that a dance is clear, or for its first contact."""
     with _working("proof") as progress:
         from core.proof import prove_clear, prove_contact
 
@@ -241,7 +246,7 @@ def _dance_proven(dance: core.Dance, times: dict[str, Any], every_pair: bool) ->
             raise ProofRefused("time", f"the search did not decide whether two benches {near}")
         a, b = found.benches
         near = f"are nearer than {said(times['margin'])} m" if times["margin"] else "overlap"
-        raise ProofRefused("start", f"benches {a} and {b} {near} at the start already, {said(times['start'])} s")
+        raise ProofRefused("start", f"benches {a} and {b} {near} already at the start, {said(times['start'])} s")
 
 
 def _checked(certificate: Any) -> Proof:
@@ -252,7 +257,7 @@ def _checked(certificate: Any) -> Proof:
 
 
 def _finish(certificate: dict[str, Any], output: Path) -> None:
-    """Check a fresh certificate as anyone would, write it whole, and say what it proves."""
+    """Check a new certificate as any reader would, write it, and print what it proves."""
     data = orjson.dumps(certificate, option=orjson.OPT_APPEND_NEWLINE)
     checked = _checked(orjson.loads(data))
     with _working("writing"):

@@ -1,4 +1,4 @@
-"""Answers for people: tables with units or the service's JSON, and a bar while they wait."""
+"""Output for people: tables with units or the service's JSON, and a progress bar."""
 
 from __future__ import annotations
 
@@ -25,25 +25,25 @@ from app.wire.models import Answer, unit_of
 from core import Judgement, RunEnd, Trajectory
 from core.errors import said, said_bound
 
-# A trajectory on a terminal: the handles that the contest asks for, at this many instants, or as many as fit.
+# Handles of a trajectory on a terminal, as the contest asks, and the number of instants if that many fit.
 SHOWN_HANDLES = (0, 1, 51, 101, 151, 201)
 SHOWN_INSTANTS = 7
 # Decimals of a trajectory on a terminal.
 SHOWN_DECIMALS = 6
-# A handle so many times faster than the head, on a run that ends in a fold, tells that the fold is near [1]; the mark
+# On a run that ends in a fold, a handle this many times faster than the head shows that the fold is near [1]; the mark
 # of such an instant.
 FAST = 2.0
 NEAR_FOLD = " *"
-# So many or more are shown at equal distances where that is possible, rather than one or two more.
+# From this number on, evenly spaced instants are preferred to one or two more.
 EVEN_INSTANTS = 5
-# What a table takes beside its entries: for each column, and at its sides [characters].
+# Width of a table besides its entries: for each column, and at its sides [characters].
 COLUMN_SPACE, TABLE_SPACE = 3, 1
 # Width of a table where standard output is no terminal [characters].
 PIPE_WIDTH = 120
-# What a null says where it is an answer.
+# Fields that are proven, shown with all digits; and the words for a null that is an answer.
 PROVEN = frozenset({"clear_until", "proven_from", "proven_up_to"})
 SAID_BY_NULL = {"proven_up_to": "every larger pitch", "scan_step": "no scan"}
-# A wait longer than this is shown [s].
+# A progress bar appears after this wait [s].
 SHOWN_WAIT = 1.0
 
 Part = Table | Text | str
@@ -51,7 +51,7 @@ Part = Table | Text | str
 
 @contextmanager
 def waiting(what: str) -> Iterator[Callable[[float], None]]:
-    """A bar on standard error once the wait exceeds SHOWN_WAIT; yields the function that takes the share done."""
+    """A progress bar on standard error after SHOWN_WAIT; yields a function of the share done."""
     if not sys.stderr.isatty():
         yield lambda share: None
         return
@@ -84,10 +84,10 @@ def print_parts(*parts: Part) -> None:
 
 
 def print_answer(title: str, answer: Answer, json: bool, *, margin: float = 0.0, benches: int = 0) -> None:
-    """An answer as its JSON, or as two columns: each field by its name on the wire, and its value with its unit.
+    """Print an answer as JSON, or as two columns: the name of each field, and its value with its unit.
 
-    margin: what counts as a contact [m], told where it is more than a touch
-    benches: of the dragon, where the answer names those that were judged
+    margin: clearance required [m]; 0: only a touch is a contact
+    benches: of the dragon, if the answer names the benches judged
     """
     if json:
         print_json(answer.to_json())
@@ -99,7 +99,7 @@ def print_answer(title: str, answer: Answer, json: bool, *, margin: float = 0.0,
 
 
 def _near(word: str, margin: float) -> str:
-    """The word of an outcome: with a margin a contact is no touch."""
+    """The words for an outcome, because with a margin a contact need not be a touch."""
     near = f"nearer than {said(margin)} m"
     words = {"contact": near, "contact_at_start": f"{near} from the start on", "clear": f"never {near}"}
     return words.get(word, word) if margin else word
@@ -125,7 +125,7 @@ def _flat(answer: BaseModel, prefix: str = "", *, benches: int) -> Iterator[tupl
 
 
 def _digits(value: float | tuple[float | None, ...]) -> str:
-    """What is proven, with all its digits: a rounded one would say more than is proven."""
+    """A proven value with all its digits, because a rounded one could claim more than is proven."""
     ends = value if isinstance(value, tuple) else (value,)
     return ", ".join("unknown" if end is None else said(end) for end in ends)
 
@@ -143,11 +143,11 @@ def _check_words(check: answers.PairCheck, benches: int) -> Iterator[tuple[str, 
 
 
 def judged_words(judged: Sequence[int], benches: int) -> str:
-    """Which of so many benches the engines judged, in short."""
+    """Short description of the benches that the engines judged. benches: of the dragon"""
     if len(judged) == benches:
         return f"all {benches} benches"
     if len(judged) == len(("a", "b")):
-        return f"benches {_shown(judged)} alone"
+        return f"only benches {_shown(judged)}"
     return f"{len(judged)} benches from {judged[0]} to {judged[-1]}, of {benches:,}: those near the pair"
 
 
@@ -175,12 +175,12 @@ def trajectory_tables(
     decimals: int | None = None,
     fold: RunEnd | None = None,
 ) -> list[Part]:
-    """Some handles at some instants.
+    """Tables of some handles at some instants.
 
-    handles: which; None: those of the contest and the last
+    handles: to show; None: those of the contest and the last
     decimals: of every number; None: SHOWN_DECIMALS
-    fold: where the run ends with one: instants just before it are marked, as speeds grow without bound there
-    all_instants: in as many tables as they take; else up to SHOWN_INSTANTS, evenly spaced, as many as fit one
+    fold: of the run, if it ends in one; instants just before it are marked, as speeds grow without bound there
+    all_instants: show all in as many tables as needed; else up to SHOWN_INSTANTS, evenly spaced, in one table
     """
     instants, number = result.speed.shape
     rows = list(handles) if handles else sorted({k for k in SHOWN_HANDLES if k < number} | {number - 1})
@@ -220,7 +220,7 @@ def _blocks(
     all_instants: bool,
     decimals: int,
 ) -> list[list[int]]:
-    """The instants of each table: as many as fit into the width. names: of the instants"""
+    """The instants of each table, as many as fit into the width. names: of the instants"""
     instants = len(result.time)
     values = np.concatenate([result.position[:, rows].reshape(instants, -1), result.speed[:, rows]], axis=1)
     room = _console().width - TABLE_SPACE - COLUMN_SPACE - max(map(len, [*labels, "handle"]), default=0)
@@ -275,7 +275,7 @@ def overlap_tables(answer: OverlapsAnswer, margin: float = 0.0) -> list[Part]:
         table.add_row(*map(_shown, (one.benches, one.separation, one.witness_a, one.witness_b)))
     check = answer.cross_check
     found = ", ".join(f"{engine.value} {len(pairs)}" for engine, pairs in check.engines.items())
-    asked = "All four engines" if not check.left_out else "The engines that know a margin"
+    asked = "All four engines" if not check.left_out else "The engines that can judge a margin"
     return [table, f"{asked} {'agree' if check.agree else 'DISAGREE'}; pairs found: {found}"]
 
 
@@ -300,7 +300,7 @@ VERDICTS = {
 
 
 def report_tables(report: Report, *, margin: float, benches: int) -> list[Part]:
-    """The verdict, what fails in order of time, and what was measured. margin: [m]; benches: of the dragon"""
+    """The verdict, the failures in order of time, and the measured values. margin: [m]; benches: of the dragon"""
     verdict = VERDICTS[report.verdict]
     facts = _table(f"From {report.start:.3f} to {report.stop:.3f} s", "what", "value", "at", "who")
     for name, value, time, who in _measured(report, margin, benches):
@@ -312,7 +312,7 @@ def report_tables(report: Report, *, margin: float, benches: int) -> list[Part]:
 
 
 def _measured(report: Report, margin: float, benches: int) -> Iterator[tuple[str, str, float | None, str]]:
-    """What, how much, when, who."""
+    """Rows of quantity, value, time and benches."""
     contact = report.first_contact
     pair = f"benches {_shown(contact.benches)}" if contact.benches else ""
     what = f"first nearer than {said(margin)} m" if margin else "first contact"

@@ -22,14 +22,17 @@ from core import Dragon, InvalidValue
 
 
 class TrajectoryOptions(TimeRange, DanceQuery):
-    """POST /trajectory, flat."""
+    """The fields of POST /trajectory as options."""
 
     decimals: int | None = Field(
-        None, ge=0, le=15, description="Decimals of x, y and speed; else all (xlsx and the table on a terminal: 6)"
+        None,
+        ge=0,
+        le=15,
+        description="Decimals of x, y and speed; default: all (6 for xlsx and for the table on a terminal)",
     )
-    times: str | None = measure("s", "Instants such as 0,60,120, in place of --start, --stop and --step", None)
+    times: str | None = measure("s", "Instants such as 0,60,120, instead of --start, --stop and --step", None)
     handles: str | None = Field(
-        None, description="Handles in the table, such as 0,1,51, in place of those that the contest asks for"
+        None, description="Handles in the table, such as 0,1,51; default: those that the contest asks for"
     )
 
 
@@ -37,23 +40,25 @@ def trajectory(
     asked: TrajectoryOptions | TrajectoryRequest,
     context: typer.Context,
     output: Annotated[Path | None, typer.Option(help="Write a .csv, .xlsx, .arrow or .json file.")] = None,
-    language: Annotated[tables.Language, typer.Option(help="Names in an xlsx file.")] = tables.Language.ENGLISH,
+    language: Annotated[
+        tables.Language, typer.Option(help="Language of the names in an xlsx file.")
+    ] = tables.Language.ENGLISH,
     json: Json = False,
 ) -> None:
-    """Where every handle is, and how fast."""
+    """Position and speed of every handle."""
     ending = checked_output("output", output, TABLE_ENDINGS) if output else ".json" if json else None
     if ending and given(context, "handles"):
         raise InvalidValue("handles", "--handles chooses rows of the table: leave it out with --output or --json")
     if output and json:
         raise InvalidValue("json", "--json prints the answer and --output writes it to a file: give one of the two")
     if ending != ".xlsx":
-        unused(context, ["language"], "is for the names in an xlsx file: give --output with .xlsx, or leave it out")
+        unused(context, ["language"], "applies to the names in an xlsx file: give --output with .xlsx, or leave it out")
     write = trajectory_writer(ending, asked.decimals, language) if ending else None
     settings = Settings()
     dance = asked.to_dance(settings.benches_max)
     handles, times = _handles(context.params["handles"], dance.dragon), asked.times
     if given(context, "times") and (ranged := given(context, "start", "stop", "step")):
-        raise InvalidValue("times", f"--times takes the place of --{ranged[0]}: give one of the two")
+        raise InvalidValue("times", f"--times replaces --{ranged[0]}: give one of the two")
     if isinstance(times, str):
         asked = checked(TrajectoryRequest, {"times": numbers("times", times, float), "decimals": asked.decimals})
     instants = asked.times_of(dance, settings.cells_max)
@@ -72,7 +77,7 @@ def trajectory(
 
 
 def _handles(text: str | None, dragon: Dragon) -> list[int] | None:
-    """The handles asked for; None: nobody says. raises: InvalidValue"""
+    """The handles asked for; None if none are given. raises: InvalidValue"""
     if text is None:
         return None
     found = numbers("handles", text, int)

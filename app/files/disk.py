@@ -16,17 +16,17 @@ import orjson
 from app.files import tables
 from core import InvalidValue, Trajectory
 
-# What a new file may be read and written by, before the user's mask.
+# Permissions of a new file, before the user's mask.
 NEW_FILE = 0o666
-# What trajectory_writer() writes.
+# Endings that trajectory_writer() supports.
 TABLE_ENDINGS = (".csv", ".xlsx", ".arrow", ".json")
 
 
 def checked_output(option: str, file: Path, endings: Sequence[str] = ()) -> str:
-    """The ending of a file that an option names, before any work is done for it.
+    """The ending of the file named by an option, checked before any work is done.
 
-    option: its name; endings: those that it may have, in lower case; any if there are none
-    raises: InvalidValue for another ending; OSError where no file can be written
+    option: its name; endings: the allowed ones in lower case; if there are none, any ending is allowed
+    raises: InvalidValue for another ending; OSError if the file cannot be written
     """
     ending = file.suffix.lower()
     if endings and ending not in endings:
@@ -38,7 +38,7 @@ def checked_output(option: str, file: Path, endings: Sequence[str] = ()) -> str:
     target = file.resolve()
     if not target.parent.is_dir():
         raise InvalidValue(option, f"--{option} must be in a folder that exists, got {file}")
-    # What is there is written to, or replaced, only by who may do both.
+    # An existing file is written or replaced only if the user may do both.
     touched = [target] if target.exists() else []
     if not touched or target.is_file():
         touched.append(target.parent)
@@ -48,10 +48,10 @@ def checked_output(option: str, file: Path, endings: Sequence[str] = ()) -> str:
 
 
 def write_whole(file: Path, data: bytes) -> None:
-    """The file with these bytes, there whole or not at all: what stood there before is kept until then.
+    """Write a file completely or not at all; an existing file is kept until the new one is complete.
 
-    A temporary file in the same folder takes its place at once. A link is followed, an existing file keeps its mode,
-    and what is no file (a device, a pipe) is written to as it is.
+    A temporary file in the same folder then replaces it in one step. A link is followed, an existing file keeps its
+    mode, and a device or a pipe is written to directly.
     raises: OSError naming the file
     """
     target = file.resolve()
@@ -94,7 +94,7 @@ def read_json(file: Path) -> object:
 
 
 def read_dance(file: Path) -> object:
-    """What a file of a dance holds; a venue given as text is the name of a GeoJSON file beside it."""
+    """Content of a file that describes a dance; a venue given as text is the name of a GeoJSON file beside it."""
     if file.suffix.lower() != ".toml":
         asked = read_json(file)
     else:
@@ -108,7 +108,7 @@ def read_dance(file: Path) -> object:
 
 
 def trajectory_writer(suffix: str, decimals: int | None, language: tables.Language) -> Callable[[Trajectory], bytes]:
-    """What turns a trajectory into the bytes of a file with that suffix."""
+    """Function that turns a trajectory into the bytes of a file with that suffix."""
     match suffix:
         case ".json":
             return lambda result: tables.trajectory_json(result, decimals=decimals)

@@ -1,7 +1,8 @@
-"""The parts of a figure: paper, path, venue, benches, marks, and its bytes in a file's format.
+"""Parts of a figure: canvas, path, venue, benches, marks, and the bytes of its file.
 
-matplotlib's objects only, no pyplot: nothing global but the constant set below, so threads may draw. Colours are safe
-for colour-blind readers (cividis; Okabe and Ito's set) and differ in brightness, hatch or line style for print.
+It uses matplotlib's objects and not pyplot: nothing is global except the constant set below, so threads may draw.
+Colours are safe for colour-blind readers (cividis; Okabe and Ito's set) and differ in brightness, hatch or line style
+for print.
 """
 
 from __future__ import annotations
@@ -25,30 +26,30 @@ matplotlib.rcParams["svg.hashsalt"] = "bench-dragon"
 
 VERMILION, BLUE, GREY, PALE = "#D55E00", "#0072B2", "#7F7F7F", "#DDDDDD"
 PNG_DPI = 120
-# Beyond this many benches an SVG holds them as one picture instead of as shapes.
+# With more benches than this, an SVG holds them as one image instead of as shapes.
 SHAPES_MAX = 3_000
-# Length of the arrow ahead of the head, and how far inwards its name stands [m].
+# Length of the arrow ahead of the head, and distance of its name inwards [m].
 HEAD_ARROW, HEAD_LABEL = 1.2, 1.0
 # Half the side of the enlarged view, in widths of the wider bench.
 ENLARGED_WIDTHS = 1.5
-# And at least so many margins.
+# Smallest half side of the enlarged view, in margins.
 ENLARGED_MARGINS = 1.5
-# A route is drawn this far around its start [m], as a line of so many points.
+# Distance to which a route is drawn on both sides of its start [m], and number of points of that line.
 ROUTE_DRAWN = 2_000.0
 PATH_POINTS = 20_000
-# A venue is drawn as far around the dragon as this part of its extent [1].
+# Width of the part of a venue drawn around the dragon, as a fraction of the dragon's extent [1].
 AROUND = 0.6
 
 
 def canvas(width: float, height: float) -> Figure:
-    """Empty paper. width, height: [inch]"""
+    """An empty figure. width, height: [inch]"""
     figure = Figure(figsize=(width, height), layout="constrained")
     FigureCanvasAgg(figure)
     return figure
 
 
 def file_bytes(figure: Figure, format: str) -> bytes:
-    """The figure as a file, the same bytes for the same figure: no date, no version, no random names."""
+    """The bytes of the figure's file, always the same for the same figure: no date, no version, no random names."""
     sink = io.BytesIO()
     metadata = {"Date": None} if format == "svg" else {"Software": None}
     figure.savefig(sink, format=format, dpi=PNG_DPI, metadata=metadata)
@@ -63,7 +64,7 @@ def _plan(axes: Axes) -> None:
 
 
 def _draw_path(axes: Axes, path: Spiral | Route, handles: Floats) -> None:
-    """The path, faint: a spiral from the centre to the outermost handle or the start, a route as it is."""
+    """Draw the path faintly: a spiral from the centre to the outermost handle or start, a route around its start."""
     if isinstance(path, Route):
         s = np.linspace(max(path.begin, -ROUTE_DRAWN), min(path.end, ROUTE_DRAWN), PATH_POINTS)
         axes.plot(*path.position(s).T, color=PALE, linewidth=0.6, zorder=1)
@@ -75,7 +76,7 @@ def _draw_path(axes: Axes, path: Spiral | Route, handles: Floats) -> None:
 
 
 def _draw_venue(axes: Axes, venue: Venue | None) -> None:
-    """The square as an outline, obstacles hatched, each with its name."""
+    """Draw the square as an outline and the obstacles hatched, each with its name."""
     for area in venue.areas if venue else ():
         obstacle = area is not venue.square if venue else False
         axes.add_collection(
@@ -94,7 +95,7 @@ def _draw_venue(axes: Axes, venue: Venue | None) -> None:
 
 
 def look_around(figure: Figure, axes: Axes, handles: Floats) -> None:
-    """The dragon and what is near it in a venue, on paper of that shape."""
+    """Limit the view to the dragon and its surroundings in a venue, and shape the figure to match."""
     low_corner, high_corner = handles.min(axis=0), handles.max(axis=0)
     around = AROUND * float((high_corner - low_corner).max())
     (left, low), (right, high) = (low_corner - around).tolist(), (high_corner + around).tolist()
@@ -111,7 +112,7 @@ def bench_outlines(dragon: Dragon, handles: Floats) -> Floats:
 def draw_dance(
     axes: Axes, path: Spiral | Route, venue: Venue | None, handles: Floats, outlines: Floats, linewidth: float
 ) -> None:
-    """The path, the venue and every bench, faint, in metres."""
+    """Draw the path, the venue and every bench faintly, in metres."""
     _plan(axes)
     _draw_path(axes, path, handles)
     _draw_venue(axes, venue)
@@ -123,7 +124,7 @@ def _draw_benches(axes: Axes, outlines: Floats, **style: Any) -> None:
 
 
 def mark_head(axes: Axes, head: Floats, velocity: Floats) -> None:
-    """A ring around the head, an arrow where it goes, its name on the inner side."""
+    """Mark the head with a ring, an arrow in its direction, and its name on the inner side."""
     ahead = head + HEAD_ARROW * velocity / np.hypot(*velocity)
     inwards = head - HEAD_LABEL * head / max(float(np.hypot(*head)), HEAD_LABEL)
     arrow = {"arrowstyle": "->", "color": VERMILION, "shrinkA": 5, "linewidth": 1.5}
@@ -133,7 +134,7 @@ def mark_head(axes: Axes, head: Floats, velocity: Floats) -> None:
 
 
 def mark_pair(axes: Axes, outlines: Floats, found: FirstContact, *, legend: bool = False) -> None:
-    """The two benches that meet, filled: one plain, one hatched."""
+    """Fill the two benches that meet: one plain, one hatched."""
     for k, (bench, colour, hatch) in enumerate(zip(found.benches or (), (VERMILION, BLUE), ("", "////"), strict=False)):
         label = f"bench {bench}" + (" (head)" if bench == 0 else "")
         axes.add_patch(
@@ -153,9 +154,9 @@ def mark_pair(axes: Axes, outlines: Floats, found: FirstContact, *, legend: bool
 
 
 def draw_enlarged(axes: Axes, outlines: Floats, found: FirstContact, width: float, margin: float) -> None:
-    """The neighbourhood of the contact: corner, edge and point; two corners may meet, or two parallel edges.
+    """Draw the neighbourhood of the contact: corner, edge and point; two corners or two parallel edges may meet.
 
-    width: of the wider bench; margin: with one the two are only near [m]
+    width: of the wider bench [m]; margin: clearance required [m]; if positive, the two need not touch
     """
     assert found.point is not None
     _plan(axes)

@@ -42,9 +42,9 @@ from core.dance import Dance
 from core.design.pitch_scan import JUMP_WIDTH, SCAN_FROM, SCAN_TO, PitchScan, scan_near_minimum
 from core.errors import said
 
-# The figure of a run without contact shows the dance this long before its end [s], where the chain still exists.
+# Without a contact the figure shows the dance this long before its end [s], when the chain still exists.
 BEFORE_END = 1e-6
-# One drawing at a time: matplotlib does not promise that its font caches bear more.
+# One drawing at a time: matplotlib does not guarantee that its font caches are safe for threads.
 _DRAWING = threading.Lock()
 
 
@@ -55,7 +55,7 @@ def trajectory_figure(
     time: float = 300.0,
     format: str = "svg",
 ) -> bytes:
-    """Figure 6: every handle at one instant, coloured by its speed; on any path, in any venue.
+    """Figure 6: every handle at one instant, coloured by its speed, on any path and in any venue.
 
     time: [s]; raises: OutsideRun after the end of the run
     """
@@ -97,9 +97,9 @@ def contact_figure(
     stop: float | None = None,
     format: str = "svg",
 ) -> bytes:
-    """Figure 7: the dance at first contact, the two benches marked, corner, edge and point enlarged.
+    """Figure 7: the dance at first contact with the two benches marked, and corner, edge and point enlarged.
 
-    Without a contact it shows the dance just before the run ends, and says so.
+    Without a contact it shows the dance just before the run ends, and its title states this.
     """
     found = first_contact(dance, margin=margin, start=start, stop=stop)
     time = _shown_time(dance, found)
@@ -157,9 +157,9 @@ def pitch_scan_figure(
     format: str = "svg",
     progress: Callable[[float], None] = lambda share: None,
 ) -> bytes:
-    """Figure 8: where the head stands at first contact against the pitch, its jumps as jumps, the minimum pitch marked.
+    """Figure 8: radius of the head at first contact against the pitch, with jumps as gaps and the minimum pitch marked.
 
-    samples: pitches from SCAN_FROM to SCAN_TO times the minimum pitch; jumps between them are searched for
+    samples: number of pitches from SCAN_FROM to SCAN_TO times the minimum pitch; jumps between them are located
     """
     scan, least = scan_near_minimum(
         dragon,

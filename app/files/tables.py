@@ -26,12 +26,12 @@ CSV_TYPE = "text/csv"
 XLSX_TYPE = "application/vnd.openxmlformats-officedocument.spreadsheetml.sheet"
 ARROW_TYPE = "application/vnd.apache.arrow.file"
 
-# The contest asks for six decimals.
+# Decimals that the contest asks for.
 XLSX_DECIMALS = 6
-# The format's own limits; the first row and column hold names.
+# Limits of the format; the first row and column hold names.
 XLSX_ROWS_MAX = 1_048_576
 XLSX_COLUMNS_MAX = 16_384
-# Written into every workbook in place of the present moment, for equal bytes.
+# Date written into every workbook instead of the present, so that equal tables have equal bytes.
 XLSX_CREATED = datetime(2024, 9, 5)
 
 
@@ -43,9 +43,9 @@ class Language(StrEnum):
 
 
 def handle_names(benches: int, language: Language = Language.ENGLISH) -> list[str]:
-    """Name of every handle by the bench that it leads, the last one at the rear of the tail.
+    """Name of every handle after the bench that it leads; the last one is at the rear of the tail.
 
-    returns: benches + 1 names; the single bench of a dragon of one is its head
+    returns: benches + 1 names; a single bench is the head
 
     >>> handle_names(4)
     ['head', 'body 1', 'body 2', 'tail', 'tail (rear)']

@@ -1,16 +1,16 @@
-/** The answers, and for each how it is known. */
+/** The answers, each with how it is known. */
 
 import { make } from "./elements.js";
 import { benchName, handleName, refusalWords, say, sayNear } from "./text.js";
 
-/** What a dance comes to: it fails with a contact or a fold, passes, or is undecided. */
+/** The mark of each outcome: a dance fails with a contact or a fold, passes, or is undecided. */
 const MARKS = { contact: "✕", contact_at_start: "✕", folds: "!", clear: "✓", undecided: "?" };
 
-/** Metres in millimetres; what rounds to zero has no sign. */
+/** Metres in millimetres; a value that rounds to zero has no sign. */
 export const millimetres = (metres) => (1000 * metres).toFixed(3).replace(/^-(0\.0+)$/, "$1");
 const paragraph = (textContent, more) => make("p", { textContent, ...more });
 const pair = ([a, b], benches) => ({ a: benchName(a, benches), b: benchName(b, benches) });
-/** A bound with so many decimals, rounded to the side on which what is said of it stays true; events are rounded to the nearest. */
+/** A bound with the given number of decimals, rounded to the side on which it still holds; way: 1 up, -1 down. */
 const bound = (value, decimals, way) => {
   const text = value.toFixed(decimals);
   return way * (Number(text) - value) < 0 ? (Number(text) + way * 10 ** -decimals).toFixed(decimals) : text;
@@ -18,7 +18,7 @@ const bound = (value, decimals, way) => {
 const ends = ([low, high], decimals) => ({ low: bound(low, decimals, -1), high: bound(high, decimals, 1) });
 const bracket = (key, both, decimals) => [say("bracket"), say(key, ends(both, decimals))];
 
-/** Replace what a box shows, but keep its details open. title: words; known: elements; outcome: colours the box */
+/** Replace the content of a box, but keep its details open. title: text; known: elements; outcome: colours the box */
 function show(box, title, value, lines, known = [], outcome = "") {
   const open = box.querySelector("details")?.open ?? false;
   const details = known.length ? [make("details", { open }, make("summary", { textContent: say("how") }), ...known)] : [];
@@ -31,7 +31,7 @@ function facts(...rows) {
   return make("dl", {}, ...rows.flatMap((row) => ["dt", "dd"].map((tag, k) => make(tag, { textContent: row[k] }))));
 }
 
-/** Whom the engines judged, of so many benches. */
+/** The benches that the engines judged, in words. benches: of the dragon */
 function judgedWords({ judged }, benches) {
   const count = judged.length;
   if (count === benches) return say("judgedAll", { count });
@@ -54,7 +54,7 @@ function engines(check, benches, margin) {
   return make("table", {}, caption, make("thead", {}, heads), make("tbody", {}, ...rows));
 }
 
-/** The outcome, or that a dance on which nothing touches folds. */
+/** The outcome, or "folds" for a dance that folds without a contact. */
 const stateOf = ({ outcome, end }) => (outcome === "clear" && end?.reason === "fold" ? "folds" : outcome);
 
 /** The outcome in a few words. answer: of /collision-time */
@@ -73,7 +73,7 @@ function contactLine(answer, { benches, margin }) {
   return sayNear("pairMeets", margin, { ...pair(both, benches), x, y, radius, gap: millimetres(gap) });
 }
 
-/** How far nothing is proven to touch; at a contact at the start, and where nothing is decided from there on, nowhere. */
+/** The time until which nothing is proven to touch; none for a contact at the start, or if nothing is decided. */
 function certificateWords({ outcome, certificate: { steps, clear_until: until } }, margin) {
   if (until !== null) return sayNear("certificateSteps", margin, { steps, until: bound(until, 10, -1) });
   return outcome === "undecided" ? say("certificateNone") : sayNear("certificateStart", margin);
@@ -135,7 +135,7 @@ export function showShortestTurn(box, answer, { benches, margin }) {
   show(box, say("shortestTurn"), `${entry_radius.toFixed(6)} m`, lines, [known]);
 }
 
-/** fastest: of /check; null in a run to a fold */
+/** fastest: highest_speed of /check; null in a run to a fold */
 export function showHighestSpeed(box, fastest, { benches }) {
   if (!fastest) return show(box, say("highest"), say("unbounded"), [say("towardsFold")], [paragraph(say("foldKnown"))]);
   const { speed, speed_bracket, time, handles } = fastest;
@@ -157,7 +157,7 @@ export function showRefusal(box, title, detail) {
   box.append(make("p", refusalWords(detail)));
 }
 
-/** What stands under the enlarged view. gap: [m] between the two benches, null while unknown */
+/** The caption of the enlarged view. gap: [m] between the two benches, null while unknown */
 export function insetWords({ benches: [a, b], corner, edge }, gap, { benches, margin }) {
   const name = (bench) => benchName(bench, benches);
   const words =

@@ -1,4 +1,4 @@
-/** The service: the newest question of a kind wins, and a lost service is asked again until it is back. */
+/** The service: only the newest question of a kind is answered, and a lost service is retried until it is back. */
 
 /** Superseded questions this young [ms] may still answer, so that a dragged slider always sees answers. */
 const GRACE = 150;
@@ -7,7 +7,7 @@ const [RETRY_FIRST, RETRY_LAST] = [500, 8_000];
 const GATEWAY_ERRORS = [502, 504];
 const BUSY = 503;
 
-/** The service's own words on a request that it refuses; errors: [{name or pointer, detail}]. */
+/** The service's message about a refused request; errors: [{name or pointer, detail}]. */
 export class Problem extends Error {
   constructor(status, body) {
     super(body?.detail ?? `HTTP ${status}`);
@@ -15,12 +15,12 @@ export class Problem extends Error {
   }
 }
 
-/** A newer question of the same kind took this one's place. */
+/** A newer question of the same kind replaced this one. */
 export class Superseded extends Error {}
 
 const wait = (milliseconds) => new Promise((resolve) => setTimeout(resolve, milliseconds));
 
-/** One kind of question: at most one is being asked and one waits, the newest. */
+/** One kind of question: at most one is in progress, and the newest one waits. */
 class Channel {
   #newest = null;
   #running = null;
@@ -51,7 +51,7 @@ export class Service {
   #return = null;
   #retryNow = () => {};
 
-  /** tell: {lost(seconds until the next try), back(), busy(channel, is it)} */
+  /** tell: {lost(seconds until the next try), back(), busy(channel, whether it is busy)} */
   constructor(tell) {
     this.tell = tell;
     setInterval(() => document.hidden || this.#return || this.#beat(), HEARTBEAT);
@@ -74,12 +74,12 @@ export class Service {
     }
   }
 
-  /** Do not wait for the next try. */
+  /** Try again now. */
   retry() {
     this.#retryNow();
   }
 
-  /** Asks until there is an answer: through a lost service and through a busy one. */
+  /** Asks until there is an answer, also while the service is lost or busy. */
   async #patiently(url, options, signal) {
     for (;;) {
       const response = await this.#fetch(url, { ...options, signal });
@@ -91,7 +91,7 @@ export class Service {
     }
   }
 
-  /** The response; null when the service is not there. */
+  /** The response; null when the service cannot be reached. */
   async #fetch(url, options) {
     try {
       const response = await fetch(url, options);

@@ -1,13 +1,13 @@
-/** Two charts drawn by uPlot: clearance over time, and where the head stops against the pitch. */
+/** Two charts drawn by uPlot: clearance over time, and radius of the head at first contact against the pitch. */
 
 import { make } from "./elements.js";
 import { say } from "./text.js";
 
 const HEIGHT = 240;
-/** So much of the highest value the scale goes on above it [1]. */
+/** Upper end of a scale, as a multiple of its highest value [1]. */
 const ABOVE = 1.06;
 
-/** A chart in a box; click or drag calls seek(x). The marker `now` is an element, so moving it redraws nothing. */
+/** A chart in a box; click or drag calls seek(x). The marker `now` is an element, so that it moves without a redraw. */
 export class Chart {
   #plot = null;
   #data = null;
@@ -20,7 +20,7 @@ export class Chart {
     new ResizeObserver(() => this.#plot?.setSize({ width: box.clientWidth, height: HEIGHT })).observe(box);
   }
 
-  /** Draw anew, also after another language or colour scheme. */
+  /** Redraw, also after a change of language or colour scheme. */
   show(data = this.#data) {
     this.#data = data;
     this.#plot?.destroy();
@@ -120,11 +120,11 @@ export function clearancePlan({ time, clearance, grazes, margin, contact }) {
   };
 }
 
-/** Where the head stops against the pitch, of /pitch-scan; circle: radius of the turning circle [m]. */
+/** Radius of the head at first contact against the pitch, of /pitch-scan; circle: radius of the turning circle [m]. */
 export function scanPlan({ pitch, radius, pieces, minimum_pitch, circle }) {
   const [x, y] = [[], []];
   for (const [from, to] of pieces) {
-    // A hole between two pieces: a jump is not a line.
+    // A gap between two pieces, because a jump is not a line.
     if (x.length) {
       x.push((x.at(-1) + pitch[from]) / 2);
       y.push(null);

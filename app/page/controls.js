@@ -1,10 +1,10 @@
-/** The form: for each number a field, a slider, its unit, its limits, a reset, and the service's words when it is wrong. */
+/** The form: for each number a field, a slider, its unit, its limits, a reset, and the service's message if it is wrong. */
 
 import { make, onClick } from "./elements.js";
 import { FIELDS } from "./state.js";
 import { refusalWords, say } from "./text.js";
 
-/** Half-typed numbers are not asked: a text counts after a pause of the hand [ms], or with Enter. */
+/** A typed number counts after this pause [ms], or with Enter, so that half-typed numbers are not asked. */
 const TYPING = 300;
 
 export class Controls {
@@ -18,7 +18,7 @@ export class Controls {
       const legend = make("legend", { "data-text": group });
       form.append(make("fieldset", {}, legend, ...fields.map((field) => this.#row(field))));
     }
-    // Another path has another pitch to reset to.
+    // The default pitch depends on the path.
     state.listen((names) => names.forEach((name) => this.#show(name === "path" ? "pitch" : name)));
   }
 
@@ -67,7 +67,7 @@ export class Controls {
     }
   }
 
-  /** errors: name -> the service's words; a name that is no field is not shown here */
+  /** errors: name -> the service's message; a name that is not a field is not shown here */
   refuse(errors) {
     for (const [name, row] of this.#rows) {
       const detail = errors.get(name) ?? "";

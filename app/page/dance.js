@@ -3,14 +3,14 @@
 import { View } from "./view.js";
 
 const SHADES = 48;
-/** Speeds closer than this [m/s] are one colour: the colours must not show rounding. */
+/** Speeds closer than this [m/s] get one colour, so that the colours do not show rounding. */
 const SPEED_SPREAD_MIN = 1e-9;
-/** Within so many pixels of a handle a click takes it. */
+/** A click within this distance of a handle [px] selects it. */
 const PICK_RADIUS = 22;
-/** The inset shows so many widths of a bench to either side of the point of contact. */
+/** Half side of the inset around the point of contact, in bench widths. */
 const INSET_WIDTHS = 1.6;
 
-/** So many colours along a list of them such as "#00224e, #fee838". */
+/** A number of colours interpolated along a list such as "#00224e, #fee838". */
 function palette(ramp) {
   const stops = ramp.split(",").map((colour) => [1, 3, 5].map((at) => parseInt(colour.trim().slice(at, at + 2), 16)));
   return Array.from({ length: SHADES }, (_, k) => {
@@ -23,7 +23,7 @@ function palette(ramp) {
 const least = (numbers) => numbers.reduce((a, b) => Math.min(a, b));
 const largest = (numbers) => numbers.reduce((a, b) => Math.max(a, b));
 
-/** [smallest, largest] speed of a pose, null when all are equal but for rounding. */
+/** [smallest, largest] speed of a pose; null when all are equal except for rounding. */
 export function speedRange({ speed }) {
   const [low, high] = [least(speed), largest(speed)];
   return [high - low > SPEED_SPREAD_MIN ? low : null, high];
@@ -60,7 +60,7 @@ function smooth({ x, y }) {
   return path;
 }
 
-/** Draws in metres on a cleared canvas with the place (x, y) in its middle; radii and widths of lines are in pixels. */
+/** Draws in metres on a cleared canvas centred at (x, y); radii and line widths are in pixels. */
 class Pen {
   constructor(canvas, { x, y, scale }) {
     const [width, height] = [canvas.clientWidth, canvas.clientHeight].map((size) => Math.round(size * devicePixelRatio));
@@ -125,7 +125,7 @@ export class Dance {
     this.#palette = palette(style.getPropertyValue("--ramp"));
   }
 
-  /** The head's way, {x, y}, as the service samples it. */
+  /** The path of the head, {x, y}, as sampled by the service. */
   setPath({ x, y }) {
     this.#path = smooth({ x, y });
     this.#bounds = [least(x), least(y), largest(x), largest(y)];

@@ -1,4 +1,4 @@
-/** Elements of the document: found, made, listened to. */
+/** Helpers that find, make and listen to elements of the document. */
 
 export const $ = (selector) => document.querySelector(selector);
 export const $$ = (selector) => [...document.querySelectorAll(selector)];

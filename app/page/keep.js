@@ -1,4 +1,4 @@
-/** What a person takes away: the link, files, and the command that gives the same. */
+/** What a person can keep: the link, files, and the command that gives the same answer. */
 
 import { Problem, Superseded } from "./api.js";
 import { $, make, onClick } from "./elements.js";
@@ -7,7 +7,7 @@ import { say } from "./text.js";
 const CSV_STEP = 1;
 
 export class Keep {
-  /** announce(words) tells what happened */
+  /** announce(words): reports what happened */
   constructor(state, service, questions, canvas, announce) {
     Object.assign(this, { service, questions, canvas, announce });
     onClick("#share", () => {
@@ -77,7 +77,7 @@ export class Keep {
     return ["first-contact.svg", blob];
   }
 
-  /** What the command gives: of the answer that is shown the engines may have judged the pair alone. */
+  /** The answer that the command gives; in the one shown, the engines may have judged only the pair. */
   async json() {
     const { dance } = this.questions;
     const path = dance.kind === "spiral" ? "collision-time" : "check";

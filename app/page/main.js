@@ -1,4 +1,4 @@
-/** The page: what a person does goes into the state, what the service answers goes onto the screen. */
+/** The page: a person's actions change the state, and the service's answers change the screen. */
 
 import * as answers from "./answers.js";
 import { Problem, Service } from "./api.js";
@@ -14,7 +14,7 @@ import { Table } from "./table.js";
 import { benchName, handleName, refusalWords, say, sayNear, setLanguage } from "./text.js";
 
 const NUMBERS = [...FIELDS.map((field) => field.name), "path"];
-/** Which boxes wait for which answers. */
+/** The boxes that wait for each kind of answer. */
 const BUSY = {
   contact: ["#first-contact", "#run-end"],
   pose: ["#stage"],
@@ -24,11 +24,11 @@ const BUSY = {
   clearance: ["#clearance"],
   scan: ["#scan"],
 };
-/** Titles of the boxes in which a refusal is told. */
+/** Titles of the boxes that show a refusal. */
 const TITLES = { contact: "firstContact", minimum: "minimumPitch", shortest: "shortestTurn", fastest: "highest" };
 const PITCH_DECIMALS = 4;
 const ZOOM = 1.5;
-/** A handle so many times faster than the head, on a run that ends in a fold, tells that the fold is near [1]. */
+/** On a run that ends in a fold, a handle this many times faster than the head shows that the fold is near [1]. */
 const FAST = 2;
 
 const state = new State();
@@ -78,17 +78,17 @@ function draw() {
   });
 }
 
-/** Choose the handle so many further on. */
+/** Move the choice by a number of handles. */
 function choose(step) {
   const last = (dance.scene.pose?.x.length ?? 1) - 1;
   state.set({ handle: Math.min(Math.max((state.get("handle") ?? -Math.sign(step)) + step, 0), last) });
 }
 
-/** A pose between samples while the dance moves, or the service's own (it has `dance`) for the table and at rest. */
+/** Show a pose: interpolated while the dance moves, or the service's own (it has `dance`) for the table and at rest. */
 function showPose(pose) {
   const { answer, end, kind, numbers } = questions.dance;
   const contact = answer.benches && pose.time === end ? answer : null;
-  // Inner and outer are told by the centre of a spiral, which other paths have not.
+  // Inner and outer refer to the centre of a spiral, which other paths do not have.
   const drawn = contact && kind !== "spiral" ? { ...contact, edge: null } : contact;
   Object.assign(dance.scene, { pose, dragon: numbers, contact: drawn });
   $("#inset").hidden = !contact?.point;
@@ -106,7 +106,7 @@ function showPose(pose) {
   draw();
 }
 
-/** The name of the chosen handle, or nothing. */
+/** Name of the chosen handle, or an empty text. */
 function showHandle() {
   const handle = state.get("handle");
   const name = handle !== null && questions.dance ? handleName(handle, questions.dance.numbers.benches) : "";
@@ -115,7 +115,7 @@ function showHandle() {
   return name;
 }
 
-/** The fold [s], where the dance ends with one and speeds have begun to grow without bound towards it; else null. */
+/** Time of the fold [s] if the dance ends in one and speeds already grow without bound towards it; else null. */
 function nearFold(pose) {
   const { answer, numbers } = questions.dance;
   const folds = answer.outcome === "clear" && answer.end?.reason === "fold";
@@ -147,12 +147,12 @@ function showTime() {
   $("#clearance .reading").textContent = say("clearanceAt", { time: answer.time[k].toFixed(2), gap, a, b });
 }
 
-/** What the pitch chart shows depends on the margin. */
+/** The help text of the pitch chart, which depends on the margin. */
 function showScanHelp() {
   $("#scan .hint").textContent = sayNear("scanHelp", state.get("margin"));
 }
 
-/** Where the dance that is shown stands on the pitch chart. */
+/** Mark the dance shown on the pitch chart. */
 function showPitch() {
   const { answer, numbers, kind } = questions.dance ?? {};
   if (!questions.answers.scan || !answer) return;
@@ -164,7 +164,7 @@ function showPitch() {
   $("#scan .reading").textContent = kind === "spiral" ? words : "";
 }
 
-/** Each kind of answer and what it changes on the screen; also called again after a change of language. */
+/** How each kind of answer changes the screen; called again after a change of language. */
 const SHOW = {
   dance() {
     const { answer, numbers, begin, end } = questions.dance;
@@ -187,7 +187,7 @@ const SHOW = {
     const { answer, dance: of } = questions.answers.fastest;
     answers.showHighestSpeed($("#highest-speed"), answer.highest_speed, of.numbers);
     if (of !== questions.dance) return;
-    // The check at rest is of the whole dragon, the one while a hand drags of the pair.
+    // At rest the engines check the whole dragon; while a slider is dragged, only the pair.
     const { cross_check } = answer.first_contact;
     answers.showFirstContact($("#first-contact"), { ...of.answer, cross_check }, of.numbers);
   },
@@ -203,7 +203,7 @@ const SHOW = {
   },
 };
 
-/** What else is told. */
+/** Other events. */
 const TELL = {
   pose: (pose) => player.exact(pose),
   track: () => player.update(false),
@@ -216,7 +216,7 @@ const TELL = {
     const { refusals } = questions;
     controls.refuse(questions.errors());
     $("main").classList.toggle("stale", refusals.has("contact"));
-    // Without a dance nothing else will be asked.
+    // Without a dance there are no further questions.
     if (refusals.has("contact") && !questions.dance) for (const box of $$("[aria-busy=true]")) box.setAttribute("aria-busy", false);
     for (const [kind, { message }] of refusals) {
       if (kind in TITLES) answers.showRefusal($(BUSY[kind][0]), TITLES[kind], message);
@@ -227,7 +227,7 @@ const TELL = {
   },
 };
 
-/** What of the state is shown, and how; lang before all, for words. */
+/** How each part of the state is shown; lang comes first because all texts depend on it. */
 const SHOW_STATE = {
   lang: translate,
   follow: (follow) => $("#follow").setAttribute("aria-pressed", follow),
@@ -252,7 +252,7 @@ function showState(changed) {
   draw();
 }
 
-/** Of the buttons that choose between values, the one of this value is pressed. */
+/** Mark the button of this value as pressed, among buttons that choose between values. */
 function press(name, value) {
   for (const button of $$(`[data-${name}]`)) button.setAttribute("aria-pressed", button.dataset[name] === value);
 }
@@ -309,7 +309,7 @@ function restyle() {
   draw();
 }
 
-/** Limits and unit of every number, from the service's own description of itself. */
+/** Limits and unit of every number, from the service's OpenAPI document. */
 async function readLimits() {
   const { paths } = await service.ask("openapi", "openapi.json");
   const parameters = ["/collision-time", "/minimum-pitch"].flatMap((path) => paths[path].get.parameters);
@@ -321,6 +321,6 @@ async function readLimits() {
 listen();
 showState(new Set([...Object.keys(SHOW_STATE), "pitch"]));
 readLimits().catch((error) => {
-  // Without it the page only lacks the limits and units.
+  // Without the document the page lacks only the limits and units.
   if (!(error instanceof Problem)) throw error;
 });

@@ -4,22 +4,22 @@ import { $, onClick } from "./elements.js";
 import { RATES } from "./state.js";
 import { say } from "./text.js";
 
-/** While the dance moves, the service's own numbers are asked so often [ms]. */
+/** Interval between requests for the service's own numbers while the dance moves [ms]. */
 const EXACT_EVERY = 250;
-/** With reduced motion the dance moves in steps this far apart [ms]. */
+/** Time between steps of the dance with reduced motion [ms]. */
 const STEP_EVERY = 500;
-/** A frame that took longer than this [ms] does not jump ahead. */
+/** Longest frame time that counts [ms], so that a slow frame does not jump ahead. */
 const FRAME_MAX = 100;
 
 export class Player {
   #playing = false;
   #frame = 0;
   #asked = 0;
-  /** Since the dance last moved [ms]. */
+  /** Time since the dance last moved [ms]. */
   #passed = 0;
   #exact = null;
 
-  /** show(pose) draws it; list(pose) puts it into the table alone */
+  /** show(pose): draws it; list(pose): only puts it into the table */
   constructor(state, questions, show, list) {
     Object.assign(this, { state, questions, show, list });
     this.still = matchMedia("(prefers-reduced-motion: reduce)");
@@ -36,7 +36,7 @@ export class Player {
     return this.questions.dance ?? { begin: 0, end: 0 };
   }
 
-  /** The instant that is shown: no time in the state is the end. */
+  /** The instant shown; without a time in the state it is the end. */
   get time() {
     const { begin, end } = this.#span;
     return Math.min(Math.max(this.state.get("time") ?? end, begin), end);
@@ -66,7 +66,7 @@ export class Player {
     $("#play").textContent = `${this.#playing ? "❚❚" : "▶"} ${say(this.#playing ? "pause" : "play")}`;
   }
 
-  /** The time, or what is known of the dance, is another: show it from samples, and ask for the service's own. */
+  /** After a change of the time or of the answers: show samples, and ask for the service's own numbers. */
   update(ask = true) {
     const { dance } = this.questions;
     if (!dance) return;
@@ -80,7 +80,7 @@ export class Player {
     this.questions.pose(time);
   }
 
-  /** The service's own numbers have come. */
+  /** Called when the service's own numbers arrive. */
   exact(pose) {
     this.#exact = pose;
     if (!this.#playing || pose.time === this.time) this.show(pose);

@@ -1,33 +1,33 @@
-/** What the page asks the service, and when: first contact, pose and minimum pitch at once, the rest when the hand rests. */
+/** The page's questions to the service: first contact, pose and minimum pitch at once, the others when input pauses. */
 
 import { Problem, Superseded } from "./api.js";
 import { DRAGON } from "./state.js";
 import { Track } from "./track.js";
 
-/** A hand rests when nothing changed for so long [ms]. */
+/** Time without a change after which input counts as paused [ms]. */
 const REST = 250;
 const CLEARANCE_SAMPLES = 400;
-/** The end of a run is a fold, where the chain is about to break: shown is the instant this long before [s]. */
+/** At a fold the chain is about to break, so the page shows the instant this long before it [s]. */
 const BEFORE_END = 1e-6;
-/** The path is sampled every so many metres, or in so many samples when it is long. */
+/** Distance between samples of the path [m], and the largest number of samples. */
 const [PATH_STEP, PATH_SAMPLES] = [0.3, 6_000];
-/** Of a turn, which has coils without end, so much of the head's way before and after its beginning is danced [m]. */
+/** Travel of the head before and after the beginning of a turn, whose coils have no end [m]. */
 const TURN_TRAVEL = 100;
 
 const MOTION = [...DRAGON, "pitch", "start_turns", "head_speed"];
 const CIRCLE = [...DRAGON, "turning_diameter", "start_turns", "margin"];
-/** While a hand drags, the engines judge the touching pair alone. */
+/** While a slider is dragged, the engines judge only the touching pair. */
 const QUICK = { cross_check: "pair" };
-/** Their refusals are about a number that a person wrote; others only say what cannot be shown of it. The last wins. */
+/** Refusals of these concern a number that a person entered; others only affect what can be shown. The last one wins. */
 const ABOUT_NUMBERS = ["minimum", "contact"];
 
-/** The last instant that is shown: first contact, or as far as nothing touches. */
+/** The last instant shown: first contact, or the time until which nothing touches. */
 function lastInstant({ time, time_bracket, end }) {
   return time ?? (end ? end.time - BEFORE_END : time_bracket[0]);
 }
 
 export class Questions {
-  /** {kind, query, numbers, answer, begin, end, report: of /check where that answered, track} */
+  /** {kind, query, numbers, answer, begin, end, report: of /check if it answered, track} */
   dance = null;
   /** kind -> {answer, query, dance}: the newest, to be shown again in another language */
   answers = {};
@@ -35,7 +35,7 @@ export class Questions {
   refusals = new Map();
   #rest = 0;
   #asked = new Map();
-  /** Do the engines judge the whole dragon at the newest minimum pitch? At first, and when the hand rests. */
+  /** Whether the engines judge the whole dragon at the minimum pitch: at first, and when input pauses. */
   #whole = true;
 
   /** tell(kind, detail): an answer of this kind came, or a refusal came or went */
@@ -43,7 +43,7 @@ export class Questions {
     Object.assign(this, { service, state, tell });
   }
 
-  /** Everything that depends on the numbers of the state. */
+  /** Ask everything that depends on the numbers of the state. */
   refresh() {
     clearTimeout(this.#rest);
     this.#rest = setTimeout(() => this.#atRest(), REST);
@@ -57,7 +57,7 @@ export class Questions {
     this.#keep("minimum", "minimum-pitch", { query: this.#whole ? circle : { ...circle, ...QUICK } });
   }
 
-  /** Body of a request about the dance that is shown, or about another one. */
+  /** Body of a request about a dance; default: the dance shown. */
   body(more, { numbers, kind } = this.dance) {
     const dragon = Object.fromEntries(DRAGON.map((name) => [name, numbers[name]]));
     const path = { kind, pitch: numbers.pitch, start_turns: numbers.start_turns };
@@ -80,7 +80,7 @@ export class Questions {
     this.tell("pose", { time, dance, x: table.x[0], y: table.y[0], speed: table.speed[0] });
   }
 
-  /** What is wrong with the numbers: name -> the service's words. */
+  /** Errors in the numbers: name -> the service's message. */
   errors() {
     const all = ABOUT_NUMBERS.flatMap((channel) => this.refusals.get(channel)?.errors ?? []);
     return new Map(all.map(({ name, pointer, detail }) => [(name ?? pointer).split("/").at(-1), detail]));
@@ -106,10 +106,10 @@ export class Questions {
     if (!this.#rest) this.#askDance();
   }
 
-  /** The head's way from behind the tail to the end: one bench dances it alone. */
+  /** The path from behind the tail to the end, sampled as the way of a single bench's head. */
   async #askPath() {
     const { numbers, begin, end } = this.dance;
-    // Lengths exceed chords by more than chords fall short of the arc, so this reaches behind the tail.
+    // A length exceeds its chord by more than the chord falls short of its arc, so this reaches behind the tail.
     const start = begin - (numbers.head_length + numbers.benches * numbers.body_length) / numbers.head_speed;
     const step = Math.max(PATH_STEP / numbers.head_speed, (end - start) / PATH_SAMPLES);
     const body = this.body({ times: { start, stop: end, step }, decimals: 4 });
@@ -129,7 +129,7 @@ export class Questions {
     if (this.state.get("path") === "turn") this.#askOnce("shortest", "shortest-turn", [...CIRCLE, "pitch"]);
   }
 
-  /** What belongs to the dance that is shown, once. */
+  /** Ask once for all that belongs to the dance shown. */
   #askDance() {
     const { dance } = this;
     if (!dance || dance.track) return;
@@ -141,7 +141,7 @@ export class Questions {
     else this.#keep("fastest", "check", { body: this.checkBody(dance) }, dance);
   }
 
-  /** The question of a clearance: flat on a spiral, where it may be of more benches; in a body on other paths. */
+  /** The request for a clearance: a query on a spiral, where more benches are allowed; a body on other paths. */
   #clearanceOf({ kind, query }, start, stop, step) {
     if (kind !== "spiral") return { body: this.body({ times: { start, stop, step } }) };
     return { query: { ...Object.fromEntries(MOTION.map((name) => [name, query[name]])), start, stop, step } };

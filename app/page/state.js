@@ -1,8 +1,8 @@
-/** The whole state of the page, and its address: what is not at its default stands in the query. */
+/** The whole state of the page; its address holds every value that differs from the default. */
 
 /**
- * The numbers a person may set. Limits and units are the service's own and come from its OpenAPI document; `slider` is
- * the range that a hand finds useful: [from, to, step].
+ * The numbers a person may set. Limits and units come from the service's OpenAPI document; `slider` is a useful range:
+ * [from, to, step].
  */
 export const FIELDS = [
   { name: "pitch", value: "0.55", group: "path", slider: [0.3, 2, 0.001] },
@@ -19,7 +19,7 @@ export const FIELDS = [
 
 export const DRAGON = FIELDS.filter(({ group }) => group === "dragon").map(({ name }) => name);
 export const RATES = [1, 2, 5, 10, 20, 50];
-/** A turn needs a wider spiral: the contest's pitch. */
+/** Default pitch of a turn, from the contest: a turn needs a wider spiral. */
 const PITCHES = { spiral: "0.55", turn: "1.7" };
 
 const NUMBERS = Object.fromEntries(FIELDS.map(({ name, value }) => [name, value]));
@@ -57,12 +57,12 @@ export class State {
     return this.#values[name];
   }
 
-  /** What a name holds until a person changes it. */
+  /** Default value of a name. */
   initial(name) {
     return name === "pitch" ? PITCHES[this.#values.path] : DEFAULTS[name];
   }
 
-  /** The numbers of these names as a person wrote them. */
+  /** The numbers of these names, as entered. */
   texts(names) {
     return Object.fromEntries(names.map((name) => [name, this.#values[name]]));
   }

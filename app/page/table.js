@@ -1,4 +1,4 @@
-/** Handles at one instant: of thousands of rows only those in sight are made. */
+/** Handles at one instant; only the visible rows exist, as there may be thousands. */
 
 import { make } from "./elements.js";
 import { handleName } from "./text.js";
@@ -13,7 +13,7 @@ export class Table {
   #handle = null;
   #queued = false;
 
-  /** choose(step): a person moves the choice by so many rows; chosen(handle): or takes a row */
+  /** choose(step): called to move the choice by some rows; chosen(handle): called to choose a row */
   constructor(box, { choose, chosen }) {
     Object.assign(this, { box, body: box.querySelector("tbody"), table: box.querySelector("table") });
     box.addEventListener("scroll", () => this.#queue());

@@ -137,7 +137,7 @@ const WORDS = {
   proven: ["Proven for every pitch", "全部证明的范围"],
   provenTo: ["from {from} m to {upTo} m", "{from} m 至 {upTo} m"],
   provenToAll: ["from {from} m on, without end", "{from} m 起，无上限"],
-  evaluations: ["Ways to the circle and strips of pitches marched", "检验的路程与螺距带数"],
+  evaluations: ["Ways to the circle computed, for single pitches and for strips", "检验的路程与螺距带数"],
   engines: ["{count} engines", "{count} 种算法"],
   judgedAll: [" on all {count} benches.", "检验全部 {count} 节板凳。"],
   judgedPair: [" on {a} and {b} alone.", "只检验{a}与{b}。"],
@@ -207,7 +207,7 @@ const WORDS = {
   inner: ["inner edge", "内边"],
 };
 
-/** The service's rules in Chinese, as it words them: `NAME must be RULE, got VALUE: REASON`. */
+/** Translations of the service's messages, which read `NAME must be RULE, got VALUE: REASON`. */
 const RULES = [
   [/^at least (.+?) turns, or the turning circle smaller$/, "至少应为 $1 圈，或缩小调头空间"],
   [/^more than (.+?) turns, which is the turning circle$/, "应大于 $1 圈，即起点在调头空间之外"],
@@ -239,7 +239,7 @@ const REASONS = [
 
 let column = 0;
 
-/** en or zh: the choice, else what the browser prefers. */
+/** Set the language to the choice, en or zh, or to the browser's preference. */
 export function setLanguage(choice) {
   const language = choice ?? (navigator.language.toLowerCase().startsWith("zh") ? "zh" : "en");
   column = language === "zh" ? 1 : 0;
@@ -253,17 +253,17 @@ export function setLanguage(choice) {
   return language;
 }
 
-/** The word of this key, with {names} replaced. */
+/** The text of this key, with {names} replaced. */
 export function say(key, values = {}) {
   return WORDS[key][column].replace(/\{(\w+)\}/g, (_, name) => values[name]);
 }
 
-/** The same, in the words for a margin [m] where there is one: benches are nearer than it, and need not touch. */
+/** The same, in the words for a positive margin [m], with which benches in contact need not touch. */
 export function sayNear(key, margin, values = {}) {
   return margin > 0 ? say(`${key}Near`, { margin, ...values }) : say(key, values);
 }
 
-/** The service's words on a refusal: names on the wire by the labels of the page, and in Chinese as far as RULES go. */
+/** A refusal of the service, with the page's labels for its names, and in Chinese as far as RULES cover it. */
 export function refusalWords(detail) {
   const label = (name) => (FIELDS.some((field) => field.name === name) ? `“${say(name)}”` : name);
   const english = detail
@@ -282,13 +282,13 @@ function translated(table, words) {
   return pattern && words.replace(pattern, chinese);
 }
 
-/** Bench k in a sentence. */
+/** Name of bench k in a sentence. */
 export function benchName(k, benches) {
   if (k === 0) return say("theHead");
   return k === benches - 1 ? say("theTail") : say("body", { k });
 }
 
-/** Handle k of a dragon with so many benches, by the bench that it leads; bench k has the same name. */
+/** Name of handle k, after the bench that it leads; bench k has the same name. */
 export function handleName(k, benches) {
   if (k === 0) return say("head");
   if (k === benches) return say("tailRear");

@@ -58,7 +58,7 @@ export class Track {
       if (this.#chunks.size > KEPT) this.#chunks.delete(this.#chunks.keys().next().value);
       if (!this.stopped) this.ready();
     } catch {
-      // Refused, or the dance is another one by now: what is at rest is drawn without samples.
+      // Refused, or the dance has changed meanwhile; at rest the dance is drawn without samples.
       this.stopped = true;
     } finally {
       this.#loading.delete(k);

@@ -12,7 +12,7 @@ export class View {
   #pointers = new Map();
   #travel = 0;
 
-  /** moved(panned): the view is another one; clicked(x, y): in pixels of the canvas */
+  /** moved(panned): called after a change of the view; clicked(x, y): in pixels of the canvas */
   constructor(canvas, { moved, clicked }) {
     Object.assign(this, { canvas, moved, clicked, x: 0, y: 0, scale: 20, fitted: true });
     canvas.addEventListener("wheel", (event) => this.#wheel(event), { passive: false });
@@ -55,7 +55,7 @@ export class View {
     this.moved(true);
   }
 
-  /** True when the key was one of the view's. */
+  /** True when the view handles this key. */
   key(key) {
     const arrows = { ArrowLeft: [1, 0], ArrowRight: [-1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
     if (arrows[key]) this.pan(...arrows[key].map((way) => way * PAN_STEP));

@@ -1,4 +1,4 @@
-"""The questions: what each is asked with, and what it answers. QUESTIONS has all of them by name."""
+"""The questions, each with its request and its answer. QUESTIONS holds all of them by name."""
 
 from __future__ import annotations
 

@@ -20,58 +20,58 @@ from core import Outcome
 class CheckRequest(Contact, PlacedDance, strict=True):
     """Can this dragon dance this path here?"""
 
-    speed_limit: SpeedLimit | None = measure("m/s", "Of every handle; null: none", None)
+    speed_limit: SpeedLimit | None = measure("m/s", "Highest speed allowed for any handle; null: no limit", None)
     start: Instant | None = measure(
-        "s", "From when; null: the start of the dance, or when the whole dragon is on the path", None
+        "s", "Start time; null: the start of the dance, or when the whole dragon is on the path", None
     )
-    stop: Instant | None = measure("s", "Until when; null: the end of the run", None)
+    stop: Instant | None = measure("s", "End time; null: the end of the run", None)
 
 
 class LeastClearance(Answer):
     """The least clearance over the dance."""
 
-    distance: float = measure("m", "The least that was met; 0 at the first touch")
-    at_least: float | None = measure("m", "Proven: nothing comes nearer; null: the search gave up first")
-    time: float = measure("s", "When it is met")
-    benches: Pair = Field(description="The pair that is so near")
+    distance: float = measure("m", "Smallest distance found; 0 at the first touch")
+    at_least: float | None = measure("m", "Proven lower bound; null: the search gave up before proving one")
+    time: float = measure("s", "Time of the smallest distance")
+    benches: Pair = Field(description="The pair at that distance")
 
 
 class Nearest(Answer):
     """How near the benches come to the edges of one area."""
 
-    distance: float = measure("m", "The least that was met; 0 at the first touch")
-    at_least: float | None = measure("m", "Proven: no bench comes nearer; null: the search gave up first")
-    time: float = measure("s", "When it is met")
-    bench: int = Field(description="The bench that comes so near")
-    point: Point = measure("m", "The point of the bench, x and y")
-    wall: Point = measure("m", "The point of the area, x and y")
+    distance: float = measure("m", "Smallest distance found; 0 at the first touch")
+    at_least: float | None = measure("m", "Proven lower bound; null: the search gave up before proving one")
+    time: float = measure("s", "Time of the smallest distance")
+    bench: int = Field(description="The bench at that distance")
+    point: Point = measure("m", "Nearest point of the bench, x and y")
+    wall: Point = measure("m", "Nearest point of the area, x and y")
 
 
 class AreaClearance(Answer):
-    """The benches and the edges of the square or of one obstacle."""
+    """Distance between the benches and the edges of the square or of one obstacle."""
 
     name: str = Field(description="Name of the area")
     outcome: Outcome = Field(description="Does a bench come nearer than the margin, or touch if it is 0?")
-    time: float | None = measure("s", "When first; null when clear or undecided")
-    time_bracket: Point | None = measure(
-        "s", "Proven not to be so up to, nearer than the margin, or touching if it is 0, at"
+    time: float | None = measure("s", "First such time; null when clear or undecided")
+    time_bracket: Point | None = measure("s", "Proven clear until; nearer than the margin, or touching if it is 0, at")
+    bench: int | None = Field(description="The first bench nearer than the margin, or touching if it is 0")
+    gap: float | None = measure(
+        "m", "Distance to the area at that time: the margin, or less if it is nearer from the start"
     )
-    bench: int | None = Field(description="The first bench nearer than the margin")
-    gap: float | None = measure("m", "What is left then between it and the area: the margin, or less from the start on")
-    point: Point | None = measure("m", "Its point that is nearest then, x and y")
-    nearest: Nearest = Field(description="The least distance over the dance")
+    point: Point | None = measure("m", "Point of that bench nearest to the area, x and y")
+    nearest: Nearest = Field(description="Smallest distance over the dance")
 
 
 class Stray(Answer):
-    """A bench that starts where it must not."""
+    """A bench that starts outside the square or inside an obstacle."""
 
-    name: str = Field(description="The area: the square that it is outside of, or the obstacle that it is in")
+    name: str = Field(description="Name of the square or of the obstacle")
     bench: int = Field(description="The bench")
-    point: Point = measure("m", "Its centre, x and y")
+    point: Point = measure("m", "Centre of the bench, x and y")
 
 
 class VenueClearance(Answer):
-    """The benches and the venue."""
+    """Distances between the benches and the venue."""
 
     stray: Stray | None = Field(description="The first bench that starts outside the square or in an obstacle")
     areas: list[AreaClearance] = Field(description="The square, then the obstacles")
@@ -80,72 +80,80 @@ class VenueClearance(Answer):
 class HighestSpeed(Answer):
     """The highest speed of any handle over continuous time."""
 
-    speed: float = measure("m/s", "The highest found")
+    speed: float = measure("m/s", "Highest speed found")
     speed_bracket: tuple[float, float | None] = measure(
-        "m/s", "Found, proven not to be exceeded (null where that proof was given up)"
+        "m/s", "Highest speed found, then a proven upper bound (null if the search gave up before proving one)"
     )
-    time: float = measure("s", "When it is reached")
-    handles: list[int] = Field(description="The handles that reach it together")
+    time: float = measure("s", "Time at which it is reached")
+    handles: list[int] = Field(description="Handles that reach it at that time")
 
 
 class SharpestBend(Answer):
-    """The largest angle between two consecutive benches."""
+    """Largest angle between two consecutive benches."""
 
-    angle: float = measure("rad", "Between their headings")
-    time: float = measure("s", "When it is reached")
+    angle: float = measure("rad", "Angle between their headings")
+    time: float = measure("s", "Time at which it is reached")
     benches: Pair = Field(description="The two benches")
 
 
 class Failure(Answer):
-    """One thing that fails."""
+    """One failed or undecided condition."""
 
-    kind: core.FailureKind = Field(description="What fails")
+    kind: core.FailureKind = Field(description="Kind of failure")
     time: float = measure(
         "s",
-        "When it first does; of what is undecided, proven good until then; of a speed, the first instant "
-        "above the limit",
+        "First time of the failure; for an undecided condition, the time until which it is proven to hold; for a "
+        "speed, the first instant above the limit",
     )
-    benches: list[int] = Field(description="The benches at fault; of a speed: the handle")
-    area: str | None = Field(description="The area of the venue; null where it has no part")
-    message: str = Field(description="One sentence")
+    benches: list[int] = Field(description="Benches at fault; for a speed, the handles")
+    area: str | None = Field(description="Area of the venue; null if the venue is not involved")
+    message: str = Field(description="The failure in one sentence")
     time_bracket: Point | None = measure(
-        "s", "Proven not to fail up to, failing at; null for a fold and for what fails from the start"
+        "s", "Proven not to fail until; failing at; null for a fold and for a failure from the start"
     )
     head: Head | None = Field(description="The head at that time")
     peak_speed: float | None = measure(
-        "m/s", "Of a speed: the highest over the dance; null where it grows without bound, towards a fold"
+        "m/s", "For a speed: the highest over the dance; null if it grows without bound towards a fold"
     )
-    peak_time: float | None = measure("s", "Of a speed: when it is highest, or the time of the fold")
+    peak_time: float | None = measure("s", "For a speed: the time of the highest, or of the fold")
 
 
 class Origin(Answer):
     """A place on earth."""
 
-    longitude: float = measure("degrees", "Eastwards")
-    latitude: float = measure("degrees", "Northwards")
+    longitude: float = measure("degrees", "Longitude, east positive")
+    latitude: float = measure("degrees", "Latitude, north positive")
 
 
 class Report(Answer):
-    """Can the dragon dance this path here? Where benches touch, or fold, the dance stops."""
+    """Can the dragon dance this path here? The dance stops at a contact or a fold."""
 
     verdict: core.Judgement = Field(
-        description="passes: nothing fails; fails: something does for certain; undecided: neither is proven"
+        description="passes: nothing fails; fails: at least one condition certainly fails; undecided: neither is proven"
     )
-    passed: bool = Field(description="The verdict is passes")
+    passed: bool = Field(description="True if the verdict is passes")
     failures: list[Failure] = Field(
-        description="What fails, in order of time, until the dance stops; and what is undecided"
+        description="Failed and undecided conditions, in order of time, until the dance stops"
     )
-    start: float = measure("s", "Looked at from here")
-    stop: float = measure("s", "Looked at until here")
+    start: float = measure("s", "Start of the time checked")
+    stop: float = measure("s", "End of the time checked")
     first_contact: CollisionTime = Field(
-        description="When two benches first come nearer than the margin, or touch if it is 0"
+        description="First time two benches come nearer than the margin, or touch if it is 0"
     )
-    least_clearance: LeastClearance | None = Field(description="Of any two benches; null with fewer than three")
-    venue: VenueClearance | None = Field(description="The benches and the venue; null without one")
-    highest_speed: HighestSpeed | None = Field(description="Of any handle; null in a run to its fold, without bound")
-    sharpest_bend: SharpestBend | None = Field(description="Between two consecutive benches; null for a single bench")
+    least_clearance: LeastClearance | None = Field(
+        description="Least clearance of any two benches; null with fewer than three"
+    )
+    venue: VenueClearance | None = Field(
+        description="Distances between the benches and the venue; null without a venue"
+    )
+    highest_speed: HighestSpeed | None = Field(
+        description="Highest speed of any handle; null in a run to a fold, where speed has no bound"
+    )
+    sharpest_bend: SharpestBend | None = Field(
+        description="Sharpest bend between two consecutive benches; null for a single bench"
+    )
 
-    origin: Origin | None = Field(description="Where x = y = 0 lies; null unless the venue was given in degrees")
+    origin: Origin | None = Field(description="Place of x = y = 0; null unless the venue was given in degrees")
 
     @classmethod
     def of(cls, found: core.Report, dance: core.Dance, asked: CheckRequest, origin: degrees.Origin | None) -> Self:
@@ -153,7 +161,7 @@ class Report(Answer):
 
 
 def check(asked: CheckRequest, settings: Settings) -> Report:
-    """Can the dragon dance this path here: first contact, least clearance, venue, speed, sharpest bend."""
+    """Can the dragon dance this path here? First contact, least clearance, venue, speed, sharpest bend."""
     dance = asked.to_dance(settings.checked_benches_max)
     place = asked.to_place(dance.dragon)
     found = core.check(

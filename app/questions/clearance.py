@@ -21,16 +21,16 @@ class ClearanceRequest(TimedDance):
 
 
 class ClearanceTable(Answer):
-    """Columns: one entry per instant; and what lies between them."""
+    """Columns with one entry per instant, and the local minima between the instants."""
 
-    time: list[float] = measure("s", "Instants, T of them")
-    clearance: list[float] = measure("m", "Smallest separation of two benches that are no neighbours")
-    benches: list[Pair] = Field(description="The pair that is so near")
+    time: list[float] = measure("s", "Instants")
+    clearance: list[float] = measure("m", "Smallest separation of two benches that are not neighbours")
+    benches: list[Pair] = Field(description="The pair with that separation")
     grazes: list[Graze] = Field(description="Local minima between the first and the last instant, refined")
 
 
 def clearance(asked: ClearanceQuery | ClearanceRequest, settings: Settings) -> Columns:
-    """Smallest separation of two benches that are no neighbours, and whose, at every instant."""
+    """Smallest separation of two benches that are not neighbours, and the pair, at every instant."""
     flat = isinstance(asked, ClearanceQuery)
     dance = asked.to_dance(settings.benches_max if flat else settings.checked_benches_max)
     found = core.clearance_profile(dance, asked.times_of(dance, settings.cells_max))

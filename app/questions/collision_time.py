@@ -16,7 +16,7 @@ from core import Dance, Outcome
 
 
 class Contact(Wire):
-    """What counts as a contact, and who judges it."""
+    """What counts as a contact, and how independent engines check it."""
 
     margin: Margin = 0.0
     cross_check: CrossCheck = "dragon"
@@ -30,52 +30,53 @@ class CollisionRequest(Contact, DanceFields, strict=True):
     """When do two benches first touch, or come nearer than a margin, on any path?"""
 
     start: Instant | None = measure(
-        "s", "From when; null: the start of the dance, or when the whole dragon is on the path", None
+        "s", "Start time; null: the start of the dance, or when the whole dragon is on the path", None
     )
-    stop: Instant | None = measure("s", "Until when; null: the end of the run", None)
+    stop: Instant | None = measure("s", "End time; null: the end of the run", None)
 
 
 class Certificate(Answer):
     """How the answer is known."""
 
-    method: str = Field(description="The whole claim, and how it is proven, in sentences")
-    steps: int = Field(description="Proven steps taken")
+    method: str = Field(description="The claim and its proof, in sentences")
+    steps: int = Field(description="Number of proven steps")
     clear_until: float | None = measure(
         "s",
-        "Nothing comes nearer than the margin, or touches if it is 0, from the start to here; null where "
-        "no time is proven clear: benches touch, or are nearer, at the start, or it is not decided from there on",
+        "Time until which no two benches come nearer than the margin, or touch if it is 0; null if no time is "
+        "proven clear: benches touch or are nearer at the start, or nothing is decided from the start",
     )
     bound: float = measure("1/m", "Largest bound on the second derivative of a gap that a step used")
-    least_clearance: Graze | None = Field(description="Narrowest graze before the contact, or over the whole run")
+    least_clearance: Graze | None = Field(
+        description="Narrowest graze before the contact, or over the whole run if there is none"
+    )
 
 
 class CollisionTime(Answer):
     """When two benches that share no handle first come nearer than the margin, or touch if it is 0."""
 
     outcome: Outcome = Field(
-        description="How the search ended; contact is the first time at which two benches are nearer than the margin, "
-        "or touch if it is 0"
+        description="How the search ended; contact: two benches come nearer than the margin, or touch if it is 0"
     )
-    margin: float = measure("m", "Clearance that was asked for; 0 asks for a touch")
+    margin: float = measure("m", "Required clearance; 0: only a touch counts as a contact")
     time: float | None = measure(
-        "s", "When first nearer than the margin, or touching if it is 0; null when clear or undecided"
+        "s", "First time nearer than the margin, or touching if it is 0; null when clear or undecided"
     )
     time_bracket: Point | None = measure(
-        "s", "Proven not to be so up to, nearer than the margin, or overlapping if it is 0, at"
+        "s", "Proven clear until; nearer than the margin, or overlapping if it is 0, at"
     )
     head: Head | None = Field(description="The head at that time")
-    benches: Pair | None = Field(description="The pair that is so near")
+    benches: Pair | None = Field(description="The pair in contact")
     gap: float | None = measure(
-        "m", "Between the two then: the margin, or less where they are nearer from the start on"
+        "m", "Gap between the two at that time: the margin, or less if they are nearer from the start"
     )
-    corner: Feature | None = Field(description="The corner that is nearest, or touches")
-    edge: Feature | None = Field(description="The edge that it is nearest to, or touches")
-    point: Point | None = measure("m", "Where that corner is, x and y")
-    end: End | None = Field(description="Where the run ends, when clear")
+    corner: Feature | None = Field(description="Corner that touches or is nearest")
+    edge: Feature | None = Field(description="Edge that this corner touches or is nearest to")
+    point: Point | None = measure("m", "Position of that corner, x and y")
+    end: End | None = Field(description="End of the run, when clear")
     certificate: Certificate = Field(description="How the answer is known")
     cross_check: PairCheck | None = Field(
-        description="Engines on the dance 1e-6 m of travel before and after, at the start at once and after; null "
-        "without a contact, and when not asked for"
+        description="Verdicts of the engines 1e-6 m of travel before and after the contact (for a contact at the "
+        "start: at the start and after it); null without a contact or if not requested"
     )
 
     @classmethod

@@ -1,4 +1,4 @@
-"""The paper's figures 6, 7 and 8: what each is drawn from."""
+"""The paper's figures 6, 7 and 8: their requests and drawings."""
 
 from __future__ import annotations
 
@@ -29,14 +29,14 @@ FORMS = tuple(one.media_type for one in Format)
 class TrajectoryFigureQuery(DanceQuery):
     """Every handle at one instant, drawn."""
 
-    time: Instant = measure("s", "The instant", 300.0)
+    time: Instant = measure("s", "Instant to draw", 300.0)
 
 
 class TrajectoryFigureRequest(PlacedDance):
     """Every handle at one instant, drawn on any path."""
 
     time: Instant | None = measure(
-        "s", "The instant; null: 0, or if the dance has no 0, when the whole dragon is on the path", None
+        "s", "Instant to draw; null: 0, or, if the dance has no time 0, when the whole dragon is on the path", None
     )
 
 
@@ -55,15 +55,15 @@ class ContactFigureRequest(PlacedDance):
 
     margin: Margin = 0.0
     start: Instant | None = measure(
-        "s", "From when; null: 0, or if the dance has no 0, when the whole dragon is on the path", None
+        "s", "Start time; null: 0, or, if the dance has no time 0, when the whole dragon is on the path", None
     )
-    stop: Instant | None = measure("s", "Until when; null: the end of the run", None)
+    stop: Instant | None = measure("s", "End time; null: the end of the run", None)
 
 
 def trajectory_figure(
     asked: TrajectoryFigureQuery | TrajectoryFigureRequest, settings: Settings, format: Format
 ) -> bytes:
-    """Every handle at one instant, coloured by its speed; on any path and in any venue where those are given."""
+    """Every handle at one instant, coloured by its speed, on the given path and in the given venue."""
     from app.files import figures
 
     dance = asked.to_dance(settings.drawn_benches_max)
@@ -95,7 +95,7 @@ def pitch_scan_figure(asked: PitchScanQuery | PitchScanRequest, settings: Settin
 def drawn_scan(
     asked: PitchScanQuery | PitchScanRequest, settings: Settings, format: Format, progress: Callable[[float], None]
 ) -> bytes:
-    """The same for who waits: progress is told the share done."""
+    """The figure as bytes; progress(share done) is called while it is computed."""
     from app.files import figures
 
     dragon = asked.to_dragon(min(settings.drawn_benches_max, asked.most_benches(settings)))

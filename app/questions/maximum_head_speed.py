@@ -13,9 +13,9 @@ from app.wire.paths import BY_KIND, AnyPath, TurnFields, TurnPath
 
 
 class Limit(Wire):
-    """What no handle may exceed."""
+    """Speed limit for every handle."""
 
-    speed_limit: SpeedLimit = measure("m/s", "Of every handle", 2.0)
+    speed_limit: SpeedLimit = measure("m/s", "Highest speed allowed for any handle", 2.0)
 
 
 class MaximumHeadSpeedQuery(Limit, TurnFields, UniformDragon):
@@ -31,12 +31,12 @@ class MaximumHeadSpeedRequest(Limit, DanceFields, strict=True):
 
     path: AnyPath = Field(
         default_factory=lambda: TurnPath(kind="turn"),
-        description="The path; a turn where none is given",
+        description="The path; a turn by default",
         json_schema_extra={"discriminator": BY_KIND},
     )
-    start: Instant | None = measure("s", "From when, at head_speed; null: when the whole dragon is on the path", None)
+    start: Instant | None = measure("s", "Start time, at head_speed; null: when the whole dragon is on the path", None)
     stop: Instant | None = measure(
-        "s", "Until when, at head_speed; null: the end of the path; before a bench folds", None
+        "s", "End time, at head_speed, before any bench folds; null: the end of the path", None
     )
 
 
@@ -45,12 +45,12 @@ class MaximumHeadSpeed(Answer):
 
     head_speed: float = measure("m/s")
     head_speed_bracket: tuple[float | None, float] = measure(
-        "m/s", "Proven to keep the limit (null where that proof was given up), found to reach it"
+        "m/s", "Proven to keep the limit (null if the search gave up before proving one); found to reach it"
     )
-    speed_ratio: float = Field(description="Highest speed of a handle over that of the head")
-    handles: list[int] = Field(description="The handles that reach the limit together")
-    time: float = measure("s", "When they do, at that head speed; 0 is the entry into the turn")
-    time_at_unit_head_speed: float = measure("s", "The same at a head speed of 1 m/s")
+    speed_ratio: float = Field(description="Highest speed of any handle divided by that of the head")
+    handles: list[int] = Field(description="Handles that reach the limit at that time")
+    time: float = measure("s", "Time at which they reach it, at that head speed; 0 is the entry into the turn")
+    time_at_unit_head_speed: float = measure("s", "The same time at a head speed of 1 m/s")
 
 
 def maximum_head_speed(asked: MaximumHeadSpeedQuery | MaximumHeadSpeedRequest, settings: Settings) -> MaximumHeadSpeed:

@@ -36,30 +36,32 @@ class MinimumPitch(Answer):
 
     pitch: float = measure("m")
     pitch_bracket: Point = measure(
-        "m", "Infeasible, feasible; twice the same where smaller pitches would begin inside the circle"
+        "m", "Infeasible pitch; feasible pitch; equal if any smaller pitch would begin inside the circle"
     )
     limited_by: core.LimitedBy = Field(
-        description="Just below: a graze on the way; contact on the circle; the start: contact there or, where benches "
-        "is null, a start inside the circle (contact: nearer than the margin, or a touch if it is 0); or a "
-        "fold: a bench cannot follow the head as far as the circle"
+        description="What happens at a slightly smaller pitch. graze: contact on the way; circle: contact when the "
+        "head is on the circle; start: contact at the start or, if benches is null, a start inside the circle; fold: a "
+        "bench cannot follow the head as far as the circle. Contact: nearer than the margin, or a touch if it is 0"
     )
     benches: Pair | None = Field(
-        description="The pair that touches, or is nearer than the margin, just below; null at a fold or without one"
+        description="The pair in contact at a slightly smaller pitch; null for a fold or if there is none"
     )
-    bench: int | None = Field(description="The bench that folds just below; null if none does")
-    head_radius: float | None = measure("m", "Where the head is then")
-    other_feasible_intervals: list[Point] = measure("m", "Feasible islands below")
+    bench: int | None = Field(description="The bench that folds at a slightly smaller pitch; null if none does")
+    head_radius: float | None = measure("m", "Distance of the head from the centre at that moment")
+    other_feasible_intervals: list[Point] = measure("m", "Intervals of smaller pitches that are feasible too")
     justified_by: str = Field(
-        description="How larger pitches are known to be feasible. bound: proven for all; scan: below proven_from "
-        "single ones are proven, at most scan_step apart: a narrower range of infeasible ones is not excluded there"
+        description="How larger pitches are known to be feasible. bound: proven for all; scan: below proven_from only "
+        "single pitches are proven, at most scan_step apart, so a narrower infeasible range there is not excluded"
     )
-    proven_from: float = measure("m", "From here on every pitch is proven feasible; pitch itself without a scan")
-    proven_up_to: float | None = measure("m", "Up to here; null: every larger pitch, without end")
-    scan_step: float | None = measure("m", "How far apart the pitches of a scan are at most; null: no scan")
-    evaluations: int = Field(description="Ways to the circle, and strips of pitches at once, that were marched")
+    proven_from: float = measure("m", "Every pitch from this one up is proven feasible; equals pitch without a scan")
+    proven_up_to: float | None = measure("m", "Upper end of the proven pitches; null: no upper end")
+    scan_step: float | None = measure("m", "Largest distance between two pitches of the scan; null: no scan")
+    evaluations: int = Field(
+        description="Number of ways to the circle computed, for single pitches or for whole strips of pitches"
+    )
     cross_check: PairCheck | None = Field(
-        description="Engines on the dance at a pitch 1e-6 m larger and smaller, the head where the pair is nearer than "
-        "the margin, or touches; null without a pair, and when not asked for"
+        description="Verdicts of the engines at a pitch 1e-6 m larger and smaller, with the head where the pair is in "
+        "contact; null without a pair or if not requested"
     )
 
     @classmethod
@@ -71,7 +73,7 @@ class MinimumPitch(Answer):
 
 
 def allowed(found: core.MinimumPitch, asked: Circle, dragon: Dragon) -> core.MinimumPitch:
-    """The minimum pitch if other questions take it. raises: InvalidValue naming what makes it so large"""
+    """The minimum pitch, if other questions accept it. raises: InvalidValue naming what makes it too large"""
     if found.pitch <= PITCH_MAX:
         return found
     why = f"the minimum pitch is {found.pitch:.9g} m, and pitches are at most {said(PITCH_MAX)} m here"
@@ -81,7 +83,7 @@ def allowed(found: core.MinimumPitch, asked: Circle, dragon: Dragon) -> core.Min
         raise InvalidValue.of("start_turns", rule, asked.start_turns, "turns")
     if found.benches is None or found.benches[1] - found.benches[0] > 2:
         raise InvalidValue.of("turning_diameter", f"must be larger: {why}", asked.turning_diameter, "m")
-    # Hardly apart even on a straight line.
+    # The benches are hardly apart even on a straight line.
     if asked.margin:
         raise InvalidValue.of("margin", f"must be smaller: {why}", asked.margin, "m")
     bench = found.benches[0]
@@ -93,7 +95,7 @@ def allowed(found: core.MinimumPitch, asked: Circle, dragon: Dragon) -> core.Min
 
 
 def minimum_pitch(asked: MinimumPitchQuery | MinimumPitchRequest, settings: Settings) -> MinimumPitch:
-    """The smallest pitch such that every larger one reaches the circle with no touch, or no two within a margin."""
+    """The smallest pitch such that at every larger one the head reaches the circle without a contact."""
     dragon = asked.to_dragon(asked.most_benches(settings))
     found = allowed(core.minimum_pitch(dragon, **asked.to_circle()), asked, dragon)
     return MinimumPitch.of(found, dragon, asked)

@@ -23,8 +23,8 @@ class BenchPose(Wire, strict=True):
     x: Coordinate = measure("m", "Centre")
     y: Coordinate = measure("m", "Centre")
     heading: float = measure("rad", "Direction, counter-clockwise from the x axis", ge=-1000, le=1000)
-    length: Length = measure("m", "Along the heading")
-    width: Width = measure("m", "Across the heading")
+    length: Length = measure("m", "Length along the heading")
+    width: Width = measure("m", "Width across the heading")
 
 
 class OverlapsRequest(Wire, strict=True):
@@ -32,7 +32,7 @@ class OverlapsRequest(Wire, strict=True):
 
     benches: list[BenchPose] = Field(min_length=1, fail_fast=True, description="The benches, in order")
     margin: Margin = 0.0
-    chained: bool = Field(True, description="Consecutive benches are neighbours, which are never a checked pair")
+    chained: bool = Field(True, description="Consecutive benches are neighbours: they are never a checked pair")
 
     def to_poses(self, poses_max: int) -> tuple[Floats, Floats, Floats]:
         """Poses (n, 3), lengths (n,) [m] and widths (n,) [m]. raises: TooLarge"""
@@ -45,7 +45,7 @@ class Overlap(Answer):
     """Two benches nearer than the margin, or overlapping if it is 0. witness_b - witness_a = separation * normal."""
 
     benches: Pair = Field(description="The pair a, b")
-    separation: float = measure("m", "Signed: minus the penetration depth when they overlap")
+    separation: float = measure("m", "Signed distance; minus the penetration depth if they overlap")
     witness_a: Point = measure("m", "Point of a that realises the separation, x and y")
     witness_b: Point = measure("m", "Point of b that realises the separation, x and y")
     normal: Point = Field(description="Unit vector from a to b")
@@ -54,8 +54,8 @@ class Overlap(Answer):
 class OverlapsCheck(Answer):
     """Independent engines side by side."""
 
-    agree: bool = Field(description="All engines asked found the same pairs")
-    engines: dict[Engine, list[Pair]] = Field(description="The pairs that each engine found")
+    agree: bool = Field(description="True if all engines that were asked found the same pairs")
+    engines: dict[Engine, list[Pair]] = Field(description="Pairs found by each engine")
     left_out: list[Engine] = Field(description=LEFT_OUT)
 
 
@@ -83,13 +83,13 @@ class OverlapsAnswer(Answer):
 
 
 def overlaps(asked: OverlapsRequest, settings: Settings) -> OverlapsAnswer:
-    """Which benches overlap, or are nearer than a margin, how deep and where, by each of four engines."""
+    """Which benches overlap or are nearer than a margin, how deep and where, according to four engines."""
     poses, lengths, widths = asked.to_poses(settings.poses_max)
     return _judged(poses, lengths, widths, settings, margin=asked.margin, chained=asked.chained)
 
 
 def of_dance(asked: InstantQuery, settings: Settings) -> OverlapsAnswer:
-    """The same of the benches of a dance at one instant."""
+    """The same for the benches of a dance at one instant."""
     dance = asked.to_dance(settings.poses_max)
     dragon, poses = dance.dragon, core.bench_poses(core.trajectory(dance, [asked.time]).position[0])
     return _judged(poses, dragon.lengths, dragon.widths, settings, margin=asked.margin, chained=True)
@@ -98,7 +98,7 @@ def of_dance(asked: InstantQuery, settings: Settings) -> OverlapsAnswer:
 def _judged(
     poses: Floats, lengths: Floats, widths: Floats, settings: Settings, *, margin: float, chained: bool
 ) -> OverlapsAnswer:
-    """The overlaps of benches, and what each engine says of them. raises: TooLarge, InvalidValue"""
+    """The overlaps of benches, and the verdict of each engine on them. raises: TooLarge, InvalidValue"""
     found = core.overlaps(poses, lengths, widths, margin=margin, chained=chained)
     check_limit("benches", "overlapping pairs", len(found.pairs), settings.pairs_max, "move them apart")
     check = core.cross_check(poses, lengths, widths, margin=margin, chained=chained)

@@ -1,7 +1,7 @@
-"""What the paper reports beside what this program computes, and why the two differ.
+"""The paper's numbers beside those of this program, and why they differ.
 
 The paper: J. Yang, R. Xie, J. Cao, "Dynamic Simulation and Optimization Analysis of The Bench Dragon Performance".
-Its own four numbers and its search range are typed in here; every other number is computed when asked for.
+Its four numbers and its search range are constants here; every other number is computed on request.
 """
 
 from __future__ import annotations
@@ -39,17 +39,17 @@ PAPER_PITCH = 0.474924  # [m], section 3.3
 PAPER_RANGE = (0.30, 0.55)  # [m], section 3.3
 TURNING_RADIUS = 4.5  # [m], section 2.5
 
-# The angle sum [deg] that must count as 360 for the paper's time to come out.
+# Angle sum [deg] that must be counted as 360 to obtain the paper's time.
 LOOSE_ANGLE = 359.1
 # Rounding of an angle sum [deg]: corners inside give 360 within 1e-12, corners 1e-9 m outside give less than this.
 EXACT_ANGLE = 360.0 - 1e-6
-# The head's neighbourhood: the ring around it has at most 34 benches, those further back are a ring further out.
+# The head's neighbourhood: the ring around it has at most 34 benches; benches further back lie in a ring further out.
 RING_BENCHES = 40
 # Steps of the searches for a first time [s] and for sign changes in the pitch [m], and where bisection stops.
 TIME_STEP = 0.1
 PITCH_STEP = 0.001
 RESOLUTION = 1e-10
-# Angle sums of the whole run at once would take 500 MB.
+# The angle sums of the whole run in one array would take 500 MB.
 SUM_BATCHES = 20
 
 
@@ -58,34 +58,34 @@ Outline = Callable[[Floats, Floats], Floats]
 
 
 class Nothing(Wire):
-    """No parameters at all."""
+    """A request without parameters."""
 
 
 class Evidence(Answer, frozen=True):
     """One computation that bears on a difference."""
 
-    what: str = Field(description="What was computed")
-    value: float = Field(description="In the unit given beside it")
+    what: str = Field(description="Quantity computed")
+    value: float = Field(description="Value in that unit")
     unit: str = Field(description="Unit of the value")
 
 
 class PaperNumber(Answer, frozen=True):
     """One number that the paper reports, beside ours."""
 
-    quantity: str = Field(description="What it measures")
+    quantity: str = Field(description="Name of the quantity")
     unit: str = Field(description="Unit of paper, ours and difference")
-    source: str = Field(description="Where it stands in the paper")
-    paper: float = Field(description="As the paper reports it, in the unit given beside it")
-    ours: float = Field(description="As computed here, in the unit given beside it")
-    difference: float = Field(description="Ours minus the paper's, in the unit given beside it")
-    reason: str = Field(description="Why the two differ, as far as a computation shows it")
-    evidence: list[Evidence] = Field(description="The computations")
+    source: str = Field(description="Place in the paper")
+    paper: float = Field(description="Value in the paper, in that unit")
+    ours: float = Field(description="Value computed here, in that unit")
+    difference: float = Field(description="Our value minus the paper's, in that unit")
+    reason: str = Field(description="Why the two differ, as far as computations show")
+    evidence: list[Evidence] = Field(description="Computations behind the reason")
 
 
 class PaperTable(Answer):
     """The paper's reported numbers beside ours."""
 
-    rows: list[PaperNumber] = Field(description="One for each number that the paper reports")
+    rows: list[PaperNumber] = Field(description="One row for each number in the paper")
 
 
 @cache
@@ -142,7 +142,7 @@ def _collision_radius(found: FirstContact) -> PaperNumber:
     assert found.head is not None
     head = trajectory_of(Dance(Dragon(benches=1), Spiral()), [PAPER_TIME]).position[0, 0]
     radius = float(np.hypot(*head))
-    # A spiral that starts at that radius is as long as the way that is left.
+    # The length of a spiral that starts at that radius equals the remaining way.
     passed = Spiral().length - Spiral(start_turns=PAPER_RADIUS / Spiral().pitch).length
     return _compared(
         "radius of the head at first contact", "m", "section 3.3", PAPER_RADIUS, found.head.radius,
@@ -181,7 +181,7 @@ def _minimum_pitch() -> PaperNumber:
 def _largest_sums(outline: Outline, times: Floats) -> Floats:
     """The paper's rule, eqs. 13-16: the largest angle sum between head and body benches at every time.
 
-    outline: what makes the corners (..., 4, 2) from poses and sizes; times: (T,) [s]; returns (T,) [deg]
+    outline: function from poses and sizes to corners (..., 4, 2); times: (T,) [s]; returns (T,) [deg]
     """
     dragon = Dragon(benches=RING_BENCHES)
     poses = bench_poses(trajectory_of(Dance(dragon, Spiral()), times).position)
@@ -220,12 +220,12 @@ def _bisected(holds: Callable[[float], bool], low: float, high: float) -> tuple[
 
 
 def _contact_radius(pitch: float) -> float:
-    """Where the head of the default dragon stands at first contact, as a scan finds it [m]; 0 when nothing touches."""
+    """Radius of the default dragon's head at first contact, as a scan finds it [m]; 0 without a contact."""
     return stop_radius(Dragon(), Spiral(pitch)) or 0.0
 
 
 def _bisected_radius() -> tuple[float, float]:
-    """Section 3.3: bisect the pitch until the head stops at the circle; the two pitches where that ends."""
+    """The two pitches at which the bisection of section 3.3, for a head that stops at the circle, ends."""
     return _bisected(lambda pitch: _contact_radius(pitch) <= TURNING_RADIUS, *PAPER_RANGE)
 
 

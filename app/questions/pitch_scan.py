@@ -16,7 +16,7 @@ from core.design.pitch_scan import scan_near_minimum
 class ScanFields(Circle):
     """Pitches around the minimum pitch."""
 
-    samples: int = Field(101, ge=2, le=401, description="Pitches to sample; jumps between them are searched for")
+    samples: int = Field(101, ge=2, le=401, description="Number of pitches to sample; jumps between them are located")
 
 
 class PitchScanQuery(ScanFields, UniformDragon):
@@ -28,13 +28,13 @@ class PitchScanRequest(ScanFields, DragonFields, strict=True):
 
 
 class PitchScanTable(Answer):
-    """Columns: one entry per pitch at which two benches come nearer than the margin, or touch, and where the radius
-    jumps."""
+    """Columns with one entry per pitch at which two benches come nearer than the margin, or touch if it is 0, and with
+    entries where the radius jumps."""
 
     pitch: list[float] = measure("m", "Ascending")
     radius: list[float] = measure("m", "Distance of the head from the centre at first contact")
     pieces: list[Pair] = Field(description="Continuous stretches, as indices [from, to) into pitch and radius")
-    minimum_pitch: float = measure("m", "The minimum pitch, around which the pitches lie")
+    minimum_pitch: float = measure("m", "Minimum pitch, around which the scanned pitches lie")
 
 
 def pitch_scan(asked: PitchScanQuery | PitchScanRequest, settings: Settings) -> Columns:

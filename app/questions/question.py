@@ -1,4 +1,4 @@
-"""What a question is, whoever asks it: the service, the command, or a program."""
+"""A question as the service, the command and other programs ask it."""
 
 from __future__ import annotations
 
@@ -11,13 +11,13 @@ from app.wire.models import JSON, Answer, Wire
 
 @dataclass(frozen=True)
 class Question:
-    """One question: how it is asked, and what answers it.
+    """One question: its requests and the function that answers it.
 
-    answer: function of a request and the settings, and of a form where there are several; its name is that of the
-        question, and its first line says what is answered
-    model: what the JSON of the answer holds; None for a picture
+    answer: function of a request and the settings, and of a form if there are several; its name is the name of the
+        question, and its first line summarises the answer
+    model: type of the answer's JSON; None for a picture
     flat, body: the request as parameters of a query, and as a JSON object with a dragon and a path
-    forms: media types that the answer is given in, the first where nobody asks for one
+    forms: media types of the answer; the first is the default
     """
 
     answer: Callable[..., Any]
@@ -32,7 +32,7 @@ class Question:
 
     @property
     def path(self) -> str:
-        """Its address at the service."""
+        """Path of its address at the service."""
         words = self.name.replace("_", "-")
         return f"/{words}" if self.model else f"/figures/{words.removesuffix('-figure')}.{{format}}"
 

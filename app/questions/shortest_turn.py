@@ -17,7 +17,7 @@ from app.wire.paths import TurnCircle
 
 
 class ShortestTurnFields(TurnCircle):
-    """A turn to be made as short as it may be."""
+    """The circle and the coils of the turn to shorten."""
 
     margin: Margin = 0.0
 
@@ -31,23 +31,21 @@ class ShortestTurnRequest(ShortestTurnFields, DragonFields, strict=True):
 
 
 class ShortestTurn(Turn):
-    """The turn whose entry lies as deep inside the circle as this dragon can dance."""
+    """The turn with the deepest entry inside the circle that this dragon can dance."""
 
-    entry_bracket: Point = measure("m", "Entry radii: infeasible, feasible")
+    entry_bracket: Point = measure("m", "Entry radii: infeasible; feasible")
     limited_by: core.TurnLimit = Field(
-        description="bend: a chord cannot follow; contact: benches come nearer than the margin, or touch if it is 0; "
-        "centre: nothing down to the centre"
+        description="What prevents a deeper entry. bend: a chord cannot follow; contact: benches come nearer than the "
+        "margin, or touch if it is 0; centre: nothing, down to the centre"
     )
-    benches: Pair | None = Field(
-        description="The pair that comes nearer than the margin, or touches, just below; null if none does"
-    )
-    time: float | None = measure("s", "When, at a head speed of 1 m/s; 0 is the entry into the turn")
+    benches: Pair | None = Field(description="The pair in contact at a slightly deeper entry; null if there is none")
+    time: float | None = measure("s", "Time of that contact, at a head speed of 1 m/s; 0 is the entry into the turn")
     scan_step: float = measure(
         "m",
-        "Entries down from the circle were tried this far apart, each one proven: a narrower range of "
-        "infeasible ones is not excluded",
+        "Distance between the entries tried from the circle inwards; each one is proven, but a narrower range of "
+        "infeasible ones between two is not excluded",
     )
-    evaluations: int = Field(description="Entries tried")
+    evaluations: int = Field(description="Number of entries tried")
 
     @classmethod
     def of_shortest(cls, found: core.ShortestTurn) -> Self:
@@ -55,7 +53,7 @@ class ShortestTurn(Turn):
 
 
 def shortest_turn(asked: ShortestTurnQuery | ShortestTurnRequest, settings: Settings) -> ShortestTurn:
-    """The turn that begins as deep inside its circle as the dragon can dance, and what keeps it from going deeper."""
+    """The turn that begins as deep inside its circle as the dragon can dance, and what prevents a deeper one."""
     found = core.shortest_turn(
         asked.to_dragon(settings.checked_benches_max),
         asked.pitch,

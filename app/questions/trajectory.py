@@ -22,15 +22,15 @@ class TrajectoryRequest(TimedDance):
 
 
 class TrajectoryTable(Answer):
-    """Columns: one row per instant, one entry per handle, handle 0 leading (H = benches + 1)."""
+    """Columns with one row per instant; a row has one entry per handle, head first (H = benches + 1 entries)."""
 
-    time: list[float] = measure("s", "Instants, T of them")
-    x: list[list[float]] = measure("m", "T rows of H")
-    y: list[list[float]] = measure("m", "T rows of H")
-    speed: list[list[float]] = measure("m/s", "T rows of H")
+    time: list[float] = measure("s", "Instants, T entries")
+    x: list[list[float]] = measure("m", "T rows of H entries")
+    y: list[list[float]] = measure("m", "T rows of H entries")
+    speed: list[list[float]] = measure("m/s", "T rows of H entries")
 
 
-# What a trajectory is written in: media type -> function of it and the decimals.
+# Forms of a trajectory: media type -> function of the trajectory and the decimals.
 FORMS: dict[str, Callable[[core.Trajectory, int | None], bytes]] = {
     JSON: tables.trajectory_json,
     tables.CSV_TYPE: tables.trajectory_csv,

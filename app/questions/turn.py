@@ -27,17 +27,17 @@ class TurnRequest(Wire, strict=True):
 class Turn(Answer):
     """Two tangent arcs between two coils: the first clockwise, the second counter-clockwise."""
 
-    pitch: float = measure("m", "Of both coils")
+    pitch: float = measure("m", "Pitch of both coils")
     turning_diameter: float = measure("m", "Diameter of the circle in which the turn lies")
-    ratio: float = Field(description="Radius of the first arc over that of the second")
+    ratio: float = Field(description="Radius of the first arc divided by that of the second")
     entry_radius: float = measure("m", "Distance of the entry from the centre")
     radii: Point = measure("m", "Radii of both arcs")
     centres: tuple[Point, Point] = measure("m", "Centres of both arcs, x and y")
-    angles: Point = measure("rad", "Angle turned on each arc")
-    entry: Point = measure("m", "Where the first arc begins, x and y")
-    tangent_point: Point = measure("m", "Where the two arcs meet, x and y")
-    exit: Point = measure("m", "Where the second arc ends, x and y")
-    length: float = measure("m", "Of both arcs together")
+    angles: Point = measure("rad", "Angle of each arc")
+    entry: Point = measure("m", "Start of the first arc, x and y")
+    tangent_point: Point = measure("m", "Point where the two arcs meet, x and y")
+    exit: Point = measure("m", "End of the second arc, x and y")
+    length: float = measure("m", "Total length of both arcs")
 
     @classmethod
     def of(cls, found: core.Turn) -> Self:

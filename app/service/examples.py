@@ -1,6 +1,6 @@
-"""A request and its true answer for each call, shown in the documentation: examples.json, which `make examples` renews.
+"""Example of every call with its true answer, shown in the documentation; `make examples` renews examples.json.
 
-A test asks the service for each.
+A test asks the service for each of them.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ FILE = Path(__file__).with_suffix(".json")
 
 @dataclass(frozen=True, slots=True)
 class Example:
-    """A call with these query parameters and this body gives this answer."""
+    """Query parameters and body of a call, and its answer."""
 
     answer: Any
     query: dict[str, float] = field(default_factory=dict)

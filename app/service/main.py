@@ -1,4 +1,4 @@
-"""The service: create_app(settings) puts the calls, their limits and what surrounds them together.
+"""The service: create_app(settings) assembles the calls, their limits and the middleware.
 
 uvicorn --factory app.service.main:create_app
 """
@@ -35,7 +35,7 @@ logger = logging.getLogger("uvicorn.error")
 
 
 class State(Answer):
-    """Is the service alive, and is it ready?"""
+    """State of the service."""
 
     status: str = Field(description="ok or ready")
 
@@ -46,11 +46,14 @@ tight may the spiral be? SI units and radians throughout. A collision is an answ
 details (RFC 9457). An answer depends on its request alone and carries a strong ETag.
 """
 TAGS = [
-    {"name": "Questions", "description": "Answers in numbers, by a query or by a body with a dragon and a path."},
-    {"name": "Figures", "description": "Answers as pictures, in SVG or PNG."},
-    {"name": "Service", "description": "Is it alive, and is it right?"},
+    {
+        "name": "Questions",
+        "description": "Answers in numbers. GET takes a query, POST a body with a dragon and a path.",
+    },
+    {"name": "Figures", "description": "Answers as pictures in SVG or PNG."},
+    {"name": "Service", "description": "Liveness and readiness."},
 ]
-# Swagger UI's files come from a pip package; its start is a file of its own, because pages here run no inline script.
+# Swagger UI comes from a pip package; its start script is a separate file because the policy forbids inline scripts.
 DOCS = """<!doctype html>
 <html lang="en">
 <head>
@@ -76,10 +79,10 @@ KNOWN_TOLERANCE = 1e-9
 
 
 def fault() -> str:
-    """What is wrong with this installation's arithmetic, empty when known answers come out."""
+    """Fault of this installation's arithmetic; empty if the known answers come out."""
     try:
         return _difference()
-    except Exception as error:  # Whatever is broken, the process must live to say so at /readyz.
+    except Exception as error:  # The process must survive any fault to report it at /readyz.
         logger.exception("The self-test failed")
         return type(error).__name__
 
@@ -88,9 +91,9 @@ def _difference() -> str:
     x = float(trajectory(Dance(Dragon(), Spiral()), [0.0]).position[0, 1, 0])
     contact = first_contact(Dance(Dragon(), Spiral())).time
     if abs(x - KNOWN_X) > KNOWN_TOLERANCE:
-        return f"x of handle 1 at the start is {x!r} m, known is {KNOWN_X!r} m"
+        return f"x of handle 1 at the start is {x!r} m, expected {KNOWN_X!r} m"
     if contact is None or abs(contact - KNOWN_CONTACT) > KNOWN_TOLERANCE:
-        return f"first contact is at {contact!r} s, known is {KNOWN_CONTACT!r} s"
+        return f"first contact is at {contact!r} s, expected {KNOWN_CONTACT!r} s"
     return ""
 
 
@@ -101,7 +104,7 @@ async def _lifespan(app: FastAPI) -> AsyncIterator[None]:
 
 
 def create_app(settings: Settings | None = None) -> FastAPI:
-    """The service with these limits, by default those of the environment."""
+    """The service with these limits; default: those of the environment."""
     settings = settings or Settings()
     registry = CollectorRegistry()
     app = FastAPI(
@@ -143,7 +146,7 @@ def _openapi(app: FastAPI) -> dict[str, Any]:
         schema = FastAPI.openapi(app)
         problem = problems.Problem.model_json_schema(ref_template="#/components/schemas/{model}")
         schema["components"]["schemas"] |= problem.pop("$defs") | {"Problem": problem}
-        for name, example in EXAMPLES.items():  # FastAPI drops every null of an example.
+        for name, example in EXAMPLES.items():  # FastAPI drops every null in an example.
             method, path = name.split()
             call = schema["paths"][path][method.lower()]
             call["responses"]["200"]["content"]["application/json"]["example"] = example.answer
@@ -152,7 +155,7 @@ def _openapi(app: FastAPI) -> dict[str, Any]:
 
 
 def _state_benches(part: Any, most: int) -> None:
-    """The number of benches that this service takes, in place of what a dragon may have in core."""
+    """Replace the largest number of benches in core by the limit of this service."""
     if isinstance(part, dict):
         for name, inner in part.items():
             if name == "benches" and isinstance(inner, dict) and "maximum" in inner:
@@ -166,7 +169,7 @@ def _state_benches(part: Any, most: int) -> None:
 
 
 def _add_health(app: FastAPI) -> None:
-    problem = {"description": "A query was given, and this call takes none", "content": routes.PROBLEM}
+    problem = {"description": "Query parameters were given, but this call takes none", "content": routes.PROBLEM}
     described: dict[str, Any] = {
         "response_model": State,
         "dependencies": [Depends(refuse_query)],
@@ -177,13 +180,13 @@ def _add_health(app: FastAPI) -> None:
 
     @app.get("/healthz", operation_id="healthz", **described)
     async def healthz(response: Response) -> State:
-        """Is the process alive?"""
+        """Liveness: the process answers."""
         response.headers["Cache-Control"] = "no-store"
         return State(status="ok")
 
     @app.get("/readyz", operation_id="readyz", **described)
     async def readyz(request: Request, response: Response) -> State:
-        """Does this installation give known answers?"""
+        """Readiness: this installation gives the known answers of the self-test."""
         if request.app.state.fault:
             raise problems.Refused(503, f"The self-test failed: {request.app.state.fault}.")
         response.headers["Cache-Control"] = "no-store"
@@ -192,7 +195,7 @@ def _add_health(app: FastAPI) -> None:
     @app.get("/metrics", include_in_schema=False)
     async def metrics(request: Request) -> Response:
         registry = request.app.state.registry
-        if SHARED_COUNTS in os.environ:  # of all processes that serve this port
+        if SHARED_COUNTS in os.environ:  # Counts of all processes on this port.
             registry = CollectorRegistry()
             MultiProcessCollector(registry)  # type: ignore[no-untyped-call]
         return Response(generate_latest(registry), media_type=CONTENT_TYPE_LATEST)

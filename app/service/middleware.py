@@ -1,4 +1,4 @@
-"""What holds for every request whatever its path: size, HEAD, headers of safety, mistakes, counts and times."""
+"""Middleware for every request: body size, HEAD, security headers, internal errors, counts and times."""
 
 from __future__ import annotations
 
@@ -15,12 +15,12 @@ from app.service.problems import ErrorItem, Refused, http_problem, server_proble
 logger = logging.getLogger("uvicorn.error")
 
 SELF_ONLY = "default-src 'self'"
-# Swagger UI styles its elements in place and draws its icons from data: addresses.
+# Swagger UI uses inline styles and icons from data: addresses.
 DOCS_POLICY = "default-src 'self'; style-src 'self' 'unsafe-inline'; img-src 'self' data:"
 
 
 class BodyLimit:
-    """Answers 413 as soon as a body is longer than allowed, by its stated length or while it streams in."""
+    """Answers 413 as soon as a body exceeds the limit, by its stated length or while it streams in."""
 
     def __init__(self, app: ASGIApp, bytes_max: int) -> None:
         self.app, self.bytes_max = app, bytes_max
@@ -50,7 +50,7 @@ class BodyLimit:
 
 
 class HeadAsGet:
-    """Answers HEAD as GET without the body, so that the headers are the same."""
+    """Answers HEAD like GET without the body, so that the headers are the same."""
 
     def __init__(self, app: ASGIApp) -> None:
         self.app = app
@@ -68,7 +68,7 @@ class HeadAsGet:
 
 
 class SafetyHeaders:
-    """Lets a browser load from this service alone, and take each answer for what it says it is."""
+    """Tells browsers to load only from this service and to trust the stated content type."""
 
     def __init__(self, app: ASGIApp) -> None:
         self.app = app
@@ -84,7 +84,7 @@ class SafetyHeaders:
                 headers["Content-Security-Policy"] = policy
                 headers["X-Content-Type-Options"] = "nosniff"
                 headers["Referrer-Policy"] = "no-referrer"
-                # Files of the page are asked for anew: modules of two versions must not meet.
+                # Browsers revalidate the page's files, so that modules of two versions never mix.
                 headers.setdefault("Cache-Control", "no-cache")
             await send(message)
 
@@ -92,7 +92,7 @@ class SafetyHeaders:
 
 
 class Mistakes:
-    """Answers 500 where the service itself fails, keeps the connection, and writes the traceback into the log alone."""
+    """Answers 500 when the service itself fails, keeps the connection, and writes the traceback only to the log."""
 
     def __init__(self, app: ASGIApp) -> None:
         self.app = app
@@ -115,7 +115,7 @@ class Mistakes:
 
 
 class Metrics:
-    """Counts requests and their times by path and status."""
+    """Counts requests by path and status, and their times by path."""
 
     def __init__(self, app: ASGIApp, registry: CollectorRegistry) -> None:
         self.app = app
@@ -136,7 +136,7 @@ class Metrics:
         try:
             await self.app(scope, receive, noted)
         finally:
-            # The path of the route, so that unknown paths cannot make ever more labels.
+            # The path of the route, so that unknown paths cannot create new labels without end.
             path = getattr(scope.get("route"), "path", "other")
             self.requests.labels(path, status).inc()
             self.seconds.labels(path).observe(perf_counter() - started)

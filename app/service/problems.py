@@ -1,4 +1,4 @@
-"""Every error as an RFC 9457 problem: what is wrong, where, and what to change."""
+"""Every error as an RFC 9457 problem: the error, its place, and what to change."""
 
 from __future__ import annotations
 
@@ -18,16 +18,16 @@ from core import BenchDragonError
 PROBLEM_TYPE = "application/problem+json"
 # More errors than this in one request are counted, not listed.
 ERRORS_MAX = 20
-# Titles by RFC 9110, which newer Pythons know by these names and older ones do not.
+# Titles of RFC 9110; older Pythons have other names for them.
 TITLES = {413: "Content Too Large", 422: "Unprocessable Content"}
-# What pydantic says of a union, though it is the field `kind` that is wrong.
+# Errors that pydantic reports for a union although the field `kind` is wrong.
 UNION_ERRORS = frozenset({"union_tag_invalid", "union_tag_not_found"})
 
 
 class ErrorItem(BaseModel):
-    """One thing that is wrong."""
+    """One error in a request."""
 
-    pointer: str | None = Field(None, description="JSON pointer into the body")
+    pointer: str | None = Field(None, description="JSON pointer to the field in the body")
     name: str | None = Field(None, description="Name of the query parameter or header")
     detail: str = Field(description="What is wrong and what to change")
 
@@ -36,14 +36,14 @@ class Problem(BaseModel):
     """RFC 9457 problem details."""
 
     type: str = Field(description="Stable identifier of the kind of problem")
-    title: str = Field(description="The status in words")
-    status: int = Field(description="HTTP status")
+    title: str = Field(description="HTTP status in words")
+    status: int = Field(description="HTTP status code")
     detail: str = Field(description="What is wrong and what to change")
-    errors: list[ErrorItem] = Field(description="Each thing that is wrong, with its place")
+    errors: list[ErrorItem] = Field(description="Every error with its place")
 
 
 class Refused(HTTPException):
-    """A request that the edge refuses; errors name the place."""
+    """A request refused by the service; errors name the place."""
 
     def __init__(
         self, status: int, detail: str, errors: Sequence[ErrorItem] = (), headers: Mapping[str, str] | None = None
@@ -83,13 +83,13 @@ def install(app: FastAPI) -> None:
 
 
 async def core_problem(request: Request, error: BenchDragonError) -> Response:
-    """A value that core, or a limit of the service, refuses."""
+    """Answer to a value refused by core or by a limit of the service."""
     place = tuple(int(part) if part.isdigit() else part for part in error.field.split("."))
     return problem(422, error.code, error.message, [await _item(request, place, error.message)])
 
 
 async def validation_problem(request: Request, error: RequestValidationError) -> Response:
-    """A request whose fields do not fit the schema, or a body that is no JSON."""
+    """Answer to a request whose fields do not fit the schema, or to a body that is not JSON."""
     found = error.errors()
     if found[0]["type"] == "json_invalid":
         position, why = found[0]["loc"][-1], found[0]["ctx"]["error"]
@@ -106,7 +106,7 @@ async def validation_problem(request: Request, error: RequestValidationError) ->
 
 
 async def http_problem(request: Request, error: HTTPException) -> Response:
-    """An error of HTTP itself: no such path, method, media type and so on."""
+    """Answer to an error of HTTP itself: unknown path, method, media type and so on."""
     status, headers = error.status_code, dict(error.headers or {})
     detail, code = str(error.detail), _title(status).lower().replace(" ", "-")
     items: Sequence[ErrorItem] = getattr(error, "errors", ())
@@ -118,7 +118,7 @@ async def http_problem(request: Request, error: HTTPException) -> Response:
         headers["Allow"] = ", ".join(sorted(allowed))
         if request.method == "OPTIONS":
             return Response(status_code=204, headers=headers)
-        detail = f"{request.url.path} does not know {request.method}: use {headers['Allow']}."
+        detail = f"{request.url.path} does not support {request.method}: use {headers['Allow']}."
     elif status == 400 and detail == "There was an error parsing the body":
         detail, code = "The body is not JSON in UTF-8. Send an object such as {}.", "broken-json"
         items = [ErrorItem(pointer="", detail=detail)]
@@ -126,8 +126,8 @@ async def http_problem(request: Request, error: HTTPException) -> Response:
 
 
 def server_problem() -> Response:
-    """A mistake of ours; the log has the traceback, the client has not."""
-    return problem(500, "internal-error", "The service failed on this request; the log of the service says why.")
+    """Answer to an internal error; only the log has the traceback."""
+    return problem(500, "internal-error", "The service failed on this request; its log has the reason.")
 
 
 async def _item(request: Request, place: Sequence[Any], detail: str) -> ErrorItem:
@@ -139,7 +139,7 @@ async def _item(request: Request, place: Sequence[Any], detail: str) -> ErrorIte
 
 
 def pointer(place: Sequence[Any], body: Any) -> str:
-    """JSON pointer to a place in a body, without names of shapes and indices into what is no list there.
+    """JSON pointer to a place in a body, without names of shapes and without indices into anything but lists.
 
     >>> pointer(("dragon", "uniform", "width"), {"dragon": {"width": -1}})
     '/dragon/width'

@@ -1,4 +1,4 @@
-"""One answer to one request: conditional, in a form that the client takes, bounded in number, cacheable."""
+"""One reply to one request: conditional, in a form that the client accepts, limited in number, cacheable."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ VERSION = version("bench-dragon")
 
 
 class Reply:
-    """Answers a request, unless the client has the answer already or the service is full."""
+    """Answers a request, unless the client already has the answer or the service is full."""
 
     def __init__(self, request: Request) -> None:
         state = request.app.state
@@ -34,9 +34,9 @@ class Reply:
         self._busy: Gauge = state.busy
 
     def media_type(self, offers: Sequence[str]) -> str:
-        """The form to answer in.
+        """The media type of the answer.
 
-        raises: Refused (406) when the client takes none of the offers
+        raises: Refused (406) when the client accepts none of the offers
         """
         header = self.request.headers.get("accept")
         chosen = accepted(header, offers)
@@ -46,9 +46,9 @@ class Reply:
         return chosen
 
     def __call__(self, question: Question, asked: BaseModel, *form: Format) -> Response:
-        """The answer to the request, in the best form that the client takes; a figure in the form of its address.
+        """The answer to the request, in the best form that the client accepts; a figure has the form of its address.
 
-        raises: Refused (503) when as many computations run as may run at once
+        raises: Refused (503) when the largest number of computations is running
         """
         media_type = self.media_type([one.media_type for one in form] or question.forms)
         headers = {
@@ -59,7 +59,7 @@ class Reply:
         if headers["ETag"] in _tags(self.request.headers.get("if-none-match", "")):
             return Response(status_code=304, headers=headers)
         if not self._free.acquire(blocking=False):
-            detail = f"{self.settings.concurrent_max} computations are running, as many as may: try again later."
+            detail = f"{self.settings.concurrent_max} computations are running, which is the limit: try again later."
             raise Refused(503, detail, headers={"Retry-After": str(self.settings.retry_after)})
         forms = form or (media_type,) * (len(question.forms) > 1)
         try:
@@ -73,7 +73,7 @@ class Reply:
             self._free.release()
 
     def _tag(self, asked: BaseModel, media_type: str) -> str:
-        """Strong ETag: an answer depends on the call, its values with all defaults, the form and the version alone."""
+        """Strong ETag: an answer depends only on the call, its values with all defaults, the form and the version."""
         values = "\n".join((VERSION, self.request.url.path, media_type, asked.model_dump_json()))
         return f'"{hashlib.blake2b(values.encode(), digest_size=16).hexdigest()}"'
 
@@ -93,7 +93,7 @@ async def reply_body(request: Request) -> Reply:
 
 
 async def refuse_query(request: Request) -> None:
-    """raises: Refused (422) when the request has query parameters, for calls without any"""
+    """raises: Refused (422) when a request has query parameters but its call takes none"""
     detail = "this call takes no query parameters: leave it out"
     unknown = [ErrorItem(name=name, detail=f"{name[:60]} is unknown here: {detail}") for name in request.query_params]
     if unknown:
@@ -122,7 +122,7 @@ def _tags(header: str) -> list[str]:
 
 
 def accepted(header: str | None, offers: Sequence[str]) -> str | None:
-    """The offer that an Accept header likes best, the earlier one when equal; None when it takes none.
+    """The offer that an Accept header prefers, the earlier one if equal; None if it accepts none.
 
     >>> accepted("text/csv, */*;q=0.1", ["application/json", "text/csv"])
     'text/csv'

@@ -1,6 +1,6 @@
-"""The calls of the service: every question over a query, and over a body with a dragon and a path.
+"""The calls of the service: every question with query parameters, and with a body that has a dragon and a path.
 
-A call is named as its question is, `collision_time`; over a body, where it can be asked both ways, `collision_time_of`.
+A call has the name of its question, such as `collision_time`; the twin with a body is named `collision_time_of`.
 """
 
 from __future__ import annotations
@@ -25,19 +25,19 @@ TEXT = {"schema": {"type": "string"}}
 PROBLEMS = {
     400: "The body is not JSON",
     404: "There is no such format",
-    406: "Accept asks for a form that this call does not answer in",
+    406: "Accept asks for a media type that this call does not offer",
     413: "The body is too long",
     415: "The body is not of type application/json",
     422: "A value is outside its limits, a name is unknown, or an instant lies after the end of the run",
     500: "The service failed",
-    503: "As many computations run as may run at once",
+    503: "The largest number of computations is running",
 }
 QUERY_STATUSES = (406, 422, 500, 503)
 BODY_STATUSES = (400, 406, 413, 415, 422, 500, 503)
 
 
 def router() -> APIRouter:
-    """A call for every question and way to ask it."""
+    """A router with a call for every question and every way to ask it."""
     found = APIRouter()
     for question in QUESTIONS.values():
         wanted: Any
@@ -53,7 +53,7 @@ def router() -> APIRouter:
 
 
 def _default(body: type[Wire]) -> tuple[Wire, ...]:
-    """What is asked where a request has no body; empty where it must have one."""
+    """The request that a missing body stands for; empty if a body is required."""
     try:
         return (body(),)
     except ValidationError:
@@ -69,7 +69,7 @@ def _add(
     problems: dict[int | str, dict[str, Any]] = {
         status: {"description": PROBLEMS[status], "content": PROBLEM} for status in statuses
     }
-    unchanged = {"description": "The client has this answer already (If-None-Match)"}
+    unchanged = {"description": "The client already has this answer (If-None-Match)"}
     content: dict[str, Any] = {form: TEXT if form == CSV_TYPE else FILE for form in question.forms if form != JSON}
     if question.model is not None:
         content = {JSON: {"example": EXAMPLES[f"{method} {question.path}"].answer}, **content}
@@ -91,7 +91,7 @@ def _add(
 def _endpoint(
     question: Question, name: str, replying: Any, wanted: Any, default: tuple[Wire, ...]
 ) -> Callable[..., Response]:
-    """What FastAPI calls, which reads its parameters from the annotations."""
+    """The function that FastAPI calls; its annotations describe the parameters."""
 
     def answer(reply: Reply, wanted: Wire) -> Response:
         return reply(question, wanted)

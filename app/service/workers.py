@@ -1,10 +1,10 @@
-"""The service in several processes on one port: the Python around each answer then runs on several cores.
+"""The service in several processes on one port, so that the Python code around each answer runs on several cores.
 
-Threads of one process do not get there: only the search itself runs without Python's lock, a third of an answer, and
-handing the lock to and fro costs what the second core gains. Against one process on one core, two cores give 1.0x the
-requests per second to one process and 1.7x to two, with the client on the same cores (2026-11-21; in one process
-sys.setswitchinterval from 0.05 to 100 ms, 2, 3 or 40 threads, asyncio's loop or uvloop change nothing for the better).
-`make bench` measures it again.
+Threads of one process do not achieve this: only the search itself, a third of an answer, runs without Python's lock,
+and passing the lock between threads costs what the second core gains. Compared with one process on one core, two cores
+give 1.0x the requests per second with one process and 1.7x with two, with the client on the same cores (2026-11-21; in
+one process, sys.setswitchinterval from 0.05 to 100 ms, 2, 3 or 40 threads, and asyncio's loop or uvloop bring no
+improvement). `make bench` measures it again.
 """
 
 from __future__ import annotations
@@ -29,22 +29,22 @@ from core import InvalidValue
 
 logger = logging.getLogger("uvicorn.error")
 
-# Not httptools, though it saves a fifteenth of the time: it answers an unknown method before the service can, with 400
-# and no problem details.
+# Not httptools, although it saves a fifteenth of the time: it answers an unknown method itself, with 400 and without
+# problem details.
 PARSER: Literal["h11"] = "h11"
-BACKLOG = 2048  # connections that wait to be taken, uvicorn's own number
+BACKLOG = 2048  # Connections that may wait to be accepted; uvicorn's default.
 
 
 def usable_cores() -> int:
-    """Number of cores that this process may run on; those of the machine where the system has no such limit."""
+    """Number of cores that this process may use; all cores of the machine if the system has no such limit."""
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
 def process_count(asked: int | None, platform: str = sys.platform) -> int:
-    """Number of processes of the service: as asked, else one for each core.
+    """Number of processes of the service: as asked, otherwise one for each core.
 
     platform: Python's name for the system
-    raises: InvalidValue for several on Windows, which has no signals to end them and lets two services take one port
+    raises: InvalidValue for several on Windows, which has no signals to end them and lets two services share one port
     """
     if platform != "win32":
         return asked or min(usable_cores(), WORKERS_MAX)
@@ -54,18 +54,18 @@ def process_count(asked: int | None, platform: str = sys.platform) -> int:
 
 
 def listen(host: str, port: int) -> socket.socket:
-    """A listening socket whose connections send at once.
+    """A listening socket whose connections send without delay.
 
     asyncio switches off Nagle's delay (TCP_NODELAY) only for sockets that name TCP as their protocol; with uvicorn's
-    own shared socket the second packet of an answer waited for the client's delayed acknowledgement, 40 ms.
-    raises: OSError when the port is taken or the address is not ours
+    own shared socket the second packet of an answer waited 40 ms for the client's delayed acknowledgement.
+    raises: OSError when the port is taken or the address is not local
     """
     family = socket.AF_INET6 if ":" in host else socket.AF_INET
     shared = socket.socket(family, socket.SOCK_STREAM, socket.IPPROTO_TCP)
     shared.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
     try:
         shared.bind((host, port))
-        # Now, not in the processes: until one listens, a second service could bind the same port and fail later.
+        # Listen here and not in the processes: until one listens, a second service could bind the port and fail later.
         shared.listen(BACKLOG)
     except OSError:
         shared.close()
@@ -75,7 +75,7 @@ def listen(host: str, port: int) -> socket.socket:
 
 
 class _Supervisor(Multiprocess):
-    """uvicorn's, whose processes start without a word on Ctrl-C and leave no gauge behind when they die."""
+    """uvicorn's supervisor; its processes ignore Ctrl-C while they start and leave no gauge behind when they die."""
 
     def __init__(self, config: uvicorn.Config, shared: socket.socket, counts: str) -> None:
         super().__init__(config, [shared])
@@ -83,8 +83,8 @@ class _Supervisor(Multiprocess):
         self.counted: set[int | None] = set()
 
     def init_processes(self) -> None:
-        # A terminal sends Ctrl-C to all processes, and one that still imports would end in a traceback: they ignore it
-        # until they serve, and end by the word of this one.
+        # A terminal sends Ctrl-C to all processes, and one that still imports would end with a traceback: they ignore
+        # it until they serve, and this process ends them.
         handler = signal.signal(signal.SIGINT, signal.SIG_IGN)
         super().init_processes()
         signal.signal(signal.SIGINT, handler)
@@ -98,7 +98,7 @@ class _Supervisor(Multiprocess):
 
 
 def create_child_app() -> FastAPI:
-    """create_app() in a process that ends when its parent has, also when that was killed and could not say so."""
+    """create_app() in a process that ends when its parent ends, also when the parent is killed."""
     from app.service.main import create_app
 
     parent = multiprocessing.parent_process()
@@ -115,7 +115,7 @@ def create_child_app() -> FastAPI:
 def serve(host: str, port: int, workers: int) -> None:
     """Serve until interrupted, in one process or in several.
 
-    raises: OSError when the port is taken or the address is not ours; with one process uvicorn says so and exits
+    raises: OSError when the port is taken or the address is not local; with one process uvicorn reports it and exits
     """
     if workers == 1:
         uvicorn.run("app.service.main:create_app", factory=True, host=host, port=port, http=PARSER)
@@ -124,7 +124,7 @@ def serve(host: str, port: int, workers: int) -> None:
         "app.service.workers:create_child_app", factory=True, host=host, port=port, http=PARSER, workers=workers
     )
     with listen(host, port) as shared, TemporaryDirectory(prefix="bench-dragon-") as counts:
-        # Where the processes add up what /metrics shows; prometheus_client reads it when they import it.
+        # Folder in which the processes add up the counts of /metrics; prometheus_client reads the variable on import.
         os.environ[SHARED_COUNTS] = counts
         shown = f"[{host}]" if ":" in host else host
         at = f"http://{shown}:{shared.getsockname()[1]}"

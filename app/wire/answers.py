@@ -1,6 +1,6 @@
-"""What answers share: places, pairs, the end of a run, the engines' verdicts, and columns of numbers.
+"""Parts that answers share: places, pairs, the end of a run, the engines' verdicts, and columns of numbers.
 
-A trajectory has 200,000 numbers, so tables leave as columns of numpy through orjson, not cell by cell.
+A trajectory has 200,000 numbers, so orjson writes tables as whole numpy columns, not cell by cell.
 """
 
 from __future__ import annotations
@@ -19,8 +19,8 @@ from core import Engine
 Pair = tuple[int, int]
 Point = tuple[float, float]
 LEFT_OUT = (
-    "Engines that were not asked, as they cannot judge this: the angle sum looks at corners alone, so it knows no "
-    "margin, and at the start no benches that cross with no corner of one inside the other"
+    "Engines that were not asked because they cannot judge this case: the angle sum sees only corners inside a "
+    "bench, so it cannot judge a margin or, at the start, benches that cross without a corner inside the other"
 )
 
 
@@ -28,7 +28,7 @@ class Head(Answer):
     """Handle 0 at first contact."""
 
     theta: float | None = measure("rad", "Polar angle on a spiral, unwrapped; null on any other path")
-    radius: float = measure("m", "Distance from the origin, where a spiral has its centre")
+    radius: float = measure("m", "Distance from the origin, which is the centre of a spiral")
     x: float = measure("m")
     y: float = measure("m")
 
@@ -36,21 +36,21 @@ class Head(Answer):
 class Feature(Answer):
     """A corner or an edge of one bench."""
 
-    bench: int = Field(description="Bench, 0 is the head")
+    bench: int = Field(description="Number of the bench; 0 is the head")
     name: str = Field(
-        description="Made of front, rear (towards the lower, higher handle), outer, inner (from the centre)"
+        description="front or rear (towards the lower or higher handle), outer or inner (seen from the centre), or both"
     )
 
 
 class End(Answer):
-    """Where a run ends on which nothing comes nearer than the margin, or touches if it is 0."""
+    """End of a run on which no two benches come nearer than the margin, or touch if it is 0."""
 
     reason: core.EndReason = Field(
-        description="fold: a bench cannot follow any more; centre: the head arrived; end: the path ends; stop: the "
-        "time asked for is over"
+        description="fold: a bench cannot follow any more; centre: the head reaches the centre; end: the path ends; "
+        "stop: the requested time ends"
     )
     time: float = measure("s")
-    theta: float | None = measure("rad", "Polar angle of the head then, on a spiral that folds or ends")
+    theta: float | None = measure("rad", "Polar angle of the head at that time, on a spiral that folds or ends")
     bench: int | None = Field(description="The bench that folds; null if none does")
 
 
@@ -63,42 +63,42 @@ class Graze(Answer):
 
 
 class Verdict(Answer):
-    """What an engine finds among the benches judged, neighbours aside."""
+    """Findings of one engine among the benches judged, without pairs of neighbours."""
 
     before: bool | None = Field(
         description="Does it find any two overlapping, or nearer than the margin, just before? null for a contact "
-        "at the start, before which there is nothing"
+        "at the start"
     )
     after: bool = Field(
         description="Does it find the reported pair overlapping, or nearer than the margin, just after, and no other "
-        "but those of together? At the start others may be so too"
+        "pairs except those in together? For a contact at the start other pairs are allowed"
     )
 
 
 class PairCheck(Answer):
-    """Independent engines on the dance just before and just after; nearer than the margin counts as overlapping."""
+    """Verdicts of independent engines just before and just after; nearer than the margin counts as overlapping."""
 
-    agree: bool = Field(description="Every engine asked finds nothing before, and after the reported pair alone")
+    agree: bool = Field(description="True if every engine asked finds nothing before, and only the reported pair after")
     judged: list[int] = Field(
-        description="The benches judged: all; of more than 2,000, or very crowded ones, those near the pair, or the "
-        "pair; with cross_check=pair the pair"
+        description="Benches judged: all, or only those near the pair, or the pair, if there are more than 2,000 or "
+        "they are very crowded; with cross_check=pair only the pair"
     )
     engines: dict[Engine, Verdict] = Field(
-        description="Each engine's verdict; angle_sum knows no margin, so it is asked only where that is 0"
+        description="Verdict of each engine; angle_sum cannot judge a margin, so it is asked only if the margin is 0"
     )
     together: list[Pair] = Field(
-        description="Other pairs that come nearer than the margin, or touch if it is 0, with the reported one, as "
-        "where a corner meets two benches of a straight row at once: apart just before, and hardly within the margin "
-        "just after"
+        description="Other pairs that come nearer than the margin, or touch if it is 0, at the same time as the "
+        "reported one, as when a corner meets two benches of a straight row at once: apart just before, and barely "
+        "within the margin just after"
     )
     left_out: list[Engine] = Field(description=LEFT_OUT)
 
 
 @dataclass(frozen=True, slots=True)
 class Columns:
-    """Columns of numpy; what is no array goes out as it is.
+    """Columns as numpy arrays; other values are written unchanged.
 
-    decimals: of every column but time; None writes the shortest text that reads back as the same double
+    decimals: of every column except time; None writes the shortest text that reads back as the same double
     """
 
     columns: dict[str, Any]

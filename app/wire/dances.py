@@ -1,6 +1,6 @@
-"""Dragons, instants and dances on the wire, and what they become in core.
+"""Dragons, instants and dances in requests, and their conversion to core.
 
-Queries are flat, bodies are nested; both are made of the same field groups and become the same dance.
+Queries are flat and bodies are nested; both consist of the same groups of fields and become the same dance.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ from core.values import Floats
 # The last instant of a range may miss `stop` by this share of a step, so that 0 to 0.3 by 0.1 has four instants.
 LAST_STEP_TOLERANCE = 1e-9
 FEWER_CELLS = "take a larger step, a shorter range or fewer benches"
-# Objects and lists in one another: a collection of features of polygons has nine.
+# Nesting depth of objects and lists: a collection of features of polygons has nine levels.
 VENUE_DEPTH_MAX = 20
 
 
@@ -46,7 +46,7 @@ class UniformDragon(Wire):
     head_length: Length = measure("m", "Length of the head's bench", 3.41)
     body_length: Length = measure("m", "Length of every other bench", 2.20)
     width: Width = measure("m", "Width of every bench", 0.30)
-    overhang: Overhang = measure("m", "From a handle to the nearer end of its bench", 0.275)
+    overhang: Overhang = measure("m", "Distance from a handle to the nearer end of its bench", 0.275)
 
     def to_dragon(self, benches_max: int) -> Dragon:
         """raises: TooLarge, InvalidValue"""
@@ -54,7 +54,7 @@ class UniformDragon(Wire):
         return Dragon(self.benches, self.head_length, self.body_length, self.width, self.overhang)
 
     def most_benches(self, settings: Settings) -> int:
-        """The longest dragon: equal benches repeat one another, so theirs may be long."""
+        """Largest number of benches: equal benches repeat one another, so the limit is high."""
         return settings.benches_max
 
 
@@ -64,7 +64,7 @@ class BenchByBench(Wire, strict=True):
     lengths: list[Length] = measure("m", "Length of each bench", min_length=1, fail_fast=True)
     widths: list[Width] = measure("m", "Width of each bench", min_length=1, fail_fast=True)
     overhangs: list[Overhang] = measure(
-        "m", "From a handle to the nearer end of its bench, for each bench", min_length=1, fail_fast=True
+        "m", "Distance from a handle to the nearer end of its bench, for each bench", min_length=1, fail_fast=True
     )
 
     @property
@@ -79,24 +79,24 @@ class BenchByBench(Wire, strict=True):
 
 
 class HeadSpeed(Wire):
-    """How fast the head dances."""
+    """Speed of the head."""
 
     head_speed: float = measure("m/s", "Constant speed of the head", 1.0, ge=1e-3, le=20)
 
 
 class UniformBody(UniformDragon, strict=True):
-    """A head and a body of equal benches, in a body."""
+    """A head and a body of equal benches, in a request body."""
 
 
 class TimeRange(Wire):
-    """Evenly spaced instants, both ends included where the step meets them."""
+    """Evenly spaced instants from start to stop; stop is included if the step meets it."""
 
     start: Instant = measure("s", "First instant", 0.0)
     stop: Instant = measure("s", "Last instant, if the step meets it", 300.0)
-    step: float = measure("s", "Between two instants", 1.0, ge=1e-6, le=1e6)
+    step: float = measure("s", "Time between two instants", 1.0, ge=1e-6, le=1e6)
 
     def instants(self) -> int:
-        """Number of instants, known before any is made.
+        """Number of instants, computed before any is allocated.
 
         raises: InvalidValue when stop lies before start
         """
@@ -116,7 +116,7 @@ class TimeRange(Wire):
 
 
 class TimeSteps(TimeRange, strict=True):
-    """Evenly spaced instants, in a body."""
+    """Evenly spaced instants, in a request body."""
 
 
 def _shape_of_dragon(value: Any) -> str:
@@ -128,10 +128,10 @@ def _shape_of_times(value: Any) -> str:
     return "list" if isinstance(value, list) else "range"
 
 
-# Names of shapes: pydantic puts them into the place of an error, though they stand in no body.
+# Names of shapes: pydantic puts them into the place of an error, although no body contains them.
 SHAPES = frozenset({"uniform", "bench_by_bench", "range", "list"}) | KINDS
 
-# The one that has required names stands first: generated clients take the first that fits.
+# The type with required fields comes first: generated clients take the first that fits.
 AnyDragon = Annotated[
     Annotated[BenchByBench, Tag("bench_by_bench")] | Annotated[UniformBody, Tag("uniform")],
     Discriminator(_shape_of_dragon),
@@ -157,7 +157,7 @@ class DragonFields(Wire, strict=True):
         return self.dragon.to_dragon(benches_max)
 
     def most_benches(self, settings: Settings) -> int:
-        """The longest dragon: what does not repeat itself is searched bench by bench."""
+        """Largest number of benches: a dance that does not repeat itself is searched bench by bench."""
         return settings.benches_max if isinstance(self.dragon, UniformBody) else settings.checked_benches_max
 
 
@@ -177,13 +177,13 @@ class DanceFields(HeadSpeed, DragonFields, strict=True):
 
 
 class TimedDance(DanceFields):
-    """A dance at some instants."""
+    """A dance at given instants."""
 
     times: AnyTimes | None = measure(
         "s",
-        "Instants: evenly spaced, or a list; 0 is the start of the dance; null: every second from 0 to "
-        "300 s; on a path that is no spiral every second from 0, or if the dance has no 0, from the first at which the "
-        "whole dragon is on the path, for 300 s or to the end of the path",
+        "Instants, evenly spaced or as a list; 0 is the start of the dance; null: every second from 0 to 300 s. On a "
+        "path other than a spiral, null is every second from 0 (or, if the dance has no time 0, from the first time "
+        "at which the whole dragon is on the path) for 300 s or to the end of the path",
         None,
     )
 
@@ -201,7 +201,7 @@ class TimedDance(DanceFields):
 
 
 def _shallow(value: dict[str, Any] | None) -> dict[str, Any] | None:
-    """Deeper ones exhaust the stack of whoever walks them by recursion."""
+    """The value, refused if it is nested so deep that recursion over it could exhaust the stack."""
     level: list[Any] = [value]
     for _ in range(VENUE_DEPTH_MAX):
         level = [inner for outer in level for inner in _inside(outer)]
@@ -211,24 +211,24 @@ def _shallow(value: dict[str, Any] | None) -> dict[str, Any] | None:
 
 
 def _inside(outer: Any) -> list[Any]:
-    """Objects and lists right inside of an object or a list."""
+    """Objects and lists directly inside an object or a list."""
     entries = outer.values() if isinstance(outer, dict) else outer if isinstance(outer, list) else ()
     return [inner for inner in entries if isinstance(inner, (dict, list))]
 
 
 class PlacedDance(DanceFields):
-    """A dance, and the place where it is danced."""
+    """A dance and its venue."""
 
     venue: Annotated[dict[str, Any] | None, AfterValidator(_shallow)] = Field(
         None,
-        description="GeoJSON with coordinates in metres, or in degrees: the square (the polygon named square, else the "
-        "first one; its holes are outside) and the obstacles in it; null: an endless plain",
+        description="GeoJSON with coordinates in metres or in degrees: the square (the polygon named square, otherwise "
+        "the first one; its holes are outside) and the obstacles in it; null: an endless plain",
     )
     coordinates: Coordinates | None = Field(
         None,
-        description="Of the venue: metres, or degrees of longitude and latitude (WGS 84), which are laid out on the "
-        "plane that touches the earth in the middle of the square's bounding box, x to the east and y to the north "
-        "from there; null: what the venue's crs says, else metres",
+        description="Unit of the venue's coordinates: metres, or degrees of longitude and latitude (WGS 84). Degrees "
+        "are projected onto the plane that touches the earth in the middle of the square's bounding box, where x "
+        "points east and y north; null: as the venue's crs says, otherwise metres",
     )
 
     def to_place(self, dragon: Dragon) -> Place:
@@ -250,7 +250,7 @@ class DanceQuery(HeadSpeed, SpiralFields, UniformDragon):
 
 
 class CoreCircle(TypedDict):
-    """A circle in the words of core."""
+    """Arguments of core for a circle."""
 
     turning_radius: float
     start_turns: float
@@ -258,7 +258,7 @@ class CoreCircle(TypedDict):
 
 
 class Circle(Wire):
-    """A circle that the head must reach, from a start on a spiral of any pitch."""
+    """A circle that the head must reach from a start on a spiral of any pitch."""
 
     turning_diameter: TurningDiameter = measure("m", "Diameter of the circle that the head must reach", 9.0)
     start_turns: StartTurns = 16.0

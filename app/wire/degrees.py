@@ -1,6 +1,6 @@
-"""Longitude and latitude: told from metres, and laid out on a plane in metres.
+"""Longitude and latitude, told apart from metres and projected onto a plane in metres.
 
-Core knows metres alone. GeoJSON, by RFC 7946, means degrees; read as metres, a square of 200 m would be 2 mm wide.
+Core knows only metres. GeoJSON (RFC 7946) uses degrees: read as metres, a square of 200 m would be 2 mm wide.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ Coordinates = Literal["metres", "degrees"]
 # The ellipsoid of WGS 84: half of its long axis [m], and its flattening [1]. CGCS2000 differs by 0.1 mm.
 AXIS = 6_378_137.0
 FLATTENING = 1 / 298.257223563
-# A venue in degrees is at most so far across [m]: 10 km from the middle the plane shortens lengths by 1e-6 of them.
+# Largest extent of a venue in degrees [m]: 10 km from its middle the plane shortens lengths by one part in a million.
 ACROSS_MAX = 20_000.0
 # Names of coordinate systems whose coordinates are longitude and latitude: CRS84, and by their EPSG numbers WGS 84,
 # CGCS2000, ETRS89 and NAD83.
@@ -35,7 +35,7 @@ SWAPPED = "longitude comes first and latitude second, and here they look swapped
 
 @dataclass(frozen=True, slots=True)
 class Origin:
-    """Where x = y = 0 lies [degrees]."""
+    """Place of x = y = 0 [degrees]."""
 
     longitude: float
     latitude: float
@@ -43,7 +43,7 @@ class Origin:
 
 @dataclass(frozen=True, slots=True)
 class Place:
-    """A venue in metres, and where on earth its origin lies if it was given in degrees."""
+    """A venue in metres, and the place of its origin on earth if it was given in degrees."""
 
     venue: Venue | None = None
     origin: Origin | None = None
@@ -52,9 +52,9 @@ class Place:
 def place_of(geometry: Mapping[str, object], coordinates: Coordinates | None, dragon: Dragon) -> Place:
     """The venue in a GeoJSON object.
 
-    coordinates: what it is given in; None: what its member `crs` says, else metres
-    raises: InvalidValue, also for what can only be degrees where metres are meant: all coordinates within 180 and 90,
-        in either order, and the square narrower than a bench
+    coordinates: unit of its coordinates; None: as its member `crs` says, otherwise metres
+    raises: InvalidValue, also for metres that can only be degrees: all coordinates within 180 and 90, in either order,
+        and the square narrower than a bench
     """
     named = _named_system(geometry)
     for member in ("geometry", "features", "geometries"):
@@ -76,7 +76,7 @@ def place_of(geometry: Mapping[str, object], coordinates: Coordinates | None, dr
 
 
 def _named_system(geometry: Mapping[str, object]) -> str | None:
-    """The coordinate system that the GeoJSON of 2008 names; None where there is none."""
+    """Name of the coordinate system in GeoJSON of 2008; None without one."""
     system = geometry.get("crs") if isinstance(geometry, Mapping) else None
     if system is None:
         return None
@@ -88,7 +88,7 @@ def _named_system(geometry: Mapping[str, object]) -> str | None:
 
 
 def _refuse_systems_inside(field: str, part: object) -> None:
-    """Refuse a coordinate system named further in: it would be read as none."""
+    """Refuse a coordinate system named in an inner object, where it would be ignored."""
     if isinstance(part, Mapping):
         if part.get("crs") is not None:
             words = "its coordinate system is that of the whole venue: name it in venue.crs"
@@ -101,7 +101,7 @@ def _refuse_systems_inside(field: str, part: object) -> None:
 
 
 def _in_degrees(geometry: Mapping[str, object]) -> list[Polygon]:
-    """The polygons in degrees. raises: InvalidValue, which says so where longitude and latitude look swapped"""
+    """The polygons in degrees. raises: InvalidValue, with a hint if longitude and latitude look swapped"""
     try:
         return read_polygons(geometry, DEGREES)
     except InvalidValue as error:
@@ -162,12 +162,12 @@ def _laid_out(polygons: list[Polygon]) -> Place:
 
 
 def _unwrapped(ring: Ring, near: float) -> Ring:
-    """The ring with longitudes within half a turn of one: across the date line they jump."""
+    """The ring with all longitudes within half a turn of a given one, because they jump at the date line."""
     return tuple((near + (x - near + 180.0) % 360.0 - 180.0, y) for x, y in ring)
 
 
 def _from_centre(longitude: float, latitude: float) -> tuple[float, float, float]:
-    """A place on the ellipsoid from the centre of the earth [m]."""
+    """Position of a place on the ellipsoid, relative to the centre of the earth [m]."""
     long, lat = math.radians(longitude), math.radians(latitude)
     squared = FLATTENING * (2.0 - FLATTENING)
     n = AXIS / math.sqrt(1.0 - squared * math.sin(lat) ** 2)

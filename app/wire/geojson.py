@@ -1,10 +1,10 @@
 """GeoJSON: the polygons of a venue by name, in any nesting of features and collections.
 
-Read by hand and not by geojson-pydantic (2.2.0, measured 2026-11-22). That one names three places for one missing
+Read by hand and not by geojson-pydantic (2.2.0, measured 2026-11-22). That package names three places for one missing
 number, with its own classes in them (`FeatureCollection.features.0.geometry.Polygon.coordinates.0.1.Position2D.1`).
 It accepts a feature without geometry, a name that is not a text, and coordinates of any size, so the checks below
-would stay. And it reads all of 140,000 rings, in 1.7 s, before anyone can count them; here they are refused within
-0.1 s.
+would stay. It also reads all of 140,000 rings, in 1.7 s, before anyone can count them; here they are refused
+within 0.1 s.
 """
 
 from __future__ import annotations
@@ -18,13 +18,13 @@ from core.venue import Ring, refuse_many_edges
 
 # Name and rings.
 Polygon = tuple[str, tuple[Ring, ...]]
-# Name if it has one, the field of its coordinates, and these as they were given.
+# Name if it has one, the field of its coordinates, and the coordinates as given.
 Found = tuple[str | None, str, object]
 # Unit of coordinates, and the largest |x| and |y| in it.
 Scale = tuple[str, float, float]
 METRES: Scale = ("m", COORDINATE_MAX, COORDINATE_MAX)
 
-# A collection of features of collections of polygons, and some more.
+# Enough for a collection of features of collections of polygons.
 DEPTH_MAX = 8
 
 
@@ -33,8 +33,8 @@ def read_polygons(geometry: object, scale: Scale = METRES) -> list[Polygon]:
 
     geometry: a Polygon, a Feature of one, a GeometryCollection or a FeatureCollection of them. The square is the
         feature whose property `name` is "square", else the first polygon; the others are obstacles, named by their
-        property `name`, else "obstacle 1" and so on. Heights are left out.
-    raises: InvalidValue naming the member at fault; for too many edges before a coordinate is looked at
+        property `name`, else "obstacle 1" and so on. Heights are ignored.
+    raises: InvalidValue naming the member at fault; too many edges are refused before any coordinate is read
     """
     found = _polygons("venue", geometry)
     if not found:
@@ -50,7 +50,7 @@ def read_polygons(geometry: object, scale: Scale = METRES) -> list[Polygon]:
 
 
 def venue_of(polygons: Sequence[Polygon]) -> Venue:
-    """The venue of some polygons in metres, the square first.
+    """The venue made of polygons in metres, the square first.
 
     raises: InvalidValue naming the polygon with the reason and the place
     """
@@ -106,7 +106,7 @@ def _place(field: str, value: object, scale: Scale) -> Point:
 
 
 def _listed(field: str, value: object, entry: str = "") -> list[object]:
-    """The value if it is a list; with an entry's name, if it has one at least."""
+    """The value if it is a list; if the entry has a name, the list must not be empty."""
     if not isinstance(value, list):
         raise InvalidValue(field, f"{field} must be a list, got {type(value).__name__}")
     if entry and not value:

@@ -1,4 +1,4 @@
-"""What is wrong with a value, in words: its name, the value, its unit, the limit, and what to change."""
+"""Error messages for a wrong value: its name, the value, its unit, the limit, and what to change."""
 
 from __future__ import annotations
 
@@ -18,7 +18,8 @@ from core.errors import said
 
 # Longer values are shortened [characters].
 SHOWN_MAX = 60
-# Names so much alike are taken for a slip [1] (difflib); of one that other calls know, `width` for `widths`, more so.
+# Similarity above which an unknown name counts as a slip [1] (difflib); higher for a name that other calls know, such
+# as `width` for `widths`.
 ALIKE_SLIP, ALIKE = 0.6, 0.8
 IN_WORDS = {"m": "lengths are in metres", "m/s": "speeds are in metres per second", "rad": "angles are in radians"}
 
@@ -33,7 +34,7 @@ def shown(value: Any) -> str:
 
 
 def message(error: Mapping[str, Any], asked: Any) -> str:
-    """What is wrong with one field: its name, the value, the unit, the limit, and what to change.
+    """Message for one wrong field: its name, the value, the unit, the limit, and what to change.
 
     asked: type of the request
     """
@@ -81,7 +82,7 @@ def message(error: Mapping[str, Any], asked: Any) -> str:
         case "union_tag_not_found":
             return "kind is missing"
         case "too_deep":
-            return f"{name} must hold at most {limits['most']} objects and lists in one another"
+            return f"{name} must nest objects and lists at most {limits['most']} deep"
         case "literal_error" | "enum":
             return f"{name} must be {limits['expected']}, {got}"
         case "too_many_names":
@@ -91,7 +92,7 @@ def message(error: Mapping[str, Any], asked: Any) -> str:
 
 @cache
 def known_units() -> dict[str, str]:
-    """Name of every field of a request -> its unit, empty for a pure number; of a path also by its kind and name."""
+    """Name of every request field -> its unit, empty for a pure number; fields of a path also by kind and name."""
     return _units(Wire.__subclasses__())
 
 
@@ -108,7 +109,7 @@ def _units(models: list[type[Wire]]) -> dict[str, str]:
 
 
 def names_at(kind: Any, place: Sequence[Any]) -> list[str]:
-    """Names that a request may have at a place in it. kind: type of the request, or of what lies further in"""
+    """Names that a request may have at a place in it. kind: type of the request or of an inner part"""
     if get_origin(kind) is Annotated:
         inner, *tags = get_args(kind)
         if not any(isinstance(tag, Tag) for tag in tags):
@@ -129,13 +130,13 @@ def names_at(kind: Any, place: Sequence[Any]) -> list[str]:
 
 
 def _last_indices(place: Sequence[Any]) -> list[int]:
-    """Indices at the end of a place."""
+    """List indices at the end of a place."""
     indices = list(takewhile(lambda part: isinstance(part, int), reversed(place)))
     return indices[::-1]
 
 
 def _number(value: Any, *, text: bool) -> float | None:
-    """The value as a finite number, also from text if that counts."""
+    """The value as a finite number, also from text if text is allowed."""
     if isinstance(value, bool) or not isinstance(value, (int, float, str) if text else (int, float)):
         return None
     try:

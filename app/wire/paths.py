@@ -1,7 +1,7 @@
-"""Paths on the wire, told apart by `kind`: spiral, turn, waypoints, and a route of pieces.
+"""Paths in requests, distinguished by `kind`: spiral, turn, waypoints, and a route of pieces.
 
-What core refuses is named by its place in the body: core knows no `path.` before the fields of a turn, and knows a
-curve through waypoints as the only piece of a route.
+A refusal of core is renamed to its place in the body: core does not put `path.` before the fields of a turn, and it
+treats a curve through waypoints as the only piece of a route.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ import core
 from app.wire.models import Angle, Coordinate, Pitch, StartTurns, TurningDiameter, Wire, check_limit, measure
 from core import InvalidValue, Route, Spiral
 
-# A sharp zigzag of 1,000 points becomes a path in 0.02 s, 1,000 arcs too (measured 2026-11-21).
+# A sharp zigzag of 1,000 points, or a route of 1,000 arcs, becomes a path in 0.02 s (measured 2026-11-21).
 POINTS_MAX = 1_000
 PIECES_MAX = 1_000
 
@@ -22,10 +22,13 @@ Radius = Annotated[float, Field(ge=1e-3, le=1e4)]
 Point = Annotated[list[Coordinate], Field(min_length=2, max_length=2)]
 Start = Annotated[
     float,
-    measure("m", "How far from the beginning of the path the head is at time 0", ge=-1e6, le=1e6),
+    measure("m", "Distance of the head from the beginning of the path at time 0", ge=-1e6, le=1e6),
 ]
 # An entry deeper inside the circle makes the turn shorter.
-EntryRadius = Annotated[float | None, measure("m", "Where the turn begins; null: on the circle", ge=1e-3, le=100)]
+EntryRadius = Annotated[
+    float | None,
+    measure("m", "Distance from the centre at which the turn begins; null: on the circle", ge=1e-3, le=100),
+]
 
 
 class SpiralFields(Wire):
@@ -40,11 +43,11 @@ class SpiralFields(Wire):
 
 
 class TurnCircle(Wire):
-    """Two coils, and the circle in which the dance turns from the one to the other."""
+    """Two coils, and the circle in which the dance turns from one to the other."""
 
     pitch: Pitch = 1.7
     turning_diameter: TurningDiameter = measure("m", "Diameter of the circle in which the turn lies", 9.0)
-    ratio: float = Field(2.0, ge=0.01, le=100, description="Radius of the first arc over that of the second")
+    ratio: float = Field(2.0, ge=0.01, le=100, description="Radius of the first arc divided by that of the second")
     start_turns: StartTurns = 16.0
 
 
@@ -64,7 +67,7 @@ class TurnFields(TurnCircle):
         )
 
     def to_path(self) -> core.Turn:
-        """raises: InvalidValue, named by the place in a body"""
+        """raises: InvalidValue, named by its place in a body"""
         try:
             return self.to_turn()
         except InvalidValue as error:
@@ -74,7 +77,7 @@ class TurnFields(TurnCircle):
 class SpiralPath(SpiralFields):
     """An Archimedean spiral, danced inwards."""
 
-    # A body without a kind is a spiral too, but a client must name what tells the paths apart.
+    # A body without a kind is a spiral too, but the schema requires the kind because it discriminates the paths.
     model_config = ConfigDict(strict=True, json_schema_extra={"required": ["kind"]})
 
     kind: Literal["spiral"] = Field("spiral", description="Kind of path")
@@ -90,8 +93,8 @@ class LinePiece(Wire, strict=True):
     """A straight piece."""
 
     kind: Literal["line"] = Field(description="Kind of piece")
-    start: Point = measure("m", "Where it begins, x and y")
-    end: Point = measure("m", "Where it ends, x and y")
+    start: Point = measure("m", "Start, x and y")
+    end: Point = measure("m", "End, x and y")
 
     def to_piece(self) -> core.Piece:
         return core.Line(_point(self.start), _point(self.end))
@@ -103,7 +106,7 @@ class ArcPiece(Wire, strict=True):
     kind: Literal["arc"] = Field(description="Kind of piece")
     centre: Point = measure("m", "Centre of the circle, x and y")
     radius: Radius = measure("m", "Radius of the circle")
-    start_angle: Angle = measure("rad", "Direction from the centre to where it begins")
+    start_angle: Angle = measure("rad", "Direction from the centre to the start of the arc")
     sweep: Angle = measure("rad", "Angle covered, counter-clockwise positive")
 
     def to_piece(self) -> core.Piece:
@@ -115,22 +118,24 @@ class CoilPiece(Wire, strict=True):
 
     kind: Literal["coil"] = Field(description="Kind of piece")
     pitch: Pitch = 0.55
-    start_turns: float = measure("turns", "Turns between the centre and where it begins", ge=0, le=200)
-    end_turns: float = measure("turns", "Turns between the centre and where it ends", ge=0, le=200)
+    start_turns: float = measure("turns", "Turns between the centre and the start of the coil", ge=0, le=200)
+    end_turns: float = measure("turns", "Turns between the centre and the end of the coil", ge=0, le=200)
     centre: Point = measure("m", "Centre of the spiral, x and y", [0.0, 0.0])
-    rotation: Angle = measure("rad", "Of the whole spiral about its centre", 0.0)
+    rotation: Angle = measure("rad", "Rotation of the whole spiral about its centre", 0.0)
 
     def to_piece(self) -> core.Piece:
         return core.Coil(self.pitch, self.start_turns, self.end_turns, _point(self.centre), self.rotation)
 
 
 class WaypointsPiece(Wire, strict=True):
-    """A smooth curve through points, without a jump of curvature."""
+    """A smooth curve through points, with continuous curvature."""
 
     kind: Literal["waypoints"] = Field(description="Kind of piece, or of path")
-    points: list[Point] = measure("m", "Points to pass, x and y", min_length=2, max_length=POINTS_MAX, fail_fast=True)
-    start_heading: Angle | None = measure("rad", "Direction at the start; null: no curvature there", None)
-    end_heading: Angle | None = measure("rad", "Direction at the end; null: no curvature there", None)
+    points: list[Point] = measure(
+        "m", "Points on the curve, x and y", min_length=2, max_length=POINTS_MAX, fail_fast=True
+    )
+    start_heading: Angle | None = measure("rad", "Direction at the start; null: zero curvature at the start", None)
+    end_heading: Angle | None = measure("rad", "Direction at the end; null: zero curvature at the end", None)
 
     def to_piece(self) -> core.Piece:
         return core.Waypoints(tuple(map(_point, self.points)), self.start_heading, self.end_heading)
@@ -165,11 +170,11 @@ AnyPiece = Annotated[LinePiece | ArcPiece | CoilPiece | WaypointsPiece, Field(di
 
 
 class RoutePath(Wire, strict=True):
-    """Pieces joined into one path; where two meet, place and direction agree."""
+    """Pieces joined into one path; place and direction must agree where two meet."""
 
     kind: Literal["route"] = Field(description="Kind of path")
     pieces: list[AnyPiece] = Field(
-        min_length=1, max_length=PIECES_MAX, fail_fast=True, description="In the order they are danced"
+        min_length=1, max_length=PIECES_MAX, fail_fast=True, description="Pieces in the order in which they are danced"
     )
     start: Start = 0.0
 
@@ -181,7 +186,7 @@ class RoutePath(Wire, strict=True):
 
 
 def _kind(value: Any) -> str:
-    """What a path says it is; a spiral if it does not say, or is no object at all."""
+    """Kind of a path; spiral if none is given or the value is not an object."""
     kind = value.get("kind", "spiral") if isinstance(value, dict) else getattr(value, "kind", "spiral")
     return kind if isinstance(kind, str) else str(kind)
 
@@ -193,7 +198,7 @@ AnyPath = Annotated[
     | Annotated[WaypointsPath, Tag("waypoints")],
     Discriminator(_kind),
 ]
-# What OpenAPI needs to know of AnyPath, whose choice pydantic leaves to a function.
+# Discriminator of AnyPath for OpenAPI, because pydantic leaves the choice to a function.
 BY_KIND: dict[str, Any] = {
     "propertyName": "kind",
     "mapping": {

@@ -1,7 +1,7 @@
-"""What core refuses, by the names and values of the request that asked for it.
+"""Refusals of core, reworded with the names and values of the request.
 
-Core knows one dance: its instants one by one, a radius, a path with fields. A request may have given a range of
-instants, a diameter, or names without `dragon.` and `path.` before them; whoever wrote those cannot mend others.
+Core speaks of single instants, a radius and a path with fields. A request may have given a range of instants, a
+diameter, or names without `dragon.` and `path.`; its author can only correct what the request contains.
 """
 
 from __future__ import annotations
@@ -20,16 +20,16 @@ from core.dance import follows, tightest_bend
 from core.dragon import BENCHES_MAX
 from core.errors import said
 
-# A request that has no object of this name has its fields in its own place.
+# A request without an object of this name holds the object's fields itself.
 OUTER = re.compile(r"^(dragon|path|times)\.(?=[a-z])")
-# What of a turn may make it too tight, where its default would do; else its circle is too small.
+# Fields of a turn that can make it too tight although their defaults would do; otherwise its circle is too small.
 MEND_A_TURN = ("entry_radius", "ratio", "pitch")
 INSTANT = re.compile(r"times(?:\.(\d+))?")
 
 
 @contextmanager
 def refusing(request: BaseModel) -> Iterator[None]:
-    """Within it, what core refuses names what the request gave, or could have given."""
+    """Context in which refusals of core name fields that the request gave or could have given."""
     try:
         yield
     except BenchDragonError as error:
@@ -37,7 +37,7 @@ def refusing(request: BaseModel) -> Iterator[None]:
 
 
 def reworded(error: BenchDragonError, request: BaseModel) -> BenchDragonError:
-    """The same error about what the request gave."""
+    """The same error in the names and values of the request."""
     names = type(request).model_fields.keys()
     if found := INSTANT.fullmatch(error.field):
         error = _of_instants(error, request, int(found[1] or 0))
@@ -46,13 +46,13 @@ def reworded(error: BenchDragonError, request: BaseModel) -> BenchDragonError:
         error = error.named(radius.replace("radius", "diameter"), None if error.got is None else 2.0 * error.got)
     if error.field == "path" and isinstance(getattr(request, "path", request), TurnFields):
         error = _of_a_turn(error, request)
-    # A range of times may stand beside the name `times`, as among the options of the command.
+    # A range of times may exist beside the name `times`, as in the options of the command.
     objects = names - {"times"} if "stop" in names else names
     return error.renamed(lambda name: OUTER.sub(lambda outer: outer[0] * (outer[1] in objects), name))
 
 
 def _of_instants(error: BenchDragonError, request: Any, index: int) -> BenchDragonError:
-    """One of the instants: of a range, its start or what lets it run so far."""
+    """The error for one instant; for a range, it names its start or the field that lets it run too far."""
     names = type(request).model_fields
     if "time" in names:
         return error.named("time")
@@ -66,7 +66,7 @@ def _of_instants(error: BenchDragonError, request: Any, index: int) -> BenchDrag
 
 
 def _of_a_turn(error: BenchDragonError, request: Any) -> BenchDragonError:
-    """A turn that bends too tight for a bench: by what makes it so tight."""
+    """The error for a turn too tight for a bench, naming the field that makes it so tight."""
     body = not isinstance(request, TurnFields)
     fields: TurnFields = request.path if body else request
     dragon = (request.dragon if body else request).to_dragon(BENCHES_MAX)
@@ -84,7 +84,7 @@ def _of_a_turn(error: BenchDragonError, request: Any) -> BenchDragonError:
 
 
 def _mends(name: str, fields: TurnFields, dragon: Dragon) -> bool:
-    """Can the dragon follow the turn that has the default in this place?"""
+    """Can the dragon follow the turn if this field has its default?"""
     default = TurnFields.model_fields[name].default
     if getattr(fields, name) == default:
         return False

@@ -1,6 +1,6 @@
-"""What a search for first contact proved, in sentences that name all of it.
+"""The claim that a search for first contact proved, in complete sentences.
 
-Numbers have all their digits: a rounded one would name another dance, or an instant beyond what is proven.
+Numbers have all their digits: a rounded one would describe another dance, or an instant that is not proven.
 """
 
 from __future__ import annotations
@@ -33,21 +33,21 @@ def claim(dance: Dance, margin: float, span: tuple[float, float], then: str) -> 
 
 
 def claim_at_start(dance: Dance, margin: float, start: float, pair: tuple[int, int]) -> str:
-    """claim() where two benches come within the margin at the very start [s]."""
+    """claim() for two benches within the margin at the start [s]."""
     near = f"are nearer to each other than {said(margin)} m" if margin else "touch"
     touching = f"at {said(start)} s benches {pair[0]} and {pair[1]} {near}."
     return f"{_dance(dance)}: {touching} {MEASURED}"
 
 
 def claim_undecided(dance: Dance, margin: float, start: float) -> str:
-    """claim() where a search gave up at the very start [s]."""
+    """claim() for a search that gave up at the start [s]."""
     near = f"are nearer to each other than {said(margin)} m" if margin else "touch"
     never = f"from {said(start)} s on it is not decided whether two benches that share no handle {near}."
     return f"{_dance(dance)}: {never} {TRIED}"
 
 
 def contact_then(pair: tuple[int, int], margin: float, time: float) -> str:
-    """The end of a claim's sentence where a contact follows, certain at a time [s]."""
+    """The end of a claim's sentence for a contact that is certain at a time [s]."""
     near = f"are nearer than {said(margin)} m" if margin else "overlap"
     return f", and at {said(time)} s benches {pair[0]} and {pair[1]} {near}."
 

@@ -30,11 +30,11 @@ if TYPE_CHECKING:
 # (Search.samples()); a dip is refined to this width [m of head travel], in a profile [s].
 PROFILE_STEP = 0.2
 DIP_WIDTH = 1e-11
-# Width to which the least distance is proven [m]; the second one where the first takes more steps than a search may.
+# Width to which the least distance is proven [m]; the second one is used if the first takes too many steps.
 PROOF_WIDTHS = (1e-5, 1e-3)
 # Number of the lowest samples that are refined before the proof begins.
 DIPS_REFINED = 5
-# Most times that a proof may come upon something nearer; each time the distance falls by PROOF_WIDTHS[0] or more.
+# Largest number of times that a proof may find a smaller distance; each one is smaller by PROOF_WIDTHS[0] or more.
 ROUNDS = 100
 
 Pair = tuple[int, int]
@@ -55,7 +55,7 @@ class Graze(Shown):
 class ClearanceProfile(Shown):
     """time (...) [s], clearance (...) [m], benches (..., 2), and the local minima between the first and last time.
 
-    ... is (T,) for a list of times and nothing for one time.
+    ... is (T,) for a list of times and empty for one time.
     """
 
     time: Floats
@@ -82,7 +82,7 @@ class ClearanceProfile(Shown):
         return data_frame("ClearanceProfile.to_dataframe()", columns, {})
 
     def to_xarray(self) -> xarray.Dataset:
-        """clearance (time) [m] and benches (time, pair); without the axis `time` where one time was asked.
+        """clearance (time) [m] and benches (time, pair), without the axis `time` for a single time.
 
         raises: ImportError without xarray, naming the extra
         """
@@ -91,7 +91,7 @@ class ClearanceProfile(Shown):
         return data_set("ClearanceProfile.to_xarray()", variables, {"time": (axis, self.time), "pair": ["a", "b"]})
 
     def plot(self, ax: Axes | None = None) -> Axes:
-        """The clearance against time, its local minima as dots.
+        """Plot the clearance against time, with its local minima as dots.
 
         returns: the axes given, or those of a new figure, in seconds and metres
         raises: ImportError without matplotlib, naming the extra
@@ -106,9 +106,9 @@ class ClearanceProfile(Shown):
 class LeastClearance(Shown):
     """The least clearance over a stretch of the dance.
 
-    distance: the least found [m], met at `time` [s] by `benches`; 0 at the first touch if benches touch
-    at_least: proven [m]: nothing comes nearer than this, which is PROOF_WIDTHS[0] below the distance or, where
-        steps run short, PROOF_WIDTHS[1]; None where the search gave up first
+    distance: the least found [m], reached at `time` [s] by `benches`; 0 at the first touch if benches touch
+    at_least: proven lower bound [m], PROOF_WIDTHS[0] below the distance or, if that takes too many steps,
+        PROOF_WIDTHS[1]; None if the search gave up first
     """
 
     distance: float
@@ -147,7 +147,7 @@ def _at(search: Search, time: Floats, head_speed: float) -> tuple[Floats, NDArra
 
 
 def _grid(search: Search, begin: float, until: float) -> list[float]:
-    """Travels at which clearances are sampled between two [m]."""
+    """Travels between two at which clearances are sampled [m]."""
     count = search.samples(until - begin, PROFILE_STEP * search.extremes[1])
     grid: list[float] = np.linspace(begin, until, count).tolist()
     return grid
@@ -201,7 +201,7 @@ def least_over(
 ) -> tuple[Dip, float | None]:
     """The least gap of the search's pairs between two travels of the head, and what is proven of it [m].
 
-    A gap of 0 stands for the first touch. The search's margin is another one afterwards.
+    A gap of 0 stands for the first touch. The call changes the search's margin.
     fold: where the run ends, if right after `until` and at a fold. Steps shrink to nothing before it, where handles
         are fast without bound, so a bound on the motion left takes the place of the last ones: least_to_fold()
     """
@@ -233,7 +233,7 @@ def least_over(
 
 
 def _first_touch(search: Search, begin: float, until: float, head_speed: float, touching: Dip) -> tuple[Dip, float]:
-    """The first touch, where something touches for certain; the touch known already where the search gives up."""
+    """The first touch if benches certainly touch; if the search gives up, the touch that is already known."""
     search.use(search.path, 0.0)
     state, found, tolerance = search.approach(begin, until, head_speed)
     if not state.startswith("touched") or found.touching is None:
@@ -242,7 +242,7 @@ def _first_touch(search: Search, begin: float, until: float, head_speed: float, 
 
 
 def _sampled(search: Search, begin: float, until: float) -> Dip:
-    """The least of the ends and of the dips that samples show."""
+    """The least clearance at the ends and in the dips that samples show."""
     grid = _grid(search, begin, until)
     leaders = min(search.dragon.uniform_from + 1, search.dragon.benches)
     gaps = np.array([search.clearance(travel, leaders)[0] for travel in grid])
@@ -251,7 +251,7 @@ def _sampled(search: Search, begin: float, until: float) -> Dip:
 
 
 def _refined(search: Search, low: float, middle: float, high: float) -> Dip:
-    """The bottom of the dip around the middle travel; sought once more if another pair is nearer there."""
+    """The bottom of the dip around the middle travel; searched again if another pair is nearer there."""
     gap, pair = search.clearance(middle)
     best = (gap, middle, pair)
     for _ in range(2):

@@ -1,7 +1,8 @@
-"""Two coils of one route: the place from which outwards nothing touches on them, so that a search may end there.
+"""Two coils of one route: the radius beyond which nothing on them touches, so that a search may end there.
 
-For a dance through the turn, and any other that comes in along a coil and leaves along one with the same centre and
-pitch.
+
+It serves a dance through the turn, and any other that comes in along a coil and leaves along one with the same centre
+and pitch.
 """
 
 from __future__ import annotations
@@ -17,10 +18,10 @@ from core.kernels.constants import COIL_ARC, PIECE_KIND
 from core.paths.route import Route
 from core.values import Floats
 
-# The radius from which rings are clear is sought among radii that grow by this factor [1], up to this one [m].
+# Factor between the radii that are tried as the radius from which rings are clear [1], and the largest one [m].
 RADIUS_FACTOR = 1.1
 RADIUS_MAX = 1e4
-# No arc under a chord is longer by more [1].
+# Upper bound of an arc over its chord [1].
 STRETCH = 0.5 * math.pi
 # The foot of the perpendicular from the centre on a chord lies no further than this times the growth from the middle of
 # the chord, where ring_least() says anything (core/kernels/rings.py) [1].
@@ -78,7 +79,7 @@ def two_coils(path: Route) -> TwoCoils | None:
 
 
 def _extent(path: Route, row: Floats, centre: Floats) -> float:
-    """No point of a piece is further from a point than this [m].
+    """Upper bound of the distance of a piece's points from a point [m].
 
     The distance to one of its ends and half its length; on an arc also the distance of the circle's furthest point.
     """
@@ -125,7 +126,7 @@ def rings_clear(dragon: Dragon, coils: TwoCoils, margin: float) -> float | None:
 
 
 def way_out(dragon: Dragon, coils: TwoCoils, margin: float) -> float | None:
-    """How far along the coil outwards the head is when nothing can touch any more [m], None if that is not known."""
+    """Arc of the coil outwards up to the head when nothing can touch any more [m]; None if not known."""
     growth, leaders = coils.growth, dragon.chords[: dragon.uniform_from + 1]
     longest, rings = float(leaders.max()), rings_clear(dragon, coils, margin)
     if rings is None or STRETCH * longest >= coils.length:
@@ -135,7 +136,7 @@ def way_out(dragon: Dragon, coils: TwoCoils, margin: float) -> float | None:
 
 
 def beyond(dragon: Dragon, growth: float, handles: float, margin: float) -> float:
-    """From this radius outwards a bench on a coil is clear of all whose handles are within a radius [m]."""
+    """Radius from which outwards a bench on a coil is clear of all benches whose handles are within a radius [m]."""
     overhang, half = _sideways(dragon)
     return wholly_outside(dragon, growth, handles + overhang + half + margin + CLEARLY)
 
@@ -150,7 +151,7 @@ def wholly_outside(dragon: Dragon, growth: float, radius: float) -> float:
 
 
 def _rings(dragon: Dragon) -> kernels.Rings:
-    """What the kernels' bounds on rings need to know of a dragon any of whose benches may be the outer of a pair."""
+    """Input of the kernels' ring bounds for a dragon in which any bench may be the outer one of a pair."""
     chords, rings = dragon.chords[: dragon.uniform_from + 1], kernels.Rings()
     rings.chord = rings.all_chord = float(chords.max())
     rings.shortest = rings.all_shortest = float(chords.min())

@@ -1,7 +1,7 @@
 """Four engines judge the dance just before and just after a contact: does the pair meet when the search says so?
 
-A judgement uses nothing of the search but its claim: when, or at which pitch, and which pair. The whole dragon is
-judged: before, no two benches that share no handle are within the margin; after, the reported pair is, and no other.
+A judgement uses only the claim of the search: the time or the pitch, and the pair. The whole dragon
+is judged: before, no two benches that share no handle are within the margin; after, the reported pair is, and no other.
 """
 
 from __future__ import annotations
@@ -28,11 +28,11 @@ from core.values import Floats, checked_number, checked_type
 Pair = tuple[int, int]
 Indices = NDArray[np.int64]
 
-# How far the head travels from first contact to the poses that are judged [m]: far above the rounding of positions
+# Head travel between first contact and the poses that are judged [m]: far above the rounding of positions
 # (1e-13 m), far below a bench. Within 1e-10 m of a pitch at which two benches only graze, their gap is then too small
 # for the angle sum to see (1e-12 m).
 CHECK_TRAVEL = 1e-6
-# Where arc lengths are so long that rounding hides such a travel: the travel in units of their last digit [1].
+# The same travel in units of the last digit of arc lengths so long that rounding hides a shorter one [1].
 CHECK_DIGITS = 64
 # The same for a pitch [m].
 CHECK_PITCH = 1e-6
@@ -48,19 +48,19 @@ CLOSE_MAX = 30_000
 
 @dataclass(frozen=True, slots=True, repr=False)
 class ContactCheck(Shown):
-    """What the engines say of a reported contact.
+    """The engines' verdicts on a reported contact.
 
-    agree: every engine asked finds nothing before, and after the reported pair alone
+    agree: every engine asked finds nothing before, and only the reported pair after
     engines: before: does it find any two benches judged within the margin just before; None for a contact at the start,
         which has no before. after: does it find the reported pair just after, and no other but those of `together`; at
         the start others may be found too
-    judged: the benches judged, ascending: all; the pair alone; or of a dragon too long or too crowded those near the
+    judged: the benches judged, ascending: all, only the pair, or, in a dragon too long or too crowded, those near the
         pair
     together: other pairs that meet with the reported one, as nearly as the two poses can tell: apart before, within the
         margin after by no more than TOGETHER_DEPTH. A corner that meets a straight row where two benches of it overlap
-        touches both at once. Told by the exact separation alone; the engines may find them or not.
-    left_out: engines that cannot judge: the angle sum, which looks at corners alone, knows no margin, and at the start
-        no benches that cross with no corner of one inside the other
+        touches both at once. Only the exact separation decides this; the engines may find them or not.
+    left_out: engines that cannot judge the case: the angle sum sees only corners inside a bench, so it cannot judge a
+        margin or, at the start, benches that cross without a corner inside the other
     """
 
     agree: bool
@@ -83,9 +83,9 @@ def contact_check(
 ) -> ContactCheck | None:
     """The engines on the dance CHECK_TRAVEL of head travel before and after the bracket of a first contact.
 
-    A contact at the start has no before: it is judged at the start and CHECK_TRAVEL after it, and counts where either
-    finds it.
-    whole: judge the whole dragon, else the reported pair alone; None where nothing touches or nothing is decided
+    A contact at the start is judged at the start and CHECK_TRAVEL after it, and counts if it is found at either.
+    whole: judge the whole dragon, else only the reported pair
+    returns: None if nothing touches or nothing is decided
     raises: InvalidValue
 
     >>> from core import first_contact
@@ -114,8 +114,9 @@ def contact_check(
 def pitch_check(found: MinimumPitch, dragon: Dragon, *, margin: float = 0.0, whole: bool = True) -> ContactCheck | None:
     """The engines on the dance at a pitch CHECK_PITCH larger and CHECK_PITCH smaller than the minimum.
 
-    The head stands where the pair meets just below that pitch, or at the start where that is what limits it.
-    whole: judge the whole dragon, else the reported pair alone; None where no pair limits the pitch
+    The head stands where the pair meets just below that pitch, or at the start if the start limits the pitch.
+    whole: judge the whole dragon, else only the reported pair
+    returns: None if no pair limits the pitch
     raises: InvalidValue
     """
     checked_type("found", found, MinimumPitch)
@@ -134,7 +135,7 @@ def pitch_check(found: MinimumPitch, dragon: Dragon, *, margin: float = 0.0, who
 
 
 def _poses(dance: Dance, times: list[float]) -> Floats:
-    """Poses (T, n, 3) of the dragon at instants, or at the nearest ones that its run has."""
+    """Poses (T, n, 3) of the dragon at instants, or at the nearest ones within its run."""
     held = [min(max(time, dance.earliest), dance.end.time) for time in times]
     return bench_poses(trajectory(dance, held).position)
 
@@ -142,7 +143,7 @@ def _poses(dance: Dance, times: list[float]) -> Floats:
 def judged_contact(
     poses: Floats, sizes: Floats, pair: Pair, *, margin: float = 0.0, whole: bool = True, at_start: bool = False
 ) -> ContactCheck:
-    """What the engines say of a pair that is reported to come within the margin between two instants.
+    """The engines' verdicts on a pair that is reported to come within the margin between two instants.
 
     poses: (2, n, 3) just before and just after, or at a start and just after; sizes: (n, 2) length and width [m]
     """
@@ -174,7 +175,7 @@ def judged_contact(
 
 
 def _leave_out_blind(words: dict[Engine, Verdict], poses: Floats, sizes: Floats) -> None:
-    """Leave the angle sum out where no corner of either bench is inside the other: then it sees none that cross.
+    """Leave the angle sum out if no corner of either bench is inside the other, because it cannot see them cross.
 
     poses: (2, 2, 3) of the reported pair at both instants; sizes: (2, 2) length and width [m]
     """
@@ -202,7 +203,7 @@ def _told(words: dict[Engine, Verdict], judged: Indices, together: tuple[Pair, .
 # Of the benches judged, only those that follow one another in the dragon are neighbours, so pairs are sought among all
 # of them and neighbours left out by their numbers.
 def _found(engine: Engine, poses: Floats, sizes: Floats, margin: float, judged: Indices) -> list[set[Pair]]:
-    """The pairs that an engine finds at each instant, by their numbers in the dragon."""
+    """Pairs that an engine finds at each instant, by their numbers in the dragon."""
     chained = len(judged) == int(judged[-1] - judged[0]) + 1
     found = []
     for pairs in found_pairs(engine, poses, sizes, margin, chained=chained):
@@ -213,7 +214,7 @@ def _found(engine: Engine, poses: Floats, sizes: Floats, margin: float, judged: 
 
 
 def _meeting_together(others: list[Pair], poses: Floats, sizes: Floats, margin: float) -> set[Pair]:
-    """Those pairs that come within the margin between the two instants, and are hardly deeper than it after."""
+    """Those pairs that come within the margin between the two instants, and are barely within it after."""
     if not others:
         return set()
     a, b = np.array(others).T
@@ -246,7 +247,7 @@ def judged_benches(poses: Floats, sizes: Floats, pair: Pair, margin: float) -> I
 
 # FCL's tree meets the pairs of upright cubes around the spheres around the boxes, not those of their own upright boxes.
 def _is_manageable(poses: Floats, sizes: Floats, margin: float) -> bool:
-    """Do so few cubes around benches meet that FCL is done in a tenth of a second, or in one with a margin?"""
+    """Do few enough cubes around benches meet for FCL to finish in 0.1 s, or in 1 s with a margin?"""
     if len(poses) * (len(poses) - 1) // 2 <= CLOSE_MAX:
         return True
     upright = np.column_stack([poses[:, :2], np.zeros(len(poses))])

@@ -36,7 +36,7 @@ if TYPE_CHECKING:
 
 # A run without contact is drawn this long before its end [s], where the chain still exists.
 BEFORE_END = 1e-6
-# After giving up, a search looks for a certain overlap from this far ahead on [m of head travel].
+# Distance ahead at which a search that gave up begins to look for a certain overlap [m of head travel].
 BEYOND = 1e-3
 
 
@@ -62,10 +62,10 @@ class Feature(Shown):
 class Evidence(Shown):
     """How the answer is known.
 
-    method: the whole claim and how it is proven, in sentences (core/contact/claim.py)
+    method: the claim and its proof, in sentences (core/contact/claim.py)
     steps: proven steps taken
-    clear_until: nothing touches from the start to this time [s]; None where no time is proven clear, because benches
-        touch at the start or the search is undecided from there on
+    clear_until: time until which nothing touches [s]; None if no time is proven clear, because benches touch at the
+        start or the search is undecided from the start
     bound: the largest bound on the second derivative of a gap along the head's way that a step used [1/m]
     least_clearance: the narrowest graze met before the contact (or over the whole run), None if none
     """
@@ -116,7 +116,7 @@ class FirstContact(Shown):
         return f"benches {a} and {b} {near} at {worded(self.time, 's')}"
 
     def plot(self, ax: Axes | None = None, *, enlarged: bool = False) -> Axes:
-        """The dance at first contact with the two benches filled; without a contact just before the end of the run.
+        """Plot the dance at first contact, the two benches filled; without a contact, just before the end of the run.
 
         enlarged: only the neighbourhood of the contact, with the corner and the edge that meet
         returns: the axes given, or those of a new figure, in metres
@@ -200,7 +200,7 @@ def first_contact(dance: Dance, *, margin: float = 0.0, start: float = 0.0, stop
 def contact_within(
     budget: Budget, dance: Dance, *, margin: float = 0.0, start: float = 0.0, stop: float | None = None
 ) -> FirstContact:
-    """first_contact() as a part of a larger question: also undecided once the budget of that question is spent."""
+    """first_contact() as a part of a larger question: it is also undecided when that question's budget is spent."""
     checked_type("dance", dance, Dance)
     margin = checked_number("margin", margin, "m", 0.0, MARGIN_MAX)
     begin, until = dance.span(start, stop)
@@ -224,7 +224,7 @@ def contact_within(
 
 
 def _known_overlap(search: Search, proven: float, last: float, head_speed: float, until: float) -> float:
-    """When benches are within the margin for certain after a search gave up [s]; until if that is not known."""
+    """Time at which benches are certainly within the margin after a search gave up [s]; `until` if not known."""
     state, found, _ = search.approach(min(proven + BEYOND, last), last, head_speed)
     return until if state == "stuck" or found.touching is None else found.touching / head_speed
 

@@ -1,4 +1,4 @@
-"""The last stretch before a fold: what benches can still move there, and so how near they may come.
+"""The last stretch before a fold: a bound on the remaining motion of benches, and so on how near they may come.
 
 Steps of the march shrink to nothing before a fold, where handle speeds grow without bound; this bound replaces them.
 """
@@ -16,12 +16,12 @@ from core.dance import RunEnd
 from core.kernels.constants import CHORD, ERROR, HALF_LENGTH, HALF_WIDTH, THETA
 from core.values import Floats
 
-# Most stretches into which the way to a fold is cut; each takes 0.1 to 0.3 ms.
+# Largest number of stretches into which the way to a fold is cut; each takes 0.1 to 0.3 ms.
 FOLD_STRETCHES = 200
 # Angles at which dragons fold, and those of handles from leader to follower, are good to far less than this part [1]:
 # see least_left().
 THETA_ROUNDING = 1e-12
-# Work that one stretch counts as, and for each bench besides [1].
+# Work of one stretch, and of each bench in it [1].
 STRETCH_WORK, FOLD_WORK = 1000.0, 20.0
 
 
@@ -36,7 +36,7 @@ def clear_to_fold(search: Search, travel: float, end: RunEnd) -> bool:
 def least_to_fold(search: Search, travel: float, end: RunEnd) -> float | None:
     """No two benches come nearer than this, or than the margin, from a travel to the fold [m]; None: not known.
 
-    By FOLD_STRETCHES at most, or until the bound exceeds the margin.
+    The way is cut into FOLD_STRETCHES at most, until the bound exceeds the margin.
     """
     assert end.theta is not None
     if search.dragon.benches < 3:
@@ -107,7 +107,7 @@ def least_left(search: Search, travel: float, theta: float) -> float:
 
 
 def moved_until(search: Search, theta: float) -> tuple[Floats, Floats]:
-    """How far each handle in rows[0], and any point of each bench, moves until the head is at theta at most [m]."""
+    """Bounds on the motion of each handle in rows[0], and any point of each bench, until the head is at theta [m]."""
     growth, benches = search.growth, search.room
     chords = search.sizes[:benches, CHORD]
     longest_behind = np.maximum.accumulate(chords[::-1])[::-1].tolist()

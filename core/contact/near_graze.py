@@ -5,9 +5,9 @@ is solved again in decimal arithmetic, starting from the kernels' own. Not for c
 length is itself a quadrature.
 
 Sine, cosine and the separation are written out here, because decimal has none. mpmath would be one more requirement and
-spare 20 lines, but the same contacts would take 1.25 to 1.4 times as long (44 instead of 35 ms, measured 2026-11-21).
+save 20 lines, but the same contacts would take 1.25 to 1.4 times as long (44 instead of 35 ms, measured 2026-11-21).
 python-flint needs 0.6 microseconds for a sine with its cosine and 1.4 for an arc length, where decimal needs 21 and 26
-(measured 2026-11-22), but it is 27 MB that not every installation has, and two ways to one answer are one too many.
+(measured 2026-11-22), but it takes 27 MB and is not part of every installation, and one answer should have one method.
 """
 
 from __future__ import annotations
@@ -47,14 +47,14 @@ from core.paths.spiral import Spiral
 from core.sampling import falls_to_zero
 
 DIGITS = 40
-# A chord is met within this [m].
+# Error allowed in a chord [m].
 NEGLIGIBLE = Decimal("1e-34")
 # Series end with terms below this [1]: the five doublings that follow enlarge an error at most a thousandfold.
 LAST_TERM = Decimal("1e-51")
-# What a gap may be off by [m]: each of up to LAST_BENCH links is met within NEGLIGIBLE, which a fold may enlarge a
+# Largest error of a gap [m]: each of up to LAST_BENCH links is met within NEGLIGIBLE, which a fold may enlarge a
 # hundred million times and overhangs ten thousand times, and coordinates of up to 1e5 m have DIGITS digits.
 GAP_ROUNDING = Decimal("1e-20")
-# Intervals shorter than this prove nothing [m].
+# Length below which an interval proves nothing [m].
 SHORTEST = 1e-13
 # A travel divided by the head speed, in doubles, and multiplied again, is within this part of it [1].
 TIME_ROUNDING = 4.0 * kernels.ULP
@@ -134,7 +134,7 @@ class ExactPair:
         return first, second
 
     def gap(self, travel: Decimal) -> Decimal:
-        """By how much the two are further apart than the margin [m]."""
+        """Separation of the two less the margin [m]."""
         return separation(*self.benches(travel))[0] - Decimal(self.search.margin)
 
     def stays_apart(self, start: float, stop: float) -> bool:
@@ -261,7 +261,7 @@ def _arc(theta: Decimal) -> Decimal:
 
 
 def _cos_sin(angle: Decimal) -> Vector:
-    """By the series of the exponential, on the angle reduced to [-pi, pi] and halved five times."""
+    """Cosine and sine, by the series of the exponential for the angle reduced to [-pi, pi] and halved five times."""
     x = angle.remainder_near(TWO_PI) / 32
     cos, sin, term, k = Decimal(1), Decimal(0), Decimal(1), 0
     while abs(term) > LAST_TERM:

@@ -39,7 +39,7 @@ MARGIN_MAX = 1e4  # [m]
 # takes about 5,000.
 WORK_BUDGET = 2e7
 NEAR_WORK_BUDGET = 5e6
-# Most samples of a dance [1], and the share of the work that they may take [1].
+# Largest number of samples of a dance [1], and the share of the work that they may take [1].
 SAMPLES = 20_000
 SAMPLED_SHARE = 0.1
 # Half width of the bracket around a contact [m of head travel] at head speeds of 1 m/s and more, and the least that
@@ -50,27 +50,28 @@ BRACKET_MIN = 2e-11
 # graze: the first one is 1e-9 s in all at 1 m/s, and core/contact/near_graze.py narrows the wider ones to it [m of head
 # travel]. Below 1 m/s the same in seconds come first.
 BRACKETS_GRAZING = (4.9e-10, 5e-9, 5e-8, 5e-7, 5e-6, 5e-5)
-# What a travel may be off by, of the way [1], u = 2^-53: on a spiral its length to 5 u, two differences from it and the
-# polar angle there 10 u (spiral_theta() ends within 7 u of the arc length left), a time from a travel and back 2 u.
+# Largest error of a travel, relative to the way [1], u = 2^-53: on a spiral its length to 5 u, two differences from it
+# and the polar angle there 10 u (spiral_theta() ends within 7 u of the arc length left), a time from a travel and back
+# 2 u.
 TRAVEL_ROUNDING = 2e-15
 # The last stretch before a fold, where handle speeds grow without bound: dismissed by a bound on the motion left [m].
 FOLD_SLIVER = 1e-9
 # Width to which the clear radius is bisected, relative [1].
 CLEAR_WIDTH = 1e-3
-# Stands for a radius or place from which nothing is known to be clear [m].
+# Value of a radius or place that is not known [m].
 NO_BOUND = 1e150
-# Stands for the gap of no pair, at no instant [m].
+# Value of the gap when there is no pair [m].
 NO_GAP = 1e150
-# What the ring bound may be off by, of the lengths in it [1]: at most 64 sums, products and roots, with d^2 = radius^2
-# - foot^2 at least a thousandth of radius^2 (core/kernels/rings.py), so that d is good to 2,000 u.
+# Largest error of the ring bound, relative to the lengths in it [1]: at most 64 sums, products and roots, with d^2 =
+# radius^2 - foot^2 at least a thousandth of radius^2 (core/kernels/rings.py), so that d is good to 2,000 u.
 RING_ROUNDING = 1e-11
 
 
 class Budget:
-    """What all searches of one question may still do together.
+    """Work that all searches of one question may still do together.
 
-    left: work, see core/kernels/constants.py [1]; 1e7 take 1 to 4 s. Nothing is interrupted at 0: whoever asks
-    for more then raises TooMuchWork.
+    left: work, see core/kernels/constants.py [1]; 1e7 take 1 to 4 s. Nothing is interrupted at 0: the next
+    step that asks for more raises TooMuchWork.
     """
 
     def __init__(self, work: float = math.inf) -> None:
@@ -100,7 +101,7 @@ class Dip(NamedTuple):
 
 
 class Marched(NamedTuple):
-    """What a march found.
+    """Result of a march.
 
     proven: nothing comes within the margin up to this travel [m]; touching: benches are within it at this one [m], None
         where nothing was found; benches: that pair
@@ -117,7 +118,7 @@ class Marched(NamedTuple):
 
 
 class Search:
-    """The arrays that the kernels need for one dragon, and the path and margin they are used for now.
+    """The kernels' arrays for one dragon, with the current path and margin.
 
     extremes: longest and shortest chord, longest overhang, half width of all benches, chord and half width of those
         that can be the outer of a pair [m]; rings: the same and more for the kernels, with the bounds that hold of the
@@ -128,8 +129,8 @@ class Search:
     clear_radius: on a spiral, no pair whose inner bench leads at this radius or further out comes within the margin [m]
     rings.clear_place, rings.end_place: on a route that begins (and ends) with a coil the same as places; where they are
         known there is room for the leading benches only, as on a spiral
-    work: what its marches may still do, see WORK_BUDGET, as far as the budget of the whole question has that left
-    place: what the kernels count places from, at time 0: arc length from the centre of a spiral, minus s on a route [m]
+    work: work that its marches may still do, see WORK_BUDGET, within the budget of the whole question
+    place: origin of the kernels' places, at time 0: arc length from the centre of a spiral, minus s on a route [m]
     """
 
     margin: float
@@ -187,18 +188,18 @@ class Search:
         self.clear_radius = self.rings.clear_radius = radius * (1.0 + kernels.CLEAR_SPARE)
 
     def travel_rounding(self, *travels: float) -> float:
-        """What travels up to these may be off by, in the kernels and as times [m]."""
+        """Largest error of travels up to these, in the kernels and as times [m]."""
         furthest = max(self.place, *(self.place - travel for travel in travels), *map(abs, travels))
         return self.path.slide + TRAVEL_ROUNDING * furthest
 
     def resize(self, benches: int) -> None:
-        """Room for so many leading benches, and the edges at rest after the row of the last handle."""
+        """Make room for a number of leading benches, and for the edges at rest after the row of the last handle."""
         dragon, edges = self.dragon, self.edges
         lengths, widths = dragon.lengths[:benches], dragon.widths[:benches]
         columns = [dragon.chords[:benches], 0.5 * lengths, 0.5 * widths, 0.5 * np.hypot(lengths, widths)]
         self.sizes = np.zeros((benches + 1 + len(edges), kernels.SIZE_COLUMNS))
         self.sizes[:benches] = np.stack(columns, axis=1)
-        # A chain writes what is read of it, but march() asks how fast handle 1 is before it is placed.
+        # A chain writes every entry before it is read, except the speed of handle 1, which march() reads first.
         self.rows = np.empty((5, benches + 1 + len(edges), kernels.CHAIN_COLUMNS))
         self.rows[:, :2] = 0.0
         self.motion = np.zeros((benches + 1 + len(edges), kernels.MOTION_COLUMNS))
@@ -218,7 +219,7 @@ class Search:
         self._march = kernels.March(self.interval, self.probe, opening)
 
     def spend(self, work: float) -> None:
-        """Take work that was done from what may still be done [1]."""
+        """Subtract work done from the work left [1]."""
         self.work -= work
         self.budget.left -= work
 
@@ -227,7 +228,7 @@ class Search:
         return float(self.room * (1.0 + len(self.edges) / EDGES_PER_WORK))
 
     def samples(self, span: float, step: float) -> int:
-        """Number of samples over a span [m]: a step apart [m], or fewer where the work allows no more."""
+        """Number of samples over a span [m] at a step [m], or fewer if the work left allows only fewer."""
         affordable = min(float(SAMPLES), SAMPLED_SHARE * min(self.work, self.budget.left) / self._step_work)
         return max(3, int(min(3.0 + span / step, affordable)))
 
@@ -237,12 +238,12 @@ class Search:
         return least - self.ring_rounding(radius, self.growth)
 
     def ring_rounding(self, radius: float, growth: float) -> float:
-        """What kernels.ring_least() may be off by for growths up to this one [m]."""
+        """Largest error of kernels.ring_least() for growths up to this one [m]."""
         return RING_ROUNDING * (radius + 2.0 * math.pi * growth + float(self.longest))
 
     @property
     def follows_all(self) -> bool:
-        """Must a march follow all benches? Yes on a route that does not say which ones are out of reach."""
+        """Must a march follow all benches? Yes on a route for which no benches are known to be out of reach."""
         return isinstance(self.path, Route) and self.rings.clear_place >= NO_BOUND
 
     def _clear_radius(self, growth: float) -> float:
@@ -344,7 +345,7 @@ class Search:
 
     @staticmethod
     def last_travel(until: float, to_fold: bool) -> float:
-        """How far to march for a run until a travel [m]: short of a fold by a sliver, see core/contact/fold.py."""
+        """Travel to march to for a run until a travel [m]: a little short of a fold, see core/contact/fold.py."""
         return until - (FOLD_SLIVER + 5e2 * TRAVEL_ROUNDING * until if to_fold else 0.0)
 
     def approach(self, begin: float, until: float, head_speed: float) -> tuple[Ended, Marched, float]:
@@ -363,13 +364,13 @@ class Search:
         return state, found._replace(proven=proven), tolerance
 
     def surely_within(self, travel: float, pair: tuple[int, int]) -> bool:
-        """Are two benches within the margin after a travel [m], whatever rounding does?"""
+        """Are two benches certainly within the margin after a travel [m], in spite of rounding?"""
         slack = self.travel_rounding(travel)
         place = self.place - travel + slack
         return float(kernels.pair_most(self.scene, self.probe, place, 2.0 * slack, *pair)) <= self.margin
 
     def place_leaders(self, travel: float, leaders: int) -> None:
-        """Put so many leading benches, and no pair of them, into rows[0] as they are after a travel [m]."""
+        """Put a number of leading benches, without pairs, into rows[0] as they are after a travel [m]."""
         self._clearance(travel, leaders, 0)
 
     def clearance(self, travel: float, leaders: int | None = None) -> tuple[float, tuple[int, int]]:
@@ -386,7 +387,7 @@ class Search:
         return float(gap), (a, b)
 
     def _followed(self, travel: float, leaders: int) -> int:
-        """How many benches behind the leaders of a spiral can be as near to them as the leaders' own sizes."""
+        """Number of benches behind the leaders of a spiral that can be as near to them as the leaders' own sizes."""
         start, growth = self.theta_at(travel), self.growth
         rear = growth * start + leaders * self.extremes[0]
         reach = kernels.leaders_reach(growth, growth * start, rear, self.rings) + self.longest
@@ -408,7 +409,7 @@ class Search:
         return float(kernels.bottom_between(self.scene, low, high, *pair, width, self.rows[1]))
 
     def gap_rounding(self, travel: float, within: float) -> float:
-        """What gaps of up to `within` [m] may be off by after a travel, see core/kernels/pairs.py [m]."""
+        """Largest error of gaps up to `within` [m] after a travel, see core/kernels/pairs.py [m]."""
         self.place_leaders(travel, self.room)
         kernels.chain_rounding(self.curve, self.room, self.sizes, self.rows[0])
         error, sway = self.rows[0, : self.room, kernels.ERROR].max(), self.rows[0, : self.room, kernels.SWAY].max()

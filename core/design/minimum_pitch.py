@@ -20,7 +20,7 @@ from core.sampling import bisected
 from core.shown import Shown, worded
 from core.values import SIZE_MAX, checked_number, checked_size, checked_type
 
-# An infeasible pitch is sought this far below what the bands prove: the error that this may leave [m of pitch].
+# Distance below the proven bands at which an infeasible pitch is sought: the error that this may leave [m of pitch].
 PASSED_OVER = 1e-9
 # The same relative to the pitch, on spirals so wide that a clearance hardly changes with it, and the width of the
 # bracket there [1].
@@ -29,7 +29,7 @@ PASSED_OVER_WIDE = 1e-6
 PITCH_WIDTH = 2.0 * BORDER_WIDTH
 # Number of undecided pitches that end a bisection.
 UNDECIDED_MAX = 4
-# Number of pitches that a scan tries, where no bound on the change of a clearance with the pitch is known.
+# Number of pitches in a scan, which serves where no bound on the change of a clearance with the pitch is known.
 SCAN_SAMPLES = 1000
 # Number of evenly spaced pitches at which islands below the minimum pitch are sought.
 ISLAND_SAMPLES = 400
@@ -46,7 +46,7 @@ BOTTOM_WITHIN = 0.01
 
 
 class LimitedBy(StrEnum):
-    """What stops the pitch from being smaller."""
+    """What prevents a smaller pitch."""
 
     GRAZE = "graze"
     CIRCLE = "circle"
@@ -70,7 +70,7 @@ class MinimumPitch(Shown):
     proven_from, proven_up_to: every pitch in between is proven feasible [m]; the first is pitch itself without a scan,
         the second None for every larger pitch, without end
     scan_step: None without a scan
-    evaluations: ways from the start to the circle that were marched, and bands of pitches, see
+    evaluations: number of ways from the start to the circle that were marched, and of bands of pitches, see
     `core/design/pitch_bands.py`
     """
 
@@ -122,12 +122,11 @@ class _PitchSearch:
         self.scan_step: float | None = None
 
     def top(self) -> tuple[float, float | None]:
-        """A feasible pitch to descend from, and up to which every larger one is feasible [m], None: without end.
+        """A feasible pitch to descend from, and the upper end of the feasible pitches above it [m]; None: no upper end.
 
         From the least growth at which the bound of `core/design/straight.py` clears that growth and every larger one,
         it and the ring bound are asked about ranges of growths further down.
-        raises: InvalidValue where that is beyond
-        the largest pitch allowed, and that pitch is infeasible
+        raises: InvalidValue if that growth is beyond the largest pitch allowed, and that pitch is infeasible
         """
         lowest, growth = self.lowest / math.tau, SIZE_MAX / math.tau
         clears = self.bands.straight.clears
@@ -172,7 +171,7 @@ class _PitchSearch:
     def scan(self, pitch: float) -> tuple[float, float]:
         """(infeasible, feasible) by trying SCAN_SAMPLES pitches down to the lowest, then by bisection [m].
 
-        They stand closer together further down, each the same part below the one before.
+        They lie closer together further down: each is smaller than the one before by the same factor.
         """
         factor = (self.lowest / pitch) ** (1.0 / SCAN_SAMPLES)
         self.scanned_from, self.scan_step = pitch, (1.0 - factor) * pitch
@@ -230,7 +229,7 @@ class _PitchSearch:
         return ((self.lowest, end), *found) if end else tuple(found)
 
     def limit(self, infeasible: float) -> tuple[LimitedBy, tuple[int, int] | None, float | None]:
-        """What limits the minimum pitch, the pair that meets just below it, and the head's radius then [m]."""
+        """What limits the minimum pitch, the pair that meets just below it, and the radius of the head there [m]."""
         graze = self.bands.graze
         if self.scan_step is None and graze and graze[1] < infeasible * self.start_turns:
             self.search.use(Spiral(infeasible, self.start_turns), self.margin)
@@ -328,7 +327,7 @@ def _refuse_touching(dragon: Dragon, straight: Straight, margin: float) -> None:
 
 
 def _too_near(dragon: Dragon, a: int, margin: float) -> InvalidValue:
-    """The error where benches a and a + 2 come within the margin on a straight line, or on the widest spiral."""
+    """The error for benches a and a + 2 within the margin on a straight line, or on the widest spiral."""
     b = a + 2
     chord, front, rear = (float(size) for size in (dragon.chords[a + 1], dragon.overhangs[a], dragon.overhangs[b]))
     gap = chord - front - rear

@@ -28,18 +28,18 @@ STEP_PER_WIDTH = 0.2
 STEP_MIN = 1e-7
 # The border is looked for along one graze only in bands up to this part of their pitch; wider ones are halved [1].
 WIDTH_FOLLOWED = 0.1
-# Where no bound holds a band is halved down to this part of its pitch [1].
+# Smallest width of a band that is still halved if no bound holds, as a part of its pitch [1].
 UNBOUNDED_WITHIN = 1e-3
-# All bands of a descent together do at most so much work, see core/kernels/constants.py [1]: about a second;
+# Largest work of all bands of a descent together, see core/kernels/constants.py [1]: about a second;
 # the default case does about 130,000.
 BAND_WORK = 1e7
-# Nothing is marched where no bound of `clears` holds within so many turning radii, starts or pitches [1].
+# Nothing is marched if no bound of `clears` holds within this many turning radii, starts or pitches [1].
 FAR = 2.0
-# First stride along the way in search of the bottom of a dip [m of travel], and how often it doubles at most.
+# First stride along the way in search of the bottom of a dip [m of travel], and largest number of its doublings.
 STRIDE, STRIDES = 2e-3, 10
 # Width to which the bottom of a dip is found [m of travel].
 BOTTOM_WIDTH = 1e-12
-# Looks in search of the pitch at which a dip reaches the margin.
+# Largest number of tries in search of the pitch at which a dip reaches the margin.
 LOOKS = 40
 
 

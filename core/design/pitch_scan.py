@@ -1,4 +1,4 @@
-"""Where the head stands at first contact against the pitch: a staircase with jumps."""
+"""Radius of the head at first contact against the pitch: a staircase with jumps."""
 
 from __future__ import annotations
 
@@ -30,10 +30,10 @@ JUMP = 0.02
 JUMP_WIDTH = 1e-6
 # Half width of the bracket around a contact [m of head travel], and so of its radius: a picture shows 1e-3 m.
 RADIUS_WIDTH = 1e-8
-# Most work of all pitches together, see core/kernels/constants.py: about 5 s. The default scan takes about
+# Largest work of all pitches together, see core/kernels/constants.py: about 5 s. The default scan takes about
 # 2,000,000 [1].
 SCAN_WORK = 4e7
-# The scanned pitches, in minimum pitches.
+# Smallest and largest pitch scanned, in units of the minimum pitch.
 SCAN_FROM, SCAN_TO = 0.8, 1.35
 
 
@@ -66,7 +66,7 @@ class PitchScan(Shown):
         return data_frame("PitchScan.to_dataframe()", columns, {})
 
     def plot(self, ax: Axes | None = None) -> Axes:
-        """The radius against the pitch: a staircase, its jumps dotted.
+        """Plot the radius against the pitch: a staircase with dotted jumps.
 
         returns: the axes given, or those of a new figure, in metres
         raises: ImportError without matplotlib, naming the extra
@@ -81,7 +81,7 @@ class PitchScan(Shown):
 
 
 class Stops:
-    """Where the head stands at first contact, of one dragon on one spiral after another.
+    """Radius of the head at first contact, for one dragon on one spiral after another.
 
     The search is that of first_contact() and is proven to miss no contact in the same way. Its bracket is RADIUS_WIDTH
     in place of 1e-10 m; a radius changes by less than the travel, so it is at least as good.
@@ -126,7 +126,7 @@ class Stops:
 
 
 def stop_radius(dragon: Dragon, path: Spiral, *, margin: float = 0.0) -> float | None:
-    """Where the head stands at first contact [m]; None when nothing touches. See Stops."""
+    """Radius of the head at first contact [m]; None when nothing touches. See Stops."""
     return Stops(dragon, margin).radius(path)
 
 
@@ -144,7 +144,7 @@ def pitch_scan(
     than JUMP_WIDTH, then it is a jump. A jump smaller than JUMP between two samples is not found.
 
     pitches: (N,) [m], ascending; progress: called with the share of the samples that is done
-    raises: TooMuchWork where SCAN_WORK is done before; InvalidValue
+    raises: TooMuchWork if SCAN_WORK is spent before the end; InvalidValue
     """
     checked_type("dragon", dragon, Dragon)
     pitches = _checked_pitches(pitches)
@@ -176,7 +176,7 @@ def pitch_scan(
 
 
 def _too_much(dragon: Dragon, pitch: float) -> str:
-    """What to change where the work is done before the scan is; pitch: the next one [m]."""
+    """Advice when the work is spent before the scan ends; pitch: the next one [m]."""
     return (
         f"must be fewer, or benches: the first contacts up to a pitch of {pitch:g} m took {SCAN_WORK:g} steps of work, "
         f"each a bench placed or a pair of benches tried; the {dragon.benches} chords are "
@@ -218,7 +218,7 @@ def scan_near_minimum(
     samples: int,
     progress: Callable[[float], None] = lambda share: None,
 ) -> tuple[PitchScan, MinimumPitch]:
-    """The scan from SCAN_FROM to SCAN_TO times the minimum pitch at so many samples, and that minimum.
+    """The scan at a number of samples from SCAN_FROM to SCAN_TO times the minimum pitch, and that minimum.
 
     raises: InvalidValue and TooMuchWork as minimum_pitch() and pitch_scan()
     """

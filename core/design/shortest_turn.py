@@ -1,4 +1,4 @@
-"""The shortest turn: how deep inside its circle the entry may lie.
+"""The shortest turn: the deepest entry inside its circle.
 
 Whether handles can follow is known in closed form: a bend's radius must be at least half a chord over ROUTE_BEND_LIMIT
 (core/kernels/constants.py). The arcs' radii add up to S = sqrt(E^2 + growth^2) for the entry radius E (see Turn), so
@@ -36,7 +36,7 @@ from core.values import checked_number, checked_size, checked_type
 ENTRY_STEP = 0.01
 # ... and the border is bisected to this width [m].
 ENTRY_WIDTH = 1e-9
-# Most work of all entries together, see core/kernels/constants.py: about 8 s, because a step on a route takes
+# Largest work of all entries together, see core/kernels/constants.py: about 8 s, because a step on a route takes
 # longer than one on a spiral. The default turn takes about 90,000 [1].
 TURN_WORK = 2.5e7
 # Turn takes no deeper entry [m].
@@ -50,7 +50,7 @@ UNDECIDED: Touch = (None, None)
 
 
 class TurnLimit(StrEnum):
-    """What keeps the entry from lying deeper: a chord cannot follow, two benches come within the margin, or nothing
+    """What prevents a deeper entry: a chord cannot follow, two benches come within the margin, or nothing
     down to the deepest entry that is tried."""
 
     BEND = "bend"
@@ -64,7 +64,7 @@ class ShortestTurn(Shown):
 
     turn: at the feasible end of entry_bracket (infeasible, feasible) [m]; limited_by: see TurnLimit
     benches, time: the pair that comes within the margin just below, and when [s at 1 m/s, 0 at the entry]; None if none
-    scan_step: entries were tried so far apart [m]: a narrower range of infeasible ones above is not excluded
+    scan_step: distance between the entries tried [m]: a narrower range of infeasible ones above is not excluded
     evaluations: entries tried, each proven
     """
 
@@ -97,7 +97,7 @@ def shortest_turn(
     Each entry tried is proven; between them, ENTRY_STEP of the turning radius apart, this is a scan and may miss a
     narrower infeasible range.
     entry_bracket is ENTRY_WIDTH wide at most, or what it is when TURN_WORK is done.
-    raises: TooMuchWork where that is before an entry was found that cannot be danced; InvalidValue (turning_radius)
+    raises: TooMuchWork if that is spent before an infeasible entry was found; InvalidValue (turning_radius)
         when even the turn at the circle cannot be danced
 
     >>> round(shortest_turn(Dragon(), 1.7).turn.entry_radius, 6)
@@ -136,7 +136,7 @@ def shortest_turn(
         if budget.left <= 0.0:
             return None
         evaluations, found = evaluations + 1, touching(entry, feasible)
-        if found == UNDECIDED and budget.left <= 0.0:  # for want of work alone
+        if found == UNDECIDED and budget.left <= 0.0:  # only because the work is spent
             return None
         if found is None:
             feasible = entry
@@ -149,7 +149,7 @@ def shortest_turn(
 
 
 def _follow_border(dragon: Dragon, turn_at: Callable[[float], Turn], radius: float) -> tuple[float | None, float]:
-    """Entry radii between which a chord begins to follow [m]: None for the first where it follows at the deepest tried.
+    """Entry radii between which a chord begins to follow [m]; None for the first if it follows at the deepest one.
 
     raises: InvalidValue (turning_radius) when one cannot follow even at the circle
     """
@@ -196,7 +196,7 @@ def _touch(found: FirstContact, zero: float) -> Touch:
 
 
 def way_followed(dragon: Dragon, danced: Turn, margin: float) -> tuple[float, Dragon]:
-    """How far the head must be followed from the entry [m], and the benches that matter until then:
+    """Travel of the head that must be followed from the entry [m], and the benches that matter until then:
     core/contact/coils.py."""
     coils, chords = coils_of(danced), dragon.chords
     whole = danced.length + STRETCH * float(chords.sum())
@@ -216,7 +216,7 @@ def coils_of(danced: Turn) -> TwoCoils:
 
 
 def _too_much(dragon: Dragon, entry: float) -> str:
-    """What to change where the work is done before the shortest turn is found; entry: the radius tried last [m]."""
+    """Advice when the work is spent before the shortest turn is found; entry: the radius tried last [m]."""
     longest, shortest = float(dragon.chords.max()), float(dragon.chords.min())
     return (
         f"must be smaller, or benches fewer or more alike: turns down to an entry radius of {entry:g} m were not all "

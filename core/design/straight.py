@@ -1,4 +1,4 @@
-"""How far apart the benches stand where the spiral is wide: a bound that holds for every larger growth."""
+"""Lower bound of the separation of benches on a wide spiral, which holds for every larger growth."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from core import kernels
 from core.dragon import Dragon
 from core.values import Floats
 
-# Where a dragon has no such pair, and where the bound says nothing, as a negative [m].
+# Value if a dragon has no such pair; its negative if there is no bound [m].
 NONE = 1e150
 # Rounding of the bound, in units of the lengths that it adds up, u = 2^-53 [1]. k is good to 8 u of itself, angles to
 # 14 u, 1 - cos phi to 12 u + 14 u phi sin phi; so what is multiplied by a length is good to fewer than 60 u, and the
@@ -59,7 +59,7 @@ SPARE = 0.05
 
 
 def curvature_most(growth: float, radius: float) -> float:
-    """No spiral of this growth [m/rad] or a larger one is bent more from this radius [m] outwards [1/m]."""
+    """Largest curvature of a spiral of this growth [m/rad] or a larger one from this radius [m] outwards [1/m]."""
     if math.sqrt(2.0) * growth <= radius:
         return float(kernels.SPIRAL_CURVATURE_MOST) / radius
     square = radius * radius + growth * growth
@@ -67,7 +67,7 @@ def curvature_most(growth: float, radius: float) -> float:
 
 
 class Straight:
-    """What the bound needs of a dragon.
+    """Lengths of a dragon that the bound needs.
 
     gap: least separation of benches `at` and `at` + 2 on a straight line [m]; between: least sum of two consecutive
         chords between others [m]; both 1e150 where there are none; chord, overhang, half_width: the largest [m]; total:

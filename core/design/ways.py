@@ -16,10 +16,10 @@ from core.values import SIZE_MIN
 
 # Half width of the bracket around a contact [m of head travel].
 CONTACT_WIDTH = 2e-11
-# Most work of all ways and bands together, see core/kernels/constants.py: about 5 s. The default case takes
+# Largest work of all ways and bands together, see core/kernels/constants.py: about 5 s. The default case takes
 # about 150,000 [1].
 PITCH_WORK = 4e7
-# Most work of one way, and of its second march in finer steps where the first one leaves it undecided [1].
+# Largest work of one way, and of its second march in finer steps if the first one leaves it undecided [1].
 WAY_WORK = 5e6
 FINER_WORK = 1e6
 # A way that ends this close to a fold, where handles are fast, is marched in finer steps [m of head travel].
@@ -49,7 +49,7 @@ class Ways:
         """March from the start to the circle: 'reached' proves every clearance on the way larger than the margin.
 
         width: half width of the bracket around a contact, 0 if any instant of it will do [m of travel]; work: at most
-        raises: TooMuchWork where all ways and bands have done PITCH_WORK
+        raises: TooMuchWork when all ways and bands together have spent PITCH_WORK
         """
         search = self.search
         if search.budget.left <= 0.0:
@@ -66,7 +66,7 @@ class Ways:
         if fold > circle * (1.0 - THETA_ROUNDING):
             return "folded" if fold > circle * (1.0 + THETA_ROUNDING) else "stuck", Marched(0.0)
         for state, travel in () if width else (("touched_at_start", 0.0), ("touched", stop)):
-            # a look at both ends decides most ways that are not clear, without laying out a long dragon
+            # Both ends alone decide most ways that are not clear, without laying out a long dragon.
             gap, pair = search.clearance(travel, min(LOOKED_AT, search.room))
             if gap <= self.margin and search.surely_within(travel, pair):
                 return state, Marched(0.0, travel, pair)
@@ -80,7 +80,7 @@ class Ways:
         return state, found
 
     def is_clear(self, pitch: float) -> bool | None:
-        """Is the whole way free of contact? None where neither is known, within rounding of a graze."""
+        """Is the whole way free of contact? None if neither is known, within rounding of a graze."""
         for width, work in ((0.0, WAY_WORK), (CONTACT_WIDTH, FINER_WORK)):
             state, found = self.march(pitch, width, work)
             if state != "stuck" or found.touching is not None:
@@ -111,9 +111,9 @@ class Ways:
         return float(kernels.gap_at(scene, place, a, b, search.rows[0])) <= self.margin
 
     def _start_nearer(self, path: Spiral) -> None:
-        """Let the march begin where the bound for wide spirals says that nothing touches further out.
+        """Let the march begin at the radius beyond which the bound for wide spirals excludes a touch.
 
-        Only where it says so at NEARER of the radius from which the ring bound does: short benches on wide spirals.
+        It is used only if that is at most NEARER of the radius from the ring bound: for short benches on wide spirals.
         """
         search, clears = self.search, self.bands.straight.clears
         radius = min(search.clear_radius, path.growth * path.start_theta)
@@ -124,7 +124,7 @@ class Ways:
         search.clear_beyond(max(radius, self.radius))
 
     def _too_much(self, pitch: float) -> TooMuchWork:
-        """The error where the work is done before the pitch is found; pitch: the one that was to be tried next [m]."""
+        """The error when the work is spent before the pitch is found; pitch: the next one to try [m]."""
         dragon = self.search.dragon
         k = int(dragon.chords[: dragon.uniform_from + 1].argmin())
         alike = all((column[1:] == column[1:2]).all() for column in (dragon.lengths, dragon.widths, dragon.overhangs))

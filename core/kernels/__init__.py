@@ -1,8 +1,8 @@
 """The compiled loops, in Cython's pure-Python mode: the same files run uncompiled, slower, to the same digits.
 
-Only loops live here; everything around them is NumPy. Beside each module its .pxd gives the C types: functions, the
-integers among their locals, and what they take from other modules. What holds floating-point numbers alone the
-compiler types by itself, and a Python object inside a loop it refuses. `setup.py` compiles all modules or none.
+Only loops live here; everything around them is NumPy. The .pxd beside each module gives the C types of functions, of
+their integer locals, and of names from other modules. The compiler infers the types of floating-point locals, and it
+refuses Python objects inside loops. `setup.py` compiles all modules or none.
 
 Angles are in radians, lengths on a spiral in units of its growth unless a name says otherwise; no function allocates.
 -1.0 in here means "no such root" and never leaves core.

@@ -1,4 +1,4 @@
-"""What the compiled loops take and give, for programs that check types."""
+"""Types of the compiled loops, for type checkers."""
 
 from typing import Final
 

@@ -1,4 +1,4 @@
-"""Certified motion: how fast handles and benches move and turn at most over an interval of head travel."""
+"""Certified motion: upper bounds on the speed and turn of handles and benches over an interval of head travel."""
 
 import cython
 from cython.cimports.libc.math import fabs, sqrt
@@ -118,7 +118,7 @@ def bench_bounds(k, rate_a, rate_b, omega, spin, pull, sizes, motion):
 
 
 def summed_widening(growth, benches, sizes, before, after):
-    """By how much of itself a curvature may be off, from the sums that spiral_error() takes the place of [1]."""
+    """Largest relative error of a curvature, from the sums that spiral_error() replaces [1]."""
     spiral_rounding(growth, benches, sizes, before)
     spiral_rounding(growth, benches, sizes, after)
     return 32.0 * ULP * (benches + 8.0) + 2.0 * max(before[benches, SLIP], after[benches, SLIP]) / growth
@@ -288,7 +288,7 @@ def swing_bound(low, high, rate, rate_low, ratio, ratio_low):
 
 
 def parts_between(pieces, k, before, after):
-    """How many parts further on handle k stands in the second of two chains."""
+    """Number of parts by which handle k has advanced in the second of two chains."""
     rear = cython.cast(cython.Py_ssize_t, before[k, PIECE])
     front = cython.cast(cython.Py_ssize_t, after[k, PIECE])
     return pieces[front, PART] - pieces[rear, PART]

@@ -53,7 +53,7 @@ def place_chain(curve, place, last, sizes, chain):
 
 
 def chain_rounding(curve, last, sizes, chain):
-    """Fills in SLIP, ERROR and SWAY of a chain up to handle `last`: what its handles and benches may be off by."""
+    """Fills in SLIP, ERROR and SWAY of a chain up to handle `last`: largest errors of its handles and benches."""
     if curve.kind == ON_SPIRAL:
         spiral_rounding(curve.growth, last, sizes, chain)
     else:
@@ -61,7 +61,7 @@ def chain_rounding(curve, last, sizes, chain):
 
 
 def route_tail(pieces, s, benches, sizes, chain):
-    """Where the last handle stands with the head at s on a route [m]."""
+    """Place of the last handle with the head at s on a route [m]."""
     start_route(pieces, s, chain)
     extend_route(pieces, 0, benches, FREE, sizes, chain)
     return -chain[benches, PLACE]

@@ -121,7 +121,7 @@ def clearance_at(scene, place, benches, leaders, chain, boxes):
 
 
 def last_handle(scene, a, b):
-    """How far a chain must be laid out for benches a and b, or for bench a and the edge at rest in row b."""
+    """Last handle of a chain that benches a and b need, or bench a and the edge at rest in row b."""
     return b + 1 if b < scene.room else a + 1
 
 
@@ -147,7 +147,7 @@ def gap_rate_at(scene, place, a, b, chain):
 
 
 def speed_along(scene, k, x, y, chain):
-    """How fast a point of bench k moves along the normal of the pair last met, per metre of head travel [1]."""
+    """Speed of a point of bench k along the normal of the pair last met, per metre of head travel [1]."""
     vx = chain[k, RATE] * chain[k, TX] - chain[k + 1, RATE] * chain[k + 1, TX]
     vy = chain[k, RATE] * chain[k, TY] - chain[k + 1, RATE] * chain[k + 1, TY]
     omega = (chain[k, UX] * vy - chain[k, UY] * vx) / scene.sizes[k, CHORD]

@@ -1,4 +1,4 @@
-"""What the loops share: the columns of their arrays, and a few numbers.
+"""Columns of the loops' arrays, and a few numbers that the loops share.
 
 Compiled, the same names are literals of the C code, from constants.pxd; a test holds the two lists together.
 """
@@ -120,7 +120,7 @@ BEND_LIMIT = 0.97
 # its rear handle can be infinitely faster than its front one, here 22 times.
 ROUTE_BEND_LIMIT = 0.999
 
-# Larger than any step or distance, and so is its square no overflow [m].
+# Larger than any step or distance, with a square that does not overflow [m].
 FREE = 1e150
 
 # A route is a table of pieces joined by arc length s. One row a piece, curvature counter-clockwise positive.
@@ -171,18 +171,18 @@ PIECE_KINDS = ("line", "arc", "spiral", "cubic", "crest")
 # Columns of a point of a route besides PX to TY: its curvature [1/m].
 POINT_CURVATURE = 4
 POINT_COLUMNS = 5
-# By how much a piece misses the one before it: across and along the path [m], in direction [rad], in curvature [1/m].
+# Gap between a piece and the one before it: across and along the path [m], in direction [rad], in curvature [1/m].
 MISS_ACROSS = 0
 MISS_ALONG = 1
 MISS_KINK = 2
 MISS_STEP = 3
 MISS_COLUMNS = 4
 
-# What kind of path a curve is.
+# Kind of a path.
 ON_SPIRAL = 0
 ON_ROUTE = 1
 
-# What the benches of a scene are kept apart from: each other, or edges at rest.
+# The benches of a scene are kept apart from each other, or from edges at rest.
 BENCHES = 0
 EDGES = 1
 
@@ -194,7 +194,7 @@ STUCK = 3
 CAPACITY = 4
 TURNED = 5
 MARCH_STATES = ("reached", "touched", "touched_at_start", "stuck", "capacity", "turned")
-# And how one of its steps did, where the march goes on.
+# Results of one step, if the march goes on.
 ADVANCED = 6
 REFUSED = 7
 

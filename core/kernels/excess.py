@@ -1,4 +1,4 @@
-"""When a handle is first faster than a limit, with a proof that none was before."""
+"""First time at which a handle is faster than a limit, with a proof that none was before."""
 
 import cython
 

@@ -1,4 +1,4 @@
-"""Where a run ends: the fold near the centre, and who stood where before."""
+"""The fold near the centre at which a run ends, and the earlier places of handles."""
 
 import cython
 from cython.cimports.libc.math import cos, fabs, sin, sqrt

@@ -66,7 +66,7 @@ if not cython.compiled:  # for the compiler the same stands in the .pxd
 
 # Width to which the place of a graze is found [m]: 1e-10 s at 1 m/s.
 DIP_WIDTH = 1e-10
-# Shorter steps than this part of the bracket would get nowhere [1].
+# Shortest useful step, as a part of the bracket [1].
 LEAST_STEP = 0.05
 # Without a bracket to reach, a step this short means that the way is not clear enough to be proven [m].
 LEAST_WAY = 1e-7
@@ -79,7 +79,7 @@ PEEK = 1e-4
 # be off by. On a spiral where no handle is followed it is more than SLIP alone: u (32 n c + 16 r (theta - theta_0) +
 # 2 r n) at most (spiral_error()), with n c <= r theta, which is an angle below u (48 theta + 2 n), n < 1e6.
 PASSED_BY = 1e-9
-# A crossing is found this much closer than the bracket that is proven around it [1].
+# Width of a crossing, as a part of the bracket that is proven around it [1].
 CROSSING_WIDTH = 1e-3
 
 
@@ -283,7 +283,7 @@ class March:
         return scene.place - self.travel > scene.rings.end_place
 
     def least_step(self):
-        """Shorter steps than this would get nowhere [m]."""
+        """Shortest useful step [m]."""
         return LEAST_STEP * self.tolerance if self.tolerance > 0.0 else LEAST_WAY
 
     def open(self, scene):
@@ -329,7 +329,7 @@ class March:
         )
 
     def refuse(self, part):
-        """Take so much of the step for the next one, which stops short of no crossing."""
+        """Try this part of the step next, without stopping short of a crossing."""
         self.h *= part
         self.target = -1.0
         return REFUSED

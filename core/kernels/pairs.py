@@ -1,4 +1,4 @@
-"""Certified motion: how near two benches come at most over an interval of head travel."""
+"""Certified motion: lower bounds on the separation of two benches over an interval of head travel."""
 
 import cython
 from cython.cimports.libc.math import fabs, sqrt
@@ -126,7 +126,7 @@ def plain_bend(i, j, distance, sizes, motion):
 
 
 def centres_apart(interval, a, b):
-    """The centres of benches a and b are no further apart than this during an interval [m]."""
+    """Upper bound of the distance between the centres of benches a and b during an interval [m]."""
     dx = interval.before[b, MX] - interval.before[a, MX]
     dy = interval.before[b, MY] - interval.before[a, MY]
     moved = (interval.motion[a, CENTRE_SPEED] + interval.motion[b, CENTRE_SPEED]) * interval.h
@@ -159,7 +159,7 @@ def pair_bends(scene, interval, place, h, a, b):
 
 
 def corner_most(i, j, bend, h, sizes, before, after):
-    """No more than this lies between bench i and a corner of bench j over an interval; 0 or less: inside [m]."""
+    """Upper bound of the distance of a corner of bench j from bench i over an interval; 0 or less: inside [m]."""
     best = FREE
     for corner in range(4):
         length = sizes[j, HALF_LENGTH] if corner < 2 else -sizes[j, HALF_LENGTH]
@@ -182,7 +182,7 @@ def corner_in(i, j, length, width, chain):
 
 
 def pair_most(scene, interval, place, h, a, b):
-    """Where this is at most a margin >= 0, benches a and b stay within it while the head travels h from a place [m].
+    """Benches a and b stay within any margin >= 0 of at least this while the head travels h from a place [m].
 
     interval: scratch; b: a bench or an edge at rest; FREE where no bound is known
     """
@@ -325,7 +325,7 @@ def interval_least(scene, interval, active):
 
 
 def interval_rounding(scene, interval):
-    """What points and gaps of a bounded interval may be off by."""
+    """Largest errors of points and gaps of a bounded interval."""
     if scene.curve.kind == ON_SPIRAL and interval.motion[interval.handles, RATE_LOW] > 0.0:
         error = spiral_error(scene.curve.growth, interval.handles, scene.rings.all_chord, interval.before)
         end = spiral_error(scene.curve.growth, interval.handles, scene.rings.all_chord, interval.after)
@@ -353,7 +353,7 @@ def proven_gap(scene, interval, i, j, distance, rounding):
 
 
 def innermost(scene, interval, k, rate):
-    """Handle k of a spiral, no faster than the rate, comes no nearer to the centre during an interval [m]."""
+    """Lower bound of the radius of handle k of a spiral, no faster than the rate, during an interval [m]."""
     inner = scene.curve.growth * min(interval.before[k, THETA], interval.after[k, THETA])
     return inner - drift(rate, interval.h, scene.curve.growth, inner)
 

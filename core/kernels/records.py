@@ -1,4 +1,4 @@
-"""Records: the values with names that inner loops hand on.
+"""Records: named values that inner loops pass to each other.
 
 Compiled, the same names are structs of C, from records.pxd.
 """
@@ -81,14 +81,14 @@ class Closest(NamedTuple):
 
 
 class Laid(NamedTuple):
-    """How far a chain was laid out."""
+    """Extent of a chain that was laid out."""
 
     last: int  # its last handle, -1 at a fold
     leading: int  # how many benches can be the inner one of a touching pair
 
 
 class Nearest(NamedTuple):
-    """What is proven of all pairs over an interval."""
+    """Proven bounds for all pairs over an interval."""
 
     least: float  # a lower bound of their separations [m], FREE without pairs, -FREE where nothing is known
     bend: float  # K of the least pair [1/m]
@@ -100,7 +100,7 @@ class Nearest(NamedTuple):
 
 
 class Rounding(NamedTuple):
-    """What points and gaps of an interval may be off by."""
+    """Largest errors of points and gaps over an interval."""
 
     point: float  # [m]
     gap: float  # of any pair that is not far apart [m]; 0 where only the sums of each pair serve

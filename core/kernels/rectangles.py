@@ -32,7 +32,7 @@ PARALLEL_SINE = 2e-15
 
 
 class Witnesses:
-    """The separation of two rectangles a and b, and what realises it: two points, the normal from a to b, features."""
+    """Separation of two rectangles a and b with its witnesses: two points, the normal from a to b, features."""
 
     def __init__(self):
         self.separation = self.ax = self.ay = self.bx = self.by = self.nx = self.ny = 0.0
@@ -139,7 +139,7 @@ def pair_gap_within(a, b, limit):
 
 
 def pair_separation(a, b, out):
-    """Fill out with the signed separation of two rectangles and what realises it."""
+    """Fill out with the signed separation of two rectangles and its witnesses."""
     b_seen = seen_from(a, b)
     a_seen = seen_from(b, a)
     if face_gap(b_seen) >= face_gap(a_seen):
@@ -292,7 +292,7 @@ def row_separation(i, j, sizes, chain, out):
 
 
 def bench_separation(a, b, sizes, chain):
-    """Separation of benches a and b of a chain, and what realises it."""
+    """Separation of benches a and b of a chain, with its witnesses."""
     out = Witnesses()
     row_separation(a, b, sizes, chain, out)
     return out

@@ -23,7 +23,7 @@ RING_ROUNDING = 1e-12  # [1]
 
 
 class Rings:
-    """What the bounds of this module know of a dragon's benches [m].
+    """Lengths of a dragon's benches that the bounds of this module need [m].
 
     chord, shortest, overhang, half_width: the longest and the shortest chord, the longest overhang, the largest half
         width of those that can be the outer one of a pair
@@ -183,6 +183,6 @@ def coil_reach(pieces, leaders, sizes, chain):
 
 
 def drift(rate, h, growth, radius):
-    """How far a handle's radius changes while it travels rate * h along the spiral [m]."""
+    """Change of a handle's radius while it travels rate * h along the spiral [m]."""
     radial = 2.0 * rate * h * growth / radius if radius > 0.0 else FREE
     return radial if radial <= 0.5 * radius else rate * h

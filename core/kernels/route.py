@@ -196,7 +196,7 @@ def cubic_size(pieces, p):
 
 
 def spot_error(pieces, p, s, theta, x, y):
-    """No more than this lies between a computed point of piece p and the path's [m]; theta: on a spiral."""
+    """Largest distance between a computed point of piece p and the path's point [m]; theta: on a spiral."""
     kind = cython.cast(cython.int, pieces[p, PIECE_KIND])
     error = fabs(x) + fabs(y)
     if kind == LINE:
@@ -217,7 +217,7 @@ def spot_error(pieces, p, s, theta, x, y):
 
 
 def slide_error(pieces, p, s):
-    """No more than this lies between a computed point of piece p and that of s along the path [m]."""
+    """Largest distance along the path between a computed point of piece p and the point at s [m]."""
     kind = cython.cast(cython.int, pieces[p, PIECE_KIND])
     away = fabs(s - pieces[p, S_START])
     if kind == LINE:

@@ -1,4 +1,4 @@
-"""Who dances where: one scene, and an interval of head travel in it with its two chains."""
+"""A scene, which is a dragon on a path, and an interval of head travel in it with its two chains."""
 
 import cython
 
@@ -14,7 +14,7 @@ WIDTH_ROUNDING = 1e-12
 
 
 class Scene:
-    """A dragon on a path, and what its benches are kept apart from.
+    """A dragon on a path, and the benches or edges from which its benches are kept apart.
 
     curve: the path; place: the head's at travel 0, see chain.py [m]; rings: extremes of the benches, and bounds
     sizes: (room + 1 + edges, SIZE_COLUMNS), a row for every bench, one that holds none, then a row for every edge at
@@ -54,7 +54,7 @@ class Interval:
         self.handles = 0
 
     def swap(self):
-        """Go on from where this interval ends."""
+        """Continue at the end of this interval."""
         self.before, self.after = self.after, self.before
 
     def widen(self, h, rounding):
@@ -62,7 +62,7 @@ class Interval:
         self.h = h * (1.0 + WIDTH_ROUNDING) + 2.0 * rounding
 
     def round(self):
-        """Fill in what both chains may be off by."""
+        """Fill in the largest errors of both chains."""
         chain_rounding(self.scene.curve, self.handles, self.scene.sizes, self.before)
         chain_rounding(self.scene.curve, self.handles, self.scene.sizes, self.after)
 

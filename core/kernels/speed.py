@@ -19,7 +19,7 @@ LAST_SAMPLE = 1e-6
 NOISE = 1e-13
 # Width to which the place of a peak is found [m]: a kink's height is then good to 1e-11.
 PEAK_WIDTH = 1e-11
-# What an interval costs beside its links, in links [1]: bounds, and a bisection where no Newton step converges.
+# Cost of an interval besides its links, in links [1]: bounds, and a bisection where no Newton step converges.
 INTERVAL_LINKS = 20
 
 
@@ -375,7 +375,7 @@ class Peak:
         return fabs(self.spare[self.at, RATE]) if last >= 0 else 0.0
 
     def refine(self, scene, low, high, noise):
-        """Look where the largest rate peaks in [low, high], and keep it where it is larger by more than the noise.
+        """Find the peak of the largest rate in [low, high], and keep it if it is larger by more than the noise.
 
         Bisected on whether the fastest handle still gains, which it stops to do at a kink too.
         """
@@ -392,7 +392,7 @@ class Peak:
         self.keep(self.top_rate(scene, high), high, noise)
 
     def keep(self, rate, travel, noise):
-        """Take a rate for the largest where it is, by more than the noise, within the run."""
+        """Keep a rate as the largest if it exceeds the largest so far by more than the noise, within the run."""
         if rate > self.rate * (1.0 + noise) and self.start <= travel <= self.stop:
             self.rate = rate
             self.travel = travel

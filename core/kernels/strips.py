@@ -1,4 +1,4 @@
-"""Marching all pitches between two at once: one strip of pitches, proven clear."""
+"""March of all pitches between two at once: one strip of pitches, proven clear."""
 
 import cython
 from cython.cimports.libc.math import cos, sin, sqrt
@@ -215,7 +215,7 @@ class Strip:
             return REACHED
 
     def try_step(self, band, inner):
-        """One step inwards; REFUSED: shorter next time."""
+        """One step inwards; REFUSED: the next one must be shorter."""
         low = band.low.scene.curve.growth
         high = band.high.scene.curve.growth
         next_radius = low * spiral_theta((self.place - self.h) / low)

@@ -20,9 +20,9 @@ from core.values import Floats, checked_type
 ZOOM = np.linspace(-1.0, 1.0, 33)
 ZOOM_ROUNDS = 7
 PEAKS_REFINED = 5
-# Angles that differ by less are the same, and the first one counts [rad].
+# Angles that differ by less than this count as equal, and the first one is taken [rad].
 SAME_ANGLE = 1e-13
-# Instants whose handles are held at once.
+# Number of instants whose handles are held in memory at once.
 BATCH = 1_000
 
 
@@ -62,7 +62,7 @@ def sharpest_bend(dance: Dance, *, start: float = 0.0, stop: float | None = None
 
 
 def _opened(dance: Dance, grid: Floats) -> int:
-    """How many instants pass until every handle has passed where the one before it began."""
+    """Number of instants until every handle has passed the start of the one before it."""
     ahead = 0.5 * math.pi * dance.dragon.chords.max()  # no arc under a chord is longer
     moved, step = np.zeros(dance.dragon.benches + 1), grid[1] - grid[0]
     for k, time in enumerate(grid):

@@ -28,20 +28,20 @@ SAMPLES_MIN = 16
 LINKS_BUDGET = 250_000
 # With a tolerance of more than this the proof is given up [1]: hundreds of benches on kilometres of winding curve.
 LOOSEST_TOLERANCE = 1e-2
-# Handles whose rates differ by less share the highest one [1].
+# Handles whose rates differ by less than this share the highest one [1].
 TIED = 1e-9
-# Speeds are good to this, so that the maximum head speed itself is allowed [1].
+# Rounding of speeds, so that the maximum head speed itself is allowed [1].
 SPEED_ROUNDING = 1e-12
-# A limit counts as kept if it is proven to within this [1].
+# A limit counts as kept if it is proven to be kept within this [1].
 SPEED_PROVEN = 1e-6
 # The first excess over a limit is narrowed down to this [s], or [m] of head travel at more than 1 m/s, as far as a
 # travel is good to: TRAVEL_WIDTH of the longest one [1].
 EXCESS_WIDTH = 5e-10
 TRAVEL_WIDTH = 1e-14
-# The search for it is given up after so many links of chains: about a second.
+# Number of links of chains after which that search is given up: about a second.
 EXCESS_LINKS = 1_000_000
-# After that, so many instants are tried ever nearer to the end of the stretch, where the fold may be: each at half the
-# distance of the one before.
+# Number of instants that are tried after that, ever nearer to the end of the stretch, where the fold may be: each at
+# half the distance of the one before.
 HALVINGS = 50
 
 
@@ -61,7 +61,7 @@ class MaximumHeadSpeed(Shown):
     """head_speed: the largest [m/s]
     head_speed_bracket: (proven to keep the limit: None where the proof was given up, found to reach it) [m/s]
     speed_ratio: highest handle speed over head speed; handles: those that reach the limit together
-    time: when they do at that head speed [s]; time_at_unit_head_speed [s]"""
+    time: time at which they reach it, at that head speed [s]; time_at_unit_head_speed [s]"""
 
     head_speed: float
     head_speed_bracket: tuple[float | None, float]
@@ -73,7 +73,7 @@ class MaximumHeadSpeed(Shown):
 
 @dataclass(frozen=True, slots=True, repr=False)
 class FirstExcess(Shown):
-    """When a handle is first faster than a limit.
+    """First time at which a handle is faster than a limit.
 
     time_bracket: (proven to keep the limit up to, found faster at) [s], no wider than EXCESS_WIDTH but where the proof
         was given up: near a fold, or after EXCESS_LINKS. Kept means to within SPEED_PROVEN of the limit.
@@ -127,7 +127,7 @@ def peak_over(search: Search, begin: float, until: float) -> kernels.Peak:
 
 
 def _calm(search: Search) -> float:
-    """What kernels.Peak needs to leave out handles that are no faster than those before them."""
+    """Argument of kernels.Peak with which it leaves out handles that are no faster than those before them."""
     return search.path.calm(2.0 * kernels.BEND_LIMIT / search.extremes[0])
 
 
@@ -184,7 +184,7 @@ def _excess(search: Search, first: float, last: float, head_speed: float, ratio:
 
 
 def _late_excess(search: Search, ratio: float, head_speed: float, proven: float, until: float) -> FirstExcess:
-    """Some excess between the time where a proof was given up and the end [s], sought ever nearer to the end."""
+    """An excess between the time at which a proof was given up and the end [s], sought ever nearer to the end."""
 
     def faster(time: float) -> int | None:
         """A handle that is faster than the limit at an instant for certain."""

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     import xarray
     from matplotlib.axes import Axes
 
-# Of the last axis of places and velocities.
+# Names along the last axis of positions and velocities.
 AXES = ("x", "y")
 
 
@@ -31,7 +31,7 @@ AXES = ("x", "y")
 class Trajectory(Shown):
     """time (...) [s]; position (..., n + 1, 2) [m]; velocity (..., n + 1, 2) [m/s]; speed (..., n + 1) [m/s].
 
-    ... is (T,) for a list of times and nothing for one time. dance: the one asked about; None draws no benches
+    ... is (T,) for a list of times and empty for one time. dance: the dance in question; None draws no benches
     """
 
     time: Floats
@@ -72,7 +72,7 @@ class Trajectory(Shown):
         return data_set("Trajectory.to_xarray()", variables | {"speed": (names, self.speed)}, coordinates)
 
     def plot(self, ax: Axes | None = None, *, instant: int = -1) -> Axes:
-        """The dance at one instant, every handle coloured by its speed.
+        """Plot the dance at one instant, every handle coloured by its speed.
 
         instant: index into the times; the last one by default
         returns: the axes given, or those of a new figure, in metres
@@ -167,7 +167,7 @@ def bench_outlines(dragon: Dragon, handles: Floats) -> Floats:
 
 
 def instants(time: Floats) -> str:
-    """How many instants, and from when to when, in words.
+    """Number and range of instants, in words.
 
     >>> instants(np.array([0.0, 1.0, 2.0]))
     '3 instants from 0 to 2 s'

@@ -86,12 +86,15 @@ def test_figures_of_a_file_are_those_of_its_dance_in_its_venue(client: httpx.Cli
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
-        (["collision-time", "FILE", "--pitch", "1"], "--pitch is about a dance, and the dance is that of FILE"),
-        (["trajectory", "FILE", "--head-speed", "1"], "--head-speed is about a dance, and the dance is that of FILE"),
-        (["trajectory", "FILE", "--times", "10", "--stop", "12"], "--times takes the place of --stop"),
+        (["collision-time", "FILE", "--pitch", "1"], "--pitch describes a dance, and FILE gives the dance"),
+        (["trajectory", "FILE", "--head-speed", "1"], "--head-speed describes a dance, and FILE gives the dance"),
+        (["trajectory", "FILE", "--times", "10", "--stop", "12"], "--times replaces --stop"),
         (["clearance", "FILE", "--stop", "1e5"], "times.stop must be at most"),
         (["figures", "FILE"], "FOLDER must be a folder, got the file"),
-        (["figures", "FOLDER", "FILE", "--samples", "3"], "--samples has no part in the figure trajectory or contact"),
+        (
+            ["figures", "FOLDER", "FILE", "--samples", "3"],
+            "--samples does not apply to the figure trajectory or contact",
+        ),
         (["collision-time", "nothing.toml"], "nothing.toml: No such file or directory"),
     ],
     ids=lambda part: " ".join(part) if isinstance(part, list) else None,

@@ -86,7 +86,10 @@ def test_every_answer_stands_with_how_it_is_known(open_page: Any, settled: Any, 
         f"from {bounded(least['proven_from'], 9, ROUND_CEILING)} m on, without end"
         in page.locator("#minimum-pitch dl").inner_text()
     )
-    assert page.locator("#minimum-pitch dt").last.inner_text() == "Ways to the circle and strips of pitches marched"
+    assert (
+        page.locator("#minimum-pitch dt").last.inner_text()
+        == "Ways to the circle computed, for single pitches and for strips"
+    )
     assert page.locator("#minimum-pitch dd").last.inner_text() == str(least["evaluations"])
     assert page.locator(".answer details").count() == page.locator(".answer:not([hidden])").count() == 4
 
