@@ -24,6 +24,7 @@ from app.files import TABLE_ENDINGS, checked_output, read_dance, read_json, traj
 from app.options import asks, checked, given, numbers, unused
 from app.refusals import refusing
 from app.settings import WORKERS_MAX, Settings
+from app.sweeps.command import app as sweep_commands
 from core import BenchDragonError, Dragon, InvalidValue, Route, Spiral, Venue
 from core.values import Floats
 
@@ -413,3 +414,4 @@ proofs.command()(asks(prove.ClearClaim)(prove.clear))
 proofs.command()(asks(prove.TurnClaim)(prove.turn))
 proofs.command()(prove.dance)
 app.add_typer(proofs, name="prove")
+app.add_typer(sweep_commands, name="sweep")
