@@ -10,7 +10,6 @@ import queue
 import time
 from concurrent.futures import CancelledError
 from contextlib import suppress
-from typing import Any
 
 from distributed import Client, Future, KilledWorker, LocalCluster
 

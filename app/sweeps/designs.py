@@ -16,6 +16,8 @@ Indices = NDArray[np.int64]
 # One round of Philox gives so many words of 64 bits; a word becomes a number in [0, 1) by its upper 53.
 PHILOX_WORDS = 4
 DROPPED_BITS, UNIT = np.uint64(11), 2.0**-53
+# Sobol points are multiples of 2 to minus this, for up to 2 to this of them.
+SOBOL_BITS = 30
 
 
 def designs(spec: Spec, start: int, stop: int) -> dict[str, list[Any]]:
@@ -55,7 +57,7 @@ def _philox(samples: Samples, dimensions: int, first: int, count: int) -> Floats
     """Sample k takes the rounds from k * rounds on, rounds = dimensions / 4 rounded up."""
     rounds = -(-dimensions // PHILOX_WORDS)
     words = np.random.Philox(key=samples.seed, counter=first * rounds).random_raw(count * rounds * PHILOX_WORDS)
-    return (words >> DROPPED_BITS).reshape(count, -1)[:, :dimensions] * UNIT
+    return np.asarray((words >> DROPPED_BITS).reshape(count, -1)[:, :dimensions] * UNIT, np.float64)
 
 
 def _sobol(samples: Samples, dimensions: int, first: int, count: int) -> Floats:
@@ -68,10 +70,7 @@ def _sobol(samples: Samples, dimensions: int, first: int, count: int) -> Floats:
     for bit in range(bits):
         chosen = (gray >> np.uint64(bit)) & np.uint64(1)
         words ^= chosen[:, None] * directions[bit]
-    return words * 2.0**-SOBOL_BITS
-
-
-SOBOL_BITS = 30
+    return np.asarray(words * 2.0**-SOBOL_BITS, np.float64)
 
 
 @lru_cache(maxsize=4)

@@ -143,7 +143,7 @@ def begin(folder: Path, spec: Spec) -> None:
     elif kept.read_bytes() != spec.canonical():
         raise InvalidValue(
             "output",
-            f"{folder} has another sweep, or one of another version: its spec is {SPEC_FILE}; name a new folder",
+            f"{folder} has another sweep, or one of another version, as {SPEC_FILE} says: name a new folder",
         )
 
 

@@ -68,22 +68,21 @@ class Piece:
             raise OtherVersion("bench-dragon", f"bench-dragon {words}")
         question, request = self.question, self.spec.request
         columns, asked = kept_columns(self.spec, question), designs(self.spec, self.start, self.stop)
-        answers, errors = [], []
+        nothing = (None,) * len(columns)
+        rows: list[tuple[Any, ...]] = []
         for values in zip(*asked.values(), strict=True):
-            answer, error = None, None
             try:
                 answer = question.answered(placed(request, dict(zip(asked, values, strict=True))))
-            except Exception as refused:
-                error = refusal(refused)
-            answers.append(answer)
-            errors.append(error)
-        return _stream(_table(self, asked, answers, errors, columns))
+                rows.append((None, None, *(column.value(answer) for column in columns)))
+            except Exception as error:
+                rows.append((*refusal(error), *nothing))
+        return _stream(_table(self, asked, rows, columns))
 
     def killed(self) -> bytes:
         """The row of a single design whose process died."""
         columns = kept_columns(self.spec, self.question)
         asked = designs(self.spec, self.start, self.stop)
-        return _stream(_table(self, asked, [None], [(KILLED, KILLED_MESSAGE)], columns))
+        return _stream(_table(self, asked, [(KILLED, KILLED_MESSAGE, *(None,) * len(columns))], columns))
 
 
 @lru_cache(maxsize=16)
@@ -96,23 +95,16 @@ def kept_columns(spec: Spec, question: Question) -> list[Column]:
     return [column for column in _all_columns(question) if column.name not in spec.over]
 
 
-def _table(
-    piece: Piece,
-    asked: dict[str, list[Any]],
-    answers: list[Any],
-    errors: list[tuple[str, str] | None],
-    columns: list[Column],
-) -> pa.Table:
-    codes, messages = zip(*(error or (None, None) for error in errors), strict=True)
+def _table(piece: Piece, asked: dict[str, list[Any]], rows: list[tuple[Any, ...]], columns: list[Column]) -> pa.Table:
+    """rows: code and message of the error, then a value for each column"""
+    fields = [pa.field("error.code", pa.string()), pa.field("error.message", pa.string())]
+    fields += [column.field for column in columns]
     arrays = {
         "design": pa.array(range(piece.start, piece.stop), pa.int64()),
         **{name: _parameter(piece.spec, name, values) for name, values in asked.items()},
-        "error.code": pa.array(codes, pa.string()),
-        "error.message": pa.array(messages, pa.string()),
     }
-    for column in columns:
-        values = [None if answer is None else column.value(answer) for answer in answers]
-        arrays[column.name] = pa.array(values, TYPES[column.kind])
+    for field, values in zip(fields, zip(*rows, strict=True), strict=True):
+        arrays[field.name] = pa.array(values, field.type)
     return pa.table(arrays)
 
 

@@ -7,6 +7,7 @@ started it is gone.
 
 from __future__ import annotations
 
+import gc
 import os
 import pickle
 import queue
@@ -43,6 +44,8 @@ def main() -> None:
     os.dup2(2, 1)  # What a library prints is no answer.
     import app.sweeps.shards  # noqa: F401  # What every piece needs.
 
+    gc.collect()
+    gc.freeze()  # What was imported stays, so nobody needs to look through it again and again.
     send(sink, None)
     waiting: queue.SimpleQueue[Any] = queue.SimpleQueue()
 
