@@ -1,0 +1,58 @@
+"""Sweeps on real Dask clusters: lost workers, clients and schedulers change no byte."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import psutil
+import pytest
+
+from app.sweeps.cluster import LOCAL, Cluster, NoScheduler
+from app.sweeps.questions import question_of
+from app.sweeps.run import Progress, run
+from app.sweeps.spec import Spec
+from app.sweeps.table import Sweep
+from tests.app.sweeps.kills import collisions, disturbed, free_port, table_hash
+from tests.app.sweeps.odd_questions import LAND
+from tests.app.sweeps.test_run import compacted, spec_of, undisturbed
+
+
+def test_a_local_cluster_answers_as_this_process_does(tmp_path: Path) -> None:
+    spec = spec_of(LAND)
+    told: list[Progress] = []
+    run(spec, tmp_path / "a", question=LAND, engine=lambda: Cluster(LOCAL, 2), progress=told.append)
+    assert told[-1].designs == 60
+    assert compacted(tmp_path / "a", spec) == undisturbed(tmp_path / "b", spec, LAND)
+
+
+def test_a_design_that_kills_workers_of_a_cluster_is_found_alone(tmp_path: Path) -> None:
+    told = {"question": LAND.name, "over": {"x": list(range(6))}, "request": {"deadly": [2.0]}, "shard_size": 2}
+    spec = Spec.of(told, LAND)
+    run(spec, tmp_path / "a", question=LAND, engine=lambda: Cluster(LOCAL, 2))
+    rows = Sweep(tmp_path / "a", spec).table(["x", "error.code"]).to_pylist()
+    assert [row["x"] for row in rows] == list(range(6))
+    assert {row["x"]: row["error.code"] for row in rows if row["error.code"]} == {2: "killed"}
+
+
+def test_no_worker_of_a_local_cluster_is_left(tmp_path: Path) -> None:
+    before = {child.pid for child in psutil.Process().children(recursive=True)}
+    spec = spec_of(LAND, 6)
+    run(spec, tmp_path / "a", question=LAND, engine=lambda: Cluster(LOCAL, 1))
+    left = [child for child in psutil.Process().children(recursive=True) if child.pid not in before]
+    assert not [child for child in left if "resource_tracker" not in " ".join(child.cmdline())]
+
+
+def test_an_address_where_nobody_answers_is_named() -> None:
+    address = f"tcp://127.0.0.1:{free_port()}"
+    with pytest.raises(NoScheduler, match=f"no Dask scheduler answers at {address}"):
+        Cluster(address)
+
+
+def test_kills_of_client_scheduler_and_workers_change_no_byte(tmp_path: Path) -> None:
+    told = collisions(400, shards=40)
+    spec = Spec.of(told)
+    killed = disturbed(told, tmp_path, kills=6, seed=4)
+    assert killed.total() == 6
+    assert set(killed) == {"client", "scheduler", "worker"}
+    run(spec, tmp_path / "undisturbed", question=question_of("collision_time"))
+    assert table_hash(tmp_path / "out", spec) == table_hash(tmp_path / "undisturbed", spec)
