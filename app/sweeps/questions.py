@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Any
 
 from pydantic import BaseModel
@@ -16,7 +17,7 @@ import core
 from app import answers, report, schemas
 from app.options import checked
 from app.refusals import refusing
-from app.settings import Settings
+from app.settings import Settings, check_limit
 from core import BenchDragonError, InvalidValue
 
 # Answered within the limits that the service has by default, so that a row does not depend on who computes it.
@@ -49,8 +50,16 @@ class Question:
             return self.ask(request)
 
 
+@lru_cache(maxsize=32)
+def _dragon(benches: int, head_length: float, body_length: float, width: float, overhang: float) -> core.Dragon:
+    """A dragon: most designs of a sweep share one with others."""
+    return core.Dragon(benches, head_length, body_length, width, overhang)
+
+
 def _collision_time(asked: schemas.CollisionQuery) -> answers.CollisionTime:
-    dragon, path = asked.to_dragon(LIMITS.benches_max), asked.to_path()
+    check_limit("benches", "benches", asked.benches, LIMITS.benches_max, "shorten the dragon")
+    dragon = _dragon(asked.benches, asked.head_length, asked.body_length, asked.width, asked.overhang)
+    path = asked.to_path()
     found = core.first_contact(core.Dance(dragon, path, asked.head_speed), margin=asked.margin)
     return answers.CollisionTime.of(found, dragon, path, asked)
 

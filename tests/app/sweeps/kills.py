@@ -30,6 +30,7 @@ ROOT = Path(__file__).parents[3]
 # Between two looks at the processes, and the most that a sweep may go on without a new part [s].
 LOOK, PATIENCE = 0.1, 300.0
 SHARDS = 200
+KINDS = ["client", "scheduler", "worker"]
 DASK = (sys.executable, "-m", "dask")
 COMMAND = str(Path(sys.executable).with_name("bench-dragon"))
 
@@ -110,6 +111,8 @@ def disturbed(told: dict[str, object], folder: Path, kills: int, seed: int) -> C
     cluster = Cluster(folder)
     sweep = ("run", str(folder / "spec.json"), "--output", str(output), "--dask", cluster.address)
     client = Kept(folder / "client.log", COMMAND, "sweep", *sweep)
+    kinds = (KINDS * kills)[:kills]
+    chance.shuffle(kinds)
     due = [(k + 1) * spec.shards / (kills + 1) for k in range(kills)]
     seen, since = 0, time.monotonic()
     try:
@@ -125,7 +128,7 @@ def disturbed(told: dict[str, object], folder: Path, kills: int, seed: int) -> C
                 raise TimeoutError(f"no new part for {PATIENCE:g} s after {seen} of {spec.shards}, {killed}: {words}")
             if due and there >= due[0]:
                 due.pop(0)
-                kind = chance.choice(["client", "scheduler", "worker"])
+                kind = kinds[len(due)]
                 victim = {"client": client, "scheduler": cluster.scheduler, "worker": chance.choice(cluster.workers)}
                 family = victim[kind].family()
                 if family:
