@@ -21,10 +21,11 @@ from core import InvalidValue, TooLarge
 
 DESIGNS_MAX = 10**8
 SHARDS_MAX = 10**6
-# What a shard should take [s], and most designs in one. A small sweep has so many shards all the same, for all cores.
+# What a shard should take [s], and most designs in one. A small sweep has about so many shards all the same, for
+# all cores.
 SHARD_SECONDS = 5.0
 SHARD_MAX = 100_000
-SHARDS_MIN = 64
+SHARDS_SMALL = 64
 VALUES_MAX = 100_000
 # Dimensions for which scipy knows Sobol points.
 SOBOL_DIMENSIONS = 21_201
@@ -103,7 +104,7 @@ class Spec(_Told):
         """
         spec = checked(cls, told)
         asked = question or question_of(spec.question)
-        size = spec.shard_size or min(int(SHARD_SECONDS / asked.seconds), SHARD_MAX, -(-spec.designs // SHARDS_MIN))
+        size = spec.shard_size or min(int(SHARD_SECONDS / asked.seconds), SHARD_MAX, -(-spec.designs // SHARDS_SMALL))
         request = spec.request
         # Cross-checks cost more than the answer, and a sweep has its neighbours to be compared with.
         if "cross_check" in asked.request.model_fields and "cross_check" not in spec.over:

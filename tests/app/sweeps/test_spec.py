@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 import json
+import re
+import tomllib
 from pathlib import Path
 from typing import Any
 
 import pytest
 
-from app.sweeps.spec import DESIGNS_MAX, SHARDS_MIN, Range, Spec, placed
+from app.sweeps.spec import DESIGNS_MAX, SHARDS_SMALL, Range, Spec, placed
 from core import BenchDragonError
 
+PAGE = Path(__file__).parents[3] / "docs" / "sweeps.md"
 TOML = """
 question = "collision_time"
 [request]
@@ -56,7 +59,7 @@ def test_designs_are_all_combinations_cut_into_shards() -> None:
 
 def test_the_size_of_shards_is_known_without_a_clock() -> None:
     assert Spec.of(told(over={"pitch": Range(start=0.4, stop=0.6, count=10**6).model_dump()})).shard_size == 5000
-    assert Spec.of(told(over={"pitch": Range(start=0.4, stop=0.6, count=640).model_dump()})).shards == SHARDS_MIN
+    assert Spec.of(told(over={"pitch": Range(start=0.4, stop=0.6, count=640).model_dump()})).shards == SHARDS_SMALL
 
 
 def test_cross_checks_are_left_out_unless_they_are_asked_for() -> None:
@@ -106,3 +109,8 @@ def test_values_are_placed_into_a_copy() -> None:
     found = placed(base, {"path.pitch": 0.5, "dragon.width": 0.2, "margin": 1})
     assert found == {"path": {"kind": "spiral", "pitch": 0.5}, "dragon": {"width": 0.2}, "margin": 1}
     assert base == {"path": {"kind": "spiral"}, "margin": 0}
+
+
+@pytest.mark.parametrize("told", re.findall(r"^```toml\n(.*?)^```", PAGE.read_text(), re.DOTALL | re.MULTILINE))
+def test_the_specs_of_the_page_are_specs(told: str) -> None:
+    assert Spec.of(tomllib.loads(told)).designs in (600, 1000)
