@@ -13,7 +13,7 @@ from contextlib import suppress
 
 from distributed import Client, Future, KilledWorker, LocalCluster
 
-from app.sweeps.engines import Done
+from app.sweeps.engines import Done, NoAnswer, arrived, attempt
 from app.sweeps.shards import Piece
 from core import BenchDragonError
 
@@ -21,6 +21,8 @@ from core import BenchDragonError
 LOCAL = "local"
 # A scheduler that is gone is waited for so long, and tried so often [s].
 PATIENCE, AGAIN = 600.0, 1.0
+# So many failures in a row, with no answer between them, end a run.
+FAILURES = 5
 # What a connection, an answer on its way, and the look at lost futures may take [s].
 CONNECT, ANSWER, LOOK = 10.0, 60.0, 2.0
 
@@ -29,10 +31,6 @@ class NoScheduler(BenchDragonError):
     """Nobody answers at the address of the cluster."""
 
     code = "no-scheduler"
-
-
-def _answered(piece: Piece) -> bytes:
-    return piece.answered()
 
 
 class Cluster:
@@ -48,10 +46,10 @@ class Cluster:
         ) if address == LOCAL else None  # fmt: skip
         self._address = self._own.scheduler_address if self._own else address
         self._patience = patience
-        self._finished: queue.SimpleQueue[Future[bytes]] = queue.SimpleQueue()
-        self._out: dict[Future[bytes], Piece] = {}
+        self._finished: queue.SimpleQueue[Future[tuple[bytes | None, str]]] = queue.SimpleQueue()
+        self._out: dict[Future[tuple[bytes | None, str]], Piece] = {}
         self._lost: list[Piece] = []
-        self._looked, self._workers = 0.0, 1
+        self._looked, self._workers, self._failures = 0.0, 1, 0
         self._client = self._connected(0.0)
 
     @property
@@ -63,7 +61,7 @@ class Cluster:
         """Hand it to the cluster, now or once there is one again."""
         # Not "pure": a future that was cancelled would be found again by its key.
         try:
-            future = self._client.submit(_answered, piece, pure=False)
+            future = self._client.submit(attempt, piece, pure=False)
         except Exception:  # Whatever a connection that breaks just now raises.
             self._lost.append(piece)
             return
@@ -71,7 +69,7 @@ class Cluster:
         future.add_done_callback(self._finished.put)
 
     def wait(self, seconds: float) -> list[Done]:
-        """What was done since the last call. raises: NoScheduler, and what keeps a whole piece from an answer"""
+        """What was done since the last call. raises: NoScheduler, NoAnswer"""
         done: list[Done] = []
         with suppress(queue.Empty):
             done += self._heard(self._finished.get(timeout=seconds))
@@ -91,17 +89,26 @@ class Cluster:
         if self._own:
             self._own.close()
 
-    def _heard(self, future: Future[bytes]) -> list[Done]:
+    def _heard(self, future: Future[tuple[bytes | None, str]]) -> list[Done]:
         piece = self._out.pop(future, None)
         if piece is None:
             return []
         try:
-            return [Done(piece, future.result(timeout=ANSWER))]
+            attempted = future.result(timeout=ANSWER)
         except KilledWorker:
             return [Done(piece, None)]
         except (CancelledError, OSError, TimeoutError):
             self._lost.append(piece)
-            return []
+        except Exception as error:  # A worker lacks something, or whatever a cluster raises that breaks just now.
+            self._failures += 1
+            if self._failures >= FAILURES:
+                words = f"workers of {self._address} cannot answer: {type(error).__name__}: {error}"
+                raise NoAnswer("workers", words) from error
+            self._lost.append(piece)
+        else:
+            self._failures = 0
+            return [arrived(piece, attempted)]
+        return []
 
     def _look(self) -> None:
         """Connect again where that is needed, and ask again for what is lost."""

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import Protocol
 
 from app.sweeps.shards import Piece
+from core import BenchDragonError
 
 # Pieces submitted and not answered yet, for each worker.
 WINDOW = 4
@@ -17,6 +18,28 @@ class Done:
 
     piece: Piece
     rows: bytes | None
+
+
+class NoAnswer(BenchDragonError):
+    """A worker failed at a whole piece, not at one of its designs: it lacks something, or the mistake is ours."""
+
+    code = "no-answer"
+
+
+def attempt(piece: Piece) -> tuple[bytes | None, str]:
+    """Rows of a piece, else why there are none: errors with fields of their own do not travel between processes."""
+    try:
+        return piece.answered(), ""
+    except Exception as error:
+        return None, f"{type(error).__name__}: {error}"
+
+
+def arrived(piece: Piece, attempted: tuple[bytes | None, str]) -> Done:
+    """What attempt() found. raises: NoAnswer"""
+    rows, why = attempted
+    if rows is None:
+        raise NoAnswer("workers", f"workers cannot answer: {why}")
+    return Done(piece, rows)
 
 
 class Engine(Protocol):

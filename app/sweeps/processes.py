@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import os
+import pickle
 import queue
 import subprocess
 import sys
@@ -11,7 +12,7 @@ import threading
 from collections import deque
 from typing import Any, cast
 
-from app.sweeps.engines import Done
+from app.sweeps.engines import Done, arrived
 from app.sweeps.shards import Piece
 from app.sweeps.worker import receive, send
 from core import BenchDragonError
@@ -66,7 +67,7 @@ class _Worker:
     def _listen(self) -> None:
         while True:
             try:
-                answer = receive(cast(Any, self._process.stdout))
+                answer = pickle.loads(receive(cast(Any, self._process.stdout)))
             except (EOFError, OSError, ValueError):
                 self._events.put((self, GONE))
                 return
@@ -110,7 +111,7 @@ class Processes:
         self._hand_out()
 
     def wait(self, seconds: float) -> list[Done]:
-        """What was done since the last call. raises: CannotStart, and what keeps a whole piece from an answer"""
+        """What was done since the last call. raises: CannotStart, NoAnswer"""
         done: list[Done] = []
         with contextlib.suppress(queue.Empty):
             done += self._heard(*self._events.get(timeout=seconds))
@@ -138,11 +139,8 @@ class Processes:
         if not worker.ready:
             worker.ready, self._failed_starts = True, 0
             return []
-        answered, found = answer
-        if not answered:
-            raise found
         assert piece is not None
-        return [Done(piece, found)]
+        return [arrived(piece, answer)]
 
     def _replace(self, worker: _Worker) -> None:
         worker.leave()

@@ -26,6 +26,10 @@ if TYPE_CHECKING:
     import pandas
 
 
+# Rows in a group of the one file, the least that is read at once.
+GROUP = 100_000
+
+
 @dataclass(frozen=True, slots=True)
 class Sweep:
     """A sweep in its folder."""
@@ -121,12 +125,24 @@ class Sweep:
     def _write_whole(self, whole: Path) -> None:
         with _written(whole) as name:
             writer = None
-            for table in self.tables():
+            for table in _gathered(self.tables()):
                 plain = table.replace_schema_metadata({"bench-dragon sweep": self.spec.name})
                 writer = writer or pq.ParquetWriter(name, plain.schema, compression="zstd")
-                writer.write_table(plain, row_group_size=max(plain.num_rows, 1))
+                writer.write_table(plain)
             assert writer is not None
             writer.close()
+
+
+def _gathered(tables: Iterator[pa.Table]) -> Iterator[pa.Table]:
+    """The same rows in tables of at least GROUP rows, but for the last."""
+    held: list[pa.Table] = []
+    for table in tables:
+        held.append(table)
+        if sum(one.num_rows for one in held) >= GROUP:
+            yield pa.concat_tables(held).combine_chunks()
+            held = []
+    if held:
+        yield pa.concat_tables(held).combine_chunks()
 
 
 def _columns(table: pa.Table) -> Iterator[tuple[str, pa.ChunkedArray]]:

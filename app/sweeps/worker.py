@@ -26,8 +26,8 @@ def send(stream: BinaryIO, value: Any) -> None:
     stream.flush()
 
 
-def receive(stream: BinaryIO) -> Any:
-    """Read one value. raises: EOFError where the stream ends"""
+def receive(stream: BinaryIO) -> bytes:
+    """Read the pickle of one value. raises: EOFError where the stream ends"""
     head = stream.read(LENGTH.size)
     if len(head) < LENGTH.size:
         raise EOFError
@@ -35,19 +35,19 @@ def receive(stream: BinaryIO) -> Any:
     data = stream.read(length)
     if len(data) < length:
         raise EOFError
-    return pickle.loads(data)
+    return data
 
 
 def main() -> None:
     """Answer what comes in until nothing does."""
     source, sink = sys.stdin.buffer, os.fdopen(os.dup(1), "wb")
     os.dup2(2, 1)  # What a library prints is no answer.
-    import app.sweeps.shards  # noqa: F401  # What every piece needs.
+    from app.sweeps.engines import attempt
 
     gc.collect()
     gc.freeze()  # What was imported stays, so nobody needs to look through it again and again.
     send(sink, None)
-    waiting: queue.SimpleQueue[Any] = queue.SimpleQueue()
+    waiting: queue.SimpleQueue[bytes] = queue.SimpleQueue()
 
     # A thread of its own reads, so that the end of the input is noticed in the middle of a piece.
     def read() -> None:
@@ -59,10 +59,11 @@ def main() -> None:
 
     threading.Thread(target=read, daemon=True).start()
     while True:
+        data = waiting.get()
         try:
-            answer = (True, waiting.get().answered())
-        except Exception as error:
-            answer = (False, error)
+            answer = attempt(pickle.loads(data))
+        except Exception as error:  # The piece is of something that this process cannot import.
+            answer = (None, f"{type(error).__name__}: {error}")
         try:
             send(sink, answer)
         except BrokenPipeError:

@@ -57,6 +57,23 @@ def interrupted_height(asked: Place) -> Height:
     return height(asked)
 
 
+class Unanswerable:
+    """Cannot be had in another process."""
+
+    def __call__(self, asked: Place) -> Height:
+        """As the others."""
+        return height(asked)
+
+    def __reduce__(self) -> tuple[object, tuple[str]]:
+        """What fails when a worker unpacks it."""
+        return _missing, ("no such module",)
+
+
+def _missing(what: str) -> None:
+    raise ImportError(what)
+
+
 LAND = Question("height", Place, Height, height, 1e-3, "height")
 SLOW = Question("slow_height", Place, Height, slow_height, 2e-2, "height")
+UNANSWERABLE = Question("height", Place, Height, Unanswerable(), 1e-3, "height")
 INTERRUPTED = Question("interrupted_height", Place, Height, interrupted_height, 1e-3, "height")

@@ -8,12 +8,13 @@ import psutil
 import pytest
 
 from app.sweeps.cluster import LOCAL, Cluster, NoScheduler
+from app.sweeps.engines import NoAnswer
 from app.sweeps.questions import question_of
 from app.sweeps.run import Progress, run
 from app.sweeps.spec import Spec
 from app.sweeps.table import Sweep
 from tests.app.sweeps.kills import collisions, disturbed, free_port, table_hash
-from tests.app.sweeps.odd_questions import LAND
+from tests.app.sweeps.odd_questions import LAND, UNANSWERABLE
 from tests.app.sweeps.test_run import compacted, spec_of, undisturbed
 
 
@@ -32,6 +33,11 @@ def test_a_design_that_kills_workers_of_a_cluster_is_found_alone(tmp_path: Path)
     rows = Sweep(tmp_path / "a", spec).table(["x", "error.code"]).to_pylist()
     assert [row["x"] for row in rows] == list(range(6))
     assert {row["x"]: row["error.code"] for row in rows if row["error.code"]} == {2: "killed"}
+
+
+def test_what_no_worker_can_answer_ends_the_run_in_words(tmp_path: Path) -> None:
+    with pytest.raises(NoAnswer, match=r"workers.* cannot answer: "):
+        run(spec_of(UNANSWERABLE, 6), tmp_path, question=UNANSWERABLE, engine=lambda: Cluster(LOCAL, 1))
 
 
 def test_no_worker_of_a_local_cluster_is_left(tmp_path: Path) -> None:

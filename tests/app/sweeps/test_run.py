@@ -11,13 +11,14 @@ import psutil
 import pytest
 
 from app.sweeps import shards
+from app.sweeps.engines import NoAnswer
 from app.sweeps.processes import CannotStart, Processes
 from app.sweeps.questions import Question
 from app.sweeps.run import Progress, missing_shards, run
 from app.sweeps.spec import Spec
 from app.sweeps.table import Sweep
 from core import InvalidValue
-from tests.app.sweeps.odd_questions import INTERRUPTED, LAND, SLOW
+from tests.app.sweeps.odd_questions import INTERRUPTED, LAND, SLOW, UNANSWERABLE
 
 
 def spec_of(question: Question, designs: int = 60, shard_size: int = 6, **request: Any) -> Spec:
@@ -112,6 +113,11 @@ def test_processes_that_cannot_start_end_the_run(tmp_path: Path, monkeypatch: py
     monkeypatch.syspath_prepend(str(tmp_path))
     with pytest.raises(CannotStart, match="processes in a row ended before they were ready"):
         run(spec_of(LAND, 6), tmp_path / "a", question=LAND, engine=lambda: Processes(1))
+
+
+def test_what_no_worker_can_answer_ends_the_run_in_words(tmp_path: Path) -> None:
+    with pytest.raises(NoAnswer, match="workers cannot answer: ImportError: no such module"):
+        run(spec_of(UNANSWERABLE, 6), tmp_path, question=UNANSWERABLE, engine=lambda: Processes(1))
 
 
 def test_no_process_is_left(tmp_path: Path) -> None:
