@@ -21,8 +21,8 @@ from core import BenchDragonError
 LOCAL = "local"
 # A scheduler that is gone is waited for so long, and tried so often [s].
 PATIENCE, AGAIN = 600.0, 1.0
-# So many failures in a row, with no answer between them, end a run.
-FAILURES = 5
+# So many failures in a row, with no answer between them and a scheduler there, end a run.
+FAILURES = 8
 # What a connection, an answer on its way, and the look at lost futures may take [s].
 CONNECT, ANSWER, LOOK = 10.0, 60.0, 2.0
 
@@ -62,8 +62,8 @@ class Cluster:
         # Not "pure": a future that was cancelled would be found again by its key.
         try:
             future = self._client.submit(attempt, piece, pure=False)
-        except Exception:  # Whatever a connection that breaks just now raises.
-            self._lost.append(piece)
+        except Exception as error:
+            self._failed(piece, error)
             return
         self._out[future] = piece
         future.add_done_callback(self._finished.put)
@@ -99,16 +99,20 @@ class Cluster:
             return [Done(piece, None)]
         except (CancelledError, OSError, TimeoutError):
             self._lost.append(piece)
-        except Exception as error:  # A worker lacks something, or whatever a cluster raises that breaks just now.
-            self._failures += 1
-            if self._failures >= FAILURES:
-                words = f"workers of {self._address} cannot answer: {type(error).__name__}: {error}"
-                raise NoAnswer("workers", words) from error
-            self._lost.append(piece)
+        except Exception as error:
+            self._failed(piece, error)
         else:
             self._failures = 0
             return [arrived(piece, attempted)]
         return []
+
+    def _failed(self, piece: Piece, error: Exception) -> None:
+        """Ask again: a cluster that breaks just now raises all kinds of errors. raises: NoAnswer after many in a row"""
+        self._failures += 1
+        if self._failures >= FAILURES and self._client.status == "running":
+            words = f"workers of {self._address} cannot answer: {type(error).__name__}: {error}"
+            raise NoAnswer("workers", words) from error
+        self._lost.append(piece)
 
     def _look(self) -> None:
         """Connect again where that is needed, and ask again for what is lost."""
