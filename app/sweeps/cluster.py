@@ -6,6 +6,7 @@ writes them. Whatever is lost on the way, with a worker, a future or the schedul
 
 from __future__ import annotations
 
+import logging
 import queue
 import time
 from concurrent.futures import CancelledError
@@ -33,6 +34,18 @@ class NoScheduler(BenchDragonError):
     code = "no-scheduler"
 
 
+def _local(workers: int | None) -> LocalCluster:
+    """A cluster of this machine. A piece whose worker died is not tried there again: processes of its own follow."""
+    return LocalCluster(
+        n_workers=workers,
+        threads_per_worker=1,
+        processes=True,
+        dashboard_address=None,
+        silence_logs=logging.ERROR,
+        scheduler_kwargs={"allowed_failures": 0},
+    )
+
+
 class Cluster:
     """A Dask cluster."""
 
@@ -41,9 +54,7 @@ class Cluster:
     def __init__(self, address: str, workers: int | None = None, patience: float = PATIENCE) -> None:
         """address: of the scheduler, or LOCAL; workers: of a local cluster, else one for each core
         patience: how long a scheduler that is gone is waited for [s]. raises: NoScheduler"""
-        self._own = LocalCluster(
-            n_workers=workers, threads_per_worker=1, processes=True, dashboard_address=None, silence_logs=40
-        ) if address == LOCAL else None  # fmt: skip
+        self._own = _local(workers) if address == LOCAL else None
         self._address = self._own.scheduler_address if self._own else address
         self._patience = patience
         self._finished: queue.SimpleQueue[Future[tuple[bytes | None, str]]] = queue.SimpleQueue()
