@@ -28,15 +28,15 @@ shard_size = 20
 [request]
 benches = 60
 [over]
-pitch = { start = 0.42, stop = 0.60, count = 400 }
+pitch = { start = 0.42, stop = 0.60, count = 200 }
 width = [0.25, 0.30, 0.35, -1.0]
 """
-SHARDS = 80
+SHARDS = 40
 
 
 @pytest.fixture
 def spec(tmp_path: Path) -> Path:
-    """A sweep of 1600 designs, a quarter of which are refused."""
+    """A sweep of 800 designs, a quarter of which are refused."""
     (tmp_path / "spec.toml").write_text(SPEC)
     return tmp_path / "spec.toml"
 
@@ -65,7 +65,7 @@ def table(spec: Path, folder: Path) -> bytes:
     """Bytes of the table of a sweep that is gone on with and compacted."""
     done = sweep("run", spec, "--output", folder)
     assert (done.returncode, done.stdout) == (0, ""), done.stderr
-    assert done.stderr == f"{folder}: 1600 designs in {SHARDS} shards\n"
+    assert done.stderr == f"{folder}: 800 designs in {SHARDS} shards\n"
     assert sweep("compact", folder).returncode == 0
     return (folder / "sweep.parquet").read_bytes()
 
@@ -115,14 +115,14 @@ def test_workers_leave_when_the_command_is_killed_and_it_goes_on_to_the_same_byt
 def test_a_sweep_is_shown_in_lines_and_drawn(tmp_path: Path) -> None:
     whole(tmp_path / "a")
     lines = sweep("show", tmp_path / "a").stdout.splitlines()
-    assert lines[0].split() == ["designs", "1600", "of", "1600"]
-    assert lines[1].split() == ["error", "invalid-value", "400"]
+    assert lines[0].split() == ["designs", "800", "of", "800"]
+    assert lines[1].split() == ["error", "invalid-value", "200"]
     assert lines[2].startswith("least time")
     drawn = sweep("show", tmp_path / "a", "--output", tmp_path / "map.png", "--value", "head.radius")
     assert (drawn.returncode, drawn.stderr) == (0, f"{tmp_path / 'map.png'}\n")
     assert (tmp_path / "map.png").read_bytes().startswith(b"\x89PNG")
     assert sweep("compact", tmp_path / "a", "--csv", tmp_path / "a.csv").returncode == 0
-    assert len((tmp_path / "a.csv").read_text().splitlines()) == 1601
+    assert len((tmp_path / "a.csv").read_text().splitlines()) == 801
 
 
 def test_a_terminal_shows_a_bar_with_rate_and_time_left(spec: Path, tmp_path: Path) -> None:
@@ -138,7 +138,7 @@ def test_a_terminal_shows_a_bar_with_rate_and_time_left(spec: Path, tmp_path: Pa
             break
     os.close(parent)
     assert process.wait(PATIENCE) == 0
-    assert b"of 1600, " in said
+    assert b"of 800, " in said
     assert b"/s, 0:00:" in said
     assert b" left" in said
 
