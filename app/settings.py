@@ -5,9 +5,7 @@ from __future__ import annotations
 from pydantic import Field
 from pydantic_settings import BaseSettings, SettingsConfigDict
 
-from core import TooLarge
-
-# Where prometheus_client keeps the counts of several processes; app/workers.py sets it for those that it starts.
+# Where prometheus_client keeps the counts of several processes, which app/service/workers.py sets for those it starts.
 SHARED_COUNTS = "PROMETHEUS_MULTIPROC_DIR"
 # Most processes of one service, about 100 MB each.
 WORKERS_MAX = 64
@@ -37,9 +35,3 @@ class Settings(BaseSettings):
     concurrent_max: int = Field(8, ge=1, description="Computations at once in one process; one more gets a 503")
     retry_after: int = Field(1, ge=1, description="Wait that a 503 asks for [s]")
     cache_seconds: int = Field(86_400, ge=0, description="Cache-Control max-age of an answer [s]")
-
-
-def check_limit(field: str, what: str, count: int, limit: int, advice: str) -> None:
-    """raises: TooLarge at the field when there are more than the limit of what"""
-    if count > limit:
-        raise TooLarge(field, f"{what} must be at most {limit} here, got {count}: {advice}")

@@ -10,7 +10,7 @@ from typing import Any
 from app.extras import require
 from app.sweeps.engines import Engine
 from app.sweeps.processes import Processes
-from app.sweeps.questions import Question, question_of
+from app.sweeps.questions import Question
 from app.sweeps.run import Progress, run
 from app.sweeps.spec import Range, Samples, Spec
 from app.sweeps.table import Sweep
@@ -35,16 +35,16 @@ def sweep(
     shard_size: designs in one file, else about 5 s of work; dask: address of a scheduler, or "local"
     raises: InvalidValue, TooLarge, MissingPackage, OSError
     """
-    asked = question if isinstance(question, Question) else question_of(question)
+    own = question if isinstance(question, Question) else None
     told = {
-        "question": asked.name,
+        "question": own.name if own else question,
         "over": {name: _axis(values) for name, values in over.items()},
         "request": dict(request or {}),
         "samples": None if samples is None else samples.model_dump(),
         "shard_size": shard_size,
     }
-    spec, place = Spec.of(told, asked), Path(folder)
-    run(spec, place, question=asked, engine=engine_of(dask), progress=progress)
+    spec, place = Spec.of(told, own), Path(folder)
+    run(spec, place, question=own or spec.asks, engine=engine_of(dask), progress=progress)
     return Sweep(place, spec)
 
 

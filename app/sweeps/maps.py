@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from app.drawing import BLUE, GREY, canvas
+from app.files.drawing import BLUE, GREY, canvas
 from app.sweeps.spec import Range
 from app.sweeps.summary import numbers_of
 from app.sweeps.table import Sweep

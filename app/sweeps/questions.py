@@ -1,23 +1,24 @@
-"""The questions that a sweep may ask: the only file here that knows how the rest of the program answers.
+"""The questions that a sweep may ask: those of the registry whose answers are numbers, and what a design of each costs.
 
-A question is the operation id of a call, its request and its answer, and what a design costs. A question of one's own
-is swept alike, as long as a worker can import what it is made of.
+A question of one's own is swept alike, as long as a worker can import what it is made of.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import partial
 from typing import Any
 
 from pydantic import BaseModel
 
 import core
-from app import answers, report, schemas
-from app.options import checked
-from app.refusals import refusing
-from app.settings import Settings, check_limit
+from app import questions
+from app.questions.check import LeastClearance
+from app.settings import Settings
+from app.wire.dances import DanceFields, DanceQuery
+from app.wire.messages import checked
+from app.wire.refusals import refusing
 from core import BenchDragonError, InvalidValue
 
 # Answered within the limits that the service has by default, so that a row does not depend on who computes it.
@@ -26,7 +27,7 @@ LIMITS = Settings.model_construct()
 
 @dataclass(frozen=True, slots=True)
 class Question:
-    """One kind of question.
+    """One question, asked in one way.
 
     name: the operation id; request, answer: models of what goes in and what comes out
     ask: the answer to a request
@@ -50,84 +51,47 @@ class Question:
             return self.ask(request)
 
 
-@lru_cache(maxsize=32)
-def _dragon(benches: int, head_length: float, body_length: float, width: float, overhang: float) -> core.Dragon:
-    """A dragon: most designs of a sweep share one with others."""
-    return core.Dragon(benches, head_length, body_length, width, overhang)
-
-
-def _collision_time(asked: schemas.CollisionQuery) -> answers.CollisionTime:
-    check_limit("benches", "benches", asked.benches, LIMITS.benches_max, "shorten the dragon")
-    dragon = _dragon(asked.benches, asked.head_length, asked.body_length, asked.width, asked.overhang)
-    path = asked.to_path()
-    found = core.first_contact(core.Dance(dragon, path, asked.head_speed), margin=asked.margin)
-    return answers.CollisionTime.of(found, dragon, path, asked)
-
-
-def _minimum_pitch(asked: schemas.MinimumPitchQuery) -> answers.MinimumPitch:
-    dragon, radius = asked.to_dragon(LIMITS.benches_max), asked.turning_diameter / 2
-    found = core.minimum_pitch(dragon, turning_radius=radius, start_turns=asked.start_turns, margin=asked.margin)
-    return answers.MinimumPitch.of(found, dragon, asked)
-
-
-def _turn(asked: schemas.TurnQuery) -> report.Turn:
-    return report.Turn.of(asked.to_turn())
-
-
-def _shortest_turn(asked: schemas.ShortestTurnQuery) -> report.ShortestTurn:
-    return report.ShortestTurn.of_shortest(asked.to_shortest_turn(LIMITS.checked_benches_max))
-
-
-def _maximum_head_speed(asked: schemas.MaximumHeadSpeedQuery) -> report.MaximumHeadSpeed:
-    dance = core.Dance(asked.to_dragon(LIMITS.checked_benches_max), asked.to_turn())
-    return report.MaximumHeadSpeed.model_validate(core.maximum_head_speed(dance, asked.speed_limit))
-
-
-def _least_clearance(asked: schemas.DanceQuery) -> report.LeastClearance:
-    dance = core.Dance(asked.to_dragon(LIMITS.checked_benches_max), asked.to_path(), asked.head_speed)
-    found = core.least_clearance(dance)
+def least_clearance(asked: DanceQuery | DanceFields, settings: Settings) -> LeastClearance:
+    """The least separation of two benches that share no handle, over the whole dance."""
+    found = core.least_clearance(asked.to_dance(settings.checked_benches_max))
     if found is None:
-        raise InvalidValue("benches", f"benches must be at least 3 for two to share no handle, got {asked.benches}")
-    return report.LeastClearance.model_validate(found)
+        raise InvalidValue.of("dragon.benches", "must be at least 3 for two to share no handle", asked.benches, "")
+    return LeastClearance.model_validate(found)
 
 
-def _check(asked: schemas.CheckRequest) -> report.Report:
-    dragon, path = asked.dragon.to_dragon(LIMITS.checked_benches_max), asked.path.to_path()
-    place = asked.to_place(dragon)
-    return report.Report.of(asked.to_report(dragon, path, place), dragon, path, asked, place.origin)
+def _ways(question: questions.Question, seconds: float, shown: str, *left_out: str) -> tuple[Question, ...]:
+    """A question of the registry, flat and as a body."""
+    assert question.model is not None
+    ask, requests = partial(question.answer, settings=LIMITS), (question.flat, question.body)
+    known = (question.model, ask, seconds, shown, frozenset(left_out))
+    return tuple(Question(question.name, request, *known) for request in requests if request)
 
 
-# The seconds are those of the defaults on one core of a small machine.
+_LEAST = questions.Question(least_clearance, LeastClearance, flat=DanceQuery, body=DanceFields)
+# The ways to ask each, the flat one first. The seconds are those of the defaults on one core of a small machine.
 QUESTIONS = {
-    question.name: question
-    for question in (
-        Question(
-            "collision_time", schemas.CollisionQuery, answers.CollisionTime, _collision_time, 1e-3, "time",
-            frozenset({"certificate.method"}),
-        ),
-        Question("minimum_pitch", schemas.MinimumPitchQuery, answers.MinimumPitch, _minimum_pitch, 2e-2, "pitch"),
-        Question("turn", schemas.TurnQuery, report.Turn, _turn, 1e-4, "length"),
-        Question("shortest_turn", schemas.ShortestTurnQuery, report.ShortestTurn, _shortest_turn, 0.5, "length"),
-        Question(
-            "maximum_head_speed", schemas.MaximumHeadSpeedQuery, report.MaximumHeadSpeed, _maximum_head_speed, 5e-2,
-            "head_speed",
-        ),
-        Question(
-            "least_clearance", schemas.DanceQuery, report.LeastClearance, _least_clearance, 2e-2, "distance",
-        ),
-        Question(
-            "check", schemas.CheckRequest, report.Report, _check, 0.1, "least_clearance.distance",
-            frozenset({"first_contact.certificate.method"}),
-        ),
+    ways[0].name: ways
+    for ways in (
+        _ways(questions.QUESTIONS["collision_time"], 1e-3, "time", "certificate.method"),
+        _ways(questions.QUESTIONS["minimum_pitch"], 2e-2, "pitch"),
+        _ways(questions.QUESTIONS["turn"], 1e-4, "length"),
+        _ways(questions.QUESTIONS["shortest_turn"], 0.5, "length"),
+        _ways(questions.QUESTIONS["maximum_head_speed"], 5e-2, "head_speed"),
+        _ways(_LEAST, 2e-2, "distance"),
+        _ways(questions.QUESTIONS["check"], 0.1, "least_clearance.distance", "first_contact.certificate.method"),
     )
-}  # fmt: skip
+}
 
 
-def question_of(name: str) -> Question:
-    """The question with that operation id. raises: InvalidValue"""
+def question_of(name: str, parameters: Collection[str] = ()) -> Question:
+    """The question with that operation id, asked in the way that knows most of these parameters; flat if all do.
+
+    raises: InvalidValue
+    """
     if name not in QUESTIONS:
         raise InvalidValue("question", f"question must be one of {', '.join(QUESTIONS)}, got {name!r:.60}")
-    return QUESTIONS[name]
+    names = [parameter.partition(".")[0] for parameter in parameters]
+    return max(QUESTIONS[name], key=lambda way: sum(one in way.request.model_fields for one in names))
 
 
 def refusal(error: Exception) -> tuple[str, str]:

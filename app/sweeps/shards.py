@@ -15,6 +15,7 @@ from typing import Any
 import orjson
 import pyarrow as pa
 import pyarrow.parquet as pq
+from pydantic import BaseModel
 
 import core
 from app.sweeps.columns import TYPES, Column, answer_columns, value_type
@@ -86,13 +87,13 @@ class Piece:
 
 
 @lru_cache(maxsize=16)
-def _all_columns(question: Question) -> tuple[Column, ...]:
-    return tuple(answer_columns(question.answer, question.left_out))
+def _all_columns(answer: type[BaseModel], left_out: frozenset[str]) -> tuple[Column, ...]:
+    return tuple(answer_columns(answer, left_out))
 
 
 def kept_columns(spec: Spec, question: Question) -> list[Column]:
     """The columns of the answer, but for those that repeat a parameter of the sweep."""
-    return [column for column in _all_columns(question) if column.name not in spec.over]
+    return [column for column in _all_columns(question.answer, question.left_out) if column.name not in spec.over]
 
 
 def _table(piece: Piece, asked: dict[str, list[Any]], rows: list[tuple[Any, ...]], columns: list[Column]) -> pa.Table:

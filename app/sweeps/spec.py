@@ -15,8 +15,8 @@ import orjson
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
 
 import core
-from app.options import checked
 from app.sweeps.questions import Question, question_of
+from app.wire.messages import checked
 from core import InvalidValue, TooLarge
 
 DESIGNS_MAX = 10**8
@@ -103,7 +103,7 @@ class Spec(_Told):
         raises: InvalidValue, TooLarge
         """
         spec = checked(cls, told)
-        asked = question or question_of(spec.question)
+        asked = question or spec.asks
         size = spec.shard_size or min(int(SHARD_SECONDS / asked.seconds), SHARD_MAX, -(-spec.designs // SHARDS_SMALL))
         request = spec.request
         # Cross-checks cost more than the answer, and a sweep has its neighbours to be compared with.
@@ -123,6 +123,11 @@ class Spec(_Told):
             kind = "TOML" if file.suffix.lower() == ".toml" else "JSON"
             raise InvalidValue("spec", f"{file} is not {kind}: {error}") from error
         return cls.of(told)
+
+    @property
+    def asks(self) -> Question:
+        """The question that its name means, asked in the way that has its parameters. raises: InvalidValue"""
+        return question_of(self.question, [*self.over, *self.request])
 
     @property
     def sampled(self) -> dict[str, Range]:

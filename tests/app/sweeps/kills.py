@@ -20,7 +20,6 @@ import orjson
 import psutil
 
 from app.sweeps.processes import Processes
-from app.sweeps.questions import question_of
 from app.sweeps.run import run
 from app.sweeps.shards import parts
 from app.sweeps.spec import Spec
@@ -159,7 +158,7 @@ def main(designs: int = 200_000, kills: int = 50, seed: int = 0) -> None:
     spec = Spec.of(told)
     with tempfile.TemporaryDirectory() as name:
         folder, begun = Path(name), time.monotonic()
-        run(spec, folder / "undisturbed", question=question_of(spec.question), engine=Processes)
+        run(spec, folder / "undisturbed", question=spec.asks, engine=Processes)
         quiet = time.monotonic() - begun
         killed = disturbed(told, folder, kills, seed)
         took = time.monotonic() - begun - quiet

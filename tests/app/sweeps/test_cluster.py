@@ -9,7 +9,6 @@ import pytest
 
 from app.sweeps.cluster import LOCAL, Cluster, NoScheduler
 from app.sweeps.engines import NoAnswer
-from app.sweeps.questions import question_of
 from app.sweeps.run import Progress, run
 from app.sweeps.spec import Spec
 from app.sweeps.table import Sweep
@@ -60,5 +59,5 @@ def test_kills_of_client_scheduler_and_workers_change_no_byte(tmp_path: Path) ->
     killed = disturbed(told, tmp_path, kills=3, seed=4)
     assert killed.total() == 3
     assert set(killed) == {"client", "scheduler", "worker"}
-    run(spec, tmp_path / "undisturbed", question=question_of("collision_time"))
+    run(spec, tmp_path / "undisturbed", question=spec.asks)
     assert table_hash(tmp_path / "out", spec) == table_hash(tmp_path / "undisturbed", spec)

@@ -7,10 +7,10 @@ from typing import Any
 import pytest
 
 import core
-from app import schemas
-from app.answers import CollisionTime
+from app.questions.check import CheckRequest, Report
+from app.questions.collision_time import CollisionQuery, CollisionTime
 from app.sweeps.columns import Column, answer_columns, value_type
-from app.sweeps.questions import QUESTIONS
+from app.sweeps.questions import QUESTIONS, question_of
 from tests.app.sweeps.odd_questions import Height
 
 
@@ -24,9 +24,8 @@ def test_numbers_words_and_pairs_become_columns_and_lists_json() -> None:
 
 
 def test_what_an_answer_does_not_have_is_null() -> None:
-    wanted = schemas.CollisionQuery(cross_check="none")
-    dragon, path = core.Dragon(), core.Spiral()
-    answer = CollisionTime.of(core.first_contact(core.Dance(dragon, path)), dragon, path, wanted)
+    dance = core.Dance(core.Dragon(), core.Spiral())
+    answer = CollisionTime.of(core.first_contact(dance), dance, CollisionQuery(cross_check="none"))
     values = {column.name: column.value(answer) for column in answer_columns(CollisionTime)}
     assert (values["outcome"], values["benches.0"], values["benches.1"]) == ("contact", 0, 8)
     assert values["head.radius"] == answer.head.radius if answer.head else False
@@ -35,7 +34,7 @@ def test_what_an_answer_does_not_have_is_null() -> None:
 
 @pytest.mark.parametrize("name", QUESTIONS)
 def test_what_is_shown_and_what_is_left_out_are_columns(name: str) -> None:
-    question = QUESTIONS[name]
+    question = question_of(name)
     names = {column.name: column for column in answer_columns(question.answer)}
     assert names[question.shown].kind is float
     assert question.left_out <= names.keys()
@@ -51,9 +50,7 @@ def test_a_list_of_values_has_one_type(values: list[Any], kind: type) -> None:
 
 
 def test_a_column_of_a_list_of_models_is_their_json() -> None:
-    answer = core.check(core.Dance(core.Dragon(5), core.Spiral()), speed_limit=0.5)
+    dance = core.Dance(core.Dragon(5), core.Spiral())
+    answer = Report.of(core.check(dance, speed_limit=0.5), dance, CheckRequest(cross_check="none"), None)
     column = Column("failures", ("failures",), str, as_json=True)
-    from app.report import Report
-
-    dragon, path, wanted = core.Dragon(5), core.Spiral(), schemas.CheckRequest(cross_check="none")
-    assert '"kind":"speed"' in column.value(Report.of(answer, dragon, path, wanted))
+    assert '"kind":"speed"' in column.value(answer)

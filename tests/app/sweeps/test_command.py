@@ -14,7 +14,6 @@ from pathlib import Path
 import psutil
 import pytest
 
-from app.sweeps.questions import question_of
 from app.sweeps.run import begin
 from app.sweeps.shards import Piece, parts, write_part
 from app.sweeps.spec import Spec
@@ -48,10 +47,10 @@ def sweep(*arguments: object) -> subprocess.CompletedProcess[str]:
 
 def whole(folder: Path) -> Sweep:
     """The sweep, answered in this process."""
-    spec, question = Spec.of(tomllib.loads(SPEC)), question_of("collision_time")
+    spec = Spec.of(tomllib.loads(SPEC))
     begin(folder, spec)
     for shard in range(spec.shards):
-        write_part(folder, spec, shard, [Piece.whole(spec, question, shard).answered()])
+        write_part(folder, spec, shard, [Piece.whole(spec, spec.asks, shard).answered()])
     return Sweep(folder, spec)
 
 

@@ -13,9 +13,8 @@ import pyarrow.parquet as pq
 import pytest
 
 import core
-from app.answers import CollisionTime
-from app.schemas import CollisionQuery
-from app.sweeps.questions import QUESTIONS, Question
+from app.questions.collision_time import CollisionQuery, CollisionTime
+from app.sweeps.questions import QUESTIONS, Question, question_of
 from app.sweeps.shards import OtherVersion, Piece, checked_part, part_name, parts, write_part
 from app.sweeps.spec import Spec
 from core import InvalidValue
@@ -32,12 +31,12 @@ def rows(piece: Piece) -> list[dict[str, Any]]:
 
 
 def test_each_row_is_the_answer_to_its_request() -> None:
-    question = QUESTIONS["collision_time"]
+    question = question_of("collision_time")
     spec = spec_of(question, {"pitch": [0.5, 0.55, 1.7], "width": [0.2, 0.3]}, request={"benches": 50})
     for row in rows(Piece.whole(spec, question, 0)) + rows(Piece.whole(spec, question, 1)):
         asked = CollisionQuery(pitch=row["pitch"], width=row["width"], benches=50, cross_check="none")
-        dragon, path = asked.to_dragon(50), asked.to_path()
-        answer = CollisionTime.of(core.first_contact(core.Dance(dragon, path)), dragon, path, asked)
+        dance = asked.to_dance(50)
+        answer = CollisionTime.of(core.first_contact(dance), dance, asked)
         assert (row["outcome"], row["time"]) == (answer.outcome, answer.time)
         assert (row["benches.0"], row["benches.1"]) == (answer.benches or (None, None))
         assert row["certificate.steps"] == answer.certificate.steps
@@ -45,7 +44,7 @@ def test_each_row_is_the_answer_to_its_request() -> None:
 
 
 def test_a_body_is_swept_by_dotted_names() -> None:
-    question = QUESTIONS["check"]
+    question = question_of("check")
     spec = spec_of(question, {"path.pitch": [0.5, 0.55], "dragon.width": [0.3]}, request={"dragon": {"benches": 20}})
     row = rows(Piece.whole(spec, question, 1))[0]
     assert (row["path.pitch"], row["verdict"]) == (0.55, "fails")
@@ -55,7 +54,7 @@ def test_a_body_is_swept_by_dotted_names() -> None:
 
 @pytest.mark.parametrize("name", QUESTIONS)
 def test_every_question_is_answered_and_refuses_a_bad_design(name: str) -> None:
-    question = QUESTIONS[name]
+    question = question_of(name)
     parameter = "path.pitch" if name == "check" else "margin" if name == "minimum_pitch" else "pitch"
     good = 0.01 if name == "minimum_pitch" else 0.55 if name == "collision_time" else 1.7
     small = {"dragon": {"benches": 8}} if name == "check" else {} if name == "turn" else {"benches": 8}
