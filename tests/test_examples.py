@@ -9,7 +9,7 @@ import pytest
 
 from app.files.disk import read_dance
 from app.questions.check import CheckRequest
-from core import FailureKind, Outcome, Report
+from core import FailureKind, Outcome, Report, check
 
 EXAMPLES = Path(__file__).parents[1] / "examples"
 REFERENCE = Path(__file__).parent / "reference"
@@ -18,8 +18,10 @@ REFERENCE_ERROR = 1e-9  # [m], [m/s], [s]
 
 def report(name: str) -> Report:
     """The verdict on an example, read as the command reads it."""
-    request = CheckRequest.model_validate(read_dance(EXAMPLES / f"{name}.toml"))
-    return request.to_report(request.dragon.to_dragon(1000), request.path.to_path())
+    asked = CheckRequest.model_validate(read_dance(EXAMPLES / f"{name}.toml"))
+    dance = asked.to_dance(1000)
+    limits = {"margin": asked.margin, "speed_limit": asked.speed_limit, "start": asked.start, "stop": asked.stop}
+    return check(dance, venue=asked.to_place(dance.dragon).venue, **limits)
 
 
 def test_every_example_has_its_test() -> None:

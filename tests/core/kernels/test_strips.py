@@ -8,14 +8,14 @@ import numpy as np
 
 from core import Dragon, Spiral, kernels
 from core.contact.search import Search
-from core.design.pitch_bands import Strips
+from core.design.pitch_bands import Bands
 
 LOW, HIGH, CIRCLE, WORK = 0.5, 0.501, 4.5, 1e7
 
 
 def strip_of(pitch: float, benches: int = 60) -> tuple[Search, kernels.Strip]:
     search = Search(Dragon(benches), Spiral(pitch), 0.0)
-    return search, Strips(search, CIRCLE, 16.0, 0.0).strip_to((pitch + HIGH - LOW) / (2.0 * math.pi))
+    return search, Bands(search, CIRCLE, 16.0, 0.0).band_to((pitch + HIGH - LOW) / (2.0 * math.pi))
 
 
 def test_a_strip_that_reaches_the_circle_is_clear_at_samples() -> None:
