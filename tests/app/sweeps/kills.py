@@ -29,7 +29,7 @@ ROOT = Path(__file__).parents[3]
 # Between two looks at the processes, and the most that a sweep may go on without a new part [s].
 LOOK, PATIENCE = 0.1, 300.0
 SHARDS = 200
-KINDS = ["client", "scheduler", "worker"]
+KINDS = ["scheduler", "worker", "client"]
 DASK = (sys.executable, "-m", "dask")
 COMMAND = str(Path(sys.executable).with_name("bench-dragon"))
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import pty
+import shutil
 import signal
 import subprocess
 import time
@@ -45,19 +46,21 @@ def sweep(*arguments: object) -> subprocess.CompletedProcess[str]:
     return subprocess.run(command, capture_output=True, text=True, timeout=PATIENCE, env=ENVIRONMENT)
 
 
-def whole(folder: Path) -> Sweep:
-    """The sweep, answered in this process."""
-    spec = Spec.of(tomllib.loads(SPEC))
+@pytest.fixture(scope="module")
+def answered(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Folder of the sweep, answered in this process and not compacted."""
+    spec, folder = Spec.of(tomllib.loads(SPEC)), tmp_path_factory.mktemp("answered")
     begin(folder, spec)
     for shard in range(spec.shards):
         write_part(folder, spec, shard, [Piece.whole(spec, spec.asks, shard).answered()])
-    return Sweep(folder, spec)
+    return folder
 
 
 @pytest.fixture(scope="module")
-def undisturbed(tmp_path_factory: pytest.TempPathFactory) -> bytes:
+def undisturbed(answered: Path, tmp_path_factory: pytest.TempPathFactory) -> bytes:
     """Bytes of the table of a sweep that nobody disturbed."""
-    return whole(tmp_path_factory.mktemp("undisturbed")).compact().read_bytes()
+    copied = shutil.copytree(answered, tmp_path_factory.mktemp("undisturbed") / "copy")
+    return Sweep.open(copied).compact().read_bytes()
 
 
 def table(spec: Path, folder: Path) -> bytes:
@@ -111,8 +114,8 @@ def test_workers_leave_when_the_command_is_killed_and_it_goes_on_to_the_same_byt
     assert table(spec, tmp_path / "a") == undisturbed
 
 
-def test_a_sweep_is_shown_in_lines_and_drawn(tmp_path: Path) -> None:
-    whole(tmp_path / "a")
+def test_a_sweep_is_shown_in_lines_and_drawn(answered: Path, tmp_path: Path) -> None:
+    shutil.copytree(answered, tmp_path / "a")
     lines = sweep("show", tmp_path / "a").stdout.splitlines()
     assert lines[0].split() == ["designs", "800", "of", "800"]
     assert lines[1].split() == ["error", "invalid-value", "200"]

@@ -12,7 +12,7 @@ from app.sweeps.spec import Spec
 
 # All included: the request checked, the dance made, the answer, its row, the file; to the search alone [1].
 COST_MAX = 1.25
-ROUNDS = 7
+ROUNDS = 4
 
 
 def test_a_design_costs_little_more_than_its_search(tmp_path: Path) -> None:
