@@ -113,4 +113,4 @@ def test_values_are_placed_into_a_copy() -> None:
 
 @pytest.mark.parametrize("told", re.findall(r"^```toml\n(.*?)^```", PAGE.read_text(), re.DOTALL | re.MULTILINE))
 def test_the_specs_of_the_page_are_specs(told: str) -> None:
-    assert Spec.of(tomllib.loads(told)).designs in (600, 1000)
+    assert Spec.of(tomllib.loads(told)).designs in (120, 1000)
