@@ -52,6 +52,30 @@ def test_a_body_is_swept_by_dotted_names() -> None:
     assert json.loads(row["failures"])[0]["kind"] == "contact"
 
 
+@pytest.mark.parametrize(
+    ("name", "flat", "body"),
+    [
+        ("collision_time", {"pitch": 0.5, "benches": 40}, {"path.pitch": 0.5, "dragon.benches": 40}),
+        ("least_clearance", {"width": 0.2, "benches": 9}, {"dragon": {"width": 0.2, "benches": 9}}),
+        ("turn", {"pitch": 1.6}, {"path": {"kind": "turn", "pitch": 1.6}}),
+    ],
+)
+def test_a_question_is_asked_flat_or_as_a_body(name: str, flat: dict[str, Any], body: dict[str, Any]) -> None:
+    answers = []
+    for asked in (flat, body):
+        spec = Spec.of({"question": name, "over": {place: [value] for place, value in asked.items()}})
+        [row] = rows(Piece.whole(spec, spec.asks, 0))
+        answers.append({place: value for place, value in row.items() if place not in {*asked, "pitch"}})
+    assert answers[0] == answers[1]
+    assert isinstance(answers[0][spec.asks.shown], float)
+
+
+def test_what_core_refuses_is_said_in_the_words_of_the_spec() -> None:
+    spec = Spec.of({"question": "least_clearance", "over": {"benches": [2]}})
+    [row] = rows(Piece.whole(spec, spec.asks, 0))
+    assert row["error.message"] == "benches must be at least 3 for two to share no handle, got 2"
+
+
 @pytest.mark.parametrize("name", QUESTIONS)
 def test_every_question_is_answered_and_refuses_a_bad_design(name: str) -> None:
     question = question_of(name)
