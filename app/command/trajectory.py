@@ -56,7 +56,7 @@ def trajectory(
     if given(context, "times") and (ranged := given(context, "start", "stop", "step")):
         raise InvalidValue("times", f"--times takes the place of --{ranged[0]}: give one of the two")
     if isinstance(times, str):
-        asked = checked(TrajectoryRequest, {"times": numbers("times", times, float)})
+        asked = checked(TrajectoryRequest, {"times": numbers("times", times, float), "decimals": asked.decimals})
     instants = asked.times_of(dance, settings.cells_max)
     with show.waiting("trajectory"):
         result = core.trajectory(dance, instants)

@@ -66,7 +66,7 @@ def check_limit(field: str, what: str, count: int, limit: int, advice: str) -> N
 class Wire(BaseModel):
     """What comes in: no unknown names, no infinities, never changed."""
 
-    model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
+    model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False, defer_build=True)
 
     @model_validator(mode="before")
     @classmethod
@@ -81,7 +81,7 @@ class Wire(BaseModel):
 class Answer(BaseModel):
     """What goes out: finite numbers only, so that a mistake of ours is an error and never a NaN."""
 
-    model_config = ConfigDict(allow_inf_nan=False, from_attributes=True)
+    model_config = ConfigDict(allow_inf_nan=False, from_attributes=True, defer_build=True)
 
     def to_json(self) -> bytes:
         return self.model_dump_json().encode()
