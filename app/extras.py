@@ -6,14 +6,16 @@ from importlib.util import find_spec
 
 from core import BenchDragonError
 
-_FIGURES, _XLSX = ("matplotlib",), ("xlsxwriter",)
+_FIGURES, _SWEEP, _XLSX = ("matplotlib",), ("pyarrow",), ("xlsxwriter",)
 # Modules that each extra of pyproject.toml installs and that its use needs.
 MODULES = {
     "arrow": ("pyarrow",),
+    "dask": ("dask", "distributed", *_SWEEP),
     "data": ("pandas", "xarray"),
     "figures": _FIGURES,
     "proof": ("flint",),
-    "service": ("fastapi", "fastapi_swagger", "prometheus_client", "uplot", "uvicorn", *_FIGURES, *_XLSX),
+    "service": ("fastapi", "fastapi_swagger", "prometheus_client", "uplot", "uvicorn", *_FIGURES, *_SWEEP, *_XLSX),
+    "sweep": _SWEEP,
     "xlsx": _XLSX,
 }
 

@@ -17,8 +17,8 @@ from typer.core import TyperGroup
 
 import core
 from app import questions
-from app.command import figures, prove, show, trajectory
-from app.command.options import Json, asks, checked, unused
+from app.command import figures, prove, show, sweep, trajectory
+from app.command.options import Json, asks, unused
 from app.extras import require
 from app.files.disk import checked_output, read_dance, read_json, write_whole
 from app.questions.check import CheckRequest
@@ -32,6 +32,7 @@ from app.questions.shortest_turn import ShortestTurnQuery
 from app.questions.trajectory import TrajectoryRequest
 from app.questions.turn import TurnQuery
 from app.settings import WORKERS_MAX, Settings
+from app.wire.messages import checked
 from app.wire.refusals import refusing
 from core import BenchDragonError, InvalidValue
 from core.errors import said
@@ -259,3 +260,4 @@ proofs.command()(asks(prove.ClearClaim)(prove.clear))
 proofs.command()(asks(prove.TurnClaim)(prove.turn))
 proofs.command()(prove.dance)
 app.add_typer(proofs, name="prove")
+app.add_typer(sweep.app, name="sweep")

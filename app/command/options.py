@@ -9,16 +9,15 @@ from types import UnionType
 from typing import Annotated, Any, TypeVar, Union, get_args, get_origin
 
 import typer
-from pydantic import BaseModel, ValidationError
+from pydantic import BaseModel
 from rich.markup import escape
 
 from app.files.disk import read_dance
 from app.questions import QUESTIONS
-from app.wire.dances import SHAPES, DanceQuery, TimeRange
-from app.wire.messages import message
+from app.wire.dances import DanceQuery, TimeRange
+from app.wire.messages import checked
 from app.wire.refusals import refusing
 from core import InvalidValue
-from core.errors import spoken
 
 Model = TypeVar("Model", bound=BaseModel)
 Number = TypeVar("Number", int, float)
@@ -33,19 +32,6 @@ FILE = inspect.Parameter(
     ],
 )
 CONTEXT = inspect.Parameter("context", inspect.Parameter.KEYWORD_ONLY, annotation=typer.Context)
-
-
-def checked(model: type[Model], values: object) -> Model:
-    """The values as a request of the service; a wrong value is refused in the service's words."""
-    try:
-        return model.model_validate(values)
-    except ValidationError as error:
-        first = error.errors()[0]
-        field = ".".join(str(part) for part in first["loc"] if part not in SHAPES)
-        words = message({**first, "loc": ("", *first["loc"])}, model)
-        # Messages such as `times[1] must be ...` already name the place in a list.
-        outer = field.rstrip("0123456789").rstrip(".") if "[" in words.partition(" ")[0] else field
-        raise InvalidValue(field, f"{spoken(outer)}: {words}" if "." in outer else words) from error
 
 
 def given(context: typer.Context, *names: str) -> list[str]:

@@ -21,11 +21,11 @@ from rich.console import Console
 from rich.progress import Progress
 
 import core
-from app.command.options import checked
 from app.files.disk import checked_output, read_dance, write_whole
 from app.questions.check import CheckRequest
 from app.settings import Settings
 from app.wire.dances import Circle, DanceQuery, HeadSpeed, UniformDragon
+from app.wire.messages import checked
 from app.wire.models import Instant, Margin, Wire, measure
 from app.wire.paths import TurnFields
 from core import InvalidValue, Outcome

@@ -11,12 +11,13 @@ from pydantic import Field
 
 import core
 from app.command import show
-from app.command.options import Json, checked, given, numbers, unused
+from app.command.options import Json, given, numbers, unused
 from app.files import tables
 from app.files.disk import TABLE_ENDINGS, checked_output, trajectory_writer, write_whole
 from app.questions.trajectory import TrajectoryRequest
 from app.settings import Settings
 from app.wire.dances import DanceQuery, TimeRange
+from app.wire.messages import checked
 from app.wire.models import measure
 from core import Dragon, InvalidValue
 

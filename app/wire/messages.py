@@ -8,20 +8,36 @@ import math
 from collections.abc import Mapping, Sequence
 from functools import cache
 from itertools import takewhile
-from typing import Annotated, Any, get_args, get_origin
+from typing import Annotated, Any, TypeVar, get_args, get_origin
 
-from pydantic import BaseModel, Tag
+from pydantic import BaseModel, Tag, ValidationError
 
+from app.wire.dances import SHAPES
 from app.wire.models import Wire, unit_of
 from app.wire.paths import KINDS
-from core.errors import said
+from core import InvalidValue
+from core.errors import said, spoken
 
+Model = TypeVar("Model", bound=BaseModel)
 # Longer values are shortened [characters].
 SHOWN_MAX = 60
 # Similarity above which an unknown name counts as a slip [1] (difflib); higher for a name that other calls know, such
 # as `width` for `widths`.
 ALIKE_SLIP, ALIKE = 0.6, 0.8
 IN_WORDS = {"m": "lengths are in metres", "m/s": "speeds are in metres per second", "rad": "angles are in radians"}
+
+
+def checked(model: type[Model], values: object) -> Model:
+    """The values as the service's own request; a wrong one is refused in the service's words."""
+    try:
+        return model.model_validate(values)
+    except ValidationError as error:
+        first = error.errors()[0]
+        field = ".".join(str(part) for part in first["loc"] if part not in SHAPES)
+        words = message({**first, "loc": ("", *first["loc"])}, model)
+        # Words such as `times[1] must be ...` name the place in a list already.
+        outer = field.rstrip("0123456789").rstrip(".") if "[" in words.partition(" ")[0] else field
+        raise InvalidValue(field, f"{spoken(outer)}: {words}" if "." in outer else words) from error
 
 
 def shown(value: Any) -> str:

@@ -85,6 +85,10 @@ def test_every_question_is_answered_without_an_extra(line: str) -> None:
             "trajectory --output dance.arrow",
             "Arrow needs the package pyarrow, which is not installed: pip install 'bench-dragon[arrow]'",
         ),
+        (
+            "sweep run no-such-spec.toml --output folder",
+            "sweep needs the package pyarrow, which is not installed: pip install 'bench-dragon[sweep]'",
+        ),
         ("prove collision-time", "a proof needs python-flint: pip install 'bench-dragon[proof]'"),
     ],
 )

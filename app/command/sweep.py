@@ -1,0 +1,114 @@
+"""The command bench-dragon sweep."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+from rich.console import Console
+from rich.progress import BarColumn, TextColumn
+from rich.progress import Progress as Bar
+
+from app.extras import require
+from app.files.disk import checked_output, write_whole
+from app.settings import WORKERS_MAX
+
+if TYPE_CHECKING:
+    from app.sweeps.run import Progress
+
+# What a shell says of a command that Ctrl-C stopped.
+INTERRUPTED = 130
+
+Folder = Annotated[Path, typer.Argument(help="Folder of the sweep.")]
+
+app = typer.Typer(help="A question over some of its parameters: up to 10^8 designs, into a folder that goes on.")
+
+
+@contextmanager
+def _bar(what: str, total: int) -> Iterator[Callable[[Progress], None]]:
+    """A bar on standard error with rate and time left; yields the function that takes the progress."""
+    if not sys.stderr.isatty():
+        yield lambda progress: None
+        return
+    columns = (TextColumn("{task.description}"), BarColumn(), TextColumn("{task.fields[said]}"))
+    with Bar(*columns, console=Console(stderr=True), transient=True) as bar:
+        task = bar.add_task(what, total=total, said="")
+        yield lambda progress: bar.update(task, completed=progress.designs, said=progress.words)
+
+
+@app.command()
+def run(
+    spec: Annotated[Path, typer.Argument(help="Question, parameters and their values, .toml or .json.")],
+    output: Annotated[Path, typer.Option(help="Folder of the answers; made if missing, gone on with if it is there.")],
+    dask: Annotated[
+        str | None, typer.Option(help="Scheduler of a Dask cluster (tcp://...), or local for one here; else processes.")
+    ] = None,
+    workers: Annotated[
+        int | None, typer.Option(min=1, max=WORKERS_MAX, help="Processes of this machine; else one for each core.")
+    ] = None,
+) -> None:
+    """Answer every design that has no answer yet. Ctrl-C, or a kill, leaves a folder that goes on."""
+    require("sweep", "sweep", "sweep")
+    from app.sweeps.call import engine_of
+    from app.sweeps.run import run as run_sweep
+    from app.sweeps.spec import Spec
+
+    asked = Spec.read(spec)
+    engine = engine_of(dask, workers)
+    with _bar(asked.question, asked.designs) as progress:
+        try:
+            run_sweep(asked, output, question=asked.asks, engine=engine, progress=progress)
+        except KeyboardInterrupt:
+            print(f"Stopped: the same command goes on with {output}", file=sys.stderr)
+            raise typer.Exit(INTERRUPTED) from None
+    print(f"{output}: {asked.designs} designs in {asked.shards} shards", file=sys.stderr)
+
+
+@app.command()
+def show(
+    folder: Folder,
+    output: Annotated[Path | None, typer.Option(help="Draw a map, in a .svg or .png file.")] = None,
+    value: Annotated[str | None, typer.Option(help="Column to look at; else the question's own.")] = None,
+) -> None:
+    """A sweep in a few lines, or a map of a value over one or two parameters."""
+    require("sweep", "sweep", "sweep")
+    ending = checked_output("output", output, (".svg", ".png")) if output else ""
+    if output:
+        require("figures", "output", "A map")
+    from app.sweeps.table import Sweep
+
+    sweep = Sweep.open(folder)
+    column = value or sweep.spec.asks.shown
+    if output:
+        from app.files.drawing import file_bytes
+        from app.sweeps.maps import value_map
+
+        write_whole(output, file_bytes(value_map(sweep, column), ending[1:]))
+        print(output, file=sys.stderr)
+        return
+    from app.sweeps.summary import summary
+
+    for name, said in summary(sweep, column).lines():
+        print(f"{name:<24} {said}")
+
+
+@app.command()
+def compact(
+    folder: Folder,
+    csv: Annotated[Path | None, typer.Option(help="Write the table as CSV too.")] = None,
+) -> None:
+    """Make one Parquet file of all parts of a complete sweep."""
+    require("sweep", "sweep", "sweep")
+    if csv:
+        checked_output("csv", csv, (".csv",))
+    from app.sweeps.table import Sweep
+
+    sweep = Sweep.open(folder)
+    print(sweep.compact(), file=sys.stderr)
+    if csv:
+        sweep.to_csv(csv)
+        print(csv, file=sys.stderr)

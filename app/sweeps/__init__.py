@@ -1,0 +1,34 @@
+"""Sweeps: a million designs are one call.
+
+`sweep()` answers any question over any of its parameters into a folder, on the cores of this machine or on a Dask
+cluster; called again it goes on where it stopped. The names load pyarrow, of the extra `sweep`, when they are used.
+"""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+__all__ = ["Question", "Range", "Samples", "Spec", "Sweep", "sweep"]
+
+if TYPE_CHECKING:
+    from app.sweeps.call import sweep
+    from app.sweeps.questions import Question
+    from app.sweeps.spec import Range, Samples, Spec
+    from app.sweeps.table import Sweep
+
+_PLACES = {
+    "Question": "questions",
+    "Range": "spec",
+    "Samples": "spec",
+    "Spec": "spec",
+    "Sweep": "table",
+    "sweep": "call",
+}
+
+
+def __getattr__(name: str) -> Any:
+    """A public name, loaded when it is used."""
+    if name not in _PLACES:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    return getattr(import_module(f"{__name__}.{_PLACES[name]}"), name)

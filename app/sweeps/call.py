@@ -1,0 +1,64 @@
+"""A sweep as one call of Python."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from os import PathLike
+from pathlib import Path
+from typing import Any
+
+from app.extras import require
+from app.sweeps.engines import Engine
+from app.sweeps.processes import Processes
+from app.sweeps.questions import Question
+from app.sweeps.run import Progress, run
+from app.sweeps.spec import Range, Samples, Spec
+from app.sweeps.table import Sweep
+
+
+def sweep(
+    question: str | Question,
+    over: Mapping[str, Any],
+    folder: str | PathLike[str],
+    *,
+    request: Mapping[str, Any] | None = None,
+    samples: Samples | None = None,
+    shard_size: int | None = None,
+    dask: str | None = None,
+    progress: Callable[[Progress], None] = lambda progress: None,
+) -> Sweep:
+    """Answer a question for every design, into a folder; the same call again goes on where it stopped.
+
+    question: an operation id such as "collision_time", or a Question of one's own
+    over: parameters that vary, by dotted names: a list or array of values, or a Range; all combinations are designs
+    request: the other parameters, else their defaults; samples: how ranges without a count are sampled
+    shard_size: designs in one file, else about 5 s of work; dask: address of a scheduler, or "local"
+    raises: InvalidValue, TooLarge, MissingPackage, OSError
+    """
+    own = question if isinstance(question, Question) else None
+    told = {
+        "question": own.name if own else question,
+        "over": {name: _axis(values) for name, values in over.items()},
+        "request": dict(request or {}),
+        "samples": None if samples is None else samples.model_dump(),
+        "shard_size": shard_size,
+    }
+    spec, place = Spec.of(told, own), Path(folder)
+    run(spec, place, question=own or spec.asks, engine=engine_of(dask), progress=progress)
+    return Sweep(place, spec)
+
+
+def engine_of(dask: str | None, workers: int | None = None) -> Callable[[], Engine]:
+    """What makes the engine: processes of this machine, or a Dask cluster. raises: MissingPackage"""
+    if dask is None:
+        return lambda: Processes(workers)
+    require("dask", "dask", "Dask")
+    from app.sweeps.cluster import Cluster
+
+    return lambda: Cluster(dask, workers)
+
+
+def _axis(values: Any) -> Any:
+    if isinstance(values, Range):
+        return values.model_dump()
+    return values.tolist() if hasattr(values, "tolist") else list(values)

@@ -1,0 +1,159 @@
+"""The engine across machines: a Dask cluster that is there already, or one of this machine.
+
+Workers need bench-dragon of the same version; they share no folder, as their answers travel to the client, which
+writes them. Whatever is lost on the way, with a worker, a future or the scheduler, is asked again.
+"""
+
+from __future__ import annotations
+
+import logging
+import queue
+import time
+from concurrent.futures import CancelledError
+from contextlib import suppress
+
+from distributed import Client, Future, KilledWorker, LocalCluster
+
+from app.sweeps.engines import Done, NoAnswer, arrived, attempt
+from app.sweeps.shards import Piece
+from core import BenchDragonError
+
+# The word for a cluster of this machine, in place of an address.
+LOCAL = "local"
+# A scheduler that is gone is waited for so long, and tried so often [s].
+PATIENCE, AGAIN = 600.0, 1.0
+# So many failures in a row, with no answer between them and a scheduler there, end a run.
+FAILURES = 8
+# What a connection, an answer on its way, and the look at lost futures may take [s].
+CONNECT, ANSWER, LOOK = 10.0, 60.0, 2.0
+
+
+class NoScheduler(BenchDragonError):
+    """Nobody answers at the address of the cluster."""
+
+    code = "no-scheduler"
+
+
+def _local(workers: int | None) -> LocalCluster:
+    """A cluster of this machine. A piece whose worker died is not tried there again: processes of its own follow."""
+    return LocalCluster(
+        n_workers=workers,
+        threads_per_worker=1,
+        processes=True,
+        dashboard_address=None,
+        silence_logs=logging.ERROR,
+        scheduler_kwargs={"allowed_failures": 0},
+    )
+
+
+class Cluster:
+    """A Dask cluster."""
+
+    alone = False
+
+    def __init__(self, address: str, workers: int | None = None, patience: float = PATIENCE) -> None:
+        """address: of the scheduler, or LOCAL; workers: of a local cluster, else one for each core
+        patience: how long a scheduler that is gone is waited for [s]. raises: NoScheduler"""
+        self._own = _local(workers) if address == LOCAL else None
+        self._address = self._own.scheduler_address if self._own else address
+        self._patience = patience
+        self._finished: queue.SimpleQueue[Future[tuple[bytes | None, str]]] = queue.SimpleQueue()
+        self._out: dict[Future[tuple[bytes | None, str]], Piece] = {}
+        self._lost: list[Piece] = []
+        self._looked, self._workers, self._failures = 0.0, 1, 0
+        self._client = self._connected(0.0)
+
+    @property
+    def workers(self) -> int:
+        """Threads of all workers, as of the last look."""
+        return self._workers
+
+    def submit(self, piece: Piece) -> None:
+        """Hand it to the cluster, now or once there is one again."""
+        # Not "pure": a future that was cancelled would be found again by its key.
+        try:
+            future = self._client.submit(attempt, piece, pure=False)
+        except Exception as error:
+            self._failed(piece, error)
+            return
+        self._out[future] = piece
+        future.add_done_callback(self._finished.put)
+
+    def wait(self, seconds: float) -> list[Done]:
+        """What was done since the last call. raises: NoScheduler, NoAnswer"""
+        done: list[Done] = []
+        with suppress(queue.Empty):
+            done += self._heard(self._finished.get(timeout=seconds))
+            while True:
+                done += self._heard(self._finished.get_nowait())
+        if time.monotonic() - self._looked > LOOK:
+            self._look()
+        return done
+
+    def close(self) -> None:
+        """Let go of the cluster, and end a local one."""
+        for future in self._out:
+            with suppress(Exception):
+                future.cancel()
+        with suppress(Exception):
+            self._client.close(timeout=CONNECT)
+        if self._own:
+            self._own.close()
+
+    def _heard(self, future: Future[tuple[bytes | None, str]]) -> list[Done]:
+        piece = self._out.pop(future, None)
+        if piece is None:
+            return []
+        try:
+            attempted = future.result(timeout=ANSWER)
+        except KilledWorker:
+            return [Done(piece, None)]
+        except (CancelledError, OSError, TimeoutError):
+            self._lost.append(piece)
+        except Exception as error:
+            self._failed(piece, error)
+        else:
+            self._failures = 0
+            return [arrived(piece, attempted)]
+        return []
+
+    def _failed(self, piece: Piece, error: Exception) -> None:
+        """Ask again: a cluster that breaks just now raises all kinds of errors. raises: NoAnswer after many in a row"""
+        self._failures += 1
+        if self._failures >= FAILURES and self._client.status == "running":
+            words = f"workers of {self._address} cannot answer: {type(error).__name__}: {error}"
+            raise NoAnswer("workers", words) from error
+        self._lost.append(piece)
+
+    def _look(self) -> None:
+        """Connect again where that is needed, and ask again for what is lost."""
+        self._looked = time.monotonic()
+        if self._client.status not in ("running", "connecting"):
+            self._lost += self._out.values()
+            self._out.clear()
+            with suppress(Exception):
+                self._client.close(timeout=CONNECT)
+            self._client = self._connected(self._patience)
+        if self._client.status != "running":
+            return
+        for future in [future for future in self._out if future.status in ("cancelled", "lost")]:
+            self._lost.append(self._out.pop(future))
+        lost, self._lost = self._lost, []
+        for piece in lost:
+            self.submit(piece)
+        with suppress(Exception):
+            self._workers = max(sum(self._client.nthreads().values()), 1)
+
+    def _connected(self, patience: float) -> Client:
+        """A client of the scheduler, waited for. raises: NoScheduler"""
+        until = time.monotonic() + patience
+        while True:
+            try:
+                client = Client(self._address, timeout=CONNECT, set_as_default=False)
+                self._workers = max(sum(client.nthreads().values()), 1)
+                return client
+            except (OSError, TimeoutError, ValueError) as error:
+                if time.monotonic() >= until:
+                    words = "start one there, or name another, and run the sweep again: it goes on"
+                    raise NoScheduler("dask", f"no Dask scheduler answers at {self._address}: {words}") from error
+                time.sleep(AGAIN)

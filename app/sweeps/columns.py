@@ -1,0 +1,84 @@
+"""The columns of a table of answers, known from the answer's model before any answer is.
+
+So each part of a sweep has the same columns of the same types, also one in which every design failed.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from enum import Enum
+from types import NoneType, UnionType
+from typing import Any, Literal, Union, get_args, get_origin
+
+import orjson
+import pyarrow as pa
+from pydantic import BaseModel
+
+TYPES = {bool: pa.bool_(), int: pa.int64(), float: pa.float64(), str: pa.string()}
+
+
+@dataclass(frozen=True, slots=True)
+class Column:
+    """One column.
+
+    name: dotted place in the answer; steps: the names and indices that lead there; kind: bool, int, float or str
+    as_json: what lies there is a list or an object, and the column has its JSON
+    """
+
+    name: str
+    steps: tuple[str | int, ...]
+    kind: type
+    as_json: bool = False
+
+    @property
+    def field(self) -> pa.Field:
+        """Name and type in Arrow."""
+        return pa.field(self.name, TYPES[self.kind])
+
+    def value(self, answer: Any) -> Any:
+        """What an answer has there; None where it has nothing."""
+        for step in self.steps:
+            if answer is None:
+                return None
+            answer = answer[step] if isinstance(step, int) else getattr(answer, step)
+        if self.as_json:
+            return orjson.dumps(answer, default=_dumped).decode()
+        return answer
+
+
+def _dumped(value: Any) -> Any:
+    return value.model_dump(mode="json")
+
+
+def answer_columns(model: type[BaseModel], left_out: frozenset[str] = frozenset()) -> list[Column]:
+    """Every number, word and yes or no of an answer, those of inner objects and of pairs by dotted names; what is a
+    list of any length as JSON."""
+    return [column for column in _columns_of(model, ()) if column.name not in left_out]
+
+
+def _columns_of(kind: Any, steps: tuple[str | int, ...]) -> Iterator[Column]:
+    name = ".".join(map(str, steps))
+    options = [one for one in get_args(kind) if one is not NoneType]
+    if get_origin(kind) in (Union, UnionType) and len(options) == 1:
+        yield from _columns_of(options[0], steps)
+    elif isinstance(kind, type) and issubclass(kind, BaseModel):
+        for inner, field in kind.model_fields.items():
+            yield from _columns_of(field.annotation, (*steps, inner))
+    elif get_origin(kind) is tuple and Ellipsis not in options:
+        for k, option in enumerate(get_args(kind)):
+            yield from _columns_of(option, (*steps, k))
+    elif get_origin(kind) is Literal or (isinstance(kind, type) and issubclass(kind, Enum)):
+        yield Column(name, steps, str)
+    elif kind in TYPES:
+        yield Column(name, steps, kind)
+    else:
+        yield Column(name, steps, str, as_json=True)
+
+
+def value_type(values: Sequence[Any]) -> type:
+    """The type of a column of values given: bool, int, float or str; str is also for what is kept as JSON."""
+    kinds = {type(value) for value in values}
+    if kinds == {int, float}:
+        return float
+    return kinds.pop() if len(kinds) == 1 and kinds <= TYPES.keys() else str

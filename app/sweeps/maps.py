@@ -1,0 +1,94 @@
+"""Maps of a sweep: a value against one parameter or two."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from app.files.drawing import BLUE, GREY, canvas
+from app.sweeps.spec import Range
+from app.sweeps.summary import numbers_of
+from app.sweeps.table import Sweep
+from core import InvalidValue
+from core.values import Floats
+
+WIDTH, HEIGHT = 7.5, 5.5  # [inch]
+LEVELS = 10
+# Fewer points than this have no contours.
+CONTOUR_MIN = 3
+# Dots of sampled designs are this large [points^2].
+DOT = 9.0
+
+
+def value_map(sweep: Sweep, value: str) -> Figure:
+    """A value against the parameters: a line or dots for one, a heat map with contours for two.
+
+    A design without the value is left blank.
+    raises: InvalidValue where there is no row, no such column of numbers, or more than two parameters
+    """
+    spec, names = sweep.spec, list(sweep.spec.over)
+    if len(names) > 2:
+        raise InvalidValue("output", f"a map has one or two parameters, and this sweep has {len(names)}")
+    table = sweep.table(["design", *names, value])
+    numbers = numbers_of(sweep, table, value)
+    places = [numbers_of(sweep, table, name) for name in names]
+    figure = canvas(WIDTH, HEIGHT)
+    axes = figure.add_subplot()
+    if len(names) == 1:
+        order = np.argsort(places[0], kind="stable")
+        axes.plot(
+            places[0][order], numbers[order], "." if spec.sampled else ".-", color=BLUE, markersize=3, linewidth=1
+        )
+        axes.set_ylabel(value)
+    else:
+        gridded = not spec.sampled
+        draw = _draw_grid if gridded else _draw_samples
+        mesh = draw(sweep, axes, table["design"].to_numpy(), places, numbers)
+        figure.colorbar(mesh, ax=axes, label=value)
+        axes.set_ylabel(names[1])
+        _scale(axes.set_yscale, spec.over[names[1]])
+    axes.set_xlabel(names[0])
+    _scale(axes.set_xscale, spec.over[names[0]])
+    axes.set_title(f"{value} of {spec.question}", fontsize=11)
+    return figure
+
+
+def _scale(setter: Any, axis: Range | list[Any]) -> None:
+    if isinstance(axis, Range) and axis.scale == "log":
+        setter("log")
+
+
+def _draw_grid(sweep: Sweep, axes: Axes, design: Any, places: list[Floats], numbers: Floats) -> Any:
+    columns, rows = sweep.spec.counts.values()
+    grid = np.full((columns, rows), np.nan)
+    grid.flat[design] = numbers
+    x, y = (_axis_values(axis) for axis in sweep.spec.over.values())
+    by_x, by_y = np.argsort(x), np.argsort(y)
+    x, y, grid = x[by_x], y[by_y], grid[np.ix_(by_x, by_y)].T
+    mesh = axes.pcolormesh(x, y, grid, cmap="cividis", shading="nearest", rasterized=True)
+    if min(grid.shape) >= CONTOUR_MIN and _varies(numbers):
+        lines = axes.contour(x, y, np.ma.masked_invalid(grid), LEVELS, colors="white", linewidths=0.6)
+        axes.clabel(lines, fontsize=7)
+    return mesh
+
+
+def _draw_samples(sweep: Sweep, axes: Axes, design: Any, places: list[Floats], numbers: Floats) -> Any:
+    known = np.isfinite(numbers)
+    x, y = (place[known] for place in places)
+    axes.plot(*(place[~known] for place in places), "x", color=GREY, markersize=3)
+    # Contours between samples need triangles with an area.
+    if len(sweep.spec.sampled) == 2 and known.sum() >= CONTOUR_MIN and _varies(numbers):
+        axes.tricontour(x, y, numbers[known], LEVELS, colors=GREY, linewidths=0.6)
+    return axes.scatter(x, y, c=numbers[known], s=DOT, cmap="cividis")
+
+
+def _varies(numbers: Floats) -> bool:
+    known = numbers[np.isfinite(numbers)]
+    return known.size > 0 and bool(known.min() < known.max())
+
+
+def _axis_values(axis: Range | list[Any]) -> Floats:
+    return np.array(axis.grid() if isinstance(axis, Range) else axis, dtype=np.float64)

@@ -1,0 +1,153 @@
+"""The embedded engine: processes of this machine, each with one piece at a time."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import pickle
+import queue
+import subprocess
+import sys
+import threading
+from collections import deque
+from typing import Any, cast
+
+from app.sweeps.engines import Done, arrived
+from app.sweeps.shards import Piece
+from app.sweeps.worker import receive, send
+from core import BenchDragonError
+
+# What is heard of a process that is no more.
+GONE = object()
+# So many processes in a row may end before they are ready.
+STARTS = 5
+# A process that was told to leave is given so long [s].
+PATIENCE = 5.0
+
+
+def usable_cores() -> int:
+    """Number of cores that this process may run on; those of the machine where the system has no such limit."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+
+
+class CannotStart(BenchDragonError):
+    """The processes of a sweep end before they answer anything."""
+
+    code = "cannot-start"
+
+
+class _Worker:
+    """One process, and the thread that listens to it."""
+
+    def __init__(self, events: queue.SimpleQueue[tuple[_Worker, Any]]) -> None:
+        self.piece: Piece | None = None
+        self.ready = False
+        self._events = events
+        # In a session of its own, so that Ctrl-C stops the sweep and does not interrupt the workers one by one.
+        self._process = subprocess.Popen(
+            [sys.executable, "-P", "-m", "app.sweeps.worker"],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            start_new_session=True,
+            env={**os.environ, "PYTHONPATH": os.pathsep.join(place or os.getcwd() for place in sys.path)},
+        )
+        threading.Thread(target=self._listen, daemon=True).start()
+
+    @property
+    def pid(self) -> int:
+        """Number of the process."""
+        return self._process.pid
+
+    def give(self, piece: Piece) -> None:
+        """Hand it a piece; whether it lives to answer it is heard from the thread."""
+        self.piece = piece
+        with contextlib.suppress(OSError):
+            send(cast(Any, self._process.stdin), piece)
+
+    def _listen(self) -> None:
+        while True:
+            try:
+                answer = pickle.loads(receive(cast(Any, self._process.stdout)))
+            except (EOFError, OSError, ValueError):
+                self._events.put((self, GONE))
+                return
+            self._events.put((self, answer))
+
+    def leave(self) -> None:
+        """End the process and wait for it."""
+        self._process.kill()
+        self._process.wait(PATIENCE)
+        for stream in (self._process.stdin, self._process.stdout):
+            # A pipe that nobody reads any more cannot be flushed.
+            with contextlib.suppress(OSError):
+                cast(Any, stream).close()
+
+
+class Processes:
+    """So many processes; one that dies is followed by another."""
+
+    alone = True
+
+    def __init__(self, workers: int | None = None) -> None:
+        self._events: queue.SimpleQueue[tuple[_Worker, Any]] = queue.SimpleQueue()
+        self._waiting: deque[Piece] = deque()
+        self._idle: list[_Worker] = []
+        self._all = {_Worker(self._events) for _ in range(workers or usable_cores())}
+        self._failed_starts = 0
+
+    @property
+    def workers(self) -> int:
+        """Number of processes."""
+        return len(self._all)
+
+    @property
+    def pids(self) -> list[int]:
+        """Their numbers."""
+        return [worker.pid for worker in self._all]
+
+    def submit(self, piece: Piece) -> None:
+        """Take a piece, now or when a process is idle."""
+        self._waiting.append(piece)
+        self._hand_out()
+
+    def wait(self, seconds: float) -> list[Done]:
+        """What was done since the last call. raises: CannotStart, NoAnswer"""
+        done: list[Done] = []
+        with contextlib.suppress(queue.Empty):
+            done += self._heard(*self._events.get(timeout=seconds))
+            while True:
+                done += self._heard(*self._events.get_nowait())
+        self._hand_out()
+        return done
+
+    def close(self) -> None:
+        """End all processes."""
+        self._waiting.clear()
+        for worker in self._all:
+            worker.leave()
+
+    def _hand_out(self) -> None:
+        while self._waiting and self._idle:
+            self._idle.pop().give(self._waiting.popleft())
+
+    def _heard(self, worker: _Worker, answer: Any) -> list[Done]:
+        piece, worker.piece = worker.piece, None
+        if answer is GONE:
+            self._replace(worker)
+            return [Done(piece, None)] if piece else []
+        self._idle.append(worker)
+        if not worker.ready:
+            worker.ready, self._failed_starts = True, 0
+            return []
+        assert piece is not None
+        return [arrived(piece, answer)]
+
+    def _replace(self, worker: _Worker) -> None:
+        worker.leave()
+        self._all.discard(worker)
+        if worker in self._idle:
+            self._idle.remove(worker)
+        self._failed_starts += not worker.ready
+        if self._failed_starts >= STARTS:
+            raise CannotStart("workers", f"{STARTS} processes in a row ended before they were ready")
+        self._all.add(_Worker(self._events))

@@ -1,0 +1,185 @@
+"""Run a sweep into a folder: submit the shards whose files are missing, write each as it comes.
+
+A folder has the spec in sweep.json and one Parquet file for each shard. Nothing else is remembered, so a run that was
+stopped, or killed, goes on by being run again.
+"""
+
+from __future__ import annotations
+
+import time
+from collections import deque
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
+from datetime import timedelta
+from pathlib import Path
+
+from app.sweeps import shards
+from app.sweeps.engines import WINDOW, Engine
+from app.sweeps.processes import Processes
+from app.sweeps.questions import Question
+from app.sweeps.shards import Piece
+from app.sweeps.spec import Spec
+from core import InvalidValue
+
+SPEC_FILE = "sweep.json"
+TABLE_FILE = "sweep.parquet"
+# Between two reports of the progress, when nothing is done [s].
+TICK = 0.5
+# A single design is taken for the cause once so many processes died of it: any of them may have been killed by hand.
+DEATHS = 3
+
+
+@dataclass(frozen=True, slots=True)
+class Progress:
+    """How far a run is.
+
+    designs: answered; total: of the sweep; rate: designs per second in this run, 0 before the first
+    left: time that the others take at that rate [s]
+    """
+
+    designs: int
+    total: int
+    rate: float
+    left: float | None
+
+    @property
+    def words(self) -> str:
+        """Designs, rate and time left, in words."""
+        left = "" if self.left is None else f", {timedelta(seconds=round(self.left))} left"
+        return f"{self.designs} of {self.total}, {self.rate:.0f}/s{left}"
+
+
+@dataclass(slots=True)
+class _Shard:
+    """A shard under way: answers of its pieces by where they start, and what is still out."""
+
+    out: int = 1
+    rows: dict[int, bytes] = field(default_factory=dict)
+
+
+class _Run:
+    """The shards that are missing, and those under way."""
+
+    def __init__(self, folder: Path, spec: Spec, question: Question, missing: Iterator[int], total: int) -> None:
+        self.folder, self.spec, self.question, self.missing = folder, spec, question, missing
+        self.ready: deque[Piece] = deque()
+        self.aside: list[Piece] = []
+        self.under_way: dict[int, _Shard] = {}
+        self.deaths: dict[int, int] = {}
+        self.begun = time.monotonic()
+        self.answered_here, self.designs, self.total = 0, total, spec.designs
+
+    def next_piece(self) -> Piece | None:
+        """What to submit next: the rest of shards under way before new ones."""
+        if self.ready:
+            return self.ready.popleft()
+        shard = next(self.missing, None)
+        if shard is None:
+            return None
+        self.under_way[shard] = _Shard()
+        return Piece.whole(self.spec, self.question, shard)
+
+    def take(self, piece: Piece, rows: bytes) -> None:
+        """Rows of a piece; with the last of its shard the file is written."""
+        shard = self.under_way[piece.shard]
+        shard.rows[piece.start] = rows
+        shard.out -= 1
+        self.designs += piece.stop - piece.start
+        self.answered_here += piece.stop - piece.start
+        if not shard.out:
+            pieces = [rows for _, rows in sorted(shard.rows.items())]
+            shards.write_part(self.folder, self.spec, piece.shard, pieces)
+            del self.under_way[piece.shard]
+
+    def died(self, piece: Piece, alone: bool) -> None:
+        """The process that had a piece is no more: the design that killed it, if one did, is found by halving."""
+        if not alone:
+            self.aside.append(piece)
+        elif piece.stop - piece.start > 1:
+            self.under_way[piece.shard].out += 1
+            self.ready.extendleft(reversed(piece.halves()))
+        else:
+            self.deaths[piece.start] = self.deaths.get(piece.start, 0) + 1
+            if self.deaths[piece.start] < DEATHS:
+                self.ready.appendleft(piece)
+            else:
+                self.take(piece, piece.killed())
+
+    def progress(self) -> Progress:
+        """How far it is."""
+        rate = self.answered_here / max(time.monotonic() - self.begun, 1e-9)
+        return Progress(self.designs, self.total, rate, (self.total - self.designs) / rate if rate else None)
+
+    def through(self, engine: Engine, report: Callable[[Progress], None]) -> None:
+        """Answer everything that an engine can, and close it."""
+        out = 0
+        try:
+            while True:
+                room = WINDOW * engine.workers - out
+                while room > 0 and (piece := self.next_piece()) is not None:
+                    engine.submit(piece)
+                    out, room = out + 1, room - 1
+                report(self.progress())
+                if not out:
+                    return
+                for done in engine.wait(TICK):
+                    out -= 1
+                    if done.rows is None:
+                        self.died(done.piece, engine.alone)
+                    else:
+                        self.take(done.piece, done.rows)
+        finally:
+            engine.close()
+
+
+def begin(folder: Path, spec: Spec) -> None:
+    """Make the folder of a sweep, or find that it is of this one. raises: InvalidValue, OSError"""
+    folder.mkdir(parents=True, exist_ok=True)
+    kept = folder / SPEC_FILE
+    if not kept.exists():
+        if any(not file.name.startswith(shards.TEMPORARY) for file in folder.iterdir()):
+            raise InvalidValue("output", f"{folder} has files already and is no sweep: name an empty or a new folder")
+        shards.write_durably(kept, spec.canonical())
+    elif kept.read_bytes() != spec.canonical():
+        raise InvalidValue(
+            "output",
+            f"{folder} has another sweep, or one of another version, as {SPEC_FILE} says: name a new folder",
+        )
+
+
+def missing_shards(folder: Path, spec: Spec) -> list[int]:
+    """The shards that have no file yet."""
+    if (folder / TABLE_FILE).exists():
+        return []
+    there = shards.parts(folder)
+    return [shard for shard in range(spec.shards) if shard not in there]
+
+
+def run(
+    spec: Spec,
+    folder: Path,
+    *,
+    question: Question,
+    engine: Callable[[], Engine] = Processes,
+    progress: Callable[[Progress], None] = lambda progress: None,
+) -> None:
+    """Answer every design that has no row in the folder yet.
+
+    engine: makes where they are answered, and is not called when nothing is missing
+    progress: called at least every TICK
+    raises: InvalidValue, OSError, and what the engine raises; KeyboardInterrupt leaves a folder that goes on
+    """
+    begin(folder, spec)
+    missing = missing_shards(folder, spec)
+    if not missing:
+        return
+    answered = spec.designs - sum(stop - start for start, stop in map(spec.shard, missing))
+    running = _Run(folder, spec, question, iter(missing), answered)
+    running.through(engine(), progress)
+    if running.aside:
+        # Whoever shares a process with others may be blamed for them, so these are answered alone.
+        running.ready.extend(running.aside)
+        running.aside.clear()
+        running.through(Processes(), progress)
+    for left in folder.glob(f"{shards.TEMPORARY}*"):
+        left.unlink(missing_ok=True)

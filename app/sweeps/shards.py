@@ -1,0 +1,193 @@
+"""Shards: a stretch of designs answered, and the files that a folder keeps of them."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import re
+import tempfile
+from collections.abc import Iterable
+from dataclasses import dataclass
+from functools import lru_cache
+from pathlib import Path
+from typing import Any
+
+import orjson
+import pyarrow as pa
+import pyarrow.parquet as pq
+from pydantic import BaseModel
+
+import core
+from app.sweeps.columns import TYPES, Column, answer_columns, value_type
+from app.sweeps.designs import designs
+from app.sweeps.questions import Question, refusal
+from app.sweeps.spec import Range, Spec, placed
+from core import BenchDragonError, InvalidValue
+
+PART = re.compile(r"part-(\d{6})\.parquet")
+TEMPORARY = ".part-"
+# Code of the error of a design whose process died each time.
+KILLED = "killed"
+KILLED_MESSAGE = "the process that answered this design died, each time"
+
+
+class OtherVersion(BenchDragonError):
+    """A worker runs another version than the one that the sweep was begun with."""
+
+    code = "other-version"
+
+
+@dataclass(frozen=True, slots=True)
+class Piece:
+    """Designs from `start` to before `stop` of one shard of a sweep: what an engine is given."""
+
+    spec: Spec
+    question: Question
+    version: str
+    shard: int
+    start: int
+    stop: int
+
+    @classmethod
+    def whole(cls, spec: Spec, question: Question, shard: int) -> Piece:
+        """A whole shard."""
+        return cls(spec, question, core.__version__, shard, *spec.shard(shard))
+
+    def halves(self) -> tuple[Piece, Piece]:
+        """The two halves of more than one design."""
+        middle = (self.start + self.stop) // 2
+        own = (self.spec, self.question, self.version, self.shard)
+        return Piece(*own, self.start, middle), Piece(*own, middle, self.stop)
+
+    def answered(self) -> bytes:
+        """The rows of all designs, as an Arrow stream: a design that is refused, or fails, is a row with its error.
+
+        raises: OtherVersion
+        """
+        if core.__version__ != self.version:
+            words = f"must be {self.version} on every worker, as where the sweep was begun, got {core.__version__}"
+            raise OtherVersion("bench-dragon", f"bench-dragon {words}")
+        question, request = self.question, self.spec.request
+        columns, asked = kept_columns(self.spec, question), designs(self.spec, self.start, self.stop)
+        nothing = (None,) * len(columns)
+        rows: list[tuple[Any, ...]] = []
+        for values in zip(*asked.values(), strict=True):
+            try:
+                answer = question.answered(placed(request, dict(zip(asked, values, strict=True))))
+                rows.append((None, None, *(column.value(answer) for column in columns)))
+            except Exception as error:
+                rows.append((*refusal(error), *nothing))
+        return _stream(_table(self, asked, rows, columns))
+
+    def killed(self) -> bytes:
+        """The row of a single design whose process died."""
+        columns = kept_columns(self.spec, self.question)
+        asked = designs(self.spec, self.start, self.stop)
+        return _stream(_table(self, asked, [(KILLED, KILLED_MESSAGE, *(None,) * len(columns))], columns))
+
+
+@lru_cache(maxsize=16)
+def _all_columns(answer: type[BaseModel], left_out: frozenset[str]) -> tuple[Column, ...]:
+    return tuple(answer_columns(answer, left_out))
+
+
+def kept_columns(spec: Spec, question: Question) -> list[Column]:
+    """The columns of the answer, but for those that repeat a parameter of the sweep."""
+    return [column for column in _all_columns(question.answer, question.left_out) if column.name not in spec.over]
+
+
+def _table(piece: Piece, asked: dict[str, list[Any]], rows: list[tuple[Any, ...]], columns: list[Column]) -> pa.Table:
+    """rows: code and message of the error, then a value for each column"""
+    fields = [pa.field("error.code", pa.string()), pa.field("error.message", pa.string())]
+    fields += [column.field for column in columns]
+    arrays = {
+        "design": pa.array(range(piece.start, piece.stop), pa.int64()),
+        **{name: _parameter(piece.spec, name, values) for name, values in asked.items()},
+    }
+    for field, values in zip(fields, zip(*rows, strict=True), strict=True):
+        arrays[field.name] = pa.array(values, field.type)
+    return pa.table(arrays)
+
+
+def _parameter(spec: Spec, name: str, values: list[Any]) -> pa.Array:
+    """The values of a parameter, in the type of all its values in the sweep; of several types, as JSON."""
+    axis = spec.over[name]
+    if isinstance(axis, Range):
+        return pa.array(values, pa.float64())
+    kind = value_type(axis)
+    if kind is str and not all(isinstance(value, str) for value in axis):
+        values = [orjson.dumps(value).decode() for value in values]
+    return pa.array(values, TYPES[kind])
+
+
+def _stream(table: pa.Table) -> bytes:
+    sink = pa.BufferOutputStream()
+    with pa.ipc.new_stream(sink, table.schema) as writer:
+        writer.write_table(table)
+    return bytes(sink.getvalue())
+
+
+def part_name(shard: int) -> str:
+    """Name of the file of a shard."""
+    return f"part-{shard:06d}.parquet"
+
+
+def write_part(folder: Path, spec: Spec, shard: int, pieces: Iterable[bytes]) -> None:
+    """The file of a shard from its pieces in order, the same bytes whatever the pieces were.
+
+    raises: OSError
+    """
+    tables = [pa.ipc.open_stream(piece).read_all() for piece in pieces]
+    table = pa.concat_tables(tables).combine_chunks()
+    marked = table.replace_schema_metadata({"bench-dragon sweep": spec.name, "bench-dragon shard": str(shard)})
+    sink = pa.BufferOutputStream()
+    pq.write_table(marked, sink, compression="zstd")
+    write_durably(folder / part_name(shard), bytes(sink.getvalue()))
+
+
+def write_durably(file: Path, data: bytes) -> None:
+    """The file with these bytes, there whole or not at all, and there for good once this returns."""
+    handle, name = tempfile.mkstemp(prefix=TEMPORARY, dir=file.parent)
+    try:
+        with os.fdopen(handle, "wb") as sink:
+            sink.write(data)
+            sink.flush()
+            os.fsync(sink.fileno())
+        keep(Path(name), file)
+    except BaseException:
+        with contextlib.suppress(FileNotFoundError):
+            os.unlink(name)
+        raise
+
+
+def keep(temporary: Path, file: Path) -> None:
+    """Give a written file its name, for good."""
+    mask = os.umask(0)
+    os.umask(mask)
+    temporary.chmod(0o666 & ~mask)
+    os.replace(temporary, file)
+    if hasattr(os, "O_DIRECTORY"):  # Windows has no folder to flush.
+        folder = os.open(file.parent, os.O_DIRECTORY)
+        try:
+            os.fsync(folder)
+        finally:
+            os.close(folder)
+
+
+def parts(folder: Path) -> set[int]:
+    """The shards whose files are in a folder."""
+    found = (PART.fullmatch(name) for name in os.listdir(folder))
+    return {int(one[1]) for one in found if one}
+
+
+def checked_part(folder: Path, spec: Spec, shard: int) -> pq.ParquetFile:
+    """The file of a shard. raises: InvalidValue for one of another sweep or no whole one"""
+    file = folder / part_name(shard)
+    try:
+        opened = pq.ParquetFile(file)
+    except (pa.ArrowInvalid, OSError) as error:
+        raise InvalidValue("folder", f"{file} is no part of a sweep: remove it and run the sweep again") from error
+    if (opened.schema_arrow.metadata or {}).get(b"bench-dragon sweep") != spec.name.encode():
+        opened.close()
+        raise InvalidValue("folder", f"{file} is of another sweep: remove it and run the sweep again")
+    return opened

@@ -1,0 +1,218 @@
+"""What a sweep asks: one question over some of its parameters, the same on every machine.
+
+A spec never changes. Its canonical bytes name it, and a shard is known by that name and its index.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import math
+import tomllib
+from pathlib import Path
+from typing import Annotated, Any, Literal, Self
+
+import orjson
+from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
+
+import core
+from app.sweeps.questions import Question, question_of
+from app.wire.messages import checked
+from core import InvalidValue, TooLarge
+
+DESIGNS_MAX = 10**8
+SHARDS_MAX = 10**6
+# What a shard should take [s], and most designs in one. A small sweep has about so many shards all the same, for
+# all cores.
+SHARD_SECONDS = 5.0
+SHARD_MAX = 100_000
+SHARDS_SMALL = 64
+VALUES_MAX = 100_000
+# Dimensions for which scipy knows Sobol points.
+SOBOL_DIMENSIONS = 21_201
+# The first columns of every table.
+OWN_COLUMNS = ("design", "error.code", "error.message")
+
+Parameter = Annotated[str, Field(min_length=1, max_length=200)]
+
+
+class _Told(BaseModel):
+    model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
+
+
+class Range(_Told):
+    """Values from `start` to `stop`: `count` of them evenly spaced, both ends included, or samples if count is null."""
+
+    start: float = Field(description="First value")
+    stop: float = Field(description="Last value")
+    count: int | None = Field(None, ge=2, le=DESIGNS_MAX, description="How many; null: sampled")
+    scale: Literal["linear", "log"] = Field("linear", description="Evenly spaced values, or their logarithms")
+
+    @model_validator(mode="after")
+    def _has_logarithms(self) -> Self:
+        if self.scale == "log" and not (self.start > 0.0 and self.stop > 0.0):
+            raise ValueError("start and stop must be positive on a log scale")
+        return self
+
+    def at(self, share: float) -> float:
+        """The value at a share of the way: start at 0, stop at 1."""
+        if share in (0.0, 1.0):
+            return self.stop if share else self.start
+        if self.scale == "log":
+            return self.start * math.pow(self.stop / self.start, share)
+        return self.start + (self.stop - self.start) * share
+
+    def grid(self) -> list[float]:
+        """All `count` values."""
+        assert self.count is not None
+        return [self.at(k / (self.count - 1)) for k in range(self.count)]
+
+
+class Samples(_Told):
+    """How sampled ranges are sampled, together: point k is known from k alone."""
+
+    count: int = Field(ge=1, le=DESIGNS_MAX, description="Number of samples")
+    sequence: Literal["sobol", "philox"] = Field(
+        "sobol", description="sobol: spread evenly; philox: independent random ones"
+    )
+    seed: int = Field(0, ge=0, lt=2**63, description="Of philox")
+
+
+Axis = Range | Annotated[list[Any], Field(min_length=1, max_length=VALUES_MAX)]
+
+
+class Spec(_Told):
+    """One question over some of its parameters.
+
+    The designs are all combinations of the lists and evenly spaced ranges, for each sample of the sampled ranges in
+    turn; the last parameter runs fastest.
+    """
+
+    question: str = Field(description="The operation id")
+    over: dict[Parameter, Axis] = Field(
+        min_length=1, description="Parameters that vary, by dotted names, and over what"
+    )
+    request: dict[str, Any] = Field(default_factory=dict, description="The other parameters; else their defaults")
+    samples: Samples | None = Field(None, description="How sampled ranges are sampled")
+    shard_size: int | None = Field(None, ge=1, le=SHARD_MAX, description="Designs in a shard; null: about 5 s of work")
+
+    @classmethod
+    def of(cls, told: Any, question: Question | None = None) -> Self:
+        """A spec as JSON, TOML or Python give it, complete: the size of its shards is in it.
+
+        question: the one that its name means, if it is none of ours
+        raises: InvalidValue, TooLarge
+        """
+        spec = checked(cls, told)
+        asked = question or spec.asks
+        size = spec.shard_size or min(int(SHARD_SECONDS / asked.seconds), SHARD_MAX, -(-spec.designs // SHARDS_SMALL))
+        request = spec.request
+        # Cross-checks cost more than the answer, and a sweep has its neighbours to be compared with.
+        if "cross_check" in asked.request.model_fields and "cross_check" not in spec.over:
+            request = {"cross_check": "none"} | request
+        spec = spec.model_copy(update={"shard_size": max(size, 1), "request": request})
+        spec._check(asked)
+        return spec
+
+    @classmethod
+    def read(cls, file: Path) -> Self:
+        """The spec in a .toml or .json file. raises: InvalidValue, TooLarge, OSError"""
+        try:
+            data = file.read_bytes()
+            told = tomllib.loads(data.decode()) if file.suffix.lower() == ".toml" else orjson.loads(data)
+        except (tomllib.TOMLDecodeError, orjson.JSONDecodeError, UnicodeDecodeError) as error:
+            kind = "TOML" if file.suffix.lower() == ".toml" else "JSON"
+            raise InvalidValue("spec", f"{file} is not {kind}: {error}") from error
+        return cls.of(told)
+
+    @property
+    def asks(self) -> Question:
+        """The question that its name means, asked in the way that has its parameters. raises: InvalidValue"""
+        return question_of(self.question, [*self.over, *self.request])
+
+    @property
+    def sampled(self) -> dict[str, Range]:
+        """The sampled ranges by parameter."""
+        return {name: axis for name, axis in self.over.items() if isinstance(axis, Range) and axis.count is None}
+
+    @property
+    def counts(self) -> dict[str, int]:
+        """Number of values of each parameter that is not sampled."""
+        counts = {name: axis.count if isinstance(axis, Range) else len(axis) for name, axis in self.over.items()}
+        return {name: count for name, count in counts.items() if count is not None}
+
+    @property
+    def designs(self) -> int:
+        """Number of designs."""
+        return math.prod(self.counts.values()) * (self.samples.count if self.samples else 1)
+
+    @property
+    def shards(self) -> int:
+        """Number of shards."""
+        assert self.shard_size is not None
+        return -(-self.designs // self.shard_size)
+
+    def shard(self, index: int) -> tuple[int, int]:
+        """The designs of a shard: from the first to before the last."""
+        assert self.shard_size is not None
+        return index * self.shard_size, min((index + 1) * self.shard_size, self.designs)
+
+    def canonical(self) -> bytes:
+        """The spec as bytes, the same however it was written, with the version of the program that answers it."""
+        told = self.model_dump(mode="json") | {"version": core.__version__}
+        # The order of the parameters is the order of the designs, so it is part of the spec.
+        return orjson.dumps(told | {"over": list(told["over"].items())}, option=orjson.OPT_SORT_KEYS)
+
+    @property
+    def name(self) -> str:
+        """What tells this sweep from every other: the SHA-256 of its canonical bytes."""
+        return hashlib.sha256(self.canonical()).hexdigest()
+
+    def _check(self, question: Question) -> None:
+        if bool(self.sampled) is not bool(self.samples):
+            words = "is for ranges without a count, and there is none: leave it out, or a count"
+            if self.sampled:
+                words = f"must say how {', '.join(self.sampled)} is sampled: give samples, or the range a count"
+            raise InvalidValue("samples", f"samples {words}")
+        if len(self.sampled) > SOBOL_DIMENSIONS:
+            raise TooLarge("over", f"over must have at most {SOBOL_DIMENSIONS} sampled ranges, got {len(self.sampled)}")
+        if self.designs > DESIGNS_MAX:
+            raise TooLarge("over", f"over must make at most {DESIGNS_MAX} designs, got {self.designs}")
+        if self.shards > SHARDS_MAX:
+            least = -(-self.designs // SHARDS_MAX)
+            raise TooLarge("shard_size", f"shard_size must be at least {least} for so many designs")
+        for name in self.over:
+            if name in OWN_COLUMNS:
+                raise InvalidValue(f"over.{name}", f"over.{name} is no parameter of {self.question}")
+        self._check_names(question)
+
+    def _check_names(self, question: Question) -> None:
+        """Refuse what is wrong with every design: unknown parameters, and a base that is refused by itself.
+
+        A value of an axis that is refused is a bad design, and a row of the table.
+        """
+        first = {name: axis.start if isinstance(axis, Range) else axis[0] for name, axis in self.over.items()}
+        values = placed(self.request, first)
+        try:
+            question.request.model_validate(values)
+        except ValidationError as error:
+            for one in error.errors():
+                place = {str(part) for part in one["loc"]}
+                varied = any(set(name.split(".")) <= place for name in self.over)
+                if one["type"] == "extra_forbidden" or not varied:
+                    checked(question.request, values)
+
+
+def placed(request: dict[str, Any], values: dict[str, Any]) -> dict[str, Any]:
+    """A request with values at dotted places; the one given stays as it is.
+
+    >>> placed({"path": {"kind": "spiral"}, "margin": 0}, {"path.pitch": 0.5})
+    {'path': {'kind': 'spiral', 'pitch': 0.5}, 'margin': 0}
+    """
+    found = dict(request)
+    for name, value in values.items():
+        inner, (*outer, last) = found, name.split(".")
+        for step in outer:
+            kept = inner.get(step)
+            inner[step] = inner = dict(kept) if isinstance(kept, dict) else {}
+        inner[last] = value
+    return found

@@ -1,0 +1,165 @@
+"""The table of a sweep: all rows in the order of the designs, from the parts or from one file made of them."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import tempfile
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import orjson
+import pyarrow as pa
+import pyarrow.csv as pa_csv
+import pyarrow.parquet as pq
+
+import core
+from app.sweeps import shards
+from app.sweeps.run import SPEC_FILE, TABLE_FILE, missing_shards
+from app.sweeps.spec import Spec
+from core import InvalidValue
+from core.tables import data_frame
+
+if TYPE_CHECKING:
+    import pandas
+
+
+# Rows in a group of the one file, the least that is read at once.
+GROUP = 100_000
+
+
+@dataclass(frozen=True, slots=True)
+class Sweep:
+    """A sweep in its folder."""
+
+    folder: Path
+    spec: Spec
+
+    @classmethod
+    def open(cls, folder: Path) -> Sweep:
+        """The sweep of a folder. raises: InvalidValue where it has none, or one of another version"""
+        file = folder / SPEC_FILE
+        try:
+            told = orjson.loads(file.read_bytes())
+            version = told.pop("version")
+            spec = Spec.model_validate(told | {"over": dict(told["over"])})
+        except (OSError, ValueError, KeyError, TypeError) as error:
+            raise InvalidValue("folder", f"{folder} has no sweep: there is no {SPEC_FILE} of one in it") from error
+        if version != core.__version__:
+            words = f"must be of version {core.__version__}, which answers now, got {version}"
+            raise InvalidValue("folder", f"folder {folder} {words}: run the sweep into a new folder")
+        return cls(folder, spec)
+
+    @property
+    def missing(self) -> int:
+        """Number of shards that have no rows yet."""
+        return len(missing_shards(self.folder, self.spec))
+
+    def tables(self, columns: Sequence[str] | None = None) -> Iterator[pa.Table]:
+        """The rows there are, shard by shard; columns: only these. raises: InvalidValue"""
+        whole = self.folder / TABLE_FILE
+        if whole.exists():
+            with pq.ParquetFile(whole) as opened:
+                for group in range(opened.num_row_groups):
+                    yield opened.read_row_group(group, columns=columns)
+            return
+        for shard in sorted(shards.parts(self.folder)):
+            with shards.checked_part(self.folder, self.spec, shard) as opened:
+                yield opened.read(columns=columns)
+
+    def table(self, columns: Sequence[str] | None = None) -> pa.Table:
+        """The rows there are. raises: InvalidValue where there are none, or no such column"""
+        tables = list(self.tables(columns))
+        if not tables:
+            raise InvalidValue("folder", f"{self.folder} has no rows yet: run the sweep")
+        for name in columns or ():
+            if name not in tables[0].column_names:
+                raise InvalidValue("value", f"value must be a column of the sweep, got {name!r:.60}: {self.numbers()}")
+        return pa.concat_tables(tables)
+
+    def numbers(self) -> str:
+        """Names of the columns of numbers, for messages."""
+        schema = next(self.tables()).schema
+        kinds = (pa.types.is_floating, pa.types.is_integer)
+        return ", ".join(field.name for field in schema if any(kind(field.type) for kind in kinds))
+
+    def to_dataframe(self, columns: Sequence[str] | None = None) -> pandas.DataFrame:
+        """One row for each design that was answered.
+
+        raises: ImportError without pandas, naming the extra; InvalidValue
+        """
+        found: dict[str, Any] = {name: column.to_numpy() for name, column in _columns(self.table(columns))}
+        return data_frame("Sweep.to_dataframe()", found, {})
+
+    def compact(self) -> Path:
+        """One file of all parts, which takes their place; the same bytes whoever answered what.
+
+        raises: InvalidValue where parts are missing
+        """
+        whole = self.folder / TABLE_FILE
+        if not whole.exists():
+            self._check_complete()
+            self._write_whole(whole)
+        for shard in shards.parts(self.folder):
+            (self.folder / shards.part_name(shard)).unlink()
+        return whole
+
+    def to_csv(self, file: Path) -> None:
+        """The table as CSV, there whole or not at all. raises: InvalidValue where parts are missing; OSError"""
+        self._check_complete()
+        with _written(file) as name:
+            writer = None
+            for table in self.tables():
+                writer = writer or pa_csv.CSVWriter(name, table.schema)
+                writer.write_table(table)
+            assert writer is not None
+            writer.close()
+
+    def _check_complete(self) -> None:
+        if self.missing:
+            words = f"{self.missing} of {self.spec.shards} shards are missing"
+            raise InvalidValue("folder", f"{self.folder} is not complete, {words}: run the sweep again")
+
+    def _write_whole(self, whole: Path) -> None:
+        with _written(whole) as name:
+            writer = None
+            for table in _gathered(self.tables()):
+                plain = table.replace_schema_metadata({"bench-dragon sweep": self.spec.name})
+                writer = writer or pq.ParquetWriter(name, plain.schema, compression="zstd")
+                writer.write_table(plain)
+            assert writer is not None
+            writer.close()
+
+
+def _gathered(tables: Iterator[pa.Table]) -> Iterator[pa.Table]:
+    """The same rows in tables of at least GROUP rows, but for the last."""
+    held: list[pa.Table] = []
+    for table in tables:
+        held.append(table)
+        if sum(one.num_rows for one in held) >= GROUP:
+            yield pa.concat_tables(held).combine_chunks()
+            held = []
+    if held:
+        yield pa.concat_tables(held).combine_chunks()
+
+
+def _columns(table: pa.Table) -> Iterator[tuple[str, pa.ChunkedArray]]:
+    return zip(table.column_names, table.columns, strict=True)
+
+
+@contextlib.contextmanager
+def _written(file: Path) -> Iterator[str]:
+    """A name to write to; the file takes its own name once that is done."""
+    handle, name = tempfile.mkstemp(prefix=shards.TEMPORARY, dir=file.resolve().parent)
+    os.close(handle)
+    try:
+        yield name
+        with open(name, "rb+") as written:
+            os.fsync(written.fileno())
+        shards.keep(Path(name), file.resolve())
+    except BaseException:
+        with contextlib.suppress(FileNotFoundError):
+            os.unlink(name)
+        raise

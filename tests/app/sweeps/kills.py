@@ -1,0 +1,172 @@
+"""A sweep on a real Dask cluster whose client, workers and scheduler are killed at random, again and again.
+
+python -m tests.app.sweeps.kills [DESIGNS [KILLS [SEED]]] compares the compacted table with that of an undisturbed run.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import os
+import random
+import socket
+import subprocess
+import sys
+import tempfile
+import time
+from collections import Counter
+from pathlib import Path
+
+import orjson
+import psutil
+
+from app.sweeps.processes import Processes
+from app.sweeps.run import run
+from app.sweeps.shards import parts
+from app.sweeps.spec import Spec
+from app.sweeps.table import Sweep
+
+ROOT = Path(__file__).parents[3]
+# Between two looks at the processes, and the most that a sweep may go on without a new part [s].
+LOOK, PATIENCE = 0.1, 300.0
+SHARDS = 200
+KINDS = ["scheduler", "worker", "client"]
+DASK = (sys.executable, "-m", "dask")
+COMMAND = str(Path(sys.executable).with_name("bench-dragon"))
+
+
+class Kept:
+    """A process that is started again whenever it ended."""
+
+    def __init__(self, log: Path, *command: str) -> None:
+        self._log, self._command = log, command
+        self.starts = 0
+        self.start()
+
+    def start(self) -> None:
+        """Start it."""
+        environment = {**os.environ, "PYTHONPATH": str(ROOT)}
+        with self._log.open("ab") as log:
+            self.process = subprocess.Popen(self._command, stdout=log, stderr=log, env=environment)
+        self.starts += 1
+
+    def keep(self) -> None:
+        """Start it again if it ended."""
+        if self.process.poll() is not None:
+            self.start()
+
+    def family(self) -> list[psutil.Process]:
+        """It and what it started."""
+        try:
+            parent = psutil.Process(self.process.pid)
+            return [parent, *parent.children(recursive=True)]
+        except psutil.NoSuchProcess:
+            return []
+
+    def end(self) -> None:
+        """Kill it with all that it started."""
+        for process in self.family():
+            process.kill()
+        self.process.wait()
+
+
+def free_port() -> int:
+    """A port that nobody listens on."""
+    with socket.socket() as free:
+        free.bind(("127.0.0.1", 0))
+        port: int = free.getsockname()[1]
+        return port
+
+
+class Cluster:
+    """A scheduler on a port of its own and two workers, kept alive."""
+
+    def __init__(self, folder: Path) -> None:
+        port = str(free_port())
+        self.address, none = f"tcp://127.0.0.1:{port}", "--no-dashboard"
+        scheduler = (*DASK, "scheduler", "--host", "127.0.0.1", "--port", port, none)
+        worker = (*DASK, "worker", self.address, "--nthreads", "1", none, "--death-timeout", "20")
+        self.scheduler = Kept(folder / "scheduler.log", *scheduler)
+        self.workers = [Kept(folder / f"worker-{k}.log", *worker, "--name", str(k)) for k in range(2)]
+
+    def keep(self) -> None:
+        """Start again what ended."""
+        for process in (self.scheduler, *self.workers):
+            process.keep()
+
+    def end(self) -> None:
+        """Kill all of it."""
+        for process in (self.scheduler, *self.workers):
+            process.end()
+
+
+def disturbed(told: dict[str, object], folder: Path, kills: int, seed: int) -> Counter[str]:
+    """Run a sweep with the command on a cluster, and kill so many processes on the way; how many of which kind.
+
+    raises: TimeoutError, with the last words of the client
+    """
+    chance, killed = random.Random(seed), Counter[str]()
+    (folder / "spec.json").write_bytes(orjson.dumps(told))
+    spec, output = Spec.of(told), folder / "out"
+    cluster = Cluster(folder)
+    sweep = ("run", str(folder / "spec.json"), "--output", str(output), "--dask", cluster.address)
+    client = Kept(folder / "client.log", COMMAND, "sweep", *sweep)
+    kinds = (KINDS * kills)[:kills]
+    chance.shuffle(kinds)
+    due = [(k + 1) * spec.shards / (kills + 1) for k in range(kills)]
+    seen, since = 0, time.monotonic()
+    try:
+        while client.process.poll() != 0:
+            client.keep()
+            cluster.keep()
+            time.sleep(LOOK)
+            there = len(parts(output)) if output.is_dir() else 0
+            if there > seen:
+                seen, since = there, time.monotonic()
+            if time.monotonic() - since > PATIENCE:
+                words = (folder / "client.log").read_text()[-2000:]
+                raise TimeoutError(f"no new part for {PATIENCE:g} s after {seen} of {spec.shards}, {killed}: {words}")
+            if due and there >= due[0]:
+                due.pop(0)
+                kind = kinds[len(due)]
+                victim = {"client": client, "scheduler": cluster.scheduler, "worker": chance.choice(cluster.workers)}
+                family = victim[kind].family()
+                if family:
+                    # Of a worker also its nanny, or the process that answers.
+                    chance.choice(family if kind == "worker" else family[:1]).kill()
+                    killed[kind] += 1
+    finally:
+        client.end()
+        cluster.end()
+    return killed
+
+
+def table_hash(folder: Path, spec: Spec) -> str:
+    """SHA-256 of the compacted table."""
+    return hashlib.sha256(Sweep(folder, spec).compact().read_bytes()).hexdigest()
+
+
+def collisions(designs: int, shards: int = SHARDS) -> dict[str, object]:
+    """A sweep of first contacts."""
+    over = {"pitch": {"start": 0.45, "stop": 0.6}, "width": {"start": 0.2, "stop": 0.35}}
+    size = max(designs // shards, 1)
+    return {"question": "collision_time", "over": over, "samples": {"count": designs}, "shard_size": size}
+
+
+def main(designs: int = 200_000, kills: int = 50, seed: int = 0) -> None:
+    """Compare a disturbed with an undisturbed run."""
+    told = collisions(designs)
+    spec = Spec.of(told)
+    with tempfile.TemporaryDirectory() as name:
+        folder, begun = Path(name), time.monotonic()
+        run(spec, folder / "undisturbed", question=spec.asks, engine=Processes)
+        quiet = time.monotonic() - begun
+        killed = disturbed(told, folder, kills, seed)
+        took = time.monotonic() - begun - quiet
+        hashes = [table_hash(folder / each, spec) for each in ("undisturbed", "out")]
+    print(f"{designs} designs in {spec.shards} shards; kill -9 of {dict(killed)}")
+    print(f"{quiet:.0f} s undisturbed, {took:.0f} s disturbed; {hashes[0]}, {hashes[1]}")
+    raise SystemExit(hashes[0] != hashes[1] or killed.total() < kills)
+
+
+if __name__ == "__main__":
+    main(*map(int, sys.argv[1:]))

@@ -1,0 +1,79 @@
+"""Questions of a sweep that are quick, and of which some designs fail, or kill the process that answers them."""
+
+from __future__ import annotations
+
+import os
+import signal
+import time
+
+from pydantic import BaseModel, Field
+
+from app.sweeps.questions import Question
+from core import InvalidValue
+
+
+class Place(BaseModel, extra="forbid"):
+    """Where one looks."""
+
+    x: float = Field(0.0, le=100.0)
+    y: float = 0.0
+    word: str = "word"
+    deadly: list[float] = []
+
+
+class Height(BaseModel):
+    """How high it is there."""
+
+    height: float
+    side: str | None
+    around: tuple[float, float]
+    digits: list[int]
+
+
+def height(asked: Place) -> Height:
+    """x times y; refused at x = 13, a mistake at x = 14, the end of the process at the deadly places."""
+    if asked.x == 13.0:
+        raise InvalidValue("x", "x must not be 13 m")
+    if asked.x == 14.0:
+        raise ZeroDivisionError("a mistake of ours")
+    if asked.x in asked.deadly:
+        os._exit(7)
+    product = asked.x * asked.y
+    return Height(
+        height=product, side="left" if product > 5.0 else None, around=(product - 1.0, product + 1.0), digits=[1]
+    )
+
+
+def slow_height(asked: Place) -> Height:
+    """The same after a while, long enough to be killed in between."""
+    time.sleep(0.02)
+    return height(asked)
+
+
+def interrupted_height(asked: Place) -> Height:
+    """Killed by another one at the deadly places, as by the kernel of a machine that is out of memory."""
+    if asked.x in asked.deadly:
+        os.kill(os.getpid(), signal.SIGKILL)
+    return height(asked)
+
+
+class Unanswerable:
+    """Cannot be had in another process."""
+
+    def __call__(self, asked: Place) -> Height:
+        """As the others."""
+        return height(asked)
+
+    def __reduce__(self) -> tuple[object, tuple[str]]:
+        """What fails when a worker unpacks it."""
+        return _missing, ("no such module",)
+
+
+def _missing(what: str) -> None:
+    raise ImportError(what)
+
+
+LAND = Question("height", Place, Height, height, 1e-3, "height")
+SLOW = Question("slow_height", Place, Height, slow_height, 2e-2, "height")
+UNANSWERABLE = Question("height", Place, Height, Unanswerable(), 1e-3, "height")
+INTERRUPTED = Question("interrupted_height", Place, Height, interrupted_height, 1e-3, "height")

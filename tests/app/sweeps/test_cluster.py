@@ -1,0 +1,54 @@
+"""Sweeps on a real Dask cluster of this machine."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import psutil
+import pytest
+
+from app.sweeps.cluster import LOCAL, Cluster, NoScheduler
+from app.sweeps.engines import NoAnswer
+from app.sweeps.run import Progress, run
+from app.sweeps.spec import Spec
+from app.sweeps.table import Sweep
+from tests.app.sweeps.kills import free_port
+from tests.app.sweeps.odd_questions import LAND, UNANSWERABLE
+from tests.app.sweeps.test_run import compacted, spec_of, undisturbed
+
+
+def test_a_local_cluster_answers_as_this_process_does(tmp_path: Path) -> None:
+    spec = spec_of(LAND)
+    told: list[Progress] = []
+    run(spec, tmp_path / "a", question=LAND, engine=lambda: Cluster(LOCAL, 2), progress=told.append)
+    assert told[-1].designs == 60
+    assert compacted(tmp_path / "a", spec) == undisturbed(tmp_path / "b", spec, LAND)
+
+
+def test_a_design_that_kills_workers_of_a_cluster_is_found_alone(tmp_path: Path) -> None:
+    told = {"question": LAND.name, "over": {"x": list(range(6))}, "request": {"deadly": [2.0]}, "shard_size": 2}
+    spec = Spec.of(told, LAND)
+    run(spec, tmp_path / "a", question=LAND, engine=lambda: Cluster(LOCAL, 2))
+    rows = Sweep(tmp_path / "a", spec).table(["x", "error.code"]).to_pylist()
+    assert [row["x"] for row in rows] == list(range(6))
+    assert {row["x"]: row["error.code"] for row in rows if row["error.code"]} == {2: "killed"}
+
+
+def test_what_no_worker_can_answer_ends_the_run_in_words(tmp_path: Path) -> None:
+    with pytest.raises(NoAnswer, match=r"workers.* cannot answer: "):
+        run(spec_of(UNANSWERABLE), tmp_path, question=UNANSWERABLE, engine=lambda: Cluster(LOCAL, 2))
+
+
+def test_no_worker_of_a_local_cluster_is_left(tmp_path: Path) -> None:
+    before = {child.pid for child in psutil.Process().children(recursive=True)}
+    spec = spec_of(LAND, 6)
+    run(spec, tmp_path / "a", question=LAND, engine=lambda: Cluster(LOCAL, 1))
+    left = [child for child in psutil.Process().children(recursive=True) if child.pid not in before]
+    assert not [child for child in left if "resource_tracker" not in " ".join(child.cmdline())]
+
+
+def test_an_address_where_nobody_answers_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("app.sweeps.cluster.CONNECT", 1.0)
+    address = f"tcp://127.0.0.1:{free_port()}"
+    with pytest.raises(NoScheduler, match=f"no Dask scheduler answers at {address}"):
+        Cluster(address)

@@ -1,0 +1,56 @@
+"""Columns of a table: known from the model of an answer, the same for every part."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+import core
+from app.questions.check import CheckRequest, Report
+from app.questions.collision_time import CollisionQuery, CollisionTime
+from app.sweeps.columns import Column, answer_columns, value_type
+from app.sweeps.questions import QUESTIONS, question_of
+from tests.app.sweeps.odd_questions import Height
+
+
+def test_numbers_words_and_pairs_become_columns_and_lists_json() -> None:
+    columns = answer_columns(Height)
+    assert [(column.name, column.kind) for column in columns] == [
+        ("height", float), ("side", str), ("around.0", float), ("around.1", float), ("digits", str),
+    ]  # fmt: skip
+    answer = Height(height=2.0, side=None, around=(1.0, 3.0), digits=[1, 2])
+    assert [column.value(answer) for column in columns] == [2.0, None, 1.0, 3.0, "[1,2]"]
+
+
+def test_what_an_answer_does_not_have_is_null() -> None:
+    dance = core.Dance(core.Dragon(), core.Spiral())
+    answer = CollisionTime.of(core.first_contact(dance), dance, CollisionQuery(cross_check="none"))
+    values = {column.name: column.value(answer) for column in answer_columns(CollisionTime)}
+    assert (values["outcome"], values["benches.0"], values["benches.1"]) == ("contact", 0, 8)
+    assert values["head.radius"] == answer.head.radius if answer.head else False
+    assert values["end.reason"] is values["cross_check.agree"] is None
+
+
+@pytest.mark.parametrize("name", QUESTIONS)
+def test_what_is_shown_and_what_is_left_out_are_columns(name: str) -> None:
+    question = question_of(name)
+    names = {column.name: column for column in answer_columns(question.answer)}
+    assert names[question.shown].kind is float
+    assert question.left_out <= names.keys()
+    assert len(names) == len(answer_columns(question.answer))
+
+
+@pytest.mark.parametrize(
+    ("values", "kind"),
+    [([1, 2], int), ([1, 2.5], float), ([True], bool), (["a"], str), ([{"kind": "spiral"}], str), ([1, "a"], str)],
+)
+def test_a_list_of_values_has_one_type(values: list[Any], kind: type) -> None:
+    assert value_type(values) is kind
+
+
+def test_a_column_of_a_list_of_models_is_their_json() -> None:
+    dance = core.Dance(core.Dragon(5), core.Spiral())
+    answer = Report.of(core.check(dance, speed_limit=0.5), dance, CheckRequest(cross_check="none"), None)
+    column = Column("failures", ("failures",), str, as_json=True)
+    assert '"kind":"speed"' in column.value(answer)

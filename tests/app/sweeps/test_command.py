@@ -1,0 +1,159 @@
+"""bench-dragon sweep, run as a user runs it: processes of its own, real kills, real Ctrl-C."""
+
+from __future__ import annotations
+
+import os
+import pty
+import shutil
+import signal
+import subprocess
+import time
+import tomllib
+from collections.abc import Callable
+from pathlib import Path
+
+import psutil
+import pytest
+
+from app.sweeps.run import begin
+from app.sweeps.shards import Piece, parts, write_part
+from app.sweeps.spec import Spec
+from app.sweeps.table import Sweep
+from tests.app.test_cli import COMMAND, ENVIRONMENT, PATIENCE
+from tests.conftest import heed_ctrl_c
+
+SPEC = """
+question = "collision_time"
+shard_size = 20
+[request]
+benches = 60
+[over]
+pitch = { start = 0.42, stop = 0.60, count = 200 }
+width = [0.25, 0.30, 0.35, -1.0]
+"""
+SHARDS = 40
+
+
+@pytest.fixture
+def spec(tmp_path: Path) -> Path:
+    """A sweep of 800 designs, a quarter of which are refused."""
+    (tmp_path / "spec.toml").write_text(SPEC)
+    return tmp_path / "spec.toml"
+
+
+def sweep(*arguments: object) -> subprocess.CompletedProcess[str]:
+    command = [COMMAND, "sweep", *map(str, arguments)]
+    return subprocess.run(command, capture_output=True, text=True, timeout=PATIENCE, env=ENVIRONMENT)
+
+
+@pytest.fixture(scope="module")
+def answered(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Folder of the sweep, answered in this process and not compacted."""
+    spec, folder = Spec.of(tomllib.loads(SPEC)), tmp_path_factory.mktemp("answered")
+    begin(folder, spec)
+    for shard in range(spec.shards):
+        write_part(folder, spec, shard, [Piece.whole(spec, spec.asks, shard).answered()])
+    return folder
+
+
+@pytest.fixture(scope="module")
+def undisturbed(answered: Path, tmp_path_factory: pytest.TempPathFactory) -> bytes:
+    """Bytes of the table of a sweep that nobody disturbed."""
+    copied = shutil.copytree(answered, tmp_path_factory.mktemp("undisturbed") / "copy")
+    return Sweep.open(copied).compact().read_bytes()
+
+
+def table(spec: Path, folder: Path) -> bytes:
+    """Bytes of the table of a sweep that is gone on with and compacted."""
+    done = sweep("run", spec, "--output", folder)
+    assert (done.returncode, done.stdout) == (0, ""), done.stderr
+    assert done.stderr == f"{folder}: 800 designs in {SHARDS} shards\n"
+    assert sweep("compact", folder).returncode == 0
+    return (folder / "sweep.parquet").read_bytes()
+
+
+def stopped(spec: Path, folder: Path, stop: Callable[[psutil.Popen], None]) -> tuple[int, str]:
+    """Exit code and last words of the command, stopped after its first part."""
+    command = [COMMAND, "sweep", "run", str(spec), "--output", str(folder), "--workers", "2"]
+    process = psutil.Popen(command, stderr=subprocess.PIPE, text=True, env=ENVIRONMENT, preexec_fn=heed_ctrl_c)
+    end = time.monotonic() + PATIENCE
+    while not (folder.is_dir() and parts(folder)) and time.monotonic() < end:
+        time.sleep(0.01)
+    stop(process)
+    _, said = process.communicate(timeout=PATIENCE)
+    assert 0 < len(parts(folder)) < SHARDS
+    return process.returncode, said
+
+
+def test_ctrl_c_leaves_a_folder_that_goes_on_to_the_same_bytes(spec: Path, tmp_path: Path, undisturbed: bytes) -> None:
+    children: list[psutil.Process] = []
+
+    def interrupt(process: psutil.Popen) -> None:
+        children.extend(process.children())
+        process.send_signal(signal.SIGINT)
+
+    said = f"Stopped: the same command goes on with {tmp_path / 'a'}\n"
+    assert stopped(spec, tmp_path / "a", interrupt) == (130, said)
+    assert len(children) == 2
+    assert not psutil.wait_procs(children, 5.0)[1]
+    assert table(spec, tmp_path / "a") == undisturbed
+
+
+def test_workers_leave_when_the_command_is_killed_and_it_goes_on_to_the_same_bytes(
+    spec: Path, tmp_path: Path, undisturbed: bytes
+) -> None:
+    children: list[psutil.Process] = []
+
+    def kill(process: psutil.Popen) -> None:
+        children.extend(process.children())
+        process.kill()
+
+    assert stopped(spec, tmp_path / "a", kill)[0] == -signal.SIGKILL
+    assert len(children) == 2
+    assert not psutil.wait_procs(children, 5.0)[1]
+    assert table(spec, tmp_path / "a") == undisturbed
+
+
+def test_a_sweep_is_shown_in_lines_and_drawn(answered: Path, tmp_path: Path) -> None:
+    shutil.copytree(answered, tmp_path / "a")
+    lines = sweep("show", tmp_path / "a").stdout.splitlines()
+    assert lines[0].split() == ["designs", "800", "of", "800"]
+    assert lines[1].split() == ["error", "invalid-value", "200"]
+    assert lines[2].startswith("least time")
+    drawn = sweep("show", tmp_path / "a", "--output", tmp_path / "map.png", "--value", "head.radius")
+    assert (drawn.returncode, drawn.stderr) == (0, f"{tmp_path / 'map.png'}\n")
+    assert (tmp_path / "map.png").read_bytes().startswith(b"\x89PNG")
+    assert sweep("compact", tmp_path / "a", "--csv", tmp_path / "a.csv").returncode == 0
+    assert len((tmp_path / "a.csv").read_text().splitlines()) == 801
+
+
+def test_a_terminal_shows_a_bar_with_rate_and_time_left(spec: Path, tmp_path: Path) -> None:
+    parent, child = pty.openpty()
+    command = [COMMAND, "sweep", "run", str(spec), "--output", str(tmp_path / "a")]
+    process = subprocess.Popen(command, stderr=child, env=ENVIRONMENT | {"TERM": "xterm", "COLUMNS": "120"})
+    os.close(child)
+    said = b""
+    while True:
+        try:
+            said += os.read(parent, 65536)
+        except OSError:  # Nobody holds the other end any more.
+            break
+    os.close(parent)
+    assert process.wait(PATIENCE) == 0
+    assert b"of 800, " in said
+    assert b"/s, 0:00:" in said
+    assert b" left" in said
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["run", "no-such.toml", "--output", "out"], "no-such.toml: No such file or directory"),
+        (["show", "no-such-folder"], "no-such-folder has no sweep: there is no sweep.json of one in it"),
+        (["show", "no-such-folder", "--output", "map.pdf"], "--output must end in .svg or .png, got .pdf"),
+        (["compact", "no-such-folder"], "no-such-folder has no sweep: there is no sweep.json of one in it"),
+    ],
+)
+def test_wrong_usage_is_one_line(arguments: list[str], message: str) -> None:
+    done = sweep(*arguments)
+    assert (done.returncode, done.stdout, done.stderr) == (2, "", f"Error: {message}\n")

@@ -1,0 +1,90 @@
+"""Maps: each value stands where its parameters are."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from matplotlib.collections import PathCollection, QuadMesh
+
+from app.sweeps import shards
+from app.sweeps.maps import value_map
+from app.sweeps.run import begin
+from app.sweeps.spec import Spec
+from app.sweeps.summary import summary
+from app.sweeps.table import Sweep
+from core import InvalidValue
+from tests.app.sweeps.odd_questions import LAND
+
+
+def swept(folder: Path, **told: Any) -> Sweep:
+    spec = Spec.of({"question": LAND.name, "shard_size": 50, **told}, LAND)
+    begin(folder, spec)
+    for shard in range(spec.shards):
+        shards.write_part(folder, spec, shard, [shards.Piece.whole(spec, LAND, shard).answered()])
+    return Sweep(folder, spec)
+
+
+def test_a_map_of_two_lists_has_each_value_in_its_cell(tmp_path: Path) -> None:
+    over = {"x": [3.0, 1.0, 13.0, 2.0], "y": {"start": 1.0, "stop": 100.0, "count": 3, "scale": "log"}}
+    axes = value_map(swept(tmp_path, over=over), "height").axes[0]
+    mesh = next(one for one in axes.collections if isinstance(one, QuadMesh))
+    x, y = np.array([1.0, 2.0, 3.0, 13.0]), np.array([1.0, 10.0, 100.0])
+    wanted = y[:, None] * x
+    wanted[:, 3] = np.nan
+    np.testing.assert_allclose(np.ma.filled(mesh.get_array(), np.nan), wanted, rtol=1e-12)
+    assert (axes.get_xlabel(), axes.get_ylabel(), axes.get_yscale()) == ("x", "y", "log")
+    assert len(axes.collections) > 1  # contours
+
+
+def test_a_map_of_part_of_a_sweep_leaves_the_rest_blank(tmp_path: Path) -> None:
+    sweep = swept(tmp_path, over={"x": [1.0, 2.0, 3.0], "y": [1.0, 2.0]}, shard_size=2)
+    (tmp_path / shards.part_name(1)).unlink()
+    mesh = next(one for one in value_map(sweep, "height").axes[0].collections if isinstance(one, QuadMesh))
+    found = np.ma.filled(mesh.get_array(), np.nan)
+    np.testing.assert_array_equal(found, [[1.0, np.nan, 3.0], [2.0, np.nan, 6.0]])
+
+
+def test_a_map_of_samples_has_a_dot_for_each(tmp_path: Path) -> None:
+    over = {"x": {"start": 0.0, "stop": 12.0}, "y": {"start": 0.0, "stop": 1.0}}
+    axes = value_map(swept(tmp_path, over=over, samples={"count": 64}), "height").axes[0]
+    dots = next(one for one in axes.collections if isinstance(one, PathCollection))
+    places, values = np.asarray(dots.get_offsets()), dots.get_array()
+    assert len(places) == 64
+    np.testing.assert_allclose(values, places.prod(axis=1), rtol=1e-12)
+
+
+def test_a_map_of_one_parameter_is_a_line_in_its_order(tmp_path: Path) -> None:
+    line = value_map(swept(tmp_path, over={"x": [3.0, 13.0, 1.0]}, request={"y": 2.0}), "height").axes[0].lines[0]
+    np.testing.assert_array_equal(line.get_xdata(), [1.0, 3.0, 13.0])
+    np.testing.assert_array_equal(line.get_ydata(), [2.0, 6.0, np.nan])
+
+
+@pytest.mark.parametrize(
+    ("over", "value", "message"),
+    [
+        ({"x": [1], "y": [1], "word": ["a"]}, "height", "has one or two parameters, and this sweep has 3"),
+        ({"x": [1.0]}, "side", "value must be a column of numbers, got side: design, x, height"),
+        ({"word": ["a", "b"]}, "height", "value must be a column of numbers, got word"),
+    ],
+)
+def test_what_cannot_be_drawn_is_said(over: dict[str, Any], value: str, message: str, tmp_path: Path) -> None:
+    with pytest.raises(InvalidValue, match=message):
+        value_map(swept(tmp_path, over=over), value)
+
+
+def test_a_summary_counts_errors_and_has_both_ends(tmp_path: Path) -> None:
+    sweep = swept(tmp_path, over={"x": [5.0, 13.0, 14.0, -2.0]}, request={"y": 3.0})
+    assert summary(sweep, "height").lines() == [
+        ("designs", "4 of 4"),
+        ("error internal-error", "1"),
+        ("error invalid-value", "1"),
+        ("least height", "-6.0 at x = -2.0"),
+        ("greatest height", "15.0 at x = 5.0"),
+    ]
+
+
+def test_a_summary_of_errors_alone_has_no_ends(tmp_path: Path) -> None:
+    assert summary(swept(tmp_path, over={"x": [13.0]}), "height").lines()[1:] == [("error invalid-value", "1")]

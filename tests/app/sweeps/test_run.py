@@ -1,0 +1,157 @@
+"""Runs of a sweep: parts and nothing else is remembered, and whoever is killed, the table is the same."""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import psutil
+import pytest
+
+from app.sweeps import shards
+from app.sweeps.engines import NoAnswer
+from app.sweeps.processes import CannotStart, Processes
+from app.sweeps.questions import Question
+from app.sweeps.run import Progress, missing_shards, run
+from app.sweeps.spec import Spec
+from app.sweeps.table import Sweep
+from core import InvalidValue
+from tests.app.sweeps.odd_questions import INTERRUPTED, LAND, SLOW, UNANSWERABLE
+
+
+def spec_of(question: Question, designs: int = 60, shard_size: int = 6, **request: Any) -> Spec:
+    over = {"x": list(map(float, range(designs // 2))), "y": [1.0, 2.0]}
+    return Spec.of({"question": question.name, "over": over, "request": request, "shard_size": shard_size}, question)
+
+
+def compacted(folder: Path, spec: Spec) -> bytes:
+    return Sweep(folder, spec).compact().read_bytes()
+
+
+def undisturbed(folder: Path, spec: Spec, question: Question) -> bytes:
+    """The table of a sweep answered in this process."""
+    folder.mkdir()
+    for shard in range(spec.shards):
+        shards.write_part(folder, spec, shard, [shards.Piece.whole(spec, question, shard).answered()])
+    return compacted(folder, spec)
+
+
+def test_a_run_writes_every_part_and_says_how_far_it_is(tmp_path: Path) -> None:
+    spec, told = spec_of(LAND), list[Progress]()
+    run(spec, tmp_path / "a", question=LAND, progress=told.append, engine=lambda: Processes(2))
+    assert sorted(file.name for file in (tmp_path / "a").iterdir()) == [
+        *(shards.part_name(shard) for shard in range(10)),
+        "sweep.json",
+    ]
+    assert (told[0].designs, told[-1].designs, told[-1].total) == (0, 60, 60)
+    assert told[-1].rate > 0.0
+    assert told[-1].words.endswith("0:00:00 left")
+    assert compacted(tmp_path / "a", spec) == undisturbed(tmp_path / "b", spec, LAND)
+
+
+def test_only_what_is_missing_is_answered_again(tmp_path: Path) -> None:
+    spec, told = spec_of(LAND), list[Progress]()
+    run(spec, tmp_path / "a", question=LAND, engine=lambda: Processes(1))
+    removed = [tmp_path / "a" / shards.part_name(shard) for shard in (0, 7)]
+    kept = {file: file.stat().st_mtime_ns for file in (tmp_path / "a").glob("part-*") if file not in removed}
+    for file in removed:
+        file.unlink()
+    assert missing_shards(tmp_path / "a", spec) == [0, 7]
+    run(spec, tmp_path / "a", question=LAND, progress=told.append, engine=lambda: Processes(1))
+    assert told[0].designs == 48
+    assert kept == {file: file.stat().st_mtime_ns for file in kept}
+    assert compacted(tmp_path / "a", spec) == undisturbed(tmp_path / "b", spec, LAND)
+
+
+def test_a_complete_folder_starts_no_engine(tmp_path: Path) -> None:
+    spec = spec_of(LAND, 6)
+    run(spec, tmp_path / "a", question=LAND, engine=lambda: Processes(1))
+
+    def none() -> Processes:
+        pytest.fail("nothing is missing")
+
+    run(spec, tmp_path / "a", question=LAND, engine=none)
+    Sweep(tmp_path / "a", spec).compact()
+    run(spec, tmp_path / "a", question=LAND, engine=none)
+
+
+def test_killed_workers_change_no_byte(tmp_path: Path) -> None:
+    spec, engines, chance = spec_of(SLOW, 80, 10), list[Processes](), random.Random(5)
+    killed = []
+
+    def engine() -> Processes:
+        engines.append(Processes(2))
+        return engines[-1]
+
+    def kill(progress: Progress) -> None:
+        if len(killed) < 3 and progress.designs >= 20 * len(killed):
+            killed.append(chance.choice(engines[0].pids))
+            psutil.Process(killed[-1]).kill()
+
+    run(spec, tmp_path / "a", question=SLOW, progress=kill, engine=engine)
+    assert len(set(killed)) == 3
+    assert compacted(tmp_path / "a", spec) == undisturbed(tmp_path / "b", spec, SLOW)
+
+
+@pytest.mark.parametrize("question", [LAND, INTERRUPTED], ids=["exit", "signal"])
+def test_designs_that_kill_their_process_are_found_and_the_others_answered(question: Question, tmp_path: Path) -> None:
+    told = {"question": question.name, "over": {"x": list(range(11, 19))}, "request": {"y": 2.0, "deadly": [16.0]}}
+    spec = Spec.of(told | {"shard_size": 4}, question)
+    run(spec, tmp_path / "a", question=question, engine=lambda: Processes(2))
+    rows = Sweep(tmp_path / "a", spec).table().to_pylist()
+    assert [row["x"] for row in rows] == list(range(11, 19))
+    errors = {row["x"]: row["error.code"] for row in rows if row["error.code"]}
+    assert errors == {13: "invalid-value", 14: "internal-error", 16: "killed"}
+    assert [row["height"] for row in rows] == [22.0, 24.0, None, None, 30.0, None, 34.0, 36.0]
+
+
+def test_processes_that_cannot_start_end_the_run(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "app").mkdir()
+    (tmp_path / "app" / "__init__.py").write_text("raise SystemExit('no such program')")
+    monkeypatch.syspath_prepend(str(tmp_path))
+    with pytest.raises(CannotStart, match="processes in a row ended before they were ready"):
+        run(spec_of(LAND, 6), tmp_path / "a", question=LAND, engine=lambda: Processes(1))
+
+
+def test_what_no_worker_can_answer_ends_the_run_in_words(tmp_path: Path) -> None:
+    with pytest.raises(NoAnswer, match="workers cannot answer: ImportError: no such module"):
+        run(spec_of(UNANSWERABLE, 6), tmp_path, question=UNANSWERABLE, engine=lambda: Processes(1))
+
+
+def test_no_process_is_left(tmp_path: Path) -> None:
+    engines: list[Processes] = []
+
+    def engine() -> Processes:
+        engines.append(Processes(2))
+        return engines[-1]
+
+    def stop(progress: Progress) -> None:
+        if progress.designs:
+            raise KeyboardInterrupt
+
+    pids: list[int] = []
+    noted: Callable[[Progress], None] = lambda progress: pids.extend(engines[0].pids)  # noqa: E731
+    run(spec_of(LAND, 6), tmp_path / "a", question=LAND, engine=engine, progress=noted)
+    with pytest.raises(KeyboardInterrupt):
+        run(spec_of(SLOW, 100), tmp_path / "b", question=SLOW, engine=engine, progress=stop)
+    assert pids
+    assert not [pid for pid in [*pids, *engines[1].pids] if psutil.pid_exists(pid)]
+    assert shards.parts(tmp_path / "b")
+
+
+def test_a_folder_of_something_else_is_refused(tmp_path: Path) -> None:
+    (tmp_path / "letter.txt").write_text("dear")
+    with pytest.raises(InvalidValue, match="has files already and is no sweep"):
+        run(spec_of(LAND, 6), tmp_path, question=LAND)
+    run(spec_of(LAND, 6), tmp_path / "a", question=LAND, engine=lambda: Processes(1))
+    with pytest.raises(InvalidValue, match="has another sweep, or one of another version"):
+        run(spec_of(LAND, 8), tmp_path / "a", question=LAND)
+
+
+def test_what_a_killed_run_left_half_written_is_removed(tmp_path: Path) -> None:
+    spec = spec_of(LAND, 6)
+    (tmp_path / ".part-xyz").write_bytes(b"half")
+    run(spec, tmp_path, question=LAND, engine=lambda: Processes(1))
+    assert sorted(file.name for file in tmp_path.iterdir()) == ["part-000000.parquet", "sweep.json"]

@@ -1,0 +1,162 @@
+"""Shards: rows of designs good and bad, and files whose bytes depend on nothing else."""
+
+from __future__ import annotations
+
+import json
+import os
+import pickle
+from pathlib import Path
+from typing import Any
+
+import pyarrow as pa
+import pyarrow.parquet as pq
+import pytest
+
+import core
+from app.questions.collision_time import CollisionQuery, CollisionTime
+from app.sweeps.questions import QUESTIONS, Question, question_of
+from app.sweeps.shards import OtherVersion, Piece, checked_part, part_name, parts, write_part
+from app.sweeps.spec import Spec
+from core import InvalidValue
+from tests.app.sweeps.odd_questions import LAND
+
+
+def spec_of(question: Question, over: dict[str, Any], **more: Any) -> Spec:
+    return Spec.of({"question": question.name, "over": over, **more}, question)
+
+
+def rows(piece: Piece) -> list[dict[str, Any]]:
+    found: list[dict[str, Any]] = pa.ipc.open_stream(piece.answered()).read_all().to_pylist()
+    return found
+
+
+def test_each_row_is_the_answer_to_its_request() -> None:
+    question = question_of("collision_time")
+    spec = spec_of(question, {"pitch": [0.5, 0.55, 1.7], "width": [0.2, 0.3]}, request={"benches": 50})
+    for row in rows(Piece.whole(spec, question, 0)) + rows(Piece.whole(spec, question, 1)):
+        asked = CollisionQuery(pitch=row["pitch"], width=row["width"], benches=50, cross_check="none")
+        dance = asked.to_dance(50)
+        answer = CollisionTime.of(core.first_contact(dance), dance, asked)
+        assert (row["outcome"], row["time"]) == (answer.outcome, answer.time)
+        assert (row["benches.0"], row["benches.1"]) == (answer.benches or (None, None))
+        assert row["certificate.steps"] == answer.certificate.steps
+        assert "certificate.method" not in row
+
+
+def test_a_body_is_swept_by_dotted_names() -> None:
+    question = question_of("check")
+    spec = spec_of(question, {"path.pitch": [0.5, 0.55], "dragon.width": [0.3]}, request={"dragon": {"benches": 20}})
+    row = rows(Piece.whole(spec, question, 1))[0]
+    assert (row["path.pitch"], row["verdict"]) == (0.55, "fails")
+    assert row["first_contact.time"] == pytest.approx(412.473838, abs=1e-6)
+    assert json.loads(row["failures"])[0]["kind"] == "contact"
+
+
+@pytest.mark.parametrize(
+    ("name", "flat", "body"),
+    [
+        ("collision_time", {"pitch": 0.5, "benches": 40}, {"path.pitch": 0.5, "dragon.benches": 40}),
+        ("least_clearance", {"width": 0.2, "benches": 9}, {"dragon": {"width": 0.2, "benches": 9}}),
+        ("turn", {"pitch": 1.6}, {"path": {"kind": "turn", "pitch": 1.6}}),
+    ],
+)
+def test_a_question_is_asked_flat_or_as_a_body(name: str, flat: dict[str, Any], body: dict[str, Any]) -> None:
+    answers = []
+    for asked in (flat, body):
+        spec = Spec.of({"question": name, "over": {place: [value] for place, value in asked.items()}})
+        [row] = rows(Piece.whole(spec, spec.asks, 0))
+        answers.append({place: value for place, value in row.items() if place not in {*asked, "pitch"}})
+    assert answers[0] == answers[1]
+    assert isinstance(answers[0][spec.asks.shown], float)
+
+
+def test_what_core_refuses_is_said_in_the_words_of_the_spec() -> None:
+    spec = Spec.of({"question": "least_clearance", "over": {"benches": [2]}})
+    [row] = rows(Piece.whole(spec, spec.asks, 0))
+    assert row["error.message"] == "benches must be at least 3 for two to share no handle, got 2"
+
+
+@pytest.mark.parametrize("name", QUESTIONS)
+def test_every_question_is_answered_and_refuses_a_bad_design(name: str) -> None:
+    question = question_of(name)
+    parameter = "path.pitch" if name == "check" else "margin" if name == "minimum_pitch" else "pitch"
+    good = 0.01 if name == "minimum_pitch" else 0.55 if name == "collision_time" else 1.7
+    small = {"dragon": {"benches": 8}} if name == "check" else {} if name == "turn" else {"benches": 8}
+    spec = spec_of(question, {parameter: [good, -1.0]}, request=small, shard_size=2)
+    answered, refused = rows(Piece.whole(spec, question, 0))
+    assert answered["error.code"] is None
+    assert isinstance(answered[question.shown], float)
+    assert refused["error.code"] == "invalid-value"
+    assert parameter.rpartition(".")[2] in refused["error.message"]
+
+
+def test_a_bad_design_is_a_row_with_its_error_and_the_others_are_answered() -> None:
+    spec = spec_of(LAND, {"x": [1.0, 13.0, 14.0, 100.5, 2.0], "y": [3.0]}, shard_size=5)
+    found = rows(Piece.whole(spec, LAND, 0))
+    assert [row["height"] for row in found] == [3.0, None, None, None, 6.0]
+    assert [row["error.code"] for row in found] == [None, "invalid-value", "internal-error", "invalid-value", None]
+    assert [row["error.message"] for row in found[1:4]] == [
+        "x must not be 13 m",
+        "ZeroDivisionError: a mistake of ours",
+        "x must be at most 100 m, got 100.5 m: lengths are in metres, and 100.5 cm is 1.005 m",
+    ]
+
+
+def test_parameters_of_any_kind_are_columns() -> None:
+    spec = spec_of(LAND, {"x": [1, 2], "word": ["a", "b"], "deadly": [[], [5.0]]}, shard_size=8)
+    table = pa.ipc.open_stream(Piece.whole(spec, LAND, 0).answered()).read_all()
+    assert [str(table.schema.field(name).type) for name in ("x", "word", "deadly")] == ["int64", "string", "string"]
+    assert table["deadly"].to_pylist()[:2] == ["[]", "[5.0]"]
+
+
+def test_a_file_has_the_same_bytes_however_its_shard_was_cut(tmp_path: Path) -> None:
+    spec = spec_of(LAND, {"x": {"start": 0, "stop": 30, "count": 31}, "y": [2.0, -1.0]}, shard_size=62)
+    whole = Piece.whole(spec, LAND, 0)
+    left, right = whole.halves()
+    cuts = {"whole": [whole], "halves": [left, right], "uneven": [*left.halves(), right]}
+    for name, cut in cuts.items():
+        (tmp_path / name).mkdir()
+        write_part(tmp_path / name, spec, 0, [piece.answered() for piece in cut])
+    assert len({(tmp_path / name / part_name(0)).read_bytes() for name in cuts}) == 1
+
+
+def test_a_part_of_errors_alone_has_the_columns_of_the_others(tmp_path: Path) -> None:
+    spec = spec_of(LAND, {"x": [1.0, 13.0], "y": [2.0]}, shard_size=1)
+    for shard in range(2):
+        write_part(tmp_path, spec, shard, [Piece.whole(spec, LAND, shard).answered()])
+    first, second = (pq.read_schema(tmp_path / part_name(shard)) for shard in range(2))
+    assert first.equals(second)
+    assert parts(tmp_path) == {0, 1}
+
+
+def test_a_killed_design_has_the_columns_of_the_others() -> None:
+    spec = spec_of(LAND, {"x": [1.0], "y": [2.0]})
+    piece = Piece.whole(spec, LAND, 0)
+    answered, killed = (pa.ipc.open_stream(data).read_all() for data in (piece.answered(), piece.killed()))
+    assert answered.schema.equals(killed.schema)
+    assert killed["error.code"].to_pylist() == ["killed"]
+
+
+def test_parts_of_another_sweep_and_broken_files_are_refused(tmp_path: Path) -> None:
+    spec, other = spec_of(LAND, {"x": [1.0]}), spec_of(LAND, {"x": [2.0]})
+    write_part(tmp_path, other, 0, [Piece.whole(other, LAND, 0).answered()])
+    with pytest.raises(InvalidValue, match="is of another sweep"):
+        checked_part(tmp_path, spec, 0)
+    (tmp_path / part_name(0)).write_bytes(b"PAR1 no more")
+    with pytest.raises(InvalidValue, match="is no part of a sweep"):
+        checked_part(tmp_path, spec, 0)
+
+
+def test_a_file_that_cannot_be_written_leaves_nothing(tmp_path: Path) -> None:
+    spec = spec_of(LAND, {"x": [1.0]})
+    (tmp_path / part_name(0)).mkdir()
+    with pytest.raises(IsADirectoryError):
+        write_part(tmp_path, spec, 0, [Piece.whole(spec, LAND, 0).answered()])
+    assert os.listdir(tmp_path) == [part_name(0)]
+
+
+def test_a_worker_of_another_version_says_so() -> None:
+    spec = spec_of(LAND, {"x": [1.0]})
+    piece = Piece(spec, LAND, "0.0.1", 0, 0, 1)
+    with pytest.raises(OtherVersion, match=r"must be 0\.0\.1 on every worker"):
+        pickle.loads(pickle.dumps(piece)).answered()

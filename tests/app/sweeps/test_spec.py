@@ -1,0 +1,116 @@
+"""Specs: read from TOML, JSON and Python alike, named by their bytes, refused in words."""
+
+from __future__ import annotations
+
+import json
+import re
+import tomllib
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from app.sweeps.spec import DESIGNS_MAX, SHARDS_SMALL, Range, Spec, placed
+from core import BenchDragonError
+
+PAGE = Path(__file__).parents[3] / "docs" / "sweeps.md"
+TOML = """
+question = "collision_time"
+[request]
+margin = 0.05
+[over]
+pitch = { start = 0.45, stop = 0.6, count = 100 }
+benches = [100, 223]
+"""
+TOLD: dict[str, Any] = {
+    "question": "collision_time",
+    "request": {"margin": 0.05},
+    "over": {"pitch": {"start": 0.45, "stop": 0.6, "count": 100}, "benches": [100, 223]},
+}
+
+
+def told(**changes: Any) -> dict[str, Any]:
+    return TOLD | changes
+
+
+def test_toml_json_and_python_give_the_same_spec_with_the_same_name(tmp_path: Path) -> None:
+    (tmp_path / "a.toml").write_text(TOML)
+    (tmp_path / "a.json").write_text(json.dumps(TOLD))
+    specs = [Spec.read(tmp_path / "a.toml"), Spec.read(tmp_path / "a.json"), Spec.of(TOLD)]
+    assert specs[0] == specs[1] == specs[2]
+    assert len({spec.canonical() for spec in specs}) == len({spec.name for spec in specs}) == 1
+
+
+def test_another_value_or_another_order_is_another_sweep() -> None:
+    others = [
+        Spec.of(told(request={"margin": 0.06})),
+        Spec.of(told(over=dict(reversed(TOLD["over"].items())))),
+        Spec.of(told(shard_size=7)),
+        Spec.of(told(over=TOLD["over"] | {"benches": [100, 222]})),
+    ]
+    assert len({spec.name for spec in [Spec.of(TOLD), *others]}) == 5
+
+
+def test_designs_are_all_combinations_cut_into_shards() -> None:
+    spec = Spec.of(told(shard_size=30))
+    assert (spec.designs, spec.shards) == (200, 7)
+    assert [spec.shard(k) for k in (0, 1, 6)] == [(0, 30), (30, 60), (180, 200)]
+
+
+def test_the_size_of_shards_is_known_without_a_clock() -> None:
+    assert Spec.of(told(over={"pitch": Range(start=0.4, stop=0.6, count=10**6).model_dump()})).shard_size == 5000
+    assert Spec.of(told(over={"pitch": Range(start=0.4, stop=0.6, count=640).model_dump()})).shards == SHARDS_SMALL
+
+
+def test_cross_checks_are_left_out_unless_they_are_asked_for() -> None:
+    assert Spec.of(TOLD).request["cross_check"] == "none"
+    assert Spec.of(told(request={"cross_check": "pair"})).request["cross_check"] == "pair"
+    assert "cross_check" not in Spec.of(told(over={"cross_check": ["none", "pair"]})).request
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"question": "collision"}, "question must be one of collision_time, minimum_pitch"),
+        ({"over": {"pich": [0.5]}}, '"pich" is unknown here: did you mean pitch?'),
+        ({"request": {"width": -1}}, "width must be at least 0.001 m, got -1 m"),
+        ({"request": {"widht": 1}}, '"widht" is unknown here: did you mean width?'),
+        ({"over": {"pitch": {"start": 0.4, "stop": 0.6}}}, "samples must say how pitch is sampled"),
+        ({"samples": {"count": 10}}, "samples is for ranges without a count, and there is none"),
+        (
+            {"over": {"pitch": {"start": 0.4, "stop": 0.6, "count": DESIGNS_MAX}, "benches": [1, 2]}},
+            "at most 100000000",
+        ),
+        ({"over": {"pitch": {"start": 0.4, "stop": 0.6, "count": 10**7}}, "shard_size": 1}, "at least 10"),
+        ({"over": {}}, "over"),
+        ({"over": {"pitch": []}}, "pitch"),
+        ({"over": {"pitch": {"start": -1, "stop": 2, "count": 3, "scale": "log"}}}, "positive on a log scale"),
+    ],
+)
+def test_a_wrong_spec_is_refused_in_words(changes: dict[str, Any], message: str) -> None:
+    with pytest.raises(BenchDragonError) as refused:
+        Spec.of(told(**changes))
+    assert message in refused.value.message
+
+
+def test_a_bad_value_of_a_parameter_that_varies_is_a_row_and_no_error_here() -> None:
+    assert Spec.of(told(over={"pitch": [-1.0, 0.5]})).designs == 2
+
+
+@pytest.mark.parametrize(("name", "text"), [("a.toml", "over = ["), ("a.json", "{")])
+def test_what_is_no_toml_or_json_is_said_so(name: str, text: str, tmp_path: Path) -> None:
+    (tmp_path / name).write_text(text)
+    with pytest.raises(BenchDragonError, match=f"is not {name[2:].upper()}"):
+        Spec.read(tmp_path / name)
+
+
+def test_values_are_placed_into_a_copy() -> None:
+    base = {"path": {"kind": "spiral"}, "margin": 0}
+    found = placed(base, {"path.pitch": 0.5, "dragon.width": 0.2, "margin": 1})
+    assert found == {"path": {"kind": "spiral", "pitch": 0.5}, "dragon": {"width": 0.2}, "margin": 1}
+    assert base == {"path": {"kind": "spiral"}, "margin": 0}
+
+
+@pytest.mark.parametrize("told", re.findall(r"^```toml\n(.*?)^```", PAGE.read_text(), re.DOTALL | re.MULTILINE))
+def test_the_specs_of_the_page_are_specs(told: str) -> None:
+    assert Spec.of(tomllib.loads(told)).designs in (120, 1000)
