@@ -42,7 +42,7 @@ $(VENV)/compiled: $(wildcard core/kernels/*.py core/kernels/*.pxd) setup.py pypr
 	@touch $@
 
 serve: setup
-	@$(BIN)/bench-dragon serve --host $(HOST) --port $(PORT)
+	@BENCH_DRAGON_DATA="$${BENCH_DRAGON_DATA:-data}" $(BIN)/bench-dragon serve --host $(HOST) --port $(PORT)
 
 test: setup
 	@$(BIN)/python tests/page/browser.py

@@ -158,6 +158,7 @@ def pitch_scan(reply: QueryReply, wanted: Annotated[PitchScanQuery, Query()]) ->
             start_turns=wanted.start_turns,
             margin=wanted.margin,
             samples=wanted.samples,
+            progress=reply.progress,
         )
         table = {"pitch": scan.pitch, "radius": scan.radius, "pieces": scan.pieces}
         return columns_json(table | {"minimum_pitch": least.pitch})

@@ -21,6 +21,7 @@ import core
 from app import answers, prove, report, schemas, show, tables
 from app.extras import require
 from app.files import TABLE_ENDINGS, checked_output, read_dance, read_json, trajectory_writer, write_whole
+from app.jobs.command import jobs
 from app.options import asks, checked, given, numbers, unused
 from app.refusals import refusing
 from app.settings import WORKERS_MAX, Settings
@@ -413,3 +414,4 @@ proofs.command()(asks(prove.ClearClaim)(prove.clear))
 proofs.command()(asks(prove.TurnClaim)(prove.turn))
 proofs.command()(prove.dance)
 app.add_typer(proofs, name="prove")
+app.add_typer(jobs, name="jobs")

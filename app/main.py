@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import logging
 import os
+import sqlite3
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
 from pathlib import Path
@@ -25,6 +26,9 @@ from starlette.staticfiles import StaticFiles
 from app import api, figure_calls, problems
 from app.answers import State
 from app.examples import EXAMPLES
+from app.jobs import routes as jobs
+from app.jobs.keeper import kept
+from app.jobs.routes import RespondAsync
 from app.middleware import BodyLimit, HeadAsGet, Metrics, Mistakes, SafetyHeaders
 from app.reply import VERSION, refuse_query
 from app.settings import SHARED_COUNTS, Settings
@@ -85,7 +89,8 @@ def _difference() -> str:
 @asynccontextmanager
 async def _lifespan(app: FastAPI) -> AsyncIterator[None]:
     app.state.fault = fault()
-    yield
+    with kept(app.state.settings) as app.state.jobs:
+        yield
 
 
 def create_app(settings: Settings | None = None) -> FastAPI:
@@ -106,6 +111,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
             Middleware(Metrics, registry=registry),
             Middleware(Mistakes),
             Middleware(BodyLimit, bytes_max=settings.body_bytes_max),
+            Middleware(RespondAsync),
         ],
     )
     app.state.settings = settings
@@ -119,6 +125,8 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     problems.install(app)
     app.include_router(api.router)
     app.include_router(figure_calls.router)
+    app.include_router(jobs.router)
+    app.add_exception_handler(sqlite3.Error, jobs.store_problem)
     _add_health(app)
     _add_pages(app)
     return app

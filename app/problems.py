@@ -110,7 +110,7 @@ async def http_problem(request: Request, error: HTTPException) -> Response:
     status, headers = error.status_code, dict(error.headers or {})
     detail, code = str(error.detail), _title(status).lower().replace(" ", "-")
     items: Sequence[ErrorItem] = getattr(error, "errors", ())
-    if status == 404:
+    if status == 404 and detail == HTTPStatus.NOT_FOUND.phrase:
         detail = f"There is nothing at {shown(request.url.path)}: see /docs for all calls."
     elif status == 405:
         allowed = {method.strip() for method in headers.get("Allow", "").split(",") if method.strip()}

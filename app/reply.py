@@ -18,10 +18,16 @@ from app.settings import Settings
 
 JSON = "application/json"
 VERSION = version("bench-dragon")
+# Keys of a request's scope. A list: the call is for later, and if it is right its name is put in here and nothing is
+# computed. A function: it is told the share of the work that is done, from 0 to 1.
+LATER, PROGRESS = "bench_dragon.later", "bench_dragon.progress"
 
 
 class Reply:
-    """Answers a request with what compute() gives, unless the client has it already or the service is full."""
+    """Answers a request with what compute() gives, unless the client has it already, wants it later, or all is full.
+
+    progress: compute() may tell it the share of its work that is done
+    """
 
     def __init__(self, request: Request) -> None:
         state = request.app.state
@@ -29,6 +35,8 @@ class Reply:
         self.settings: Settings = state.settings
         self._free: BoundedSemaphore = state.free
         self._busy: Gauge = state.busy
+        self._later: list[str] | None = request.scope.get(LATER)
+        self.progress: Callable[[float], None] = request.scope.get(PROGRESS, lambda share: None)
 
     def media_type(self, offers: Sequence[str] = (JSON,)) -> str:
         """The form to answer in.
@@ -55,6 +63,9 @@ class Reply:
         }
         if headers["ETag"] in _tags(self.request.headers.get("if-none-match", "")):
             return Response(status_code=304, headers=headers)
+        if self._later is not None:
+            self._later.append(self.request.scope["route"].name)
+            return Response(status_code=202)
         if not self._free.acquire(blocking=False):
             detail = f"{self.settings.concurrent_max} computations are running, as many as may: try again later."
             raise Refused(503, detail, headers={"Retry-After": str(self.settings.retry_after)})

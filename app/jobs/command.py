@@ -1,0 +1,191 @@
+"""bench-dragon jobs: the jobs of a data folder, or of a service at an address."""
+
+from __future__ import annotations
+
+import os
+from datetime import datetime
+from http import HTTPStatus
+from pathlib import Path
+from typing import Annotated, Any, Protocol
+from urllib.error import HTTPError, URLError
+from urllib.request import Request, urlopen
+
+import orjson
+import typer
+from rich.table import Table
+
+from app import show
+from app.files import checked_output, write_whole
+from app.jobs.store import State, Store
+from app.settings import Settings
+from core import BenchDragonError, InvalidValue
+
+# How long a service may take to answer [s].
+PATIENCE = 60.0
+NO_RESULT = "job {} is {}, so it has no result"
+
+jobs = typer.Typer(help="The jobs of a data folder, or of a service.", no_args_is_help=True)
+
+Name = Annotated[str, typer.Argument(metavar="JOB", help="The job's name, the last part of its address.")]
+Data = Annotated[Path | None, typer.Option(help="Data folder of the service; else BENCH_DRAGON_DATA.")]
+Url = Annotated[str, typer.Option(help="Address of a service, such as http://127.0.0.1:8000, in place of a folder.")]
+Token = Annotated[str, typer.Option(help="Token of that service.", envvar="BENCH_DRAGON_TOKEN")]
+Json = Annotated[bool, typer.Option("--json", help="The service's JSON instead of a table.")]
+
+
+class NoJob(BenchDragonError):
+    """A job, or its result, is not there, or the service refuses to say."""
+
+    code = "no-job"
+
+
+class Jobs(Protocol):
+    """Where jobs are. raises: NoJob where a job or a result is missing"""
+
+    def list(self) -> list[dict[str, Any]]: ...
+
+    def show(self, job: str) -> dict[str, Any]: ...
+
+    def cancel(self, job: str) -> str: ...
+
+    def result(self, job: str) -> bytes: ...
+
+
+class InFolder:
+    """The jobs of a data folder; the service may run or not."""
+
+    def __init__(self, folder: Path) -> None:
+        if not (folder / "jobs.sqlite").is_file():
+            raise InvalidValue(
+                "data", f"--data must be a data folder of the service, got {folder}, which holds no jobs"
+            )
+        self.store = Store(folder)
+
+    def list(self) -> list[dict[str, Any]]:
+        return [job.status() for job in self.store.all()]
+
+    def show(self, job: str) -> dict[str, Any]:
+        found = self.store.get(job)
+        if found is None:
+            raise NoJob("job", f"there is no job {job} in {self.store.folder}")
+        return found.status()
+
+    def cancel(self, job: str) -> str:
+        self.show(job)
+        if self.store.dismiss(job):
+            return State.DISMISSED
+        self.store.remove(job)
+        return "removed"
+
+    def result(self, job: str) -> bytes:
+        known = self.show(job)
+        file = self.store.result(job)
+        if known["status"] != State.SUCCESSFUL or not file.is_file():
+            raise NoJob("job", f"{NO_RESULT.format(job, known['status'])}: {known['message']}")
+        return file.read_bytes()
+
+
+class OfService:
+    """The jobs of a service at an address."""
+
+    def __init__(self, url: str, token: str) -> None:
+        if not url.startswith(("http://", "https://")):
+            raise InvalidValue("url", f"--url must begin with http:// or https://, got {url}")
+        self.url, self.token = url.rstrip("/"), token
+
+    def _ask(self, path: str, method: str = "GET") -> bytes:
+        headers = {"Authorization": f"Bearer {self.token}"} if self.token else {}
+        try:
+            with urlopen(Request(self.url + path, method=method, headers=headers), timeout=PATIENCE) as answer:
+                data: bytes = answer.read()
+                return data
+        except HTTPError as error:
+            try:
+                detail = orjson.loads(error.read())["detail"]
+            except (orjson.JSONDecodeError, KeyError, TypeError):
+                detail = f"{error.code} {HTTPStatus(error.code).phrase}"
+            raise NoJob("job", detail) from error
+        except URLError as error:
+            raise InvalidValue("url", f"--url {self.url} does not answer: {error.reason}") from error
+
+    def list(self) -> list[dict[str, Any]]:
+        found: list[dict[str, Any]] = orjson.loads(self._ask("/jobs"))["jobs"]
+        return found
+
+    def show(self, job: str) -> dict[str, Any]:
+        found: dict[str, Any] = orjson.loads(self._ask(f"/jobs/{job}"))
+        return found
+
+    def cancel(self, job: str) -> str:
+        return State.DISMISSED if self._ask(f"/jobs/{job}", "DELETE") else "removed"
+
+    def result(self, job: str) -> bytes:
+        return self._ask(f"/jobs/{job}/result")
+
+
+def _at(data: Path | None, url: str, token: str) -> Jobs:
+    if url and data is not None:
+        raise InvalidValue("url", "--url takes the place of --data: give one of the two")
+    if url:
+        return OfService(url, token)
+    folder = data or Settings().data
+    if folder is None:
+        raise InvalidValue(
+            "data", "--data or --url must say where the jobs are, or BENCH_DRAGON_DATA in the environment"
+        )
+    return InFolder(folder)
+
+
+@jobs.command("list")
+def list_jobs(data: Data = None, url: Url = "", token: Token = "", json: Json = False) -> None:
+    """All jobs, the newest first."""
+    found = _at(data, url, token).list()
+    if json:
+        show.print_json(orjson.dumps({"jobs": found}))
+        return
+    table = Table(box=None, pad_edge=False)
+    for column in ("job", "question", "status", "progress", "asked"):
+        table.add_column(column, no_wrap=True)
+    for job in found:
+        asked = datetime.fromisoformat(job["created"]).astimezone().strftime("%Y-%m-%d %H:%M:%S")
+        table.add_row(job["jobID"], job["processID"], job["status"], f"{job['progress']} %", asked)
+    show.print_parts(table if found else "No jobs.")
+
+
+@jobs.command("show")
+def show_job(job: Name, data: Data = None, url: Url = "", token: Token = "", json: Json = False) -> None:
+    """How far one job is."""
+    found = _at(data, url, token).show(job)
+    if json:
+        show.print_json(orjson.dumps(found))
+        return
+    table = Table(box=None, show_header=False, pad_edge=False)
+    for name, value in found.items():
+        if value is not None and name not in ("links", "type", "problem"):
+            table.add_row(name.replace("_", " "), str(value))
+    show.print_parts(table)
+
+
+@jobs.command()
+def cancel(job: Name, data: Data = None, url: Url = "", token: Token = "") -> None:
+    """Dismiss a job that is not finished; of a finished one remove everything."""
+    print(f"{job}: {_at(data, url, token).cancel(job)}")
+
+
+@jobs.command()
+def result(
+    job: Name,
+    output: Annotated[Path | None, typer.Option(help="File for the result; else it goes to standard output.")] = None,
+    data: Data = None,
+    url: Url = "",
+    token: Token = "",
+) -> None:
+    """What a job has found, as the service would have answered."""
+    if output is not None:
+        checked_output("output", output)
+    found = _at(data, url, token).result(job)
+    if output is None:
+        with os.fdopen(os.dup(1), "wb") as out:
+            out.write(found)
+    else:
+        write_whole(output, found)
