@@ -1,7 +1,7 @@
 """What a process of the service does for its jobs: it keeps the store, and sees that a runner runs when there is work.
 
-Every process of the service has a keeper. Whichever finds work and nobody who does it starts a runner, and the runner
-ends with the process that started it; when that one was killed, a keeper of another process starts the next.
+Every process of the service has a keeper. One of them holds the lock and starts a runner when there is work; the runner
+ends with the process that started it. When that one is killed, the keeper of another process gets the lock.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from tempfile import TemporaryDirectory
 from threading import BoundedSemaphore, Event, Thread, current_thread, main_thread
 from types import FrameType
 
-from app.jobs.lock import RunnerLock
+from app.jobs.lock import FolderLock
 from app.jobs.store import Store
 from app.settings import SHARED_COUNTS, Settings
 
@@ -41,7 +41,7 @@ class Keeper:
         self.store, self.settings = store, settings
         self.free = BoundedSemaphore(settings.jobs_listeners_max)
         self.leaving = Event()
-        self._lock = RunnerLock(store.folder)
+        self._lock = FolderLock(store.folder, "keeper")
         self._wake = Event()
         self._runner: subprocess.Popen[bytes] | None = None
         self._thread = Thread(target=self._keep, name="jobs", daemon=True)
@@ -66,6 +66,7 @@ class Keeper:
             except subprocess.TimeoutExpired:
                 self._runner.kill()
                 self._runner.wait()
+        self._lock.give_back()
 
     def _keep(self) -> None:
         while not self.leaving.is_set():
@@ -79,7 +80,7 @@ class Keeper:
     def _see_to_it(self) -> None:
         if self._runner is not None and self._runner.poll() is None:
             return
-        if self.store.has_work(self.settings.job_days_max) and self._lock.is_free():
+        if self._lock.take() and self.store.has_work(self.settings.job_days_max):
             self._runner = start("app.jobs.runner", str(self.store.folder))
 
 

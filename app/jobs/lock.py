@@ -1,27 +1,27 @@
-"""At most one runner per data folder, held by a lock that the system takes back when its holder dies."""
+"""One holder of a role in a data folder at a time, by a lock that the system takes back when its holder dies."""
 
 from __future__ import annotations
 
 import sqlite3
 from pathlib import Path
 
-NAME = "runner.lock"
 
-
-class RunnerLock:
-    """The right to run the jobs of a data folder.
+class FolderLock:
+    """The right to a role in a data folder, among all processes.
 
     It is the exclusive lock of an empty SQLite database: SQLite knows how to lock a file on every system, and no
     process that the holder starts inherits it.
     """
 
-    def __init__(self, folder: Path) -> None:
-        self._file = folder / NAME
+    def __init__(self, folder: Path, role: str) -> None:
+        self._file = folder / f"{role}.lock"
         self._held: sqlite3.Connection | None = None
 
     def take(self, patience: float = 0.0) -> bool:
-        """Is the lock ours now? patience: how long to wait for it [s]"""
-        connection = sqlite3.connect(self._file, timeout=patience, isolation_level=None)
+        """Is the lock ours now, or was it before? patience: how long to wait for it [s]"""
+        if self._held is not None:
+            return True
+        connection = sqlite3.connect(self._file, timeout=patience, isolation_level=None, check_same_thread=False)
         try:
             connection.execute("PRAGMA journal_mode = MEMORY")  # Nothing is ever written.
             connection.execute("BEGIN EXCLUSIVE")
@@ -37,9 +37,3 @@ class RunnerLock:
         if self._held is not None:
             self._held.close()
             self._held = None
-
-    def is_free(self) -> bool:
-        """Could somebody take it now?"""
-        free = self.take()
-        self.give_back()
-        return free

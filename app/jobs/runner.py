@@ -29,7 +29,7 @@ from typing import Any
 import orjson
 
 from app.jobs.keeper import start
-from app.jobs.lock import RunnerLock
+from app.jobs.lock import FolderLock
 from app.jobs.store import Store
 from app.problems import problem
 from app.settings import Settings
@@ -40,7 +40,7 @@ logger = logging.getLogger("app.jobs")
 LOOK_SECONDS = 0.1
 # A runner with nothing to do ends after this, and is started again for the next job [s].
 IDLE_SECONDS = 10.0
-# The lock may be tried by others for a moment [s].
+# How long the last runner may take to end when its keeper was killed [s].
 LOCK_SECONDS = 5.0
 # Between two tries when the disk does not take what happened [s].
 RETRY_SECONDS = 1.0
@@ -203,9 +203,9 @@ def main() -> None:
     logging.basicConfig(format="%(levelname)s:     %(message)s", level=logging.INFO)
     folder = Path(sys.argv[1])
     follow_input()
-    lock = RunnerLock(folder)
+    lock = FolderLock(folder, "runner")
     if not lock.take(LOCK_SECONDS):
-        return  # Somebody else was quicker.
+        raise SystemExit(f"Another runner does not let go of {folder}")
     Runner(Store(folder), Settings()).run()
 
 
