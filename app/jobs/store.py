@@ -339,7 +339,7 @@ class Store:
             moved = self._move(
                 run, job, "state = 'running'", media_type=media_type, size=size, client="", rate=None, **done
             )
-        if not moved:
+        if not moved and self.known(job).state is not State.SUCCESSFUL:
             result.unlink(missing_ok=True)
 
     def fail(self, job: str, problem: bytes) -> None:

@@ -69,7 +69,10 @@ def kill_one(service: Service, chance: random.Random) -> str:
 
 
 def survive(folder: Path, kills: int, seed: int) -> dict[str, int]:
-    """Kills so many processes; then all jobs must be done, with the bytes of the direct calls. Returns kills by role."""
+    """Kills so many processes; then all jobs must be done, with the bytes of the direct calls.
+
+    returns: how many processes of each role were killed
+    """
     chance, done = random.Random(seed), dict.fromkeys(ROLES, 0)
     asked: dict[str, Any] = {}
     with Service(folder, workers=2, jobs_client_max=1000) as service:

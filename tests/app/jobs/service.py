@@ -22,7 +22,8 @@ from tests.conftest import ROOT, STOP_TIMEOUT, wait_until_live
 PATIENCE = 60.0  # [s] for what is coming
 LOOK = 0.05  # [s] between two looks
 # Seconds of work, and within the limits.
-LONG = {"question": "trajectory", "request": {"times": {"stop": 400, "step": 0.5}}, "accept": XLSX_TYPE}
+LONG = {"question": "trajectory", "request": {"times": {"stop": 400, "step": 1.0}}, "accept": XLSX_TYPE}
+SCAN = {"question": "pitch_scan", "request": {"samples": 401}}
 SHORT = {"question": "collision_time", "request": {"pitch": 0.5}}
 
 
@@ -108,7 +109,11 @@ class Service:
         return answer.headers["location"]
 
     def status(self, address: str) -> Any:
-        return self.client.get(address).raise_for_status().json()
+        while True:
+            try:
+                return self.client.get(address).raise_for_status().json()
+            except httpx.TransportError:  # A process that held the connection was killed.
+                assert self.process.poll() is None
 
     def until(self, address: str, *states: str) -> Any:
         """The status of a job when it is in one of these states."""

@@ -11,9 +11,8 @@ from typing import Any
 import httpx
 import pytest
 
-from tests.app.jobs.service import LONG, PATIENCE, SHORT, Service, direct, wait_for
+from tests.app.jobs.service import LONG, PATIENCE, SCAN, SHORT, Service, direct, wait_for
 
-SCAN = {"question": "pitch_scan", "request": {"samples": 401}}
 ANSWERED = [
     SHORT,
     {"question": "trajectory", "request": {"dragon": {"benches": 3}, "times": [0, 1]}},

@@ -7,9 +7,9 @@ from pathlib import Path
 import pytest
 
 from tests.app.jobs.kills import survive
-from tests.app.jobs.service import LONG, SHORT, Service, direct, wait_for
+from tests.app.jobs.service import SCAN, SHORT, Service, direct, wait_for
 
-KILLS, SEED = 6, 1
+KILLS, SEED = 5, 1
 LINGER = 10.0  # [s] until whoever follows a killed process has ended, on a busy machine
 
 
@@ -20,14 +20,13 @@ def test_processes_may_be_killed_at_any_moment(tmp_path: Path) -> None:
 @pytest.mark.parametrize("role", ["child", "runner", "worker"])
 def test_a_job_goes_on_when_a_process_is_killed(tmp_path: Path, role: str) -> None:
     with Service(tmp_path, workers=2) as service:
-        address = service.post(LONG)
+        address = service.post(SCAN)
         service.until(address, "running")
         wait_for(lambda: service.of("child"))
         for process in service.of(role):
             process.kill()
-        wait_for(lambda: service.client.get("/healthz").status_code == 200)
         assert service.finished(address)["status"] == "successful"
-        assert service.client.get(f"{address}/result").content == direct(service.client, LONG).content
+        assert service.client.get(f"{address}/result").content == direct(service.client, SCAN).content
 
 
 def test_jobs_are_there_when_a_killed_service_is_started_again(tmp_path: Path) -> None:
@@ -35,7 +34,7 @@ def test_jobs_are_there_when_a_killed_service_is_started_again(tmp_path: Path) -
         done = service.post(SHORT)
         service.finished(done)
         result = service.client.get(f"{done}/result").content
-        begun, waits = service.post(LONG), service.post(SHORT)
+        begun, waits = service.post(SCAN), service.post(SHORT)
         service.until(begun, "running")
         service.process.kill()
         service.process.wait()
@@ -46,12 +45,12 @@ def test_jobs_are_there_when_a_killed_service_is_started_again(tmp_path: Path) -
         assert service.client.get(f"{done}/result").content == result
         assert service.finished(waits)["status"] == "successful"
         assert service.finished(begun)["status"] == "successful"
-        assert service.client.get(f"{begun}/result").content == direct(service.client, LONG).content
+        assert service.client.get(f"{begun}/result").content == direct(service.client, SCAN).content
 
 
 def test_a_job_that_ends_its_process_three_times_has_failed(tmp_path: Path) -> None:
     with Service(tmp_path) as service:
-        address, other = service.post(LONG), ""
+        address, other = service.post(SCAN), ""
         for _ in range(3):
             wait_for(lambda: service.of("child"))
             for process in service.of("child"):
