@@ -16,7 +16,8 @@ from rich.table import Table
 
 from app import show
 from app.files import checked_output, write_whole
-from app.jobs.store import State, Store
+from app.jobs.job import State
+from app.jobs.store import Store
 from app.settings import Settings
 from core import BenchDragonError, InvalidValue
 

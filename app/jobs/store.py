@@ -15,14 +15,14 @@ import sqlite3
 import time
 from collections.abc import Iterator
 from contextlib import closing, contextmanager
-from dataclasses import dataclass, fields
-from datetime import UTC, datetime
-from enum import StrEnum
+from dataclasses import fields
 from pathlib import Path
 from threading import Lock
 from typing import Any
 
 import orjson
+
+from app.jobs.job import Full, FullForClient, FullOfResults, Job, Room, State
 
 # How long a change waits for that of another process [s].
 PATIENCE = 5.0
@@ -49,95 +49,7 @@ CREATE TABLE IF NOT EXISTS events (
 """
 
 
-class State(StrEnum):
-    """How far a job is, in the words of OGC API Processes."""
-
-    ACCEPTED = "accepted"
-    RUNNING = "running"
-    SUCCESSFUL = "successful"
-    FAILED = "failed"
-    DISMISSED = "dismissed"
-
-
-UNFINISHED = (State.ACCEPTED, State.RUNNING)
-
-
-@dataclass(frozen=True)
-class Job:
-    """What is known of one job. Times in seconds since 1970.
-
-    progress: 0 to 100; rate: [percent/s]; time_left: [s]; deaths: processes that it ended; size: of its result [bytes]
-    problem: why it failed, as the service would have answered; expired: its call and result are removed
-    """
-
-    id: str
-    question: str
-    state: State
-    created: float
-    started: float | None
-    finished: float | None
-    updated: float
-    message: str
-    progress: int
-    rate: float | None
-    time_left: float | None
-    deaths: int
-    media_type: str | None
-    size: int
-    problem: bytes | None
-    expired: int
-
-    @property
-    def is_finished(self) -> bool:
-        return self.state not in UNFINISHED
-
-    def status(self) -> dict[str, Any]:
-        """The job on the wire, by the names of OGC API Processes."""
-        return {
-            "jobID": self.id,
-            "type": "process",
-            "processID": self.question,
-            "status": self.state,
-            "message": self.message,
-            "created": _instant(self.created),
-            "started": _instant(self.started),
-            "finished": _instant(self.finished),
-            "updated": _instant(self.updated),
-            "progress": self.progress,
-            "rate": self.rate,
-            "time_left": self.time_left,
-            "problem": None if self.problem is None else orjson.loads(self.problem),
-        }
-
-
-def _instant(seconds: float | None) -> str | None:
-    if seconds is None:
-        return None
-    return datetime.fromtimestamp(seconds, UTC).isoformat(timespec="milliseconds").replace("+00:00", "Z")
-
-
 COLUMNS = ", ".join(field.name for field in fields(Job))
-
-
-@dataclass(frozen=True)
-class Room:
-    """How much a store takes: jobs in all, unfinished ones of one client, bytes of all results."""
-
-    jobs: int
-    of_client: int
-    bytes: int
-
-
-class Full(Exception):
-    """No more jobs are taken."""
-
-
-class FullForClient(Full):
-    """This client has as many unfinished jobs as it may."""
-
-
-class FullOfResults(Full):
-    """The results take as many bytes as they may."""
 
 
 class Store:
@@ -339,7 +251,8 @@ class Store:
             moved = self._move(
                 run, job, "state = 'running'", media_type=media_type, size=size, client="", rate=None, **done
             )
-        if not moved and self.known(job).state is not State.SUCCESSFUL:
+        found = self.get(job)
+        if not moved and (found is None or found.state is not State.SUCCESSFUL):
             result.unlink(missing_ok=True)
 
     def fail(self, job: str, problem: bytes) -> None:

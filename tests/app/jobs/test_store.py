@@ -9,7 +9,8 @@ from pathlib import Path
 import orjson
 import pytest
 
-from app.jobs.store import DEATHS_MAX, EVENTS_KEPT, Full, FullForClient, FullOfResults, Room, State, Store
+from app.jobs.job import Full, FullForClient, FullOfResults, Room, State
+from app.jobs.store import DEATHS_MAX, EVENTS_KEPT, Store
 
 ROOM = Room(jobs=10, of_client=10, bytes=1_000)
 PROBLEM = orjson.dumps({"detail": "It does not work."})
