@@ -122,6 +122,7 @@ ORDER = (
     "app.files",
     "app.show",
     "app.options",
+    "app.jobs.places",
     "app.jobs.command",
     "app.prove",
     "app.workers",

@@ -9,6 +9,10 @@ from typing import Any
 
 import orjson
 
+# Random bytes of a job's name, and the name.
+ID_BYTES = 24
+ID_PATTERN = r"[A-Za-z0-9_-]{32}"
+
 
 class State(StrEnum):
     """How far a job is, in the words of OGC API Processes."""

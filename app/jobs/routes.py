@@ -12,20 +12,20 @@ from time import monotonic
 from typing import Annotated, Any
 
 import orjson
-from fastapi import APIRouter, Body, Depends, Header, Request, Response
+from fastapi import APIRouter, Body, Depends, Header, Path, Request, Response
 from fastapi.responses import FileResponse, StreamingResponse
 from starlette.concurrency import run_in_threadpool
 from starlette.datastructures import Headers
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from app.jobs.call import Call, ask
-from app.jobs.job import Full, FullForClient, FullOfResults, Job, Room, State
+from app.jobs.job import ID_PATTERN, Full, FullForClient, FullOfResults, Job, Room, State
 from app.jobs.keeper import Keeper
 from app.jobs.questions import ROUTES, call_of
 from app.jobs.wire import EVENTS_TYPE, JobList, JobRequest, JobStatus, status
 from app.messages import shown
 from app.problems import PROBLEM_TYPE, ErrorItem, Refused, http_problem, problem
-from app.reply import JSON, LATER, refuse_query
+from app.reply import JSON, LATER, refuse_query, reply_body
 
 logger = logging.getLogger("uvicorn.error")
 
@@ -160,7 +160,10 @@ def told(*statuses: int, **content: Any) -> dict[str, Any]:
     return {"response_class": Response, "responses": {**answer, **problems}}
 
 
-def found(request: Request, job_id: str) -> Job:
+JobId = Annotated[str, Path(description="Name of the job, the last part of its address", pattern=f"^{ID_PATTERN}$")]
+
+
+def found(request: Request, job_id: JobId) -> Job:
     """raises: Refused (404) for a job that is not there"""
     job = keeper_of(request).store.get(job_id)
     if job is None:
@@ -177,7 +180,7 @@ no_query = Depends(refuse_query)
 @router.post(
     "",
     status_code=202,
-    dependencies=[Depends(guard), no_query],
+    dependencies=[Depends(guard), Depends(reply_body)],
     **told(400, 401, 406, 413, 415, 422, 429, 500, 503, 507) | {"response_model": JobStatus},
 )
 async def ask_later(

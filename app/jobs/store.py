@@ -22,7 +22,7 @@ from typing import Any
 
 import orjson
 
-from app.jobs.job import Full, FullForClient, FullOfResults, Job, Room, State
+from app.jobs.job import ID_BYTES, Full, FullForClient, FullOfResults, Job, Room, State
 
 # How long a change waits for that of another process [s].
 PATIENCE = 5.0
@@ -30,7 +30,6 @@ PATIENCE = 5.0
 EVENTS_KEPT = 100
 # A job that ended its process so often is not tried again.
 DEATHS_MAX = 3
-ID_BYTES = 24
 DAY = 86_400.0  # [s]
 # Version of the tables below; a folder of another one is not touched.
 LAYOUT = 1
