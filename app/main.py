@@ -116,6 +116,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     )
     app.state.settings = settings
     app.state.fault = "it has not run"
+    app.state.jobs = "it has not started"
     app.state.free = BoundedSemaphore(settings.concurrent_max)
     app.state.busy = Gauge(
         "bench_dragon_computations", "Computations running", registry=registry, multiprocess_mode="livesum"

@@ -33,7 +33,7 @@ class Call:
         headers = Headers(scope=scope)
         return cls(
             method=scope["method"],
-            path=scope["path"],
+            path=scope["path"].removeprefix(scope.get("root_path", "")),
             query=scope["query_string"].decode("latin-1"),
             accept=headers.get("accept", "*/*"),
             content_type=headers.get("content-type", ""),

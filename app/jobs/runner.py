@@ -70,6 +70,8 @@ class Work:
     def end(self) -> None:
         """The process and all that it started end at once."""
         self.over = True
+        if self.process.returncode is not None:
+            return  # Its number may be another's by now.
         with contextlib.suppress(ProcessLookupError):
             if hasattr(os, "killpg"):
                 os.killpg(self.process.pid, signal.SIGKILL)

@@ -90,7 +90,6 @@ def survive(folder: Path, kills: int, seed: int) -> dict[str, int]:
             assert service.client.get(f"{address}/result").content == direct(service.client, call).content, call
         kept = {file.name for file in (folder / "results").iterdir()}
         assert kept == {job.id for job in Store(folder).all()}
-    assert service.processes() == []
     print(f"{len(asked)} jobs, kills: {done}")
     return done
 

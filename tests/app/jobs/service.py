@@ -20,6 +20,7 @@ from app.tables import XLSX_TYPE
 from tests.conftest import ROOT, STOP_TIMEOUT, wait_until_live
 
 PATIENCE = 60.0  # [s] for what is coming
+LINGER = 10.0  # [s] until whoever follows a process has ended after it, on a busy machine
 LOOK = 0.05  # [s] between two looks
 # Seconds of work, and within the limits.
 LONG = {"question": "trajectory", "request": {"times": {"stop": 400, "step": 1.0}}, "accept": XLSX_TYPE}
@@ -72,10 +73,11 @@ class Service:
         wait_until_live(self.process, self.port, log)
 
     def stop(self) -> None:
-        """Asks the service to end, and takes away what does not."""
+        """Asks the service to end; no process of it may stay."""
         self.process.terminate()
         try:
             self.process.wait(STOP_TIMEOUT)
+            wait_for(lambda: not self.processes(), LINGER)
         finally:
             for process in self.processes():
                 process.kill()

@@ -7,10 +7,9 @@ from pathlib import Path
 import pytest
 
 from tests.app.jobs.kills import survive
-from tests.app.jobs.service import SCAN, SHORT, Service, direct, wait_for
+from tests.app.jobs.service import LINGER, SCAN, SHORT, Service, direct, wait_for
 
 KILLS, SEED = 5, 1
-LINGER = 10.0  # [s] until whoever follows a killed process has ended, on a busy machine
 
 
 def test_processes_may_be_killed_at_any_moment(tmp_path: Path) -> None:
