@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Mapping
 from typing import Any
 from urllib.parse import urlencode
 
-import orjson
 from fastapi.routing import APIRoute
 
 from app import api, figure_calls
@@ -32,8 +32,8 @@ def call_of(question: str, request: Mapping[str, Any], accept: str) -> Call:
     if "GET" in (route.methods or ()):
         given = {name: _text(value) for name, value in values.items() if value is not None}
         return Call("GET", path, urlencode(given), accept, "", b"")
-    return Call("POST", path, "", accept, JSON, orjson.dumps(values))
+    return Call("POST", path, "", accept, JSON, json.dumps(values).encode())
 
 
 def _text(value: Any) -> str:
-    return value if isinstance(value, str) else orjson.dumps(value).decode()
+    return value if isinstance(value, str) else json.dumps(value)

@@ -40,7 +40,7 @@ PROBLEMS = {
     400: "The body is not JSON",
     401: "The token of this service is missing",
     403: "This service lists no jobs",
-    404: "There is no such job",
+    404: "There is no such job, or no such format",
     406: "The question has no answer in this form",
     409: "The job is not finished",
     410: "The result is gone, or there will be none",
@@ -73,7 +73,7 @@ def guard(request: Request) -> None:
 
 
 def take(request: Request, call: Call, question: str) -> Response:
-    """The answer to a call that is right and for later: a job. raises: Refused where there is no room"""
+    """A new job for a call whose values are right. raises: Refused where there is no room"""
     keeper = keeper_of(request)
     limits = keeper.settings
     client = request.client.host if request.client else ""
@@ -96,9 +96,9 @@ def take(request: Request, call: Call, question: str) -> Response:
 
 
 class RespondAsync:
-    """Makes a job of a call with `Prefer: respond-async`, if its values are right and its answer takes work.
+    """Makes a job of a question with `Prefer: respond-async`.
 
-    What is wrong is refused at once, what the client has already is 304, and what is no question is answered as ever.
+    Wrong values are refused at once, what the client has already is 304, and other calls are answered as ever.
     """
 
     def __init__(self, app: ASGIApp) -> None:
@@ -141,7 +141,7 @@ def prefers_later(headers: Headers) -> bool:
 
 
 async def store_problem(request: Request, error: Exception) -> Response:
-    """What SQLite refuses: a full disk, or one that fails."""
+    """The answer where SQLite cannot write or read: the disk is full, or it fails."""
     if getattr(error, "sqlite_errorcode", None) == sqlite3.SQLITE_FULL:
         detail = "The disk of the data folder is full: remove jobs that you do not need, or make room."
         return problem(507, "insufficient-storage", detail)
@@ -181,13 +181,13 @@ no_query = Depends(refuse_query)
     "",
     status_code=202,
     dependencies=[Depends(guard), Depends(reply_body)],
-    **told(400, 401, 406, 413, 415, 422, 429, 500, 503, 507) | {"response_model": JobStatus},
+    **told(400, 401, 404, 406, 413, 415, 422, 429, 500, 503, 507) | {"response_model": JobStatus},
 )
 async def ask_later(
     request: Request,
     wanted: Annotated[JobRequest, Body(examples=[{"question": "collision_time", "request": {"pitch": 0.5}}])],
 ) -> Response:
-    """A question to be answered later; Location says where its job is."""
+    """Asks a question whose answer is worked out later; Location is the address of its job."""
     if wanted.question not in ROUTES:
         near = difflib.get_close_matches(wanted.question, ROUTES, n=1)
         advice = f"did you mean {near[0]}?" if near else f"it must be one of {', '.join(sorted(ROUTES))}"
@@ -222,9 +222,9 @@ def placed(said: bytes) -> bytes:
 
 @router.get("", dependencies=[Depends(guard), no_query], **told(401, 403, 422, 500, 503) | {"response_model": JobList})
 def list_jobs(request: Request, keeper: KeptKeeper) -> Response:
-    """All jobs, for who has the token; a service without one shows nobody what others ask."""
+    """All jobs, for whoever has the token; a service without a token lists none."""
     if not keeper.settings.token:
-        raise Refused(403, "This service has no token, so it shows its jobs to nobody: keep the Location of yours.")
+        raise Refused(403, "This service has no token, so it lists no jobs: keep the address that Location gave you.")
     root = request.scope.get("root_path", "")
     listed = b",".join(status(job, root) for job in keeper.store.all())
     return Response(b'{"jobs":[' + listed + b"]}", headers=NOT_KEPT, media_type=JSON)
@@ -242,9 +242,9 @@ def job(request: Request, found: Found) -> Response:
     **told(404, 422, 500, 503, 507) | {"response_model": JobStatus},
 )
 def dismiss(request: Request, keeper: KeptKeeper, found: Found) -> Response:
-    """Dismisses a job that is not finished; of a finished one removes everything (204)."""
+    """Dismisses a job that is not finished; removes a finished one with all that is known of it (204)."""
     if keeper.store.dismiss(found.id):
-        return job(request, keeper.store.known(found.id))
+        return job(request, keeper.store.get(found.id) or found)
     keeper.store.remove(found.id)
     return Response(status_code=204)
 
@@ -275,7 +275,6 @@ def result(keeper: KeptKeeper, found: Found) -> Response:
     **told(404, 422, 500, 503, **{EVENTS_TYPE: {"schema": {"type": "string"}}}),
 )
 async def events(
-    request: Request,
     keeper: KeptKeeper,
     found: Found,
     last_event_id: Annotated[str, Header(description="Number of the last event that the client has")] = "0",

@@ -83,6 +83,7 @@ def test_what_the_client_has_already_needs_no_job(service: Service) -> None:
         ({"question": "collision_time", "request": {"pitch": {"a": 1}}}, "/request/pitch"),
         ({"question": "trajectory", "request": {"dragon": {"width": -1}}}, "/request/dragon/width"),
         ({"question": "trajectory", "accept": "image/gif"}, "/accept"),
+        ({"question": "trajectory", "request": {"dragon": {"benches": 10**30}}}, "/request/dragon/benches"),
         ({"question": "collision_tim"}, "/question"),
         ({"request": {}}, "/question"),
         ({"question": "collision_time", "requests": {}}, "/requests"),
