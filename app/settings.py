@@ -47,7 +47,9 @@ class Settings(BaseSettings):
     jobs_max: int = Field(1_000, ge=1, description="Most jobs kept; one more gets a 503")
     jobs_client_max: int = Field(20, ge=1, description="Most unfinished jobs of one client; one more gets a 429")
     jobs_running_max: int = Field(2, ge=1, description="Jobs that run at once; the others wait")
-    jobs_bytes_max: int = Field(10**10, ge=1, description="Results of all jobs; with more, no job is taken [bytes]")
+    jobs_bytes_max: int = Field(
+        10**10, ge=1, description="Calls and results of all jobs; with more, no job is taken [bytes]"
+    )
     jobs_listeners_max: int = Field(100, ge=1, description="Clients that follow a job, for each process")
     job_result_bytes_max: int = Field(10**9, ge=1, description="Longest result of a job [bytes]")
     job_memory_max: int = Field(4 * 2**30, ge=2**28, description="Memory of the process of a job [bytes]")

@@ -83,7 +83,7 @@ def _instant(seconds: float | None) -> str | None:
 
 @dataclass(frozen=True)
 class Room:
-    """How much a store takes: jobs in all, unfinished ones of one client, bytes of all results."""
+    """How much a store takes: jobs in all, unfinished ones of one client, bytes of all calls and results."""
 
     jobs: int
     of_client: int
@@ -98,5 +98,5 @@ class FullForClient(Full):
     """This client has as many unfinished jobs as it may."""
 
 
-class FullOfResults(Full):
-    """The results take as many bytes as they may."""
+class FullOfBytes(Full):
+    """The calls and results take as many bytes as they may."""

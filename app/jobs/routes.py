@@ -19,7 +19,7 @@ from starlette.datastructures import Headers
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from app.jobs.call import Call, ask
-from app.jobs.job import ID_PATTERN, Full, FullForClient, FullOfResults, Job, Room, State
+from app.jobs.job import ID_PATTERN, Full, FullForClient, FullOfBytes, Job, Room, State
 from app.jobs.keeper import Keeper
 from app.jobs.questions import ROUTES, call_of
 from app.jobs.wire import EVENTS_TYPE, JobList, JobRequest, JobStatus, status
@@ -83,8 +83,8 @@ def take(request: Request, call: Call, question: str) -> Response:
     except FullForClient as error:
         detail = f"{limits.jobs_client_max} of your jobs are not finished, as many as may: wait for one or dismiss one."
         raise Refused(429, detail, headers=COME_AGAIN) from error
-    except FullOfResults as error:
-        detail = "The results that are kept take all the room that they may: remove those that you do not need."
+    except FullOfBytes as error:
+        detail = "The jobs that are kept take all the room that they may: remove those that you do not need."
         raise Refused(507, detail) from error
     except Full as error:
         detail = f"{limits.jobs_max} jobs are kept, as many as may: remove those that you do not need, or come later."

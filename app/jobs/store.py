@@ -22,7 +22,7 @@ from typing import Any
 
 import orjson
 
-from app.jobs.job import ID_BYTES, Full, FullForClient, FullOfResults, Job, Room, State
+from app.jobs.job import ID_BYTES, Full, FullForClient, FullOfBytes, Job, Room, State
 
 # How long a change waits for that of another process [s].
 PATIENCE = 5.0
@@ -129,14 +129,15 @@ class Store:
         """A new job, safe on the disk. raises: Full where there is no room for it"""
         now, job = time.time(), secrets.token_urlsafe(ID_BYTES)
         with self._change() as run:
-            jobs, used = run.execute("SELECT count(*), coalesce(sum(size), 0) FROM jobs WHERE NOT expired").fetchone()
+            kept = "SELECT count(*), coalesce(sum(size + length(call)), 0) FROM jobs WHERE NOT expired"
+            jobs, used = run.execute(kept).fetchone()
             own = "SELECT count(*) FROM jobs WHERE client = ? AND state IN ('accepted', 'running')"
             if run.execute(own, (client,)).fetchone()[0] >= room.of_client:
                 raise FullForClient
             if jobs >= room.jobs:
                 raise Full
             if used >= room.bytes:
-                raise FullOfResults
+                raise FullOfBytes
             run.execute(
                 "INSERT INTO jobs (id, question, call, client, state, created, updated, message)"
                 " VALUES (?, ?, ?, ?, 'accepted', ?, ?, 'It waits for its turn.')",

@@ -9,7 +9,7 @@ from pathlib import Path
 import orjson
 import pytest
 
-from app.jobs.job import Full, FullForClient, FullOfResults, Room, State
+from app.jobs.job import Full, FullForClient, FullOfBytes, Room, State
 from app.jobs.store import DEATHS_MAX, EVENTS_KEPT, Store
 
 ROOM = Room(jobs=10, of_client=10, bytes=1_000)
@@ -120,14 +120,14 @@ def test_only_the_latest_events_are_kept_under_their_numbers(store: Store) -> No
     [
         (Room(jobs=1, of_client=10, bytes=1_000), Full),
         (Room(jobs=10, of_client=1, bytes=1_000), FullForClient),
-        (Room(jobs=10, of_client=10, bytes=6), FullOfResults),
+        (Room(jobs=10, of_client=10, bytes=6), FullOfBytes),
     ],
     ids=["jobs", "of_client", "bytes"],
 )
 def test_no_job_is_taken_where_there_is_no_room(store: Store, room: Room, error: type[Full]) -> None:
     job = make(store)
     store.take()
-    if error is FullOfResults:
+    if error is FullOfBytes:
         store.succeed(job, written(store, b"answer"), "text/plain")
     with pytest.raises(error):
         store.create("turn", b"call", "client", room)
