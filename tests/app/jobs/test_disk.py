@@ -17,7 +17,7 @@ BIG = {"question": "trajectory", "request": {"times": {"stop": 100, "step": 1}}}
 
 @pytest.fixture
 def small_disk(tmp_path: Path) -> Iterator[Path]:
-    """A disk of one megabyte; it takes the right to mount one."""
+    """A disk of one megabyte, which only root may mount."""
     folder = tmp_path / "disk"
     folder.mkdir()
     subprocess.run(["mount", "-t", "tmpfs", "-o", f"size={DISK_BYTES}", "tmpfs", folder], check=True)
