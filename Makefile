@@ -1,4 +1,4 @@
-# The first `make` in a fresh clone makes .venv, installs the locked versions and compiles core/kernels.
+# The first `make` in a fresh clone creates .venv, installs the locked versions and compiles core/kernels.
 SHELL := /bin/bash
 .DEFAULT_GOAL := help
 .PHONY: help setup serve test rounding lint sweep-pitch job-kills bench examples figures dist lock clean
@@ -18,12 +18,12 @@ help:
 	@echo 'make lint     ruff and mypy'
 	@echo 'make sweep-pitch  the minimum pitch of 2,000 random dragons against a slow scan, 10 minutes (DRAGONS=, FIRST=)'
 	@echo 'make job-kills  50 processes of the service killed at random while it works on jobs, 5 minutes (KILLS=, SEED=)'
-	@echo 'make bench    benchmarks against a plain SciPy baseline, into the table of README.md'
-	@echo 'make examples the answers that /docs shows, asked anew'
-	@echo 'make figures  the figures of README.md'
+	@echo 'make bench    benchmarks against a plain SciPy baseline, into docs/performance.md'
+	@echo 'make examples the answers that /docs shows, asked again'
+	@echo 'make figures  the figures of README.md and docs/'
 	@echo 'make dist     the sdist and the wheel in dist/, checked'
 	@echo 'make lock     new exact versions in requirements.lock'
-	@echo 'make clean    remove everything that make made'
+	@echo 'make clean    remove everything that make created'
 
 setup: $(VENV)/compiled
 
@@ -33,13 +33,13 @@ $(VENV)/installed: requirements.lock
 	@$(PIP) install -r requirements.lock
 	@touch $@
 
-# The normal install, editable: it compiles core/kernels in place, or says why it runs uncompiled.
+# The normal install, editable: it compiles core/kernels in place, or reports why it runs uncompiled.
 $(VENV)/compiled: $(wildcard core/kernels/*.py core/kernels/*.pxd) setup.py pyproject.toml $(VENV)/installed
 	@rm -f core/kernels.*.so core/kernels/*.so
 	@$(PIP) install --no-build-isolation --no-deps -e .
 	@$(BIN)/python -c "from core.kernels import COMPILED; raise SystemExit(not COMPILED)" || printf '%s\n' \
-		'No C compiler with the headers of Python was found: everything works, only many times slower.' \
-		'To change that: apt install gcc python3-dev, then: make clean setup' >&2
+		'No C compiler with the headers of Python was found. Everything works, but many times slower.' \
+		'For full speed: apt install gcc python3-dev, then: make clean setup' >&2
 	@touch $@
 
 serve: setup
@@ -64,7 +64,7 @@ job-kills: setup
 	@$(BIN)/python -m tests.app.jobs.kills $(or $(KILLS),50) $(or $(SEED),0)
 
 bench: setup
-	@$(BIN)/python -m benchmarks.report README.md
+	@$(BIN)/python -m benchmarks.report docs/performance.md
 
 examples: setup
 	@$(BIN)/python -m tests.app.renew_examples
@@ -72,7 +72,7 @@ examples: setup
 figures: setup
 	@$(BIN)/bench-dragon figures docs
 
-# The wheel is made from the sdist; both are checked as a package index does.
+# The wheel is built from the sdist; both pass the checks of a package index.
 dist: setup
 	@rm -rf dist
 	@$(BIN)/python -c 'from setuptools.build_meta import build_sdist; build_sdist("dist")' >build/sdist.log
@@ -82,7 +82,7 @@ dist: setup
 	@build/checks/bin/twine check --strict dist/*
 	@build/checks/bin/check-wheel-contents dist/*.whl
 
-# Resolved anew in an environment of its own; names and versions only.
+# Versions are resolved in a separate, new environment; the file has names and versions only.
 lock:
 	@$(PYTHON) -m venv build/lock
 	@build/lock/bin/python -m pip --quiet install -e '.[dev]'

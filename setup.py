@@ -1,10 +1,10 @@
-"""The one part of the build that pyproject.toml cannot say: the modules of core/kernels are compiled by Cython.
+"""The part of the build that pyproject.toml cannot express: Cython compiles the modules of core/kernels.
 
-All of them or none: without a C compiler the install succeeds and the same files run uncompiled, and as compiled
-modules call each other in C, a half-compiled package would not import.
-No -march=native and no -ffast-math: every machine gives the same digits. The flags say that nobody reads errno or
-floating-point traps, so that square roots and selections vectorise, and forbid fused multiply-add, which would round
-differently from the uncompiled files.
+All of them or none are compiled: compiled modules call each other in C, so a half-compiled package would not import.
+Without a C compiler the install succeeds, and the same files run uncompiled.
+No -march=native and no -ffast-math: every machine gives the same digits. The flags tell the compiler that nobody reads
+errno or floating-point traps, so that square roots and selections vectorise. They forbid fused multiply-add, which
+would round differently from the uncompiled files.
 """
 
 import os
@@ -15,12 +15,12 @@ from Cython.Build import cythonize
 from setuptools import Extension, setup
 from setuptools.command.build_ext import build_ext
 
-# What every compiler with gcc's options knows.
+# Flags of every compiler with gcc's options.
 UNIX_FLAGS = ["-O3", "-g0", "-fno-math-errno", "-fno-trapping-math", "-ffp-contract=off"]
-# The flags of each compiler; none of them gets one that it does not know.
-# gcc: functions are copied into their callers up to a size that holds the tests of a pair whole: C passes a memoryview
-# by value, 200 bytes, and what other modules may call cannot be given a lighter signature (measured 2026-11-21: without
-# it first contact takes 1.4 times as long). clang lacks that flag.
+# The flags of each compiler; no compiler gets a flag that it does not know.
+# gcc: inlines functions up to a size that includes the tests of a pair. C passes a memoryview by value, 200 bytes, and
+# functions that other modules call cannot have a lighter signature (measured 2026-11-21: first contact takes 1.4 times
+# as long without the flag). clang lacks this flag.
 # msvc: without /fp:contract, /fp:precise leaves multiplications and additions apart.
 FLAGS = {
     "gcc": [*UNIX_FLAGS, "-finline-limit=2000"],
@@ -34,14 +34,14 @@ DIRECTIVES = {
     "cdivision": True,
     "initializedcheck": False,
 }
-# What Cython needs for memoryviews stands in one module for all.
+# One module for all holds Cython's code for memoryviews.
 SHARED = "core.kernels._shared"
 
 
 def family(kind: str, command: list[str]) -> str:
-    """Which compiler this is, a key of FLAGS; an unknown one that takes gcc's options counts as clang.
+    """The compiler as a key of FLAGS; an unknown compiler with gcc's options counts as clang.
 
-    kind: setuptools' name for its way of calling the compiler; command: how it is called, where that is known
+    kind: setuptools' name for its way of calling the compiler; command: the call, if known
     """
     if kind == "msvc":
         return kind
@@ -49,13 +49,13 @@ def family(kind: str, command: list[str]) -> str:
     try:
         said = subprocess.run([*command, "--version"], capture_output=True, text=True, env=english).stdout
     except OSError:
-        said = ""  # No compiler: the build will say so.
-    # The name proves nothing: on macOS clang answers to gcc.
+        said = ""  # No compiler: the build reports it.
+    # The name proves nothing: on macOS gcc is clang.
     return "gcc" if "Free Software Foundation" in said else "clang"
 
 
 class AllOrNothing(build_ext):
-    """Compiles side by side, and leaves nothing compiled where one module fails."""
+    """Compiles the modules in parallel, and leaves none compiled if one fails."""
 
     def finalize_options(self) -> None:
         super().finalize_options()
@@ -73,8 +73,9 @@ class AllOrNothing(build_ext):
 
 
 def kernels() -> list[Extension]:
-    """The modules of core/kernels, as C."""
-    names = sorted(path.stem for path in Path("core/kernels").glob("*.pxd") if path.stem != "constants")
+    """The modules of core/kernels, translated to C."""
+    declared = {path.stem for path in Path("core/kernels").glob("*.pxd")}
+    names = sorted(declared - {"constants", "records"})  # these hold names alone
     extensions = cythonize(
         [Extension(SHARED, ["build/_shared.c"])]
         + [Extension(f"core.kernels.{name}", [f"core/kernels/{name}.py"]) for name in names],
@@ -83,7 +84,7 @@ def kernels() -> list[Extension]:
         shared_utility_qualified_name=SHARED,
     )
     for extension in extensions:
-        extension.optional = True  # cythonize (3.3) forgets what Extension was told
+        extension.optional = True  # cythonize (3.3) drops this option of Extension
     return extensions
 
 

@@ -7,9 +7,7 @@ from pathlib import Path
 from pydantic import Field
 from pydantic_settings import BaseSettings, SettingsConfigDict
 
-from core import TooLarge
-
-# Where prometheus_client keeps the counts of several processes; app/workers.py sets it for those that it starts.
+# Where prometheus_client keeps the counts of several processes, which app/service/workers.py sets for those it starts.
 SHARED_COUNTS = "PROMETHEUS_MULTIPROC_DIR"
 # Where jobs are kept: Settings.data, which all processes of a service share.
 DATA = "BENCH_DRAGON_DATA"
@@ -56,9 +54,3 @@ class Settings(BaseSettings):
     job_seconds_max: float = Field(3_600.0, gt=0, description="Longest time that a job may run [s]")
     job_days_max: float = Field(7.0, gt=0, description="How long a finished job is kept [days]")
     cache_seconds: int = Field(86_400, ge=0, description="Cache-Control max-age of an answer [s]")
-
-
-def check_limit(field: str, what: str, count: int, limit: int, advice: str) -> None:
-    """raises: TooLarge at the field when there are more than the limit of what"""
-    if count > limit:
-        raise TooLarge(field, f"{what} must be at most {limit} here, got {count}: {advice}")

@@ -1,1 +1,1 @@
-"""How long each answer takes, beside a plain SciPy and shapely program measured in the same run."""
+"""Times of the answers, beside a plain SciPy and shapely program measured in the same run."""

@@ -1,4 +1,4 @@
-"""What a reader would write first: scipy.optimize.brentq for every handle, shapely for every instant."""
+"""The program that one would write first: scipy.optimize.brentq for every handle, shapely for every instant."""
 
 from __future__ import annotations
 
@@ -11,9 +11,9 @@ from scipy.optimize import brentq
 from core import Dragon, Spiral
 from core.values import Floats
 
-STEP = 0.1  # [s] between two looks; coarse enough to miss short contacts, as every fixed step is
-BRACKET = 1e-9  # [s] or [m]: what the answers of core are known to, so what the baseline bisects to
-PITCH_RANGE = 0.25  # [m]: the paper searches from 0.30 to 0.55 m
+STEP = 0.1  # time between two looks [s]; it can miss short contacts, as every fixed step can
+BRACKET = 1e-9  # width to which the baseline bisects [s] or [m]: the accuracy of core's answers
+PITCH_RANGE = 0.25  # range in which the paper searches, 0.30 to 0.55 m [m]
 
 
 def arc(theta: float) -> float:
@@ -64,19 +64,19 @@ def overlapping_pairs(benches: list[shapely.Polygon]) -> Floats:
 
 
 def looks(dragon: Dragon, path: Spiral, times: Floats) -> list[bool]:
-    """Does anything overlap? One look at every time."""
+    """Whether any benches overlap, one look at each time."""
     return [
         overlapping_pairs(polygons(dragon, handles_and_velocities(dragon, path, time)[0])).size > 0 for time in times
     ]
 
 
 def looks_for_first_contact(time: float) -> int:
-    """How many looks a march to the first contact and a bisection there take."""
+    """Number of looks in a march to the first contact and a bisection there."""
     return math.ceil(time / STEP) + math.ceil(math.log2(STEP / BRACKET))
 
 
 def looks_for_minimum_pitch(pitch: float, start_turns: float, turning_radius: float) -> int:
-    """How many looks a bisection of the pitch takes, each a march to the turning circle."""
+    """Number of looks in a bisection of the pitch, each step a march to the turning circle."""
     path = Spiral(pitch, start_turns)
     march = path.length - path.growth * arc(turning_radius / path.growth)
     return math.ceil(math.log2(PITCH_RANGE / BRACKET)) * math.ceil(march / STEP)

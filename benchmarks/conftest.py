@@ -1,4 +1,4 @@
-"""The service under test is the one that the tests use."""
+"""The benchmarks use the same service as the tests."""
 
 from tests.conftest import server
 

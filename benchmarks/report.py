@@ -1,4 +1,4 @@
-"""python -m benchmarks.report README.md: run every benchmark and rewrite the table between the two markers."""
+"""python -m benchmarks.report docs/performance.md: run every benchmark, rewrite the tables between the markers."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from typing import Any
 ROOT = Path(__file__).parent.parent
 BEGIN, END = "<!-- performance:begin -->", "<!-- performance:end -->"
 
-# What the row is called, the benchmark, its baseline, and the time it must and the time it should take.
+# Label of the row, benchmark, baseline, required time, desired time.
 ROWS = (
     ("trajectory, 301 x 224, positions and velocities", "trajectory", "trajectory_baseline", "6 ms", "3 ms"),
     ("first contact, certified", "first_contact[223]", "first_contact_baseline", "20 ms", "4 ms"),
@@ -34,7 +34,7 @@ ROWS = (
     ("import of `core` and first contact, cold process", "cold_start", "cold_start_baseline", "1.5 s", "0.6 s"),
 )
 BENCHES = (223, 1_000, 10_000, 100_000)
-# Requests per second on two cores over those on one.
+# Required ratio of requests per second on two cores to those on one.
 SCALING_MUST = 1.7
 SCALES_BY_THREADS = ("The threads of one process use both cores.",)
 SCALES_BY_PROCESSES = (
@@ -45,7 +45,7 @@ Results = dict[str, dict[str, Any]]
 
 
 def run_benchmarks() -> Results:
-    """Every benchmark's entry of pytest-benchmark's JSON, by the name of its test."""
+    """The entries of pytest-benchmark's JSON, by test name."""
     with tempfile.TemporaryDirectory() as folder:
         output = Path(folder) / "benchmarks.json"
         command = [sys.executable, "-m", "pytest", "benchmarks", f"--benchmark-json={output}"]
@@ -55,13 +55,13 @@ def run_benchmarks() -> Results:
 
 
 def seconds(results: Results, name: str) -> float:
-    """Median of a benchmark, scaled up where only a part of the work was measured."""
+    """Median of a benchmark, scaled up if only a part of the work was measured."""
     entry = results[name]
     return float(entry["stats"]["median"] * entry["extra_info"].get("scale", 1.0))
 
 
 def shown(time: float) -> str:
-    """A time in the unit that suits it, to three digits."""
+    """A time in seconds or milliseconds, to three digits."""
     value, unit = (time * 1e3, "ms") if time < 1.0 else (time, "s")
     return f"{value:,.0f} {unit}" if value >= 100 else f"{value:.3g} {unit}"
 
@@ -80,7 +80,7 @@ def table(results: Results) -> list[str]:
 
 
 def growth(results: Results) -> list[str]:
-    """How first contact grows with the number of benches."""
+    """Rows on the growth of first contact with the number of benches."""
     times = [seconds(results, f"first_contact[{benches}]") for benches in BENCHES]
     return [
         f"| first contact, benches | {' | '.join(f'{benches:,}' for benches in BENCHES)} |",
@@ -91,7 +91,7 @@ def growth(results: Results) -> list[str]:
 
 
 def throughput(results: Results) -> list[str]:
-    """Requests per second of /collision-time?cross_check=pair with one process on one core and on two, and with two."""
+    """Rows on requests per second: one process on one core, one process on two cores, two processes on two cores."""
     rates = {
         name: entry["extra_info"]["requests"] / entry["stats"]["min"]
         for service in ("1on1", "1on2", "2on2")

@@ -73,7 +73,7 @@ def test_minimum_pitch_baseline(benchmark: BenchmarkFixture) -> None:
 
 @pytest.fixture(scope="module")
 def long_dragon() -> tuple[core.Dragon, Floats]:
-    """A dragon of 100,000 benches a moment after its first contact, and where its handles are."""
+    """A dragon of 100,000 benches a moment after its first contact, and the places of its handles."""
     dragon = core.Dragon(100_000)
     return dragon, core.trajectory(core.Dance(dragon, SPIRAL), [412.5]).position[0]
 
@@ -103,6 +103,6 @@ def test_cold_start(benchmark: BenchmarkFixture) -> None:
 
 
 def test_cold_start_baseline(benchmark: BenchmarkFixture) -> None:
-    """Imports alone: the baseline has not looked for anything yet."""
+    """Imports alone, without any search."""
     benchmark.group = "cold start"
     benchmark.pedantic(run_cold, ("import numpy, scipy.optimize, shapely",), rounds=7)

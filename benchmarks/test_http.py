@@ -1,4 +1,4 @@
-"""The rows of the performance table that go through the service, over loopback, each answer computed anew."""
+"""The rows of the performance table that go through the service, over loopback; nothing comes from a cache."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from tests.conftest import wait_until_live
 
 REQUESTS = 400  # in one round of the throughput rows
 CLIENTS = 8
-# No two requests of a run share a pitch, so nothing can answer from a cache.
+# No two requests of a run share a pitch, so no cache can answer.
 PITCHES = (0.55 + k * 1e-9 for k in itertools.count())
 
 
@@ -39,7 +39,7 @@ def connect(server: str) -> http.client.HTTPConnection:
 
 @pytest.mark.parametrize("judged", ["dragon", "pair", "none"])
 def test_get_collision_time(benchmark: BenchmarkFixture, server: str, judged: str) -> None:
-    """With the whole dragon judged by four engines, the touching pair alone, or nobody."""
+    """Four engines judge the whole dragon, the touching pair alone, or nothing."""
     benchmark.group = "GET /collision-time"
     connection = connect(server)
 
@@ -62,14 +62,14 @@ def test_post_trajectory(benchmark: BenchmarkFixture, server: str) -> None:
 
 @contextmanager
 def serving(workers: int, cores: set[int], log: Path) -> Iterator[str]:
-    """Base URL of `bench-dragon serve` with so many processes, on these cores alone."""
+    """Base URL of `bench-dragon serve` with this number of processes, on these cores alone."""
     with socket.socket() as free:
         free.bind(("127.0.0.1", 0))
         port = free.getsockname()[1]
     command = [Path(sys.executable).with_name("bench-dragon"), "serve", "--port", str(port), "--workers", str(workers)]
     own = os.sched_getaffinity(0)
     with log.open("wb") as output:
-        os.sched_setaffinity(0, cores)  # a child starts with what its parent has
+        os.sched_setaffinity(0, cores)  # a child inherits the cores of its parent
         try:
             process = subprocess.Popen(command, stdout=output, stderr=output)
         finally:
@@ -82,13 +82,13 @@ def serving(workers: int, cores: set[int], log: Path) -> Iterator[str]:
         process.wait()
 
 
-# How many processes serve, on how many cores: what is gained by threads, and what by processes.
+# Numbers of processes and cores: the second pair shows the gain by threads, the third by processes.
 SERVICES = [(1, 1), (1, 2), (2, 2)]
 
 
 @pytest.mark.parametrize(("workers", "cores"), SERVICES, ids=[f"{w}on{c}" for w, c in SERVICES])
 def test_throughput(benchmark: BenchmarkFixture, workers: int, cores: int, tmp_path: Path) -> None:
-    """Requests per second of /collision-time, its pair checked, from eight connections of one light client."""
+    """Requests per second of /collision-time with a check of the pair, from eight connections of one light client."""
     usable = sorted(os.sched_getaffinity(0))
     if len(usable) < cores:
         pytest.skip(f"needs {cores} cores")
@@ -105,9 +105,10 @@ def test_throughput(benchmark: BenchmarkFixture, workers: int, cores: int, tmp_p
 
 
 def answered(port: int, heads: list[bytes]) -> None:
-    """Have each request answered, CLIENTS at a time, over a connection each, as a kept one would stay with one process.
+    """Send all requests, CLIENTS at a time, and wait for the answers.
 
-    One thread waits for all: a client with threads of its own takes half a core from the service.
+    Each request has its own connection, because a kept one would stay with one process. One thread waits for all: a
+    client with threads takes half a core from the service.
     """
     waiting = heads[::-1]
     with selectors.DefaultSelector() as selector:

@@ -2,19 +2,15 @@
 
 from typing import TYPE_CHECKING
 
+from core.contact.clearance import ClearanceProfile, Graze, LeastClearance, clearance_profile, least_clearance
 from core.contact.cross_check import ContactCheck, contact_check, pitch_check
 from core.contact.first_contact import (
-    Certificate,
-    ClearanceProfile,
+    Evidence,
     Feature,
     FirstContact,
-    Graze,
-    HeadState,
     Outcome,
-    clearance_profile,
     first_contact,
 )
-from core.contact.least_clearance import LeastClearance, least_clearance
 from core.dance import Dance, EndReason, RunEnd
 from core.design.minimum_pitch import LimitedBy, MinimumPitch, minimum_pitch
 from core.design.pitch_scan import PitchScan, pitch_scan
@@ -31,6 +27,7 @@ from core.motion.speed import (
     maximum_head_speed,
 )
 from core.motion.trajectory import Trajectory, bench_outlines, bench_poses, trajectory
+from core.paths.path import HeadState
 from core.paths.route import Arc, Coil, Line, Piece, Route, Waypoints
 from core.paths.spiral import Spiral
 from core.paths.turn import Turn
@@ -45,7 +42,6 @@ __all__ = [
     "Area",
     "AreaClearance",
     "BenchDragonError",
-    "Certificate",
     "ClearanceProfile",
     "Coil",
     "ContactCheck",
@@ -54,6 +50,7 @@ __all__ = [
     "Dragon",
     "EndReason",
     "Engine",
+    "Evidence",
     "Failure",
     "FailureKind",
     "Feature",

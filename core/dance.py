@@ -12,9 +12,10 @@ import numpy as np
 
 from core import kernels
 from core.dragon import Dragon
-from core.errors import InvalidValue, OutsideRun, said
+from core.errors import InvalidValue, OutsideRun, said, said_bound
 from core.paths.route import Route
 from core.paths.spiral import Spiral
+from core.sampling import bisected
 from core.shown import Shown
 from core.values import Floats, checked_number, checked_type
 
@@ -26,10 +27,10 @@ DEFAULT_SPAN = 300
 # A run ends this much before its fold, so that rounding leaves every chord a place at the end too; 1e-14 was enough for
 # 1,494 random dragons, 2026-11-21 [1].
 FOLD_ROUNDING = 1e-13
-# A run that stops so near to its fold [m of head travel] is searched to the fold: steps shrink to nothing there, where
-# handles are fast without bound, and a bound on the motion left takes their place.
+# A run that stops within this of its fold is searched up to the fold. Handle speeds grow without bound there, so steps
+# would shrink to nothing; a bound on the remaining motion replaces them [m of head travel].
 NEAR_FOLD = 1e-5
-# Width to which the earliest time is bisected, of 1 m and of the way [1].
+# Width of the bracket around the earliest place of the head: absolute [m], and relative to that place [1].
 ROOM_WIDTH = 1e-9
 
 
@@ -62,7 +63,7 @@ class RunEnd(Shown):
 
 @dataclass(frozen=True)
 class Dance(Shown):
-    """A dragon that follows a path, its head at a constant speed: what every question about a given path is asked of.
+    """A dragon that follows a path with its head at a constant speed. Every question about a given path takes a dance.
 
     head_speed: [m/s]
     end: where the run ends: at the fold or the centre of a spiral, at the end of a route
@@ -88,7 +89,7 @@ class Dance(Shown):
     def end(self) -> RunEnd:
         """Where the run ends."""
         if isinstance(self.path, Route):
-            _check_bends(self.dragon, self.path)
+            _refuse_tight_bends(self.dragon, self.path)
             return RunEnd(EndReason.END, self.path.end / self.head_speed, None, None)
         return _spiral_end(self.dragon, self.path, self.head_speed)
 
@@ -98,7 +99,7 @@ class Dance(Shown):
 
         raises: InvalidValue (path) for a route too short for the dragon
         """
-        if isinstance(self.path, Spiral) or self.path.tail_begin is None:
+        if not isinstance(self.path, Route) or self.path.tail_begin is None:
             return -TIME_MAX
         return _earliest_place(self.dragon, self.path, self.path.tail_begin) / self.head_speed
 
@@ -161,40 +162,40 @@ class Dance(Shown):
         early = np.flatnonzero(time < earliest)
         if early.size:
             k = int(early[0])
-            rule = f"must be at least {earliest:.6f} s, when the whole dragon is on the path"
+            rule = f"must be at least {said_bound(earliest, 6, 1)} s, when the whole dragon is on the path"
             raise OutsideRun.of(_instant(time, k), rule, time.flat[k], "s")
         return time
 
     def span(self, start: float, stop: float | None = None) -> tuple[float, float]:
-        """start and stop [s] if the run has them, in that order; None stands for the end of the run.
+        """start and stop [s], checked to lie in the run and in this order; None stands for the end of the run.
 
         raises: InvalidValue; OutsideRun
         """
         until = self.end.time if stop is None else checked_number("stop", stop, "s", -TIME_MAX, TIME_MAX)
         begin = checked_number("start", start, "s", -TIME_MAX, TIME_MAX)
         if begin < self.earliest:
-            rule = f"must be at least {self.earliest:.6f} s, when the whole dragon is on the path"
+            rule = f"must be at least {said_bound(self.earliest, 6, 1)} s, when the whole dragon is on the path"
             raise OutsideRun.of("start", rule, begin, "s")
-        limit = f"{self.end.time:.9f} s, when {self.end.why}"
+        limit = f"{said_bound(self.end.time, 9, -1)} s, when {self.end.why}"
         if until > self.end.time:
             raise OutsideRun.of("stop", f"must be at most {limit}", until, "s")
         if until <= begin:
             if stop is None:
                 raise OutsideRun.of("start", f"must be before {limit}", begin, "s")
-            raise InvalidValue.of("stop", f"must be after start ({begin:g} s)", until, "s")
+            raise InvalidValue.of("stop", f"must be after start ({said(begin)} s)", until, "s")
         return begin, until
 
     def ends_by(self, stop: float) -> bool:
-        """Is a run until `stop` [s] one to a fold?"""
+        """Does a run until `stop` [s] end at a fold?"""
         return stop >= self.end.time and self.end.reason is EndReason.FOLD
 
     def nears_fold(self, stop: float) -> bool:
-        """Is a run until `stop` [s] one to the fold or within NEAR_FOLD of it?"""
+        """Does a run until `stop` [s] end at a fold or within NEAR_FOLD of it?"""
         return self.ends_by(stop + NEAR_FOLD / self.head_speed)
 
     def after_the_end(self, time: Floats, index: int) -> OutsideRun:
         """The error about one of the times, which is after the end of the run."""
-        rule = f"must be at most {self.end.time:.9f} s, when {self.end.why}"
+        rule = f"must be at most {said_bound(self.end.time, 9, -1)} s, when {self.end.why}"
         return OutsideRun.of(_instant(time, index), rule, time.flat[index], "s")
 
 
@@ -208,9 +209,9 @@ def checked_head_speed(head_speed: float) -> float:
 def end_theta(dragon: Dragon, path: Spiral) -> tuple[float, int | None]:
     """The head angle [rad] at which the run ends, and the bench that folds (0 and None at the centre).
 
-    Bench k folds when handle k falls to the fold of its chord; that handle gets there when handle k - 1 first
-    stands one chord further in. So from the tail forwards: the limit of handle k is the larger of its own fold
-    and the place from which handle k + 1 reaches its limit. In a uniform tail the own fold always wins.
+    Bench k folds when handle k reaches the fold of its chord, which is when handle k - 1 first stands one chord
+    further in. So limits are found from the tail forwards: the limit of handle k is the larger of its own fold and
+    the place from which handle k + 1 reaches its limit. In a uniform tail the own fold is always the larger.
     """
     chords2 = ((dragon.chords[: dragon.uniform_from + 1] / path.growth) ** 2).tolist()
     fold = {chord2: float(kernels.fold_theta(chord2)) for chord2 in set(chords2)}
@@ -231,25 +232,25 @@ def _spiral_end(dragon: Dragon, path: Spiral, head_speed: float) -> RunEnd:
         raise InvalidValue(
             "path.start_turns",
             f"path.start_turns must be more than {theta / (2 * math.pi):.6g} turns, where bench {bench} of this "
-            f"dragon folds, got {path.start_turns:g} turns",
+            f"dragon folds, got {said(path.start_turns)} turns",
         )
     time = (path.length - path.growth * kernels.spiral_arc(theta)) / head_speed
     return RunEnd(EndReason.CENTRE if bench is None else EndReason.FOLD, time, theta, bench)
 
 
 def follows(dragon: Dragon, path: Route) -> bool:
-    """Does no piece of the route bend too tight for a chord?"""
+    """Is every bend of the route wide enough for every chord?"""
     longest = float(dragon.chords[: dragon.uniform_from + 1].max())
     return bool(0.5 * path.sharpest[0] * longest <= kernels.ROUTE_BEND_LIMIT)
 
 
 def tightest_bend(dragon: Dragon) -> tuple[float, int]:
-    """The least radius of a bend that all can follow [m], and the bench that needs it."""
+    """The least radius of a bend that every bench can follow [m], and the bench that needs that radius."""
     bench = int(dragon.chords[: dragon.uniform_from + 1].argmax())
     return 0.5 * float(dragon.chords[bench]) / kernels.ROUTE_BEND_LIMIT, bench
 
 
-def _check_bends(dragon: Dragon, path: Route) -> None:
+def _refuse_tight_bends(dragon: Dragon, path: Route) -> None:
     """Refuse a bend that a bench cannot follow.
 
     With |curvature| chord / 2 below the limit the next handle is unique and never turns back.
@@ -274,7 +275,7 @@ def _earliest_place(dragon: Dragon, path: Route, tail_begin: float) -> float:
     as the path goes: beyond its end there is nothing to stand on.
     """
     sizes = np.zeros((dragon.benches, kernels.SIZE_COLUMNS))
-    sizes[:, 0] = dragon.chords
+    sizes[:, kernels.CHORD] = dragon.chords
     chain = np.empty((dragon.benches + 1, kernels.CHAIN_COLUMNS))
 
     def has_room(s: float) -> bool:
@@ -288,10 +289,7 @@ def _earliest_place(dragon: Dragon, path: Route, tail_begin: float) -> float:
             f"path is too short for the whole dragon, which takes {straight:.9g} m of it from handle 0 to handle "
             f"{dragon.benches} (more along bends), got {path.end - path.begin:.9g} m",
         )
-    while high - low > ROOM_WIDTH * (1.0 + abs(high)):
-        middle = 0.5 * (low + high)
-        low, high = (low, middle) if has_room(middle) else (middle, high)
-    return min(high, path.end)
+    return min(bisected(has_room, low, high, width=ROOM_WIDTH, relative=ROOM_WIDTH)[1], path.end)
 
 
 def _instant(time: Floats, k: int) -> str:

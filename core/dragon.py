@@ -39,7 +39,7 @@ class Dragon(Shown):
     """n benches in a row, joined by n + 1 handles; bench 0 is the head, handle 0 leads.
 
     lengths, widths, overhangs, chords: (n,) [m], read-only; chord = length - 2 overhang > 0
-    uniform_from: the first bench from which all to the tail are alike (1 at most for a uniform body)
+    uniform_from: index of the bench from which all benches to the tail are equal (0 or 1 for a uniform body)
 
     >>> dragon = Dragon()
     >>> dragon.benches, dragon.chords[0].round(3), dragon.chords[1].round(3)
@@ -74,8 +74,9 @@ class Dragon(Shown):
             if length - 2.0 * overhang < SIZE_MIN:
                 raise InvalidValue(
                     "dragon.overhang",
-                    f"dragon.overhang must be less than half of dragon.{name} "
-                    f"({length:g} m / 2 = {length / 2:g} m), got {overhang:g} m",
+                    f"{{field}} must be less than half of {{length}} "
+                    f"({said(length)} m / 2 = {said(length / 2)} m), got {said(overhang)} m",
+                    length=f"dragon.{name}",
                 )
         lengths = np.full(int(benches), body_length)
         lengths[0] = head_length
@@ -99,7 +100,7 @@ class Dragon(Shown):
             raise InvalidValue(
                 f"dragon.overhangs.{k}",
                 f"dragon.overhangs[{k}] must be less than half of dragon.lengths[{k}] "
-                f"({length_column[k]:g} m / 2 = {length_column[k] / 2:g} m), got {overhang_column[k]:g} m",
+                f"({said(length_column[k])} m / 2 = {said(length_column[k] / 2)} m), got {said(overhang_column[k])} m",
             )
         dragon = cls.__new__(cls)
         dragon._freeze(length_column, width_column, overhang_column)
@@ -120,7 +121,7 @@ class Dragon(Shown):
         object.__setattr__(self, "uniform_from", int(different[-1]) + 1 if different.size else 0)
 
     def leading(self, benches: int) -> Dragon:
-        """The dragon of the first so many benches, 1 to all."""
+        """The dragon of the first `benches` benches, from 1 to all of them."""
         dragon = Dragon.__new__(Dragon)
         dragon._freeze(self.lengths[:benches], self.widths[:benches], self.overhangs[:benches])
         return dragon

@@ -1,4 +1,4 @@
-"""Packages that only some installations have: pandas, xarray and matplotlib, imported when a method needs them."""
+"""Optional packages (pandas, xarray, matplotlib), imported when a method needs them."""
 
 from __future__ import annotations
 
@@ -9,8 +9,8 @@ from typing import Any
 def wanted(module: str, extra: str, what: str) -> Any:
     """A module of an optional package.
 
-    module: its dotted name; extra: of bench-dragon, which brings it; what: needs it, for the message
-    raises: ImportError naming the package and the extra where the package is not installed
+    module: dotted name; extra: of bench-dragon, which installs it; what: the caller, for the message
+    raises: ImportError naming the package and the extra if the package is not installed
 
     >>> wanted("no_such_package", "data", "Trajectory.to_dataframe()")
     Traceback (most recent call last):
@@ -21,7 +21,7 @@ def wanted(module: str, extra: str, what: str) -> Any:
     try:
         import_module(package)
     except ModuleNotFoundError as error:
-        if error.name != package:  # the package is there and lacks something of its own
+        if error.name != package:  # the package is installed, but one of its own requirements is missing
             raise
         message = f"{what} needs {package}: pip install 'bench-dragon[{extra}]'"
         raise ImportError(message, name=package) from error

@@ -1,4 +1,4 @@
-"""Drawings of a dance and of its answers on axes of matplotlib, which is imported only here and only when one is drawn.
+"""Drawings of a dance and its answers on axes of matplotlib, which only this module imports, when it draws.
 
 Lengths are in metres on both axes, x to the right. Colours are safe for colour-blind readers (cividis; Okabe and Ito's
 set) and differ in brightness, hatch or line style for print.
@@ -20,11 +20,11 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 VERMILION, BLUE, GREY, PALE = "#D55E00", "#0072B2", "#7F7F7F", "#DDDDDD"
-# Beyond this many benches an SVG holds them as one picture instead of as shapes.
+# Beyond this many benches an SVG holds one raster picture instead of a shape for each bench.
 SHAPES_MAX = 3_000
-# Length of the arrow ahead of the head, and how far inwards its name stands [m].
+# Length of the arrow ahead of the head, and distance of its label inwards [m].
 HEAD_ARROW, HEAD_LABEL = 1.2, 1.0
-# Half the side of the enlarged view, in widths of the wider bench, and at least in margins.
+# Half the side of the enlarged view, in widths of the wider bench, and its minimum, in margins.
 ENLARGED_WIDTHS = 1.5
 ENLARGED_MARGINS = 1.5
 
@@ -39,9 +39,9 @@ class Named(Protocol):
 
 
 def wanted_axes(axes: Axes | None, what: str) -> Axes:
-    """The axes given, or those of a new figure.
+    """The given axes, or those of a new figure.
 
-    raises: ImportError naming the extra `figures` where matplotlib is not installed
+    raises: ImportError naming the extra `figures` if matplotlib is not installed
     """
     if axes is not None:
         return axes
@@ -50,7 +50,7 @@ def wanted_axes(axes: Axes | None, what: str) -> Axes:
 
 
 def plan(axes: Axes) -> None:
-    """A map: one metre is as long in x as in y."""
+    """Axes of a map: equal scales in x and y."""
     axes.set_aspect("equal")
     axes.set_xlabel("x [m]")
     axes.set_ylabel("y [m]")
@@ -58,7 +58,7 @@ def plan(axes: Axes) -> None:
 
 
 def draw_dance(axes: Axes, path: Spiral | Route, handles: Floats, outlines: Floats, linewidth: float = 0.5) -> None:
-    """The path and every bench, faint, in metres.
+    """Draw the path and every bench, faint, in metres.
 
     handles: (n + 1, 2) [m]; outlines: corners (n, 4, 2) [m]
     """
@@ -75,7 +75,7 @@ def _draw_benches(axes: Axes, outlines: Floats, **style: Any) -> None:
 
 
 def draw_speeds(axes: Axes, handles: Floats, speed: Floats) -> None:
-    """Every handle, coloured by its speed, with a bar that says which colour is which.
+    """Draw every handle, coloured by its speed, with a colour bar.
 
     handles: (n + 1, 2) [m]; speed: (n + 1,) [m/s]
     """
@@ -88,7 +88,7 @@ def draw_speeds(axes: Axes, handles: Floats, speed: Floats) -> None:
 
 
 def mark_head(axes: Axes, head: Floats, velocity: Floats) -> None:
-    """A ring around the head, an arrow where it goes, its name on the inner side."""
+    """Draw a ring around the head, an arrow in its direction of travel, and its label on the inner side."""
     ahead = head + HEAD_ARROW * velocity / np.hypot(*velocity)
     inwards = head - HEAD_LABEL * head / max(float(np.hypot(*head)), HEAD_LABEL)
     arrow = {"arrowstyle": "->", "color": VERMILION, "shrinkA": 5, "linewidth": 1.5}
@@ -98,7 +98,7 @@ def mark_head(axes: Axes, head: Floats, velocity: Floats) -> None:
 
 
 def mark_pair(axes: Axes, outlines: Floats, benches: Sequence[int]) -> None:
-    """The two benches that meet, filled: one plain, one hatched."""
+    """Draw the two touching benches, filled: one plain, one hatched."""
     from matplotlib.patches import Polygon
 
     for k, (bench, colour, hatch) in enumerate(zip(benches, (VERMILION, BLUE), ("", "////"), strict=True)):
@@ -111,9 +111,9 @@ def draw_enlarged(
     axes: Axes, outlines: Floats, benches: Sequence[int], point: Sequence[float], half: float,
     corner: Named | None, edge: Named | None,
 ) -> None:  # fmt: skip
-    """The neighbourhood of a contact: the two benches, corner, edge and point; two corners may meet, or two edges.
+    """Draw the neighbourhood of a contact: both benches, corner, edge, point; two corners or two edges may meet too.
 
-    outlines: corners (n, 4, 2) [m]; point: x, y [m]; half: half the side of what is shown [m]
+    outlines: corners (n, 4, 2) [m]; point: x, y [m]; half: half the side of the view [m]
     """
     plan(axes)
     _draw_benches(axes, outlines, facecolor="white", edgecolor=GREY, linewidth=0.8, zorder=2)
@@ -137,7 +137,7 @@ def _edge(outline: Floats, name: str) -> Floats:
 
 
 def draw_clearance(axes: Axes, time: Floats, clearance: Floats, grazes: Sequence[tuple[float, float]]) -> None:
-    """The clearance against time, and its local minima as dots. grazes: time [s], clearance [m]"""
+    """Draw the clearance against time, its local minima as dots. grazes: time [s], clearance [m]"""
     axes.plot(time, clearance, color=BLUE, linewidth=1.4, marker="." if time.size == 1 else "", label="clearance")
     if grazes:
         axes.plot(*np.transpose(grazes), "o", color=VERMILION, markersize=5, label="graze")
@@ -147,10 +147,10 @@ def draw_clearance(axes: Axes, time: Floats, clearance: Floats, grazes: Sequence
 
 
 def draw_scan(axes: Axes, points: Floats, pieces: Sequence[tuple[int, int]], jump: float, label: str) -> None:
-    """The radius of the head at first contact against the pitch, a staircase with its jumps dotted.
+    """Draw the radius of the head at first contact against the pitch: a staircase, its jumps dotted.
 
-    points: (N, 2) pitch, radius [m]; pieces: (start, end) indices; jump: pitches no further apart have a jump between
-    them [m]; label: of the stairs
+    points: (N, 2) pitch, radius [m]; pieces: (start, end) indices; jump: largest distance of two pitches with a
+    jump between them [m]; label: of the staircase
     """
     from matplotlib.collections import LineCollection
 

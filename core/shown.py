@@ -1,4 +1,4 @@
-"""How values and results show themselves: one line in a console, a small table in a notebook."""
+"""Short displays of values and results: one line in a console, a small table in a notebook."""
 
 from __future__ import annotations
 
@@ -8,13 +8,13 @@ from enum import Enum
 
 import numpy as np
 
-# Significant digits of a number in one line, and in a table, where both ends of a bracket must differ.
+# Significant digits of a number in one line, and in a table, which must tell both ends of a bracket apart.
 LINE_DIGITS, TABLE_DIGITS = 9, 15
-# A text longer than this is left out of a line, and a longer repr of an input gives way to a line [characters].
+# A longer text is left out of a line, and an input whose repr is longer shows one line instead [characters].
 TEXT_MOST, REPR_MOST = 60, 160
-# Entries of a list that a table shows; of a longer one the first few.
+# Entries of a list that a table shows; a longer list shows its first entries.
 ENTRIES_MOST = 6
-# Units by the name of the field: one word, one meaning. A class whose field means something else has `_units`.
+# Units by field name: one word has one meaning. A class whose field means something else overrides it in `_units`.
 UNITS = {
     "angle": "rad",
     "at_least": "m",
@@ -74,9 +74,9 @@ UNITS = {
 
 
 class Shown:
-    """A dataclass that shows itself in one line and, in a notebook, as a table of its fields with their units.
+    """Base of dataclasses that print one line, and in a notebook a table of their fields with units.
 
-    A class with more to say than its fields says it in `_line` and `_rows`.
+    A class overrides `_line` and `_rows` to show more than its fields.
     """
 
     __slots__ = ()
@@ -92,7 +92,7 @@ class Shown:
         return f"<table><caption>{escape(type(self).__name__)}</caption>{''.join(rows)}</table>"
 
     def _line(self) -> str:
-        """The fields that are short, each with its unit."""
+        """The short fields, each with its unit."""
         told = ((name, worded(value, unit, LINE_DIGITS)) for name, value, unit in self._told())
         return ", ".join(f"{name} {text}" for name, text in told if len(text) <= TEXT_MOST)
 
@@ -109,7 +109,7 @@ class Shown:
 
 
 def worded(value: object, unit: str = "", digits: int = LINE_DIGITS) -> str:
-    """A value in words: a number or some with their unit, an array by its shape and range, a result by its line.
+    """A value in words: numbers with their unit, an array by its shape and range, a result by its line.
 
     >>> worded((2.5, 1 / 3), "m", 4)
     '2.5, 0.3333 m'
@@ -128,16 +128,16 @@ def worded(value: object, unit: str = "", digits: int = LINE_DIGITS) -> str:
 
 
 def extent(values: Sequence[float] | np.ndarray, unit: str = "", digits: int = LINE_DIGITS) -> str:
-    """From the least to the most, or the one value that all have.
+    """The range of the values, or the one value that all of them have.
 
-    values: (...), at least one
+    values: (...), not empty
     """
     least, most = float(np.min(values)), float(np.max(values))
     return f"{least:.{digits}g}{'' if least == most else f' to {most:.{digits}g}'} {unit}".rstrip()
 
 
 def counted(count: int, noun: str) -> str:
-    """So many of something.
+    """A count with its noun.
 
     >>> counted(1, "pair"), counted(0, "graze")
     ('1 pair', '0 grazes')

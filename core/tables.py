@@ -1,4 +1,4 @@
-"""Results as tables: a DataFrame of pandas, a Dataset of xarray, each with its units. Both are imported when asked."""
+"""Results as tables with units: a DataFrame of pandas, a Dataset of xarray. Both packages are imported on demand."""
 
 from __future__ import annotations
 
@@ -18,9 +18,9 @@ if TYPE_CHECKING:
 def data_frame(what: str, columns: Mapping[str, np.ndarray[Any, Any]], units: Mapping[str, str]) -> pandas.DataFrame:
     """A table with one row for each entry of the columns.
 
-    what: asks for it, for the message; columns: (N,) each; units: of those whose name does not say it; `attrs["units"]`
-    has all
-    raises: ImportError naming the extra `data` where pandas is not installed
+    what: the caller, for the message; columns: (N,) each; units: of the columns whose name does not imply one;
+    `attrs["units"]` has all units
+    raises: ImportError naming the extra `data` if pandas is not installed
     """
     frame = wanted("pandas", "data", what).DataFrame(columns)
     frame.attrs["units"] = {name: units.get(name, UNITS.get(name, "")) for name in columns}
@@ -32,9 +32,9 @@ def data_set(
 ) -> xarray.Dataset:
     """Arrays with named axes, each with its unit in `attrs["units"]`.
 
-    what: asks for it, for the message; variables: axes and values by name; coordinates: values by name, one axis each,
+    what: the caller, for the message; variables: axes and values by name; coordinates: values by name, one axis each,
     or none for a single value
-    raises: ImportError naming the extra `data` where xarray is not installed
+    raises: ImportError naming the extra `data` if xarray is not installed
     """
     dataset: xarray.Dataset = wanted("xarray", "data", what).Dataset(dict(variables), coords=dict(coordinates))
     for name, variable in dataset.variables.items():

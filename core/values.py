@@ -1,4 +1,4 @@
-"""Numbers that users give, checked: finite, in range, in their unit."""
+"""Checks of the numbers that users give: finite, in range, in their unit."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ def checked_number(name: str, value: object, unit: str, low: float, high: float,
         raise InvalidValue(name, f"{name} must be a number, got {value!r}")
     try:
         number, shown = float(value), f"{said(float(value))} {unit}".rstrip()
-    except OverflowError as error:  # a whole number may have any number of digits
+    except OverflowError as error:  # an int of Python may have any number of digits
         raise InvalidValue(
             name, f"{name} must be from {low:g} to {high:g} {unit}".rstrip() + ", got 1e308 or more"
         ) from error
@@ -42,7 +42,7 @@ def checked_number(name: str, value: object, unit: str, low: float, high: float,
 
 
 def checked_type(name: str, value: object, kinds: type | tuple[type, ...]) -> None:
-    """raises: InvalidValue naming the parameter when the value is none of the kinds"""
+    """raises: InvalidValue naming the parameter if the value is of none of the kinds"""
     if not isinstance(value, kinds):
         words = " or ".join(kind.__name__ for kind in (kinds if isinstance(kinds, tuple) else (kinds,)))
         given = f"the class {value.__name__}" if isinstance(value, type) else f"{value!r:.60}"

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import pairwise
@@ -11,31 +11,30 @@ from itertools import pairwise
 import numpy as np
 
 from core import kernels
+from core.contact.clearance import Pair, least_over
 from core.contact.first_contact import Outcome
-from core.contact.least_clearance import Pair, first_pair, least_over
+from core.contact.fold import moved_until
 from core.contact.search import MARGIN_MAX, NEAR_WORK_BUDGET, Search
 from core.dance import Dance
 from core.errors import InvalidValue
 from core.motion.trajectory import bench_poses, trajectory
-from core.paths.route import COORDINATE_MAX, Coil, Point, Route
+from core.paths.route import Coil, Point, Route, checked_point, listed
 from core.paths.spiral import Spiral
 from core.shapes.engines import inside, polygon_fault
 from core.shown import Shown, extent, worded
 from core.values import Floats, checked_number, checked_type
 
 Ring = tuple[Point, ...]
-# Name and rings.
-Polygon = tuple[str, tuple[Ring, ...]]
 
-# Edges of one venue: each is followed like a bench, but it stands.
+# Edges of one venue: each is followed like a bench, but it stands. Those between repeated points count too.
 EDGES_MAX = 2_000
-# A collection of features of collections of polygons, and some more.
-DEPTH_MAX = 8
-# A spiral is danced a little past the last instant, so that rounding does not leave it outside [m].
+# What the rings of an area must be.
+WORDS = "a list of rings of points [x, y] in metres"
+# A spiral is laid out this far beyond the last instant, so that rounding cannot put that instant outside it [m].
 SPARE = 1e-3
-# Places of handles are good to 1e-12 m (trajectory()): beyond a radius by this they are beyond it for sure [m].
+# Places of handles are good to 1e-12 m (trajectory()), so a computed place this far beyond a radius is beyond it [m].
 SURELY = 1e-9
-# What polygon_fault() calls a fault, in a sentence before its place.
+# Words for the faults that polygon_fault() finds, as messages say them before the place.
 FAULTS = {
     "self-intersection": "a self-intersection",
     "ring self-intersection": "a ring that touches itself",
@@ -46,12 +45,23 @@ FAULTS = {
 }
 
 
+def refuse_many_edges(rings: Iterable[Sequence[object]]) -> None:
+    """Refuse more edges than EDGES_MAX, counted by the lengths of the rings alone.
+
+    raises: InvalidValue
+    """
+    edges = sum(max(len(ring) - 1, 1) for ring in rings)
+    if edges > EDGES_MAX:
+        raise InvalidValue("venue", f"venue must have at most {EDGES_MAX} edges, got {edges}")
+
+
 @dataclass(frozen=True, repr=False)
 class Area(Shown):
     """A polygon: the square, or an obstacle in it.
 
     rings: the outer one, then the holes; each closed, at least 4 points (x, y) [m]
-    raises: InvalidValue with the reason and the place when the polygon is invalid
+    raises: InvalidValue with the reason and the place when the polygon is invalid; for too many edges before that is
+        looked at, which takes longer than in proportion to the rings
     """
 
     name: str
@@ -60,8 +70,16 @@ class Area(Shown):
     def __post_init__(self) -> None:
         if not isinstance(self.name, str):
             raise InvalidValue("venue", f"venue: the name of a polygon must be a text, got {self.name!r:.60}")
-        _rings("venue", self.rings)
-        for ring in self.rings:
+        rings = [listed(f"venue.{k}", ring, WORDS) for k, ring in enumerate(listed("venue", self.rings, WORDS))]
+        if not rings:
+            raise InvalidValue("venue", f"venue: {self.name!r} must have at least one ring")
+        refuse_many_edges(rings)
+        points = tuple(
+            tuple(checked_point(f"venue.{k}.{i}", point) for i, point in enumerate(ring))
+            for k, ring in enumerate(rings)
+        )
+        object.__setattr__(self, "rings", points)
+        for ring in points:
             if len(ring) < 4 or ring[0] != ring[-1]:
                 words = f"venue: a ring of {self.name!r} must be closed and have at least 4 points"
                 raise InvalidValue("venue", f"{words}, got {len(ring)}, from {ring[:1]} to {ring[-1:]}")
@@ -89,8 +107,8 @@ class Area(Shown):
 class Venue(Shown):
     """The square with its holes, and obstacles that stand in it.
 
-    >>> Venue.from_geojson({"type": "Polygon", "coordinates": [[[0, 0], [9, 0], [9, 9], [0, 0]]]}).square.name
-    'square'
+    >>> Venue(Area("square", (((0, 0), (9, 0), (9, 9), (0, 0)),))).square.edges.shape
+    (3, 4)
     """
 
     square: Area
@@ -98,11 +116,9 @@ class Venue(Shown):
 
     def __post_init__(self) -> None:
         checked_type("venue", self.square, Area)
-        for area in _listed("venue", self.obstacles):
+        for area in listed("venue", self.obstacles, "a list of areas"):
             checked_type("venue", area, Area)
-        edges = sum(len(area.edges) for area in self.areas)
-        if edges > EDGES_MAX:
-            raise InvalidValue("venue", f"venue must have at most {EDGES_MAX} edges, got {edges}")
+        refuse_many_edges(ring for area in self.areas for ring in area.rings)
         names = [area.name for area in self.areas]
         for k, name in enumerate(names):
             if name in names[:k]:
@@ -116,23 +132,6 @@ class Venue(Shown):
     def areas(self) -> tuple[Area, ...]:
         """The square, then the obstacles."""
         return (self.square, *self.obstacles)
-
-    @classmethod
-    def from_geojson(cls, geometry: Mapping[str, object]) -> Venue:
-        """The venue in a GeoJSON object with coordinates in metres, x to the east and y to the north.
-
-        geometry: a Polygon, a Feature of one, a GeometryCollection or a FeatureCollection of them. The square is the
-            feature whose property `name` is "square", else the first polygon; the others are obstacles, named by their
-            property `name`, else "obstacle 1" and so on. Heights are passed over.
-        raises: InvalidValue naming the member at fault, or the polygon with the reason and the place
-        """
-        return cls.of(geojson_polygons(geometry))
-
-    @classmethod
-    def of(cls, polygons: Sequence[Polygon]) -> Venue:
-        """The venue of some polygons in metres, the square first."""
-        square, *obstacles = (Area(*polygon) for polygon in polygons)
-        return cls(square, tuple(obstacles))
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -154,9 +153,9 @@ class Nearest(Shown):
 
 @dataclass(frozen=True, slots=True, repr=False)
 class AreaClearance(Shown):
-    """The benches and the edges of one area, named.
+    """The benches and the edges of one area, by the name of the area.
 
-    outcome: does a bench come within the margin; time: when first [s], None when clear or undecided
+    outcome: does a bench come within the margin; time: when the first one does [s], None when clear or undecided
     time_bracket: (proven clear up to, within the margin at) [s]; for undecided up to the end; None when clear or at the
         start
     bench, point (x, y) [m]: the first one within the margin, and where it is nearest
@@ -187,7 +186,7 @@ class Stray(Shown):
 
 @dataclass(frozen=True, slots=True, repr=False)
 class VenueClearance(Shown):
-    """stray: the first bench that starts where it must not, None if all are well; areas: the square, then obstacles."""
+    """stray: the first bench that starts where it must not, None if none does; areas: the square, then obstacles."""
 
     stray: Stray | None
     areas: tuple[AreaClearance, ...]
@@ -208,8 +207,8 @@ def venue_clearance(
 ) -> VenueClearance:
     """How near the benches come to the square's edges and to each obstacle, and when first within the margin.
 
-    An edge is a rectangle without width that stands: benches and edges are marched like pairs of benches, with the same
-    proof. A bench that touches no edge at the start stays inside or outside with its centre.
+    An edge counts as a rectangle of no width at rest: benches and edges are marched like pairs of benches, with the
+    same proof. The centre of a bench that touches no edge stays inside an area, or outside, as it started.
     margin: [m]; start, stop: [s], None for the end of the run
     raises: InvalidValue, also for a path that bends too tightly for a chord by the stop; OutsideRun
     """
@@ -248,12 +247,12 @@ def venue_end(dance: Dance) -> float:
 
 
 def is_clear_beyond(dance: Dance, venue: Venue, *, margin: float, start: float, seen: float) -> bool:
-    """Does a spiral dance whose benches were clear of the venue from start to `seen` [s] stay so to its end, for sure?
+    """Is a spiral dance proven to stay clear of the venue to its end, if it was clear from start to `seen` [s]?
 
-    No head or bench before the first of the equal ones leaves the disc around the centre that its chords span from the
-    head, which goes inwards. Every other bench stands where the one before it stood since the start, once it has passed
-    where that one began, unless it slides back behind its own start (family lemma, core/kernels/marching.py); so it has
-    met nothing new, if all edges lie outside the disc by more than the margin.
+    The head goes inwards, so neither it nor a bench before the first of the equal ones leaves the disc around the
+    centre that the chords from the head to that bench span. Every other bench, once it has passed where the bench
+    before it began, stands where that one stood since the start, unless it slides back behind its own start (family
+    lemma, core/kernels/marching.py). So nothing new is met if all edges lie outside the disc by more than the margin.
     """
     dragon = dance.dragon
     ends = np.linalg.norm(trajectory(dance, [start, seen]).position, axis=-1)
@@ -263,8 +262,9 @@ def is_clear_beyond(dance: Dance, venue: Venue, *, margin: float, start: float, 
     search = Search(dragon, dance.path, margin)
     search.resize(dragon.benches)
     search.place_leaders(seen * dance.head_speed, dragon.benches)
-    arcs, _ = search.moved_until(dance.end.theta or 0.0)
-    outwards = arcs / np.hypot(1.0, search.rows[0, : dragon.benches + 1, 4])  # radii grow by this part of an arc
+    arcs, _ = moved_until(search, dance.end.theta or 0.0)
+    rates = np.hypot(1.0, search.rows[0, : dragon.benches + 1, kernels.THETA])
+    outwards = arcs / rates  # radii grow by this part of an arc
     if (ends[1] + outwards + SURELY > ends[0])[alike:].any():
         return False
     reach = (
@@ -281,13 +281,14 @@ def _area_clearance(search: Search, name: str, begin: float, until: float, head_
     state, found, tolerance = search.approach(begin * head_speed, until * head_speed, head_speed)
     outcome, time, bracket, bench, point, gap = Outcome.CLEAR, None, None, None, None, None
     if state == "stuck":
-        outcome, bracket = Outcome.UNDECIDED, (found["proven"] / head_speed, until)
+        outcome, bracket = Outcome.UNDECIDED, (found.proven / head_speed, until)
     elif state != "reached":
         at_start = state == "touched_at_start"
-        travel = found["touching"] - (0.0 if at_start else tolerance)
+        assert found.touching is not None
+        travel = found.touching - (0.0 if at_start else tolerance)
         outcome, time = Outcome.CONTACT_AT_START if at_start else Outcome.CONTACT, travel / head_speed
-        bracket = None if at_start else (found["proven"] / head_speed, found["touching"] / head_speed)
-        pair = first_pair(found)
+        bracket = None if at_start else (found.proven / head_speed, found.touching / head_speed)
+        pair = found.benches
         bench, (point, _, gap) = pair[0], _witnesses(search, travel, pair)
     (distance, travel, pair), at_least = least_over(search, begin * head_speed, until * head_speed, head_speed)
     nearest = Nearest(distance, at_least, travel / head_speed, pair[0], *_witnesses(search, travel, pair)[:2])
@@ -297,10 +298,8 @@ def _area_clearance(search: Search, name: str, begin: float, until: float, head_
 def _witnesses(search: Search, travel: float, pair: Pair) -> tuple[Point, Point, float]:
     """The points of a bench and an edge that are nearest to each other, and their separation [m]."""
     search.clearance(travel)
-    a, b = (search.rows[0, k, 6:10] for k in pair)
-    out = np.empty(8)
-    kernels.pair_separation(*a, *search.sizes[pair[0], 1:3], *b, *search.sizes[pair[1], 1:3], out)
-    return (float(out[1]), float(out[2])), (float(out[3]), float(out[4])), float(out[0])
+    met = kernels.bench_separation(*pair, search.sizes, search.rows[0])
+    return (float(met.ax), float(met.ay)), (float(met.bx), float(met.by)), float(met.separation)
 
 
 def _stray(dance: Dance, venue: Venue, begin: float) -> Stray | None:
@@ -311,78 +310,3 @@ def _stray(dance: Dance, venue: Venue, begin: float) -> Stray | None:
             x, y = centres[wrong[0]].tolist()
             return Stray(area.name, int(wrong[0]), (x, y))
     return None
-
-
-def geojson_polygons(
-    geometry: object, *, unit: str = "m", limits: Point = (COORDINATE_MAX, COORDINATE_MAX)
-) -> list[Polygon]:
-    """The polygons of a GeoJSON object as in Venue.from_geojson(), the square first.
-
-    unit: of its coordinates; limits: the largest |x| and |y| in that unit
-    raises: InvalidValue naming the member at fault
-    """
-    named = _polygons("venue", geometry, (unit, *limits))
-    if not named:
-        raise InvalidValue("venue", "venue must hold at least one polygon, the square")
-    square = next((k for k, (name, _) in enumerate(named) if name == "square"), 0)
-    others = [polygon for k, polygon in enumerate(named) if k != square]
-    obstacles = [(name or f"obstacle {k}", rings) for k, (name, rings) in enumerate(others, start=1)]
-    return [(named[square][0] or "square", named[square][1]), *obstacles]
-
-
-# Unit of coordinates, and the largest |x| and |y| in it.
-Scale = tuple[str, float, float]
-METRES: Scale = ("m", COORDINATE_MAX, COORDINATE_MAX)
-
-
-def _polygons(field: str, geometry: object, scale: Scale, depth: int = 0) -> list[tuple[str | None, tuple[Ring, ...]]]:
-    """Name and rings of every polygon of a GeoJSON object, in its order."""
-    if depth > DEPTH_MAX:
-        raise InvalidValue("venue", f"venue must not nest objects deeper than {DEPTH_MAX}")
-    if not isinstance(geometry, Mapping):
-        raise InvalidValue(field, f"{field} must be a GeoJSON object, got {type(geometry).__name__}")
-    kind = geometry.get("type")
-    if kind == "Polygon":
-        return [(None, _rings(f"{field}.coordinates", geometry.get("coordinates"), scale))]
-    if kind == "Feature":
-        properties = geometry.get("properties")
-        name = properties.get("name") if isinstance(properties, Mapping) else None
-        if name is not None and not isinstance(name, str):
-            raise InvalidValue(f"{field}.properties.name", f"{field}.properties.name must be a text, got {name!r}")
-        inner = _polygons(f"{field}.geometry", geometry.get("geometry"), scale, depth + 1)
-        return [(name or own, rings) for own, rings in inner]
-    members = {"FeatureCollection": "features", "GeometryCollection": "geometries"}.get(str(kind))
-    if members is None:
-        raise InvalidValue(
-            f"{field}.type",
-            f"{field}.type must be Polygon, Feature, FeatureCollection or GeometryCollection, got {kind!r}",
-        )
-    items = _listed(f"{field}.{members}", geometry.get(members))
-    each = [_polygons(f"{field}.{members}.{k}", item, scale, depth + 1) for k, item in enumerate(items)]
-    return [found for polygons in each for found in polygons]
-
-
-def _rings(field: str, value: object, scale: Scale = METRES) -> tuple[Ring, ...]:
-    rings = _listed(field, value)
-    if not rings:
-        raise InvalidValue(field, f"{field} must hold at least one ring")
-    return tuple(
-        tuple(_place(f"{field}.{k}.{i}", point, scale) for i, point in enumerate(_listed(f"{field}.{k}", ring)))
-        for k, ring in enumerate(rings)
-    )
-
-
-def _place(field: str, value: object, scale: Scale) -> Point:
-    unit, *limits = scale
-    numbers = _listed(field, value)
-    if len(numbers) not in (2, 3):
-        words = "[x, y] in metres" if scale == METRES else f"[longitude, latitude] in {unit}"
-        raise InvalidValue(field, f"{field} must be a position {words}, got {len(numbers)} numbers")
-    x, y = (checked_number(f"{field}.{k}", numbers[k], unit, -limits[k], limits[k]) for k in range(2))
-    return x, y
-
-
-def _listed(field: str, value: object) -> list[object]:
-    if not isinstance(value, (list, tuple)):
-        raise InvalidValue(field, f"{field} must be a list, got {type(value).__name__}")
-    return list(value)

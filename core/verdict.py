@@ -5,9 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from enum import StrEnum
 
-from core.contact.first_contact import FirstContact, HeadState, Outcome, first_contact, head_state
-from core.contact.least_clearance import LeastClearance, least_clearance
+from core.contact.clearance import LeastClearance, least_clearance
+from core.contact.first_contact import FirstContact, Outcome, first_contact
 from core.dance import TIME_MAX, Dance, EndReason, RunEnd
+from core.errors import said, said_bound
 from core.motion.joints import SharpestBend, sharpest_bend
 from core.motion.speed import (
     SPEED_PROVEN,
@@ -18,13 +19,14 @@ from core.motion.speed import (
     first_excess,
     highest_speed,
 )
+from core.paths.path import HeadState
 from core.shown import Shown, worded
 from core.values import checked_number, checked_type
 from core.venue import AreaClearance, Venue, VenueClearance, is_clear_beyond, venue_clearance, venue_end
 
-# A first excess over a speed limit that is not known as closely as this is told as the latest possible [s].
+# A first excess over a speed limit that is known less closely than this is told as the latest possible one [s].
 EXCESS_KNOWN = 1e-6
-# A dance whose benches touch at its start is looked at for this long [s].
+# A dance whose benches touch at its start is judged for this long [s].
 MOMENT = 1e-3
 
 
@@ -42,7 +44,7 @@ class FailureKind(StrEnum):
 
 
 class Judgement(StrEnum):
-    """What a report comes to: nothing fails, something fails for certain, or neither is known."""
+    """The verdict of a report: nothing fails, something fails for certain, or neither is known."""
 
     PASSES = "passes"
     FAILS = "fails"
@@ -51,14 +53,15 @@ class Judgement(StrEnum):
 
 @dataclass(frozen=True, slots=True, repr=False)
 class Failure(Shown):
-    """One thing that fails: time [s], when it first does; of a search that gave up, proven good until then.
+    """One thing that fails.
 
+    time: when it first fails [s]; for a search that gave up, until when it is proven not to fail
     benches: those at fault (of a speed: the handle); area: the venue's polygon, None where it has no part
     message: one sentence
     time_bracket: (proven not to fail up to, failing at) [s]; None where there is no search
     head: the head at that time
     peak_speed, peak_time: of a speed, the highest one and when it is reached [m/s], [s]; towards a fold speeds grow
-        without bound, then None and the time of the fold; None for what is no speed
+        without bound, then None and the time of the fold; None for all other failures
     """
 
     kind: FailureKind
@@ -77,9 +80,10 @@ class Failure(Shown):
 
 @dataclass(frozen=True, slots=True, repr=False)
 class Report(Shown):
-    """start, stop: of the stretch looked at [s]: where benches touch, the dance and everything else here stops
+    """The verdict on a dance, and the answers behind it.
 
-    verdict: what it comes to; passed: it passes
+    start, stop: the stretch that is judged [s], which ends where benches touch
+    verdict: see Judgement; passed: is it PASSES?
     failures: in order of time, none after the stop; among them what is undecided
     first_contact: within the margin; least_clearance: of any two benches, None with fewer than three
     venue: None without one; sharpest_bend: None for a single bench
@@ -115,11 +119,10 @@ def check(
     """Can the dragon dance this path: first contact, least clearance, venue, highest speed, sharpest bend.
 
     margin: required between benches and to the venue [m]; speed_limit: of every handle [m/s]
-    start, stop: [s]; by default from 0 (on a route: from when all are on it) to the end of the run
-    A dance that folds before its stop, or before the end of its path where none is given, fails. One that stops before,
-    because benches touch, is not followed to its fold.
-    raises: InvalidValue for what is no dance at all; OutsideRun for times that the run does not have, but not for a
-        stop after a fold
+    start, stop: [s]; by default from 0 (on a route: from when the whole dragon is on it) to the end of the run
+    A dance fails if it folds before its stop, or before the end of its path if no stop is given. A dance that ends
+    earlier, because benches touch, is not followed to its fold.
+    raises: InvalidValue; OutsideRun for times outside the run, but not for a stop after a fold
     """
     checked_type("dance", dance, Dance)
     limit = None if speed_limit is None else checked_limit(speed_limit)
@@ -135,12 +138,7 @@ def check(
     if least is not None and least.distance == 0.0:
         until = min(until, max(least.time, begin + MOMENT))
     bend = sharpest_bend(dance, start=begin, stop=until)
-    square, seen = None, until
-    if venue is not None:
-        followed = venue_end(dance)
-        seen = min(until, followed) if followed >= begin + MOMENT else begin
-        if seen > begin:
-            square = venue_clearance(dance, venue, margin=margin, start=begin, stop=seen)
+    square, seen = _in_venue(dance, venue, margin, begin, until)
     folds = dance.ends_by(until)
     speed, excess = None, None
     if not folds:
@@ -152,18 +150,26 @@ def check(
         failures.append(_speed_failure(excess, speed, limit, end))
     failures += _touch_failures(contact, least, margin)
     if folds:
-        failures.append(_fold_failure(end, head_state(dance.path, end.time * dance.head_speed)))
-    clear_beyond = (
-        venue is None or seen >= until or is_clear_beyond(dance, venue, margin=margin, start=begin, seen=seen)
-    )
-    if not clear_beyond:
+        failures.append(_fold_failure(end, dance.path.head(end.time * dance.head_speed)))
+    if venue and seen < until and not is_clear_beyond(dance, venue, margin=margin, start=begin, seen=seen):
         message = f"From {seen:.6f} s on the spiral is too tight to follow the benches against the venue."
         failures.append(Failure(FailureKind.UNDECIDED, seen, (), None, message))
     failures.sort(key=lambda failure: failure.time)
-    told = tuple(replace(failure, head=head_state(dance.path, failure.time * dance.head_speed)) for failure in failures)
+    told = tuple(replace(failure, head=dance.path.head(failure.time * dance.head_speed)) for failure in failures)
     verdict = _judgement(told)
     passed = verdict is Judgement.PASSES
     return Report(begin, until, verdict, passed, told, contact, least, square, speed, bend)
+
+
+def _in_venue(
+    dance: Dance, venue: Venue | None, margin: float, begin: float, until: float
+) -> tuple[VenueClearance | None, float]:
+    """The benches in the venue, as far as they can be followed there, and until when that is [s]."""
+    if venue is None:
+        return None, until
+    followed = venue_end(dance)
+    seen = min(until, followed) if followed >= begin + MOMENT else begin
+    return venue_clearance(dance, venue, margin=margin, start=begin, stop=seen) if seen > begin else None, seen
 
 
 def _judgement(failures: tuple[Failure, ...]) -> Judgement:
@@ -174,7 +180,7 @@ def _judgement(failures: tuple[Failure, ...]) -> Judgement:
 
 
 def _touch_failures(contact: FirstContact, least: LeastClearance | None, margin: float) -> list[Failure]:
-    """Where two benches touch that came nearer than a margin before: there the dance stops."""
+    """The touch of two benches, where a margin was asked that they broke before: the dance stops there."""
     told = margin == 0.0 or (contact.gap is not None and contact.gap <= 0.0)
     if told or least is None or least.distance > 0.0:
         return []
@@ -197,14 +203,14 @@ def _contact_failures(contact: FirstContact, margin: float) -> list[Failure]:
 
 
 def _meeting(margin: float, come: str, near: str) -> str:
-    """What things nearer than the margin do, in words; near: to what, if it is not one another."""
+    """Words for coming nearer than the margin. come: the verb; near: to what, if not to one another."""
     if margin > 0.0:
-        return f"{come} nearer than {margin:g} m{near and ' to '}{near}"
+        return f"{come} nearer than {said(margin)} m{near and ' to '}{near}"
     return f"{'touches' if come == 'comes' else 'touch'}{near and ' '}{near}"
 
 
 def _gap(gap: float | None, margin: float) -> str:
-    """The gap that is left, where a margin makes it more than a touch."""
+    """Words for the gap that is left, if a margin was asked."""
     if gap is None or margin == 0.0:
         return ""
     return f", with a gap of {gap:.6f} m" if gap > 0.0 else f", and overlap by {-gap:.6f} m"
@@ -249,9 +255,9 @@ def _speed_failure(excess: FirstExcess, speed: HighestSpeed | None, limit: float
     handles: tuple[int, ...] = ()
     if time is None and speed is not None and speed.speed > limit * (1.0 + SPEED_ROUNDING):
         time, handle = speed.time, speed.handles[0]
-    kept = f"{limit:g} m/s is proven to be kept up to {proven:.6f} s"
+    kept = f"{said(limit)} m/s is proven to be kept up to {said_bound(proven, 6, -1)} s"
     if time is None and speed is not None:
-        message = f"Whether a handle exceeds {limit:g} m/s is not decided; {kept}, and no higher speed was found."
+        message = f"Whether a handle exceeds {said(limit)} m/s is not decided; {kept}, and no higher speed was found."
         return Failure(FailureKind.UNDECIDED, proven, (), None, message, (proven, latest))
     if speed is None:
         peak = f"towards {end.time:.6f} s, when bench {end.bench} folds, speeds grow without bound"
@@ -260,13 +266,13 @@ def _speed_failure(excess: FirstExcess, speed: HighestSpeed | None, limit: float
         peak = f"the highest speed is {speed.speed:.6f} m/s, of handle {speed.handles[0]} at {speed.time:.6f} s"
         speed_then, then = speed.speed, speed.time
     if time is None or handle is None:
-        time, message = end.time, f"A handle exceeds {limit:g} m/s: {peak}; {kept}."
+        time, message = end.time, f"A handle exceeds {said(limit)} m/s: {peak}; {kept}."
     elif time - proven > EXCESS_KNOWN:
         handles = (handle,)
-        message = f"Handle {handle} exceeds {limit:g} m/s at {time:.6f} s at the latest ({kept}); {peak}."
+        message = f"Handle {handle} exceeds {said(limit)} m/s at {time:.6f} s at the latest ({kept}); {peak}."
     else:
         handles = (handle,)
-        message = f"Handle {handle} first exceeds {limit:g} m/s at {time:.6f} s; {peak}."
+        message = f"Handle {handle} first exceeds {said(limit)} m/s at {time:.6f} s; {peak}."
     bracket = (proven, time)
     return Failure(FailureKind.SPEED, time, handles, None, message, bracket, None, speed_then, then)
 

@@ -129,7 +129,7 @@ BITS, UNIT, COSINE_ERROR = 128, 1 << 128, 1 << 12  # the last in units
 # Limits on the work: of the bytes and benches of a certificate, and of the bends (1.) that it needs.
 BYTES_MOST, BENCHES_MOST, BENDS_LEFT = 1 << 24, 10_000_000, iter(range(5_000_000))
 TIME_BRACKET, PITCH_STEP, NEVER = Fraction(1, 10**10), Fraction(1, 10**6), "no two benches but neighbours touch"
-KNOWN = "this verifier knows collision times and minimum pitches at margin 0 on a spiral, no other form of certificate"
+KNOWN = "this verifier judges only collision times and minimum pitches at margin 0 without a fold, and this is neither"
 
 
 class Refused(ValueError):

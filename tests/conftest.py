@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import http.client
 import os
+import shutil
 import signal
 import socket
 import subprocess
@@ -18,19 +19,20 @@ from core import kernels
 from tests.page import browser
 
 ROOT = Path(__file__).parent.parent
-START_TIMEOUT = 60.0  # [s] to the first answer; a cold start takes about one
-STOP_TIMEOUT = 30.0  # [s] from the signal to the end; uvicorn lets running computations finish
-# Set by continuous integration, where every test must run.
+START_TIMEOUT = 60.0  # longest wait for the first answer [s]; a cold start takes about one
+STOP_TIMEOUT = 30.0  # longest wait from the signal to the end [s]; uvicorn lets running computations finish
+# Continuous integration sets this: every test must run there.
 STRICT = bool(os.environ.get("CI"))
 LEFT_OUT = pytest.StashKey[list[str]]()
 NO_DISK = "they mount a small disk and fill it: run them as root"
 UNCOMPILED = "they would take hours with uncompiled loops: apt install gcc python3-dev, then make clean test"
+NO_CURL = "they run the commands of the documentation as they stand: apt install curl"
 
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
-    """Leave out what this machine cannot run, told after the tests in one line a reason.
+    """Leave out the tests that this machine cannot run; one line for each reason is printed after the tests.
 
-    raises: UsageError where nothing may be left out
+    raises: UsageError if no test may be left out
     """
     has_browser = not any(map(_needs_browser, items)) or browser.found()
     kept: list[pytest.Item] = []
@@ -42,6 +44,8 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
             groups.setdefault(browser.MISSING, []).append(item)
         elif os.geteuid() != 0 and "small_disk" in getattr(item, "fixturenames", ()):
             groups.setdefault(NO_DISK, []).append(item)
+        elif item.get_closest_marker("curl") and not shutil.which("curl"):
+            groups.setdefault(NO_CURL, []).append(item)
         else:
             kept.append(item)
     lines = [f"{len(group)} tests are left out: {reason}" for reason, group in groups.items()]
@@ -70,7 +74,7 @@ def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
         free.bind(("127.0.0.1", 0))
         port = free.getsockname()[1]
     environment = {name: value for name, value in os.environ.items() if not name.startswith("BENCH_DRAGON_")}
-    command = [sys.executable, "-m", "uvicorn", "--factory", "app.main:create_app", "--port", str(port)]
+    command = [sys.executable, "-m", "uvicorn", "--factory", "app.service.main:create_app", "--port", str(port)]
     with log.open("wb") as output:
         process = subprocess.Popen(command, cwd=ROOT, env=environment, stdout=output, stderr=output)
     try:
@@ -87,12 +91,12 @@ def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
 
 
 def heed_ctrl_c() -> None:
-    """For preexec_fn of a child that a test interrupts: under a script's `make test &` it would ignore SIGINT."""
+    """preexec_fn of a child that a test interrupts; under a script's `make test &` the child would ignore SIGINT."""
     signal.signal(signal.SIGINT, signal.SIG_DFL)
 
 
 def wait_until_live(process: subprocess.Popen[bytes], port: int, log: Path) -> None:
-    """Return when /healthz answers 200; fail with the server's own words when it cannot start."""
+    """Return when /healthz answers 200; fail with the server's log if it cannot start."""
     end = time.monotonic() + START_TIMEOUT
     while process.poll() is None and time.monotonic() < end:
         connection = http.client.HTTPConnection("127.0.0.1", port, timeout=5)

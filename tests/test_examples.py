@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from app.files import read_dance
-from app.schemas import CheckRequest
+from app.files.disk import read_dance
+from app.questions.check import CheckRequest
 from core import FailureKind, Outcome, Report
 
 EXAMPLES = Path(__file__).parents[1] / "examples"

@@ -12,8 +12,11 @@ ROOT = Path(__file__).parent.parent
 CORE, TESTS = ROOT / "core", ROOT / "tests" / "core"
 # Modules that are tested with others, as the parts of one answer.
 TESTED_WITH = {
+    "contact/fold.py": "contact/test_first_contact.py",
     "contact/search.py": "contact/test_first_contact.py",
+    "design/ways.py": "design/test_minimum_pitch.py",
     "errors.py": "test_wrong_types.py",
+    "paths/path.py": "paths/test_route.py",
     "proof/claims.py": "proof/test_certificate.py",
     "proof/pairs.py": "proof/test_certificate.py",
     "proof/paths.py": "proof/test_dances.py",
@@ -21,12 +24,7 @@ TESTED_WITH = {
     "proof/sweeps.py": "proof/test_certificate.py",
     "proof/words.py": "proof/test_certificate.py",
 }
-# All kernels are tested through what uses them, compiled against uncompiled.
-MODULES = [
-    path.relative_to(CORE)
-    for path in sorted(CORE.rglob("*.py"))
-    if path.name != "__init__.py" and path.parent.name != "kernels"
-]
+MODULES = [path.relative_to(CORE) for path in sorted(CORE.rglob("*.py")) if path.name != "__init__.py"]
 
 
 @pytest.mark.parametrize("module", MODULES, ids=str)

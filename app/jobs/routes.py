@@ -1,4 +1,4 @@
-"""The calls about jobs, and `Prefer: respond-async` on every other call."""
+"""The calls about jobs, and what a question does for who prefers a job (Prefer: respond-async)."""
 
 from __future__ import annotations
 
@@ -14,22 +14,25 @@ from typing import Annotated, Any
 import orjson
 from fastapi import APIRouter, Body, Depends, Header, Path, Request, Response
 from fastapi.responses import FileResponse, StreamingResponse
+from pydantic import BaseModel, ValidationError
 from starlette.concurrency import run_in_threadpool
-from starlette.datastructures import Headers
-from starlette.types import ASGIApp, Message, Receive, Scope, Send
+from starlette.types import Receive, Scope, Send
 
-from app.jobs.call import Call, ask
 from app.jobs.job import ID_PATTERN, Full, FullForClient, FullOfBytes, Job, Room, State
 from app.jobs.keeper import Keeper
-from app.jobs.questions import ROUTES, call_of
+from app.jobs.task import Task
 from app.jobs.wire import EVENTS_TYPE, JobList, JobRequest, JobStatus, status
-from app.messages import shown
-from app.problems import PROBLEM_TYPE, ErrorItem, Refused, http_problem, problem
-from app.reply import JSON, LATER, refuse_query, reply_body
+from app.questions import CALLS
+from app.questions.figures import Format
+from app.service.problems import Refused, answer_of, problem
+from app.service.reply import RESPOND_ASYNC, form_of, refuse_query, reply_body
+from app.wire.faults import in_body, unfit
+from app.wire.messages import shown
+from app.wire.models import JSON
+from app.wire.problem import PROBLEM_TYPE, ErrorItem
 
 logger = logging.getLogger("uvicorn.error")
 
-RESPOND_ASYNC = "respond-async"
 # Between two looks for news, and between two signs of life while there are none [s].
 LOOK_SECONDS, BEAT_SECONDS = 0.25, 15.0
 # When to come again after a refusal for want of room [s].
@@ -72,14 +75,14 @@ def guard(request: Request) -> None:
         raise Refused(401, detail, [ErrorItem(name="Authorization", detail=detail)], challenge)
 
 
-def take(request: Request, call: Call, question: str) -> Response:
-    """A new job for a call whose values are right. raises: Refused where there is no room"""
+def take(request: Request, task: Task) -> Response:
+    """A new job. raises: Refused where there is no room"""
     keeper = keeper_of(request)
     limits = keeper.settings
     client = request.client.host if request.client else ""
     try:
         room = Room(limits.jobs_max, limits.jobs_client_max, limits.jobs_bytes_max)
-        job = keeper.store.create(question, call.to_bytes(), client, room)
+        job = keeper.store.create(task.call, task.to_bytes(), client, room)
     except FullForClient as error:
         detail = f"{limits.jobs_client_max} of your jobs are not finished, as many as may: wait for one or dismiss one."
         raise Refused(429, detail, headers=COME_AGAIN) from error
@@ -95,49 +98,10 @@ def take(request: Request, call: Call, question: str) -> Response:
     return Response(status(job, root), 202, headers, JSON)
 
 
-class RespondAsync:
-    """Makes a job of a question with `Prefer: respond-async`.
-
-    Wrong values are refused at once, what the client has already is 304, and other calls are answered as ever.
-    """
-
-    def __init__(self, app: ASGIApp) -> None:
-        self.app = app
-
-    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        if scope["type"] != "http" or not prefers_later(Headers(scope=scope)):
-            return await self.app(scope, receive, send)
-        parts: list[bytes] = []
-        later: list[str] = []
-
-        async def noted() -> Message:
-            message = await receive()
-            parts.append(message.get("body", b""))
-            return message
-
-        async def unless_later(message: Message) -> None:
-            if not later:
-                await send(message)
-
-        scope[LATER] = later
-        await self.app(scope, noted, unless_later)
-        if not later:
-            return None
-        request = Request(scope)
-        try:
-            guard(request)
-            response = await run_in_threadpool(take, request, Call.of(scope, b"".join(parts)), later[0])
-        except Refused as refused:
-            response = await http_problem(request, refused)
-        except sqlite3.Error as error:
-            response = await store_problem(request, error)
-        return await response(scope, receive, send)
-
-
-def prefers_later(headers: Headers) -> bool:
-    """Does the client prefer a job to a wait (RFC 7240)?"""
-    wishes = ",".join(headers.getlist("prefer")).split(",")
-    return any(wish.partition(";")[0].strip().lower() == RESPOND_ASYNC for wish in wishes)
+def later(request: Request, task: Task) -> Response:
+    """A job for a question that a client prefers to be answered later. raises: Refused"""
+    guard(request)
+    return take(request, task)
 
 
 async def store_problem(request: Request, error: Exception) -> Response:
@@ -151,13 +115,21 @@ async def store_problem(request: Request, error: Exception) -> Response:
 
 
 router = APIRouter(prefix="/jobs", tags=["Jobs"])
+TOKEN_SCHEME = {"token": {"type": "http", "scheme": "bearer", "description": "The token of a service that has one"}}
 
 
-def told(*statuses: int, **content: Any) -> dict[str, Any]:
-    """What OpenAPI says of a call: its problems, and what it answers in place of JSON."""
+def told(name: str, *statuses: int, model: type[BaseModel] | None = None, content: Any = None) -> dict[str, Any]:
+    """What OpenAPI says of a call: its operation id, its problems, and what it answers in place of JSON."""
     problems = {number: {"description": PROBLEMS[number], "content": PROBLEM_REF} for number in statuses}
     answer = {200: {"description": "The answer", "content": content}} if content else {}
-    return {"response_class": Response, "responses": {**answer, **problems}}
+    security: list[dict[str, list[str]]] = [{}, {"token": []}] if 401 in statuses else []
+    return {
+        "operation_id": name,
+        "response_class": Response,
+        "response_model": model,
+        "responses": {**answer, **problems},
+        "openapi_extra": {"security": security},
+    }
 
 
 JobId = Annotated[str, Path(description="Name of the job, the last part of its address", pattern=f"^{ID_PATTERN}$")]
@@ -181,46 +153,45 @@ no_query = Depends(refuse_query)
     "",
     status_code=202,
     dependencies=[Depends(guard), Depends(reply_body)],
-    **told(400, 401, 404, 406, 413, 415, 422, 429, 500, 503, 507) | {"response_model": JobStatus},
+    **told("ask_later", 400, 401, 404, 406, 413, 415, 422, 429, 500, 503, 507, model=JobStatus),
 )
-async def ask_later(
+def ask_later(
     request: Request,
     wanted: Annotated[JobRequest, Body(examples=[{"question": "collision_time", "request": {"pitch": 0.5}}])],
 ) -> Response:
     """Asks a question whose answer is worked out later; Location is the address of its job."""
-    if wanted.question not in ROUTES:
-        near = difflib.get_close_matches(wanted.question, ROUTES, n=1)
-        advice = f"did you mean {near[0]}?" if near else f"it must be one of {', '.join(sorted(ROUTES))}"
+    if wanted.question not in CALLS:
+        near = difflib.get_close_matches(wanted.question, CALLS, n=1)
+        advice = f"did you mean {near[0]}?" if near else f"it must be one of {', '.join(sorted(CALLS))}"
         detail = f"question {shown(wanted.question)} is unknown here: {advice}"
         raise Refused(422, detail, [ErrorItem(pointer="/question", detail=detail)])
-    wishes = {"prefer": RESPOND_ASYNC, "authorization": request.headers.get("authorization", "")}
+    call, values = CALLS[wanted.question], dict(wanted.request)
+    accept = wanted.accept
+    if call.question.model is None and "format" in values:  # It stands in the path of the call.
+        accept = format_of(values.pop("format"))
+    form = form_of(accept, call.question.forms, {"pointer": "/accept"})
     try:
-        call = call_of(wanted.question, wanted.request, wanted.accept)
-        answer = await ask(
-            request.app, call, wishes, {name: request.scope.get(name) for name in ("client", "root_path")}
-        )
-    except UnicodeEncodeError as error:
-        detail = f"the request holds a character that no call takes: {error.reason}"
-        raise Refused(422, detail, [ErrorItem(pointer="", detail=detail)]) from error
-    if answer.status >= 400:
-        answer.body = placed(answer.body)
-    del answer.headers["content-length"]
-    return Response(answer.body, answer.status, dict(answer.headers))
+        call.asked.model_validate(values)
+    except ValidationError as error:
+        found = [{**one, "loc": ("body", *one["loc"])} for one in error.errors()]
+        return answer_of(unfit(found, call.asked, in_body(values, "/request")))
+    return take(request, Task(call.name, values, form))
 
 
-def placed(said: bytes) -> bytes:
-    """A problem of the call as a problem of the request that holds it."""
-    known = orjson.loads(said)
-    for item in known["errors"]:
-        name = item.pop("name", None)
-        if name == "Accept":
-            item["pointer"] = "/accept"
-        elif name is not None or "pointer" in item:
-            item["pointer"] = "/request" + (f"/{name}" if name else item.get("pointer", ""))
-    return orjson.dumps(known)
+def format_of(value: Any) -> str:
+    """Media type of a figure. raises: Refused (422) for another value"""
+    try:
+        return Format(value).media_type
+    except ValueError as error:
+        detail = f"format must be {' or '.join(Format)}, got {shown(value)}"
+        raise Refused(422, detail, [ErrorItem(pointer="/request/format", detail=detail)]) from error
 
 
-@router.get("", dependencies=[Depends(guard), no_query], **told(401, 403, 422, 500, 503) | {"response_model": JobList})
+@router.get(
+    "",
+    dependencies=[Depends(guard), no_query],
+    **told("list_jobs", 401, 403, 422, 500, 503, model=JobList),
+)
 def list_jobs(request: Request, keeper: KeptKeeper) -> Response:
     """All jobs, for whoever has the token; a service without a token lists none."""
     if not keeper.settings.token:
@@ -230,7 +201,7 @@ def list_jobs(request: Request, keeper: KeptKeeper) -> Response:
     return Response(b'{"jobs":[' + listed + b"]}", headers=NOT_KEPT, media_type=JSON)
 
 
-@router.get("/{job_id}", dependencies=[no_query], **told(404, 422, 500, 503) | {"response_model": JobStatus})
+@router.get("/{job_id}", dependencies=[no_query], **told("job_status", 404, 422, 500, 503, model=JobStatus))
 def job(request: Request, found: Found) -> Response:
     """How far a job is."""
     return Response(status(found, request.scope.get("root_path", "")), headers=NOT_KEPT, media_type=JSON)
@@ -239,7 +210,7 @@ def job(request: Request, found: Found) -> Response:
 @router.delete(
     "/{job_id}",
     dependencies=[no_query],
-    **told(404, 422, 500, 503, 507) | {"response_model": JobStatus},
+    **told("dismiss_job", 404, 422, 500, 503, 507, model=JobStatus),
 )
 def dismiss(request: Request, keeper: KeptKeeper, found: Found) -> Response:
     """Dismisses a job that is not finished; removes a finished one with all that is known of it (204)."""
@@ -252,7 +223,7 @@ def dismiss(request: Request, keeper: KeptKeeper, found: Found) -> Response:
 @router.get(
     "/{job_id}/result",
     dependencies=[no_query],
-    **told(404, 409, 410, 422, 500, 503, **{"*/*": {"schema": {}}}),
+    **told("job_result", 404, 409, 410, 422, 500, 503, content={"*/*": {"schema": {}}}),
 )
 def result(keeper: KeptKeeper, found: Found) -> Response:
     """What the call itself would have answered, to the byte; of a failed job its problem."""
@@ -272,7 +243,7 @@ def result(keeper: KeptKeeper, found: Found) -> Response:
 @router.get(
     "/{job_id}/events",
     dependencies=[no_query],
-    **told(404, 422, 500, 503, **{EVENTS_TYPE: {"schema": {"type": "string"}}}),
+    **told("job_events", 404, 422, 500, 503, content={EVENTS_TYPE: {"schema": {"type": "string"}}}),
 )
 async def events(
     keeper: KeptKeeper,

@@ -31,8 +31,8 @@ import orjson
 from app.jobs.keeper import start
 from app.jobs.lock import FolderLock
 from app.jobs.store import Store
-from app.problems import problem
 from app.settings import Settings
+from app.wire.problem import problem_of
 
 logger = logging.getLogger("app.jobs")
 
@@ -94,6 +94,8 @@ class Runner:
     def __init__(self, store: Store, settings: Settings) -> None:
         self.store, self.settings = store, settings
         self.works: dict[str, Work] = {}
+        # A process that has loaded everything and waits for a job: a short one then takes no second to begin.
+        self._spare: subprocess.Popen[bytes] | None = None
         self._words: queue.Queue[Word] = queue.Queue()
         # What is not yet in the store: a full disk may need some time.
         self._unheeded: deque[Word] = deque()
@@ -114,6 +116,8 @@ class Runner:
     def step(self) -> None:
         """Heed what was said, end what should not run any more, start what may."""
         self._listen()
+        if self._spare is not None and self._spare.poll() is not None:
+            self._spare = None
         while self._unheeded:
             self._heed(self._unheeded[0])
             self._unheeded.popleft()
@@ -131,14 +135,18 @@ class Runner:
             self._start(taken)
 
     def _start(self, job: str) -> None:
-        work = Work(start("app.jobs.work", str(self.store.folder), stdout=subprocess.PIPE), time.monotonic())
+        process, self._spare = self._spare or self._new(), self._new()
+        work = Work(process, time.monotonic())
         self.works[job] = work
         Thread(target=self._hear, args=(job, work), daemon=True).start()
-        assert work.process.stdin is not None
+        assert process.stdin is not None
         with contextlib.suppress(BrokenPipeError):
             # Not an argument: those are for everybody to see.
-            work.process.stdin.write(f"{job}\n".encode())
-            work.process.stdin.flush()
+            process.stdin.write(f"{job}\n".encode())
+            process.stdin.flush()
+
+    def _new(self) -> subprocess.Popen[bytes]:
+        return start("app.jobs.work", str(self.store.folder), stdout=subprocess.PIPE)
 
     def _hear(self, job: str, work: Work) -> None:
         assert work.process.stdout is not None
@@ -178,14 +186,14 @@ class Runner:
 def too_long(seconds: float) -> bytes:
     """The problem of a job that ran longer than it may."""
     detail = f"The job took longer than {seconds:g} s, the most that one may take here: ask for less."
-    return bytes(problem(422, "too-much-work", detail).body)
+    return problem_of(422, "too-much-work", detail).to_json()
 
 
 def died(code: int) -> bytes:
     """The problem of a job whose process always ends without a word. code: of its last end, minus a signal"""
     how = f"signal {-code}" if code < 0 else f"exit code {code}"
     detail = f"The job ended its process each time it was tried, the last time by {how}: it may need too much memory."
-    return bytes(problem(500, "process-ended", detail).body)
+    return problem_of(500, "process-ended", detail).to_json()
 
 
 def follow_input() -> None:

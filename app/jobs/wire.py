@@ -8,8 +8,8 @@ import orjson
 from pydantic import BaseModel, ConfigDict, Field
 
 from app.jobs.job import Job, State
-from app.problems import Problem
-from app.reply import JSON
+from app.wire.models import JSON
+from app.wire.problem import Problem
 
 EVENTS_TYPE = "text/event-stream"
 

@@ -1,6 +1,6 @@
 """The process of one job: python -m app.jobs.work FOLDER, the job's id on standard input, what happens on output.
 
-It puts the call to the service's own code and writes the answer into a new file, which the runner then names. It
+It asks the question and writes the answer into a new file, which the runner then names. It
 changes nothing in the store: whatever becomes of it, nothing is lost or done by halves.
 
 output  lines of JSON: {"share": 0.5}, {"written": FILE, "media_type": ...} or {"problem": TEXT}
@@ -8,7 +8,7 @@ output  lines of JSON: {"share": 0.5}, {"written": FILE, "media_type": ...} or {
 
 from __future__ import annotations
 
-import asyncio
+import logging
 import os
 import sys
 import tempfile
@@ -19,15 +19,14 @@ from pathlib import Path
 from typing import Any
 
 import orjson
-from fastapi import Request, Response
 
-from app.jobs.call import Answer, Call, ask
 from app.jobs.runner import follow_input
 from app.jobs.store import Store
-from app.main import create_app
-from app.problems import problem
-from app.reply import PROGRESS
+from app.jobs.task import Task
 from app.settings import Settings
+from app.wire.problem import Problem, problem_of
+
+logger = logging.getLogger("app.jobs")
 
 # Jobs yield to whoever waits for an answer (man 2 nice).
 NICENESS = 10
@@ -60,25 +59,25 @@ def limit_memory(most: int) -> None:
         resource.setrlimit(resource.RLIMIT_AS, (most, most))
 
 
-def answer(call: Call, settings: Settings, mouth: Mouth) -> Answer:
-    """What the service says to the call."""
-    app = create_app(settings)
-    most = settings.job_memory_max
-
-    async def too_much(request: Request, error: Exception) -> Response:
+def answer(task: Task, settings: Settings, mouth: Mouth) -> bytes | Problem:
+    """What the service says to the task."""
+    try:
+        return task.answer(settings, mouth.share)
+    except MemoryError:
+        most = settings.job_memory_max
         detail = f"The job needs more memory than the {most} bytes that one may have here: ask for less."
-        return problem(422, "too-much-work", detail)
+        return problem_of(422, "too-much-work", detail)
+    except Exception:
+        logger.exception("A job failed: %s", task.call)
+        return problem_of(500, "internal-error", "The service failed on this job; the log of the service says why.")
 
-    app.add_exception_handler(MemoryError, too_much)
-    return asyncio.run(ask(app, call, {}, {PROGRESS: mouth.share}))
 
-
-def written(found: Answer, folder: Path) -> Path:
+def written(found: bytes, folder: Path) -> Path:
     """A new file with the answer, safe on the disk. raises: OSError, and leaves no file"""
     handle, name = tempfile.mkstemp(prefix=".", dir=folder)
     try:
         with os.fdopen(handle, "wb") as file:
-            file.write(found.body)
+            file.write(found)
             file.flush()
             os.fsync(file.fileno())
     except BaseException:
@@ -89,23 +88,19 @@ def written(found: Answer, folder: Path) -> Path:
 
 def do(store: Store, job: str, settings: Settings, mouth: Mouth) -> None:
     """The job, to its answer or its problem."""
-    found = answer(Call.from_bytes(store.call(job)), settings, mouth)
-    if found.status != 200:
-        return mouth.say(problem=found.body.decode())
+    task = Task.from_bytes(store.call(job))
+    found = answer(task, settings, mouth)
     most = settings.job_result_bytes_max
-    if len(found.body) > most:
-        detail = f"The answer has {len(found.body)} bytes, and one that is kept may have {most}: ask for less."
-        return mouth.say(problem=_text(problem(413, "content-too-large", detail)))
-    try:
-        file = written(found, store.results)
-    except OSError as error:
-        detail = f"The answer could not be written into the data folder: {error.strerror}. Make room and ask again."
-        return mouth.say(problem=_text(problem(507, "insufficient-storage", detail)))
-    return mouth.say(written=str(file), media_type=found.headers["content-type"])
-
-
-def _text(said: Response) -> str:
-    return bytes(said.body).decode()
+    if isinstance(found, bytes) and len(found) > most:
+        detail = f"The answer has {len(found)} bytes, and one that is kept may have {most}: ask for less."
+        found = problem_of(413, "content-too-large", detail)
+    if isinstance(found, bytes):
+        try:
+            return mouth.say(written=str(written(found, store.results)), media_type=task.form)
+        except OSError as error:
+            detail = f"The answer could not be written into the data folder: {error.strerror}. Make room and ask again."
+            found = problem_of(507, "insufficient-storage", detail)
+    return mouth.say(problem=found.to_json().decode())
 
 
 def main() -> None:
@@ -116,6 +111,8 @@ def main() -> None:
     mouth = Mouth()
     # Byte by byte, so that nothing behind the line is taken from who follows the input.
     job = b"".join(iter(lambda: os.read(sys.stdin.fileno(), 1).strip(), b"")).decode()
+    if not job:  # Whoever started this process is gone.
+        return
     follow_input()
     store = Store(Path(sys.argv[1]))
     do(store, job, settings, mouth)

@@ -1,7 +1,7 @@
 /** The answers, and for each how it is known. */
 
 import { make } from "./elements.js";
-import { benchName, handleName, say, sayNear } from "./text.js";
+import { benchName, handleName, refusalWords, say, sayNear } from "./text.js";
 
 /** What a dance comes to: it fails with a contact or a fold, passes, or is undecided. */
 const MARKS = { contact: "✕", contact_at_start: "✕", folds: "!", clear: "✓", undecided: "?" };
@@ -101,7 +101,8 @@ export function showFirstContact(box, answer, { benches, margin }) {
 /** answer: of /minimum-pitch; use(pitch) sets it */
 export function showMinimumPitch(box, answer, { benches, turning_diameter: diameter, margin }, use) {
   const names = answer.benches ? pair(answer.benches, Number(benches)) : {};
-  const limit = sayNear(`limited_${answer.limited_by}`, margin, { ...names, radius: answer.head_radius?.toFixed(6) });
+  const name = answer.bench === null ? "" : benchName(answer.bench, Number(benches));
+  const limit = sayNear(`limited_${answer.limited_by}`, margin, { ...names, name, radius: answer.head_radius?.toFixed(6) });
   const { scan_step: step, proven_up_to: upTo } = answer;
   const all = step === null && upTo === null;
   const from = bound(answer.proven_from, 9, 1);
@@ -151,8 +152,9 @@ export function showEnd(box, answer, time, { benches, margin }) {
   show(box, say("end"), `${(answer.end?.time ?? time).toFixed(6)} s`, [words], [paragraph(say("endKnown"))]);
 }
 
-export function showRefusal(box, title, words) {
-  show(box, say(title), say("unanswered"), [words]);
+export function showRefusal(box, title, detail) {
+  show(box, say(title), say("unanswered"), []);
+  box.append(make("p", refusalWords(detail)));
 }
 
 /** What stands under the enlarged view. gap: [m] between the two benches, null while unknown */

@@ -2,7 +2,7 @@
 
 import { make, onClick } from "./elements.js";
 import { FIELDS } from "./state.js";
-import { say } from "./text.js";
+import { refusalWords, say } from "./text.js";
 
 /** Half-typed numbers are not asked: a text counts after a pause of the hand [ms], or with Enter. */
 const TYPING = 300;
@@ -22,15 +22,16 @@ export class Controls {
     state.listen((names) => names.forEach((name) => this.#show(name === "path" ? "pitch" : name)));
   }
 
-  #row({ name, unit, slider: [min, max, step] }) {
+  #row({ name, slider: [min, max, step] }) {
     const change = (event) => this.state.set({ [name]: event.target.value.trim() });
     const described = { "aria-describedby": `${name}-limits ${name}-error` };
     const row = {
       text: make("input", { id: name, inputMode: "decimal", autocomplete: "off", spellcheck: false, ...described }),
       slider: make("input", { type: "range", min, max, step }),
       reset: make("button", { type: "button", className: "reset", textContent: "↺" }),
+      unit: make("span", { className: "unit" }),
       limits: make("span", { id: `${name}-limits`, className: "limits" }),
-      error: make("p", { id: `${name}-error`, className: "error", lang: "en", hidden: true }),
+      error: make("p", { id: `${name}-error`, className: "error", hidden: true }),
     };
     let typing = 0;
     row.text.addEventListener("input", (event) => {
@@ -43,8 +44,7 @@ export class Controls {
     this.#rows.set(name, row);
     this.#show(name);
     const label = make("label", { htmlFor: name, "data-text": name });
-    const shownUnit = make("span", { className: "unit", ...(unit === "turns" ? { "data-text": unit } : { textContent: unit }) });
-    return make("div", { className: "field" }, label, row.text, shownUnit, row.reset, row.slider, row.limits, row.error);
+    return make("div", { className: "field" }, label, row.text, row.unit, row.reset, row.slider, row.limits, row.error);
   }
 
   #show(name) {
@@ -56,12 +56,13 @@ export class Controls {
     row.reset.disabled = text === this.state.initial(name);
   }
 
-  /** limits: name -> [low, high] as the service states them */
+  /** limits: name -> [low, high, unit] as the service states them */
   translate(limits) {
     for (const [name, row] of this.#rows) {
       row.slider.setAttribute("aria-label", say("slider", { name: say(name) }));
       row.reset.setAttribute("aria-label", say("reset", { name: say(name) }));
-      const [low, high] = limits[name] ?? [];
+      const [low, high, unit = ""] = limits[name] ?? [];
+      row.unit.textContent = unit === "turns" ? say(unit) : unit;
       row.limits.textContent = low === undefined ? "" : say("limits", { low, high });
     }
   }
@@ -69,10 +70,11 @@ export class Controls {
   /** errors: name -> the service's words; a name that is no field is not shown here */
   refuse(errors) {
     for (const [name, row] of this.#rows) {
-      const words = errors.get(name) ?? "";
-      if (row.error.textContent !== words) row.error.textContent = words;
-      row.error.hidden = !words;
-      row.text.setAttribute("aria-invalid", Boolean(words));
+      const detail = errors.get(name) ?? "";
+      const said = refusalWords(detail);
+      if (row.error.textContent !== said.textContent) Object.assign(row.error, said);
+      row.error.hidden = !detail;
+      row.text.setAttribute("aria-invalid", Boolean(detail));
     }
   }
 }

@@ -5,13 +5,13 @@ import { Problem, Service } from "./api.js";
 import { Chart, clearancePlan, scanPlan } from "./charts.js";
 import { Controls } from "./controls.js";
 import { Dance, speedRange } from "./dance.js";
-import { $, $$, onClick } from "./elements.js";
+import { $, $$, make, onClick } from "./elements.js";
 import { Keep } from "./keep.js";
 import { Player } from "./player.js";
 import { Questions } from "./questions.js";
 import { FIELDS, State } from "./state.js";
 import { Table } from "./table.js";
-import { benchName, handleName, say, sayNear, setLanguage } from "./text.js";
+import { benchName, handleName, refusalWords, say, sayNear, setLanguage } from "./text.js";
 
 const NUMBERS = [...FIELDS.map((field) => field.name), "path"];
 /** Which boxes wait for which answers. */
@@ -222,7 +222,7 @@ const TELL = {
       if (kind in TITLES) answers.showRefusal($(BUSY[kind][0]), TITLES[kind], message);
       if (!(kind in charts)) continue;
       charts[kind].show(null);
-      $(`#${kind} .reading`).textContent = message;
+      $(`#${kind} .reading`).replaceChildren(make("span", refusalWords(message)));
     }
   },
 };
@@ -309,11 +309,11 @@ function restyle() {
   draw();
 }
 
-/** Limits of every number, from the service's own description of itself. */
+/** Limits and unit of every number, from the service's own description of itself. */
 async function readLimits() {
   const { paths } = await service.ask("openapi", "openapi.json");
   const parameters = ["/collision-time", "/minimum-pitch"].flatMap((path) => paths[path].get.parameters);
-  const range = ({ minimum, exclusiveMinimum, maximum }) => [minimum ?? exclusiveMinimum, maximum];
+  const range = ({ minimum, exclusiveMinimum, maximum, "x-unit": unit }) => [minimum ?? exclusiveMinimum, maximum, unit];
   limits = Object.fromEntries(parameters.map(({ name, schema }) => [name, range(schema)]));
   controls.translate(limits);
 }
@@ -321,6 +321,6 @@ async function readLimits() {
 listen();
 showState(new Set([...Object.keys(SHOW_STATE), "pitch"]));
 readLimits().catch((error) => {
-  // Without it the page only lacks the limits.
+  // Without it the page only lacks the limits and units.
   if (!(error instanceof Problem)) throw error;
 });

@@ -18,8 +18,8 @@ const MOTION = [...DRAGON, "pitch", "start_turns", "head_speed"];
 const CIRCLE = [...DRAGON, "turning_diameter", "start_turns", "margin"];
 /** While a hand drags, the engines judge the touching pair alone. */
 const QUICK = { cross_check: "pair" };
-/** Their refusals are about a number that a person wrote; others only say what cannot be shown of it. */
-const ABOUT_NUMBERS = ["contact", "minimum"];
+/** Their refusals are about a number that a person wrote; others only say what cannot be shown of it. The last wins. */
+const ABOUT_NUMBERS = ["minimum", "contact"];
 
 /** The last instant that is shown: first contact, or as far as nothing touches. */
 function lastInstant({ time, time_bracket, end }) {

@@ -1,20 +1,20 @@
 /** The whole state of the page, and its address: what is not at its default stands in the query. */
 
 /**
- * The numbers a person may set. Limits are the service's own and come from its OpenAPI document; `slider` is the range
- * that a hand finds useful: [from, to, step].
+ * The numbers a person may set. Limits and units are the service's own and come from its OpenAPI document; `slider` is
+ * the range that a hand finds useful: [from, to, step].
  */
 export const FIELDS = [
-  { name: "pitch", value: "0.55", unit: "m", group: "path", slider: [0.3, 2, 0.001] },
-  { name: "start_turns", value: "16", unit: "turns", group: "path", slider: [4, 40, 0.5] },
-  { name: "turning_diameter", value: "9", unit: "m", group: "path", slider: [2, 16, 0.1] },
-  { name: "benches", value: "223", unit: "", group: "dragon", slider: [1, 400, 1] },
-  { name: "head_length", value: "3.41", unit: "m", group: "dragon", slider: [1, 6, 0.01] },
-  { name: "body_length", value: "2.2", unit: "m", group: "dragon", slider: [1, 4, 0.01] },
-  { name: "width", value: "0.3", unit: "m", group: "dragon", slider: [0.05, 0.6, 0.005] },
-  { name: "overhang", value: "0.275", unit: "m", group: "dragon", slider: [0, 0.45, 0.005] },
-  { name: "head_speed", value: "1", unit: "m/s", group: "motion", slider: [0.1, 3, 0.05] },
-  { name: "margin", value: "0", unit: "m", group: "motion", slider: [0, 0.2, 0.005] },
+  { name: "pitch", value: "0.55", group: "path", slider: [0.3, 2, 0.001] },
+  { name: "start_turns", value: "16", group: "path", slider: [4, 40, 0.5] },
+  { name: "turning_diameter", value: "9", group: "path", slider: [2, 16, 0.1] },
+  { name: "benches", value: "223", group: "dragon", slider: [1, 400, 1] },
+  { name: "head_length", value: "3.41", group: "dragon", slider: [1, 6, 0.01] },
+  { name: "body_length", value: "2.2", group: "dragon", slider: [1, 4, 0.01] },
+  { name: "width", value: "0.3", group: "dragon", slider: [0.05, 0.6, 0.005] },
+  { name: "overhang", value: "0.275", group: "dragon", slider: [0, 0.45, 0.005] },
+  { name: "head_speed", value: "1", group: "motion", slider: [0.1, 3, 0.05] },
+  { name: "margin", value: "0", group: "motion", slider: [0, 0.2, 0.005] },
 ];
 
 export const DRAGON = FIELDS.filter(({ group }) => group === "dragon").map(({ name }) => name);

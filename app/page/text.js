@@ -1,5 +1,7 @@
 /** Every word of the page in English and in Simplified Chinese, with the terms of the contest. */
 
+import { FIELDS } from "./state.js";
+
 const WORDS = {
   title: ["Bench Dragon", "板凳龙"],
   tagline: ["Where is everyone, when do two benches first touch, how tight may the spiral be?", "每节板凳在哪里、何时首次碰撞、螺线能盘多紧？"],
@@ -89,8 +91,8 @@ const WORDS = {
   limited_circleNear: ["Limited by {a} and {b} coming nearer than {margin} m just as the head is on the circle, radius {radius} m.", "受限于龙头到达调头空间边界（半径 {radius} m）时{a}与{b}间距小于 {margin} m。"],
   limited_start: ["Limited by the start: at a smaller pitch the dance starts inside the circle or touching.", "受限于起点：螺距更小时，起点已在圆内或已相碰。"],
   limited_startNear: ["Limited by the start: at a smaller pitch the dance starts inside the circle, or with two benches nearer than {margin} m.", "受限于起点：螺距更小时，起点已在圆内，或起始时已有板凳间距小于 {margin} m。"],
-  limited_fold: ["Limited by a fold: at a smaller pitch a bench cannot follow the head as far as the circle.", "受限于折叠：螺距更小时，板凳无法跟随龙头到达调头空间。"],
-  limited_foldNear: ["Limited by a fold: at a smaller pitch a bench cannot follow the head as far as the circle.", "受限于折叠：螺距更小时，板凳无法跟随龙头到达调头空间。"],
+  limited_fold: ["Limited by a fold: at a smaller pitch {name} cannot follow the spiral until the head is on the circle.", "受限于折叠：螺距更小时，在龙头到达调头空间之前，{name}已无法沿螺线行进。"],
+  limited_foldNear: ["Limited by a fold: at a smaller pitch {name} cannot follow the spiral until the head is on the circle.", "受限于折叠：螺距更小时，在龙头到达调头空间之前，{name}已无法沿螺线行进。"],
   islands: ["Smaller pitches that also work: {list}", "另外可行的更小螺距：{list}"],
   shortestTurn: ["Deepest entry into the turn", "调头最深起点"],
   entryIs: ["from the centre; the turn that begins there is {length} m long.", "（距中心）；由此开始的调头长 {length} m。"],
@@ -205,6 +207,36 @@ const WORDS = {
   inner: ["inner edge", "内边"],
 };
 
+/** The service's rules in Chinese, as it words them: `NAME must be RULE, got VALUE: REASON`. */
+const RULES = [
+  [/^at least (.+?) turns, or the turning circle smaller$/, "至少应为 $1 圈，或缩小调头空间"],
+  [/^more than (.+?) turns, which is the turning circle$/, "应大于 $1 圈，即起点在调头空间之外"],
+  [/^more than (.+?) turns, where bench (\d+) of this dragon folds$/, "应大于 $1 圈（$2 号板凳在该处折叠）"],
+  [/^less than half of (“.+”) \((.+)\)$/, "应小于$1的一半（$2）"],
+  [/^less than a quarter of (“.+”) \((.+)\)$/, "应小于$1的四分之一（$2）"],
+  [/^at least ([^ ]+(?: [^ ]+)?)$/, "至少应为 $1"],
+  [/^more than ([^ ]+(?: [^ ]+)?)$/, "应大于 $1"],
+  [/^at most ([^ ]+(?: m(?:\/s)?)?)(?: here)?$/, "最多为 $1"],
+  [/^less than ([^ ]+ m)$/, "应小于 $1"],
+  [/^a(?: finite)? number(?: \[.+\])?$/, "应为数字"],
+  [/^a whole number$/, "应为整数"],
+  [/^smaller$/, "应更小"],
+  [/^smaller, or the benches narrower$/, "应更小，或缩小板宽"],
+  [/^larger$/, "应更大"],
+  [/^larger than (.+ m)$/, "应大于 $1"],
+];
+const REASONS = [
+  [/^lengths are in metres, and (.+) is (.+)$/, "长度以米为单位，$1 即 $2"],
+  [/^lengths are in metres$/, "长度以米为单位"],
+  [/^speeds are in metres per second$/, "速度以米每秒为单位"],
+  [/^the turn bends to a radius of (.+), and bench (\d+) follows none below (.+)$/, "调头的弯曲半径为 $1，而 $2 号板凳至少需要 $3"],
+  [/^a turn that begins on the circle bends to a radius of (.+), too tight for the longest chord \((.+)\)$/, "自边界开始的调头弯曲半径为 $1，对最长的孔距（$2）过小"],
+  [/^shorten the dragon$/, "请缩短队伍"],
+  [/^the minimum pitch is (.+), and pitches are at most (.+) here$/, "最小螺距为 $1，而此处螺距最多为 $2"],
+  [/^on a straight line, and so on every wide enough spiral, benches (\d+) and (\d+) are (.+) apart: .+$/, "在直线上，因而在足够宽的螺线上，$1 号与 $2 号板凳相距 $3"],
+  [/^on a straight line, and so on every wide enough spiral, benches (\d+) and (\d+) touch: .+$/, "在直线上，因而在足够宽的螺线上，$1 号与 $2 号板凳相碰"],
+];
+
 let column = 0;
 
 /** en or zh: the choice, else what the browser prefers. */
@@ -229,6 +261,25 @@ export function say(key, values = {}) {
 /** The same, in the words for a margin [m] where there is one: benches are nearer than it, and need not touch. */
 export function sayNear(key, margin, values = {}) {
   return margin > 0 ? say(`${key}Near`, { margin, ...values }) : say(key, values);
+}
+
+/** The service's words on a refusal: names on the wire by the labels of the page, and in Chinese as far as RULES go. */
+export function refusalWords(detail) {
+  const label = (name) => (FIELDS.some((field) => field.name === name) ? `“${say(name)}”` : name);
+  const english = detail
+    .replace(/^(?:dragon\.|path\.)?(\w+)/, (_, name) => label(name))
+    .replace(/\b(?:dragon\.|path\.)?([a-z]+_[a-z]+)\b/g, (_, name) => label(name));
+  const [, name, rule, value, reason] = english.match(/^(“.+?”) must be (.+?)(?:, got ([^:]+?))?(?:: (.+?))?(?: \(and \d+ more\))?$/) ?? [];
+  const known = column && translated(RULES, rule);
+  if (!known) return { textContent: english, lang: "en" };
+  const why = reason ? `（${translated(REASONS, reason) ?? reason}）` : "";
+  const words = `${name}${known}${value ? `，现为 ${value}` : ""}`.replace(/ turns\b/g, " 圈");
+  return { textContent: `${words}${why}。`, lang: "zh-Hans" };
+}
+
+function translated(table, words) {
+  const [pattern, chinese] = table.find(([pattern]) => pattern.test(words)) ?? [];
+  return pattern && words.replace(pattern, chinese);
 }
 
 /** Bench k in a sentence. */

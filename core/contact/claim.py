@@ -8,11 +8,7 @@ from __future__ import annotations
 from core.dance import Dance, EndReason
 from core.dragon import Dragon
 from core.errors import said
-from core.paths.route import Route
-from core.paths.spiral import Spiral
 
-# Kinds of pieces are listed one by one up to so many [1].
-PIECES_LISTED = 6
 PROOF = (
     "Proven in steps, each by a bound on the second derivative of the gap along an axis fixed in a bench, and further "
     "out by ring bounds in closed form; computed in doubles, with allowances for their rounding."
@@ -60,7 +56,7 @@ UNDECIDED_THEN = "; whether any do after that is not decided."
 
 
 def _dance(dance: Dance) -> str:
-    return f"{_dragon(dance.dragon)} on {_path(dance.path)}, the head at {said(dance.head_speed)} m/s"
+    return f"{_dragon(dance.dragon)} on {dance.path.words()}, the head at {said(dance.head_speed)} m/s"
 
 
 def _dragon(dragon: Dragon) -> str:
@@ -70,11 +66,3 @@ def _dragon(dragon: Dragon) -> str:
         return f"{count} given one by one"
     head, body, width, overhang = map(said, (dragon.lengths[0], dragon.lengths[-1], widths[0], overhangs[0]))
     return f"{count} (head {head} m, body {body} m, width {width} m, overhang {overhang} m)"
-
-
-def _path(path: Spiral | Route) -> str:
-    if isinstance(path, Spiral):
-        return f"a spiral of {said(path.pitch)} m pitch from {said(path.start_turns)} turns"
-    kinds = [type(piece).__name__.lower() for piece in path.pieces]
-    listed = kinds if len(kinds) <= PIECES_LISTED else sorted(set(kinds))
-    return f"a route from s = {said(path.begin)} m to {said(path.end)} m ({', '.join(listed)})"

@@ -1,6 +1,7 @@
-"""Two coils of one route: from where on outwards nothing touches on them, so that no search need go on.
+"""Two coils of one route: the place from which outwards nothing touches on them, so that a search may end there.
 
-A dance through the turn, and any other that comes in along a coil and leaves along one with the same centre and pitch.
+For a dance through the turn, and any other that comes in along a coil and leaves along one with the same centre and
+pitch.
 """
 
 from __future__ import annotations
@@ -12,11 +13,11 @@ import numpy as np
 
 from core import kernels
 from core.dragon import Dragon
-from core.kernels.constants import ALL_HALF_WIDTH, RING_ENTRIES
+from core.kernels.constants import COIL_ARC, PIECE_KIND
 from core.paths.route import Route
 from core.values import Floats
 
-# Where the rings are clear is looked for in radii that grow by this factor [1], up to this one [m].
+# The radius from which rings are clear is sought among radii that grow by this factor [1], up to this one [m].
 RADIUS_FACTOR = 1.1
 RADIUS_MAX = 1e4
 # No arc under a chord is longer by more [1].
@@ -62,7 +63,7 @@ def two_coils(path: Route) -> TwoCoils | None:
     """The coils that a route begins and ends with, None where it does not, or not around one centre with one pitch."""
     table = path.table
     first, last = table[0].tolist(), table[-1].tolist()
-    spirals = [kernels.PIECE_KINDS[int(row[0])] == "spiral" for row in (first, last)]
+    spirals = [kernels.PIECE_KINDS[int(row[PIECE_KIND])] == "spiral" for row in (first, last)]
     if len(table) < 2 or not all(spirals) or (first[9], last[9]) != (-1.0, 1.0) or first[7] != last[7]:
         return None
     growth, centre = first[7], np.array(first[5:7])
@@ -70,8 +71,8 @@ def two_coils(path: Route) -> TwoCoils | None:
         return None
     turned = (last[8] - first[8]) % (2.0 * math.pi)
     inner = first[10] - (first[2] - first[1])
-    radii = [growth * float(kernels.spiral_theta(arc / growth)) for arc in (inner, last[10])]
-    led = [growth * float(kernels.spiral_theta((arc + kernels.BLEND) / growth)) for arc in (inner, last[10])]
+    radii = [growth * float(kernels.spiral_theta(arc / growth)) for arc in (inner, last[COIL_ARC])]
+    led = [growth * float(kernels.spiral_theta((arc + kernels.BLEND) / growth)) for arc in (inner, last[COIL_ARC])]
     extent = max([*led, *(_extent(path, row, centre) for row in table[1:-1])]) + CENTRES_APART
     return TwoCoils(growth, min(turned, 2.0 * math.pi - turned), extent, last[1] - first[2], radii[1])
 
@@ -83,7 +84,7 @@ def _extent(path: Route, row: Floats, centre: Floats) -> float:
     """
     ends = path.position(row[1:3])
     extent = float(np.hypot(*(ends - centre).T).max() + 0.5 * (row[2] - row[1]))
-    if kernels.PIECE_KINDS[int(row[0])] == "arc":
+    if kernels.PIECE_KINDS[int(row[PIECE_KIND])] == "arc":
         extent = min(extent, float(math.hypot(*(row[5:7] - centre)) + row[7]))
     return extent
 
@@ -104,16 +105,14 @@ def _extent(path: Route, row: Floats, centre: Floats) -> float:
 def rings_clear(dragon: Dragon, coils: TwoCoils, margin: float) -> float | None:
     """A radius >= extent from which both coils are clear of themselves and of each other [m], None if not known."""
     growth, chords = coils.growth, dragon.chords[: dragon.uniform_from + 1]
-    # the head lies between no two others
-    longest, shortest = float(chords.max()), float(chords[min(1, chords.size - 1) :].min())
+    longest, rings = float(chords.max()), _rings(dragon)
     overhang, half = _sideways(dragon)
     foot = max(0.5 * longest, FOOT * growth)
     if 2.0 * math.pi * growth + longest + 2.0 * (overhang + half) > RADIUS_MAX:
         return None
     radius = coils.extent
     while radius <= RADIUS_MAX:
-        sizes = (longest, shortest, overhang, half, longest, half)
-        if kernels.ring_least(growth, growth, radius, *sizes) > margin + CLEARLY:
+        if kernels.ring_least(growth, growth, radius, rings) > margin + CLEARLY:
             d = math.sqrt(radius * radius - foot * foot)
             inner = d - half
             q = 1.0 / d + 2.0 * growth * (0.5 * longest + FOOT * growth + overhang) / d**3
@@ -147,12 +146,17 @@ def wholly_outside(dragon: Dragon, growth: float, radius: float) -> float:
     sqrt((radius + w / 2)^2 + c^2 / 4), but only where the foot of the perpendicular from the centre is no further from
     the inner handle than c / 2; else by the triangle inequality: core/kernels/rings.py
     """
-    chords = dragon.chords[: dragon.uniform_from + 1]
-    longest, shortest = float(chords.max()), float(chords.min())
-    overhang, half = _sideways(dragon)
-    ring = np.zeros(RING_ENTRIES)
-    ring[: ALL_HALF_WIDTH + 1] = 0.0, longest, shortest, overhang, half, longest, overhang, half
-    return float(kernels.radius_beyond(growth, radius, ring))
+    return float(kernels.radius_beyond(growth, radius, _rings(dragon)))
+
+
+def _rings(dragon: Dragon) -> kernels.Rings:
+    """What the kernels' bounds on rings need to know of a dragon any of whose benches may be the outer of a pair."""
+    chords, rings = dragon.chords[: dragon.uniform_from + 1], kernels.Rings()
+    rings.chord = rings.all_chord = float(chords.max())
+    rings.shortest = rings.all_shortest = float(chords.min())
+    rings.between_shortest = float(chords[min(1, chords.size - 1) :].min())  # the head lies between no two others
+    rings.overhang, rings.half_width = rings.all_overhang, rings.all_half_width = _sideways(dragon)
+    return rings
 
 
 def _sideways(dragon: Dragon) -> tuple[float, float]:

@@ -1,7 +1,7 @@
-"""Four engines on the dance just before and just after a contact: is it where and between whom the search says?
+"""Four engines judge the dance just before and just after a contact: does the pair meet when the search says so?
 
-Nothing of the search goes into a judgement but the claim: when, or at which pitch, and which pair. The whole dragon is
-judged: before, no two benches that share no handle are within the margin, after, the reported pair is, and no other.
+A judgement uses nothing of the search but its claim: when, or at which pitch, and which pair. The whole dragon is
+judged: before, no two benches that share no handle are within the margin; after, the reported pair is, and no other.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ Indices = NDArray[np.int64]
 # (1e-13 m), far below a bench. Within 1e-10 m of a pitch at which two benches only graze, their gap is then too small
 # for the angle sum to see (1e-12 m).
 CHECK_TRAVEL = 1e-6
-# Where arc lengths are so long that rounding hides such a travel, so many of their last digits are taken [1].
+# Where arc lengths are so long that rounding hides such a travel: the travel in units of their last digit [1].
 CHECK_DIGITS = 64
 # The same for a pitch [m].
 CHECK_PITCH = 1e-6
@@ -102,8 +102,7 @@ def contact_check(
         return None
     at_start = contact.outcome is Outcome.CONTACT_AT_START
     first, last = contact.time_bracket or (contact.time, contact.time)
-    length = path.length if isinstance(path, Spiral) else 0.0
-    rounding = CHECK_DIGITS * float(np.spacing(length + abs(contact.time) * head_speed))
+    rounding = CHECK_DIGITS * float(np.spacing(path.place + abs(contact.time) * head_speed))
     travel = max(CHECK_TRAVEL, rounding) / head_speed
     times = [first if at_start else first - travel, last + travel]
     front = dragon if whole else dragon.leading(contact.benches[1] + 1)  # No bench moves one in front of it.
@@ -154,7 +153,7 @@ def judged_contact(
         }
         if at_start:
             _leave_out_blind(words, poses[:, list(pair)], sizes[list(pair)])
-        return _check(words, np.array(pair), ())
+        return _told(words, np.array(pair), ())
     judged = judged_benches(poses[1], sizes, pair, margin)
     if len(judged) == len(pair):
         return judged_contact(poses, sizes, pair, margin=margin, whole=False, at_start=at_start)
@@ -171,7 +170,7 @@ def judged_contact(
             words[engine] = Verdict(bool(before), pair in after and after <= together | {pair})
     if at_start:
         _leave_out_blind(words, poses[:, list(pair)], sizes[list(pair)])
-    return _check(words, judged, tuple(sorted(together)))
+    return _told(words, judged, tuple(sorted(together)))
 
 
 def _leave_out_blind(words: dict[Engine, Verdict], poses: Floats, sizes: Floats) -> None:
@@ -194,7 +193,7 @@ def _word(found: list[bool], at_start: bool) -> Verdict:
     return Verdict(None, any(found)) if at_start else Verdict(*found)
 
 
-def _check(words: dict[Engine, Verdict], judged: Indices, together: tuple[Pair, ...]) -> ContactCheck:
+def _told(words: dict[Engine, Verdict], judged: Indices, together: tuple[Pair, ...]) -> ContactCheck:
     agree = all(word.after and not word.before for word in words.values())
     left_out = tuple(engine for engine in Engine if engine not in words)
     return ContactCheck(agree, tuple(judged.tolist()), words, together, left_out)

@@ -1,4 +1,4 @@
-"""First contact and clearance along time, with a certificate.
+"""First contact, with a certificate.
 
 The proof is written above the loops that carry it out: `core/kernels/bounds.py`, `pairs.py`, `rings.py` and
 `marching.py`. In short: the head advances from L to R only if, for every pair that can be near, one axis fixed in one
@@ -12,41 +12,32 @@ one before it, only the pairs of the first m + 1 benches are followed.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass, field
 from enum import StrEnum
-from itertools import pairwise
 from typing import TYPE_CHECKING
-
-import numpy as np
-from numpy.typing import NDArray
 
 from core import kernels, plots
 from core.contact.claim import ENDS, UNDECIDED_THEN, claim, claim_at_start, claim_undecided, contact_then
+from core.contact.clearance import Graze
+from core.contact.fold import clear_to_fold
 from core.contact.near_graze import narrowed
-from core.contact.search import BRACKETS_GRAZING, MARGIN_MAX, NO_GRAZE, Budget, Search
+from core.contact.search import BRACKETS_GRAZING, MARGIN_MAX, Budget, Ended, Marched, Search
 from core.dance import Dance, EndReason, RunEnd
-from core.errors import InvalidValue
-from core.motion.trajectory import bench_outlines, instants, trajectory
-from core.paths.route import Route
+from core.errors import InvalidValue, said
+from core.kernels.constants import FRONT, MX, UY
+from core.motion.trajectory import bench_outlines, trajectory
+from core.paths.path import HeadState
 from core.paths.spiral import Spiral
-from core.shown import Shown, counted, worded
-from core.tables import data_frame, data_set
-from core.values import Floats, checked_number, checked_type
+from core.shown import Shown, worded
+from core.values import checked_number, checked_type
 
 if TYPE_CHECKING:
-    import pandas
-    import xarray
     from matplotlib.axes import Axes
 
 # A run without contact is drawn this long before its end [s], where the chain still exists.
 BEFORE_END = 1e-6
-# Grazes of a profile are looked for in steps of this fraction of the shortest chord [1], longer ones where the work is
-# too much (Search.samples()), and refined to this width [s].
-PROFILE_STEP = 0.2
-# So far beyond where a search gave up it looks for an overlap that is certain [m of head travel].
+# After giving up, a search looks for a certain overlap from this far ahead on [m of head travel].
 BEYOND = 1e-3
-DIP_WIDTH = 1e-11
 
 
 class Outcome(StrEnum):
@@ -56,16 +47,6 @@ class Outcome(StrEnum):
     CONTACT_AT_START = "contact_at_start"
     CLEAR = "clear"
     UNDECIDED = "undecided"
-
-
-@dataclass(frozen=True, slots=True, repr=False)
-class HeadState(Shown):
-    """Handle 0 at one instant: theta [rad, unwrapped; None off a spiral], radius from the origin [m], x [m], y [m]."""
-
-    theta: float | None
-    radius: float
-    x: float
-    y: float
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,22 +59,13 @@ class Feature(Shown):
 
 
 @dataclass(frozen=True, slots=True, repr=False)
-class Graze(Shown):
-    """A local minimum of the clearance over time: time [s], clearance [m], the pair."""
-
-    time: float
-    clearance: float
-    benches: tuple[int, int]
-
-
-@dataclass(frozen=True, slots=True, repr=False)
-class Certificate(Shown):
+class Evidence(Shown):
     """How the answer is known.
 
     method: the whole claim and how it is proven, in sentences (core/contact/claim.py)
     steps: proven steps taken
-    clear_until: nothing touches from the start to then [s]; None where no time is proven clear: benches touch at
-        the start, or it is not decided from there on
+    clear_until: nothing touches from the start to this time [s]; None where no time is proven clear, because benches
+        touch at the start or the search is undecided from there on
     bound: the largest bound on the second derivative of a gap along the head's way that a step used [1/m]
     least_clearance: the narrowest graze met before the contact (or over the whole run), None if none
     """
@@ -127,7 +99,7 @@ class FirstContact(Shown):
     edge: Feature | None
     point: tuple[float, float] | None
     end: RunEnd | None
-    certificate: Certificate
+    certificate: Evidence
     gap: float | None = None
     margin: float = field(kw_only=True)
     dance: Dance = field(kw_only=True, repr=False, compare=False)
@@ -173,15 +145,15 @@ class FirstContact(Shown):
         margin = self.margin
         if enlarged and self.point is not None:
             place = f"({self.point[0]:.6f} m, {self.point[1]:.6f} m)"
-            near = f"Nearer than {margin:g} m: a gap of {self.gap:.6f} m at {place}"
+            near = f"Nearer than {said(margin)} m: a gap of {self.gap:.6f} m at {place}"
             return near if margin else f"They meet at {place}"
-        what = f"First nearer than {margin:g} m" if margin else "First contact"
+        what = f"First nearer than {said(margin)} m" if margin else "First contact"
         if self.outcome is Outcome.CONTACT and self.head is not None:
             return f"{what}: {self.time:.6f} s, head at radius {self.head.radius:.6f} m"
         if self.outcome is Outcome.CONTACT_AT_START:
-            return f"Nearer than {margin:g} m from the start on" if margin else f"{what}: already at the start"
+            return f"Nearer than {said(margin)} m from the start on" if margin else f"{what}: already at the start"
         if self.outcome is Outcome.CLEAR and self.end is not None:
-            none = f"Never nearer than {margin:g} m" if margin else "No contact"
+            none = f"Never nearer than {said(margin)} m" if margin else "No contact"
             if self.end.reason is EndReason.FOLD:
                 return f"{none}, but bench {self.end.bench} folds at {self.end.time:.6f} s"
             return f"{none}: the run ends clear at the {self.end.reason.value}, {self.end.time:.6f} s"
@@ -195,59 +167,8 @@ class FirstContact(Shown):
         return (self.end or self.dance.end).time - BEFORE_END
 
 
-@dataclass(frozen=True, slots=True, repr=False)
-class ClearanceProfile(Shown):
-    """time (...) [s], clearance (...) [m], benches (..., 2), and the local minima between the first and last time.
-
-    ... is (T,) for a list of times and nothing for one time.
-    """
-
-    time: Floats
-    clearance: Floats
-    benches: NDArray[np.int64]
-    grazes: tuple[Graze, ...]
-
-    def _line(self) -> str:
-        if not self.time.size:
-            return "no instants"
-        least = int(self.clearance.argmin())
-        a, b = self.benches.reshape(-1, 2)[least]
-        nearest = f"{worded(self.clearance.item(least), 'm')} between benches {a} and {b}"
-        grazes = counted(len(self.grazes), "graze")
-        return f"{instants(self.time)}; least {nearest} at {worded(self.time.item(least), 's')}; {grazes}"
-
-    def to_dataframe(self) -> pandas.DataFrame:
-        """One row for each time: time [s], clearance [m], bench_a, bench_b.
-
-        raises: ImportError without pandas, naming the extra
-        """
-        a, b = self.benches.reshape(-1, 2).T
-        columns = {"time": self.time.ravel(), "clearance": self.clearance.ravel(), "bench_a": a, "bench_b": b}
-        return data_frame("ClearanceProfile.to_dataframe()", columns, {})
-
-    def to_xarray(self) -> xarray.Dataset:
-        """clearance (time) [m] and benches (time, pair); without the axis `time` where one time was asked.
-
-        raises: ImportError without xarray, naming the extra
-        """
-        axis = ("time",) * self.time.ndim
-        variables = {"clearance": (axis, self.clearance), "benches": ((*axis, "pair"), self.benches)}
-        return data_set("ClearanceProfile.to_xarray()", variables, {"time": (axis, self.time), "pair": ["a", "b"]})
-
-    def plot(self, ax: Axes | None = None) -> Axes:
-        """The clearance against time, its local minima as dots.
-
-        returns: the axes given, or those of a new figure, in seconds and metres
-        raises: ImportError without matplotlib, naming the extra
-        """
-        axes = plots.wanted_axes(ax, "ClearanceProfile.plot()")
-        grazes = [(graze.time, graze.clearance) for graze in self.grazes]
-        plots.draw_clearance(axes, self.time.ravel(), self.clearance.ravel(), grazes)
-        return axes
-
-
-# By the kernels' codes, which count front-left, front-right, rear-right, rear-left and front, right, rear, left: first
-# for a bench that has the centre on its right, then for one that has it on its left.
+# In the order of the features of the kernels, FRONT_LEFT to REAR_LEFT and FRONT to LEFT. The first row is for benches
+# with the centre on their right, the second for those with the centre on their left.
 CORNERS = (
     ("front-outer", "front-inner", "rear-inner", "rear-outer"),
     ("front-inner", "front-outer", "rear-outer", "rear-inner"),
@@ -260,13 +181,13 @@ def first_contact(dance: Dance, *, margin: float = 0.0, start: float = 0.0, stop
 
     margin: [m], the clearance required; contact means separation <= margin
     start, stop: the times between which to look [s]; None for the end of the run
-    returns: see FirstContact; times good to 1e-10 s at 1 m/s, bracketed by [proven clear up to, overlapping at], no
-        wider than 1e-9 s but where an arc length or a time itself is not that good (beyond 1e5 m, below 1e-3 m/s), and
-        within about 5e-5 m of a graze along waypoints, behind bench 60, or where a second pair meets at once; both
-        ends hold whatever rounding does (core/kernels/spiral.py, route.py, pairs.py), and what it hides is undecided:
-        benches whose clearance at the start is the margin to about 1e-12 m
+    returns: see FirstContact. Times are good to 1e-10 s at 1 m/s. The bracket [proven clear up to, overlapping at] is
+        at most 1e-9 s wide, except where arc lengths or times are less exact (beyond 1e5 m, below 1e-3 m/s), and
+        within about 5e-5 m of a graze along waypoints, behind bench 60, or where a second pair meets at once. Both
+        ends hold in spite of rounding (core/kernels/spiral.py, route.py, pairs.py). Where rounding hides the answer it
+        is undecided: benches whose clearance at the start equals the margin to about 1e-12 m
     raises: InvalidValue; OutsideRun for a stop after the end of the run
-    source: the model of Yang et al., sections 2.4 and 2.5, whose times differ: see app/paper.py
+    source: the model of Yang et al., sections 2.4 and 2.5, whose times differ: see app/questions/paper.py
 
     >>> from core import Dragon
     >>> contact = first_contact(Dance(Dragon(), Spiral()))
@@ -279,7 +200,7 @@ def first_contact(dance: Dance, *, margin: float = 0.0, start: float = 0.0, stop
 def contact_within(
     budget: Budget, dance: Dance, *, margin: float = 0.0, start: float = 0.0, stop: float | None = None
 ) -> FirstContact:
-    """first_contact() as a part of a larger question, undecided also where the budget of that is spent."""
+    """first_contact() as a part of a larger question: also undecided once the budget of that question is spent."""
     checked_type("dance", dance, Dance)
     margin = checked_number("margin", margin, "m", 0.0, MARGIN_MAX)
     begin, until = dance.span(start, stop)
@@ -289,14 +210,14 @@ def contact_within(
     last = search.last_travel(until * head_speed, to_fold)
     state, found, tolerance = search.approach(begin * head_speed, last, head_speed)
     narrow = BRACKETS_GRAZING[0] * min(1.0, head_speed)
-    if state == "touched" and tolerance > narrow >= 2.0 * search.travel_rounding(found["touching"]):
+    if state == "touched" and tolerance > narrow >= 2.0 * search.travel_rounding(found.touching or 0.0):
         narrower = narrowed(search, found, narrow, head_speed)
         if narrower is not None:
             found, tolerance = narrower, narrow
-    if to_fold and (state == "reached" or (state == "stuck" and found["touching"] < 0.0)):
-        state = "reached" if search.clear_to_fold(min(found["proven"], last), end) else "stuck"
+    if to_fold and (state == "reached" or (state == "stuck" and found.touching is None)):
+        state = Ended.REACHED if clear_to_fold(search, min(found.proven, last), end) else Ended.STUCK
     if state == "stuck":
-        until = _known_overlap(search, found["proven"], last, head_speed, until)
+        until = _known_overlap(search, found.proven, last, head_speed, until)
     if stop is not None and state == "reached":
         end = RunEnd(EndReason.STOP, until, None, None)
     return _result(dance, search, state, found, end, (begin, until), tolerance)
@@ -305,29 +226,28 @@ def contact_within(
 def _known_overlap(search: Search, proven: float, last: float, head_speed: float, until: float) -> float:
     """When benches are within the margin for certain after a search gave up [s]; until if that is not known."""
     state, found, _ = search.approach(min(proven + BEYOND, last), last, head_speed)
-    return found["touching"] / head_speed if state.startswith("touched") else until
+    return until if state == "stuck" or found.touching is None else found.touching / head_speed
 
 
 def _result(
     dance: Dance,
     search: Search,
     state: str,
-    found: dict[str, float],
+    found: Marched,
     end: RunEnd,
     span: tuple[float, float],
     tolerance: float,
 ) -> FirstContact:
     graze, head_speed = None, dance.head_speed
-    if found["graze_gap"] < NO_GRAZE:
-        pair = (int(found["graze_first"]), int(found["graze_second"]))
-        graze = Graze(found["graze_travel"] / head_speed, found["graze_gap"], pair)
-    proven = end.time if state == "reached" else found["proven"] / head_speed
+    if found.graze is not None:
+        graze = Graze(found.graze.travel / head_speed, found.graze.gap, found.graze.benches)
+    proven = end.time if state == "reached" else found.proven / head_speed
     outcome = {"reached": Outcome.CLEAR, "stuck": Outcome.UNDECIDED, "touched": Outcome.CONTACT}.get(
         state, Outcome.CONTACT_AT_START
     )
     method = _method(dance, search.margin, outcome, found, end, (span[0], proven))
     clear_until = proven if proven > span[0] and outcome is not Outcome.CONTACT_AT_START else None
-    certificate = Certificate(method, int(found["steps"]), clear_until, found["bend"], graze)
+    certificate = Evidence(method, found.steps, clear_until, found.bend, graze)
     margin = search.margin
     if outcome is Outcome.CLEAR:
         return FirstContact(
@@ -339,14 +259,15 @@ def _result(
             outcome, None, bracket, None, None, None, None, None, None, certificate, margin=margin, dance=dance
         )
     at_start = outcome is Outcome.CONTACT_AT_START
-    travel = found["touching"] if at_start else found["touching"] - tolerance
-    pair = (int(found["first"]), int(found["second"]))
+    assert found.touching is not None
+    travel = found.touching if at_start else found.touching - tolerance
+    pair = found.benches
     corner, edge, point, gap = _touching_features(search, travel, pair)
     return FirstContact(
         outcome,
         travel / head_speed,
-        None if at_start else (proven, found["touching"] / head_speed),
-        head_state(search.path, travel),
+        None if at_start else (proven, found.touching / head_speed),
+        search.path.head(travel),
         pair,
         corner,
         edge,
@@ -360,30 +281,21 @@ def _result(
 
 
 def _method(
-    dance: Dance, margin: float, outcome: Outcome, found: dict[str, float], end: RunEnd, span: tuple[float, float]
+    dance: Dance, margin: float, outcome: Outcome, found: Marched, end: RunEnd, span: tuple[float, float]
 ) -> str:
     asked = (dance, margin)
     if outcome is Outcome.CLEAR:
         return claim(*asked, span, ENDS[end.reason])
     if outcome is Outcome.UNDECIDED:
         return claim(*asked, span, UNDECIDED_THEN) if span[1] > span[0] else claim_undecided(*asked, span[0])
-    pair = (int(found["first"]), int(found["second"]))
+    pair = found.benches
     if outcome is Outcome.CONTACT_AT_START:
         return claim_at_start(*asked, span[0], pair)
-    touching = found["touching"] / dance.head_speed
+    assert found.touching is not None
+    touching = found.touching / dance.head_speed
     if not span[1] > span[0]:
         return claim_at_start(*asked, touching, pair)
     return claim(*asked, span, contact_then(pair, margin, touching))
-
-
-def head_state(path: Spiral | Route, travel: float) -> HeadState:
-    """The head after so much travel from time 0 [m]."""
-    if isinstance(path, Spiral):
-        theta = float(path.theta(travel))
-        radius = path.growth * theta
-        return HeadState(theta, radius, radius * math.cos(theta), radius * math.sin(theta))
-    x, y = path.position(travel).tolist()
-    return HeadState(None, math.hypot(x, y), x, y)
 
 
 def _touching_features(
@@ -391,66 +303,16 @@ def _touching_features(
 ) -> tuple[Feature | None, Feature | None, tuple[float, float], float]:
     """The corner and the edge that meet, the corner's place in the world frame [m], and the separation [m]."""
     search.place_leaders(travel, pair[1] + 1)
-    a, b = (search.rows[0, bench, 6:10] for bench in pair)
-    out = np.empty(8)
-    kernels.pair_separation(*a, *search.sizes[pair[0], 1:3], *b, *search.sizes[pair[1], 1:3], out)
+    met = kernels.bench_separation(*pair, search.sizes, search.rows[0])
     corner, edge = None, None
-    for bench, row, code in zip(pair, (a, b), divmod(int(out[7]), 8), strict=True):
-        centre_on_left = int(row[1] * row[2] < row[0] * row[3])
-        if code >= 4:
-            edge = Feature(bench, EDGES[centre_on_left][code - 4])
+    for bench, feature in zip(pair, (met.feature_a, met.feature_b), strict=True):
+        x, y, ux, uy = search.rows[0, bench, MX : UY + 1]
+        centre_on_left = int(y * ux < x * uy)
+        if feature >= FRONT:
+            edge = Feature(bench, EDGES[centre_on_left][feature - FRONT])
         elif corner is None:
-            corner = Feature(bench, CORNERS[centre_on_left][code])
-    x, y = out[3:5] if corner and corner.bench == pair[1] else out[1:3]
+            corner = Feature(bench, CORNERS[centre_on_left][feature])
+    x, y = (met.bx, met.by) if corner and corner.bench == pair[1] else (met.ax, met.ay)
     turned = search.theta_at(travel) if isinstance(search.path, Spiral) else 0.0
     cos, sin = math.cos(turned), math.sin(turned)
-    return corner, edge, (float(x * cos - y * sin), float(x * sin + y * cos)), float(out[0])
-
-
-def clearance_profile(dance: Dance, times: Floats | Sequence[float] | float) -> ClearanceProfile:
-    """Exact clearance and its pair at every time, and its local minima refined.
-
-    times: (T,) or one [s]
-    grazes: looked for between the first and the last time in steps of PROFILE_STEP of the shortest chord (longer ones
-        for thousands of benches on a long way), refined to rounding; a dip of a pair
-        that is the nearest for less than a step may be missed here, never by first_contact()
-    raises: OutsideRun after the end of the run; InvalidValue for fewer than three benches
-    """
-    checked_type("dance", dance, Dance)
-    dragon, head_speed = dance.dragon, dance.head_speed
-    if dragon.benches < 3:
-        raise InvalidValue(
-            "dragon.benches", f"dragon.benches must be at least 3 for two to share no handle, got {dragon.benches}"
-        )
-    time = dance.times(times)
-    search = Search(dragon, dance.path, 0.0)
-    search.resize(dragon.benches)
-    clearance, benches = _sampled(search, time, head_speed)
-    return ClearanceProfile(time, clearance, benches, _grazes(search, time, head_speed))
-
-
-def _sampled(search: Search, time: Floats, head_speed: float) -> tuple[Floats, NDArray[np.int64]]:
-    clearance, benches = np.empty(time.size), np.empty((time.size, 2), dtype=np.int64)
-    for k, instant in enumerate(time.flat):
-        clearance[k], benches[k] = search.clearance(float(instant) * head_speed)
-    return clearance.reshape(time.shape), benches.reshape(*time.shape, 2)
-
-
-# Where the clearance passes from one pair to another it has a kink that points up, so each of its local minima is one
-# of a single pair: of the nearest one at either end of a step, if that pair comes nearer at first and parts at last.
-def _grazes(search: Search, time: Floats, head_speed: float) -> tuple[Graze, ...]:
-    if time.size < 2:
-        return ()
-    first, last = float(time.min()) * head_speed, float(time.max()) * head_speed
-    grid = np.linspace(first, last, search.samples(last - first, PROFILE_STEP * search.extremes[1])).tolist()
-    pairs = [search.clearance(travel)[1] for travel in grid]
-    grazes = []
-    for ends, nearest in zip(pairwise(grid), pairwise(pairs), strict=True):
-        for pair in sorted(set(nearest)):
-            if not search.gap_rate(ends[0], pair) < 0.0 < search.gap_rate(ends[1], pair):
-                continue
-            travel = search.bottom(*ends, pair, DIP_WIDTH * head_speed)
-            gap, there = search.clearance(travel)
-            if there == pair:
-                grazes.append(Graze(travel / head_speed, gap, pair))
-    return tuple(sorted(grazes, key=lambda graze: graze.time))
+    return corner, edge, (float(x * cos - y * sin), float(x * sin + y * cos)), float(met.separation)

@@ -4,10 +4,10 @@ The same model as the kernels': their doubles (growth, chords, the table of a ro
 is solved again in decimal arithmetic, starting from the kernels' own. Not for curves through waypoints, whose arc
 length is itself a quadrature.
 
-Sine, cosine and the separation are written out here, as decimal has none: with mpmath in its place, which would be one
-more requirement and spare 20 lines, the same contacts take 1.25 to 1.4 times as long (44 instead of 35 ms, measured
-2026-11-21), for its multiplications take 1 microsecond, those of decimal 0.1. python-flint would be faster, but not
-every installation has it, and two ways to one answer are one too many.
+Sine, cosine and the separation are written out here, because decimal has none. mpmath would be one more requirement and
+spare 20 lines, but the same contacts would take 1.25 to 1.4 times as long (44 instead of 35 ms, measured 2026-11-21).
+python-flint needs 0.6 microseconds for a sine with its cosine and 1.4 for an arc length, where decimal needs 21 and 26
+(measured 2026-11-22), but it is 27 MB that not every installation has, and two ways to one answer are one too many.
 """
 
 from __future__ import annotations
@@ -19,9 +19,32 @@ from typing import NamedTuple
 import numpy as np
 
 from core import kernels
-from core.contact.search import Search
-from core.kernels.constants import PIECE, PLACE, SPIRAL, TX, UX
+from core.contact.search import Marched, Search
+from core.kernels.constants import (
+    ARC_ANGLE,
+    ARC_RADIUS,
+    CENTRE_X,
+    CENTRE_Y,
+    CHORD,
+    COIL_ARC,
+    COIL_GROWTH,
+    COIL_ROTATION,
+    HALF_WIDTH,
+    LINE_DX,
+    LINE_DY,
+    LINE_X,
+    LINE_Y,
+    PIECE,
+    PIECE_KIND,
+    PLACE,
+    S_START,
+    SIGN,
+    SPIRAL,
+    TX,
+    UX,
+)
 from core.paths.spiral import Spiral
+from core.sampling import falls_to_zero
 
 DIGITS = 40
 # A chord is met within this [m].
@@ -36,11 +59,11 @@ SHORTEST = 1e-13
 # A travel divided by the head speed, in doubles, and multiplied again, is within this part of it [1].
 TIME_ROUNDING = 4.0 * kernels.ULP
 TWO_PI = Decimal("6.2831853071795864769252867665590057683943387987502")
-# Pairs up to this bench are followed, a third of a millisecond for each handle and instant [1], and so many intervals
-# are tried before a proof is given up: about a second in all.
+# Last bench of the pairs that are followed, which takes a third of a millisecond for each handle and instant [1], and
+# most intervals that are tried before a proof is given up: about a second in all.
 LAST_BENCH = 60
-# A bend computed once from bounds that hold, and its product with h^2, are good to this part of them [1].
-BEND_ROUNDING = 1e-12
+# A bound on a second derivative, computed once, and its product with h^2, are good to this part of them [1].
+BOUND_ROUNDING = 1e-12
 INTERVALS_MAX = 60
 # Columns of a chain row of the kernels that belong together.
 TANGENT, LINK = slice(TX, TX + 2), slice(UX, UX + 2)
@@ -69,7 +92,7 @@ class Axis(NamedTuple):
     left: Decimal
 
 
-class Pair:
+class ExactPair:
     """Two benches of a search: where they are, and how far apart.
 
     can_follow: the path has no curve through waypoints, and the pair is not further back than LAST_BENCH
@@ -77,25 +100,26 @@ class Pair:
 
     def __init__(self, search: Search, pair: tuple[int, int]) -> None:
         self.search, self.pair = search, pair
-        spiral = [SPIRAL, 0, 0, 0, 0, 0, 0, search.growth, 0, -1, search.place]  # one coil inwards, s = travel
-        self.pieces: list[list[Decimal]] = [
-            [Decimal(number) for number in row] for row in (search.pieces.tolist() or [spiral])
-        ]
+        if isinstance(search.path, Spiral):  # one coil inwards, s = travel
+            coil = np.zeros((1, kernels.PIECE_COLUMNS))
+            coil[0, PIECE_KIND], coil[0, COIL_GROWTH], coil[0, SIGN] = SPIRAL, search.growth, -1.0
+        table = coil if isinstance(search.path, Spiral) else search.path.table
+        self.pieces = [[Decimal(number) for number in row] for row in table.tolist()]
         if isinstance(search.path, Spiral):  # its doubles are growth and start_theta; their arc length is not one
             with localcontext() as context:
                 context.prec = DIGITS
-                self.pieces[0][10] = self.pieces[0][7] * _arc(Decimal(search.path.start_theta))
-        names = {kernels.PIECE_KINDS[int(row[0])] for row in self.pieces}
+                self.pieces[0][COIL_ARC] = self.pieces[0][COIL_GROWTH] * _arc(Decimal(search.path.start_theta))
+        names = {kernels.PIECE_KINDS[int(row[PIECE_KIND])] for row in self.pieces}
         self.can_follow = pair[1] <= LAST_BENCH and not names & {"cubic", "crest"}
 
     def benches(self, travel: Decimal) -> tuple[Bench, Bench]:
         """The two benches with the head at a travel [m]."""
         search = self.search
         search.place_leaders(float(travel), self.pair[1] + 1)
-        rows, spiral = search.rows[0], not len(search.pieces)
+        rows, spiral = search.rows[0], isinstance(search.path, Spiral)
         s, points = travel, [self._point(0 if spiral else int(rows[0, PIECE]), travel)]
         for k in range(self.pair[1] + 1):
-            chord, piece = Decimal(float(search.sizes[k, 0])), 0 if spiral else int(rows[k + 1, PIECE])
+            chord, piece = Decimal(float(search.sizes[k, CHORD])), 0 if spiral else int(rows[k + 1, PIECE])
             place = float(rows[k + 1, PLACE])
             s = Decimal(search.place - search.growth * kernels.spiral_arc(place) if spiral else -place)
             slope = Decimal(float(rows[k + 1, TANGENT] @ rows[k, LINK]))
@@ -113,25 +137,9 @@ class Pair:
         """By how much the two are further apart than the margin [m]."""
         return separation(*self.benches(travel))[0] - Decimal(self.search.margin)
 
-    def crossing(self, low: Decimal, high: Decimal, above: Decimal, below: Decimal, width: Decimal) -> Decimal:
-        """Travel at which the gap falls to 0, from above at one to below at another, no earlier and within a width [m].
-
-        By the false position, halved now and then.
-        """
-        looks = 0
-        while high - low > width:
-            looks += 1
-            middle = (low + high) / 2
-            if looks % 3:  # aimed a little beyond the crossing, then before it, so that both ends come near
-                middle = low + (high - low) * above / (above - below) + (width / 3 if looks % 3 == 1 else -width / 3)
-                middle = min(max(middle, low + width / 4), high - width / 4)
-            gap = self.gap(middle)
-            low, above, high, below = (middle, gap, high, below) if gap > 0 else (low, above, middle, gap)
-        return high
-
     def stays_apart(self, start: float, stop: float) -> bool:
         """Are the two proven to be further apart than the margin from one travel to another [m]?"""
-        search, bends, margin = self.search, np.empty(2), Decimal(self.search.margin)
+        search, margin = self.search, Decimal(self.search.margin)
         a, b = self.pair
         tried = 0
         while start < stop:
@@ -139,13 +147,14 @@ class Pair:
             h = stop - start
             while True:
                 slack = search.travel_rounding(start, stop)
-                place = (search.growth, search.pieces, search.place - start + slack, h + 2.0 * slack, a, b)
-                if not kernels.pair_bends(*place, search.sizes, search.rows, search.motion, bends):
+                place = search.place - start + slack
+                bends = kernels.pair_bends(search.scene, search.probe, place, h + 2.0 * slack, a, b)
+                if max(bends) >= kernels.FREE:
                     return False
                 there = self.benches(Decimal(start + h))
                 axis = separation(*there)[1]
                 least = min(gap_along(*here, axis), gap_along(*there, axis)) - margin
-                if least > GAP_ROUNDING + Decimal((1.0 + BEND_ROUNDING) * bends[axis.owner] * h * h / 8.0):
+                if least > GAP_ROUNDING + Decimal((1.0 + BOUND_ROUNDING) * bends[axis.owner] * h * h / 8.0):
                     break
                 h *= 0.5
                 tried += 1
@@ -155,23 +164,25 @@ class Pair:
         return True
 
     def _bench(self, k: int, front: Vector, rear: Vector) -> Bench:
-        chord, half_length, half_width = (Decimal(number) for number in self.search.sizes[k, :3].tolist())
+        chord, half_length, half_width = (
+            Decimal(number) for number in self.search.sizes[k, CHORD : HALF_WIDTH + 1].tolist()
+        )
         centre = ((front[0] + rear[0]) / 2, (front[1] + rear[1]) / 2)
         return Bench(centre, ((front[0] - rear[0]) / chord, (front[1] - rear[1]) / chord), half_length, half_width)
 
     def _point(self, piece: int, s: Decimal) -> Vector:
         """Point at arc length s of a row of the table, see core/kernels/constants.py."""
         row = self.pieces[piece]
-        kind, u = kernels.PIECE_KINDS[int(row[0])], s - row[1]
+        kind, u = kernels.PIECE_KINDS[int(row[PIECE_KIND])], s - row[S_START]
         if kind == "line":
-            return row[5] + u * row[7], row[6] + u * row[8]
+            return row[LINE_X] + u * row[LINE_DX], row[LINE_Y] + u * row[LINE_DY]
         if kind == "arc":
-            radius, angle = row[7], row[8] + row[9] * u / row[7]
+            radius, angle = row[ARC_RADIUS], row[ARC_ANGLE] + row[SIGN] * u / row[ARC_RADIUS]
         else:
-            theta = _theta((row[10] + row[9] * u) / row[7])
-            radius, angle = row[7] * theta, theta + row[8]
+            theta = _theta((row[COIL_ARC] + row[SIGN] * u) / row[COIL_GROWTH])
+            radius, angle = row[COIL_GROWTH] * theta, theta + row[COIL_ROTATION]
         cos, sin = _cos_sin(angle)
-        return row[5] + radius * cos, row[6] + radius * sin
+        return row[CENTRE_X] + radius * cos, row[CENTRE_Y] + radius * sin
 
 
 def separation(first: Bench, second: Bench) -> tuple[Decimal, Axis]:
@@ -270,27 +281,31 @@ def _cos_sin(angle: Decimal) -> Vector:
 # benches, its sign too, the gap falls below its chord by no more than K x (h - x) / 2, with the kernels' K, in as many
 # intervals as that takes. All other pairs are marched over the same stretch in doubles.
 #
-# What is said is said of times, travels over the head speed in doubles: the pair is within the margin at the true
-# travel of the later one, and apart a little beyond that of the earlier one.
-def narrowed(search: Search, found: dict[str, float], half: float, head_speed: float = 1.0) -> dict[str, float] | None:
+# The claims are about times, which are travels over the head speed in doubles: the pair is within the margin at the
+# true travel of the later time, and apart until a little beyond that of the earlier one.
+def narrowed(search: Search, found: Marched, half: float, head_speed: float = 1.0) -> Marched | None:
     """A contact that was found in a wide bracket, in one of half width `half` [m]; None where that is not proven.
 
     found: of Search.march(): `proven`, `touching` and the pair; so is the result, with `touching` - `half` the contact
     head_speed: by which travels are divided for times [m/s]
     """
-    pair = Pair(search, (int(found["first"]), int(found["second"])))
-    if not pair.can_follow or not search.others_clear(pair.pair, found["proven"], found["touching"]):
+    pair = ExactPair(search, found.benches)
+    if (
+        found.touching is None
+        or not pair.can_follow
+        or not search.others_clear(pair.pair, found.proven, found.touching)
+    ):
         return None
     with localcontext() as context:
         context.prec = DIGITS
-        low, high = Decimal(found["proven"]), Decimal(found["touching"])
+        low, high = Decimal(found.proven), Decimal(found.touching)
         above, below = pair.gap(low), pair.gap(high)
         if not above > GAP_ROUNDING or not below < -GAP_ROUNDING:
             return None
-        contact = float(pair.crossing(low, high, above, below, Decimal(half) / 1000))
+        contact = float(falls_to_zero(pair.gap, low, high, above, below, Decimal(half) / 1000))
         clear, touching = contact - half, contact + half
         later = Decimal(touching / head_speed) * Decimal(head_speed)
         beyond = clear + abs(clear) * TIME_ROUNDING
-        if pair.gap(later) > -GAP_ROUNDING or not pair.stays_apart(found["proven"], beyond):
+        if pair.gap(later) > -GAP_ROUNDING or not pair.stays_apart(found.proven, beyond):
             return None
-    return found | {"proven": clear, "touching": touching}
+    return found._replace(proven=clear, touching=touching)

@@ -5,38 +5,41 @@ The proof of a march is written above the loops that carry it out: `core/kernels
 
 from __future__ import annotations
 
-import heapq
 import math
-from functools import cached_property
+from enum import StrEnum
+from typing import NamedTuple
 
 import numpy as np
 
 from core import kernels
 from core.contact.coils import two_coils, way_out
-from core.dance import RunEnd
 from core.dragon import Dragon
 from core.kernels.constants import (
-    ALL_RADIUS,
+    COIL_ARC,
+    COIL_GROWTH,
     EDGES_PER_WORK,
-    ERROR,
-    LEFT_OUT,
-    LEFT_OUT_TOO,
-    RING_CLEAR,
-    RING_END,
-    RING_PLACE,
-    WORK,
+    HALF_LENGTH,
+    MX,
+    MY,
+    RADIUS,
+    RATE,
+    S_END,
+    S_START,
+    UX,
+    UY,
 )
 from core.paths.route import Route
 from core.paths.spiral import Spiral
+from core.sampling import bisected
 from core.values import Floats
 
 MARGIN_MAX = 1e4  # [m]
-# Work after which a search gives up as undecided, see WORK of core/kernels/constants.py [1]: of first contact, 2 to
+# Work after which a search gives up as undecided, see core/kernels/constants.py [1]: of first contact, 2 to
 # 8 s; of a least distance, whose steps end near a bench or an edge and cost more, about the same. The default case
 # takes about 5,000.
 WORK_BUDGET = 2e7
 NEAR_WORK_BUDGET = 5e6
-# A dance is sampled so many times at most [1], and with this share of the work.
+# Most samples of a dance [1], and the share of the work that they may take [1].
 SAMPLES = 20_000
 SAMPLED_SHARE = 0.1
 # Half width of the bracket around a contact [m of head travel] at head speeds of 1 m/s and more, and the least that
@@ -52,21 +55,12 @@ BRACKETS_GRAZING = (4.9e-10, 5e-9, 5e-8, 5e-7, 5e-6, 5e-5)
 TRAVEL_ROUNDING = 2e-15
 # The last stretch before a fold, where handle speeds grow without bound: dismissed by a bound on the motion left [m].
 FOLD_SLIVER = 1e-9
-# What is left is cut into so many stretches at most, 0.1 to 0.3 ms each.
-FOLD_STRETCHES = 200
-# Angles at which dragons fold, and those of handles from leader to follower, are good to far less than this part [1]:
-# see _least_left().
-THETA_ROUNDING = 1e-12
-# One stretch takes as long as so much work, besides FOLD_WORK for each bench [1].
-STRETCH_WORK, FOLD_WORK = 1000.0, 20.0
-# No radius is known to be clear [m].
+# Width to which the clear radius is bisected, relative [1].
+CLEAR_WIDTH = 1e-3
+# Stands for a radius or place from which nothing is known to be clear [m].
 NO_BOUND = 1e150
-# A spiral is no route.
-NO_PIECES = np.empty((0, kernels.PIECE_COLUMNS))
-# The kernels' word for a run without a graze [m].
-NO_GRAZE = 1e150
-# A march leaves out no pair.
-NO_PAIR = (-1.0, -1.0)
+# Stands for the gap of no pair, at no instant [m].
+NO_GAP = 1e150
 # What the ring bound may be off by, of the lengths in it [1]: at most 64 sums, products and roots, with d^2 = radius^2
 # - foot^2 at least a thousandth of radius^2 (core/kernels/rings.py), so that d is good to 2,000 u.
 RING_ROUNDING = 1e-11
@@ -75,7 +69,7 @@ RING_ROUNDING = 1e-11
 class Budget:
     """What all searches of one question may still do together.
 
-    left: work, see WORK of core/kernels/constants.py [1]; 1e7 take 1 to 4 s. Nothing is interrupted at 0: whoever asks
+    left: work, see core/kernels/constants.py [1]; 1e7 take 1 to 4 s. Nothing is interrupted at 0: whoever asks
     for more then raises TooMuchWork.
     """
 
@@ -83,16 +77,57 @@ class Budget:
         self.left = work
 
 
+class Ended(StrEnum):
+    """How a march ended, in the order of the kernels' states: see core/kernels/marching.py, strips.py for TURNED."""
+
+    REACHED = "reached"
+    TOUCHED = "touched"
+    TOUCHED_AT_START = "touched_at_start"
+    STUCK = "stuck"
+    CAPACITY = "capacity"
+    TURNED = "turned"
+
+
+ENDS = tuple(Ended)
+
+
+class Dip(NamedTuple):
+    """A local minimum of the clearance [m], at a travel of the head [m], of a pair."""
+
+    gap: float
+    travel: float
+    benches: tuple[int, int]
+
+
+class Marched(NamedTuple):
+    """What a march found.
+
+    proven: nothing comes within the margin up to this travel [m]; touching: benches are within it at this one [m], None
+        where nothing was found; benches: that pair
+    steps: taken; bend: the largest bound on the second derivative of a gap that proved one of them [1/m]
+    graze: the least local minimum of the clearance seen on the way
+    """
+
+    proven: float
+    touching: float | None = None
+    benches: tuple[int, int] = (0, 0)
+    steps: int = 0
+    bend: float = 0.0
+    graze: Dip | None = None
+
+
 class Search:
     """The arrays that the kernels need for one dragon, and the path and margin they are used for now.
 
     extremes: longest and shortest chord, longest overhang, half width of all benches, chord and half width of those
-        that can be the outer of a pair [m]; ring: the same for the kernels, see RING_... there
-    sizes: (rows, 4) of the leading benches; edges: (E, 4) x, y, x, y of edges at rest [m], on routes only; with
-        edges, the pairs are bench and edge alone: edge e is bench number room + 1 + e of a pair
+        that can be the outer of a pair [m]; rings: the same and more for the kernels, with the bounds that hold of the
+        path and the margin used
+    sizes: (rows, SIZE_COLUMNS) of the leading benches; edges: (E, 4) x, y, x, y of edges at rest [m], on routes only;
+        with edges, the pairs are bench and edge alone: edge e is bench number room + 1 + e of a pair
+    scene: the same benches on the path used; probe: an interval of it to look at single pairs
     clear_radius: on a spiral, no pair whose inner bench leads at this radius or further out comes within the margin [m]
-    ring[RING_PLACE], ring[RING_END]: on a route that begins (and ends) with a coil the same as places, see those of
-        the kernels; where they are known there is room for the leading benches only, as on a spiral
+    rings.clear_place, rings.end_place: on a route that begins (and ends) with a coil the same as places; where they are
+        known there is room for the leading benches only, as on a spiral
     work: what its marches may still do, see WORK_BUDGET, as far as the budget of the whole question has that left
     place: what the kernels count places from, at time 0: arc length from the centre of a spiral, minus s on a route [m]
     """
@@ -112,7 +147,6 @@ class Search:
     ) -> None:
         self.dragon, self.work, self.budget = dragon, work, budget or Budget()
         self.edges = np.empty((0, 4)) if edges is None else edges
-        self.statics = -len(self.edges)
         alike = dragon.uniform_from
         # The constructor's share of a first contact: a few reductions of all columns, not many of one each.
         sizes = (dragon.chords, dragon.overhangs, 0.5 * dragon.widths, dragon.lengths)
@@ -122,37 +156,40 @@ class Search:
         outer_chord, outer_overhang, outer_half_width, _ = outer.max(axis=1).tolist()
         shortest, outer_shortest = columns[0].min(), outer[0].min()
         self.extremes = (longest, shortest, overhang, half_width, outer_chord, outer_half_width)
-        ring = (0.0, outer_chord, outer_shortest, outer_overhang, outer_half_width)
-        self.ring = np.array(
-            [
-                *ring, longest, overhang, half_width, shortest, math.hypot(0.5 * self.longest, half_width), *NO_PAIR,
-                NO_BOUND, -NO_BOUND,
-            ]
-        )  # fmt: skip
+        self.rings = rings = kernels.Rings()
+        rings.chord, rings.shortest = outer_chord, outer_shortest
+        rings.overhang, rings.half_width = outer_overhang, outer_half_width
+        rings.all_chord, rings.all_shortest, rings.all_overhang = longest, shortest, overhang
+        rings.all_half_width, rings.all_radius = half_width, math.hypot(0.5 * self.longest, half_width)
+        rings.between_shortest = float(columns[0, min(1, alike) :].min())
+        self.room = 0
         self.use(path, margin)
         self.resize(dragon.benches if self.follows_all else min(dragon.benches, 255))
 
     def use(self, path: Spiral | Route, margin: float) -> None:
-        """Turn to another path or margin."""
+        """Search another path, or with another margin."""
         self.path, self.margin = path, margin
+        self.growth, self.place, self.curve = path.growth, path.place, path.curve
         if isinstance(path, Route):
-            self.growth, self.pieces, self.place = 1.0, path.table, 0.0
             self.clear_radius = NO_BOUND
-            self.ring[RING_PLACE], self.ring[RING_END] = self._clear_places(path)
+            self.rings.clear_place, self.rings.end_place = self._clear_places(path)
         else:
-            self.growth, self.pieces, self.place = path.growth, NO_PIECES, path.length
             self.clear_radius = self._clear_radius(path.growth)
-        self.ring[RING_CLEAR] = self.clear_radius
+        self.rings.clear_radius = self.clear_radius
+        if self.room:
+            self._set_scene()
+
+    def _set_scene(self) -> None:
+        self.scene.curve, self.scene.place, self.scene.margin = self.curve, self.place, self.margin
 
     def clear_beyond(self, radius: float) -> None:
-        """Take a radius for the clear_radius, from which another bound exceeds the margin on the spiral used [m]."""
-        self.clear_radius = self.ring[RING_CLEAR] = radius * (1.0 + kernels.CLEAR_SPARE)
+        """Set clear_radius to a radius from which another bound exceeds the margin on this spiral [m]."""
+        self.clear_radius = self.rings.clear_radius = radius * (1.0 + kernels.CLEAR_SPARE)
 
     def travel_rounding(self, *travels: float) -> float:
         """What travels up to these may be off by, in the kernels and as times [m]."""
-        if isinstance(self.path, Route):
-            return self.path.slide + TRAVEL_ROUNDING * max(map(abs, travels))
-        return TRAVEL_ROUNDING * max(self.place, *(self.place - travel for travel in travels), *map(abs, travels))
+        furthest = max(self.place, *(self.place - travel for travel in travels), *map(abs, travels))
+        return self.path.slide + TRAVEL_ROUNDING * furthest
 
     def resize(self, benches: int) -> None:
         """Room for so many leading benches, and the edges at rest after the row of the last handle."""
@@ -162,22 +199,23 @@ class Search:
         self.sizes = np.zeros((benches + 1 + len(edges), kernels.SIZE_COLUMNS))
         self.sizes[:benches] = np.stack(columns, axis=1)
         # A chain writes what is read of it, but march() asks how fast handle 1 is before it is placed.
-        self.rows = np.empty((4, benches + 1 + len(edges), kernels.CHAIN_COLUMNS))
+        self.rows = np.empty((5, benches + 1 + len(edges), kernels.CHAIN_COLUMNS))
         self.rows[:, :2] = 0.0
         self.motion = np.zeros((benches + 1 + len(edges), kernels.MOTION_COLUMNS))
-        self.pair = np.zeros(3, dtype=np.intp)
         if len(edges):
             along = edges[:, 2:4] - edges[:, 0:2]
             half = 0.5 * np.hypot(along[:, 0], along[:, 1])
-            self.sizes[benches + 1 :, 1] = self.sizes[benches + 1 :, 3] = half
+            self.sizes[benches + 1 :, HALF_LENGTH] = self.sizes[benches + 1 :, RADIUS] = half
             self.rows[:, benches + 1 :] = 0.0
-            self.rows[:, benches + 1 :, 6:8] = 0.5 * (edges[:, 0:2] + edges[:, 2:4])
-            self.rows[:, benches + 1 :, 8:10] = along / (2.0 * half)[:, None]
-
-    @property
-    def room(self) -> int:
-        """How many leading benches there is room for."""
-        return int(self.sizes.shape[0]) - 1 - len(self.edges)
+            self.rows[:, benches + 1 :, MX : MY + 1] = 0.5 * (edges[:, 0:2] + edges[:, 2:4])
+            self.rows[:, benches + 1 :, UX : UY + 1] = along / (2.0 * half)[:, None]
+        self.room = benches
+        self.scene = kernels.Scene(self.curve, self.place, self.rings, self.sizes, dragon.benches, len(edges))
+        self._set_scene()
+        before, after, probe_before, probe_after, opening = self.rows
+        self.interval = kernels.Interval(self.scene, before, after, self.motion)
+        self.probe = kernels.Interval(self.scene, probe_before, probe_after, self.motion)
+        self._march = kernels.March(self.interval, self.probe, opening)
 
     def spend(self, work: float) -> None:
         """Take work that was done from what may still be done [1]."""
@@ -189,37 +227,30 @@ class Search:
         return float(self.room * (1.0 + len(self.edges) / EDGES_PER_WORK))
 
     def samples(self, span: float, step: float) -> int:
-        """How many instants to look at over a span [m]: a step apart [m], or as many as the work allows."""
+        """Number of samples over a span [m]: a step apart [m], or fewer where the work allows no more."""
         affordable = min(float(SAMPLES), SAMPLED_SHARE * min(self.work, self.budget.left) / self._step_work)
         return max(3, int(min(3.0 + span / step, affordable)))
 
     def ring_least(self, radius: float) -> float:
         """Lower bound of the separation of pairs whose inner bench leads at this radius or further out [m]."""
-        least = float(kernels.ring_least(self.growth, self.growth, radius, *self.ring_extremes))
+        least = float(kernels.ring_least(self.growth, self.growth, radius, self.rings))
         return least - self.ring_rounding(radius, self.growth)
 
     def ring_rounding(self, radius: float, growth: float) -> float:
         """What kernels.ring_least() may be off by for growths up to this one [m]."""
         return RING_ROUNDING * (radius + 2.0 * math.pi * growth + float(self.longest))
 
-    @cached_property
-    def ring_extremes(self) -> tuple[float, ...]:
-        """The extremes, but the shortest chord only of those benches that can lie between two others [m]."""
-        longest, _, *others = (float(extreme) for extreme in self.extremes)
-        alike = self.dragon.uniform_from
-        return longest, float(self.dragon.chords[min(1, alike) : alike + 1].min()), *others
-
     @property
     def follows_all(self) -> bool:
-        """Must a march follow all benches: on a route that says of none that it is out of reach?"""
-        return isinstance(self.path, Route) and float(self.ring[RING_PLACE]) >= NO_BOUND
+        """Must a march follow all benches? Yes on a route that does not say which ones are out of reach."""
+        return isinstance(self.path, Route) and self.rings.clear_place >= NO_BOUND
 
     def _clear_radius(self, growth: float) -> float:
-        """The least radius, within 1e-3, from which the ring bound exceeds the margin, and CLEAR_SPARE more, so that a
-        handle which is computed to be there is; 1e150 if none."""
+        """The least radius, within CLEAR_WIDTH, from which the ring bound exceeds the margin, and CLEAR_SPARE more, so
+        that a handle which is computed to be there is; NO_BOUND if none."""
 
         def clear(radius: float) -> bool:
-            least = float(kernels.ring_least(growth, growth, radius, *self.ring_extremes))
+            least = float(kernels.ring_least(growth, growth, radius, self.rings))
             return least > self.margin + self.ring_rounding(radius, growth)
 
         high = 1.0
@@ -227,34 +258,31 @@ class Search:
             high *= 4.0
             if high > 1e9:
                 return NO_BOUND
-        low = 0.0
-        while high - low > 1e-3 * high:
-            middle = 0.5 * (low + high)
-            low, high = (low, middle) if clear(middle) else (middle, high)
-        return float(high * (1.0 + kernels.CLEAR_SPARE))
+        return bisected(clear, 0.0, high, relative=CLEAR_WIDTH)[1] * (1.0 + float(kernels.CLEAR_SPARE))
 
     def _clear_places(self, path: Route) -> tuple[float, float]:
-        """RING_PLACE and RING_END of the kernels [m]: 1e150 and -1e150 if not known, or where edges at rest may lie
+        """Rings.clear_place and Rings.end_place [m]: 1e150 and -1e150 if not known, or where edges at rest may lie
         anywhere.
 
-        Both are PLACE_SPARE further than their bounds ask, for the rounding of handles, and RING_END beyond what
-        travels may be off by; RING_PLACE is BLEND behind where the coil ends, which is where it may be led to the next
+        Both are PLACE_SPARE further than their bounds ask, for the rounding of handles, and the latter beyond what
+        travels may be off by; the former is BLEND behind where the coil ends, which is where it may be led to the next
         piece.
         """
         if path.tail_begin is not None or len(self.edges) or self.dragon.benches < 3:
             return NO_BOUND, -NO_BOUND
         first = path.table[0].tolist()
-        radius = self._clear_radius(first[7])
+        growth = first[COIL_GROWTH]
+        radius = self._clear_radius(growth)
         if radius >= NO_BOUND:
             return NO_BOUND, -NO_BOUND
-        arc = first[7] * float(kernels.spiral_arc(radius / first[7])) * (1.0 + TRAVEL_ROUNDING)
-        clear = min(first[2] - kernels.BLEND, first[1] + first[10] - arc) - kernels.PLACE_SPARE
+        arc = growth * float(kernels.spiral_arc(radius / growth)) * (1.0 + TRAVEL_ROUNDING)
+        clear = min(first[S_END] - kernels.BLEND, first[S_START] + first[COIL_ARC] - arc) - kernels.PLACE_SPARE
         clear -= self.travel_rounding(clear)
         coils = two_coils(path)
         out = None if coils is None else way_out(self.dragon, coils, self.margin)
         if out is None:
             return -clear, -NO_BOUND
-        end = float(path.table[-1, 1]) + out + kernels.PLACE_SPARE
+        end = float(path.table[-1, S_START]) + out + kernels.PLACE_SPARE
         return -clear, -end - self.travel_rounding(end)
 
     def travel_at(self, theta: float) -> float:
@@ -266,92 +294,79 @@ class Search:
         return float(kernels.spiral_theta((self.place - travel) / self.growth))
 
     def march(
-        self, stop: float, tolerance: float, *, start: float = 0.0, opening: bool = True
-    ) -> tuple[str, dict[str, float]]:
-        """kernels.march from start, or from where the ring bound ends, to stop [m of travel]: state, result by name.
+        self, stop: float, tolerance: float, *, start: float = 0.0, opening: bool = True, dips: bool = False
+    ) -> tuple[Ended, Marched]:
+        """March from start, or from where the ring bound ends, to stop [m of travel]: how it ended, what it found.
 
+        tolerance: half width of the bracket around a contact, 0 if any instant of it will do [m]; dips: look for grazes
+            also where it is 0
         opening: nothing before the start was cleared, so all pairs are followed until the body repeats itself
-        The way marched begins and ends beyond both by what a travel may be off by, so that what is said of travels, and
-        of times, holds for the true ones.
+        The march begins earlier and ends later by the rounding of travels, so that what it claims of computed travels
+        and times holds for the true ones.
         """
         rounding, asked = self.travel_rounding(start, stop), (start, stop)
         start -= rounding
-        stop = min(stop + rounding, max(stop, self.place)) if isinstance(self.path, Spiral) else stop + rounding
-        if isinstance(self.path, Spiral):
-            clear_until = self.travel_at(self.clear_radius / self.growth) if self.clear_radius < NO_BOUND else start
-            if clear_until > start:
-                opening = False
-                start = max(start, clear_until - rounding)
+        stop = min(stop + rounding, max(stop, self.path.limit))
+        clear_until = self.travel_at(self.clear_radius / self.growth) if self.clear_radius < NO_BOUND else start
+        if clear_until > start:
+            opening = False
+            start = max(start, clear_until - rounding)
         nothing = self.dragon.benches < 3 and not len(self.edges)
         if nothing or (start >= stop and not opening):
-            return "reached", dict.fromkeys(kernels.MARCH_FIELDS, 0.0) | {"proven": asked[1], "graze_gap": NO_GRAZE}
-        out = np.empty(32)
+            return Ended.REACHED, Marched(asked[1])
+        leaders = min(self.dragon.uniform_from + 1, self.dragon.benches)
+        grazes = dips or tolerance > 0.0
         while True:
-            code = kernels.march(
-                self.growth,
-                self.pieces,
-                self.place,
-                start,
-                stop,
-                min(self.dragon.uniform_from + 1, self.dragon.benches),
-                opening,
-                self.margin,
-                tolerance,
-                rounding,
-                max(min(self.work, self.budget.left), 1.0),
-                self.dragon.benches,
-                self.statics,
-                self.ring,
-                self.sizes,
-                self.rows,
-                self.motion,
-                self.pair,
-                out,
-            )
-            state = kernels.MARCH_STATES[code]
-            self.spend(float(out[WORK]))
-            if state != "capacity":
-                found = dict(zip(kernels.MARCH_FIELDS, out.tolist(), strict=False))
-                found["proven"] = asked[1] if state == "reached" else max(found["proven"] - rounding, asked[0])
-                if state == "touched_at_start":
-                    found["touching"] = asked[0]
-                return state, found
+            budget = max(min(self.work, self.budget.left), 1.0)
+            ended = ENDS[self._march.run(start, stop, leaders, opening, tolerance, grazes, rounding, budget)]
+            march = self._march
+            self.spend(float(march.work))
+            if ended is not Ended.CAPACITY:
+                break
             self.resize(min(4 * self.room, self.dragon.benches))
+        proven = asked[1] if ended is Ended.REACHED else max(float(march.proven) - rounding, asked[0])
+        touching = None if march.touching >= NO_GAP else float(march.touching)
+        if touching is not None and touching < 0.0 and not ended.startswith("touched"):
+            touching = None  # before time 0 a crossing that could not be bracketed does not count
+        if ended is Ended.TOUCHED_AT_START:
+            touching = asked[0]
+        graze = None
+        if march.graze_gap < NO_GAP:
+            graze = Dip(float(march.graze_gap), float(march.graze_travel), (march.graze_first, march.graze_second))
+        return ended, Marched(proven, touching, (march.first, march.second), march.steps, float(march.bend), graze)
 
     def others_clear(self, pair: tuple[int, int], start: float, stop: float) -> bool:
         """Are all pairs but one proven to be clear between two travels [m]?"""
-        self.ring[LEFT_OUT], self.ring[LEFT_OUT_TOO] = pair
+        self.scene.left_out, self.scene.left_out_too = pair
         state, _ = self.march(stop, 0.0, start=start)
-        self.ring[LEFT_OUT], self.ring[LEFT_OUT_TOO] = NO_PAIR
+        self.scene.left_out = self.scene.left_out_too = -1
         return state == "reached"
 
     @staticmethod
     def last_travel(until: float, to_fold: bool) -> float:
-        """How far to march for a run until a travel [m]: short of a fold by a sliver, see clear_to_fold()."""
+        """How far to march for a run until a travel [m]: short of a fold by a sliver, see core/contact/fold.py."""
         return until - (FOLD_SLIVER + 5e2 * TRAVEL_ROUNDING * until if to_fold else 0.0)
 
-    def approach(self, begin: float, until: float, head_speed: float) -> tuple[str, dict[str, float], float]:
-        """march() between two travels [m] with the bracket of a contact: state, result by name, its half width [m]."""
+    def approach(self, begin: float, until: float, head_speed: float) -> tuple[Ended, Marched, float]:
+        """march() between two travels [m] with the bracket of a contact: also its half width [m]."""
         tolerance = max(BRACKET * min(1.0, head_speed), BRACKET_MIN, 2.0 * self.travel_rounding(begin, until))
         state, found = self.march(until, tolerance, start=begin)
-        proven = found["proven"]
+        proven = found.proven
         slowed = [wider * min(1.0, head_speed) for wider in BRACKETS_GRAZING]
         for wider in sorted({*slowed, *BRACKETS_GRAZING}):
-            if state != "stuck" or found["touching"] < 0.0:
+            if state != "stuck" or found.touching is None:
                 break
             if wider > tolerance:
                 tolerance = wider
                 state, found = self.march(until, tolerance, start=begin)
-                proven = max(proven, found["proven"])
-        return state, found | {"proven": proven}, tolerance
+                proven = max(proven, found.proven)
+        return state, found._replace(proven=proven), tolerance
 
     def surely_within(self, travel: float, pair: tuple[int, int]) -> bool:
         """Are two benches within the margin after a travel [m], whatever rounding does?"""
-        slack, rows = self.travel_rounding(travel), self.rows
+        slack = self.travel_rounding(travel)
         place = self.place - travel + slack
-        chains = (self.sizes, rows[1], rows[2], self.motion, np.empty(8))
-        most = kernels.pair_most(self.growth, self.pieces, place, 2.0 * slack, *pair, self.dragon.benches, *chains)
-        return float(most) <= self.margin
+        return float(kernels.pair_most(self.scene, self.probe, place, 2.0 * slack, *pair)) <= self.margin
 
     def place_leaders(self, travel: float, leaders: int) -> None:
         """Put so many leading benches, and no pair of them, into rows[0] as they are after a travel [m]."""
@@ -364,181 +379,38 @@ class Search:
             leaders = benches
         elif isinstance(self.path, Spiral):
             benches = min(benches, leaders + self._followed(travel, leaders))
-        gap = self._clearance(travel, benches, leaders)
-        return gap, (int(self.pair[1]), int(self.pair[2]))
+        return self._clearance(travel, benches, leaders)
 
-    def _clearance(self, travel: float, benches: int, leaders: int) -> float:
-        gap: float = kernels.clearance_at(
-            self.growth,
-            self.pieces,
-            self.place - travel,
-            benches,
-            leaders,
-            self.statics,
-            self.sizes,
-            self.rows[0],
-            self.motion,
-            self.pair,
-        )
-        return gap
+    def _clearance(self, travel: float, benches: int, leaders: int) -> tuple[float, tuple[int, int]]:
+        gap, a, b = kernels.clearance_at(self.scene, self.place - travel, benches, leaders, self.rows[0], self.motion)
+        return float(gap), (a, b)
 
     def _followed(self, travel: float, leaders: int) -> int:
         """How many benches behind the leaders of a spiral can be as near to them as the leaders' own sizes."""
         start, growth = self.theta_at(travel), self.growth
         rear = growth * start + leaders * self.extremes[0]
-        reach = kernels.leaders_reach(growth, growth * start, rear, self.ring) + self.longest
-        beyond = kernels.radius_beyond(growth, reach, self.ring) / growth
+        reach = kernels.leaders_reach(growth, growth * start, rear, self.rings) + self.longest
+        beyond = kernels.radius_beyond(growth, reach, self.rings) / growth
         arc = growth * (kernels.spiral_arc(max(beyond, start)) - kernels.spiral_arc(start))
         return 2 + int(arc / self.extremes[1])
 
     def rates(self, travel: float) -> Floats:
         """Speed of every handle along the path over the head's after a travel, negative where one turns back [1]."""
         self.clearance(travel)
-        return self.rows[0, : self.room + 1, 5].copy()
+        return self.rows[0, : self.room + 1, RATE].copy()
 
     def gap_rate(self, travel: float, pair: tuple[int, int]) -> float:
         """How fast a pair parts after a travel, per metre of head travel [1]."""
-        return float(
-            kernels.gap_rate_at(
-                self.growth, self.pieces, self.place - travel, self.room, *pair, self.sizes, self.rows[1], np.empty(8)
-            )
-        )
+        return float(kernels.gap_rate_at(self.scene, self.place - travel, *pair, self.rows[1]))
 
     def bottom(self, low: float, high: float, pair: tuple[int, int], width: float) -> float:
         """Travel in [low, high] where a pair stops approaching [m]."""
-        return float(
-            kernels.crossing(
-                self.growth,
-                self.pieces,
-                self.place,
-                self.room,
-                low,
-                high,
-                *pair,
-                0.0,
-                width,
-                True,
-                self.sizes,
-                self.rows[1],
-                np.empty(8),
-            )
-        )
-
-    def clear_to_fold(self, travel: float, end: RunEnd) -> bool:
-        """Do all pairs stay further apart than the margin from a travel [m] to the fold?"""
-        least = self.least_to_fold(travel, end)
-        return least is not None and least > self.margin
+        return float(kernels.bottom_between(self.scene, low, high, *pair, width, self.rows[1]))
 
     def gap_rounding(self, travel: float, within: float) -> float:
         """What gaps of up to `within` [m] may be off by after a travel, see core/kernels/pairs.py [m]."""
         self.place_leaders(travel, self.room)
-        kernels.chain_rounding(self.growth, self.pieces, self.room, self.sizes, self.rows[0])
+        kernels.chain_rounding(self.curve, self.room, self.sizes, self.rows[0])
         error, sway = self.rows[0, : self.room, kernels.ERROR].max(), self.rows[0, : self.room, kernels.SWAY].max()
-        reach = 4.0 * float(self.ring[ALL_RADIUS]) + within
+        reach = 4.0 * self.rings.all_radius + within
         return float(2.0 * (2.0 * error + (2.0 * sway + 50.0 * kernels.ULP) * reach))
-
-    # Towards the fold handles move as the square root of what is left of the travel, so a stretch whose bound is too
-    # low is split where a quarter of it is left: about half of its motion lies on each side. Its bound holds for both.
-    def least_to_fold(self, travel: float, end: RunEnd) -> float | None:
-        """No two benches come nearer than this, or than the margin, from a travel to the fold [m]; None: not known.
-
-        By FOLD_STRETCHES at most, or until the bound exceeds the margin.
-        """
-        assert end.theta is not None
-        if self.dragon.benches < 3:
-            return NO_GRAZE
-        travel, last = travel - self.travel_rounding(travel), self.travel_at(end.theta)
-        stretches = [(self._least_left(travel, end.theta), travel, last)]
-        while stretches[0][0] <= self.margin and len(stretches) < FOLD_STRETCHES:
-            least, start, stop = heapq.heappop(stretches)
-            middle = stop - 0.25 * (stop - start)
-            ends = (
-                (start, middle, self.theta_at(middle)),
-                (middle, stop, end.theta if stop == last else self.theta_at(stop)),
-            )
-            for begin, until, theta in ends:
-                heapq.heappush(stretches, (max(least, self._least_left(begin, theta)), begin, until))
-        least = stretches[0][0]
-        return least if least > -NO_BOUND else None
-
-    # From a travel to a later one handle 0 stands in [low_0, high_0] = [theta then, theta now]. Follower and leader
-    # differ by delta(theta), which falls with theta (spiral.py), so handle k + 1 stands in
-    #     [low_k + delta(high_k), high_k + delta(low_k)],
-    # and where the curvature at low_k times half the chord is at most BEND_LIMIT (chord lemma, bounds.py) in
-    #     [low_k + delta(low_k), high_k + delta(high_k)],
-    # as the follower then moves in the direction of its leader. It goes no further than its leader there (Vogt), so
-    # once this holds for all chords that follow, no handle behind moves further than that one. A handle moves by no
-    # more than D_k, the arc between the ends of its interval. A bench (front handle a, rear handle b, chord c) turns by
-    #     turn = min((D_a + D_b) / c, k (D_a + D_b) / 2)
-    # at most, the second under the lemma, which bounds omega by k (a' + b') / 2 there; and a point of it, beyond a
-    # handle by o at most and sideways by w / 2, moves by no more than
-    #     max(D_a, D_b) + (o + w / 2) turn.
-    # Where delta folds for low_k, or rounds to a fold, the delta of the fold itself takes its place, which is larger.
-    #
-    # Rounding. Stretches meet at the same computed theta, so that they leave no gap; the first one begins before its
-    # travel by what that may be off by, and every interval is wider at both ends by w = THETA_ROUNDING of theta. That
-    # covers delta, near the fold too. A computed delta is the root for a chord^2 = f that is off by 14 u f (spiral.py).
-    # Where theta f_theta >= 0.03 f, that is a theta off by less than 500 u, far less than w. Else 4 theta (theta +
-    # delta) s^2 < 0.03 f, s = sin(delta / 2), and delta^2 > 0.97 f; up to delta = pi f_delta / 2 >= delta, and from
-    # there to the crest s >= 0.64 and theta (theta + delta) |sin delta| <= 2 theta (theta + delta) s <= 0.12 delta, so
-    # f_delta / 2 >= 0.88 delta: delta is off by 9 u of itself, far less than w again. The arcs, widened by growth w
-    # theta sqrt(1 + theta^2), and what follows from them are products and sums of terms >= 0. Gaps are good to
-    # gap_rounding(): that grows with a gap by far less than the gap itself, so it need only reach as far as any pair
-    # that can be the least.
-    def _least_left(self, travel: float, theta: float) -> float:
-        """No two benches come nearer than this, or than the margin, from a travel until the head is at theta [m].
-
-        Every pair's gap after that travel, less what both can still move, each bench by its own sizes; -NO_BOUND where
-        a bench that has no place in rows[0] could come near one that leads a pair.
-        """
-        self.spend(STRETCH_WORK + FOLD_WORK * self.room)
-        gap, _ = self.clearance(travel)
-        arcs, moved = self.moved_until(theta)
-        reached = 2.0 * float(moved.max())
-        rounding = self.gap_rounding(travel, min(gap, NO_BOUND) + reached)
-        arcs += self.rows[0, self.room - 1, ERROR]
-        radii = self.growth * self.rows[0, : self.room + 1, 4]
-        outside = np.flatnonzero(radii[:-1] - arcs[:-1] >= self.clear_radius)
-        leaders = int(outside[0]) if outside.size else self.room
-        if self.room < self.dragon.benches:
-            reach = (self.growth * theta * (1.0 - THETA_ROUNDING), float(radii[leaders] + arcs[leaders]), self.ring)
-            reach = kernels.leaders_reach(self.growth, *reach) + self.margin
-            if radii[-1] - arcs[-1] < kernels.radius_beyond(self.growth, reach, self.ring):
-                return -NO_BOUND
-        least = gap - reached
-        if least <= self.margin:
-            least = kernels.clearance_left(leaders, self.room, self.sizes, self.rows[0], moved)
-        return float(least) - rounding
-
-    def moved_until(self, theta: float) -> tuple[Floats, Floats]:
-        """How far each handle in rows[0], and any point of each bench, moves until the head is at theta at most [m]."""
-        growth, benches = self.growth, self.room
-        chords = self.sizes[:benches, 0]
-        longest_behind = np.maximum.accumulate(chords[::-1])[::-1].tolist()
-        low, high = theta * (1.0 - THETA_ROUNDING), float(self.rows[0, 0, 4]) * (1.0 + THETA_ROUNDING)
-        arcs, bends = np.empty(benches + 1), np.full(benches, NO_BOUND)
-        for k in range(benches + 1):
-            arcs[k] = growth * (high - low) * math.hypot(1.0, high)
-            if k == benches:
-                break
-            curvature = kernels.spiral_curvature(low) / growth
-            if 0.5 * curvature * longest_behind[k] <= kernels.BEND_LIMIT:
-                arcs[k:], bends[k:] = arcs[k], curvature
-                break
-            inner, outer = self._deltas(low, high, float(chords[k]))
-            if 0.5 * curvature * chords[k] <= kernels.BEND_LIMIT:
-                inner, outer, bends[k] = outer, inner, curvature
-            low, high = (low + inner) * (1.0 - THETA_ROUNDING), (high + outer) * (1.0 + THETA_ROUNDING)
-        both = arcs[:-1] + arcs[1:]
-        turned = both * np.minimum(1.0 / chords, 0.5 * bends)
-        over = self.sizes[:benches, 1] - 0.5 * chords + self.sizes[:benches, 2]
-        return arcs, np.maximum(arcs[:-1], arcs[1:]) + over * turned
-
-    def _deltas(self, low: float, high: float, chord: float) -> tuple[float, float]:
-        """delta of a follower whose leader stands at high, and at low [rad]; where there is none, that of the fold."""
-        chord2 = (chord / self.growth) ** 2
-        inner, outer = (float(kernels.first_root(theta, chord2)) for theta in (high, low))
-        if min(inner, outer) < 0.0:
-            fold = float(kernels.first_crest(kernels.fold_theta(chord2)))
-            inner, outer = (fold if delta < 0.0 else delta for delta in (inner, outer))
-        return inner, outer

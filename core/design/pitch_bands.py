@@ -1,6 +1,6 @@
-"""Strips: which pitches between two are free of contact, all of them at once.
+"""Bands of pitches: are all pitches between two free of contact? Proven for all of them at once.
 
-The proof of one strip is written above the loop that carries it out: `core/kernels/strips.py`.
+The proof of one band is written above the loop that carries it out: `core/kernels/strips.py`.
 """
 
 from __future__ import annotations
@@ -10,30 +10,30 @@ import math
 import numpy as np
 
 from core import kernels
-from core.contact.search import NO_BOUND, NO_PIECES, TRAVEL_ROUNDING, Search
+from core.contact.search import ENDS, NO_BOUND, TRAVEL_ROUNDING, Ended, Marched, Search
 from core.design.straight import Straight
 from core.paths.spiral import Spiral
 
-# A descent first asks for a strip down to this part of the top, which is seldom far above the border, then for the
-# rest: 14.7 ms for the default and 5.9 ms for a circle of 4 m, without it 17.7 and 9.0 ms, 2026-11-21 [1].
-FIRST_STRIP = 0.9
+# A descent first asks for a band down to this part of the top, which is seldom far above the border, then for the
+# rest [1]. It takes 14.7 ms for the default and 5.9 ms for a circle of 4 m; without this 17.7 and 9.0 ms (2026-11-21).
+FIRST_BAND = 0.9
 # Half width of the bracket around the border of what is feasible [m of pitch]: a graze this far above its border must
 # exceed what gaps are proven good to, 3e-13 m for benches 0 and 19 of the default (pair_rounding()).
 BORDER_WIDTH = 5e-13
-# A strip narrower than this that is neither proven nor touched ends the descent [m of pitch].
-STRIP_MIN = 1e-11
-# A strip is not cut into steps finer than this part of its width, for it is too wide rather than its steps too long
+# A band narrower than this that is neither proven nor touched ends the descent [m of pitch].
+BAND_MIN = 1e-11
+# A band is not cut into steps finer than this part of its width, for it is too wide rather than its steps too long
 # [m of travel per m of pitch]; nor finer than STEP_MIN, as a march without a bracket to reach [m of travel].
 STEP_PER_WIDTH = 0.2
 STEP_MIN = 1e-7
-# The border is looked for along one graze only in strips up to this part of their pitch; wider ones are halved [1].
+# The border is looked for along one graze only in bands up to this part of their pitch; wider ones are halved [1].
 WIDTH_FOLLOWED = 0.1
-# Where no bound holds a strip is halved down to this part of its pitch [1].
+# Where no bound holds a band is halved down to this part of its pitch [1].
 UNBOUNDED_WITHIN = 1e-3
-# All strips of a descent together do at most so much work, see WORK of core/kernels/constants.py [1]: about a second;
+# All bands of a descent together do at most so much work, see core/kernels/constants.py [1]: about a second;
 # the default case does about 130,000.
-STRIP_WORK = 1e7
-# Where no bound of `clears` holds before so many turning radii, starts and pitches, nothing is marched [1].
+BAND_WORK = 1e7
+# Nothing is marched where no bound of `clears` holds within so many turning radii, starts or pitches [1].
 FAR = 2.0
 # First stride along the way in search of the bottom of a dip [m of travel], and how often it doubles at most.
 STRIDE, STRIDES = 2e-3, 10
@@ -43,13 +43,13 @@ BOTTOM_WIDTH = 1e-12
 LOOKS = 40
 
 
-class Strips:
+class Bands:
     """Proofs for one dragon and turning circle, each for an interval of pitches.
 
-    A proven strip holds for all ways to the circle, however far outside they start: by a bound that needs no chain from
+    A proven band holds for all ways to the circle, however far outside they start: by a bound that needs no chain from
     where it holds outwards, and from there inwards by the march for the leading benches, whose every pose the body
     repeats.
-    work: that all strips did; marches: strips tried; graze: the pair that ends the last descent and where the head
+    work: that all bands did; marches: bands tried; graze: the pair that ends the last descent and where the head
         then is [m], if that was found
     """
 
@@ -70,53 +70,49 @@ class Strips:
 
     def ring_clears(self, low: float, high: float, radius: float) -> bool:
         """Does the ring bound clear all from a head radius outwards for all growths in [low, high]?"""
-        least = float(kernels.ring_least(low, high, radius, *self.search.ring_extremes, self.total))
+        least = float(kernels.ring_least(low, high, radius, self.search.rings, self.total))
         return least > self.margin + self.search.ring_rounding(radius, high)
 
     def _make_room(self, benches: int) -> None:
-        self.rows = np.zeros((4, benches + 1, kernels.CHAIN_COLUMNS))
+        self.rows = np.zeros((2, 2, benches + 1, kernels.CHAIN_COLUMNS))
         self.motions = np.zeros((2, benches + 1, kernels.MOTION_COLUMNS))
         self.shifts = np.zeros((benches + 1, kernels.SHIFT_COLUMNS))
 
-    def prove(self, low: float, high: float, outer: float) -> tuple[str, dict[str, float]]:
+    def band_to(self, growth_high: float) -> kernels.Strip:
+        """The band from the growth of the search to a higher one [m/rad]."""
+        search, curve = self.search, kernels.spiral_curve(growth_high)
+        high = kernels.Scene(curve, search.place, search.rings, search.sizes, search.dragon.benches, 0)
+        (before, after), (before_high, after_high) = self.rows
+        low_interval = kernels.Interval(search.scene, before, after, self.motions[0])
+        high_interval = kernels.Interval(high, before_high, after_high, self.motions[1])
+        return kernels.Strip(low_interval, high_interval, self.shifts)
+
+    def prove(self, low: float, high: float, outer: float) -> tuple[str, Marched]:
         """Are all pitches in [low, high] clear while the head's radius falls from outer to the circle [m]?
 
-        'reached': yes; 'touched': not the lowest one; 'stuck': not provable in one strip; 'turned', 'unbounded': nor,
-        perhaps, by splitting it, as a handle may turn back or no bound holds far out. Result by name: 'proven' down to
-        that radius, 'touching' at one, by the benches 'first' and 'second'.
+        'reached': yes; 'touched': not the lowest one; 'stuck': not provable in one band; 'turned', 'unbounded': nor,
+        perhaps, by splitting it, as a handle may turn back or no bound holds far out. What it found: `proven` down to
+        that radius, `touching` at one.
         """
-        search, turn = self.search, 2.0 * math.pi
+        search = self.search
         search.use(Spiral(low, self.start_turns), self.margin)
-        clear = self._clear_radius(low / turn, high / turn)
+        clear = self._clear_radius(low / math.tau, high / math.tau)
         if clear >= NO_BOUND:
-            return "unbounded", {"proven": outer}
+            return "unbounded", Marched(outer)
         outer = min(outer, max(clear, self.radius))
         self.marches += 1
+        leaders = min(search.dragon.uniform_from + 1, search.dragon.benches)
+        rounding = TRAVEL_ROUNDING * outer * max(outer / (low / math.tau), 1.0)
+        least_step = max(STEP_MIN, STEP_PER_WIDTH * (high - low))
         while True:
-            out = np.empty(32)
-            code = kernels.strip(
-                low / turn,
-                high / turn,
-                outer,
-                self.radius,
-                min(search.dragon.uniform_from + 1, search.dragon.benches),
-                self.margin,
-                TRAVEL_ROUNDING * outer * max(outer / (low / turn), 1.0),
-                max(STEP_MIN, STEP_PER_WIDTH * (high - low)),
-                min(STRIP_WORK - self.work, search.budget.left),
-                search.dragon.benches,
-                search.ring,
-                search.sizes,
-                self.rows,
-                self.motions,
-                self.shifts,
-                out,
-            )
-            found = dict(zip(kernels.MARCH_FIELDS, out.tolist(), strict=False))
-            self.work += found["work"]
-            search.spend(found["work"])
-            if kernels.MARCH_STATES[code] != "capacity":
-                return kernels.MARCH_STATES[code], found
+            band = self.band_to(high / math.tau)
+            budget = min(BAND_WORK - self.work, search.budget.left)
+            ended = ENDS[band.run(outer, self.radius, leaders, rounding, least_step, budget)]
+            self.work += float(band.work)
+            search.spend(float(band.work))
+            if ended is not Ended.CAPACITY:
+                touching = None if band.touching >= NO_BOUND else float(band.touching)
+                return ended, Marched(float(band.proven), touching, (band.first, band.second), band.steps)
             search.resize(min(4 * search.room, search.dragon.benches))
             self._make_room(search.room)
 
@@ -133,49 +129,50 @@ class Strips:
         """The pitch down to which, from `top`, all are proven clear [m], and what stopped there.
 
         'lowest': nothing, all is clear; 'border': a contact that, by the doubles, is a graze less than 2 BORDER_WIDTH
-        below; 'stuck': nothing was proven of the next STRIP_MIN; 'unbounded': no bound holds, a handle turns back, or
-        STRIP_WORK is done.
-        A strip that is not proven is halved, the upper half first. Where its lowest pitch touches, the pitch at
-        which that contact becomes a graze is looked for, and the strip ends there instead.
+        below; 'stuck': nothing was proven of the next BAND_MIN; 'unbounded': no bound holds, a handle turns back, or
+        BAND_WORK is done.
+        A band that is not proven is halved, the upper half first. Where its lowest pitch touches, the pitch at
+        which that contact becomes a graze is looked for, and the band ends there instead.
         """
         proven, stopped = top, "lowest"
-        strips = [(lowest, top, math.inf)]
-        if lowest < FIRST_STRIP * top:
-            strips = [(lowest, FIRST_STRIP * top, math.inf), (FIRST_STRIP * top, top, math.inf)]
-        while strips:
-            low, high, outer = strips.pop()
+        bands = [(lowest, top, math.inf)]
+        if lowest < FIRST_BAND * top:
+            bands = [(lowest, FIRST_BAND * top, math.inf), (FIRST_BAND * top, top, math.inf)]
+        while bands:
+            low, high, outer = bands.pop()
             state, found = self.prove(low, high, outer)
             if state == "reached":
                 proven = low
                 continue
-            outer = found["proven"]
+            outer = found.proven
             middle = math.sqrt(low * high)
-            if self.work >= STRIP_WORK or self.search.budget.left <= 0.0:
+            if self.work >= BAND_WORK or self.search.budget.left <= 0.0:
                 return proven, "unbounded"
-            if high - low < STRIP_MIN:
+            if high - low < BAND_MIN:
                 self.graze = None
                 return proven, "stuck"
             if state in ("unbounded", "turned") and high - low < UNBOUNDED_WITHIN * high:
                 return proven, "unbounded"
             border = None
             if state == "touched":
-                strips, stopped, self.graze = [], "border", None
+                bands, stopped, self.graze = [], "border", None
                 if high - low <= WIDTH_FOLLOWED * high:
                     border = self.border(low, high, found)
             if border is None or border <= low:
-                strips += [(low, middle, outer), (middle, high, outer)]
+                bands += [(low, middle, outer), (middle, high, outer)]
             else:
-                strips.append((border, high, outer))
+                bands.append((border, high, outer))
         return proven, stopped
 
-    def border(self, low: float, high: float, found: dict[str, float]) -> float | None:
+    def border(self, low: float, high: float, found: Marched) -> float | None:
         """A pitch in (low, high) just above that at which a contact found at `low` becomes a graze [m]; None if lost.
 
         The dip is followed from pitch to pitch; the Illinois form of the false position finds where it reaches the
         margin.
         """
-        pair, radius = (int(found["first"]), int(found["second"])), found["touching"]
-        below, radius = self.dip(low, radius, pair)
+        assert found.touching is not None
+        pair = found.benches
+        below, radius = self.dip(low, found.touching, pair)
         if below > self.margin:
             return None
         below -= self.margin
@@ -218,5 +215,5 @@ class Strips:
                 travel = search.bottom(min(travel, ahead), max(travel, ahead), pair, BOTTOM_WIDTH)
                 break
             travel, stride = ahead, 2.0 * stride
-        gap = kernels.gap_at(growth, NO_PIECES, search.place - travel, search.room, *pair, search.sizes, search.rows[1])
+        gap = kernels.gap_at(search.scene, search.place - travel, *pair, search.rows[1])
         return float(gap), growth * search.theta_at(travel)

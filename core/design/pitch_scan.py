@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from core import plots
-from core.contact.search import MARGIN_MAX, WORK_BUDGET, Budget, Search
+from core.contact.fold import clear_to_fold
+from core.contact.search import MARGIN_MAX, WORK_BUDGET, Budget, Ended, Search
 from core.dance import Dance, EndReason
 from core.design.minimum_pitch import MinimumPitch, minimum_pitch
 from core.dragon import Dragon
@@ -29,8 +30,8 @@ JUMP = 0.02
 JUMP_WIDTH = 1e-6
 # Half width of the bracket around a contact [m of head travel], and so of its radius: a picture shows 1e-3 m.
 RADIUS_WIDTH = 1e-8
-# All pitches together do at most so much work, see WORK of core/kernels/constants.py: about 5 s; the default scan does
-# about 2,000,000 [1].
+# Most work of all pitches together, see core/kernels/constants.py: about 5 s. The default scan takes about
+# 2,000,000 [1].
 SCAN_WORK = 4e7
 # The scanned pitches, in minimum pitches.
 SCAN_FROM, SCAN_TO = 0.8, 1.35
@@ -82,8 +83,8 @@ class PitchScan(Shown):
 class Stops:
     """Where the head stands at first contact, of one dragon on one spiral after another.
 
-    The search is that of first_contact(), proven likewise to miss no contact, with a bracket of RADIUS_WIDTH in place
-    of its 1e-10 m: a radius changes by less than the travel, so it is as good as that.
+    The search is that of first_contact() and is proven to miss no contact in the same way. Its bracket is RADIUS_WIDTH
+    in place of 1e-10 m; a radius changes by less than the travel, so it is at least as good.
     """
 
     def __init__(self, dragon: Dragon, margin: float, budget: Budget | None = None) -> None:
@@ -94,10 +95,10 @@ class Stops:
     def radius(self, path: Spiral) -> float | None:
         """The radius [m], None when nothing touches.
 
-        It is good to RADIUS_WIDTH, or so near a graze that rounding hides when it begins to a wider bracket
+        It is good to RADIUS_WIDTH. Near a graze, where rounding hides when the contact begins, the bracket is wider
         (BRACKETS_GRAZING in core/contact/search.py).
 
-        A search that ends undecided has met a graze too close to the margin to tell: then, where it met it.
+        An undecided search has met a graze too close to the margin to decide; then the radius is the one of that graze.
         raises: InvalidValue as Dance
         """
         end = Dance(self.dragon, path).end
@@ -106,13 +107,13 @@ class Stops:
         last = search.last_travel(end.time, to_fold)
         tolerance = max(RADIUS_WIDTH, 2.0 * search.travel_rounding(last))
         state, found = search.march(last, tolerance)
-        if state == "stuck" and found["touching"] >= 0.0:
+        if state == "stuck" and found.touching is not None:
             state, found, tolerance = search.approach(0.0, last, 1.0)
-        if state in ("reached", "stuck") and found["touching"] < 0.0 and to_fold:
-            state = "reached" if search.clear_to_fold(min(found["proven"], last), end) else "stuck"
+        if state in ("reached", "stuck") and found.touching is None and to_fold:
+            state = Ended.REACHED if clear_to_fold(search, min(found.proven, last), end) else Ended.STUCK
         if state == "reached":
             return None
-        travel = {"touched": found["touching"] - tolerance, "stuck": found["proven"]}.get(state, 0.0)
+        travel = {"touched": (found.touching or 0.0) - tolerance, "stuck": found.proven}.get(state, 0.0)
         return search.growth * search.theta_at(travel)
 
     def _search(self, path: Spiral) -> Search:

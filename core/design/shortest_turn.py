@@ -25,9 +25,10 @@ from core.contact.first_contact import FirstContact, Outcome, contact_within
 from core.contact.search import MARGIN_MAX, Budget
 from core.dance import Dance, follows
 from core.dragon import Dragon
-from core.errors import InvalidValue, TooMuchWork
+from core.errors import InvalidValue, TooMuchWork, said
 from core.paths.spiral import Spiral
 from core.paths.turn import Turn
+from core.sampling import bisected
 from core.shown import Shown, worded
 from core.values import checked_number, checked_size, checked_type
 
@@ -35,12 +36,12 @@ from core.values import checked_number, checked_size, checked_type
 ENTRY_STEP = 0.01
 # ... and the border is bisected to this width [m].
 ENTRY_WIDTH = 1e-9
-# All entries together do at most so much work, see WORK of core/kernels/constants.py: about 8 s, as a step on a route
-# takes longer than one on a spiral; the default turn does about 90,000 [1].
+# Most work of all entries together, see core/kernels/constants.py: about 8 s, because a step on a route takes
+# longer than one on a spiral. The default turn takes about 90,000 [1].
 TURN_WORK = 2.5e7
 # Turn takes no deeper entry [m].
 ENTRY_MIN = 1e-3
-# A longer coil than needed by this part ends after the instant asked for also in rounding [1].
+# Coils are made longer than needed by this part, so that rounding cannot end them before the instant asked for [1].
 SPARE_TURNS = 1e-9
 
 # The pair and the time [s] of a first contact; None where the search is undecided.
@@ -106,14 +107,14 @@ def shortest_turn(
     radius = checked_size("turning_radius", turning_radius)
     margin = checked_number("margin", margin, "m", 0.0, MARGIN_MAX)
 
-    def turned(entry: float) -> Turn:
+    def turn_at(entry: float) -> Turn:
         return Turn(pitch, radius, ratio, start_turns=start_turns, entry_radius=entry)
 
     def touching(entry: float, clear: float | None) -> Touch | None:
-        return _contact(budget, dragon, turned(entry), start_turns, margin, clear)
+        return _contact(budget, dragon, turn_at(entry), start_turns, margin, clear)
 
     budget = Budget(TURN_WORK)
-    bend, floor = _bend(dragon, turned, radius)
+    border, floor = _follow_border(dragon, turn_at, radius)
     evaluations, limit = 1, touching(radius, None)
     if limit == UNDECIDED and budget.left <= 0.0:
         raise TooMuchWork.of("turning_radius", _too_much(dragon, radius), radius, "m")
@@ -126,41 +127,43 @@ def shortest_turn(
         if limit == UNDECIDED and budget.left <= 0.0:
             raise TooMuchWork.of("turning_radius", _too_much(dragon, infeasible), radius, "m")
     if limit is None:
-        limited_by = TurnLimit.CENTRE if bend is None else TurnLimit.BEND
-        bracket = (0.0 if bend is None else bend, floor)
-        return ShortestTurn(turned(floor), bracket, limited_by, None, None, ENTRY_STEP * radius, evaluations)
-    while feasible - infeasible > ENTRY_WIDTH and budget.left > 0.0:
-        middle = 0.5 * (feasible + infeasible)
-        evaluations, found = evaluations + 1, touching(middle, feasible)
+        limited_by = TurnLimit.CENTRE if border is None else TurnLimit.BEND
+        bracket = (0.0 if border is None else border, floor)
+        return ShortestTurn(turn_at(floor), bracket, limited_by, None, None, ENTRY_STEP * radius, evaluations)
+
+    def is_clear(entry: float) -> bool | None:
+        nonlocal evaluations, feasible, limit
+        if budget.left <= 0.0:
+            return None
+        evaluations, found = evaluations + 1, touching(entry, feasible)
         if found == UNDECIDED and budget.left <= 0.0:  # for want of work alone
-            break
+            return None
         if found is None:
-            feasible = middle
-        else:
-            infeasible, limit = middle, found if found[0] else limit
-    bracket = (infeasible, feasible)
-    return ShortestTurn(turned(feasible), bracket, TurnLimit.CONTACT, *limit, ENTRY_STEP * radius, evaluations)
+            feasible = entry
+        elif found[0]:
+            limit = found
+        return found is None
+
+    bracket = bisected(is_clear, infeasible, feasible, width=ENTRY_WIDTH)
+    return ShortestTurn(turn_at(bracket[1]), bracket, TurnLimit.CONTACT, *limit, ENTRY_STEP * radius, evaluations)
 
 
-def _bend(dragon: Dragon, turned: Callable[[float], Turn], radius: float) -> tuple[float | None, float]:
+def _follow_border(dragon: Dragon, turn_at: Callable[[float], Turn], radius: float) -> tuple[float | None, float]:
     """Entry radii between which a chord begins to follow [m]: None for the first where it follows at the deepest tried.
 
     raises: InvalidValue (turning_radius) when one cannot follow even at the circle
     """
-    if not follows(dragon, turned(radius)):
-        bend = 1.0 / turned(radius).sharpest[0]
+    if not follows(dragon, turn_at(radius)):
+        tightest = 1.0 / turn_at(radius).sharpest[0]
         rule = (
-            f"must be larger: a turn that begins on the circle bends to a radius of {bend:.4g} m, too tight for the "
-            f"longest chord ({float(dragon.chords.max()):g} m)"
+            f"must be larger: a turn that begins on the circle bends to a radius of {tightest:.4g} m, too tight for "
+            f"the longest chord ({float(dragon.chords.max()):g} m)"
         )
         raise InvalidValue.of("turning_radius", rule, radius, "m")
     low, high = min(max(ENTRY_STEP * radius, ENTRY_MIN), radius), radius
-    if follows(dragon, turned(low)):
+    if follows(dragon, turn_at(low)):
         return None, low
-    while high - low > ENTRY_WIDTH:
-        middle = 0.5 * (low + high)
-        low, high = (low, middle) if follows(dragon, turned(middle)) else (middle, high)
-    return low, high
+    return bisected(lambda entry: follows(dragon, turn_at(entry)), low, high, width=ENTRY_WIDTH)
 
 
 def _contact(
@@ -223,12 +226,12 @@ def _too_much(dragon: Dragon, entry: float) -> str:
 
 
 def _refusal(touch: Touch, margin: float) -> str:
-    """What is wrong with a circle on which no turn can begin."""
+    """Why no turn can begin on the circle, in words."""
     benches, time = touch
     if benches is None or time is None:
-        what = f"benches come so near to the margin of {margin:g} m that it is not decided whether they keep it"
+        what = f"benches come so near to the margin of {said(margin)} m that it is not decided whether they keep it"
     else:
-        near = f"come nearer than {margin:g} m" if margin else "touch"
+        near = f"come nearer than {said(margin)} m" if margin else "touch"
         side = f"{time:.6f} s after" if time >= 0.0 else f"{-time:.6f} s before"
         what = f"benches {benches[0]} and {benches[1]} {near} {side} the entry at 1 m/s"
     return f"must be larger, or the pitch: in a turn that begins on the circle {what}"

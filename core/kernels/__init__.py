@@ -7,55 +7,38 @@ compiler types by itself, and a Python object inside a loop it refuses. `setup.p
 Angles are in radians, lengths on a spiral in units of its growth unless a name says otherwise; no function allocates.
 -1.0 in here means "no such root" and never leaves core.
 
-constants    columns of the arrays, shared numbers
+constants    columns of the arrays, shared numbers       records     values with names that inner loops hand on
 spiral       arc length, next handle, trajectory, chain        fold        where a run ends
 rectangles   signed separation of two                          boxes       which may touch
-route        points and chain on a table of pieces             chain       on either kind of path
+route        points and chain on a table of pieces             chain       curves of either kind
 bounds       how fast handles and benches move at most         pairs       how near two come at most
 rings        benches too far out to touch                      clearance   at one instant
+scene        who dances where, intervals of head travel
 marching     to first contact                                  strips      all pitches between two at once
 speed        the highest speed                                 excess       when a limit is first exceeded
 """
 
-from core.kernels.bounds import motion_bounds, route_bounds
-from core.kernels.boxes import BOXES_PER_LEAF, grow_tree, meeting_pairs
-from core.kernels.chain import chain_rounding, place_chain, route_tail, route_trajectory
-from core.kernels.clearance import clearance_at, clearance_left, crossing, gap_at, gap_rate_at
-from core.kernels.constants import (
-    BEND_LIMIT,
-    BENT,
-    BLEND,
-    CENTRE_SPEED,
-    CHAIN_COLUMNS,
-    CLEAR_SPARE,
-    ERROR,
-    FREE,
-    HANDLE_SPEED,
-    K_SLOPE,
-    LOOSE,
-    MARCH_FIELDS,
-    MARCH_STATES,
-    MOTION_COLUMNS,
-    PART,
-    PIECE_COLUMNS,
-    PIECE_KINDS,
-    PLACE_SPARE,
-    ROUTE_BEND_LIMIT,
-    SHIFT_COLUMNS,
-    SIZE_COLUMNS,
-    SLIP,
-    SPIRAL_CURVATURE_MOST,
-    SWAY,
-    ULP,
+from core.kernels.boxes import BOXES_PER_LEAF, Meetings, grow_tree
+from core.kernels.chain import (
+    Curve,
+    chain_rounding,
+    place_chain,
+    route_curve,
+    route_tail,
+    route_trajectory,
+    spiral_curve,
 )
-from core.kernels.excess import first_excess
+from core.kernels.clearance import bottom_between, clearance_at, clearance_left, gap_at, gap_rate_at
+from core.kernels.constants import *
+from core.kernels.excess import Excess
 from core.kernels.fold import fold_theta, previous_theta
-from core.kernels.marching import march
+from core.kernels.marching import March
 from core.kernels.pairs import axis_bend, pair_bends, pair_least, pair_most, pair_rounding
-from core.kernels.rectangles import pair_gap, pair_gap_within, pair_separation, pair_separations
-from core.kernels.rings import leaders_reach, radius_beyond, ring_least
+from core.kernels.rectangles import Witnesses, bench_separation, pair_gaps, pair_separations
+from core.kernels.rings import Rings, leaders_reach, radius_beyond, ring_least
 from core.kernels.route import cubic_arcs, joint_misses, piece_slides, route_points
-from core.kernels.speed import climbs, peak_rate, spiral_errors
+from core.kernels.scene import Interval, Scene
+from core.kernels.speed import Peak, climbs, spiral_errors
 from core.kernels.spiral import (
     COMPILED,
     LANES_PER_BLOCK,
@@ -70,4 +53,4 @@ from core.kernels.spiral import (
     start_chain,
     steepest_bend,
 )
-from core.kernels.strips import strip
+from core.kernels.strips import Strip

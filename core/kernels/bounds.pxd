@@ -1,5 +1,6 @@
 cimport cython
 from core.kernels.constants cimport *
+from core.kernels.records cimport Cosines, Link, Stretch
 from core.kernels.spiral cimport spiral_curvature, spiral_rounding, steepest_bend
 
 cdef double TRIAL
@@ -16,7 +17,23 @@ cdef void stand_between(
 
 cdef double blur_of(Py_ssize_t k, double turned, double[:, ::1] before, double[:, ::1] after) noexcept nogil
 
-@cython.locals(k=cython.Py_ssize_t, followed=cython.bint, filled=cython.bint)
+cdef void bench_bounds(
+    Py_ssize_t k, double rate_a, double rate_b, double omega, double spin, double pull, double[:, ::1] sizes,
+    double[:, ::1] motion
+) noexcept nogil
+
+cdef double summed_widening(
+    double growth, Py_ssize_t benches, double[:, ::1] sizes, double[:, ::1] before, double[:, ::1] after
+) noexcept nogil
+
+cdef Link bent_link(double chord, double k_low, double k_high, double rate_a, double rate_low) noexcept nogil
+
+cdef Link followed_link(
+    Py_ssize_t k, double h, double k_high, double rate_a, double[:, ::1] sizes, double[:, ::1] before,
+    double[:, ::1] after
+) noexcept nogil
+
+@cython.locals(k=cython.Py_ssize_t, followed=cython.bint, filled=cython.bint, link=Link)
 cpdef bint motion_bounds(
     double growth, double h, Py_ssize_t benches, double[:, ::1] sizes, double[:, ::1] before, double[:, ::1] after,
     double[:, ::1] motion
@@ -49,7 +66,23 @@ cdef double parts_between(
     const double[:, ::1] pieces, Py_ssize_t k, double[:, ::1] before, double[:, ::1] after
 ) noexcept nogil
 
-@cython.locals(k=cython.Py_ssize_t, p=cython.Py_ssize_t, q=cython.Py_ssize_t)
+@cython.locals(p=cython.Py_ssize_t, q=cython.Py_ssize_t)
+cdef Stretch link_stretch(
+    const double[:, ::1] pieces, Py_ssize_t k, Py_ssize_t benches, double[:, ::1] sizes, double[:, ::1] before,
+    double[:, ::1] after
+) noexcept nogil
+
+cdef Cosines route_cosines(
+    Py_ssize_t k, double h, Stretch stretch, double rate_a, double rate_low, double[:, ::1] before,
+    double[:, ::1] after
+) noexcept nogil
+
+cdef void bound_climb(
+    Py_ssize_t k, double h, Stretch stretch, Cosines cosines, double[:, ::1] before, double[:, ::1] after,
+    double[:, ::1] motion
+) noexcept nogil
+
+@cython.locals(k=cython.Py_ssize_t, stretch=Stretch, cosines=Cosines)
 cpdef bint route_bounds(
     const double[:, ::1] pieces, double h, Py_ssize_t benches, double[:, ::1] sizes, double[:, ::1] before,
     double[:, ::1] after, bint climbing, double[:, ::1] motion

@@ -5,6 +5,7 @@ from cython.cimports.libc.math import fabs, sqrt
 
 if not cython.compiled:  # for the compiler the same stands in the .pxd
     from core.kernels.constants import *
+    from core.kernels.records import Cosines, Link, Stretch
     from core.kernels.spiral import spiral_curvature, spiral_rounding, steepest_bend
 
 # The head's travel sigma [m] is the variable; ' is d / d sigma. On [L, R] of width h every quantity below is an
@@ -105,6 +106,64 @@ def blur_of(k, turned, before, after):
     return 2.0 * max(before[k, SWAY], after[k, SWAY]) + turned * slip + 16.0 * ULP
 
 
+def bench_bounds(k, rate_a, rate_b, omega, spin, pull, sizes, motion):
+    """Bounds on the motion of bench k, from those of its handles (rates, pull) and of its direction (omega, spin)."""
+    motion[k, CENTRE_SPEED] = 0.5 * (rate_a + rate_b)
+    motion[k, CORNER_SPEED] = 0.5 * (rate_a + rate_b) + omega * sizes[k, RADIUS]
+    motion[k, CENTRE_PULL] = pull
+    motion[k, CORNER_PULL] = pull + spin * sizes[k, RADIUS]
+    motion[k, TURN] = omega
+    motion[k, TURN_PULL] = spin
+    motion[k, HANDLE_SPEED] = rate_a if rate_a > rate_b else rate_b
+
+
+def summed_widening(growth, benches, sizes, before, after):
+    """By how much of itself a curvature may be off, from the sums that spiral_error() takes the place of [1]."""
+    spiral_rounding(growth, benches, sizes, before)
+    spiral_rounding(growth, benches, sizes, after)
+    return 32.0 * ULP * (benches + 8.0) + 2.0 * max(before[benches, SLIP], after[benches, SLIP]) / growth
+
+
+def bent_link(chord, k_low, k_high, rate_a, rate_low):
+    """Bounds on a link by the chord lemma, from the range of its curvature and of its leader's rate."""
+    sine = 0.5 * k_high * chord
+    rear = sqrt(1.0 - sine * sine)
+    front = sqrt(1.0 - 0.25 * k_low * k_low * chord * chord)
+    rate_low *= TIGHTEN * rear / front
+    swing = k_high * rate_a - k_low * rate_low
+    return Link(front, rear, sine, rate_a, rate_low, k_high * rate_a, k_low * rate_low, swing, swing)
+
+
+def followed_link(k, h, k_high, rate_a, sizes, before, after):
+    """Bounds on a link whose angles are followed from the ends of the interval; cos_rear is 0 where none is known."""
+    chord = sizes[k, CHORD]
+    blur = blur_of(k, SPIRAL_TURN / chord, before, after)
+    front, rear = link_cosines(k, before)
+    front_end, rear_end = link_cosines(k, after)
+    front = (fabs(front) if fabs(front) > fabs(front_end) else fabs(front_end)) + blur
+    rear = (rear if rear < rear_end else rear_end) - blur
+    if rear <= 0.0:
+        return Link(front, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    rate_b = rate_a * (TRIAL * front + h * rate_a * (k_high + 2.0 / chord)) / rear
+    omega = (rate_a + rate_b) / chord
+    swing_a = k_high * rate_a + omega
+    swing_b = k_high * rate_b + omega
+    front += 0.5 * h * swing_a
+    if front > 1.0:
+        front = 1.0
+    rear -= 0.5 * h * swing_b
+    if rear <= 0.0 or rate_a * front > rate_b * rear:
+        rear = 0.0
+    return Link(front, rear, 1.0, LOOSEN * rate_b, 0.0, omega, 0.0, swing_a, swing_b)
+
+
+# Input:  the chains at both ends of an interval of width h, each with all handles up to `benches`.
+# State:  rate_a, rate_low and second_a, the bounds on the rate of handle k and on |s''| of it; `followed`, whether a
+#         link before this one was; `filled`, whether the sums of spiral_rounding() are known, and `widened`, what
+#         curvatures are widened by.
+# Output: a motion row for every bench and the handle in front of it, see constants.py.
+
+
 def motion_bounds(growth, h, benches, sizes, before, after, motion):
     """Bounds on the motion of the first benches over an interval of width h; False when h is too wide for any."""
     followed = False
@@ -124,85 +183,41 @@ def motion_bounds(growth, h, benches, sizes, before, after, motion):
         chord = sizes[k, CHORD]
         if error > chord and not filled:  # no such chords are allowed for where spiral_error() takes the place of sums
             filled = True
-            spiral_rounding(growth, benches, sizes, before)
-            spiral_rounding(growth, benches, sizes, after)
-            widened = 32.0 * ULP * (benches + 8.0) + 2.0 * max(before[benches, SLIP], after[benches, SLIP]) / growth
+            widened = summed_widening(growth, benches, sizes, before, after)
             outwards = (1.0 - widened) / growth
             inwards = (1.0 + widened) / growth
         stand_between(k, before, after, widened, motion)
         inner = after[k, THETA] if after[k, THETA] < before[k, THETA] else before[k, THETA]
         outer = before[k + 1, THETA] if after[k + 1, THETA] < before[k + 1, THETA] else after[k + 1, THETA]
         if followed:  # the handle may turn back between the ends: it goes no further in than its rate allows
-            swing_a = 2.0 * rate_a * h / (growth * inner) if inner > 0.0 else FREE
-            inner = inner - swing_a if swing_a <= 0.5 * inner else inner - rate_a * h / growth
-            if inner < 0.0:
-                inner = 0.0
+            slid = 2.0 * rate_a * h / (growth * inner) if inner > 0.0 else FREE
+            inner = max(inner - slid if slid <= 0.5 * inner else inner - rate_a * h / growth, 0.0)
         k_high = spiral_curvature(inner) * inwards
-        sin_high = 0.5 * k_high * chord
-        if sin_high <= BEND_LIMIT:
+        if 0.5 * k_high * chord <= BEND_LIMIT:
             k_low = 0.0 if followed else spiral_curvature(outer) * outwards
-            cos_low = sqrt(1.0 - sin_high * sin_high)
-            cos_high = sqrt(1.0 - 0.25 * k_low * k_low * chord * chord)
-            rate_low *= TIGHTEN * cos_low / cos_high
-            rate_b = rate_a
-            swing_a = swing_b = k_high * rate_a - k_low * rate_low
-            omega = k_high * rate_a
+            link = bent_link(chord, k_low, k_high, rate_a, rate_low)
         else:
             if not filled:  # the sums that spiral_error() takes the place of are needed themselves
                 filled = True
-                spiral_rounding(growth, benches, sizes, before)
-                spiral_rounding(growth, benches, sizes, after)
-                widened = max(before[benches, SLIP], after[benches, SLIP])
-                widened = 32.0 * ULP * (benches + 8.0) + 2.0 * widened / growth
+                widened = summed_widening(growth, benches, sizes, before, after)
                 inwards = (1.0 + widened) / growth
                 k_high = spiral_curvature(inner) * inwards
             followed = True
-            rate_low = 0.0
-            swing_a = before[k, TX] * before[k, UX] + before[k, TY] * before[k, UY]
-            swing_b = after[k, TX] * after[k, UX] + after[k, TY] * after[k, UY]
-            cos_high = fabs(swing_a) if fabs(swing_a) > fabs(swing_b) else fabs(swing_b)
-            swing_a = before[k + 1, TX] * before[k, UX] + before[k + 1, TY] * before[k, UY]
-            swing_b = after[k + 1, TX] * after[k, UX] + after[k + 1, TY] * after[k, UY]
-            cos_low = swing_a if swing_a < swing_b else swing_b
-            blur = blur_of(k, SPIRAL_TURN / chord, before, after)
-            cos_high += blur
-            cos_low -= blur
-            if cos_low <= 0.0:
+            link = followed_link(k, h, k_high, rate_a, sizes, before, after)
+            if link.cos_rear <= 0.0:
                 return False
-            rate_b = rate_a * (TRIAL * cos_high + h * rate_a * (k_high + 2.0 / chord)) / cos_low
-            omega = (rate_a + rate_b) / chord
-            swing_a = k_high * rate_a + omega
-            swing_b = k_high * rate_b + omega
-            cos_high += 0.5 * h * swing_a
-            if cos_high > 1.0:
-                cos_high = 1.0
-            cos_low -= 0.5 * h * swing_b
-            if cos_low <= 0.0 or rate_a * cos_high > rate_b * cos_low:
-                return False
-            rate_b *= LOOSEN
-            sin_high = 1.0
-        second_b = LOOSEN * (cos_high * second_a + sin_high * (rate_a * swing_a + rate_b * swing_b)) / cos_low
-        spin = (
-            omega * omega
-            + (cos_high * (rate_a * swing_a + rate_b * swing_b) + sin_high * (second_a + second_b)) / chord
-        )
-        if sin_high == 1.0:
-            spin = omega * omega + (rate_a * swing_a + rate_b * swing_b + second_a + second_b) / chord
-        pull = 0.5 * (second_a + second_b + k_high * (rate_a * rate_a + rate_b * rate_b))
-        motion[k, CENTRE_SPEED] = 0.5 * (rate_a + rate_b)
-        motion[k, CORNER_SPEED] = 0.5 * (rate_a + rate_b) + omega * sizes[k, RADIUS]
-        motion[k, CENTRE_PULL] = pull
-        motion[k, CORNER_PULL] = pull + spin * sizes[k, RADIUS]
-        motion[k, TURN] = omega
-        motion[k, TURN_PULL] = spin
-        motion[k, HANDLE_SPEED] = rate_a if rate_a > rate_b else rate_b
-        motion[k, TURN_LOW] = 0.0 if followed else k_low * rate_low
-        motion[k, TURN_RATE] = spin - omega * omega
-        motion[k + 1, RATE_HIGH] = rate_b
-        motion[k + 1, RATE_LOW] = rate_low
-        motion[k + 1, RATE_RATE] = second_b
-        rate_a = rate_b
-        second_a = second_b
+        swung = rate_a * link.swing_front + link.rate * link.swing_rear
+        second_b = LOOSEN * (link.cos_front * second_a + link.sine * swung) / link.cos_rear
+        spin = link.omega * link.omega + (link.cos_front * swung + link.sine * (second_a + second_b)) / chord
+        if link.sine == 1.0:
+            spin = link.omega * link.omega + (swung + second_a + second_b) / chord
+        pull = 0.5 * (second_a + second_b + k_high * (rate_a * rate_a + link.rate * link.rate))
+        bench_bounds(k, rate_a, link.rate, link.omega, spin, pull, sizes, motion)
+        motion[k, TURN_LOW] = link.omega_low
+        motion[k, TURN_RATE] = spin - link.omega * link.omega
+        motion[k + 1, RATE_HIGH] = rate_a = link.rate
+        motion[k + 1, RATE_LOW] = rate_low = link.rate_low
+        motion[k + 1, RATE_RATE] = second_a = second_b
     stand_between(benches, before, after, widened, motion)
     return True
 
@@ -251,7 +266,7 @@ def stretch_slope(pieces, k, rear, front, before, after):
     if rear == front and pieces[rear, PIECE_KIND] == SPIRAL:
         theta = min(before[k + 1, PIECE_THETA], after[k, PIECE_THETA])
         if theta >= 0.5:
-            return steepest_bend(theta) / (pieces[rear, 7] * pieces[rear, 7])
+            return steepest_bend(theta) / (pieces[rear, COIL_GROWTH] * pieces[rear, COIL_GROWTH])
     for p in range(rear, front + 1):
         slope = max(slope, pieces[p, K_SLOPE])
     return slope
@@ -279,6 +294,67 @@ def parts_between(pieces, k, before, after):
     return pieces[front, PART] - pieces[rear, PART]
 
 
+def link_stretch(pieces, k, benches, sizes, before, after):
+    """The stretch of a route that bench k sweeps: how curved it is, see Stretch in records.py."""
+    chord = sizes[k, CHORD]
+    p = reached_piece(pieces, k + 1, -1.0, before)
+    q = reached_piece(pieces, k, 1.0, after)
+    low, high = stretch_curvature(pieces, p, before[k + 1, CURVATURE], q, after[k, CURVATURE])
+    slope = stretch_slope(pieces, k, p, q, before, after)
+    widened = 32.0 * ULP * (benches + 8.0) / chord + pieces[0, BENT]
+    widened += slope * max(before[k + 1, SLIP], after[k + 1, SLIP])
+    high += widened
+    low -= widened
+    if high <= 0.0:
+        low, high = -high, -low
+    elif low < 0.0:
+        high = high if high > -low else -low
+        low = -high
+    blur = blur_of(k, ROUTE_TURN / chord, before, after)
+    return Stretch(chord, low, high, slope, widened, 0.5 * high * chord, blur)
+
+
+def route_cosines(k, h, stretch, rate_a, rate_low, before, after):
+    """Bounds on the cosines of both angles of a link: by the lemma, and followed from the ends where that leaves much.
+
+    rate_a, rate_low: bounds on the rate of its leader
+    """
+    low = stretch.low
+    front_low = rear_low = sqrt(1.0 - stretch.sine * stretch.sine)
+    front_high = rear_high = sqrt(1.0 - 0.25 * low * low * stretch.chord * stretch.chord) if low > 0.0 else 1.0
+    if front_high > RATIO_FOLLOWED * rear_low:
+        turned = swing_bound(low, stretch.high, rate_a, rate_low, front_high / rear_low, front_low / rear_high)
+        turned = 0.5 * h * stretch.sine * turned + stretch.blur
+        front, rear = link_cosines(k, before)
+        front_end, rear_end = link_cosines(k, after)
+        front_low = max(front_low, min(front, front_end) - turned)
+        front_high = min(front_high, max(front, front_end) + turned)
+        rear_low = max(rear_low, min(rear, rear_end) - turned)
+        rear_high = min(rear_high, max(rear, rear_end) + turned)
+    return Cosines(front_low, front_high, rear_low, rear_high)
+
+
+def bound_climb(k, h, stretch, cosines, before, after, motion):
+    """Lower the bounds on handle k + 1 of a route by its s'' at both ends, and fill in what rounding does to these."""
+    rate_a = motion[k, RATE_HIGH]
+    rate_b = motion[k + 1, RATE_HIGH]
+    second_b = motion[k + 1, RATE_RATE]
+    turned = max(fabs(before[k + 1, CLIMB]), fabs(after[k + 1, CLIMB]))
+    error_a = motion[k, RATE_ERROR]
+    error_b = (error_a * cosines.front_high + 2.0 * stretch.blur * rate_b) / cosines.rear_low
+    climb_error = motion[k, CLIMB_ERROR]
+    widened = stretch.widened * (rate_a * rate_a + rate_b * rate_b)
+    climb_error += 2.0 * stretch.blur * (motion[k, RATE_RATE] + turned) + widened
+    climb_error += 8.0 * (rate_a + rate_b) * (error_a + error_b + stretch.blur * (rate_a + rate_b)) / stretch.chord
+    climb_error /= cosines.rear_low
+    if motion[k + 1, CROSSED] == 0.0:
+        motion[k + 1, RATE_RATE] = second_b = min(second_b, turned + climb_error + 0.5 * h * motion[k + 1, RATE_JERK])
+    rate_b = min(rate_b, 0.5 * (before[k + 1, RATE] + after[k + 1, RATE] + h * second_b) + error_b)
+    motion[k + 1, RATE_HIGH] = rate_b
+    motion[k + 1, RATE_ERROR] = error_b
+    motion[k + 1, CLIMB_ERROR] = climb_error
+
+
 def route_bounds(pieces, h, benches, sizes, before, after, climbing, motion):
     """motion_bounds() on a route. The chord lemma serves throughout, as no handle turns back where k chord < 2.
 
@@ -290,83 +366,42 @@ def route_bounds(pieces, h, benches, sizes, before, after, climbing, motion):
     obeys e_b cos alpha_b <= e_a cos alpha_a + 2 blur b', and that of s'', by speed.climbs(), d_b cos alpha_b <= d_a +
     2 blur (|a''| + |b''|) + widened (a'^2 + b'^2) + 8 (a' + b') (e_a + e_b + blur (a' + b')) / c
     """
-    rate_a = 1.0
     rate_low = 1.0
-    second_a = 0.0
     third_a = 0.0
-    error_a = 0.0
-    climb_error = 0.0
-    crossed = parts_between(pieces, 0, before, after)
-    motion[0, RATE_ERROR] = motion[0, CLIMB_ERROR] = 0.0
+    motion[0, RATE_HIGH] = 1.0
+    motion[0, RATE_RATE] = motion[0, RATE_ERROR] = motion[0, CLIMB_ERROR] = 0.0
+    motion[0, CROSSED] = parts_between(pieces, 0, before, after)
     for k in range(benches):
-        chord = sizes[k, CHORD]
-        p = reached_piece(pieces, k + 1, -1.0, before)
-        q = reached_piece(pieces, k, 1.0, after)
-        low, high = stretch_curvature(pieces, p, before[k + 1, CURVATURE], q, after[k, CURVATURE])
-        slope = stretch_slope(pieces, k, p, q, before, after)
-        widened = 32.0 * ULP * (benches + 8.0) / chord + pieces[0, BENT]
-        widened += slope * max(before[k + 1, SLIP], after[k + 1, SLIP])
-        high += widened
-        low -= widened
-        if high <= 0.0:
-            low, high = -high, -low
-        elif low < 0.0:
-            high = high if high > -low else -low
-            low = -high
-        sin_high = 0.5 * high * chord
-        if not (sin_high <= ROUTE_BEND_ROUNDED):
+        stretch = link_stretch(pieces, k, benches, sizes, before, after)
+        high = stretch.high
+        sine = stretch.sine
+        if not (sine <= ROUTE_BEND_ROUNDED):
             return False
-        blur = blur_of(k, ROUTE_TURN / chord, before, after)
-        front_low = rear_low = sqrt(1.0 - sin_high * sin_high)
-        front_high = rear_high = sqrt(1.0 - 0.25 * low * low * chord * chord) if low > 0.0 else 1.0
-        if front_high > RATIO_FOLLOWED * rear_low:
-            turned = swing_bound(low, high, rate_a, rate_low, front_high / rear_low, front_low / rear_high)
-            turned = 0.5 * h * sin_high * turned + blur
-            front, rear = link_cosines(k, before)
-            front_end, rear_end = link_cosines(k, after)
-            front_low = max(front_low, min(front, front_end) - turned)
-            front_high = min(front_high, max(front, front_end) + turned)
-            rear_low = max(rear_low, min(rear, rear_end) - turned)
-            rear_high = min(rear_high, max(rear, rear_end) + turned)
-        rate_b = LOOSEN * rate_a * front_high / rear_low
-        low_b = TIGHTEN * rate_low * front_low / rear_high
+        rate_a = motion[k, RATE_HIGH]
+        second_a = motion[k, RATE_RATE]
+        cosines = route_cosines(k, h, stretch, rate_a, rate_low, before, after)
+        front = cosines.front_high
+        rear = cosines.rear_low
+        ratio_low = cosines.front_low / cosines.rear_high
+        rate_b = LOOSEN * rate_a * front / rear
         omega = high * max(rate_a, rate_b)
-        swing = swing_bound(low, high, rate_a, rate_low, front_high / rear_low, front_low / rear_high)
-        second_b = LOOSEN * (front_high * second_a + sin_high * swing * (rate_a + rate_b)) / rear_low
-        spin = omega * omega + (front_high * swing * (rate_a + rate_b) + sin_high * (second_a + second_b)) / chord
+        swing = swing_bound(stretch.low, high, rate_a, rate_low, front / rear, ratio_low)
+        second_b = LOOSEN * (front * second_a + sine * swing * (rate_a + rate_b)) / rear
+        spin = omega * omega + (front * swing * (rate_a + rate_b) + sine * (second_a + second_b)) / stretch.chord
         pull = 0.5 * (second_a + second_b + high * (rate_a * rate_a + rate_b * rate_b))
-        motion[k, CENTRE_SPEED] = 0.5 * (rate_a + rate_b)
-        motion[k, CORNER_SPEED] = 0.5 * (rate_a + rate_b) + omega * sizes[k, RADIUS]
-        motion[k, CENTRE_PULL] = pull
-        motion[k, CORNER_PULL] = pull + spin * sizes[k, RADIUS]
-        motion[k, TURN] = omega
-        motion[k, TURN_PULL] = spin
+        bench_bounds(k, rate_a, rate_b, omega, spin, pull, sizes, motion)
         motion[k, TURN_LOW] = motion[k, RATE_LOW] = 0.0
-        motion[k, HANDLE_SPEED] = rate_a if rate_a > rate_b else rate_b
-        third_b = slope * (rate_a * rate_a * rate_a + rate_b * rate_b * rate_b)
+        third_b = stretch.slope * (rate_a * rate_a * rate_a + rate_b * rate_b * rate_b)
         third_b += high * (rate_a * second_a + rate_b * second_b) + (spin - omega * omega) * (rate_a + rate_b)
-        third_b = sin_high * (third_b + 2.0 * swing * (second_a + second_b))
-        third_b = LOOSEN * (front_high * (third_a + swing * swing * (rate_a + rate_b)) + third_b) / rear_low
-        if climbing:
-            crossed += parts_between(pieces, k + 1, before, after)
-            motion[k + 1, CROSSED] = crossed
-            turned = max(fabs(before[k + 1, CLIMB]), fabs(after[k + 1, CLIMB]))
-            error_b = (error_a * front_high + 2.0 * blur * rate_b) / rear_low
-            climb_error += 2.0 * blur * (second_a + turned) + widened * (rate_a * rate_a + rate_b * rate_b)
-            climb_error += 8.0 * (rate_a + rate_b) * (error_a + error_b + blur * (rate_a + rate_b)) / chord
-            climb_error /= rear_low
-            if crossed == 0.0:
-                second_b = min(second_b, turned + climb_error + 0.5 * h * third_b)
-            rate_b = min(rate_b, 0.5 * (before[k + 1, RATE] + after[k + 1, RATE] + h * second_b) + error_b)
-            motion[k + 1, RATE_ERROR] = error_a = error_b
-            motion[k + 1, CLIMB_ERROR] = climb_error
+        third_b = sine * (third_b + 2.0 * swing * (second_a + second_b))
+        third_b = LOOSEN * (front * (third_a + swing * swing * (rate_a + rate_b)) + third_b) / rear
         motion[k + 1, RATE_HIGH] = rate_b
         motion[k + 1, RATE_RATE] = second_b
-        motion[k + 1, RATE_JERK] = third_b
-        rate_a = rate_b
-        rate_low = low_b
-        second_a = second_b
-        third_a = third_b
+        motion[k + 1, RATE_JERK] = third_a = third_b
+        if climbing:
+            motion[k + 1, CROSSED] = motion[k, CROSSED] + parts_between(pieces, k + 1, before, after)
+            bound_climb(k, h, stretch, cosines, before, after, motion)
+        rate_low = TIGHTEN * rate_low * cosines.front_low / cosines.rear_high
     return True
 
 

@@ -4,7 +4,7 @@ import cython
 
 if not cython.compiled:  # for the compiler the same stands in the .pxd
     from core.kernels.constants import *
-    from core.kernels.rectangles import pair_gap_within
+    from core.kernels.rectangles import framed, pair_gap_within
 
 # Broad phase: the rectangles' upright boxes, ordered so that neighbours in the list lie near each other, hang in
 # fours from a complete binary tree: node 1 is the root, node k has the children 2 k and 2 k + 1, node leaves + k
@@ -16,17 +16,25 @@ LEAF = BOXES_PER_LEAF
 
 
 def boxes_meet(a, i, b, j):
-    """Whether row i of a and row j of b, both x low, y low, x high, y high, meet or touch."""
-    return a[i, 0] <= b[j, 2] and b[j, 0] <= a[i, 2] and a[i, 1] <= b[j, 3] and b[j, 1] <= a[i, 3]
+    """Whether row i of a and row j of b, both of columns X_LOW to Y_HIGH, meet or touch."""
+    return (
+        a[i, X_LOW] <= b[j, X_HIGH]
+        and b[j, X_LOW] <= a[i, X_HIGH]
+        and a[i, Y_LOW] <= b[j, Y_HIGH]
+        and b[j, Y_LOW] <= a[i, Y_HIGH]
+    )
 
 
 def grow_tree(boxes, tree):
-    """Fill the tree over the boxes. boxes: (n, 4); tree: (2 leaves, 4), leaves a power of two >= n / 4."""
+    """Fill the tree over the boxes.
+
+    boxes: (n, BOX_COLUMNS); tree: (2 leaves, BOX_COLUMNS), leaves a power of two >= n / 4
+    """
     leaves = tree.shape[0] // 2
     with cython.nogil:
         for k in range(tree.shape[0]):
-            tree[k, 0] = tree[k, 1] = NO_LIMIT
-            tree[k, 2] = tree[k, 3] = -NO_LIMIT
+            tree[k, X_LOW] = tree[k, Y_LOW] = NO_LIMIT
+            tree[k, X_HIGH] = tree[k, Y_HIGH] = -NO_LIMIT
         for i in range(boxes.shape[0]):
             widen(tree, leaves + i // LEAF, boxes, i)
         for k in range(tree.shape[0] - 1, 1, -1):
@@ -35,63 +43,71 @@ def grow_tree(boxes, tree):
 
 def widen(tree, k, boxes, i):
     """Widen node k so that it holds box i."""
-    for axis in range(2):
-        if boxes[i, axis] < tree[k, axis]:
-            tree[k, axis] = boxes[i, axis]
-        if boxes[i, axis + 2] > tree[k, axis + 2]:
-            tree[k, axis + 2] = boxes[i, axis + 2]
+    tree[k, X_LOW] = min(tree[k, X_LOW], boxes[i, X_LOW])
+    tree[k, Y_LOW] = min(tree[k, Y_LOW], boxes[i, Y_LOW])
+    tree[k, X_HIGH] = max(tree[k, X_HIGH], boxes[i, X_HIGH])
+    tree[k, Y_HIGH] = max(tree[k, Y_HIGH], boxes[i, Y_HIGH])
 
 
-def meeting_pairs(frames, boxes, tree, order, margin, exact, chained, limits, pairs, counts):
-    """Pairs whose boxes meet; with exact, only those whose separation is at most the margin.
+# Input:  the tree and its boxes; which rectangles count (margin, exact, chained); when to stop (most_...).
+# State:  i, the row whose walk it is; k, the node where that stands.
+# Output: pairs as far as there is room, and how many pairs were found and boxes met.
 
-    frames (n, 6), boxes (n, 4), order (n,): rows in the tree's order, and each row's own number
-    chained: leave out pairs of consecutive numbers
-    limits: (2,) the search stops once it has found more pairs, or met more boxes, than these
-    pairs: (capacity, 2), a < b, filled as far as it goes; counts: (2,) pairs found and boxes met
+
+class Meetings:
+    """Which of many rectangles come near each other.
+
+    frames: (n, FRAME_COLUMNS), boxes: (n, BOX_COLUMNS), order: (n,), all in the tree's order, which `order` says by
+        each row's own number; tree: as grow_tree() fills it
+    found, met: how many pairs were found and how many boxes met by find()
     """
-    leaves = tree.shape[0] // 2
-    capacity = pairs.shape[0]
-    found = 0
-    met = 0
-    with cython.nogil:
-        for i in range(boxes.shape[0]):
-            if found > limits[0] or met > limits[1]:
-                break
-            k = leaves + i // LEAF
-            while True:
-                if boxes_meet(tree, k, boxes, i):
-                    if k < leaves:
-                        k = 2 * k
-                        continue
-                    j = (k - leaves) * LEAF
-                    last = j + LEAF if j + LEAF < boxes.shape[0] else boxes.shape[0]
-                    if j <= i:
-                        j = i + 1
-                    while j < last:
-                        if boxes_meet(boxes, i, boxes, j):
-                            met += 1
-                            a = order[i] if order[i] < order[j] else order[j]
-                            b = order[j] if order[i] < order[j] else order[i]
-                            if not (chained and b - a == 1) and (not exact or rows_gap(frames, i, j, margin) <= margin):
-                                if found < capacity:
-                                    pairs[found, 0] = a
-                                    pairs[found, 1] = b
-                                found += 1
-                        j += 1
-                k += 1
-                while k % 2 == 0:
-                    k = k // 2
-                if k == 1:
+
+    def __init__(self, frames, boxes, tree, order):
+        self.frames = frames
+        self.boxes = boxes
+        self.tree = tree
+        self.order = order
+        self.found = self.met = 0
+
+    def find(self, margin, exact, chained, most_found, most_met, pairs):
+        """Fill in pairs (capacity, 2), a < b, whose boxes meet; with exact, only those within the margin.
+
+        chained: leave out pairs of consecutive numbers; most_found, most_met: find() stops beyond so many
+        """
+        boxes: cython.double[:, ::1] = self.boxes
+        leaves = self.tree.shape[0] // 2
+        self.found = self.met = 0
+        with cython.nogil:
+            for i in range(boxes.shape[0]):
+                if self.found > most_found or self.met > most_met:
                     break
-    counts[0] = found
-    counts[1] = met
+                k = leaves + i // LEAF
+                while True:
+                    if boxes_meet(self.tree, k, boxes, i):
+                        if k < leaves:
+                            k = 2 * k
+                            continue
+                        first = (k - leaves) * LEAF
+                        last = min(first + LEAF, boxes.shape[0])
+                        for j in range(max(first, i + 1), last):
+                            if boxes_meet(boxes, i, boxes, j):
+                                self.met += 1
+                                self.note(i, j, margin, exact, chained, pairs)
+                    k += 1
+                    while k % 2 == 0:
+                        k = k // 2
+                    if k == 1:
+                        break
 
-
-def rows_gap(frames, i, j, limit):
-    """pair_gap_within() of two rows of frames."""
-    return pair_gap_within(
-        frames[i, 0], frames[i, 1], frames[i, 2], frames[i, 3], frames[i, 4], frames[i, 5],
-        frames[j, 0], frames[j, 1], frames[j, 2], frames[j, 3], frames[j, 4], frames[j, 5],
-        limit,
-    )  # fmt: skip
+    def note(self, i, j, margin, exact, chained, pairs):
+        """Note the pair of rows i and j where it counts."""
+        a = self.order[i] if self.order[i] < self.order[j] else self.order[j]
+        b = self.order[j] if self.order[i] < self.order[j] else self.order[i]
+        if chained and b - a == 1:
+            return
+        if exact and pair_gap_within(framed(self.frames, i), framed(self.frames, j), margin) > margin:
+            return
+        if self.found < pairs.shape[0]:
+            pairs[self.found, 0] = a
+            pairs[self.found, 1] = b
+        self.found += 1

@@ -3,18 +3,27 @@ from core.kernels.constants cimport *
 from core.kernels.spiral cimport extend_chain, spiral_rounding, spiral_theta, start_chain
 from core.kernels.route cimport extend_route, route_rounding, start_route
 
+@cython.final
+cdef class Curve:
+    cdef readonly int kind
+    cdef readonly double growth
+    cdef const double[:, ::1] pieces
+
+cpdef Curve spiral_curve(double growth)
+cpdef Curve route_curve(const double[:, ::1] pieces)
+
 cdef Py_ssize_t extend(
-    double growth, const double[:, ::1] pieces, Py_ssize_t first, Py_ssize_t last, double[:, ::1] sizes,
-    double[:, ::1] chain
+    Curve curve, Py_ssize_t first, Py_ssize_t last, double[:, ::1] sizes, double[:, ::1] chain
 ) noexcept nogil
 
+cdef void start(Curve curve, double place, double[:, ::1] chain) noexcept nogil
+
 cpdef Py_ssize_t place_chain(
-    double growth, const double[:, ::1] pieces, double place, Py_ssize_t last, double[:, ::1] sizes,
-    double[:, ::1] chain
+    Curve curve, double place, Py_ssize_t last, double[:, ::1] sizes, double[:, ::1] chain
 ) noexcept nogil
 
 cpdef void chain_rounding(
-    double growth, const double[:, ::1] pieces, Py_ssize_t last, double[:, ::1] sizes, double[:, ::1] chain
+    Curve curve, Py_ssize_t last, double[:, ::1] sizes, double[:, ::1] chain
 ) noexcept nogil
 
 cpdef double route_tail(

@@ -1,7 +1,6 @@
-"""Either kind of path.
+"""Either kind of path, and the chain of one instant on it.
 
-`place` falls in the direction of travel: the arc length from the centre of a spiral, minus s on a route. A path
-without pieces is the spiral of that growth.
+`place` falls in the direction of travel: the arc length from the centre of a spiral, minus s on a route.
 """
 
 import cython
@@ -13,28 +12,52 @@ if not cython.compiled:  # for the compiler the same stands in the .pxd
     from core.kernels.spiral import extend_chain, spiral_rounding, spiral_theta, start_chain
 
 
-def extend(growth, pieces, first, last, sizes, chain):
+class Curve:
+    """A path. kind: ON_SPIRAL or ON_ROUTE; growth: of the spiral [m/rad], 1 on a route; pieces: the table of a route"""
+
+    def __init__(self, kind, growth, pieces):
+        self.kind = kind
+        self.growth = growth
+        self.pieces = pieces
+
+
+def spiral_curve(growth):
+    """The spiral of a growth [m/rad]."""
+    return Curve(ON_SPIRAL, growth, None)
+
+
+def route_curve(pieces):
+    """The route of a table of pieces."""
+    return Curve(ON_ROUTE, 1.0, pieces)
+
+
+def extend(curve, first, last, sizes, chain):
     """Handles after `first` to the `last`; returns last, -1 at a fold."""
-    if pieces.shape[0] == 0:
-        return extend_chain(growth, first, last, FREE, sizes, chain)
-    return extend_route(pieces, first, last, FREE, sizes, chain)
+    if curve.kind == ON_SPIRAL:
+        return extend_chain(curve.growth, first, last, FREE, sizes, chain)
+    return extend_route(curve.pieces, first, last, FREE, sizes, chain)
 
 
-def place_chain(growth, pieces, place, last, sizes, chain):
+def start(curve, place, chain):
+    """Row 0 of a chain: the head at a place."""
+    if curve.kind == ON_SPIRAL:
+        start_chain(spiral_theta(place / curve.growth), chain)
+    else:
+        start_route(curve.pieces, -place, chain)
+
+
+def place_chain(curve, place, last, sizes, chain):
     """The chain with its head at a place, up to handle `last`; returns last, -1 at a fold."""
-    if pieces.shape[0] == 0:
-        start_chain(spiral_theta(place / growth), chain)
-    else:
-        start_route(pieces, -place, chain)
-    return extend(growth, pieces, 0, last, sizes, chain)
+    start(curve, place, chain)
+    return extend(curve, 0, last, sizes, chain)
 
 
-def chain_rounding(growth, pieces, last, sizes, chain):
+def chain_rounding(curve, last, sizes, chain):
     """Fills in SLIP, ERROR and SWAY of a chain up to handle `last`: what its handles and benches may be off by."""
-    if pieces.shape[0] == 0:
-        spiral_rounding(growth, last, sizes, chain)
+    if curve.kind == ON_SPIRAL:
+        spiral_rounding(curve.growth, last, sizes, chain)
     else:
-        route_rounding(pieces, last, sizes, chain)
+        route_rounding(curve.pieces, last, sizes, chain)
 
 
 def route_tail(pieces, s, benches, sizes, chain):

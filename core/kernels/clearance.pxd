@@ -1,8 +1,9 @@
 cimport cython
 from core.kernels.constants cimport *
-from core.kernels.rectangles cimport pair_gap
+from core.kernels.records cimport Closest, Pair
+from core.kernels.rectangles cimport bench_of, pair_gap, row_separation
 from core.kernels.chain cimport place_chain
-from core.kernels.pairs cimport row_separation
+from core.kernels.scene cimport Scene
 
 cdef Py_ssize_t BLOCK
 
@@ -13,18 +14,23 @@ cdef Py_ssize_t block_boxes(
     Py_ssize_t benches, double[:, ::1] sizes, double[:, ::1] chain, double[:, ::1] boxes
 ) noexcept nogil
 
+cdef bint boxes_apart(Py_ssize_t a, Py_ssize_t b, double within, double[:, ::1] boxes) noexcept nogil
+
+cdef bint beyond_box(
+    Py_ssize_t i, Py_ssize_t b, double within, double[:, ::1] boxes, double[:, ::1] chain
+) noexcept nogil
+
 @cython.locals(j=cython.Py_ssize_t)
-cdef double least_with(
-    Py_ssize_t i, Py_ssize_t first, Py_ssize_t end, double best, double[:, ::1] sizes, double[:, ::1] chain,
-    Py_ssize_t[::1] pair
+cdef Closest least_with(
+    Py_ssize_t i, Py_ssize_t first, Py_ssize_t end, Closest best, double[:, ::1] sizes, double[:, ::1] chain
 ) noexcept nogil
 
 @cython.locals(
-    i=cython.Py_ssize_t, a=cython.Py_ssize_t, b=cython.Py_ssize_t, blocks=cython.Py_ssize_t, first=cython.Py_ssize_t
+    i=cython.Py_ssize_t, a=cython.Py_ssize_t, b=cython.Py_ssize_t, blocks=cython.Py_ssize_t, first=cython.Py_ssize_t,
+    best=Closest
 )
-cdef double row_clearance(
-    double growth, Py_ssize_t active, Py_ssize_t handles, Py_ssize_t statics, double[:, ::1] sizes, double[:, ::1] chain,
-    double[:, ::1] boxes, Py_ssize_t[::1] pair
+cdef Closest row_clearance(
+    Scene scene, Py_ssize_t active, Py_ssize_t handles, double[:, ::1] chain, double[:, ::1] boxes
 ) noexcept nogil
 
 @cython.locals(i=cython.Py_ssize_t, j=cython.Py_ssize_t)
@@ -32,25 +38,28 @@ cpdef double clearance_left(
     Py_ssize_t leaders, Py_ssize_t benches, double[:, ::1] sizes, double[:, ::1] chain, double[::1] moved
 ) noexcept nogil
 
-cpdef double clearance_at(
-    double growth, const double[:, ::1] pieces, double place, Py_ssize_t benches, Py_ssize_t leaders,
-    Py_ssize_t statics, double[:, ::1] sizes, double[:, ::1] chain, double[:, ::1] boxes, Py_ssize_t[::1] pair
+@cython.locals(best=Closest)
+cpdef (double, Py_ssize_t, Py_ssize_t) clearance_at(
+    Scene scene, double place, Py_ssize_t benches, Py_ssize_t leaders, double[:, ::1] chain, double[:, ::1] boxes
 ) noexcept nogil
 
-cpdef double gap_at(
-    double growth, const double[:, ::1] pieces, double place, Py_ssize_t benches, Py_ssize_t a, Py_ssize_t b,
-    double[:, ::1] sizes, double[:, ::1] chain
+cdef Py_ssize_t last_handle(Scene scene, Py_ssize_t a, Py_ssize_t b) noexcept nogil
+
+cpdef double gap_at(Scene scene, double place, Py_ssize_t a, Py_ssize_t b, double[:, ::1] chain) noexcept nogil
+
+cpdef double gap_rate_at(Scene scene, double place, Py_ssize_t a, Py_ssize_t b, double[:, ::1] chain) noexcept nogil
+
+cdef double speed_along(Scene scene, Py_ssize_t k, double x, double y, double[:, ::1] chain) noexcept nogil
+
+cdef double contact_between(
+    Scene scene, double low, double high, Py_ssize_t a, Py_ssize_t b, double width, double[:, ::1] chain
 ) noexcept nogil
 
-@cython.locals(k=cython.Py_ssize_t, side=cython.int)
-cpdef double gap_rate_at(
-    double growth, const double[:, ::1] pieces, double place, Py_ssize_t benches, Py_ssize_t a, Py_ssize_t b,
-    double[:, ::1] sizes, double[:, ::1] chain, double[::1] out
+cpdef double bottom_between(
+    Scene scene, double low, double high, Py_ssize_t a, Py_ssize_t b, double width, double[:, ::1] chain
 ) noexcept nogil
 
 @cython.locals(last=cython.int, i=cython.int)
-cpdef double crossing(
-    double growth, const double[:, ::1] pieces, double place, Py_ssize_t benches, double low, double high,
-    Py_ssize_t a, Py_ssize_t b, double margin, double tolerance, bint of_rate, double[:, ::1] sizes,
-    double[:, ::1] chain, double[::1] out
+cdef double crossing(
+    Scene scene, double low, double high, Pair pair, double width, bint of_rate, double[:, ::1] chain
 ) noexcept nogil

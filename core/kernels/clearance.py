@@ -5,16 +5,13 @@ import cython
 if not cython.compiled:  # for the compiler the same stands in the .pxd
     from core.kernels.chain import place_chain
     from core.kernels.constants import *
-    from core.kernels.pairs import row_separation
-    from core.kernels.rectangles import pair_gap
+    from core.kernels.records import Closest, Pair
+    from core.kernels.rectangles import bench_of, pair_gap, row_separation
 
 
 def row_gap(i, j, sizes, chain):
     """Separation of benches i and j of a chain [m]."""
-    return pair_gap(
-        chain[i, MX], chain[i, MY], chain[i, UX], chain[i, UY], sizes[i, HALF_LENGTH], sizes[i, HALF_WIDTH],
-        chain[j, MX], chain[j, MY], chain[j, UX], chain[j, UY], sizes[j, HALF_LENGTH], sizes[j, HALF_WIDTH],
-    )  # fmt: skip
+    return pair_gap(bench_of(i, sizes, chain), bench_of(j, sizes, chain))
 
 
 # Benches this many in a row share one upright box, so that most of what is far apart is passed over together.
@@ -22,69 +19,76 @@ BLOCK = 8
 
 
 def block_boxes(benches, sizes, chain, boxes):
-    """Box around every block of benches: x from, x to, y from, y to [m]; returns how many there are."""
+    """Box around every block of benches, columns X_LOW to Y_HIGH [m]; returns how many there are."""
     blocks = (benches + BLOCK - 1) // BLOCK
     for block in range(blocks):
-        boxes[block, 0] = boxes[block, 2] = FREE
-        boxes[block, 1] = boxes[block, 3] = -FREE
+        boxes[block, X_LOW] = boxes[block, Y_LOW] = FREE
+        boxes[block, X_HIGH] = boxes[block, Y_HIGH] = -FREE
         for k in range(block * BLOCK, block * BLOCK + BLOCK if block + 1 < blocks else benches):
-            boxes[block, 0] = min(boxes[block, 0], chain[k, MX] - sizes[k, RADIUS])
-            boxes[block, 1] = max(boxes[block, 1], chain[k, MX] + sizes[k, RADIUS])
-            boxes[block, 2] = min(boxes[block, 2], chain[k, MY] - sizes[k, RADIUS])
-            boxes[block, 3] = max(boxes[block, 3], chain[k, MY] + sizes[k, RADIUS])
+            boxes[block, X_LOW] = min(boxes[block, X_LOW], chain[k, MX] - sizes[k, RADIUS])
+            boxes[block, X_HIGH] = max(boxes[block, X_HIGH], chain[k, MX] + sizes[k, RADIUS])
+            boxes[block, Y_LOW] = min(boxes[block, Y_LOW], chain[k, MY] - sizes[k, RADIUS])
+            boxes[block, Y_HIGH] = max(boxes[block, Y_HIGH], chain[k, MY] + sizes[k, RADIUS])
     return blocks
 
 
-def least_with(i, first, end, best, sizes, chain, pair):
-    """The lesser of best and the separations of row i from rows first to end - 1 [m]; the pair, where that is less."""
+def boxes_apart(a, b, within, boxes):
+    """Are the boxes of two blocks further apart than this [m]?"""
+    dx = max(boxes[b, X_LOW] - boxes[a, X_HIGH], boxes[a, X_LOW] - boxes[b, X_HIGH], 0.0)
+    dy = max(boxes[b, Y_LOW] - boxes[a, Y_HIGH], boxes[a, Y_LOW] - boxes[b, Y_HIGH], 0.0)
+    return dx * dx + dy * dy > within * within
+
+
+def beyond_box(i, b, within, boxes, chain):
+    """Is the centre of row i further from the box of a block than this [m]?"""
+    dx = max(boxes[b, X_LOW] - chain[i, MX], chain[i, MX] - boxes[b, X_HIGH], 0.0)
+    dy = max(boxes[b, Y_LOW] - chain[i, MY], chain[i, MY] - boxes[b, Y_HIGH], 0.0)
+    return dx * dx + dy * dy > within * within
+
+
+def least_with(i, first, end, best, sizes, chain):
+    """The closer of `best` and the closest of rows first to end - 1 to row i."""
     for j in range(first, end):
         dx = chain[j, MX] - chain[i, MX]
         dy = chain[j, MY] - chain[i, MY]
-        far = sizes[i, RADIUS] + sizes[j, RADIUS] + max(best, 0.0)
+        far = sizes[i, RADIUS] + sizes[j, RADIUS] + max(best.gap, 0.0)
         if dx * dx + dy * dy <= far * far:
             far = row_gap(i, j, sizes, chain)
-            if far < best:
-                best = far
-                pair[1] = i
-                pair[2] = j
+            if far < best.gap:
+                best = Closest(far, i, j)
     return best
 
 
-def row_clearance(growth, active, handles, statics, sizes, chain, boxes, pair):
-    """Least separation among the pairs led by the first `active` benches, and that pair [m]; FREE without pairs.
+def row_clearance(scene, active, handles, chain, boxes):
+    """Least separation among the pairs led by the first `active` benches, and that pair.
 
-    growth: of the spiral, 0 on a route; boxes: (handles / BLOCK, 4) at least, scratch
+    handles: the last one of the chain; boxes: (handles / BLOCK, BOX_COLUMNS) at least, scratch
     On a spiral radii r grow from handle to handle, and no point of a bench is further in than its r less two of the
     largest half diagonals, nor further out than its rear handle's r and one of them: far enough out all is passed over.
     """
-    best = FREE
-    b = handles + 1 + (statics if statics >= 0 else -statics)
-    for i in range(active):  # the last handle's row holds no bench; after it stand the edges at rest
-        best = least_with(i, handles + 1, b, best, sizes, chain, pair)
-    if statics < 0:
+    best = Closest(FREE, 0, 0)
+    growth = scene.curve.growth
+    if scene.against == EDGES:  # after the last handle's row, which holds no bench
+        for i in range(active):
+            best = least_with(i, handles + 1, handles + 1 + scene.edges, best, scene.sizes, chain)
         return best
     if active > 0:  # a first value to compare with
-        best = least_with(0, 2, handles, best, sizes, chain, pair)
-    blocks = block_boxes(handles, sizes, chain, boxes)
+        best = least_with(0, 2, handles, best, scene.sizes, chain)
+    blocks = block_boxes(handles, scene.sizes, chain, boxes)
     widest = 0.0
     for i in range(handles):
-        widest = max(widest, sizes[i, RADIUS])
+        widest = max(widest, scene.sizes[i, RADIUS])
     for a in range((active + BLOCK - 1) // BLOCK):
         reach = growth * chain[min(a * BLOCK + BLOCK, handles), THETA] + 3.0 * widest
         for b in range(a, blocks):
-            if growth > 0.0 and growth * chain[b * BLOCK, THETA] > reach + max(best, 0.0):
+            if scene.curve.kind == ON_SPIRAL and growth * chain[b * BLOCK, THETA] > reach + max(best.gap, 0.0):
                 break
-            dx = max(boxes[b, 0] - boxes[a, 1], boxes[a, 0] - boxes[b, 1], 0.0)
-            dy = max(boxes[b, 2] - boxes[a, 3], boxes[a, 2] - boxes[b, 3], 0.0)
-            if dx * dx + dy * dy > max(best, 0.0) * max(best, 0.0):
+            if boxes_apart(a, b, max(best.gap, 0.0), boxes):
                 continue
             for i in range(a * BLOCK, min(a * BLOCK + BLOCK, active)):
-                far = sizes[i, RADIUS] + max(best, 0.0)
-                dx = max(boxes[b, 0] - chain[i, MX], chain[i, MX] - boxes[b, 1], 0.0)
-                dy = max(boxes[b, 2] - chain[i, MY], chain[i, MY] - boxes[b, 3], 0.0)
-                if dx * dx + dy * dy <= far * far:
+                if not beyond_box(i, b, scene.sizes[i, RADIUS] + max(best.gap, 0.0), boxes, chain):
                     first = max(i + 2, b * BLOCK)
-                    best = least_with(i, first, min(b * BLOCK + BLOCK, handles), best, sizes, chain, pair)
+                    best = least_with(i, first, min(b * BLOCK + BLOCK, handles), best, scene.sizes, chain)
     return best
 
 
@@ -104,75 +108,92 @@ def clearance_left(leaders, benches, sizes, chain, moved):
     return best
 
 
-def clearance_at(growth, pieces, place, benches, leaders, statics, sizes, chain, boxes, pair):
-    """Clearance with the head at a place over all pairs led by the first `leaders` benches [m]; the pair in pair[1],
-    pair[2]; FREE without pairs.
+def clearance_at(scene, place, benches, leaders, chain, boxes):
+    """Clearance with the head at a place over all pairs led by the first `leaders` benches [m], and the pair; FREE
+    without pairs, or where the chain folds.
 
-    chain: (n + 1, CHAIN_COLUMNS), boxes: (n / BLOCK, 4) scratch; pair[0]: the last handle placed, -1 if the chain folds
+    benches: how many are laid out; chain, boxes: scratch
     """
-    pair[0] = place_chain(growth, pieces, place, benches, sizes, chain)
-    if pair[0] < 0:
+    if place_chain(scene.curve, place, benches, scene.sizes, chain) < 0:
+        return FREE, 0, 0
+    best = row_clearance(scene, leaders, benches, chain, boxes)
+    return best.gap, best.first, best.second
+
+
+def last_handle(scene, a, b):
+    """How far a chain must be laid out for benches a and b, or for bench a and the edge at rest in row b."""
+    return b + 1 if b < scene.room else a + 1
+
+
+def gap_at(scene, place, a, b, chain):
+    """Separation of bench a and bench, or edge at rest, b with the head at a place [m]; FREE if the chain folds."""
+    if place_chain(scene.curve, place, last_handle(scene, a, b), scene.sizes, chain) < 0:
         return FREE
-    return row_clearance(growth if pieces.shape[0] == 0 else 0.0, leaders, benches, statics, sizes, chain, boxes, pair)
+    return row_gap(a, b, scene.sizes, chain)
 
 
-def gap_at(growth, pieces, place, benches, a, b, sizes, chain):
-    """Separation of bench a and bench (or, beyond the last handle's row, edge at rest) b with the head at a place [m].
-
-    FREE if the chain folds.
-    """
-    if place_chain(growth, pieces, place, b + 1 if b < benches else a + 1, sizes, chain) < 0:
-        return FREE
-    return row_gap(a, b, sizes, chain)
-
-
-def gap_rate_at(growth, pieces, place, benches, a, b, sizes, chain, out):
+def gap_rate_at(scene, place, a, b, chain):
     """How fast benches a and b part per metre of head travel: normal . (velocity of witness b - of witness a) [1].
 
     A bench moves with its handles: its centre by their mean, and it turns at omega = u x (a' T_a - b' T_b) / chord.
     """
-    rate = 0.0
-    if gap_at(growth, pieces, place, benches, a, b, sizes, chain) >= FREE:
+    if gap_at(scene, place, a, b, chain) >= FREE:
         return 0.0
-    row_separation(a, b, sizes, chain, out)
-    for side in range(2):
-        k = b if side else a
-        if k > benches:
-            continue
-        vx = chain[k, RATE] * chain[k, TX] - chain[k + 1, RATE] * chain[k + 1, TX]
-        vy = chain[k, RATE] * chain[k, TY] - chain[k + 1, RATE] * chain[k + 1, TY]
-        omega = (chain[k, UX] * vy - chain[k, UY] * vx) / sizes[k, CHORD]
-        vx = 0.5 * (chain[k, RATE] * chain[k, TX] + chain[k + 1, RATE] * chain[k + 1, TX])
-        vy = 0.5 * (chain[k, RATE] * chain[k, TY] + chain[k + 1, RATE] * chain[k + 1, TY])
-        vx -= omega * (out[2 + 2 * side] - chain[k, MY])
-        vy += omega * (out[1 + 2 * side] - chain[k, MX])
-        rate += (2 * side - 1) * (out[5] * vx + out[6] * vy)
+    row_separation(a, b, scene.sizes, chain, scene.met)
+    rate = -speed_along(scene, a, scene.met.ax, scene.met.ay, chain)
+    if b < scene.room:
+        rate += speed_along(scene, b, scene.met.bx, scene.met.by, chain)
     return rate
 
 
-def crossing(growth, pieces, place, benches, low, high, a, b, margin, tolerance, of_rate, sizes, chain, out):
-    """Head travel from a place, in [low, high], at which benches a, b come within the margin, or (of_rate) stop
-    approaching [m].
+def speed_along(scene, k, x, y, chain):
+    """How fast a point of bench k moves along the normal of the pair last met, per metre of head travel [1]."""
+    vx = chain[k, RATE] * chain[k, TX] - chain[k + 1, RATE] * chain[k + 1, TX]
+    vy = chain[k, RATE] * chain[k, TY] - chain[k + 1, RATE] * chain[k + 1, TY]
+    omega = (chain[k, UX] * vy - chain[k, UY] * vx) / scene.sizes[k, CHORD]
+    vx = 0.5 * (chain[k, RATE] * chain[k, TX] + chain[k + 1, RATE] * chain[k + 1, TX])
+    vy = 0.5 * (chain[k, RATE] * chain[k, TY] + chain[k + 1, RATE] * chain[k + 1, TY])
+    vx -= omega * (y - chain[k, MY])
+    vy += omega * (x - chain[k, MX])
+    return scene.met.nx * vx + scene.met.ny * vy
 
-    The Illinois form of the false position with a bisection now and then, until the bracket is below the tolerance;
-    its later end. Apart (approaching) at low and within the margin (parting) at high.
+
+def contact_between(scene, low, high, a, b, width, chain):
+    """Head travel in [low, high] at which benches a, b come within the margin [m]: apart at low, within it at high."""
+    return crossing(scene, low, high, Pair(a, b), width, False, chain)
+
+
+def bottom_between(scene, low, high, a, b, width, chain):
+    """Head travel in [low, high] at which benches a, b stop approaching [m]: approaching at low, parting at high."""
+    return crossing(scene, low, high, Pair(a, b), width, True, chain)
+
+
+# Input:  a bracket [low, high] of travels, and a function that is positive at low and negative at high.
+# State:  the bracket; above and below, the function at its ends, halved where an end stays; `last`, which end moved.
+# Output: the later end of a bracket no wider than `width`.
+
+
+def crossing(scene, low, high, pair, width, of_rate, chain):
+    """Where the gap of a pair less the margin, or (of_rate) the rate at which it closes, falls to 0 [m].
+
+    The Illinois form of the false position with a bisection now and then.
     """
     above = 1.0
     below = -1.0
     last = 0
     if not of_rate:
-        above = gap_at(growth, pieces, place - low, benches, a, b, sizes, chain) - margin
-        below = gap_at(growth, pieces, place - high, benches, a, b, sizes, chain) - margin
+        above = gap_at(scene, scene.place - low, pair.first, pair.second, chain) - scene.margin
+        below = gap_at(scene, scene.place - high, pair.first, pair.second, chain) - scene.margin
     for i in range(100):
-        if high - low <= tolerance:
+        if high - low <= width:
             break
         middle = low + (high - low) * above / (above - below)
         if not (low < middle < high) or i % 4 == 3:
             middle = 0.5 * (low + high)
         if of_rate:
-            value = -gap_rate_at(growth, pieces, place - middle, benches, a, b, sizes, chain, out)
+            value = -gap_rate_at(scene, scene.place - middle, pair.first, pair.second, chain)
         else:
-            value = gap_at(growth, pieces, place - middle, benches, a, b, sizes, chain) - margin
+            value = gap_at(scene, scene.place - middle, pair.first, pair.second, chain) - scene.margin
         if value > 0.0:
             low = middle
             above = value

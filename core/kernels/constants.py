@@ -76,6 +76,44 @@ HALF_WIDTH = 2
 RADIUS = 3
 SIZE_COLUMNS = 4
 
+# Columns of a frame, which is a rectangle in the plane: its centre [m], the unit vector along it, half its size [m].
+FRAME_X = 0
+FRAME_Y = 1
+FRAME_UX = 2
+FRAME_UY = 3
+FRAME_HALF_LENGTH = 4
+FRAME_HALF_WIDTH = 5
+FRAME_COLUMNS = 6
+
+# Columns of the separation of two rectangles a and b [m]: with its witnesses, the normal from a to b, and features.
+SEPARATION = 0
+WITNESS_AX = 1
+WITNESS_AY = 2
+WITNESS_BX = 3
+WITNESS_BY = 4
+NORMAL_X = 5
+NORMAL_Y = 6
+FEATURE_A = 7
+FEATURE_B = 8
+SEPARATION_COLUMNS = 9
+
+# Features of a rectangle: its corners, then its edges.
+FRONT_LEFT = 0
+FRONT_RIGHT = 1
+REAR_RIGHT = 2
+REAR_LEFT = 3
+FRONT = 4
+RIGHT = 5
+REAR = 6
+LEFT = 7
+
+# Columns of an upright box [m].
+X_LOW = 0
+Y_LOW = 1
+X_HIGH = 2
+Y_HIGH = 3
+BOX_COLUMNS = 4
+
 # The chord lemma serves up to this curvature chord / 2; beyond it the angles are followed [1].
 BEND_LIMIT = 0.97
 # The same on a route, where the cosines of the angles are followed too: at 1 a chord is the diameter of its bend and
@@ -85,20 +123,38 @@ ROUTE_BEND_LIMIT = 0.999
 # Larger than any step or distance, and so is its square no overflow [m].
 FREE = 1e150
 
-# A route is a table of pieces joined by arc length s. One row a piece, curvature counter-clockwise positive:
-#   KIND, S_START, S_END, curvature at both ends, then
-#   line   x, y, dx, dy                     at S_START, unit direction
-#   arc    centre x, y, radius, angle, sign  angle at S_START, sign + counter-clockwise
-#   spiral centre x, y, growth, rotation, sign, arc   sign + outwards, arc length from its centre at S_START
-#   cubic  x0..x3, y0..y3, end              r(t) = sum of c_k t^k for t in [0, end], its curvature monotonic
-#   crest  the same for a cubic with a crest of curvature in it: in place of both ends lower and upper bounds
-# K_SLOPE, PART and, the same in every row, how near a smooth path runs: LOOSE, BENT.
+# A route is a table of pieces joined by arc length s. One row a piece, curvature counter-clockwise positive.
 # The first piece also serves before S_START and the last one after S_END.
 PIECE_KIND = 0
 S_START = 1
 S_END = 2
 K_START = 3
-K_END = 4
+K_END = 4  # on a crest K_START and K_END are a lower and an upper bound instead
+# and, on a line, its point at S_START [m] and its unit direction,
+LINE_X = 5
+LINE_Y = 6
+LINE_DX = 7
+LINE_DY = 8
+# on an arc and on a spiral its centre [m]
+CENTRE_X = 5
+CENTRE_Y = 6
+ARC_RADIUS = 7  # [m]
+ARC_ANGLE = 8  # at S_START [rad]
+SIGN = 9  # 1 for an arc that runs counter-clockwise and a spiral that runs outwards, else -1
+COIL_GROWTH = 7  # [m/rad]
+COIL_ROTATION = 8  # of the whole spiral [rad]
+COIL_ARC = 10  # arc length from its centre at S_START [m]
+# and on a cubic the coefficients of r(t) = sum of c_k t^k for t in [0, T_END] [m]. A cubic has a monotonic curvature,
+# a crest is a cubic with a crest of curvature in it.
+X0 = 5
+X1 = 6
+X2 = 7
+X3 = 8
+Y0 = 9
+Y1 = 10
+Y2 = 11
+Y3 = 12
+T_END = 13
 K_SLOPE = 14  # bound on |d curvature / d s| [1/m^2]
 PART = 15  # within a part of the route curvature has no jump
 # Pieces that miss each other are led together within so much of their joint [m].
@@ -112,7 +168,25 @@ SPIRAL = 2
 CREST = 4
 PIECE_KINDS = ("line", "arc", "spiral", "cubic", "crest")
 
-# How march() ended.
+# Columns of a point of a route besides PX to TY: its curvature [1/m].
+POINT_CURVATURE = 4
+POINT_COLUMNS = 5
+# By how much a piece misses the one before it: across and along the path [m], in direction [rad], in curvature [1/m].
+MISS_ACROSS = 0
+MISS_ALONG = 1
+MISS_KINK = 2
+MISS_STEP = 3
+MISS_COLUMNS = 4
+
+# What kind of path a curve is.
+ON_SPIRAL = 0
+ON_ROUTE = 1
+
+# What the benches of a scene are kept apart from: each other, or edges at rest.
+BENCHES = 0
+EDGES = 1
+
+# How a march ended.
 REACHED = 0
 TOUCHED = 1
 TOUCHED_AT_START = 2
@@ -120,61 +194,23 @@ STUCK = 3
 CAPACITY = 4
 TURNED = 5
 MARCH_STATES = ("reached", "touched", "touched_at_start", "stuck", "capacity", "turned")
+# And how one of its steps did, where the march goes on.
+ADVANCED = 6
+REFUSED = 7
 
-# Entries of the ring array: what is known of all benches that can be the outer one of a pair [m].
-RING_CLEAR = 0  # no pair whose inner bench leads at this radius or more can touch
-RING_CHORD = 1  # longest chord
-RING_SHORT = 2  # shortest chord
-RING_OVERHANG = 3
-RING_HALF_WIDTH = 4
-# and of all benches
-ALL_CHORD = 5
-ALL_OVERHANG = 6
-ALL_HALF_WIDTH = 7
-ALL_SHORT = 8  # shortest chord
-ALL_RADIUS = 9  # largest half diagonal
-# and a pair that a march leaves out, -1 for none
-LEFT_OUT = 10
-LEFT_OUT_TOO = 11
-# on a route: no two benches of which the leading one's front handle stands at this place or further back can touch
-RING_PLACE = 12
-# and once a body repeats itself, nothing touches while the head is beyond this place
-RING_END = 13
-RING_ENTRIES = 14
+# How a search for the first excess ended.
+KEPT = 0
+EXCEEDED = 1
+GIVEN_UP = 2
 
 # A bound that holds from a radius or a place on is used only beyond it, by this part of the radius [1] or by this
 # along a route [m]: more than handles are off by, which is checked where it is used.
 CLEAR_SPARE = 1e-9
 PLACE_SPARE = 1e-6
 
-# Entries of march()'s result.
-PROVEN = 0  # nothing touches up to here [m of head travel]
-TOUCHING = 1  # a pair is within the margin here
-FIRST = 2
-SECOND = 3
-STEPS = 4
-BEND = 5
-GRAZE_GAP = 6  # the least local minimum of the clearance on the way [m], FREE if none
-GRAZE_TRAVEL = 7
-GRAZE_FIRST = 8
-GRAZE_SECOND = 9
-WORK = 10  # what was done: STEP_WORK a step, 1 a handle placed, 1 a pair tried, see march() and strip()
-MARCH_ENTRIES = 11
-MARCH_FIELDS = (
-    "proven",
-    "touching",
-    "first",
-    "second",
-    "steps",
-    "bend",
-    "graze_gap",
-    "graze_travel",
-    "graze_first",
-    "graze_second",
-    "work",
-)
-# A step of march() takes 0.5 us besides 0.14 us a handle and 0.10 us a pair, on routes up to 0.4 us (2026-11-21): so
-# much work, of which handles and pairs are the unit [1]. Of so many edges at rest that are far one is tried in 0.14 us.
+# Work is counted in handles placed and pairs tried [1]. A step of a march takes 0.5 us besides 0.14 us a handle and
+# 0.10 us a pair, on routes up to 0.4 us (2026-11-21): so much work. Of so many edges at rest that are far one is tried
+# in 0.14 us.
 STEP_WORK = 5.0
 EDGES_PER_WORK = 64.0
 

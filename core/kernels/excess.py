@@ -3,9 +3,8 @@
 import cython
 
 if not cython.compiled:  # for the compiler the same stands in the .pxd
-    from core.kernels.chain import extend
     from core.kernels.constants import *
-    from core.kernels.speed import certain_rate, lively_chain, rate_bound
+    from core.kernels.speed import certain_rate, lay_ahead, lively_chain, rate_bound
 
 
 # Input:  a run from start to stop, and the limit of every |rate|.
@@ -22,66 +21,74 @@ if not cython.compiled:  # for the compiler the same stands in the .pxd
 # lies in the step whatever its end is off by, and there the limit is exceeded for certain (certain_rate()).
 
 
-def first_excess(
-    growth, pieces, place, start, stop, step, limit, kept, width, rounding, budget, benches, calm, sizes, rows, motion,
-    out
-):  # fmt: skip
-    """The first travel in [start, stop] at which a |rate| exceeds the limit.
+class Excess:
+    """The first travel in a run at which a |rate| exceeds a limit.
 
-    step: the first one tried [m]; rounding: what a travel may be off by [m]; budget: links followed before the search
-    gives up; calm: as in speed.lively_chain()
-    out: (5,) outcome (0 kept, 1 exceeded, 2 stuck), proven up to [m], found at [m], handle, its rate
+    interval: of a scene with room for all benches; calm: as in speed.lively_chain()
+    proven: no |rate| exceeds the limit that counts as the same before this travel [m]; found: one does there [m], or
+        the end of the run; handle, rate: that handle and its rate
     """
-    before: cython.double[:, ::1] = rows[0]
-    after: cython.double[:, ::1] = rows[1]
-    travel = start - rounding
-    end = stop + rounding
-    h = 2.0 * rounding
-    links = 0
-    with cython.nogil:
-        if pieces.shape[0] == 0 and end > place:  # no further than the centre
-            end = max(stop, place)
-        out[0] = 0.0
-        out[2] = stop
-        out[3] = 0.0
-        out[4] = 0.0
-        placed = lively_chain(growth, pieces, place - travel, benches, calm, sizes, before)
-        while travel < end:
-            if h > end - travel:
-                h = end - travel
-            upper = FREE
-            rate = 1.0
-            k = 0
-            handles = lively_chain(growth, pieces, place - travel - h, benches, calm, sizes, after)
-            if handles >= 0:
-                links += handles
-                if 0 <= placed < handles:
-                    placed = extend(growth, pieces, placed, handles, sizes, before)
-                if placed >= 0:
-                    upper = rate_bound(
-                        growth, pieces, h, rounding, handles, benches, calm, sizes, before, after, motion
-                    )
-                    if upper < FREE:
-                        rate, k = certain_rate(pieces, rounding, handles, after, motion)
-            links += 1
-            if links > budget:
-                out[0] = 2.0
-                break
-            if upper > limit and h > width:
-                h *= 0.5
-                continue
-            if rate > limit:
-                out[0] = 1.0
-                out[2] = min(max(travel + h - rounding, start), stop)
-                out[3] = k
-                out[4] = rate
-                break
-            if upper > kept:
-                out[0] = 2.0
-                break
-            placed = handles
-            before, after = after, before
-            opened = travel < start
-            travel += h
-            h = step if opened else 1.5 * h
-        out[1] = min(max(travel - rounding, start), stop)
+
+    def __init__(self, interval, calm):
+        self.interval = interval
+        self.calm = calm
+        self.proven = self.found = self.rate = 0.0
+        self.handle = 0
+
+    def run(self, start, stop, step, limit, kept, width, rounding, budget):
+        """Look for it from start to stop [m of head travel]; how that ended: KEPT, EXCEEDED or GIVEN_UP.
+
+        step: the first one tried [m]; limit, kept, width: see above; rounding: what a travel may be off by [m];
+        budget: links followed before the search gives up
+        """
+        scene = self.interval.scene
+        travel = start - rounding
+        end = stop + rounding
+        h = 2.0 * rounding
+        links = 0
+        outcome = KEPT
+        self.found = stop
+        self.handle = 0
+        self.rate = 0.0
+        with cython.nogil:
+            if scene.curve.kind == ON_SPIRAL and end > scene.place:  # no further than the centre
+                end = max(stop, scene.place)
+            placed = lively_chain(
+                scene.curve, scene.place - travel, scene.benches, self.calm, scene.sizes, self.interval.before
+            )
+            while travel < end:
+                h = min(h, end - travel)
+                upper = FREE
+                rate = 1.0
+                k = 0
+                placed = lay_ahead(scene, self.interval, self.calm, placed, scene.place - travel - h)
+                if self.interval.handles >= 0:
+                    links += self.interval.handles
+                    if placed >= 0:
+                        self.interval.widen(h, rounding)
+                        upper = rate_bound(scene, self.interval, self.calm)
+                        if upper < FREE:
+                            rate, k = certain_rate(scene.curve, self.interval, rounding)
+                links += 1
+                if links > budget:
+                    outcome = GIVEN_UP
+                    break
+                if upper > limit and h > width:
+                    h *= 0.5
+                    continue
+                if rate > limit:
+                    outcome = EXCEEDED
+                    self.found = min(max(travel + h - rounding, start), stop)
+                    self.handle = k
+                    self.rate = rate
+                    break
+                if upper > kept:
+                    outcome = GIVEN_UP
+                    break
+                placed = self.interval.handles
+                self.interval.swap()
+                opened = travel < start
+                travel += h
+                h = step if opened else 1.5 * h
+        self.proven = min(max(travel - rounding, start), stop)
+        return outcome

@@ -6,20 +6,22 @@ from cython.cimports.libc.math import fabs
 if not cython.compiled:  # for the compiler the same stands in the .pxd
     from core.kernels.bounds import followed_error
     from core.kernels.chain import chain_rounding, extend
-    from core.kernels.clearance import crossing, gap_at, row_clearance, row_gap
+    from core.kernels.clearance import bottom_between, contact_between, gap_at, row_clearance, row_gap
     from core.kernels.constants import *
     from core.kernels.pairs import interval_least, pair_most
+    from core.kernels.records import Closest, Laid, Nearest
     from core.kernels.rings import coil_place, coil_radius, coil_reach, drift, leaders_reach, radius_beyond
     from core.kernels.route import extend_route, stands_first, start_route
     from core.kernels.spiral import extend_chain, spiral_curvature, spiral_theta, start_chain
 
 # March.
 #
-# Input. A chain for every head travel (growth or pieces, place, sizes), the margin, start and stop, which pairs must be
-# followed (leaders, at_start, statics), the ring bound (ring), and how near a contact is to be bracketed (tolerance).
-# State. `travel`; `before` and `after`, the chains at travel and at travel + h, of all handles that matter there;
-# h, the step to try; `target`, the crossing that this step stops short of, -1 for none.
-# Output. One of five ends, and in out what is known then.
+# Input. A scene: a chain for every head travel, the margin, the bounds on rings; start and stop; which pairs must be
+# followed (leaders, at_start); and how near a contact is to be bracketed (tolerance).
+# State. `travel`; the interval with the chains at travel and at travel + h, of all handles that matter there; h, the
+# step to try; `target`, the crossing that this step stops short of, -1 for none (one before travel 0 is bracketed by
+# the step after it); `opening`, the chain at the start.
+# Output. One of five ends, and what is known then: see March.
 #
 # Invariant, whenever the loop begins: no two benches that share no handle come within the margin in [start, travel].
 # 1. A step is taken only if interval_least() leaves more than the margin, rounding allowed for, for every pair led by
@@ -27,7 +29,7 @@ if not cython.compiled:  # for the compiler the same stands in the .pxd
 # two ends a gap along an axis cannot fall further below its chord than K x (h - x) / 2, with K bounded over the very
 # interval (bounds.py). So a graze cannot be stepped over: a dip within the interval that reached the margin would need
 # a larger second derivative. Where the bound does not reach, the step is shortened, never taken.
-# 2. Of the other pairs, those whose inner bench leads at ring[RING_CLEAR] or further out are clear by the ring bound,
+# 2. Of the other pairs, those whose inner bench leads at clear_radius or further out are clear by the ring bound,
 # and those whose outer bench stands beyond radius_beyond(leaders_reach()) lie outside all that the leaders can touch
 # over the interval, which interval_least() checks with the handles' drift (rings.py). On a route all handles are laid
 # out.
@@ -52,15 +54,15 @@ if not cython.compiled:  # for the compiler the same stands in the .pxd
 # `target` up to there (or, where steps are short already, up to PEEK on) where its gap falls to the margin. The next
 # step ends at target - tolerance. If it is proven, for all pairs, and the pair is within the margin for certain around
 # target + tolerance, for all true travels within `rounding` of it (pair_most()), the first contact of all lies between:
-# PROVEN = travel, TOUCHING = target + tolerance. If travel is beyond target - tolerance already, the second condition
+# proven = travel, touching = target + tolerance. If travel is beyond target - tolerance already, the second condition
 # suffices. An earlier crossing, of this pair or another, makes the step fail and is found instead. Without a bracket
-# (tolerance <= 0) TOUCHING is the far end itself, if it is certain.
+# (tolerance 0) touching is the far end itself, if it is certain.
 # TOUCHED_AT_START: the nearest pair is within the margin at the start, for certain. Where rounding hides that: STUCK.
 # STUCK: h is below what could help (LEAST_STEP of the bracket, or rounding), the budget is spent, or the chain folds at
-# the start. PROVEN = travel still holds. TOUCHING >= 0 is a crossing that could not be bracketed this narrowly, a
-# pair that closes slowly: a wider bracket may do. -1: none was found.
+# the start. proven = travel still holds. touching is then a crossing that could not be bracketed this narrowly, a
+# pair that closes slowly: a wider bracket may do. FREE: none was found.
 # CAPACITY: more handles matter than there are rows; nothing is claimed.
-# GRAZE_...: what was seen on the way, refined but not proven to be the least.
+# graze_...: what was seen on the way, refined but not proven to be the least.
 
 # Width to which the place of a graze is found [m]: 1e-10 s at 1 m/s.
 DIP_WIDTH = 1e-10
@@ -70,8 +72,6 @@ LEAST_STEP = 0.05
 LEAST_WAY = 1e-7
 # The chain is laid out so many drifts further than the pose needs; if that is too little the step is halved [1].
 ALLOWANCE = 2.0
-# Widths are widened by this part of them, for the roundings of what a step computes once [1].
-WIDTH_ROUNDING = 1e-12
 # How far ahead a contact is looked for whose beginning rounding hides [m]: the widest bracket of
 # core/contact/search.py, twice.
 PEEK = 1e-4
@@ -83,42 +83,43 @@ PASSED_BY = 1e-9
 CROSSING_WIDTH = 1e-3
 
 
-def chain_between(growth, pieces, place, leaders, benches, margin, allowance, turning, ring, sizes, chain, found):
-    """The chain for a head at a place as far as its leading benches can touch; the last handle's index, -1 at a fold.
+def chain_between(scene, place, leaders, allowance, turning, chain):
+    """The chain for a head at a place as far as its leading benches can touch, and how many of them can.
 
-    found[0] = how many benches can be the inner one of a touching pair
-    allowance: extra radius for what moves during an interval [m], for those too if they are `turning`
+    allowance: extra radius for what moves during an interval [m], for those that lead too if they are `turning`
     """
-    if pieces.shape[0] > 0:
-        return route_between(pieces, place, leaders, benches, margin, allowance, ring, sizes, chain, found)
+    if scene.curve.kind == ON_ROUTE:
+        return route_between(scene, place, leaders, allowance, chain)
+    growth = scene.curve.growth
     theta = spiral_theta(place / growth)
     start_chain(theta, chain)
-    k = extend_chain(growth, 0, leaders, ring[RING_CLEAR] + (allowance if turning else 0.0), sizes, chain)
-    found[0] = k
+    clear = scene.rings.clear_radius + (allowance if turning else 0.0)
+    k = extend_chain(growth, 0, leaders, clear, scene.sizes, chain)
     if k <= 0:
-        return k
-    radius = leaders_reach(growth, growth * theta, growth * chain[k, THETA] + allowance, ring)
-    return extend_chain(growth, k, benches, radius_beyond(growth, radius + margin, ring) + allowance, sizes, chain)
+        return Laid(k, k)
+    radius = leaders_reach(growth, growth * theta, growth * chain[k, THETA] + allowance, scene.rings)
+    radius = radius_beyond(growth, radius + scene.margin, scene.rings) + allowance
+    return Laid(extend_chain(growth, k, scene.room, radius, scene.sizes, chain), k)
 
 
-def route_between(pieces, place, leaders, benches, margin, allowance, ring, sizes, chain, found):
+def route_between(scene, place, leaders, allowance, chain):
     """chain_between() on a route: as far as rings.py says where it begins with a coil inwards, else all benches."""
-    start_route(pieces, -place, chain)
-    k = leaders
-    if ring[RING_PLACE] < FREE:
-        k = extend_route(pieces, 0, leaders, ring[RING_PLACE], sizes, chain)
-    found[0] = k
-    if ring[RING_PLACE] >= FREE:
-        return extend_route(pieces, 0, benches, FREE, sizes, chain)
-    if k == 0:
-        return 0
-    radius = radius_beyond(pieces[0, 7], coil_reach(pieces, k, sizes, chain) + margin + allowance, ring) + allowance
-    k = extend_route(pieces, k, benches, coil_place(pieces, radius), sizes, chain)
-    while k < benches and (  # a handle within rounding of that place
-        not stands_first(pieces, k, chain) or coil_radius(pieces, chain[k, PX], chain[k, PY]) < radius
+    start_route(scene.curve.pieces, -place, chain)
+    if scene.rings.clear_place >= FREE:
+        return Laid(extend_route(scene.curve.pieces, 0, scene.room, FREE, scene.sizes, chain), leaders)
+    leading = extend_route(scene.curve.pieces, 0, leaders, scene.rings.clear_place, scene.sizes, chain)
+    if leading == 0:
+        return Laid(0, 0)
+    radius = coil_reach(scene.curve.pieces, leading, scene.sizes, chain) + scene.margin + allowance
+    radius = radius_beyond(scene.curve.pieces[0, COIL_GROWTH], radius, scene.rings) + allowance
+    until = coil_place(scene.curve.pieces, radius)
+    k = extend_route(scene.curve.pieces, leading, scene.room, until, scene.sizes, chain)
+    while k < scene.room and (  # a handle within rounding of that place
+        not stands_first(scene.curve.pieces, k, chain)
+        or coil_radius(scene.curve.pieces, chain[k, PX], chain[k, PY]) < radius
     ):
-        k = extend_route(pieces, k, k + 1, FREE, sizes, chain)
-    return k
+        k = extend_route(scene.curve.pieces, k, k + 1, FREE, scene.sizes, chain)
+    return Laid(k, leading)
 
 
 # The family lemma. Let m be the first of the benches that are alike to the tail (`leaders` = m + 1), and let place_i(t)
@@ -142,17 +143,17 @@ def route_between(pieces, place, leaders, benches, margin, allowance, ring, size
 # (route.py). On a spiral a handle turns back where the link before it stands across the path, near the fold: while one
 # may stand behind its start (slid_back()), all pairs are followed again.
 #
-# Bench i leads no pair that may touch while place_i >= clear, RING_PLACE on a route, RING_CLEAR / growth on a spiral.
-# So with `opened` the first bench that started there, benches behind it need neither of the two: x < clear lies before
-# place_opened(start), and the benches m to `opened` cover that by passed() alone. (With m >= opened bench m itself
-# covers all from clear on.) chain_between() leaves out those benches at the far end of every step. Where handles only
-# go forward they have been out there all along it; one that may turn back is kept among the leaders while it is within
-# a drift of RING_CLEAR (`turning`).
+# Bench i leads no pair that may touch while place_i >= clear, which is clear_place on a route and clear_radius / growth
+# on a spiral. So with `opened` the first bench that started there, benches behind it need neither of the two: x < clear
+# lies before place_opened(start), and the benches m to `opened` cover that by passed() alone. (With m >= opened bench m
+# itself covers all from clear on.) chain_between() leaves out those benches at the far end of every step. Where handles
+# only go forward they have been out there all along it; one that may turn back is kept among the leaders while it is
+# within a drift of clear_radius (`turning`).
 #
 # With edges at rest in place of the second bench the same holds of g(place_i), the separation of a bench and an edge.
 
 
-def passed(growth, pieces, first, last, placed, sizes, opening, chain):
+def passed(scene, first, last, placed, opening, chain):
     """Has every handle from `first` to `last` passed where its predecessor began, by more than rounding?
 
     A handle that is SLIP from its true place along a spiral is off by SLIP / growth in theta at most.
@@ -160,11 +161,12 @@ def passed(growth, pieces, first, last, placed, sizes, opening, chain):
     for i in range(first, last + 1):
         if i > placed or chain[i, THETA] + PASSED_BY * (1.0 + fabs(chain[i, THETA])) > opening[i - 1, THETA]:
             return False
-    chain_rounding(growth, pieces, last, sizes, opening)
+    chain_rounding(scene.curve, last, scene.sizes, opening)
     if first <= last:
-        chain_rounding(growth, pieces, last, sizes, chain)
+        chain_rounding(scene.curve, last, scene.sizes, chain)
     for i in range(first, last + 1):
-        if chain[i, THETA] + (chain[i, SLIP] + opening[i - 1, SLIP]) / growth > opening[i - 1, THETA]:
+        slip = (chain[i, SLIP] + opening[i - 1, SLIP]) / scene.curve.growth
+        if chain[i, THETA] + slip > opening[i - 1, THETA]:
             return False
     return True
 
@@ -188,308 +190,278 @@ def may_turn(k, h, sizes, before, after, motion):
     return turns_back(k, h, error, before, after, motion)
 
 
-def slid_back(growth, first, last, placed, h, ring, sizes, opening, before, after, motion):
+def slid_back(scene, interval, first, last, opening):
     """May a handle of a spiral from `first` to before `last` have stood behind its own start during an interval?
 
     Behind the last handle placed every other moves in the direction of its leader, where links bend no more than the
     chord lemma asks (bounds.py): then what holds of that one holds of them. Radii are off by less than SLIP, and by
     less than PASSED_BY of 1 + theta where no handle is followed.
     """
+    growth = scene.curve.growth
+    placed = interval.handles
     error = 0.0
     for k in range(min(last, placed + 1)):
-        if k > 0 and motion[k, RATE_LOW] <= 0.0:
-            error = followed_error(k, error, sizes, before, after)
+        followed = interval.motion[k, RATE_LOW] <= 0.0
+        if k > 0 and followed:
+            error = followed_error(k, error, scene.sizes, interval.before, interval.after)
         if k < first and k < placed:
             continue
-        low = growth * max(before[k, THETA], after[k, THETA])
+        low = growth * max(interval.before[k, THETA], interval.after[k, THETA])
         low += PASSED_BY * (growth + low) + opening[k, SLIP]
-        if motion[k, RATE_LOW] <= 0.0:
-            low += max(before[k, SLIP], after[k, SLIP])
-        if k > 0 and turns_back(k, h, error, before, after, motion):
-            low += drift(motion[k - 1, HANDLE_SPEED], h, growth, low)
+        if followed:
+            low += max(interval.before[k, SLIP], interval.after[k, SLIP])
+        if k > 0 and turns_back(k, interval.h, error, interval.before, interval.after, interval.motion):
+            low += drift(interval.motion[k - 1, HANDLE_SPEED], interval.h, growth, low)
         if low > growth * opening[k, THETA]:
             return True
-    low = min(before[placed, THETA], after[placed, THETA])
-    low -= drift(motion[placed - 1, HANDLE_SPEED], h, growth, growth * low) / growth
-    return placed + 1 < last and 0.5 * spiral_curvature(low) * ring[ALL_CHORD] > BEND_LIMIT * growth
+    low = min(interval.before[placed, THETA], interval.after[placed, THETA])
+    low -= drift(interval.motion[placed - 1, HANDLE_SPEED], interval.h, growth, growth * low) / growth
+    return placed + 1 < last and 0.5 * spiral_curvature(low) * scene.rings.all_chord > BEND_LIMIT * growth
 
 
-def march(
-    growth,
-    pieces,
-    place,
-    start,
-    stop,
-    leaders,
-    at_start,
-    margin,
-    tolerance,
-    rounding,
-    budget,
-    benches,
-    statics,
-    ring,
-    sizes,
-    rows,
-    motion,
-    pair,
-    out,
-):
-    """Advance the head from `start` to `stop` [m of travel] by proven steps, until a pair comes within the margin.
+class March:
+    """The head of a scene, marched by proven steps until a pair comes within the margin: see the top of this file.
 
-    place: at travel 0, see chain.py [m]; leaders: benches whose pairs must be followed; at_start: follow all pairs
-    until every bench has passed the start of the one before it; tolerance: half width of the bracket around a
-    contact [m], 0 or less for none: to end at any instant found to be within the margin, and with 0 without looking
-    for grazes; rounding: what a travel may be off by [m]; budget: of WORK; benches: n; statics: edges at rest in the
-    rows after the last handle's, on a route only; negative: these alone, without pairs of benches
-    sizes: (R - 1, SIZE_COLUMNS) at least; rows: (4, R, CHAIN_COLUMNS), motion: (R, MOTION_COLUMNS) scratch; out:
-        (MARCH_ENTRIES,)
-    returns: REACHED, TOUCHED, TOUCHED_AT_START, STUCK (budget spent or interval at rounding) or CAPACITY (R too small)
+    interval: the chains of a step; probe: an interval to look at a pair alone; opening: rows for the chain at the start
+    proven: nothing touches up to here [m of head travel]; touching: a pair is within the margin here, FREE for none;
+        first, second: that pair
+    steps, work: what was done; bend: the largest K that proved a step [1/m]
+    graze_gap: the least local minimum of the clearance on the way [m], FREE if none; graze_travel, graze_first,
+        graze_second: where, and its pair
     """
-    before: cython.double[:, ::1] = rows[0]
-    after: cython.double[:, ::1] = rows[1]
-    spare: cython.double[:, ::1] = rows[2]
-    opening: cython.double[:, ::1] = rows[3]
-    scratch: cython.double[::1] = out[MARCH_ENTRIES:]
-    edges = statics if statics >= 0 else -statics
-    cap = before.shape[0] - 1 - edges
-    first = leaders
-    followers = benches if at_start else leaders
-    solo = growth if pieces.shape[0] == 0 else 0.0
-    travel = start
-    h = ring[RING_SHORT]
-    target = -1.0
-    floor = FREE
-    older_clearance = -FREE
-    last_travel = start
-    older_travel = start
-    last_a = 0
-    last_b = 0
-    turning = False
-    allowed = CLEAR_SPARE * ring[RING_CLEAR]
-    if pieces.shape[0] > 0:
-        allowed = 0.5 * PLACE_SPARE if ring[RING_PLACE] < FREE else FREE
-    opens = at_start and solo > 0.0
-    if cap > benches:
-        cap = benches
-    if followers > cap:
-        followers = cap
-    out[GRAZE_GAP] = FREE
-    out[TOUCHING] = -1.0
-    out[STEPS] = out[BEND] = out[WORK] = 0.0
-    with cython.nogil:
-        placed = chain_between(
-            growth, pieces, place - start, followers, cap, margin, h, False, ring, sizes, before, pair
-        )
-        if placed == cap and cap < benches:
+
+    def __init__(self, interval, probe, opening):
+        self.interval = interval
+        self.probe = probe
+        self.opening = opening
+        self.start = self.stop = self.tolerance = self.rounding = self.budget = 0.0
+        self.leaders = self.followers = self.active = self.placed = self.opened = 0
+        self.at_start = self.opens = self.turning = self.grazes = False
+        self.travel = self.h = self.target = self.allowed = 0.0
+        self.floor = self.older_clearance = self.older_travel = self.last_travel = 0.0
+        self.last = Closest(FREE, 0, 0)
+        self.proven = self.touching = self.work = self.bend = 0.0
+        self.graze_gap = self.graze_travel = 0.0
+        self.first = self.second = self.steps = self.graze_first = self.graze_second = 0
+
+    def run(self, start, stop, leaders, at_start, tolerance, grazes, rounding, budget):
+        """Advance the head from `start` to `stop` [m of travel]; how that ended: REACHED to CAPACITY.
+
+        leaders: benches whose pairs must be followed; at_start: follow all pairs until every bench has passed the start
+            of the one before it
+        tolerance: half width of the bracket around a contact [m], 0 for none: to end at any instant found to be within
+            the margin; grazes: note the least one on the way
+        rounding: what a travel may be off by [m]; budget: of work
+        """
+        self.start = start
+        self.stop = stop
+        self.leaders = leaders
+        self.at_start = at_start
+        self.tolerance = tolerance
+        self.grazes = grazes
+        self.rounding = rounding
+        self.budget = budget
+        with cython.nogil:
+            state = self.open(self.interval.scene)
+            if state != ADVANCED:
+                return state
+            while self.travel < stop and (self.at_start or self.repeats_ahead(self.interval.scene)):
+                self.proven = self.travel
+                if self.work >= budget or self.h < rounding or self.h < self.least_step():
+                    return STUCK
+                self.steps += 1
+                self.work += STEP_WORK
+                self.h = min(self.h, stop - self.travel)
+                state = self.try_step(self.interval.scene, self.interval)
+                if state != ADVANCED and state != REFUSED:
+                    return state
+            self.proven = stop
+            return REACHED
+
+    def repeats_ahead(self, scene):
+        """May something still touch that no body repeats from further back?"""
+        return scene.place - self.travel > scene.rings.end_place
+
+    def least_step(self):
+        """Shorter steps than this would get nowhere [m]."""
+        return LEAST_STEP * self.tolerance if self.tolerance > 0.0 else LEAST_WAY
+
+    def open(self, scene):
+        """Lay out the chain at the start: ADVANCED if no pair is within the margin there, else how the march ends."""
+        self.followers = scene.room if self.at_start else min(self.leaders, scene.room)
+        self.opens = self.at_start and scene.curve.kind == ON_SPIRAL
+        self.allowed = CLEAR_SPARE * scene.rings.clear_radius
+        if scene.curve.kind == ON_ROUTE:
+            self.allowed = 0.5 * PLACE_SPARE if scene.rings.clear_place < FREE else FREE
+        self.travel = self.older_travel = self.last_travel = self.start
+        self.h = scene.rings.shortest
+        self.target = -1.0
+        self.touching = FREE
+        self.floor = self.graze_gap = FREE
+        self.older_clearance = -FREE
+        self.turning = False
+        self.steps = 0
+        self.bend = self.work = 0.0
+        laid = chain_between(scene, scene.place - self.start, self.followers, self.h, False, self.interval.before)
+        if laid.last == scene.room and scene.room < scene.benches:
             return CAPACITY
-        if placed < 0:
+        if laid.last < 0:
             return STUCK
-        opened = pair[0] if pair[0] < benches else benches - 1
-        opening[: placed + 1] = before[: placed + 1]
-        last_clearance = row_clearance(solo, pair[0], placed, statics, sizes, before, motion, pair)
-        if last_clearance <= margin:
-            out[PROVEN] = out[TOUCHING] = start
-            out[FIRST] = pair[1]
-            out[SECOND] = pair[2]
-            least = pair_most(
-                growth, pieces, place - start + rounding, 2.0 * rounding, pair[1], pair[2], benches, sizes, spare,
-                after, motion, scratch,
-            )  # fmt: skip
-            if least <= margin:
-                return TOUCHED_AT_START
-            out[TOUCHING] = -1.0
+        self.placed = laid.last
+        self.opened = laid.leading if laid.leading < scene.benches else scene.benches - 1
+        self.opening[: self.placed + 1] = self.interval.before[: self.placed + 1]
+        self.last = row_clearance(scene, laid.leading, self.placed, self.interval.before, self.interval.motion)
+        if self.last.gap > scene.margin:
+            return ADVANCED
+        self.proven = self.start
+        self.first = self.last.first
+        self.second = self.last.second
+        if not self.surely_within(scene, scene.place - self.start):
             return STUCK
-        while travel < stop and (at_start or place - travel > ring[RING_END]):
-            out[PROVEN] = travel
-            if out[WORK] >= budget or h < rounding or h < (LEAST_STEP * tolerance if tolerance > 0.0 else LEAST_WAY):
-                return STUCK
-            out[STEPS] += 1.0
-            out[WORK] += STEP_WORK
-            if h > stop - travel:
-                h = stop - travel
-            handles = chain_between(
-                growth,
-                pieces,
-                place - travel - h,
-                followers,
-                cap,
-                margin,
-                ALLOWANCE * drift(fabs(before[1, RATE]) + 1.0, h, growth, solo * before[1, THETA]),
-                turning,
-                ring,
-                sizes,
-                after,
-                pair,
+        self.touching = self.start
+        return TOUCHED_AT_START
+
+    def surely_within(self, scene, place):
+        """Is the pair `first`, `second` within the margin with the head at a place, whatever that is off by?"""
+        return (
+            pair_most(scene, self.probe, place + self.rounding, 2.0 * self.rounding, self.first, self.second)
+            <= scene.margin
+        )
+
+    def refuse(self, part):
+        """Take so much of the step for the next one, which stops short of no crossing."""
+        self.h *= part
+        self.target = -1.0
+        return REFUSED
+
+    def try_step(self, scene, interval):
+        """One step: ADVANCED if it is proven, REFUSED if it is to be shorter, else how the march ends."""
+        outer = scene.curve.growth * interval.before[1, THETA] if scene.curve.kind == ON_SPIRAL else 0.0
+        allowance = ALLOWANCE * drift(fabs(interval.before[1, RATE]) + 1.0, self.h, scene.curve.growth, outer)
+        place = scene.place - self.travel - self.h
+        laid = chain_between(scene, place, self.followers, allowance, self.turning, interval.after)
+        if laid.last == scene.room and scene.room < scene.benches:
+            return CAPACITY
+        if laid.last < 0:
+            return self.refuse(0.5)
+        self.active = laid.leading
+        interval.handles = laid.last
+        self.work += laid.last * (1.0 + scene.edges / EDGES_PER_WORK)
+        interval.widen(self.h, self.rounding)
+        nearest = Nearest(FREE, 0.0, 0, 0, FREE, 0.0, 0)
+        if self.active > 0:
+            if self.placed < interval.handles:
+                self.placed = extend(scene.curve, self.placed, interval.handles, scene.sizes, interval.before)
+            nearest = interval_least(scene, interval, self.active)
+            self.work += nearest.tried
+            # a bench beyond the clear radius or place might not be there
+            if nearest.least == -FREE or nearest.error > self.allowed:
+                return self.refuse(0.5)
+            if nearest.least <= scene.margin:
+                return self.narrow(scene, interval, nearest)
+            if scene.curve.kind == ON_SPIRAL and self.must_follow(scene, interval):
+                return REFUSED
+        self.travel += self.h
+        self.placed = interval.handles
+        interval.swap()
+        if self.active > 0:
+            self.bend = max(self.bend, nearest.bend)
+        if self.target > 0.0 and self.surely_within(scene, scene.place - self.target - self.tolerance):
+            self.proven = self.travel
+            self.touching = self.target + self.tolerance
+            return TOUCHED
+        self.target = -1.0
+        self.note_graze(scene, interval, nearest.least)
+        if self.at_start and passed(scene, self.leaders, self.opened, self.placed, self.opening, interval.before):
+            self.at_start = False
+            self.followers = min(self.leaders, scene.room)
+        room = 0.95 * nearest.room
+        self.h = room if room < 2.0 * self.h else 2.0 * self.h
+        return ADVANCED
+
+    def must_follow(self, scene, interval):
+        """Must more benches be followed over this step, as a handle of the spiral may turn back?
+
+        The first one behind the leaders may come within the clear radius (`turning`), or one may stand behind its own
+        start: then all pairs are followed again.
+        """
+        k = self.active
+        h = interval.h
+        if k < self.followers and may_turn(k, h, scene.sizes, interval.before, interval.after, interval.motion):
+            edge = scene.curve.growth * min(interval.before[k, THETA], interval.after[k, THETA])
+            edge -= drift(interval.motion[k - 1, HANDLE_SPEED], h, scene.curve.growth, edge)
+            if edge < scene.rings.clear_radius:
+                self.refuse(0.5 if self.turning else 1.0)
+                self.turning = True
+                return True
+        if self.opens and not self.at_start:
+            if slid_back(scene, interval, self.leaders, self.opened, self.opening):
+                self.at_start = True
+                self.followers = scene.room
+                self.target = -1.0
+                return True
+        return False
+
+    def narrow(self, scene, interval, nearest):
+        """A step whose bound does not exceed the margin: look for the contact that it may end in, or shorten it."""
+        far = self.travel + self.h
+        if row_gap(nearest.first, nearest.second, scene.sizes, interval.after) > scene.margin:
+            room = 0.95 * nearest.room
+            self.refuse(0.5 if room < 0.5 * self.h or room >= self.h else room / self.h)
+            if self.h >= self.tolerance:
+                return REFUSED
+            far = self.peek(scene, nearest.first, nearest.second)
+            if far > self.stop:
+                return REFUSED
+        self.first = nearest.first
+        self.second = nearest.second
+        if self.tolerance <= 0.0:
+            if not self.surely_within(scene, scene.place - self.travel - self.h):
+                self.h *= 0.5
+                return REFUSED
+            self.touching = self.travel + self.h
+            return TOUCHED
+        width = CROSSING_WIDTH * self.tolerance
+        self.target = contact_between(scene, self.travel, far, self.first, self.second, width, self.probe.before)
+        self.touching = self.target
+        way = self.target - self.tolerance - self.travel
+        if way > self.rounding and way < self.h:
+            self.h = way
+            return REFUSED
+        if self.target - self.tolerance <= self.travel:
+            if self.surely_within(scene, scene.place - self.target - self.tolerance):
+                self.touching = self.target + self.tolerance
+                return TOUCHED
+        return self.refuse(0.5)
+
+    def peek(self, scene, a, b):
+        """A travel a little ahead at which a pair is within the margin, as rounding hides a slow contact; else FREE."""
+        width = 2.0 * self.tolerance
+        while width <= PEEK:
+            if gap_at(scene, scene.place - self.travel - width, a, b, self.probe.before) <= scene.margin:
+                return self.travel + width
+            width *= 4.0
+        return FREE
+
+    def note_graze(self, scene, interval, least):
+        """Note a local minimum of the clearance at the last three travels; least: the bound of the step just taken."""
+        here = Closest(FREE, 0, 0)
+        if self.grazes:
+            here = row_clearance(scene, self.active, interval.handles, interval.before, interval.motion)
+        lowest = least if least < self.floor else self.floor
+        self.floor = least
+        dips = self.older_clearance > self.last.gap <= here.gap and lowest < self.graze_gap
+        if dips and here.gap < FREE and self.older_travel < self.last_travel:
+            travel = bottom_between(
+                scene, self.older_travel, self.travel, self.last.first, self.last.second, DIP_WIDTH, self.probe.before
             )
-            if handles == cap and cap < benches:
-                return CAPACITY
-            active = pair[0]
-            if handles < 0:
-                h *= 0.5
-                target = -1.0
-                continue
-            out[WORK] += handles * (1.0 + edges / EDGES_PER_WORK)
-            room = FREE
-            least = FREE
-            wide = h * (1.0 + WIDTH_ROUNDING) + 2.0 * rounding
-            if active > 0:
-                if placed < handles:
-                    placed = extend(growth, pieces, placed, handles, sizes, before)
-                least = interval_least(
-                    growth,
-                    pieces,
-                    statics,
-                    wide,
-                    active,
-                    handles,
-                    benches,
-                    margin,
-                    ring,
-                    sizes,
-                    before,
-                    after,
-                    motion,
-                    scratch,
-                )
-                room = 0.95 * scratch[3]
-                out[WORK] += scratch[9]
-                if scratch[4] > allowed:  # a bench beyond the clear radius or place might not be there
-                    least = -FREE
-            if least <= margin:
-                if least == -FREE:
-                    h *= 0.5
-                    target = -1.0
-                    continue
-                a = cython.cast(cython.Py_ssize_t, scratch[1])
-                b = cython.cast(cython.Py_ssize_t, scratch[2])
-                far = travel + h
-                if row_gap(a, b, sizes, after) > margin:
-                    h *= 0.5 if room < 0.5 * h or room >= h else room / h
-                    target = -1.0
-                    if h >= tolerance:
-                        continue
-                    # within what rounding hides of a slow contact; the pair may be within the margin a little on
-                    width = 2.0 * tolerance
-                    while width <= PEEK and (
-                        gap_at(growth, pieces, place - travel - width, benches, a, b, sizes, spare) > margin
-                    ):
-                        width *= 4.0
-                    far = travel + width
-                    if width > PEEK or far > stop:
-                        continue
-                if tolerance <= 0.0:
-                    clearance = pair_most(
-                        growth, pieces, place - travel - h + rounding, 2.0 * rounding, a, b, benches, sizes, spare,
-                        after, motion, scratch,
-                    )  # fmt: skip
-                    if clearance > margin:
-                        h *= 0.5
-                        continue
-                    out[TOUCHING] = travel + h
-                    out[FIRST] = a
-                    out[SECOND] = b
-                    return TOUCHED
-                target = crossing(
-                    growth,
-                    pieces,
-                    place,
-                    benches,
-                    travel,
-                    far,
-                    a,
-                    b,
-                    margin,
-                    CROSSING_WIDTH * tolerance,
-                    False,
-                    sizes,
-                    spare,
-                    scratch,
-                )
-                out[FIRST] = a
-                out[SECOND] = b
-                out[TOUCHING] = target
-                if target - tolerance - travel > rounding and target - tolerance - travel < h:
-                    h = target - tolerance - travel
-                    continue
-                if target - tolerance <= travel:
-                    clearance = pair_most(
-                        growth, pieces, place - target - tolerance + rounding, 2.0 * rounding, a, b, benches, sizes,
-                        spare, after, motion, scratch,
-                    )  # fmt: skip
-                    if clearance <= margin:
-                        out[TOUCHING] = target + tolerance
-                        return TOUCHED
-                h *= 0.5
-                target = -1.0
-                continue
-            if solo > 0.0 and 0 < active < followers and may_turn(active, wide, sizes, before, after, motion):
-                edge = growth * min(before[active, THETA], after[active, THETA])
-                if edge - drift(motion[active - 1, HANDLE_SPEED], wide, growth, edge) < ring[RING_CLEAR]:
-                    h *= 0.5 if turning else 1.0
-                    turning = True
-                    target = -1.0
-                    continue
-            if opens and not at_start and active > 0:
-                if slid_back(growth, first, opened, handles, wide, ring, sizes, opening, before, after, motion):
-                    at_start = True
-                    followers = benches if benches < cap else cap
-                    target = -1.0
-                    continue
-            travel += h
-            placed = handles
-            before, after = after, before
-            if scratch[0] > out[BEND] and active > 0:
-                out[BEND] = scratch[0]
-            if target > 0.0:
-                clearance = pair_most(
-                    growth, pieces, place - target - tolerance + rounding, 2.0 * rounding,
-                    cython.cast(cython.Py_ssize_t, out[FIRST]), cython.cast(cython.Py_ssize_t, out[SECOND]), benches,
-                    sizes, spare, after, motion, scratch,
-                )  # fmt: skip
-                if clearance <= margin:
-                    out[PROVEN] = travel
-                    out[TOUCHING] = target + tolerance
-                    return TOUCHED
-            target = -1.0
-            clearance = FREE
-            if tolerance != 0.0:
-                clearance = row_clearance(solo, active, handles, statics, sizes, before, motion, pair)
-            lowest = least if least < floor else floor
-            floor = least
-            if older_clearance > last_clearance <= clearance and lowest < out[GRAZE_GAP]:
-                if clearance < FREE and older_travel < last_travel:
-                    lowest = crossing(
-                        growth,
-                        pieces,
-                        place,
-                        benches,
-                        older_travel,
-                        travel,
-                        last_a,
-                        last_b,
-                        margin,
-                        DIP_WIDTH,
-                        True,
-                        sizes,
-                        spare,
-                        scratch,
-                    )
-                    clearance_there = gap_at(growth, pieces, place - lowest, benches, last_a, last_b, sizes, spare)
-                    if clearance_there < out[GRAZE_GAP]:
-                        out[GRAZE_GAP] = clearance_there
-                        out[GRAZE_TRAVEL] = lowest
-                        out[GRAZE_FIRST] = last_a
-                        out[GRAZE_SECOND] = last_b
-            older_clearance = last_clearance
-            older_travel = last_travel
-            last_clearance = clearance
-            last_travel = travel
-            last_a = pair[1]
-            last_b = pair[2]
-            if at_start and passed(growth, pieces, first, opened, placed, sizes, opening, before):
-                at_start = False
-                followers = leaders if leaders < cap else cap
-            h = room if room < 2.0 * h else 2.0 * h
-        out[PROVEN] = stop
-        return REACHED
+            gap = gap_at(scene, scene.place - travel, self.last.first, self.last.second, self.probe.before)
+            if gap < self.graze_gap:
+                self.graze_gap = gap
+                self.graze_travel = travel
+                self.graze_first = self.last.first
+                self.graze_second = self.last.second
+        self.older_clearance = self.last.gap
+        self.older_travel = self.last_travel
+        self.last = here
+        self.last_travel = self.travel

@@ -1,16 +1,14 @@
 cimport cython
 from core.kernels.constants cimport *
-from core.kernels.rectangles cimport pair_separation
-from core.kernels.chain cimport chain_rounding, place_chain
-from core.kernels.bounds cimport motion_bounds, route_bounds
-from core.kernels.rings cimport drift, leaders_reach, radius_beyond, stays_beyond
-from core.kernels.spiral cimport spiral_error, spiral_rounding
+from core.kernels.records cimport Bends, Nearest, Rounding
+from core.kernels.rectangles cimport row_separation
+from core.kernels.rings cimport RING_ROUNDING, Rings, coil_radius, drift, leaders_reach, radius_beyond
+from core.kernels.route cimport stands_first
+from core.kernels.clearance cimport last_handle
+from core.kernels.scene cimport Band, Interval, Scene
+from core.kernels.spiral cimport spiral_error
 
 cdef double STRIP_ROUNDING
-
-cdef void row_separation(
-    Py_ssize_t i, Py_ssize_t j, double[:, ::1] sizes, double[:, ::1] chain, double[::1] out
-) noexcept nogil
 
 cdef double gap_along(
     Py_ssize_t i, Py_ssize_t j, double along, double left, double[:, ::1] sizes, double[:, ::1] chain
@@ -36,14 +34,14 @@ cdef double plain_bend(
     Py_ssize_t i, Py_ssize_t j, double distance, double[:, ::1] sizes, double[:, ::1] motion
 ) noexcept nogil
 
-cpdef bint pair_bends(
-    double growth, const double[:, ::1] pieces, double place, double h, Py_ssize_t a, Py_ssize_t b,
-    double[:, ::1] sizes, double[:, :, ::1] rows, double[:, ::1] motion, double[::1] out
+cdef double centres_apart(Interval interval, Py_ssize_t a, Py_ssize_t b) noexcept nogil
+
+cdef double bend_along(
+    Scene scene, Interval interval, Py_ssize_t i, Py_ssize_t j, double distance
 ) noexcept nogil
 
-cdef bint lay_out(
-    double growth, const double[:, ::1] pieces, double place, double h, Py_ssize_t last, double[:, ::1] sizes,
-    double[:, ::1] before, double[:, ::1] after, double[:, ::1] motion
+cpdef (double, double) pair_bends(
+    Scene scene, Interval interval, double place, double h, Py_ssize_t a, Py_ssize_t b
 ) noexcept nogil
 
 @cython.locals(corner=cython.int)
@@ -56,65 +54,69 @@ cdef (double, double) corner_in(
     Py_ssize_t i, Py_ssize_t j, double length, double width, double[:, ::1] chain
 ) noexcept nogil
 
-@cython.locals(last=cython.Py_ssize_t)
 cpdef double pair_most(
-    double growth, const double[:, ::1] pieces, double place, double h, Py_ssize_t a, Py_ssize_t b,
-    Py_ssize_t benches, double[:, ::1] sizes, double[:, ::1] before, double[:, ::1] after, double[:, ::1] motion,
-    double[::1] out
+    Scene scene, Interval interval, double place, double h, Py_ssize_t a, Py_ssize_t b
 ) noexcept nogil
 
 cpdef double pair_rounding(
     Py_ssize_t i, Py_ssize_t j, double distance, double[:, ::1] sizes, double[:, ::1] before, double[:, ::1] after
 ) noexcept nogil
 
-cdef double any_rounding(double error, Py_ssize_t handles, double h, double margin, double[::1] ring) noexcept nogil
+cdef double any_rounding(double error, Py_ssize_t handles, double h, double margin, Rings rings) noexcept nogil
 
 cdef double axis_least(
-    Py_ssize_t i, Py_ssize_t j, bint after_decides, double bend, double h, double[:, ::1] sizes,
-    double[:, ::1] before, double[:, ::1] after
+    Scene scene, Interval interval, Py_ssize_t i, Py_ssize_t j, bint after_decides, double bend
 ) noexcept nogil
 
-cpdef double pair_least(
-    double growth, Py_ssize_t i, Py_ssize_t j, double margin, double enough, double distance, double h,
-    double[:, ::1] sizes, double[:, ::1] before, double[:, ::1] after, double[:, ::1] motion, double[::1] out
+cpdef (double, double) pair_least(
+    Scene scene, Interval interval, Py_ssize_t i, Py_ssize_t j, double enough, double distance
 ) noexcept nogil
+
+cdef (double, double) corner_axis(Scene scene, Py_ssize_t i, Py_ssize_t j, double[:, ::1] chain) noexcept nogil
 
 @cython.locals(
-    edges=cython.Py_ssize_t, i=cython.Py_ssize_t, j=cython.Py_ssize_t, a=cython.Py_ssize_t, b=cython.Py_ssize_t,
-    tried=cython.Py_ssize_t, roughly=cython.bint, filled=cython.bint
+    i=cython.Py_ssize_t, j=cython.Py_ssize_t, a=cython.Py_ssize_t, b=cython.Py_ssize_t, first=cython.Py_ssize_t,
+    end=cython.Py_ssize_t, tried=cython.Py_ssize_t, rounding=Rounding
 )
-cdef double interval_least(
-    double growth, const double[:, ::1] pieces, Py_ssize_t statics, double h, Py_ssize_t active, Py_ssize_t handles,
-    Py_ssize_t benches, double margin, double[::1] ring, double[:, ::1] sizes, double[:, ::1] before,
-    double[:, ::1] after, double[:, ::1] motion, double[::1] out
+cdef Nearest interval_least(Scene scene, Interval interval, Py_ssize_t active) noexcept nogil
+
+cdef Rounding interval_rounding(Scene scene, Interval interval) noexcept nogil
+
+cdef (double, double) proven_gap(
+    Scene scene, Interval interval, Py_ssize_t i, Py_ssize_t j, double distance, double rounding
 ) noexcept nogil
 
-cdef double strip_along(
-    Py_ssize_t i, Py_ssize_t j, double along, double left, (double, double, double) bends,
-    (double, double, double, double) widths, double[:, ::1] sizes, double[:, ::1] before, double[:, ::1] after,
-    double[:, ::1] before_high, double[:, ::1] after_high
+cdef double innermost(Scene scene, Interval interval, Py_ssize_t k, double rate) noexcept nogil
+cdef double reach_of(Scene scene, Interval interval, Py_ssize_t i, double error) noexcept nogil
+cdef bint stays_beyond(Scene scene, Interval interval, Py_ssize_t leaders, double error) noexcept nogil
+
+@cython.locals(i=cython.Py_ssize_t)
+cdef bint coil_stays_beyond(Scene scene, Interval interval, Py_ssize_t leaders, double error) noexcept nogil
+
+cdef double band_along(
+    Scene scene, Band band, Py_ssize_t i, Py_ssize_t j, double along, double left, Bends bends
 ) noexcept nogil
 
-@cython.locals(a=cython.Py_ssize_t, b=cython.Py_ssize_t, trial=cython.int)
-cdef double strip_pair(
-    double low, double high, Py_ssize_t i, Py_ssize_t j, double distance, double margin, double enough, double h_low,
-    double h_high, double[:, ::1] sizes, double[:, ::1] before, double[:, ::1] after, double[:, ::1] before_high,
-    double[:, ::1] after_high, double[:, ::1] motion, double[:, ::1] motion_high, double[:, ::1] shifts,
-    double[::1] out
+cdef Bends band_bends(Scene scene, Band band, Py_ssize_t i, Py_ssize_t j, double distance) noexcept nogil
+
+@cython.locals(a=cython.Py_ssize_t, b=cython.Py_ssize_t, trial=cython.int, bends=Bends)
+cdef (double, double) band_pair(
+    Scene scene, Band band, Py_ssize_t i, Py_ssize_t j, double enough, double distance
 ) noexcept nogil
 
-cdef void strip_rounding(
-    double low, double high, Py_ssize_t handles, double[:, ::1] sizes, double[:, ::1] before, double[:, ::1] after,
-    double[:, ::1] before_high, double[:, ::1] after_high
+@cython.locals(handles=cython.Py_ssize_t)
+cdef Rounding band_rounding(Scene scene, Band band) noexcept nogil
+
+cdef double band_pair_rounding(
+    Scene scene, Band band, Py_ssize_t i, Py_ssize_t j, double distance
+) noexcept nogil
+
+cdef (double, double) proven_band_gap(
+    Scene scene, Band band, Py_ssize_t i, Py_ssize_t j, double distance, double rounding
 ) noexcept nogil
 
 @cython.locals(
     i=cython.Py_ssize_t, j=cython.Py_ssize_t, a=cython.Py_ssize_t, b=cython.Py_ssize_t, tried=cython.Py_ssize_t,
-    roughly=cython.bint, filled=cython.bint
+    rounding=Rounding
 )
-cdef double strip_least(
-    double low, double high, Py_ssize_t leaders, Py_ssize_t handles, double margin, double h_low, double h_high,
-    double[::1] ring, double[:, ::1] sizes, double[:, ::1] before, double[:, ::1] after, double[:, ::1] before_high,
-    double[:, ::1] after_high, double[:, ::1] motion, double[:, ::1] motion_high, double[:, ::1] shifts,
-    double[::1] out
-) noexcept nogil
+cdef Nearest band_least(Scene scene, Band band, Py_ssize_t leaders) noexcept nogil

@@ -4,12 +4,13 @@ import cython
 from cython.cimports.libc.math import fabs, sqrt
 
 if not cython.compiled:  # for the compiler the same stands in the .pxd
-    from core.kernels.bounds import motion_bounds, route_bounds
-    from core.kernels.chain import chain_rounding, place_chain
+    from core.kernels.clearance import last_handle
     from core.kernels.constants import *
-    from core.kernels.rectangles import pair_separation
-    from core.kernels.rings import drift, leaders_reach, radius_beyond, stays_beyond
-    from core.kernels.spiral import spiral_error, spiral_rounding
+    from core.kernels.records import Bends, Nearest, Rounding
+    from core.kernels.rectangles import row_separation
+    from core.kernels.rings import RING_ROUNDING, coil_radius, drift, leaders_reach, radius_beyond
+    from core.kernels.route import stands_first
+    from core.kernels.spiral import spiral_error
 
 # Gap of bench i along an axis e fixed in bench j: g = min over corners X of i of e . (X - M_j) - support of j, and
 #   |(e . p)''| <= |X''| + |M_j''| + 2 omega_j |X' - M_j'| + (omega_j^2 + omega_j') |p|,  p = X - M_j:  call it K.
@@ -30,15 +31,6 @@ if not cython.compiled:  # for the compiler the same stands in the .pxd
 # as each corner of j is within rho_j of M_j, and within D + rho_j of M_i. The last term has room for the operations of
 # gap_along(), pair_gap() and least_between(), fewer than 32 on lengths up to D + rho_i + rho_j in all, and for a corner
 # axis whose length is 1 +- 8 u. An interval proves nothing unless what it leaves exceeds the margin by G.
-
-
-def row_separation(i, j, sizes, chain, out):
-    """pair_separation() of benches i and j of a chain."""
-    pair_separation(
-        chain[i, MX], chain[i, MY], chain[i, UX], chain[i, UY], sizes[i, HALF_LENGTH], sizes[i, HALF_WIDTH],
-        chain[j, MX], chain[j, MY], chain[j, UX], chain[j, UY], sizes[j, HALF_LENGTH], sizes[j, HALF_WIDTH],
-        out,
-    )  # fmt: skip
 
 
 def gap_along(i, j, along, left, sizes, chain):
@@ -133,37 +125,28 @@ def plain_bend(i, j, distance, sizes, motion):
     )
 
 
-def lay_out(growth, pieces, place, h, last, sizes, before, after, motion):
-    """The chains up to handle `last` with the head at a place and h further on, and bounds on the motion between them.
-
-    False where no bound is known
-    """
-    if place_chain(growth, pieces, place, last, sizes, before) < 0:
-        return False
-    if place_chain(growth, pieces, place - h, last, sizes, after) < 0:
-        return False
-    chain_rounding(growth, pieces, last, sizes, before)
-    chain_rounding(growth, pieces, last, sizes, after)
-    if pieces.shape[0] > 0:
-        return route_bounds(pieces, h, last, sizes, before, after, False, motion)
-    return motion_bounds(growth, h, last, sizes, before, after, motion)
+def centres_apart(interval, a, b):
+    """The centres of benches a and b are no further apart than this during an interval [m]."""
+    dx = interval.before[b, MX] - interval.before[a, MX]
+    dy = interval.before[b, MY] - interval.before[a, MY]
+    moved = (interval.motion[a, CENTRE_SPEED] + interval.motion[b, CENTRE_SPEED]) * interval.h
+    return sqrt(dx * dx + dy * dy) + moved
 
 
-def pair_bends(growth, pieces, place, h, a, b, sizes, rows, motion, out):
+def bend_along(scene, interval, i, j, distance):
+    """axis_bend() over an interval [1/m]."""
+    return axis_bend(scene.curve.growth, i, j, distance, scene.sizes, interval.motion)
+
+
+def pair_bends(scene, interval, place, h, a, b):
     """Bounds on the second derivative of gaps of two benches while the head travels h from a place [1/m].
 
-    out: (2,) along axes fixed in bench a, and in bench b; False where no bound is known
+    returns: along axes fixed in bench a, and in bench b; FREE where no bound is known
     """
-    before: cython.double[:, ::1] = rows[0]
-    after: cython.double[:, ::1] = rows[1]
-    if not lay_out(growth, pieces, place, h, b + 1, sizes, before, after, motion):
-        return False
-    dx = before[b, MX] - before[a, MX]
-    dy = before[b, MY] - before[a, MY]
-    dx = sqrt(dx * dx + dy * dy) + (motion[a, CENTRE_SPEED] + motion[b, CENTRE_SPEED]) * h
-    out[0] = axis_bend(growth, a, b, dx, sizes, motion)
-    out[1] = axis_bend(growth, b, a, dx, sizes, motion)
-    return True
+    if not interval.lay_out(place, h, b + 1):
+        return FREE, FREE
+    distance = centres_apart(interval, a, b)
+    return bend_along(scene, interval, a, b, distance), bend_along(scene, interval, b, a, distance)
 
 
 # Within the margin for certain. Over an interval too short to matter, so that both benches hardly move:
@@ -198,24 +181,23 @@ def corner_in(i, j, length, width, chain):
     return x * chain[i, UX] + y * chain[i, UY], y * chain[i, UX] - x * chain[i, UY]
 
 
-def pair_most(growth, pieces, place, h, a, b, benches, sizes, before, after, motion, out):
+def pair_most(scene, interval, place, h, a, b):
     """Where this is at most a margin >= 0, benches a and b stay within it while the head travels h from a place [m].
 
-    b: beyond `benches` an edge at rest; before, after: scratch rows; out: (8,) scratch; FREE where no bound is known
+    interval: scratch; b: a bench or an edge at rest; FREE where no bound is known
     """
-    last = b + 1 if b < benches else a + 1
-    if not lay_out(growth, pieces, place, h, last, sizes, before, after, motion):
+    if not interval.lay_out(place, h, last_handle(scene, a, b)):
         return FREE
-    dx = before[b, MX] - before[a, MX]
-    dy = before[b, MY] - before[a, MY]
-    dx = sqrt(dx * dx + dy * dy) + (motion[a, CENTRE_SPEED] + motion[b, CENTRE_SPEED]) * h
-    row_separation(a, b, sizes, before, out)
-    most = out[0] + (motion[a, CORNER_SPEED] + motion[b, CORNER_SPEED]) * h
-    row_separation(a, b, sizes, after, out)
-    most = 0.5 * (most + out[0])
-    most = min(most, corner_most(a, b, axis_bend(growth, a, b, dx, sizes, motion), h, sizes, before, after))
-    most = min(most, corner_most(b, a, axis_bend(growth, b, a, dx, sizes, motion), h, sizes, before, after))
-    return most + pair_rounding(a, b, dx, sizes, before, after)
+    distance = centres_apart(interval, a, b)
+    row_separation(a, b, scene.sizes, interval.before, scene.met)
+    most = scene.met.separation + (interval.motion[a, CORNER_SPEED] + interval.motion[b, CORNER_SPEED]) * h
+    row_separation(a, b, scene.sizes, interval.after, scene.met)
+    most = 0.5 * (most + scene.met.separation)
+    bend = bend_along(scene, interval, a, b, distance)
+    most = min(most, corner_most(a, b, bend, h, scene.sizes, interval.before, interval.after))
+    bend = bend_along(scene, interval, b, a, distance)
+    most = min(most, corner_most(b, a, bend, h, scene.sizes, interval.before, interval.after))
+    return most + pair_rounding(a, b, distance, scene.sizes, interval.before, interval.after)
 
 
 def pair_rounding(i, j, distance, sizes, before, after):
@@ -230,163 +212,202 @@ def pair_rounding(i, j, distance, sizes, before, after):
     )
 
 
-def any_rounding(error, handles, h, margin, ring):
+def any_rounding(error, handles, h, margin, rings):
     """pair_rounding() of any pair that is not far apart, or more, from spiral_error() [m]; 0 if that does not serve."""
-    if handles * error > SMALL * ring[ALL_SHORT]:
+    if handles * error > SMALL * rings.all_shortest:
         return 0.0
-    return 4.0 * error + (4.0 * error / ring[ALL_SHORT] + 60.0 * ULP) * (
-        4.0 * ring[ALL_RADIUS] + fabs(margin) + 4.0 * h
+    return 4.0 * error + (4.0 * error / rings.all_shortest + 60.0 * ULP) * (
+        4.0 * rings.all_radius + fabs(margin) + 4.0 * h
     )
 
 
-def axis_least(i, j, after_decides, bend, h, sizes, before, after):
+def axis_least(scene, interval, i, j, after_decides, bend):
     """Proven least gap over the interval along the face normal of i that is best at one of its ends [m]."""
     if after_decides:
-        gap, along, left = best_axis(i, j, sizes, after)
-        return least_between(gap_along(i, j, along, left, sizes, before), gap, bend, h)
-    gap, along, left = best_axis(i, j, sizes, before)
-    return least_between(gap, gap_along(i, j, along, left, sizes, after), bend, h)
+        gap, along, left = best_axis(i, j, scene.sizes, interval.after)
+        return least_between(gap_along(i, j, along, left, scene.sizes, interval.before), gap, bend, interval.h)
+    gap, along, left = best_axis(i, j, scene.sizes, interval.before)
+    return least_between(gap, gap_along(i, j, along, left, scene.sizes, interval.after), bend, interval.h)
 
 
-def pair_least(growth, i, j, margin, enough, distance, h, sizes, before, after, motion, out):
+def pair_least(scene, interval, i, j, enough, distance):
     """A proven lower bound of the separation of benches i and j over the interval, but for rounding [m].
 
-    Tries axes until one exceeds what is enough, the margin and more; out[0] is the bound K of the last one.
-    distance: no further are their centres apart [m]
+    Tries axes until one exceeds what is enough, the margin and more. distance: no further are their centres apart [m]
+    returns: the bound, and the bound K of the last axis [1/m]
     """
-    out[0] = axis_bend(growth, j, i, distance, sizes, motion)
-    best = axis_least(j, i, True, out[0], h, sizes, before, after)
+    bend = bend_along(scene, interval, j, i, distance)
+    best = axis_least(scene, interval, j, i, True, bend)
     if best > enough:
-        return best
-    least = axis_least(j, i, False, out[0], h, sizes, before, after)
-    if least > best:
-        best = least
+        return best, bend
+    best = max(best, axis_least(scene, interval, j, i, False, bend))
     if best > enough:
-        return best
-    out[0] = axis_bend(growth, i, j, distance, sizes, motion)
-    least = axis_least(i, j, True, out[0], h, sizes, before, after)
-    if least > best:
-        best = least
+        return best, bend
+    bend = bend_along(scene, interval, i, j, distance)
+    best = max(best, axis_least(scene, interval, i, j, True, bend))
     if best > enough:
-        return best
-    least = axis_least(i, j, False, out[0], h, sizes, before, after)
-    if least > best:
-        best = least
-    if best > enough or margin <= 0.0:
-        return best
-    # two corners nearest each other: the direction between them, fixed in bench i
-    row_separation(i, j, sizes, after, out[1:])
-    turn_x = out[6] * after[i, UX] + out[7] * after[i, UY]
-    turn_y = out[7] * after[i, UX] - out[6] * after[i, UY]
-    least = least_between(
-        gap_along(i, j, turn_x, turn_y, sizes, before), gap_along(i, j, turn_x, turn_y, sizes, after), out[0], h
+        return best, bend
+    best = max(best, axis_least(scene, interval, i, j, False, bend))
+    if best > enough or scene.margin <= 0.0:
+        return best, bend
+    along, left = corner_axis(scene, i, j, interval.after)
+    start = gap_along(i, j, along, left, scene.sizes, interval.before)
+    end = gap_along(i, j, along, left, scene.sizes, interval.after)
+    return max(best, least_between(start, end, bend, interval.h)), bend
+
+
+def corner_axis(scene, i, j, chain):
+    """Where two corners are nearest each other, the direction between them, in the frame of bench i."""
+    row_separation(i, j, scene.sizes, chain, scene.met)
+    return (
+        scene.met.nx * chain[i, UX] + scene.met.ny * chain[i, UY],
+        scene.met.ny * chain[i, UX] - scene.met.nx * chain[i, UY],
     )
-    return least if least > best else best
 
 
-def interval_least(
-    growth, pieces, statics, h, active, handles, benches, margin, ring, sizes, before, after, motion, out
-):
-    """Proven least separation over an interval of all pairs led by the first `active` benches [m]; -FREE: too wide.
+# Input:  an interval whose chains are laid out, and how many benches lead pairs (`active`).
+# State:  the least bound so far with its K and its pair; `room`, the widest interval that the pairs so far would allow.
+# Output: the record Nearest.
+#
+# Each pair that is near enough gets a bound of its own from pair_least(), less what its gaps may be off by: roughly for
+# all, where no handle had to be followed, or pair by pair (proven_gap()). Those too far apart at the beginning to come
+# within the margin are passed over, and on a spiral all further ones once one is out of reach of bench i, as handles
+# stand in order.
 
-    out: (14,) [0] K of the least pair, [1] and [2] that pair, [3] the widest interval the same pairs would allow [m],
-    [4] what points may be off by [m], [9] the pairs tried; the rest is scratch
-    """
-    edges = statics if statics >= 0 else -statics
+
+def interval_least(scene, interval, active):
+    """Proven least separation over an interval of all pairs led by the first `active` benches; -FREE: too wide."""
+    before: cython.double[:, ::1] = interval.before
+    motion: cython.double[:, ::1] = interval.motion
+    sizes: cython.double[:, ::1] = scene.sizes
     best = FREE
     bend = 0.0
     room = FREE
     tried = 0
-    out[9] = 0.0
     a = 0
     b = 0
-    if pieces.shape[0] > 0:
-        chain_rounding(growth, pieces, handles, sizes, before)
-        chain_rounding(growth, pieces, handles, sizes, after)
-        if not route_bounds(pieces, h, handles, sizes, before, after, False, motion):
-            return -FREE
-    elif not motion_bounds(growth, h, handles, sizes, before, after, motion):
-        return -FREE
-    # What points and gaps may be off by: roughly for all, where no handle had to be followed, or pair by pair.
-    error = 0.0
-    rounding = 0.0
-    if pieces.shape[0] == 0 and motion[handles, RATE_LOW] > 0.0:
-        error = spiral_error(growth, handles, ring[ALL_CHORD], before)
-        error = max(error, spiral_error(growth, handles, ring[ALL_CHORD], after))
-        rounding = any_rounding(error, handles, h, margin, ring)
-    roughly = rounding > 0.0
-    filled = not roughly
-    if filled:
-        chain_rounding(growth, pieces, handles, sizes, before)
-        chain_rounding(growth, pieces, handles, sizes, after)
-        error = max(before[handles - 1, ERROR], after[handles - 1, ERROR])
+    if not interval.bound(False):
+        return Nearest(-FREE, 0.0, 0, 0, 0.0, 0.0, 0)
+    rounding = interval_rounding(scene, interval)
     # of centres; an edge at rest that is near has coordinates hardly larger than the bench, whose rounding ERROR covers
-    reach = margin * (1.0 + 1e-12) + 16.0 * error
-    if handles < benches and pieces.shape[0] > 0:
-        if not stays_beyond(pieces, active, handles, h, margin, error, ring, sizes, before, after, motion):
-            return -FREE
-    elif handles < benches:  # those left out must stay outside the reach of the leaders
-        high = before[active, THETA] if before[active, THETA] > after[active, THETA] else after[active, THETA]
-        high *= growth
-        high += drift(motion[active - 1, HANDLE_SPEED], h, growth, high) + error
-        low = before[0, THETA] if before[0, THETA] < after[0, THETA] else after[0, THETA]
-        high = leaders_reach(growth, growth * low, high, ring)
-        low = before[handles, THETA] if before[handles, THETA] < after[handles, THETA] else after[handles, THETA]
-        low = growth * low - error
-        if low - drift(motion[handles - 1, HANDLE_SPEED], h, growth, low) < radius_beyond(growth, high + margin, ring):
-            return -FREE
+    reach = scene.margin * (1.0 + 1e-12) + 16.0 * rounding.point
+    if not stays_beyond(scene, interval, active, rounding.point):
+        return Nearest(-FREE, 0.0, 0, 0, 0.0, 0.0, 0)
     for i in range(active):
-        far = FREE
-        if pieces.shape[0] == 0:
-            far = before[i + 1, THETA] if before[i + 1, THETA] > after[i + 1, THETA] else after[i + 1, THETA]
-            far = growth * far + drift(motion[i, HANDLE_SPEED], h, growth, growth * far) + error
-            low = before[i, THETA] if before[i, THETA] < after[i, THETA] else after[i, THETA]
-            low = growth * low - drift(motion[i, HANDLE_SPEED], h, growth, growth * low)
-            far = radius_beyond(growth, leaders_reach(growth, low, far, ring) + margin, ring)
-        for j in range(i + 2 if statics >= 0 else handles + 1, handles + 1 + edges):
-            if j == handles:  # the last handle's row holds no bench; after it stand the edges at rest
-                continue
-            if far < FREE:
-                low = before[j, THETA] if before[j, THETA] < after[j, THETA] else after[j, THETA]
-                if growth * low - drift(motion[j, HANDLE_SPEED], h, growth, growth * low) - error > far:
-                    break  # handles stand in order, so all further ones lie outside too
+        far = reach_of(scene, interval, i, rounding.point)
+        first = i + 2
+        end = interval.handles
+        if scene.against == EDGES:  # after the last handle's row, which holds no bench
+            first = interval.handles + 1
+            end = first + scene.edges
+        for j in range(first, end):
+            if far < FREE and innermost(scene, interval, j, motion[j, HANDLE_SPEED]) - rounding.point > far:
+                break
             dx = before[j, MX] - before[i, MX]
             dy = before[j, MY] - before[i, MY]
-            distance = (motion[i, CENTRE_SPEED] + motion[j, CENTRE_SPEED]) * h
+            distance = (motion[i, CENTRE_SPEED] + motion[j, CENTRE_SPEED]) * interval.h
             square = dx * dx + dy * dy
             width = sizes[i, RADIUS] + sizes[j, RADIUS] + reach + distance
-            if square > width * width or (i == ring[LEFT_OUT] and j == ring[LEFT_OUT_TOO]):
+            if square > width * width or (i == scene.left_out and j == scene.left_out_too):
                 continue
             tried += 1
-            distance += sqrt(square)
-            least = rounding if roughly else pair_rounding(i, j, distance, sizes, before, after)
-            least = pair_least(growth, i, j, margin, margin + least, distance, h, sizes, before, after, motion, out)
-            if roughly and not (margin < least <= margin + rounding):
-                least -= rounding
-            else:
-                if not filled:
-                    chain_rounding(growth, pieces, handles, sizes, before)
-                    chain_rounding(growth, pieces, handles, sizes, after)
-                    filled = True
-                least -= pair_rounding(i, j, distance, sizes, before, after)
+            least, k = proven_gap(scene, interval, i, j, distance + sqrt(square), rounding.gap)
             if least != least:  # no number is no bound
-                return -FREE
-            width = 8.0 * (least - margin) / out[0] + h * h
-            width = sqrt(width) if width > 0.0 else 0.0
-            if width < room:
-                room = width
+                return Nearest(-FREE, 0.0, 0, 0, 0.0, 0.0, 0)
+            width = 8.0 * (least - scene.margin) / k + interval.h * interval.h
+            room = min(room, sqrt(width) if width > 0.0 else 0.0)
             if least < best:
                 best = least
-                bend = out[0]
+                bend = k
                 a = i
                 b = j
-    out[0] = bend
-    out[1] = a
-    out[2] = b
-    out[3] = room
-    out[4] = error
-    out[9] = tried
-    return best
+    return Nearest(best, bend, a, b, room, rounding.point, tried)
+
+
+def interval_rounding(scene, interval):
+    """What points and gaps of a bounded interval may be off by."""
+    if scene.curve.kind == ON_SPIRAL and interval.motion[interval.handles, RATE_LOW] > 0.0:
+        error = spiral_error(scene.curve.growth, interval.handles, scene.rings.all_chord, interval.before)
+        end = spiral_error(scene.curve.growth, interval.handles, scene.rings.all_chord, interval.after)
+        error = max(error, end)
+        gap = any_rounding(error, interval.handles, interval.h, scene.margin, scene.rings)
+        if gap > 0.0:
+            return Rounding(error, gap)
+    interval.round()
+    error = max(interval.before[interval.handles - 1, ERROR], interval.after[interval.handles - 1, ERROR])
+    return Rounding(error, 0.0)
+
+
+def proven_gap(scene, interval, i, j, distance, rounding):
+    """pair_least(), less what it may be off by. rounding: of any gap, 0 where only the sums of this pair serve [m]"""
+    allowed = rounding
+    if rounding <= 0.0:
+        allowed = pair_rounding(i, j, distance, scene.sizes, interval.before, interval.after)
+    least, bend = pair_least(scene, interval, i, j, scene.margin + allowed, distance)
+    if rounding > 0.0:
+        if not (scene.margin < least <= scene.margin + rounding):
+            return least - rounding, bend
+        interval.round()
+        allowed = pair_rounding(i, j, distance, scene.sizes, interval.before, interval.after)
+    return least - allowed, bend
+
+
+def innermost(scene, interval, k, rate):
+    """Handle k of a spiral, no faster than the rate, comes no nearer to the centre during an interval [m]."""
+    inner = scene.curve.growth * min(interval.before[k, THETA], interval.after[k, THETA])
+    return inner - drift(rate, interval.h, scene.curve.growth, inner)
+
+
+def reach_of(scene, interval, i, error):
+    """Benches led from beyond this radius of a spiral stay clear of bench i during an interval [m]; FREE on a route."""
+    if scene.curve.kind == ON_ROUTE:
+        return FREE
+    growth = scene.curve.growth
+    rate = interval.motion[i, HANDLE_SPEED]
+    far = growth * max(interval.before[i + 1, THETA], interval.after[i + 1, THETA])
+    far = far + drift(rate, interval.h, growth, far) + error
+    low = innermost(scene, interval, i, rate)
+    return radius_beyond(growth, leaders_reach(growth, low, far, scene.rings) + scene.margin, scene.rings)
+
+
+def stays_beyond(scene, interval, leaders, error):
+    """Do the benches that were not laid out stay beyond the reach of those that lead pairs, during an interval?"""
+    if interval.handles == scene.benches:
+        return True
+    if scene.curve.kind == ON_ROUTE:
+        return coil_stays_beyond(scene, interval, leaders, error)
+    growth = scene.curve.growth
+    high = growth * max(interval.before[leaders, THETA], interval.after[leaders, THETA])
+    high += drift(interval.motion[leaders - 1, HANDLE_SPEED], interval.h, growth, high) + error
+    low = growth * min(interval.before[0, THETA], interval.after[0, THETA])
+    high = leaders_reach(growth, low, high, scene.rings)
+    low = growth * min(interval.before[interval.handles, THETA], interval.after[interval.handles, THETA]) - error
+    low -= drift(interval.motion[interval.handles - 1, HANDLE_SPEED], interval.h, growth, low)
+    return low >= radius_beyond(growth, high + scene.margin, scene.rings)
+
+
+def coil_stays_beyond(scene, interval, leaders, error):
+    """stays_beyond() on a route that begins with a coil.
+
+    A leader's centre is at most h / 2 of travel from where it stands at one of the ends. The last handle goes inwards,
+    so it is nearest to the centre at the far end. error: of points of the chains [m], which has u (|x| + |y|) and more
+    in it (route.py), so that 8 times that covers the roundings of radii too
+    """
+    reach = 0.0
+    for i in range(leaders):
+        far = coil_radius(scene.curve.pieces, interval.before[i, MX], interval.before[i, MY])
+        far = max(far, coil_radius(scene.curve.pieces, interval.after[i, MX], interval.after[i, MY]))
+        far += scene.sizes[i, RADIUS] + 0.5 * interval.h * interval.motion[i, CENTRE_SPEED]
+        if far > reach:
+            reach = far
+    reach = (reach + scene.margin) * (1.0 + RING_ROUNDING) + 8.0 * error
+    reach = radius_beyond(scene.curve.pieces[0, COIL_GROWTH], reach, scene.rings) + 8.0 * error
+    x = interval.after[interval.handles, PX]
+    y = interval.after[interval.handles, PY]
+    return (
+        stands_first(scene.curve.pieces, interval.handles, interval.after)
+        and coil_radius(scene.curve.pieces, x, y) >= reach
+    )
 
 
 # What a strip of pitches needs of its pairs, see strips.py: shift_bounds() adds up terms >= 0, at most 60 roundings a
@@ -394,154 +415,142 @@ def interval_least(
 STRIP_ROUNDING = 1e-9
 
 
-def strip_along(i, j, along, left, bends, widths, sizes, before, after, before_high, after_high):
-    """Proven least gap along an axis of bench i over a rectangle of (r_0, b) [m]."""
-    start = gap_along(i, j, along, left, sizes, before)
-    end = gap_along(i, j, along, left, sizes, after)
-    low = least_between(start, end, bends[0], widths[0])
-    low -= widths[3] * (fabs(end - start) / widths[0] + bends[0] * widths[0])
-    start = gap_along(i, j, along, left, sizes, before_high)
-    end = gap_along(i, j, along, left, sizes, after_high)
-    high = least_between(start, end, bends[1], widths[1])
-    high -= widths[3] * (fabs(end - start) / widths[1] + bends[1] * widths[1])
-    return least_between(low, high, bends[2], widths[2])
+def band_along(scene, band, i, j, along, left, bends):
+    """Proven least gap along an axis of bench i over a band [m]."""
+    start = gap_along(i, j, along, left, scene.sizes, band.low.before)
+    end = gap_along(i, j, along, left, scene.sizes, band.low.after)
+    low = least_between(start, end, bends.low, band.low.h)
+    low -= band.slack * (fabs(end - start) / band.low.h + bends.low * band.low.h)
+    start = gap_along(i, j, along, left, scene.sizes, band.high.before)
+    end = gap_along(i, j, along, left, scene.sizes, band.high.after)
+    high = least_between(start, end, bends.high, band.high.h)
+    high -= band.slack * (fabs(end - start) / band.high.h + bends.high * band.high.h)
+    return least_between(low, high, bends.across, band.width)
 
 
-def strip_pair(
-    low, high, i, j, distance, margin, enough, h_low, h_high, sizes, before, after, before_high, after_high, motion,
-    motion_high, shifts, out
-):  # fmt: skip
-    """A proven lower bound of the separation of benches i and j over a rectangle of (r_0, b), but for rounding [m].
+def band_bends(scene, band, i, j, distance):
+    """Bounds on the second derivatives of a gap along an axis of bench i over a band."""
+    turn = band.shifts[i, SHIFT_TURN]
+    return Bends(
+        axis_bend(scene.curve.growth, i, j, distance, scene.sizes, band.low.motion),
+        axis_bend(band.high.scene.curve.growth, i, j, distance, scene.sizes, band.high.motion),
+        band.shifts[i, SHIFT_PULL]
+        + band.shifts[j, SHIFT_PULL]
+        + 2.0 * turn * (band.shifts[i, SHIFT_CORNER] + band.shifts[j, SHIFT_CORNER])
+        + turn * turn * (distance + scene.sizes[i, RADIUS] + scene.sizes[j, RADIUS]),
+    )
 
-    enough: as for pair_least(); distance: no further are their centres apart [m]; out[0]: the bend along the path of
-    the last axis tried
+
+def band_pair(scene, band, i, j, enough, distance):
+    """A proven lower bound of the separation of benches i and j over a band, but for rounding [m].
+
+    enough, distance: as for pair_least(); returns: the bound, and the bend along the path of the last axis tried [1/m]
     """
     best = -FREE
-    bends: tuple[cython.double, cython.double, cython.double]
-    widths: tuple[cython.double, cython.double, cython.double, cython.double] = (
-        h_low,
-        h_high,
-        (high - low) * (1.0 + STRIP_ROUNDING),
-        4.0 * ULP * low * before[0, THETA] * before[0, THETA],
-    )
+    bends = band_bends(scene, band, j, i, distance)
     for trial in range(4):
         a = j if trial < 2 else i
         b = i if trial < 2 else j
-        least = shifts[a, SHIFT_TURN]
-        least = (
-            shifts[a, SHIFT_PULL]
-            + shifts[b, SHIFT_PULL]
-            + 2.0 * least * (shifts[a, SHIFT_CORNER] + shifts[b, SHIFT_CORNER])
-            + least * least * (distance + sizes[a, RADIUS] + sizes[b, RADIUS])
-        )
-        bends = (
-            axis_bend(low, a, b, distance, sizes, motion),
-            axis_bend(high, a, b, distance, sizes, motion_high),
-            least,
-        )
-        out[0] = bends[0]
-        least, along, left = best_axis(a, b, sizes, after if trial % 2 == 0 else after_high)
-        least = strip_along(a, b, along, left, bends, widths, sizes, before, after, before_high, after_high)
+        if trial == 2:
+            bends = band_bends(scene, band, i, j, distance)
+        if trial % 2 == 0:
+            _, along, left = best_axis(a, b, scene.sizes, band.low.after)
+        else:
+            _, along, left = best_axis(a, b, scene.sizes, band.high.after)
+        least = band_along(scene, band, a, b, along, left, bends)
         if least > best:
             best = least
         if best > enough:
-            return best
-    if margin <= 0.0:
-        return best
-    # two corners nearest each other: the direction between them, fixed in bench i
-    row_separation(i, j, sizes, after, out[1:])
-    along = out[6] * after[i, UX] + out[7] * after[i, UY]
-    left = out[7] * after[i, UX] - out[6] * after[i, UY]
-    least = strip_along(i, j, along, left, bends, widths, sizes, before, after, before_high, after_high)
-    return least if least > best else best
+            return best, bends.low
+    if scene.margin <= 0.0:
+        return best, bends.low
+    along, left = corner_axis(scene, i, j, band.low.after)
+    least = band_along(scene, band, i, j, along, left, bends)
+    return (least if least > best else best), bends.low
 
 
-def strip_rounding(low, high, handles, sizes, before, after, before_high, after_high):
-    """chain_rounding() of the four chains of a rectangle."""
-    spiral_rounding(low, handles, sizes, before)
-    spiral_rounding(low, handles, sizes, after)
-    spiral_rounding(high, handles, sizes, before_high)
-    spiral_rounding(high, handles, sizes, after_high)
+def band_rounding(scene, band):
+    """interval_rounding() of a band."""
+    growth = scene.curve.growth
+    growth_high = band.high.scene.curve.growth
+    handles = band.low.handles
+    if band.low.motion[handles, RATE_LOW] > 0.0 and band.high.motion[handles, RATE_LOW] > 0.0:
+        error = spiral_error(growth, handles, scene.rings.all_chord, band.low.after)
+        error = max(error, spiral_error(growth_high, handles, scene.rings.all_chord, band.high.after))
+        error = max(error, spiral_error(growth_high, handles, scene.rings.all_chord, band.high.before))
+        gap = any_rounding(error, handles, max(band.low.h, band.high.h), scene.margin, scene.rings)
+        if gap > 0.0:
+            return Rounding(error, gap)
+    band.low.round()
+    band.high.round()
+    error = max(band.low.before[handles - 1, ERROR], band.low.after[handles - 1, ERROR])
+    error = max(error, max(band.high.before[handles - 1, ERROR], band.high.after[handles - 1, ERROR]))
+    return Rounding(error, 0.0)
 
 
-def strip_least(
-    low, high, leaders, handles, margin, h_low, h_high, ring, sizes, before, after, before_high, after_high, motion,
-    motion_high, shifts, out
-):  # fmt: skip
-    """interval_least() over a rectangle of (r_0, b), of pairs led by the first `leaders` benches.
+def band_pair_rounding(scene, band, i, j, distance):
+    """pair_rounding() over a band [m]."""
+    return max(
+        pair_rounding(i, j, distance, scene.sizes, band.low.before, band.low.after),
+        pair_rounding(i, j, distance, scene.sizes, band.high.before, band.high.after),
+    )
 
-    out: [1] to [3], [9]
-    """
-    error = 0.0
-    rounding = 0.0
-    if motion[handles, RATE_LOW] > 0.0 and motion_high[handles, RATE_LOW] > 0.0:
-        error = max(
-            spiral_error(low, handles, ring[ALL_CHORD], after), spiral_error(high, handles, ring[ALL_CHORD], after_high)
-        )
-        error = max(error, spiral_error(high, handles, ring[ALL_CHORD], before_high))
-        rounding = any_rounding(error, handles, max(h_low, h_high), margin, ring)
-    roughly = rounding > 0.0
-    filled = not roughly
-    if filled:
-        strip_rounding(low, high, handles, sizes, before, after, before_high, after_high)
-        error = max(before[handles - 1, ERROR], after[handles - 1, ERROR])
-        error = max(error, max(before_high[handles - 1, ERROR], after_high[handles - 1, ERROR]))
-    if error > CLEAR_SPARE * low * after[leaders, THETA]:  # what strip() lays the chains out further by
-        return -FREE
+
+def proven_band_gap(scene, band, i, j, distance, rounding):
+    """proven_gap() over a band."""
+    allowed = rounding if rounding > 0.0 else band_pair_rounding(scene, band, i, j, distance)
+    least, bend = band_pair(scene, band, i, j, scene.margin + allowed, distance)
+    if rounding > 0.0:
+        if not (scene.margin < least <= scene.margin + rounding):
+            return least - rounding, bend
+        band.low.round()
+        band.high.round()
+        allowed = band_pair_rounding(scene, band, i, j, distance)
+    return least - allowed, bend
+
+
+def band_least(scene, band, leaders):
+    """interval_least() over a band, of pairs led by the first `leaders` benches."""
     best = FREE
+    bend = 0.0
     room = FREE
     tried = 0
-    out[9] = 0.0
     a = 0
     b = 0
+    growth = scene.curve.growth
+    growth_high = band.high.scene.curve.growth
+    rounding = band_rounding(scene, band)
+    error = rounding.point
+    if error > CLEAR_SPARE * growth * band.low.after[leaders, THETA]:  # what a strip lays the chains out further by
+        return Nearest(-FREE, 0.0, 0, 0, 0.0, 0.0, 0)
     for i in range(leaders):
-        beyond = leaders_reach(high, low * after[i, THETA], high * before_high[i + 1, THETA], ring)
-        beyond = radius_beyond(high, beyond + 2.0 * error + margin, ring) + error
-        for j in range(i + 2, handles):
-            if low * after[j, THETA] > beyond:
+        beyond = growth_high * band.high.before[i + 1, THETA]
+        beyond = leaders_reach(growth_high, growth * band.low.after[i, THETA], beyond, scene.rings)
+        beyond = radius_beyond(growth_high, beyond + 2.0 * error + scene.margin, scene.rings) + error
+        for j in range(i + 2, band.low.handles):
+            if growth * band.low.after[j, THETA] > beyond:
                 break  # handles stand in order, so all further ones lie outside too
-            dx = after[j, MX] - after[i, MX]
-            dy = after[j, MY] - after[i, MY]
+            dx = band.low.after[j, MX] - band.low.after[i, MX]
+            dy = band.low.after[j, MY] - band.low.after[i, MY]
             distance = sqrt(dx * dx + dy * dy)
-            slack = (motion[i, CENTRE_SPEED] + motion[j, CENTRE_SPEED]) * h_low
-            slack += (shifts[i, SHIFT_CENTRE] + shifts[j, SHIFT_CENTRE]) * (high - low) * (1.0 + STRIP_ROUNDING)
+            slack = (band.low.motion[i, CENTRE_SPEED] + band.low.motion[j, CENTRE_SPEED]) * band.low.h
+            slack += (
+                (band.shifts[i, SHIFT_CENTRE] + band.shifts[j, SHIFT_CENTRE])
+                * (growth_high - growth)
+                * (1.0 + STRIP_ROUNDING)
+            )
             slack += 16.0 * error
-            if distance - slack > (sizes[i, RADIUS] + sizes[j, RADIUS] + margin) * (1.0 + 1e-12):
+            if distance - slack > (scene.sizes[i, RADIUS] + scene.sizes[j, RADIUS] + scene.margin) * (1.0 + 1e-12):
                 continue  # far apart
             tried += 1
-            distance += slack
-            least = rounding
-            if not roughly:
-                least = max(
-                    pair_rounding(i, j, distance, sizes, before, after),
-                    pair_rounding(i, j, distance, sizes, before_high, after_high),
-                )
-            least = strip_pair(
-                low, high, i, j, distance, margin, margin + least, h_low, h_high, sizes, before, after, before_high,
-                after_high, motion, motion_high, shifts, out,
-            )  # fmt: skip
-            if roughly and not (margin < least <= margin + rounding):
-                least -= rounding
-            else:
-                if not filled:
-                    strip_rounding(low, high, handles, sizes, before, after, before_high, after_high)
-                    filled = True
-                least -= max(
-                    pair_rounding(i, j, distance, sizes, before, after),
-                    pair_rounding(i, j, distance, sizes, before_high, after_high),
-                )
+            least, k = proven_band_gap(scene, band, i, j, distance + slack, rounding.gap)
             if least != least:
-                return -FREE
+                return Nearest(-FREE, 0.0, 0, 0, 0.0, 0.0, 0)
             if least < best:
                 best = least
+                bend = k
                 a = i
                 b = j
-            least = 8.0 * (least - margin) / out[0] + h_low * h_low
-            least = sqrt(least) if least > 0.0 else 0.0
-            if least < room:
-                room = least
-    out[1] = a
-    out[2] = b
-    out[3] = room
-    out[9] = tried
-    return best
+            width = 8.0 * (least - scene.margin) / k + band.low.h * band.low.h
+            room = min(room, sqrt(width) if width > 0.0 else 0.0)
+    return Nearest(best, bend, a, b, room, error, tried)

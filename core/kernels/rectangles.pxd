@@ -1,50 +1,54 @@
 cimport cython
 from core.kernels.constants cimport *
+from core.kernels.records cimport Rectangle, Seen
 
 cdef double PARALLEL_SINE
 
+@cython.final
+cdef class Witnesses:
+    cdef readonly double separation
+    cdef readonly double ax
+    cdef readonly double ay
+    cdef readonly double bx
+    cdef readonly double by
+    cdef readonly double nx
+    cdef readonly double ny
+    cdef readonly int feature_a
+    cdef readonly int feature_b
+
+    cdef void reverse(self) noexcept nogil
+
 cdef double side_of(double x) noexcept nogil
 cdef int corner_at(double along, double left) noexcept nogil
-
-cdef double face_gap(
-    double along, double left, double c, double s, double hl, double hw, double other_hl, double other_hw
-) noexcept nogil
-
+cdef Seen seen_from(Rectangle a, Rectangle b) noexcept nogil
+cdef double face_gap(Seen seen) noexcept nogil
 cdef double point_gap_squared(double x, double y, double hl, double hw) noexcept nogil
+cdef double corners_gap_squared(Seen seen) noexcept nogil
+cdef double pair_gap(Rectangle a, Rectangle b) noexcept nogil
 
-cdef double corners_gap_squared(
-    double along, double left, double c, double s, double hl, double hw, double other_hl, double other_hw
-) noexcept nogil
+@cython.locals(a_seen=Seen, b_seen=Seen)
+cdef double pair_gap_within(Rectangle a, Rectangle b, double limit) noexcept nogil
 
-cpdef double pair_gap(
-    double ax, double ay, double aux, double auy, double ahl, double ahw, double bx, double by, double bux,
-    double buy, double bhl, double bhw
-) noexcept nogil
-
-cpdef double pair_gap_within(
-    double ax, double ay, double aux, double auy, double ahl, double ahw, double bx, double by, double bux,
-    double buy, double bhl, double bhw, double limit
-) noexcept nogil
-
-cpdef void pair_separation(
-    double ax, double ay, double aux, double auy, double ahl, double ahw, double bx, double by, double bux,
-    double buy, double bhl, double bhw, double[::1] out
-) noexcept nogil
+@cython.locals(a_seen=Seen, b_seen=Seen)
+cdef void pair_separation(Rectangle a, Rectangle b, Witnesses out) noexcept nogil
 
 @cython.locals(edge=cython.int, other_feature=cython.int)
-cdef bint edge_witness(
-    double x, double y, double ux, double uy, double hl, double hw, double along, double left, double c, double s,
-    double other_hl, double other_hw, double[::1] out
+cdef bint edge_witness(Rectangle a, Seen seen, Witnesses out) noexcept nogil
+
+@cython.locals(k=cython.int)
+cdef void corner_witness(Rectangle a, Seen seen, Witnesses out) noexcept nogil
+
+cdef Rectangle framed(double[:, ::1] frames, Py_ssize_t i) noexcept nogil
+cdef Rectangle bench_of(Py_ssize_t i, double[:, ::1] sizes, double[:, ::1] chain) noexcept nogil
+
+cdef void row_separation(
+    Py_ssize_t i, Py_ssize_t j, double[:, ::1] sizes, double[:, ::1] chain, Witnesses out
 ) noexcept nogil
 
-@cython.locals(corner=cython.int, k=cython.int, feature=cython.int)
-cdef void corner_witness(
-    double x, double y, double ux, double uy, double hl, double hw, double along, double left, double c, double s,
-    double other_hl, double other_hw, double[::1] out
-) noexcept nogil
+cpdef Witnesses bench_separation(Py_ssize_t a, Py_ssize_t b, double[:, ::1] sizes, double[:, ::1] chain)
 
-@cython.locals(features=cython.int)
-cdef void reverse_pair(double[::1] out) noexcept nogil
+@cython.locals(i=cython.Py_ssize_t, found=Witnesses)
+cpdef void pair_separations(double[:, ::1] a, double[:, ::1] b, double[:, ::1] out)
 
 @cython.locals(i=cython.Py_ssize_t)
-cpdef void pair_separations(double[:, ::1] a, double[:, ::1] b, double[:, ::1] out) noexcept
+cpdef void pair_gaps(double[:, ::1] a, double[:, ::1] b, double limit, double[::1] out) noexcept

@@ -5,10 +5,10 @@ from cython.cimports.libc.math import fabs, sqrt
 
 if not cython.compiled:  # for the compiler the same stands in the .pxd
     from core.kernels.constants import *
+    from core.kernels.records import Rectangle, Seen
 
-# A rectangle is its centre, the unit vector u along its length, half length hl and half width hw; v is u turned
-# left. Corners count 0 front-left, 1 front-right, 2 rear-right, 3 rear-left; edges 4 front, 5 right, 6 rear,
-# 7 left.
+# A rectangle is its centre, the unit vector u along its length, its half length hl and half width hw; v is u turned
+# left. FRONT_LEFT to REAR_LEFT are its corners, FRONT to LEFT its edges (constants.py).
 #
 # Everything is measured from one of the two centres, so that rectangles far from the origin lose nothing. In
 # the frame of a, with d = b - a, the other centre is (d.ua, d.va) and its u is (c, s), c = ua.ub, s = ua x ub;
@@ -31,6 +31,22 @@ if not cython.compiled:  # for the compiler the same stands in the .pxd
 PARALLEL_SINE = 2e-15
 
 
+class Witnesses:
+    """The separation of two rectangles a and b, and what realises it: two points, the normal from a to b, features."""
+
+    def __init__(self):
+        self.separation = self.ax = self.ay = self.bx = self.by = self.nx = self.ny = 0.0
+        self.feature_a = self.feature_b = 0
+
+    def reverse(self):
+        """Swap the roles of a and b."""
+        self.ax, self.bx = self.bx, self.ax
+        self.ay, self.by = self.by, self.ay
+        self.nx = -self.nx
+        self.ny = -self.ny
+        self.feature_a, self.feature_b = self.feature_b, self.feature_a
+
+
 def side_of(x):
     """1 from zero upwards, -1 below."""
     return 1.0 if x >= 0.0 else -1.0
@@ -39,14 +55,30 @@ def side_of(x):
 def corner_at(along, left):
     """The corner on the given sides of the centre."""
     if along >= 0.0:
-        return 0 if left >= 0.0 else 1
-    return 3 if left >= 0.0 else 2
+        return FRONT_LEFT if left >= 0.0 else FRONT_RIGHT
+    return REAR_LEFT if left >= 0.0 else REAR_RIGHT
 
 
-def face_gap(along, left, c, s, hl, hw, other_hl, other_hw):
-    """The larger gap along this rectangle's own normals; the other's centre (along, left), u = (c, s) [m]."""
-    lengthwise = fabs(along) - hl - (fabs(c) * other_hl + fabs(s) * other_hw)
-    sideways = fabs(left) - hw - (fabs(s) * other_hl + fabs(c) * other_hw)
+def seen_from(a, b):
+    """Rectangle b in the frame of a."""
+    dx = b.x - a.x
+    dy = b.y - a.y
+    return Seen(
+        dx * a.ux + dy * a.uy,
+        dy * a.ux - dx * a.uy,
+        a.ux * b.ux + a.uy * b.uy,
+        a.ux * b.uy - a.uy * b.ux,
+        a.half_length,
+        a.half_width,
+        b.half_length,
+        b.half_width,
+    )
+
+
+def face_gap(seen):
+    """The larger gap along the normals of the rectangle from which the other is seen [m]."""
+    lengthwise = fabs(seen.along) - seen.hl - (fabs(seen.c) * seen.other_hl + fabs(seen.s) * seen.other_hw)
+    sideways = fabs(seen.left) - seen.hw - (fabs(seen.s) * seen.other_hl + fabs(seen.c) * seen.other_hw)
     return lengthwise if lengthwise >= sideways else sideways
 
 
@@ -61,125 +93,106 @@ def point_gap_squared(x, y, hl, hw):
     return beyond_x * beyond_x + beyond_y * beyond_y
 
 
-def corners_gap_squared(along, left, c, s, hl, hw, other_hl, other_hw):
-    """Least squared distance of the other's four corners to this rectangle, arguments as face_gap() [m^2]."""
+def corners_gap_squared(seen):
+    """Least squared distance of the four corners of a rectangle to the one from which it is seen [m^2]."""
     # half diagonals of the other to its front-left and front-right corners
-    px = c * other_hl - s * other_hw
-    py = s * other_hl + c * other_hw
-    qx = c * other_hl + s * other_hw
-    qy = s * other_hl - c * other_hw
-    least = point_gap_squared(along + px, left + py, hl, hw)
-    gap = point_gap_squared(along - px, left - py, hl, hw)
+    px = seen.c * seen.other_hl - seen.s * seen.other_hw
+    py = seen.s * seen.other_hl + seen.c * seen.other_hw
+    qx = seen.c * seen.other_hl + seen.s * seen.other_hw
+    qy = seen.s * seen.other_hl - seen.c * seen.other_hw
+    least = point_gap_squared(seen.along + px, seen.left + py, seen.hl, seen.hw)
+    gap = point_gap_squared(seen.along - px, seen.left - py, seen.hl, seen.hw)
     if gap < least:
         least = gap
-    gap = point_gap_squared(along + qx, left + qy, hl, hw)
+    gap = point_gap_squared(seen.along + qx, seen.left + qy, seen.hl, seen.hw)
     if gap < least:
         least = gap
-    gap = point_gap_squared(along - qx, left - qy, hl, hw)
+    gap = point_gap_squared(seen.along - qx, seen.left - qy, seen.hl, seen.hw)
     if gap < least:
         least = gap
     return least
 
 
-def pair_gap(ax, ay, aux, auy, ahl, ahw, bx, by, bux, buy, bhl, bhw):
+def pair_gap(a, b):
     """Signed separation of two rectangles [m], as pair_separation() but without witnesses."""
-    return pair_gap_within(ax, ay, aux, auy, ahl, ahw, bx, by, bux, buy, bhl, bhw, NO_LIMIT)
+    return pair_gap_within(a, b, NO_LIMIT)
 
 
-def pair_gap_within(ax, ay, aux, auy, ahl, ahw, bx, by, bux, buy, bhl, bhw, limit):
+def pair_gap_within(a, b, limit):
     """pair_gap() where it is at most limit >= 0, else some value above limit and not above pair_gap() [m].
 
     Where the two are equal but for rounding, either may come back.
     """
-    dx = bx - ax
-    dy = by - ay
-    c = aux * bux + auy * buy
-    s = aux * buy - auy * bux
-    b_along = dx * aux + dy * auy
-    b_left = dy * aux - dx * auy
-    from_a = face_gap(b_along, b_left, c, s, ahl, ahw, bhl, bhw)
+    b_seen = seen_from(a, b)
+    from_a = face_gap(b_seen)
     if from_a > limit:
         return from_a
-    a_along = -(dx * bux + dy * buy)
-    a_left = -(dy * bux - dx * buy)
-    from_b = face_gap(a_along, a_left, c, -s, bhl, bhw, ahl, ahw)
+    a_seen = seen_from(b, a)
+    from_b = face_gap(a_seen)
     if from_b > limit:
         return from_b
     if from_a <= 0.0 and from_b <= 0.0:
         return from_a if from_a >= from_b else from_b
-    from_a = corners_gap_squared(b_along, b_left, c, s, ahl, ahw, bhl, bhw)
-    from_b = corners_gap_squared(a_along, a_left, c, -s, bhl, bhw, ahl, ahw)
+    from_a = corners_gap_squared(b_seen)
+    from_b = corners_gap_squared(a_seen)
     return sqrt(from_a if from_a <= from_b else from_b)
 
 
-def pair_separation(ax, ay, aux, auy, ahl, ahw, bx, by, bux, buy, bhl, bhw, out):
-    """Signed separation, witness on a, witness on b, normal from a to b, and the features that realise it.
-
-    out: (8,) separation, ax, ay, bx, by, nx, ny, 8 * feature of a + feature of b (corner 0..3 or edge 4..7)
-    """
-    dx = bx - ax
-    dy = by - ay
-    c = aux * bux + auy * buy
-    s = aux * buy - auy * bux
-    b_along = dx * aux + dy * auy
-    b_left = dy * aux - dx * auy
-    a_along = -(dx * bux + dy * buy)
-    a_left = -(dy * bux - dx * buy)
-    from_a = face_gap(b_along, b_left, c, s, ahl, ahw, bhl, bhw)
-    from_b = face_gap(a_along, a_left, c, -s, bhl, bhw, ahl, ahw)
-    if from_a >= from_b:
-        if edge_witness(ax, ay, aux, auy, ahl, ahw, b_along, b_left, c, s, bhl, bhw, out):
+def pair_separation(a, b, out):
+    """Fill out with the signed separation of two rectangles and what realises it."""
+    b_seen = seen_from(a, b)
+    a_seen = seen_from(b, a)
+    if face_gap(b_seen) >= face_gap(a_seen):
+        if edge_witness(a, b_seen, out):
             return
-    elif edge_witness(bx, by, bux, buy, bhl, bhw, a_along, a_left, c, -s, ahl, ahw, out):
-        reverse_pair(out)
+    elif edge_witness(b, a_seen, out):
+        out.reverse()
         return
-    from_a = corners_gap_squared(b_along, b_left, c, s, ahl, ahw, bhl, bhw)
-    from_b = corners_gap_squared(a_along, a_left, c, -s, bhl, bhw, ahl, ahw)
-    if from_a <= from_b:
-        corner_witness(ax, ay, aux, auy, ahl, ahw, b_along, b_left, c, s, bhl, bhw, out)
+    if corners_gap_squared(b_seen) <= corners_gap_squared(a_seen):
+        corner_witness(a, b_seen, out)
     else:
-        corner_witness(bx, by, bux, buy, bhl, bhw, a_along, a_left, c, -s, ahl, ahw, out)
-        reverse_pair(out)
+        corner_witness(b, a_seen, out)
+        out.reverse()
 
 
-# In the two functions below the rectangle at (x, y) plays a, the other plays b; reverse_pair() swaps the roles.
-# Turn the frame so that the chosen face's outward normal is e, f to its left: the other's centre is (p, q) with
+# In the two functions below the rectangle `a` is the one from which the other, b, is seen; pair_separation() swaps the
+# roles. Turn the frame so that the chosen face's outward normal is e, f to its left: the other's centre is (p, q) with
 # p >= 0, its u is (ue, uf), hence its v is (-uf, ue). Its corner deepest against e lies along f at
 # t = q - sign(ue) uf hl' + sign(uf) ue hw'; with an edge parallel to the face the whole stretch q +- (hw' or
 # hl') is equally deep, and the middle of what it shares with the face is taken.
 
 
-def edge_witness(x, y, ux, uy, hl, hw, along, left, c, s, other_hl, other_hw, out):
-    """Fill out for the face with the largest gap; False when the rectangles are apart and corners are nearest."""
-    gap = fabs(along) - hl - (fabs(c) * other_hl + fabs(s) * other_hw)
-    sideways = fabs(left) - hw - (fabs(s) * other_hl + fabs(c) * other_hw)
-    side = side_of(along)
-    ex = side * ux
-    ey = side * uy
-    q = side * left
-    ue = side * c
-    uf = side * s
-    h = hl
-    w = hw
-    edge = 4 if side > 0.0 else 6
+def edge_witness(a, seen, out):
+    """Fill out for the face of a with the largest gap; False when the rectangles are apart and corners are nearest."""
+    gap = fabs(seen.along) - seen.hl - (fabs(seen.c) * seen.other_hl + fabs(seen.s) * seen.other_hw)
+    sideways = fabs(seen.left) - seen.hw - (fabs(seen.s) * seen.other_hl + fabs(seen.c) * seen.other_hw)
+    side = side_of(seen.along)
+    ex = side * a.ux
+    ey = side * a.uy
+    q = side * seen.left
+    ue = side * seen.c
+    uf = side * seen.s
+    h = seen.hl
+    w = seen.hw
+    edge = FRONT if side > 0.0 else REAR
     if sideways > gap:
         gap = sideways
-        side = side_of(left)
-        ex = -side * uy
-        ey = side * ux
-        q = -side * along
-        ue = side * s
-        uf = -side * c
-        h = hw
-        w = hl
-        edge = 7 if side > 0.0 else 5
+        side = side_of(seen.left)
+        ex = -side * a.uy
+        ey = side * a.ux
+        q = -side * seen.along
+        ue = side * seen.s
+        uf = -side * seen.c
+        h = seen.hw
+        w = seen.hl
+        edge = LEFT if side > 0.0 else RIGHT
     half = -1.0
     if fabs(uf) <= PARALLEL_SINE:
-        half = other_hw
-        other_feature = 6 if ue > 0.0 else 4
+        half = seen.other_hw
+        other_feature = REAR if ue > 0.0 else FRONT
     elif fabs(ue) <= PARALLEL_SINE:
-        half = other_hl
-        other_feature = 7 if uf > 0.0 else 5
+        half = seen.other_hl
+        other_feature = LEFT if uf > 0.0 else RIGHT
     else:
         other_feature = corner_at(-ue, uf)
     if half >= 0.0:
@@ -189,92 +202,121 @@ def edge_witness(x, y, ux, uy, hl, hw, along, left, c, s, other_hl, other_hw, ou
             return False
         t = 0.5 * (low + high)
     else:
-        t = q - side_of(ue) * uf * other_hl + side_of(uf) * ue * other_hw
+        t = q - side_of(ue) * uf * seen.other_hl + side_of(uf) * ue * seen.other_hw
         if fabs(t) > w:
             if gap > 0.0:
                 return False
             t = w if t > 0.0 else -w
-    out[0] = gap
-    out[1] = x + (h * ex - t * ey)
-    out[2] = y + (h * ey + t * ex)
-    out[3] = x + ((h + gap) * ex - t * ey)
-    out[4] = y + ((h + gap) * ey + t * ex)
-    out[5] = ex
-    out[6] = ey
-    out[7] = 8 * edge + other_feature
+    out.separation = gap
+    out.ax = a.x + (h * ex - t * ey)
+    out.ay = a.y + (h * ey + t * ex)
+    out.bx = a.x + ((h + gap) * ex - t * ey)
+    out.by = a.y + ((h + gap) * ey + t * ex)
+    out.nx = ex
+    out.ny = ey
+    out.feature_a = edge
+    out.feature_b = other_feature
     return True
 
 
-def corner_witness(x, y, ux, uy, hl, hw, along, left, c, s, other_hl, other_hw, out):
-    """Fill out for the corner of the other that is nearest to this rectangle."""
+def corner_witness(a, seen, out):
+    """Fill out for the corner of the other that is nearest to a."""
     px = 0.0
     py = 0.0
     least = -1.0
-    corner = 0
     for k in range(4):
-        l_side = other_hl if k < 2 else -other_hl
-        w_side = other_hw if k == 0 or k == 3 else -other_hw
-        cx = along + c * l_side - s * w_side
-        cy = left + s * l_side + c * w_side
-        squared = point_gap_squared(cx, cy, hl, hw)
+        l_side = seen.other_hl if k < REAR_RIGHT else -seen.other_hl
+        w_side = seen.other_hw if k == FRONT_LEFT or k == REAR_LEFT else -seen.other_hw
+        cx = seen.along + seen.c * l_side - seen.s * w_side
+        cy = seen.left + seen.s * l_side + seen.c * w_side
+        squared = point_gap_squared(cx, cy, seen.hl, seen.hw)
         if least < 0.0 or squared < least:
             least = squared
             px = cx
             py = cy
-            corner = k
+            out.feature_b = k
     side_x = side_of(px)
     side_y = side_of(py)
-    beyond_x = fabs(px) - hl
-    beyond_y = fabs(py) - hw
+    beyond_x = fabs(px) - seen.hl
+    beyond_y = fabs(py) - seen.hw
     gap = sqrt(least)
-    feature = corner_at(px, py)
+    out.feature_a = corner_at(px, py)
     if beyond_x > 0.0 and beyond_y > 0.0:
         nx = side_x * beyond_x / gap
         ny = side_y * beyond_y / gap
-        px = side_x * hl
-        py = side_y * hw
+        px = side_x * seen.hl
+        py = side_y * seen.hw
     elif beyond_x >= beyond_y:
         gap = beyond_x
         nx = side_x
         ny = 0.0
-        px = side_x * hl
-        feature = 4 if side_x > 0.0 else 6
+        px = side_x * seen.hl
+        out.feature_a = FRONT if side_x > 0.0 else REAR
     else:
         gap = beyond_y
         nx = 0.0
         ny = side_y
-        py = side_y * hw
-        feature = 7 if side_y > 0.0 else 5
-    out[0] = gap
-    out[1] = x + (px * ux - py * uy)
-    out[2] = y + (px * uy + py * ux)
-    out[3] = x + ((px + gap * nx) * ux - (py + gap * ny) * uy)
-    out[4] = y + ((px + gap * nx) * uy + (py + gap * ny) * ux)
-    out[5] = nx * ux - ny * uy
-    out[6] = nx * uy + ny * ux
-    out[7] = 8 * feature + corner
+        py = side_y * seen.hw
+        out.feature_a = LEFT if side_y > 0.0 else RIGHT
+    out.separation = gap
+    out.ax = a.x + (px * a.ux - py * a.uy)
+    out.ay = a.y + (px * a.uy + py * a.ux)
+    out.bx = a.x + ((px + gap * nx) * a.ux - (py + gap * ny) * a.uy)
+    out.by = a.y + ((px + gap * nx) * a.uy + (py + gap * ny) * a.ux)
+    out.nx = nx * a.ux - ny * a.uy
+    out.ny = nx * a.uy + ny * a.ux
 
 
-def reverse_pair(out):
-    """Swap the roles of a and b in what pair_separation() wrote."""
-    wx = out[1]
-    wy = out[2]
-    features = cython.cast(cython.int, out[7])
-    out[1] = out[3]
-    out[2] = out[4]
-    out[3] = wx
-    out[4] = wy
-    out[5] = -out[5]
-    out[6] = -out[6]
-    out[7] = 8 * (features % 8) + features // 8
+def framed(frames, i):
+    """The rectangle in row i of frames, whose columns are FRAME_X to FRAME_HALF_WIDTH."""
+    return Rectangle(
+        frames[i, FRAME_X],
+        frames[i, FRAME_Y],
+        frames[i, FRAME_UX],
+        frames[i, FRAME_UY],
+        frames[i, FRAME_HALF_LENGTH],
+        frames[i, FRAME_HALF_WIDTH],
+    )
+
+
+def bench_of(i, sizes, chain):
+    """The rectangle of bench i of a chain."""
+    return Rectangle(
+        chain[i, MX], chain[i, MY], chain[i, UX], chain[i, UY], sizes[i, HALF_LENGTH], sizes[i, HALF_WIDTH]
+    )
+
+
+def row_separation(i, j, sizes, chain, out):
+    """pair_separation() of benches i and j of a chain."""
+    pair_separation(bench_of(i, sizes, chain), bench_of(j, sizes, chain), out)
+
+
+def bench_separation(a, b, sizes, chain):
+    """Separation of benches a and b of a chain, and what realises it."""
+    out = Witnesses()
+    row_separation(a, b, sizes, chain, out)
+    return out
 
 
 def pair_separations(a, b, out):
-    """pair_separation() row by row. a, b: (n, 6) x, y, ux, uy, half length, half width; out: (n, 8)."""
+    """pair_separation() row by row. a, b: (n, FRAME_COLUMNS); out: (n, SEPARATION_COLUMNS) SEPARATION to FEATURE_B."""
+    found = Witnesses()
     with cython.nogil:
         for i in range(a.shape[0]):
-            pair_separation(
-                a[i, 0], a[i, 1], a[i, 2], a[i, 3], a[i, 4], a[i, 5],
-                b[i, 0], b[i, 1], b[i, 2], b[i, 3], b[i, 4], b[i, 5],
-                out[i],
-            )  # fmt: skip
+            pair_separation(framed(a, i), framed(b, i), found)
+            out[i, SEPARATION] = found.separation
+            out[i, WITNESS_AX] = found.ax
+            out[i, WITNESS_AY] = found.ay
+            out[i, WITNESS_BX] = found.bx
+            out[i, WITNESS_BY] = found.by
+            out[i, NORMAL_X] = found.nx
+            out[i, NORMAL_Y] = found.ny
+            out[i, FEATURE_A] = found.feature_a
+            out[i, FEATURE_B] = found.feature_b
+
+
+def pair_gaps(a, b, limit, out):
+    """pair_gap_within() row by row. a, b: (n, FRAME_COLUMNS); out: (n,)"""
+    with cython.nogil:
+        for i in range(a.shape[0]):
+            out[i] = pair_gap_within(framed(a, i), framed(b, i), limit)

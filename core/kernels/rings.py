@@ -5,7 +5,7 @@ from cython.cimports.libc.math import asin, sin, sqrt
 
 if not cython.compiled:  # for the compiler the same stands in the .pxd
     from core.kernels.constants import *
-    from core.kernels.route import first_place, stands_first
+    from core.kernels.route import first_place
     from core.kernels.spiral import spiral_arc
 
 
@@ -22,32 +22,53 @@ if not cython.compiled:  # for the compiler the same stands in the .pxd
 RING_ROUNDING = 1e-12  # [1]
 
 
-def settled(growth, radius, ring):
+class Rings:
+    """What the bounds of this module know of a dragon's benches [m].
+
+    chord, shortest, overhang, half_width: the longest and the shortest chord, the longest overhang, the largest half
+        width of those that can be the outer one of a pair
+    all_chord, all_shortest, all_overhang, all_half_width, all_radius: the same, and the largest half diagonal, of all
+    between_shortest: shortest chord of those that can lie between two others
+    clear_radius: no pair whose inner bench leads at this radius or more can touch
+    clear_place: on a route, no two benches of which the leading one's front handle stands at this place or further back
+        can touch, FREE if there is no such place; end_place: and once a body repeats itself, nothing touches while the
+        head is beyond this one, -FREE if there is none
+    """
+
+    def __init__(self):
+        self.chord = self.shortest = self.overhang = self.half_width = 0.0
+        self.all_chord = self.all_shortest = self.all_overhang = self.all_half_width = self.all_radius = 0.0
+        self.between_shortest = self.clear_radius = 0.0
+        self.clear_place = FREE
+        self.end_place = -FREE
+
+
+def settled(growth, radius, rings):
     """Do all benches led from this radius outwards have 0 <= x0 <= 1.67 growth <= c?"""
     return (
-        ring[RING_SHORT] >= 1.67 * growth
-        and radius * radius >= 1.5708 * ring[RING_CHORD] * growth
-        and radius >= 0.5 * ring[RING_CHORD]
+        rings.shortest >= 1.67 * growth
+        and radius * radius >= 1.5708 * rings.chord * growth
+        and radius >= 0.5 * rings.chord
     )
 
 
-def radius_beyond(growth, radius, ring):
+def radius_beyond(growth, radius, rings):
     """A radius such that every bench led from there or further out lies wholly outside `radius` [m]."""
-    target = radius + ring[RING_HALF_WIDTH]
-    beyond = sqrt(target * target + 0.25 * ring[RING_CHORD] * ring[RING_CHORD])
-    if settled(growth, beyond, ring):
+    target = radius + rings.half_width
+    beyond = sqrt(target * target + 0.25 * rings.chord * rings.chord)
+    if settled(growth, beyond, rings):
         return beyond * (1.0 + RING_ROUNDING)
-    beyond = 0.5 * ring[RING_CHORD]
-    return (target + (beyond if beyond > ring[RING_OVERHANG] else ring[RING_OVERHANG])) * (1.0 + RING_ROUNDING)
+    beyond = 0.5 * rings.chord
+    return (target + (beyond if beyond > rings.overhang else rings.overhang)) * (1.0 + RING_ROUNDING)
 
 
-def leaders_reach(growth, lead, rear, ring):
+def leaders_reach(growth, lead, rear, rings):
     """No point of benches led from radius `lead` or more, rear handles at `rear` or less, is further out [m]."""
-    chord = ring[ALL_CHORD]
-    overhang = ring[ALL_OVERHANG]
+    chord = rings.all_chord
+    overhang = rings.all_overhang
     if lead >= 0.5 * chord and lead * lead >= 1.5708 * chord * growth:
-        return sqrt(rear * rear + overhang * (chord + 3.34 * growth + overhang)) + ring[ALL_HALF_WIDTH]
-    return rear + overhang + ring[ALL_HALF_WIDTH]
+        return sqrt(rear * rear + overhang * (chord + 3.34 * growth + overhang)) + rings.all_half_width
+    return rear + overhang + rings.all_half_width
 
 
 # Rings. A foot is at most max(c / 2, 1.67 growth) from the front handle of its chord, so d^2 >= r_a^2 - max(...)^2 also
@@ -81,15 +102,16 @@ DISCERNED = 1e-3
 # rho^2)), so it is at least the lesser of its values at both ends; everything else falls with growth.
 
 
-def ring_least(
-    growth_low, growth, radius, chord, shortest, overhang, half_width, outer_chord, outer_half_width, total=1e150
-):
+def ring_least(growth_low, growth, radius, rings, total=1e150):
     """Lower bound of the separation of any two non-neighbours whose inner bench leads at `radius` or further out [m].
 
-    It holds for every growth in [growth_low, growth] [m/rad]. chord, overhang, half_width: the largest of all benches;
-    shortest: chord of those that can lie between two others; outer_...: over those that can be the outer one; total: at
-    least the sum of all chords, where that may help; -1e150 where the bound says nothing.
+    It holds for every growth in [growth_low, growth] [m/rad]. total: at least the sum of all chords, where that may
+    help; -FREE where the bound says nothing.
     """
+    chord = rings.all_chord
+    overhang = rings.all_overhang
+    half_width = rings.all_half_width
+    outer_half_width = rings.half_width
     foot = 0.5 * chord if 0.5 * chord > 1.67 * growth else 1.67 * growth
     d2 = radius * radius - foot * foot
     gap = FREE
@@ -103,7 +125,7 @@ def ring_least(
     for end in range(2):
         x_rear = 0.5 * chord + 1.67 * at
         q = 1.0 / d + 2.0 * at * (x_rear + overhang) / (d * d2)
-        bows = 0.5 * q * overhang * (overhang + chord) + 0.125 * q * outer_chord * outer_chord
+        bows = 0.5 * q * overhang * (overhang + chord) + 0.125 * q * rings.chord * rings.chord
         bows += (half_width + outer_half_width) * sqrt(1.0 + at * at / (rho * rho))
         if TWO_PI * at - bows < gap:
             gap = TWO_PI * at - bows
@@ -111,7 +133,7 @@ def ring_least(
     gap /= sqrt(1.0 + PI * PI * growth * growth / (4.0 * rho * rho))
     x_rear = 0.5 * chord + 1.67 * growth
     same_turn = radius + PI * growth * chord / radius
-    same_turn = shortest * rho / sqrt(growth * growth + same_turn * same_turn)
+    same_turn = rings.between_shortest * rho / sqrt(growth * growth + same_turn * same_turn)
     spread = 2.0 * (overhang + x_rear * half_width / d) / rho
     same_turn = same_turn / rho - spread
     if same_turn <= 0.0:
@@ -131,23 +153,23 @@ def ring_least(
 # forward (route.py), so a bench whose front handle stands on that coil has always been there, and so have all behind
 # it: they stand on one spiral (as long as it stays clear of where the coil is led together with the next piece, see
 # stands_first()), and all bounds above hold of them, around the coil's centre. Hence no two benches touch
-# of which the leading one's front handle stands at RING_PLACE or further back, from where ring_least() exceeds the
+# of which the leading one's front handle stands at clear_place or further back, from where ring_least() exceeds the
 # margin; and no bench that stands on the coil with its front handle at radius_beyond(X) or further out touches one
-# within X of the centre. So only benches before RING_PLACE lead pairs, and the chain need not be laid out further than
+# within X of the centre. So only benches before clear_place lead pairs, and the chain need not be laid out further than
 # beyond the reach of these.
 
 
 def coil_radius(pieces, x, y):
     """Distance of a point from the centre of the coil that a route begins with [m]."""
-    x -= pieces[0, 5]
-    y -= pieces[0, 6]
+    x -= pieces[0, CENTRE_X]
+    y -= pieces[0, CENTRE_Y]
     return sqrt(x * x + y * y)
 
 
 def coil_place(pieces, radius):
     """Where handles on the first coil, before it is led to the next piece, are at least so far from its centre [m]."""
-    growth = pieces[0, 7]
-    return max(first_place(pieces), growth * spiral_arc(radius / growth) - pieces[0, 10] - pieces[0, S_START])
+    growth = pieces[0, COIL_GROWTH]
+    return max(first_place(pieces), growth * spiral_arc(radius / growth) - pieces[0, COIL_ARC] - pieces[0, S_START])
 
 
 def coil_reach(pieces, leaders, sizes, chain):
@@ -158,23 +180,6 @@ def coil_reach(pieces, leaders, sizes, chain):
         if far > reach:
             reach = far
     return reach
-
-
-def stays_beyond(pieces, leaders, handles, h, margin, error, ring, sizes, before, after, motion):
-    """Do the benches behind handle `handles` of a route stay beyond the reach of those that lead pairs meanwhile?
-
-    A leader's centre is at most h / 2 of travel from where it stands at one of the ends. That handle goes inwards, so
-    it is nearest to the centre at the far end. error: of points of the chains [m], which has u (|x| + |y|) and more in
-    it (route.py), so that 8 times that covers the roundings of radii too
-    """
-    reach = 0.0
-    for i in range(leaders):
-        far = max(coil_radius(pieces, before[i, MX], before[i, MY]), coil_radius(pieces, after[i, MX], after[i, MY]))
-        far += sizes[i, RADIUS] + 0.5 * h * motion[i, CENTRE_SPEED]
-        if far > reach:
-            reach = far
-    reach = radius_beyond(pieces[0, 7], (reach + margin) * (1.0 + RING_ROUNDING) + 8.0 * error, ring) + 8.0 * error
-    return stands_first(pieces, handles, after) and coil_radius(pieces, after[handles, PX], after[handles, PY]) >= reach
 
 
 def drift(rate, h, growth, radius):

@@ -55,10 +55,19 @@ cdef bint stands_first(const double[:, ::1] pieces, Py_ssize_t k, double[:, ::1]
 @cython.locals(p=cython.Py_ssize_t)
 cdef void start_route(const double[:, ::1] pieces, double s, double[:, ::1] chain) noexcept nogil
 
-@cython.locals(k=cython.Py_ssize_t, p=cython.Py_ssize_t, i=cython.int, alike=cython.Py_ssize_t)
+@cython.locals(k=cython.Py_ssize_t, p=cython.Py_ssize_t, alike=cython.Py_ssize_t, same=cython.bint)
 cdef Py_ssize_t extend_route(
     const double[:, ::1] pieces, Py_ssize_t first, Py_ssize_t last, double until, double[:, ::1] sizes,
     double[:, ::1] chain
+) noexcept nogil
+
+cdef void put_handle(
+    Py_ssize_t k, (double, double, double, double, double) point, double[:, ::1] chain
+) noexcept nogil
+
+@cython.locals(i=cython.int)
+cdef void seek_rear(
+    const double[:, ::1] pieces, Py_ssize_t k, Py_ssize_t p, double step, double chord, double[:, ::1] chain
 ) noexcept nogil
 
 cdef void finish_link(Py_ssize_t k, double chord, double[:, ::1] chain) noexcept nogil

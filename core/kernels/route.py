@@ -10,8 +10,8 @@ if not cython.compiled:  # for the compiler the same stands in the .pxd
 
 def cubic_speed(pieces, p, t):
     """|r'(t)| of a cubic."""
-    x = pieces[p, 6] + t * (2.0 * pieces[p, 7] + 3.0 * t * pieces[p, 8])
-    y = pieces[p, 10] + t * (2.0 * pieces[p, 11] + 3.0 * t * pieces[p, 12])
+    x = pieces[p, X1] + t * (2.0 * pieces[p, X2] + 3.0 * t * pieces[p, X3])
+    y = pieces[p, Y1] + t * (2.0 * pieces[p, Y2] + 3.0 * t * pieces[p, Y3])
     return sqrt(x * x + y * y)
 
 
@@ -32,7 +32,7 @@ def cubic_arc(pieces, p, t):
 def cubic_arcs(pieces, out):
     """Arc length of every row's cubic from 0 to its end [m]. out: (rows,)"""
     for p in range(pieces.shape[0]):
-        out[p] = cubic_arc(pieces, p, pieces[p, 13])
+        out[p] = cubic_arc(pieces, p, pieces[p, T_END])
 
 
 def piece_of(pieces, s, near):
@@ -62,70 +62,76 @@ def route_point(pieces, p, s):
     kind = cython.cast(cython.int, pieces[p, PIECE_KIND])
     u = s - pieces[p, S_START]
     if kind == LINE:
-        return (pieces[p, 5] + u * pieces[p, 7], pieces[p, 6] + u * pieces[p, 8], pieces[p, 7], pieces[p, 8], 0.0)
+        return (
+            pieces[p, LINE_X] + u * pieces[p, LINE_DX],
+            pieces[p, LINE_Y] + u * pieces[p, LINE_DY],
+            pieces[p, LINE_DX],
+            pieces[p, LINE_DY],
+            0.0,
+        )
     if kind == ARC:
-        a = pieces[p, 8] + pieces[p, 9] * u / pieces[p, 7]
+        a = pieces[p, ARC_ANGLE] + pieces[p, SIGN] * u / pieces[p, ARC_RADIUS]
         c = cos(a)
         d = sin(a)
         return (
-            pieces[p, 5] + pieces[p, 7] * c,
-            pieces[p, 6] + pieces[p, 7] * d,
-            -pieces[p, 9] * d,
-            pieces[p, 9] * c,
-            pieces[p, 9] / pieces[p, 7],
+            pieces[p, CENTRE_X] + pieces[p, ARC_RADIUS] * c,
+            pieces[p, CENTRE_Y] + pieces[p, ARC_RADIUS] * d,
+            -pieces[p, SIGN] * d,
+            pieces[p, SIGN] * c,
+            pieces[p, SIGN] / pieces[p, ARC_RADIUS],
         )
     if kind == SPIRAL:
         return spiral_point(pieces, p, theta_at(pieces, p, s))
-    a = u / (pieces[p, S_END] - pieces[p, S_START]) * pieces[p, 13]
+    a = u / (pieces[p, S_END] - pieces[p, S_START]) * pieces[p, T_END]
     for i in range(30):
         d = (cubic_arc(pieces, p, a) - u) / cubic_speed(pieces, p, a)
         a -= d
-        if fabs(d) <= 1e-15 * pieces[p, 13]:
+        if fabs(d) <= 1e-15 * pieces[p, T_END]:
             break
     return cubic_point(pieces, p, a)
 
 
 def cubic_point(pieces, p, a):
     """route_point() on a cubic at a."""
-    c = pieces[p, 6] + a * (2.0 * pieces[p, 7] + 3.0 * a * pieces[p, 8])
-    d = pieces[p, 10] + a * (2.0 * pieces[p, 11] + 3.0 * a * pieces[p, 12])
+    c = pieces[p, X1] + a * (2.0 * pieces[p, X2] + 3.0 * a * pieces[p, X3])
+    d = pieces[p, Y1] + a * (2.0 * pieces[p, Y2] + 3.0 * a * pieces[p, Y3])
     length = sqrt(c * c + d * d)
     return (
-        pieces[p, 5] + a * (pieces[p, 6] + a * (pieces[p, 7] + a * pieces[p, 8])),
-        pieces[p, 9] + a * (pieces[p, 10] + a * (pieces[p, 11] + a * pieces[p, 12])),
+        pieces[p, X0] + a * (pieces[p, X1] + a * (pieces[p, X2] + a * pieces[p, X3])),
+        pieces[p, Y0] + a * (pieces[p, Y1] + a * (pieces[p, Y2] + a * pieces[p, Y3])),
         c / length,
         d / length,
-        (c * (2.0 * pieces[p, 11] + 6.0 * a * pieces[p, 12]) - d * (2.0 * pieces[p, 7] + 6.0 * a * pieces[p, 8]))
+        (c * (2.0 * pieces[p, Y2] + 6.0 * a * pieces[p, Y3]) - d * (2.0 * pieces[p, X2] + 6.0 * a * pieces[p, X3]))
         / (length * length * length),
     )
 
 
 def theta_at(pieces, p, s):
     """theta on a spiral piece at arc length s."""
-    return spiral_theta((pieces[p, 10] + pieces[p, 9] * (s - pieces[p, S_START])) / pieces[p, 7])
+    return spiral_theta((pieces[p, COIL_ARC] + pieces[p, SIGN] * (s - pieces[p, S_START])) / pieces[p, COIL_GROWTH])
 
 
 def spiral_point(pieces, p, theta):
     """route_point() on a spiral piece at theta."""
-    c = cos(theta + pieces[p, 8])
-    d = sin(theta + pieces[p, 8])
-    scale = pieces[p, 9] / sqrt(1.0 + theta * theta)
+    c = cos(theta + pieces[p, COIL_ROTATION])
+    d = sin(theta + pieces[p, COIL_ROTATION])
+    scale = pieces[p, SIGN] / sqrt(1.0 + theta * theta)
     return (
-        pieces[p, 5] + pieces[p, 7] * theta * c,
-        pieces[p, 6] + pieces[p, 7] * theta * d,
+        pieces[p, CENTRE_X] + pieces[p, COIL_GROWTH] * theta * c,
+        pieces[p, CENTRE_Y] + pieces[p, COIL_GROWTH] * theta * d,
         scale * (c - theta * d),
         scale * (d + theta * c),
-        pieces[p, 9] * spiral_curvature(theta) / pieces[p, 7],
+        pieces[p, SIGN] * spiral_curvature(theta) / pieces[p, COIL_GROWTH],
     )
 
 
 def route_points(pieces, s, out):
-    """x, y, tangent x, y, curvature at every s. out: (S, 5)"""
+    """The point at every s. out: (S, POINT_COLUMNS) PX, PY, TX, TY, POINT_CURVATURE"""
     p = 0
     with cython.nogil:
         for i in range(s.shape[0]):
             p = piece_of(pieces, s[i], p)
-            out[i, 0], out[i, 1], out[i, 2], out[i, 3], out[i, 4] = route_point(pieces, p, s[i])
+            (out[i, PX], out[i, PY], out[i, TX], out[i, TY], out[i, POINT_CURVATURE]) = route_point(pieces, p, s[i])
 
 
 def set_piece_theta(pieces, p, k, chain):
@@ -147,7 +153,7 @@ def first_place(pieces):
 def start_route(pieces, s, chain):
     """Row 0 of a chain on a route: the head at s."""
     p = piece_of(pieces, s, 0)
-    chain[0, PX], chain[0, PY], chain[0, TX], chain[0, TY], chain[0, CURVATURE] = route_point(pieces, p, s)
+    put_handle(0, route_point(pieces, p, s), chain)
     chain[0, PLACE] = -s
     chain[0, PIECE] = p
     chain[0, RATE] = 1.0
@@ -181,11 +187,11 @@ def start_route(pieces, s, chain):
 
 def cubic_size(pieces, p):
     """C: sum of |c_k| end^k of both coordinates, k >= 1 [m]."""
-    t = pieces[p, 13]
+    t = pieces[p, T_END]
     return t * (
-        fabs(pieces[p, 6])
-        + fabs(pieces[p, 10])
-        + t * (fabs(pieces[p, 7]) + fabs(pieces[p, 11]) + t * (fabs(pieces[p, 8]) + fabs(pieces[p, 12])))
+        fabs(pieces[p, X1])
+        + fabs(pieces[p, Y1])
+        + t * (fabs(pieces[p, X2]) + fabs(pieces[p, Y2]) + t * (fabs(pieces[p, X3]) + fabs(pieces[p, Y3])))
     )
 
 
@@ -196,9 +202,13 @@ def spot_error(pieces, p, s, theta, x, y):
     if kind == LINE:
         error += fabs(s - pieces[p, S_START])
     elif kind == ARC:
-        error += 5.0 * pieces[p, 7]
+        error += 5.0 * pieces[p, ARC_RADIUS]
     elif kind == SPIRAL:
-        error += pieces[p, 7] * theta * (6.0 if pieces[p, 8] == 0.0 else 6.0 + fabs(theta + pieces[p, 8]))
+        error += (
+            pieces[p, COIL_GROWTH]
+            * theta
+            * (6.0 if pieces[p, COIL_ROTATION] == 0.0 else 6.0 + fabs(theta + pieces[p, COIL_ROTATION]))
+        )
     else:
         error += 12.0 * cubic_size(pieces, p)
     if s < pieces[p, S_START] + BLEND or s > pieces[p, S_END] - BLEND:
@@ -213,9 +223,9 @@ def slide_error(pieces, p, s):
     if kind == LINE:
         return ULP * away
     if kind == ARC:
-        return ULP * (4.0 * away + pieces[p, 7] * fabs(pieces[p, 8]))
+        return ULP * (4.0 * away + pieces[p, ARC_RADIUS] * fabs(pieces[p, ARC_ANGLE]))
     if kind == SPIRAL:
-        return 10.0 * ULP * (fabs(pieces[p, 10]) + away)
+        return 10.0 * ULP * (fabs(pieces[p, COIL_ARC]) + away)
     return 100.0 * ULP * cubic_size(pieces, p)
 
 
@@ -223,12 +233,12 @@ def piece_end(pieces, p, s):
     """route_point() at either end of a piece, on a cubic without a search for t."""
     if pieces[p, PIECE_KIND] <= SPIRAL:
         return route_point(pieces, p, s)
-    return cubic_point(pieces, p, 0.0 if s == pieces[p, S_START] else pieces[p, 13])
+    return cubic_point(pieces, p, 0.0 if s == pieces[p, S_START] else pieces[p, T_END])
 
 
 def joint_misses(pieces, out):
     """By how much every piece misses the one before it at most: across and along the path [m], direction [rad],
-    curvature [1/m]. out: (rows, 4), of which the first row is left alone
+    curvature [1/m]. out: (rows, MISS_COLUMNS), of which the first row is left alone
 
     A tangent is good to 10 u, and to u |angle| more on a turned spiral; on a cubic to 15 u C / (|r'| end), where
     curvature is good to 72 u (C / (|r'| end))^2 / C.
@@ -245,17 +255,17 @@ def joint_misses(pieces, out):
             theta = theta_at(pieces, q, s) if pieces[q, PIECE_KIND] == SPIRAL else 0.0
             across += spot_error(pieces, q, s, theta, x, y)
             along += slide_error(pieces, q, s)
-            if pieces[q, PIECE_KIND] == SPIRAL and pieces[q, 8] != 0.0:
-                kink += ULP * fabs(theta + pieces[q, 8])
+            if pieces[q, PIECE_KIND] == SPIRAL and pieces[q, COIL_ROTATION] != 0.0:
+                kink += ULP * fabs(theta + pieces[q, COIL_ROTATION])
             if pieces[q, PIECE_KIND] > SPIRAL:
                 theta = cubic_size(pieces, q)
-                bend = theta / (pieces[q, 13] * cubic_speed(pieces, q, 0.0 if q == p else pieces[q, 13]))
+                bend = theta / (pieces[q, T_END] * cubic_speed(pieces, q, 0.0 if q == p else pieces[q, T_END]))
                 kink += 15.0 * ULP * bend
                 step += 72.0 * ULP * bend * bend / theta
-        out[p, 0] = across
-        out[p, 1] = along
-        out[p, 2] = kink
-        out[p, 3] = step
+        out[p, MISS_ACROSS] = across
+        out[p, MISS_ALONG] = along
+        out[p, MISS_KINK] = kink
+        out[p, MISS_STEP] = step
 
 
 def piece_slides(pieces, out):
@@ -285,42 +295,33 @@ def extend_route(pieces, first, last, until, sizes, chain):
         s = -chain[k, PLACE]
         p = cython.cast(cython.Py_ssize_t, chain[k, PIECE])
         chord = sizes[k, CHORD]
-        low = chord
-        high = 0.5 * PI * chord
-        step = chord
-        if k > 0 and sizes[k - 1, CHORD] == chord:
-            step = chain[k, PLACE] - chain[k - 1, PLACE]
+        same = k > 0 and sizes[k - 1, CHORD] == chord
+        step = chain[k, PLACE] - chain[k - 1, PLACE] if same else chord
         if pieces[p, PIECE_KIND] == LINE:
             step = chord
         elif pieces[p, PIECE_KIND] == ARC:
-            step = 2.0 * pieces[p, 7] * asin(0.5 * chord / pieces[p, 7])
+            step = 2.0 * pieces[p, ARC_RADIUS] * asin(0.5 * chord / pieces[p, ARC_RADIUS])
         elif pieces[p, PIECE_KIND] == SPIRAL:
             # on an outward spiral the follower is further in: the same equation with theta negative
-            theta = -pieces[p, 9] * chain[k, PIECE_THETA]
-            distance = chord / pieces[p, 7]
+            theta = -pieces[p, SIGN] * chain[k, PIECE_THETA]
+            distance = chord / pieces[p, COIL_GROWTH]
             if alike == 0:
                 begin = spiral_arc(theta)
-            elif sizes[k - 1, CHORD] != chord:
+            elif not same:
                 alike = 1
             if alike > 5:
                 delta = 5.0 * (d1 - d4) + 10.0 * (d3 - d2) + d5
             elif alike > 3:
                 delta = 3.0 * (d1 - d2) + d3
             else:
-                delta = step / (pieces[p, 7] * sqrt(1.0 + theta * theta))
+                delta = step / (pieces[p, COIL_GROWTH] * sqrt(1.0 + theta * theta))
             delta, rear = next_arc(theta, distance * distance, delta)
-            arc = (rear - begin) * pieces[p, 7] if delta > 0.0 else -1.0
-            if low <= arc <= high:
+            arc = (rear - begin) * pieces[p, COIL_GROWTH] if delta > 0.0 else -1.0
+            if chord <= arc <= 0.5 * PI * chord:
                 step = arc
                 if p == 0 or s - arc >= pieces[p, S_START]:
                     chain[k + 1, PIECE_THETA] = fabs(theta + delta)
-                    (
-                        chain[k + 1, PX],
-                        chain[k + 1, PY],
-                        chain[k + 1, TX],
-                        chain[k + 1, TY],
-                        chain[k + 1, CURVATURE],
-                    ) = spiral_point(pieces, p, fabs(theta + delta))
+                    put_handle(k + 1, spiral_point(pieces, p, fabs(theta + delta)), chain)
                     chain[k + 1, PLACE] = step - s
                     chain[k + 1, PIECE] = p
                     finish_link(k, chord, chain)
@@ -333,32 +334,46 @@ def extend_route(pieces, first, last, until, sizes, chain):
                     begin = rear
                     continue
         alike = 0
-        for i in range(80):
-            if not (low <= step <= high):
-                step = 0.5 * (low + high)
-            p = piece_of(pieces, s - step, p)
-            (chain[k + 1, PX], chain[k + 1, PY], chain[k + 1, TX], chain[k + 1, TY], chain[k + 1, CURVATURE]) = (
-                route_point(pieces, p, s - step)
-            )
-            dx = chain[k, PX] - chain[k + 1, PX]
-            dy = chain[k, PY] - chain[k + 1, PY]
-            distance = sqrt(dx * dx + dy * dy)
-            slope = (dx * chain[k + 1, TX] + dy * chain[k + 1, TY]) / distance
-            if distance < chord:
-                low = step
-            else:
-                high = step
-            if (
-                fabs(distance - chord) <= 4e-16 * (chord + fabs(chain[k, PX]) + fabs(chain[k, PY]))
-                or high - low <= 1e-15 * chord
-            ):
-                break
-            step += (chord - distance) / slope if slope > 0.1 else 2.0 * high
-        chain[k + 1, PLACE] = step - s
-        chain[k + 1, PIECE] = p
-        set_piece_theta(pieces, p, k + 1, chain)
+        seek_rear(pieces, k, p, step, chord, chain)
         finish_link(k, chord, chain)
     return last
+
+
+def put_handle(k, point, chain):
+    """Handle k at a point of the path, as route_point() returns it."""
+    chain[k, PX], chain[k, PY], chain[k, TX], chain[k, TY], chain[k, CURVATURE] = point
+
+
+def seek_rear(pieces, k, p, step, chord, chain):
+    """Place handle k + 1 by Newton's method with bisections, from a step along the path behind handle k [m].
+
+    p: the piece of handle k, from which the search for that of handle k + 1 sets out
+    """
+    low = chord
+    high = 0.5 * PI * chord
+    s = -chain[k, PLACE]
+    for i in range(80):
+        if not (low <= step <= high):
+            step = 0.5 * (low + high)
+        p = piece_of(pieces, s - step, p)
+        put_handle(k + 1, route_point(pieces, p, s - step), chain)
+        dx = chain[k, PX] - chain[k + 1, PX]
+        dy = chain[k, PY] - chain[k + 1, PY]
+        distance = sqrt(dx * dx + dy * dy)
+        slope = (dx * chain[k + 1, TX] + dy * chain[k + 1, TY]) / distance
+        if distance < chord:
+            low = step
+        else:
+            high = step
+        if (
+            fabs(distance - chord) <= 4e-16 * (chord + fabs(chain[k, PX]) + fabs(chain[k, PY]))
+            or high - low <= 1e-15 * chord
+        ):
+            break
+        step += (chord - distance) / slope if slope > 0.1 else 2.0 * high
+    chain[k + 1, PLACE] = step - s
+    chain[k + 1, PIECE] = p
+    set_piece_theta(pieces, p, k + 1, chain)
 
 
 def finish_link(k, chord, chain):

@@ -4,16 +4,8 @@ import cython
 from cython.cimports.libc.math import fabs
 
 if not cython.compiled:  # for the compiler the same stands in the .pxd
-    from core.kernels.bounds import (
-        LOOSEN,
-        SPIRAL_TURN,
-        blur_of,
-        followed_error,
-        link_cosines,
-        motion_bounds,
-        route_bounds,
-    )
-    from core.kernels.chain import chain_rounding, extend
+    from core.kernels.bounds import LOOSEN, SPIRAL_TURN, blur_of, followed_error, link_cosines
+    from core.kernels.chain import extend
     from core.kernels.constants import *
     from core.kernels.rings import drift
     from core.kernels.route import extend_route, first_place, start_route
@@ -41,16 +33,16 @@ INTERVAL_LINKS = 20
 # own.
 
 
-def lively_chain(growth, pieces, place, last, calm, sizes, chain):
+def lively_chain(curve, place, last, calm, sizes, chain):
     """The chain with its head at a place up to the first calm handle, or the last; returns that one, -1 at a fold.
 
     calm: on a spiral the radius from which handles are calm [m]; on a route > 0 if its first piece is calm
     """
-    if pieces.shape[0] == 0:
-        start_chain(spiral_theta(place / growth), chain)
-        return extend_chain(growth, 0, last, 2.0 * calm, sizes, chain)
-    start_route(pieces, -place, chain)
-    return extend_route(pieces, 0, last, first_place(pieces) if calm > 0.0 else FREE, sizes, chain)
+    if curve.kind == ON_SPIRAL:
+        start_chain(spiral_theta(place / curve.growth), chain)
+        return extend_chain(curve.growth, 0, last, 2.0 * calm, sizes, chain)
+    start_route(curve.pieces, -place, chain)
+    return extend_route(curve.pieces, 0, last, first_place(curve.pieces) if calm > 0.0 else FREE, sizes, chain)
 
 
 def fastest(benches, chain):
@@ -62,16 +54,7 @@ def fastest(benches, chain):
     return best
 
 
-def top_rate(growth, pieces, place, benches, calm, sizes, chain):
-    """The largest |rate| with the head at a place, and the first handle that has it; 0 if the chain folds."""
-    k = lively_chain(growth, pieces, place, benches, calm, sizes, chain)
-    if k < 0:
-        return 0.0, 0
-    k = fastest(k, chain)
-    return fabs(chain[k, RATE]), k
-
-
-def climbs(growth, pieces, last, sizes, chain):
+def climbs(curve, last, sizes, chain):
     """Fills in d rate / d sigma of the handles of a chain [1/m], and on a spiral, which bends clockwise, the curvature.
 
     With D = P_a - P_b twice differentiated, |D| constant, N to the left of T and signed curvature:
@@ -79,9 +62,9 @@ def climbs(growth, pieces, last, sizes, chain):
     """
     second = 0.0
     chain[0, CLIMB] = 0.0
-    if pieces.shape[0] == 0:
+    if curve.kind == ON_SPIRAL:
         for i in range(last + 1):
-            chain[i, CURVATURE] = -spiral_curvature(chain[i, THETA]) / growth
+            chain[i, CURVATURE] = -spiral_curvature(chain[i, THETA]) / curve.growth
     for i in range(last):
         a = chain[i, RATE]
         b = chain[i + 1, RATE]
@@ -94,22 +77,6 @@ def climbs(growth, pieces, last, sizes, chain):
             + chain[i + 1, CURVATURE] * b * b * (chain[i, UX] * chain[i + 1, TY] - chain[i, UY] * chain[i + 1, TX])
         ) / (chain[i, UX] * chain[i + 1, TX] + chain[i, UY] * chain[i + 1, TY])
         chain[i + 1, CLIMB] = second
-
-
-def refined_peak(growth, pieces, place, low, high, benches, calm, sizes, chain):
-    """Head travel in [low, high] where the largest rate peaks [m]: bisected on whether the fastest handle still gains,
-    which it stops to do at a kink too."""
-    while high - low > PEAK_WIDTH:
-        middle = 0.5 * (low + high)
-        if middle <= low or middle >= high:
-            break
-        _, k = top_rate(growth, pieces, place - middle, benches, calm, sizes, chain)
-        climbs(growth, pieces, k, sizes, chain)
-        if chain[k, CLIMB] * chain[k, RATE] > 0.0:
-            low = middle
-        else:
-            high = middle
-    return high
 
 
 # Within a part rates are smooth: with |r''| <= J a rate stays below its chord plus J h^2 / 8; and where its slope at an
@@ -171,10 +138,9 @@ def smooth_bound(start, start_slope, end, end_slope, jerk, h, kink):
 
 # Rounding. Rates and slopes at the ends are good to RATE_ERROR and CLIMB_ERROR: on a route by route_bounds(), on a
 # spiral by spiral_errors(). There no rate exceeds 1 unless a handle is followed. What is computed from them once is
-# good to BOUND_ROUNDING of itself, and h is widened by what both travels may be off by and by WIDTH_ROUNDING, for the
-# bounds (bounds.py). A handle that is calm by less
-# than rounding is calm: on a spiral the lemma holds up to a bend of 1, and calm is what bends by BEND_LIMIT at most, on
-# a route stands_first() leaves BLEND to spare.
+# good to BOUND_ROUNDING of itself, and h is widened by what both travels may be off by, for the bounds (scene.py).
+# A handle that is calm by less than rounding is calm: on a spiral the lemma holds up to a bend of 1, and calm is what
+# bends by BEND_LIMIT at most, on a route stands_first() leaves BLEND to spare.
 #
 # The rounding d of a slope. By climbs(), divided by the chord, with e the rounding of a rate, curvature good to
 # `widened` (|d k / d s| <= 2 k / growth, bounds.py), directions to `blur`, and q = e_a + e_b + blur (|a'| + |b'|),
@@ -183,7 +149,6 @@ def smooth_bound(start, start_slope, end, end_slope, jerk, h, kink):
 #                        + for both (widened + 2 blur k) s'^2 + 4 k |s'| e.
 # Each product of two that are off counts twice: that covers both being off, and its own roundings, as blur >= 16 u.
 BOUND_ROUNDING = 1e-14  # [1]
-WIDTH_ROUNDING = 1e-12  # [1]
 
 
 def spiral_errors(growth, handles, sizes, before, after, motion):
@@ -216,62 +181,63 @@ def spiral_errors(growth, handles, sizes, before, after, motion):
         motion[k + 1, CLIMB_ERROR] = climb
 
 
-def rate_bound(growth, pieces, h, rounding, handles, benches, calm, sizes, before, after, motion):
-    """No |rate| exceeds this while the head travels h [m], between two chains placed up to `handles`; FREE when that is
-    too wide. rounding: what the travel of either may be off by [m]"""
+def rate_bound(scene, interval, calm):
+    """No |rate| exceeds this over an interval whose chains are laid out; FREE where that is too wide."""
+    handles = interval.handles
     upper = 1.0
     if handles == 0:
         return upper
-    h = h * (1.0 + WIDTH_ROUNDING) + 2.0 * rounding
-    climbs(growth, pieces, handles, sizes, before)
-    climbs(growth, pieces, handles, sizes, after)
-    if pieces.shape[0] > 0:
-        chain_rounding(growth, pieces, handles, sizes, before)
-        chain_rounding(growth, pieces, handles, sizes, after)
-        if not route_bounds(pieces, h, handles, sizes, before, after, True, motion):
-            return FREE
-    elif not motion_bounds(growth, h, handles, sizes, before, after, motion):
+    climbs(scene.curve, handles, scene.sizes, interval.before)
+    climbs(scene.curve, handles, scene.sizes, interval.after)
+    if not interval.bound(True):
         return FREE
-    elif handles < benches:
-        bound = before[handles, THETA] if before[handles, THETA] < after[handles, THETA] else after[handles, THETA]
-        bound *= growth
-        if bound - drift(motion[handles - 1, HANDLE_SPEED], h, growth, bound) < calm:
-            return FREE
-    if pieces.shape[0] == 0:
-        if motion[handles, RATE_LOW] > 0.0:
+    if scene.curve.kind == ON_SPIRAL:
+        if handles < scene.benches:
+            inner = scene.curve.growth * min(interval.before[handles, THETA], interval.after[handles, THETA])
+            rate = interval.motion[handles - 1, HANDLE_SPEED]
+            if inner - drift(rate, interval.h, scene.curve.growth, inner) < calm:
+                return FREE
+        if interval.motion[handles, RATE_LOW] > 0.0:
             return upper
-        spiral_errors(growth, handles, sizes, before, after, motion)
-        spiral_jerks(growth, h, handles, sizes, before, after, motion)
+        spiral_errors(scene.curve.growth, handles, scene.sizes, interval.before, interval.after, interval.motion)
+        spiral_jerks(
+            scene.curve.growth, interval.h, handles, scene.sizes, interval.before, interval.after, interval.motion
+        )
     for k in range(1, handles + 1):
-        error = motion[k, RATE_ERROR]
-        bound = 0.5 * (fabs(before[k, RATE]) + fabs(after[k, RATE]) + motion[k, RATE_RATE] * h) + error
-        if motion[k, RATE_HIGH] < bound:
-            bound = motion[k, RATE_HIGH]
-        if pieces.shape[0] == 0:
-            smooth = smooth_bound(
-                fabs(before[k, RATE]), before[k, CLIMB], fabs(after[k, RATE]), after[k, CLIMB],
-                motion[k, RATE_JERK], h, False,
-            )  # fmt: skip
-            bound = min(bound, smooth + error + motion[k, CLIMB_ERROR] * h)
-        elif bound > upper and motion[k, CROSSED] <= 1.0:
-            smooth = smooth_bound(
-                before[k, RATE], before[k, CLIMB], after[k, RATE], after[k, CLIMB], motion[k, RATE_JERK], h,
-                motion[k, CROSSED] > 0.0,
-            )  # fmt: skip
-            bound = min(bound, smooth + error + motion[k, CLIMB_ERROR] * h)
-        if bound > upper:
-            upper = bound
+        upper = max(upper, handle_bound(scene, interval, k, upper))
     return upper * (1.0 + BOUND_ROUNDING) if upper > 1.0 else upper
 
 
-def certain_rate(pieces, rounding, handles, chain, motion):
-    """A |rate| that a handle exceeds or has for certain from the second of two chains that rate_bound() followed back
-    to 2 `rounding` [m] before it, and the handle; at least the head's own 1."""
+def handle_bound(scene, interval, k, enough):
+    """The |rate| of handle k does not exceed this over a bounded interval, or else not what is enough."""
+    h = interval.h
+    start = interval.before[k, RATE]
+    end = interval.after[k, RATE]
+    error = interval.motion[k, RATE_ERROR]
+    jerk = interval.motion[k, RATE_JERK]
+    bound = 0.5 * (fabs(start) + fabs(end) + interval.motion[k, RATE_RATE] * h) + error
+    bound = min(bound, interval.motion[k, RATE_HIGH])
+    kink = False
+    if scene.curve.kind == ON_SPIRAL:
+        start = fabs(start)
+        end = fabs(end)
+    elif bound > enough and interval.motion[k, CROSSED] <= 1.0:
+        kink = interval.motion[k, CROSSED] > 0.0
+    else:
+        return bound
+    smooth = smooth_bound(start, interval.before[k, CLIMB], end, interval.after[k, CLIMB], jerk, h, kink)
+    return min(bound, smooth + error + interval.motion[k, CLIMB_ERROR] * h)
+
+
+def certain_rate(curve, interval, rounding):
+    """A |rate| that a handle exceeds or has for certain from the end of a bounded interval back to 2 `rounding` [m]
+    before it, and the handle; at least the head's own 1."""
     best = 1.0
     at = 0
-    if pieces.shape[0] > 0 or motion[handles, RATE_LOW] <= 0.0:
-        for k in range(1, handles + 1):
-            rate = fabs(chain[k, RATE]) - motion[k, RATE_ERROR] - 2.0 * rounding * motion[k, RATE_RATE]
+    if curve.kind == ON_ROUTE or interval.motion[interval.handles, RATE_LOW] <= 0.0:
+        for k in range(1, interval.handles + 1):
+            rate = fabs(interval.after[k, RATE]) - interval.motion[k, RATE_ERROR]
+            rate -= 2.0 * rounding * interval.motion[k, RATE_RATE]
             if rate > best:
                 best = rate
                 at = k
@@ -287,96 +253,146 @@ def peaks_between(placed, handles, before, after):
     return before[a, CLIMB] * before[a, RATE] > 0.0 >= after[b, CLIMB] * after[b, RATE]
 
 
-def peak_rate(
-    growth, pieces, place, start, stop, step, tolerance, loosest, rounding, budget, benches, calm, sizes, rows, motion,
-    out
-):  # fmt: skip
-    """The largest |rate| of any handle while the head travels from start to stop [m], and a proven upper bound.
+def lay_ahead(scene, interval, calm, placed, place):
+    """Lay out the end of an interval with its head at a place, and its beginning as far: the last handle of it.
 
-    Samples every `step`, denser towards the centre of a spiral, refines around the best, then proves interval after
-    interval that no rate exceeds the best by more than the tolerance, which grows fourfold after every `budget` links
-    followed (an interval counts as INTERVAL_LINKS more), until the proof ends or is given up at `loosest`; a rate found
-    above it becomes the best. calm: as in lively_chain(); rounding: what a travel may be off by [m], by which the way
-    that is proven begins before `start` and ends after `stop`
-    out: (4,) rate, upper bound (FREE if given up), travel, intervals
+    placed: the last handle of its beginning so far. interval.handles is the last one of its end, -1 at a fold
     """
-    before: cython.double[:, ::1] = rows[0]
-    after: cython.double[:, ::1] = rows[1]
-    spare: cython.double[:, ::1] = rows[2]
-    travel = start
-    best = 0.0
-    at = start
-    links = 0
-    with cython.nogil:
-        low = high = last = start
+    interval.handles = lively_chain(scene.curve, place, scene.benches, calm, scene.sizes, interval.after)
+    if 0 <= placed < interval.handles:
+        return extend(scene.curve, placed, interval.handles, scene.sizes, interval.before)
+    return placed
+
+
+# Input:  a run from start to stop.
+# State:  `best`, the largest |rate| seen, and `at`, the travel there. While it samples: the samples before and after
+#         that. While it proves: travel, up to which `upper` bounds every |rate|; h, the step that is tried; both chains
+#         at its ends; `links`, what was followed since the tolerance grew.
+# Output: see Peak.
+
+
+class Peak:
+    """The largest |rate| of any handle over a run, with a proven upper bound.
+
+    interval: of a scene with room for all benches; spare: rows for one more chain; calm: as in lively_chain()
+    start, stop: the run [m of head travel]; rounding: what a travel may be off by [m], by which the way that is proven
+        begins before `start` and ends after `stop`
+    rate: the largest |rate| [1]; upper: a bound on all, FREE if the proof was given up; travel: where [m]; intervals:
+        how many were looked at
+    """
+
+    def __init__(self, interval, spare, calm, start, stop, rounding):
+        self.interval = interval
+        self.spare = spare
+        self.calm = calm
+        self.start = start
+        self.stop = stop
+        self.rounding = rounding
+        self.at = 0
+        self.rate = self.upper = self.travel = 0.0
+        self.intervals = 0
+
+    def sample(self, step):
+        """Find the largest |rate|, by samples `step` apart [m], denser towards the centre of a spiral, then refined."""
+        scene = self.interval.scene
+        low = high = last = travel = self.travel = self.start
         h = step
-        while True:
-            rate, _ = top_rate(growth, pieces, place - travel, benches, calm, sizes, spare)
-            if rate > best:
-                best = rate
-                at = high = travel
-                low = last
-            elif at == last:
-                high = travel
-            if travel >= stop:
-                break
-            last = travel
-            if pieces.shape[0] == 0 and h > APPROACH * (stop - travel) and stop - travel > LAST_SAMPLE * step:
-                h = APPROACH * (stop - travel)
-            travel = travel + h if travel + h < stop else stop
-        travel = refined_peak(growth, pieces, place, low, high, benches, calm, sizes, spare)
-        rate, _ = top_rate(growth, pieces, place - travel, benches, calm, sizes, spare)
-        if rate > best:
-            best = rate
-            at = travel
-        out[1] = best
-        out[3] = 0.0
-        travel = start - rounding
-        h = step
-        end = stop + rounding
-        if pieces.shape[0] == 0 and end > place:  # no further than the centre
-            end = max(stop, place)
-        placed = lively_chain(growth, pieces, place - travel, benches, calm, sizes, before)
-        while travel < end:
-            out[3] += 1.0
-            if h > end - travel:
-                h = end - travel
-            upper = FREE
-            handles = lively_chain(growth, pieces, place - travel - h, benches, calm, sizes, after)
-            if handles >= 0:
-                if 0 <= placed < handles:
-                    placed = extend(growth, pieces, placed, handles, sizes, before)
-                if placed >= 0:
-                    upper = rate_bound(
-                        growth, pieces, h, rounding, handles, benches, calm, sizes, before, after, motion
-                    )
-                rate = fabs(after[fastest(handles, after), RATE])
-                if rate > best * (1.0 + NOISE) and start <= travel + h <= stop:
-                    best = rate
-                    at = travel + h
-            links += max(handles, 0) + INTERVAL_LINKS
-            if links > budget:
-                links = 0
-                tolerance *= 4.0
-                if tolerance > loosest:
-                    out[1] = FREE
+        self.rate = 0.0
+        with cython.nogil:
+            while True:
+                rate = self.top_rate(scene, travel)
+                if rate > self.rate:
+                    self.rate = rate
+                    self.travel = high = travel
+                    low = last
+                elif self.travel == last:
+                    high = travel
+                if travel >= self.stop:
                     break
-            if upper > best + tolerance and h > PEAK_WIDTH:
-                h *= 0.5
-                continue
-            if upper > out[1]:
-                out[1] = upper
-            if upper > best * (1.0 + NOISE) and peaks_between(placed, handles, before, after):
-                peak = refined_peak(growth, pieces, place, travel, travel + h, benches, calm, sizes, spare)
-                rate, _ = top_rate(growth, pieces, place - peak, benches, calm, sizes, spare)
-                if rate > best * (1.0 + NOISE) and start <= peak <= stop:
-                    best = rate
-                    at = peak
-            travel += h
-            placed = handles
-            before, after = after, before
-            h *= 1.5
-        out[0] = best
-        if best > out[1]:
-            out[1] = best
-        out[2] = at
+                last = travel
+                left = self.stop - travel
+                if scene.curve.kind == ON_SPIRAL and h > APPROACH * left and left > LAST_SAMPLE * step:
+                    h = APPROACH * left
+                travel = travel + h if travel + h < self.stop else self.stop
+            self.refine(scene, low, high, 0.0)
+
+    def prove(self, step, tolerance, loosest, budget):
+        """Prove that no rate exceeds that of sample() by more than the tolerance, or find a larger one.
+
+        The tolerance grows fourfold after every `budget` links followed (an interval counts as INTERVAL_LINKS more),
+        until the proof ends or is given up at `loosest`. step: the first one tried [m]
+        """
+        scene = self.interval.scene
+        links = 0
+        self.upper = self.rate
+        self.intervals = 0
+        travel = self.start - self.rounding
+        h = step
+        end = self.stop + self.rounding
+        if scene.curve.kind == ON_SPIRAL and end > scene.place:  # no further than the centre
+            end = max(self.stop, scene.place)
+        with cython.nogil:
+            placed = lively_chain(
+                scene.curve, scene.place - travel, scene.benches, self.calm, scene.sizes, self.interval.before
+            )
+            while travel < end:
+                self.intervals += 1
+                h = min(h, end - travel)
+                placed = lay_ahead(scene, self.interval, self.calm, placed, scene.place - travel - h)
+                handles = self.interval.handles
+                upper = FREE
+                if handles >= 0:
+                    if placed >= 0:
+                        self.interval.widen(h, self.rounding)
+                        upper = rate_bound(scene, self.interval, self.calm)
+                    rate = fabs(self.interval.after[fastest(handles, self.interval.after), RATE])
+                    self.keep(rate, travel + h, NOISE)
+                links += max(handles, 0) + INTERVAL_LINKS
+                if links > budget:
+                    links = 0
+                    tolerance *= 4.0
+                    if tolerance > loosest:
+                        self.upper = FREE
+                        break
+                if upper > self.rate + tolerance and h > PEAK_WIDTH:
+                    h *= 0.5
+                    continue
+                self.upper = max(self.upper, upper)
+                if upper > self.rate * (1.0 + NOISE) and peaks_between(
+                    placed, handles, self.interval.before, self.interval.after
+                ):
+                    self.refine(scene, travel, travel + h, NOISE)
+                travel += h
+                placed = handles
+                self.interval.swap()
+                h *= 1.5
+            self.upper = max(self.upper, self.rate)
+
+    def top_rate(self, scene, travel):
+        """The largest |rate| after a travel, 0 if the chain folds; the first handle that has it is self.at."""
+        last = lively_chain(scene.curve, scene.place - travel, scene.benches, self.calm, scene.sizes, self.spare)
+        self.at = fastest(last, self.spare)
+        return fabs(self.spare[self.at, RATE]) if last >= 0 else 0.0
+
+    def refine(self, scene, low, high, noise):
+        """Look where the largest rate peaks in [low, high], and keep it where it is larger by more than the noise.
+
+        Bisected on whether the fastest handle still gains, which it stops to do at a kink too.
+        """
+        while high - low > PEAK_WIDTH:
+            middle = 0.5 * (low + high)
+            if middle <= low or middle >= high:
+                break
+            self.top_rate(scene, middle)
+            climbs(scene.curve, self.at, scene.sizes, self.spare)
+            if self.spare[self.at, CLIMB] * self.spare[self.at, RATE] > 0.0:
+                low = middle
+            else:
+                high = middle
+        self.keep(self.top_rate(scene, high), high, noise)
+
+    def keep(self, rate, travel, noise):
+        """Take a rate for the largest where it is, by more than the noise, within the run."""
+        if rate > self.rate * (1.0 + noise) and self.start <= travel <= self.stop:
+            self.rate = rate
+            self.travel = travel

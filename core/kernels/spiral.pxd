@@ -32,20 +32,40 @@ cdef (double, double) next_arc(double theta, double chord2, double guess) noexce
 cdef double theta_ratio(double theta, double delta, double s, double c) noexcept nogil
 cdef double first_guess(double theta, double chord2) noexcept nogil
 
-@cython.locals(lane=cython.Py_ssize_t)
-cdef Py_ssize_t next_handles(
-    Py_ssize_t lanes, double chord2, double* theta, double* guess, double* delta, double* sine, double* cosine
-) noexcept nogil
+@cython.final
+cdef class Block:
+    cdef double growth
+    cdef Py_ssize_t standing
+    cdef double[8] theta
+    cdef double[8] x
+    cdef double[8] y
+    cdef double[8] rate
+    cdef double[8] guess
+    cdef double[8] d1
+    cdef double[8] d2
+    cdef double[8] d3
+    cdef double[8] delta
+    cdef double[8] sine
+    cdef double[8] cosine
+
+    @cython.locals(lane=cython.Py_ssize_t, lanes=cython.Py_ssize_t)
+    cdef Py_ssize_t start(self, Py_ssize_t row, double[::1] thetas, double head_speed) noexcept nogil
+    @cython.locals(lane=cython.Py_ssize_t)
+    cdef void expect(self, double chord2, bint alike) noexcept nogil
+    @cython.locals(lane=cython.Py_ssize_t)
+    cdef void solve(self, double chord2) noexcept nogil
+    @cython.locals(lane=cython.Py_ssize_t)
+    cdef void advance(self) noexcept nogil
 
 @cython.locals(lane=cython.Py_ssize_t)
 cdef void write_handles(
-    Py_ssize_t lanes, Py_ssize_t row, Py_ssize_t k, double growth, double* theta, double* x, double* y,
-    double* rate, double[:, :, ::1] position, double[:, :, ::1] velocity, double[:, ::1] speed
+    Block block, Py_ssize_t row, Py_ssize_t k, double[:, :, ::1] position, double[:, :, ::1] velocity,
+    double[:, ::1] speed
 ) noexcept nogil
 
 @cython.locals(
-    row=cython.Py_ssize_t, k=cython.Py_ssize_t, lane=cython.Py_ssize_t, lanes=cython.Py_ssize_t,
-    standing=cython.Py_ssize_t, alike=cython.Py_ssize_t
+    row=cython.Py_ssize_t, k=cython.Py_ssize_t, lanes=cython.Py_ssize_t,
+    alike=cython.Py_ssize_t, block=Block
 )
 cpdef Py_ssize_t spiral_trajectory(
     double growth, double[::1] thetas, const double[::1] chords, double head_speed, double[:, :, ::1] position,

@@ -201,54 +201,122 @@ LANES = LANES_PER_BLOCK
 Lanes = cython.typedef(cython.double[8])  # LANES_PER_BLOCK, which the C compiler wants as a literal
 
 
-def next_handles(lanes, chord2, theta, guess, delta, sine, cosine):
-    """next_handle() in every lane; returns how many lanes stand before the first that folds."""
-    for lane in range(lanes):
-        half = 0.5 * guess[lane]
-        s = half_sine(half)
-        c = half_cosine(half)
-        step, slope, curve = halley_step(theta[lane], chord2, guess[lane], s, c)
-        reached = guess[lane] - step
-        delta[lane] = (
-            reached
-            if (half <= SERIES_LIMIT)
-            & (slope > 0.0)
-            & (reached > 0.0)
-            & (reached <= PI)
-            & (fabs(step) <= HALLEY_STEP * reached)
-            & (fabs(step * curve) <= HALLEY_STEP * slope)
-            else -1.0
-        )
-        step *= -0.5
-        sine[lane] = s + step * (c - 0.5 * step * s)
-        cosine[lane] = c - step * (s + 0.5 * step * c)
-    for lane in range(lanes):
-        if delta[lane] < 0.0:
-            delta[lane], sine[lane], cosine[lane] = next_handle(theta[lane], chord2, guess[lane])
-            if delta[lane] < 0.0:
-                return lane
-    return lanes
+class Block:
+    """LANES instants that advance handle by handle together: what is known of the handle at which each of them stands.
+
+    standing: how many lanes no fold has stopped; theta: polar angle; x, y: the unit vector at it; rate: d theta / d
+    time; guess: of the next delta; d1, d2, d3: the last three of them; delta, sine, cosine: the next one, and sin and
+    cos of its half
+    """
+
+    def __init__(self, growth):
+        self.growth = growth
+        self.standing = 0
+        self.theta = [0.0] * 8
+        self.x = [0.0] * 8
+        self.y = [0.0] * 8
+        self.rate = [0.0] * 8
+        self.guess = [0.0] * 8
+        self.d1 = [0.0] * 8
+        self.d2 = [0.0] * 8
+        self.d3 = [0.0] * 8
+        self.delta = [0.0] * 8
+        self.sine = [0.0] * 8
+        self.cosine = [0.0] * 8
+
+    def start(self, row, thetas, head_speed):
+        """The heads of the instants from `row` on; returns how many lanes there are."""
+        lanes = thetas.shape[0] - row
+        if lanes > LANES:
+            lanes = LANES
+        self.standing = lanes
+        for lane in range(lanes):
+            self.theta[lane] = thetas[row + lane]
+            self.x[lane] = cos(self.theta[lane])
+            self.y[lane] = sin(self.theta[lane])
+            self.rate[lane] = -head_speed / sqrt(1.0 + self.theta[lane] * self.theta[lane])
+            self.d1[lane] = self.d2[lane] = self.d3[lane] = 0.0
+        return lanes
+
+    def expect(self, chord2, alike):
+        """A first guess of delta in every lane that stands; alike: the last three links are of this chord too."""
+        if alike:
+            for lane in range(self.standing):
+                self.guess[lane] = 3.0 * (self.d1[lane] - self.d2[lane]) + self.d3[lane]
+        else:
+            for lane in range(self.standing):
+                self.guess[lane] = first_guess(self.theta[lane], chord2)
+
+    def solve(self, chord2):
+        """next_handle() in every lane that stands; those from the first that folds stand no more."""
+        for lane in range(self.standing):
+            half = 0.5 * self.guess[lane]
+            s = half_sine(half)
+            c = half_cosine(half)
+            step, slope, curve = halley_step(self.theta[lane], chord2, self.guess[lane], s, c)
+            reached = self.guess[lane] - step
+            self.delta[lane] = (
+                reached
+                if (half <= SERIES_LIMIT)
+                & (slope > 0.0)
+                & (reached > 0.0)
+                & (reached <= PI)
+                & (fabs(step) <= HALLEY_STEP * reached)
+                & (fabs(step * curve) <= HALLEY_STEP * slope)
+                else -1.0
+            )
+            step *= -0.5
+            self.sine[lane] = s + step * (c - 0.5 * step * s)
+            self.cosine[lane] = c - step * (s + 0.5 * step * c)
+        for lane in range(self.standing):
+            if self.delta[lane] < 0.0:
+                self.delta[lane], self.sine[lane], self.cosine[lane] = next_handle(
+                    self.theta[lane], chord2, self.guess[lane]
+                )
+                if self.delta[lane] < 0.0:
+                    self.standing = lane
+                    break
+
+    def advance(self):
+        """To the next handle, by the delta that solve() found."""
+        for lane in range(self.standing):
+            self.rate[lane] *= theta_ratio(self.theta[lane], self.delta[lane], self.sine[lane], self.cosine[lane])
+            turn = 2.0 * self.sine[lane] * self.cosine[lane]
+            rise = 2.0 * self.sine[lane] * self.sine[lane]
+            across = self.x[lane] - (self.x[lane] * rise + self.y[lane] * turn)
+            self.y[lane] = self.y[lane] - (self.y[lane] * rise - self.x[lane] * turn)
+            self.x[lane] = across
+            self.theta[lane] += self.delta[lane]
+            self.d3[lane] = self.d2[lane]
+            self.d2[lane] = self.d1[lane]
+            self.d1[lane] = self.delta[lane]
 
 
-def write_handles(lanes, row, k, growth, theta, x, y, rate, position, velocity, speed):
-    """Handle k of every lane into the tables, from `row` on; x, y: the unit vector at theta, rate: d theta / d time."""
+def write_handles(block, row, k, position, velocity, speed):
+    """Handle k of every lane that stands into the tables, from `row` on."""
     px = cython.declare(Lanes)
     py = cython.declare(Lanes)
     vx = cython.declare(Lanes)
     vy = cython.declare(Lanes)
     pace = cython.declare(Lanes)
-    for lane in range(lanes):
-        px[lane] = growth * theta[lane] * x[lane]
-        py[lane] = growth * theta[lane] * y[lane]
-        vx[lane] = rate[lane] * (x[lane] - theta[lane] * y[lane])
-        vy[lane] = rate[lane] * (y[lane] + theta[lane] * x[lane])
-        pace[lane] = fabs(rate[lane]) * sqrt(1.0 + theta[lane] * theta[lane])
-    for lane in range(lanes):
+    for lane in range(block.standing):
+        px[lane] = block.growth * block.theta[lane] * block.x[lane]
+        py[lane] = block.growth * block.theta[lane] * block.y[lane]
+        vx[lane] = block.rate[lane] * (block.x[lane] - block.theta[lane] * block.y[lane])
+        vy[lane] = block.rate[lane] * (block.y[lane] + block.theta[lane] * block.x[lane])
+        pace[lane] = fabs(block.rate[lane]) * sqrt(1.0 + block.theta[lane] * block.theta[lane])
+    for lane in range(block.standing):
         position[row + lane, k, 0] = px[lane]
         position[row + lane, k, 1] = py[lane]
         velocity[row + lane, k, 0] = vx[lane]
         velocity[row + lane, k, 1] = vy[lane]
         speed[row + lane, k] = pace[lane]
+
+
+# Input:  a head angle for every instant; growth, chords and the head's speed, the same for all.
+# State:  `row`, the first instant of the block; `block`, what is known of its lanes at handle k; `alike`, how many
+#         chords up to this one are the same, so that its delta can be told from the ones before it.
+# Output: position, velocity and speed of every handle, up to the first instant that folds.
 
 
 def spiral_trajectory(growth, thetas, chords, head_speed, position, velocity, speed):
@@ -257,56 +325,21 @@ def spiral_trajectory(growth, thetas, chords, head_speed, position, velocity, sp
     thetas: (T,) head angles; chords: (n,) [m]; position, velocity: (T, n + 1, 2); speed: (T, n + 1)
     """
     row = 0
-    theta = cython.declare(Lanes)
-    x = cython.declare(Lanes)
-    y = cython.declare(Lanes)
-    rate = cython.declare(Lanes)
-    guess = cython.declare(Lanes)
-    d1 = cython.declare(Lanes)
-    d2 = cython.declare(Lanes)
-    d3 = cython.declare(Lanes)
-    delta = cython.declare(Lanes)
-    sine = cython.declare(Lanes)
-    cosine = cython.declare(Lanes)
+    block = Block(growth)
     with cython.nogil:
         while row < thetas.shape[0]:
-            lanes = thetas.shape[0] - row
-            if lanes > LANES:
-                lanes = LANES
-            standing = lanes
-            for lane in range(lanes):
-                theta[lane] = thetas[row + lane]
-                x[lane] = cos(theta[lane])
-                y[lane] = sin(theta[lane])
-                rate[lane] = -head_speed / sqrt(1.0 + theta[lane] * theta[lane])
-                d1[lane] = d2[lane] = d3[lane] = 0.0
+            lanes = block.start(row, thetas, head_speed)
             alike = 0
             for k in range(chords.shape[0]):
-                write_handles(standing, row, k, growth, theta, x, y, rate, position, velocity, speed)
+                write_handles(block, row, k, position, velocity, speed)
                 alike = alike + 1 if k > 0 and chords[k] == chords[k - 1] else 0
-                if alike > 2:
-                    for lane in range(standing):
-                        guess[lane] = 3.0 * (d1[lane] - d2[lane]) + d3[lane]
-                else:
-                    for lane in range(standing):
-                        guess[lane] = first_guess(theta[lane], (chords[k] / growth) * (chords[k] / growth))
-                standing = next_handles(
-                    standing, (chords[k] / growth) * (chords[k] / growth), theta, guess, delta, sine, cosine
-                )
-                for lane in range(standing):
-                    rate[lane] *= theta_ratio(theta[lane], delta[lane], sine[lane], cosine[lane])
-                    turn = 2.0 * sine[lane] * cosine[lane]
-                    rise = 2.0 * sine[lane] * sine[lane]
-                    across = x[lane] - (x[lane] * rise + y[lane] * turn)
-                    y[lane] = y[lane] - (y[lane] * rise - x[lane] * turn)
-                    x[lane] = across
-                    theta[lane] += delta[lane]
-                    d3[lane] = d2[lane]
-                    d2[lane] = d1[lane]
-                    d1[lane] = delta[lane]
-            write_handles(standing, row, chords.shape[0], growth, theta, x, y, rate, position, velocity, speed)
-            if standing < lanes:
-                return row + standing
+                chord2 = (chords[k] / growth) * (chords[k] / growth)
+                block.expect(chord2, alike > 2)
+                block.solve(chord2)
+                block.advance()
+            write_handles(block, row, chords.shape[0], position, velocity, speed)
+            if block.standing < lanes:
+                return row + block.standing
             row += lanes
     return -1
 

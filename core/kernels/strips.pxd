@@ -1,10 +1,11 @@
 cimport cython
 from core.kernels.constants cimport *
 from core.kernels.spiral cimport extend_chain, spiral_arc, spiral_theta, start_chain
-from core.kernels.bounds cimport motion_bounds
 from core.kernels.rings cimport leaders_reach, radius_beyond
-from core.kernels.pairs cimport STRIP_ROUNDING, strip_least
+from core.kernels.pairs cimport STRIP_ROUNDING, band_least
 from core.kernels.clearance cimport row_gap
+from core.kernels.records cimport Nearest
+from core.kernels.scene cimport Band
 
 cdef double TURNED_WITHIN
 cdef double CHAIN_WORK
@@ -17,12 +18,30 @@ cdef bint shift_bounds(
     double[:, ::1] shifts
 ) noexcept nogil
 
-@cython.locals(
-    bounded=cython.bint, cap=cython.Py_ssize_t, placed=cython.Py_ssize_t, handles=cython.Py_ssize_t, a=cython.Py_ssize_t,
-    b=cython.Py_ssize_t
-)
-cpdef int strip(
-    double low, double high, double outer, double inner, Py_ssize_t leaders, double margin, double rounding,
-    double least_step, double budget, Py_ssize_t benches, double[::1] ring, double[:, ::1] sizes,
-    double[:, :, ::1] rows, double[:, :, ::1] motions, double[:, ::1] shifts, double[::1] out
-) noexcept
+@cython.final
+cdef class Strip:
+    cdef Band band
+    cdef Py_ssize_t leaders
+    cdef Py_ssize_t placed
+    cdef double radius
+    cdef double place
+    cdef double h
+    cdef double rounding
+    cdef bint bounded
+    cdef readonly double proven
+    cdef readonly double touching
+    cdef readonly Py_ssize_t first
+    cdef readonly Py_ssize_t second
+    cdef readonly Py_ssize_t steps
+    cdef readonly double work
+
+    @cython.locals(state=cython.int)
+    cpdef int run(
+        self, double outer, double inner, Py_ssize_t leaders, double rounding, double least_step, double budget
+    ) noexcept
+
+    @cython.locals(state=cython.int, nearest=Nearest)
+    cdef int try_step(self, Band band, double inner) noexcept nogil
+
+    @cython.locals(room=cython.Py_ssize_t, handles=cython.Py_ssize_t)
+    cdef int lay_out(self, Band band, double next_radius) noexcept nogil

@@ -4,11 +4,11 @@ import cython
 from cython.cimports.libc.math import cos, sin, sqrt
 
 if not cython.compiled:  # for the compiler the same stands in the .pxd
-    from core.kernels.bounds import motion_bounds
     from core.kernels.clearance import row_gap
     from core.kernels.constants import *
-    from core.kernels.pairs import STRIP_ROUNDING, strip_least
+    from core.kernels.pairs import STRIP_ROUNDING, band_least
     from core.kernels.rings import leaders_reach, radius_beyond
+    from core.kernels.scene import Band
     from core.kernels.spiral import extend_chain, spiral_arc, spiral_theta, start_chain
 
 # A strip is given up where handles may turn back in steps shorter than this part of the head's radius [1].
@@ -151,129 +151,138 @@ def shift_bounds(low, high, benches, sizes, inner, outer, shifts):
     return True
 
 
-def strip(
-    low,
-    high,
-    outer,
-    inner,
-    leaders,
-    margin,
-    rounding,
-    least_step,
-    budget,
-    benches,
-    ring,
-    sizes,
-    rows,
-    motions,
-    shifts,
-    out,
-):
-    """Prove, for all growths in [low, high] at once, that nothing touches while the head goes from `outer` to `inner`.
+# Input.  A band of growths (low, high: their intervals), the head radii from `outer` to `inner`, and how many benches
+#         lead pairs (leaders).
+# State.  `radius` and `place`, where the head is at the lowest growth; h, the travel to try there; `placed`, the last
+#         handle that the chains at the beginning have; `bounded`, whether bounds were known in the last step.
+# Output. How it ended, and what is known then: see Strip.
 
-    Of pairs led by the first `leaders` benches; outer, inner: head radii [m]. rounding: what a travel of the head may
-    be off by [m]
-    least_step: head travel below which it gives up [m]; budget: of WORK; others as for march(), motions: (2, R,
-    MOTION_COLUMNS), shifts: (R, SHIFT_COLUMNS) scratch; out: (MARCH_ENTRIES,) and scratch, PROVEN and TOUCHING as head
-    radii [m]
-    returns: REACHED; TOUCHED with growth `low`; STUCK: not provable in one strip; TURNED: nor, perhaps, in any, because
-    a handle turns back or a bench folds; CAPACITY
+
+class Strip:
+    """All growths between two at once, proven clear while the head goes inwards.
+
+    proven: nothing touches down to this head radius [m]; touching: a pair is within the margin at this one, for the
+        lowest growth [m], FREE for none; first, second: that pair
+    steps, work: what was done
     """
-    before: cython.double[:, ::1] = rows[0]
-    after: cython.double[:, ::1] = rows[1]
-    before_high: cython.double[:, ::1] = rows[2]
-    after_high: cython.double[:, ::1] = rows[3]
-    motion: cython.double[:, ::1] = motions[0]
-    motion_high: cython.double[:, ::1] = motions[1]
-    scratch: cython.double[::1] = out[MARCH_ENTRIES:]
-    cap = rows.shape[1] - 1
-    placed = leaders
-    radius = outer
-    place = low * spiral_arc(outer / low)
-    h = ring[RING_SHORT]
-    if cap > benches:
-        cap = benches
-    if leaders > cap:
-        return CAPACITY
-    out[STEPS] = out[WORK] = 0.0
-    out[TOUCHING] = -1.0
-    out[PROVEN] = outer
-    bounded = True
-    with cython.nogil:
-        start_chain(outer / low, before)
-        start_chain(outer / high, before_high)
-        if extend_chain(low, 0, leaders, FREE, sizes, before) < 0:
-            return TURNED
-        if extend_chain(high, 0, leaders, FREE, sizes, before_high) < 0:
-            return TURNED
-        while radius > inner:
-            out[PROVEN] = radius
-            if not bounded and h < TURNED_WITHIN * radius:
+
+    def __init__(self, low, high, shifts):
+        self.band = Band(low, high, shifts)
+        self.leaders = self.placed = self.first = self.second = self.steps = 0
+        self.radius = self.place = self.h = self.rounding = self.proven = self.work = 0.0
+        self.touching = FREE
+        self.bounded = True
+
+    def run(self, outer, inner, leaders, rounding, least_step, budget):
+        """Prove that no pair led by the first `leaders` benches touches while the head goes from `outer` to `inner`.
+
+        outer, inner: head radii [m]; rounding: what a travel of the head may be off by [m]; least_step: head travel
+        below which it gives up [m]; budget: of work
+        returns: REACHED; TOUCHED at the lowest growth; STUCK: not provable in one strip; TURNED: nor, perhaps, in any,
+        because a handle turns back or a bench folds; CAPACITY
+        """
+        low = self.band.low.scene.curve.growth
+        high = self.band.high.scene.curve.growth
+        self.steps = 0
+        self.work = 0.0
+        self.touching = FREE
+        self.proven = self.radius = outer
+        self.place = low * spiral_arc(outer / low)
+        self.h = self.band.low.scene.rings.shortest
+        self.leaders = self.placed = leaders
+        self.rounding = rounding
+        self.bounded = True
+        if leaders > self.band.low.scene.room:
+            return CAPACITY
+        with cython.nogil:
+            start_chain(outer / low, self.band.low.before)
+            start_chain(outer / high, self.band.high.before)
+            if extend_chain(low, 0, leaders, FREE, self.band.low.scene.sizes, self.band.low.before) < 0:
                 return TURNED
-            if h < least_step or out[WORK] >= budget:
-                return STUCK
-            out[STEPS] += 1.0
-            next_radius = low * spiral_theta((place - h) / low)
-            if next_radius <= inner:
-                next_radius = inner
-                h = place - low * spiral_arc(inner / low)
-            h_high = high * (spiral_arc(radius / high) - spiral_arc(next_radius / high))
-            start_chain(next_radius / low, after)
-            start_chain(next_radius / high, after_high)
-            if extend_chain(low, 0, leaders, FREE, sizes, after) < 0:
+            if extend_chain(high, 0, leaders, FREE, self.band.low.scene.sizes, self.band.high.before) < 0:
                 return TURNED
-            slack = CLEAR_SPARE * high * before_high[leaders, THETA]
-            beyond = leaders_reach(high, next_radius, high * before_high[leaders, THETA] + slack, ring) + margin
-            beyond = radius_beyond(high, beyond, ring) + slack
-            handles = extend_chain(low, leaders, cap, beyond, sizes, after)
-            if handles < 0:
-                return TURNED
-            if handles == cap and cap < benches:
-                return CAPACITY
-            if extend_chain(high, 0, handles, FREE, sizes, after_high) < 0:
-                return TURNED
-            if placed < handles:
-                if extend_chain(low, placed, handles, FREE, sizes, before) < 0:
+            while self.radius > inner:
+                self.proven = self.radius
+                if not self.bounded and self.h < TURNED_WITHIN * self.radius:
                     return TURNED
-                if extend_chain(high, placed, handles, FREE, sizes, before_high) < 0:
-                    return TURNED
-                placed = handles
-            out[WORK] += CHAIN_WORK * (STEP_WORK + handles)
-            width = h * (1.0 + WIDTH_ROUNDING) + 2.0 * rounding
-            h_high = h_high * (1.0 + WIDTH_ROUNDING) + 2.0 * rounding
-            bounded = (
-                motion_bounds(low, width, handles, sizes, before, after, motion)
-                and motion_bounds(high, h_high, handles, sizes, before_high, after_high, motion_high)
-                and shift_bounds(low, high, handles, sizes, after, before_high, shifts)
-            )
-            if not bounded:
-                h *= 0.5
-                continue
-            best = strip_least(
-                low, high, leaders, handles, margin, width, h_high, ring, sizes, before, after, before_high, after_high,
-                motion, motion_high, shifts, scratch,
-            )  # fmt: skip
-            if best == -FREE:  # nothing is known of its gaps
-                bounded = False
-                h *= 0.5
-                continue
-            room = 0.95 * scratch[3]
-            out[WORK] += scratch[9]
-            if best <= margin:
-                a = cython.cast(cython.Py_ssize_t, scratch[1])
-                b = cython.cast(cython.Py_ssize_t, scratch[2])
-                if row_gap(a, b, sizes, after) <= margin:
-                    out[TOUCHING] = next_radius
-                    out[FIRST] = a
-                    out[SECOND] = b
-                    return TOUCHED
-                h *= 0.5 if room < 0.5 * h or room >= h else room / h
-                continue
-            radius = next_radius
-            place -= h
-            placed = handles
-            before, after = after, before
-            before_high, after_high = after_high, before_high
-            h = room if room < 2.0 * h else 2.0 * h
-        out[PROVEN] = radius
-        return REACHED
+                if self.h < least_step or self.work >= budget:
+                    return STUCK
+                self.steps += 1
+                state = self.try_step(self.band, inner)
+                if state != ADVANCED and state != REFUSED:
+                    return state
+            self.proven = self.radius
+            return REACHED
+
+    def try_step(self, band, inner):
+        """One step inwards; REFUSED: shorter next time."""
+        low = band.low.scene.curve.growth
+        high = band.high.scene.curve.growth
+        next_radius = low * spiral_theta((self.place - self.h) / low)
+        if next_radius <= inner:
+            next_radius = inner
+            self.h = self.place - low * spiral_arc(inner / low)
+        h_high = high * (spiral_arc(self.radius / high) - spiral_arc(next_radius / high))
+        state = self.lay_out(band, next_radius)
+        if state != ADVANCED:
+            return state
+        self.work += CHAIN_WORK * (STEP_WORK + band.low.handles)
+        band.low.h = self.h * (1.0 + WIDTH_ROUNDING) + 2.0 * self.rounding
+        band.high.h = h_high * (1.0 + WIDTH_ROUNDING) + 2.0 * self.rounding
+        band.width = (high - low) * (1.0 + STRIP_ROUNDING)
+        band.slack = 4.0 * ULP * low * band.low.before[0, THETA] * band.low.before[0, THETA]
+        self.bounded = band.low.bound(False) and band.high.bound(False) and shift_bounds(
+            low, high, band.low.handles, band.low.scene.sizes, band.low.after, band.high.before, band.shifts
+        )  # fmt: skip
+        if self.bounded:
+            nearest = band_least(band.low.scene, band, self.leaders)
+            self.bounded = nearest.least != -FREE  # else nothing is known of its gaps
+        if not self.bounded:
+            self.h *= 0.5
+            return REFUSED
+        room = 0.95 * nearest.room
+        self.work += nearest.tried
+        if nearest.least <= band.low.scene.margin:
+            if row_gap(nearest.first, nearest.second, band.low.scene.sizes, band.low.after) <= band.low.scene.margin:
+                self.touching = next_radius
+                self.first = nearest.first
+                self.second = nearest.second
+                return TOUCHED
+            self.h *= 0.5 if room < 0.5 * self.h or room >= self.h else room / self.h
+            return REFUSED
+        self.radius = next_radius
+        self.place -= self.h
+        self.placed = band.low.handles
+        band.low.swap()
+        band.high.swap()
+        self.h = room if room < 2.0 * self.h else 2.0 * self.h
+        return ADVANCED
+
+    def lay_out(self, band, next_radius):
+        """Lay out the four chains of a step, as far as the leaders can touch: ADVANCED, else how the strip ends."""
+        low = band.low.scene.curve.growth
+        high = band.high.scene.curve.growth
+        start_chain(next_radius / low, band.low.after)
+        start_chain(next_radius / high, band.high.after)
+        if extend_chain(low, 0, self.leaders, FREE, band.low.scene.sizes, band.low.after) < 0:
+            return TURNED
+        rear = high * band.high.before[self.leaders, THETA]
+        slack = CLEAR_SPARE * high * band.high.before[self.leaders, THETA]
+        beyond = leaders_reach(high, next_radius, rear + slack, band.low.scene.rings) + band.low.scene.margin
+        beyond = radius_beyond(high, beyond, band.low.scene.rings) + slack
+        room = band.low.scene.room
+        handles = extend_chain(low, self.leaders, room, beyond, band.low.scene.sizes, band.low.after)
+        if handles < 0:
+            return TURNED
+        if handles == room and room < band.low.scene.benches:
+            return CAPACITY
+        if extend_chain(high, 0, handles, FREE, band.low.scene.sizes, band.high.after) < 0:
+            return TURNED
+        if self.placed < handles:
+            if extend_chain(low, self.placed, handles, FREE, band.low.scene.sizes, band.low.before) < 0:
+                return TURNED
+            if extend_chain(high, self.placed, handles, FREE, band.low.scene.sizes, band.high.before) < 0:
+                return TURNED
+            self.placed = handles
+        band.low.handles = band.high.handles = handles
+        return ADVANCED

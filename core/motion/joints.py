@@ -7,14 +7,16 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from core.contact.first_contact import PROFILE_STEP
+from core.contact.clearance import PROFILE_STEP
 from core.contact.search import SAMPLES
 from core.dance import Dance
 from core.motion.trajectory import trajectory
+from core.sampling import dips
 from core.shown import Shown
 from core.values import Floats, checked_type
 
-# Peaks are narrowed down with so many instants at a time, so many times, and so many of the highest: to 1e-9 of a step.
+# A peak is refined to 1e-9 of a step: the instants of a round, in steps around it; the number of rounds; and how many
+# of the highest peaks are refined.
 ZOOM = np.linspace(-1.0, 1.0, 33)
 ZOOM_ROUNDS = 7
 PEAKS_REFINED = 5
@@ -33,8 +35,8 @@ class SharpestBend(Shown):
     benches: tuple[int, int]
 
 
-# Alike benches follow each other's way: benches (i, i + 1) bend as (m, m + 1) did when handle m stood where handle i
-# stands. So beyond the first stretch, until each handle has passed where the one before it began, m + 2 benches do.
+# Alike benches follow each other's way: the angle between benches (i, i + 1) is that between (m, m + 1) when handle m
+# stood where handle i stands. So m + 2 benches are enough once each handle has passed where the one before it began.
 def sharpest_bend(dance: Dance, *, start: float = 0.0, stop: float | None = None) -> SharpestBend | None:
     """The sharpest bend between start and stop [s], None for the end of the run; None for a single bench.
 
@@ -75,9 +77,7 @@ def _sharpest(dance: Dance, grid: Floats) -> SharpestBend:
     batches = [_angles(dance, grid[k : k + BATCH]) for k in range(0, grid.size, BATCH)]
     angle = np.concatenate([batch.max(axis=1) for batch in batches])
     joint = np.concatenate([batch.argmax(axis=1) for batch in batches])
-    around = np.pad(angle, 1, constant_values=-1.0)
-    peaks = np.flatnonzero((angle >= around[:-2]) & (angle >= around[2:]))
-    highest = peaks[np.argsort(-angle[peaks], kind="stable")[:PEAKS_REFINED]].tolist()
+    highest = (dips(np.pad(-angle, 1, constant_values=math.inf), PEAKS_REFINED) - 1).tolist()  # both ends too
     first = int(np.argmax(angle >= angle.max() - SAME_ANGLE))  # where it stays as sharp, as on an arc
     refined = [_refined(dance, grid[k], step, int(joint[k]), grid) for k in {first, *highest}]
     largest = max(bend.angle for bend in refined)

@@ -10,7 +10,8 @@ from core import kernels
 from core.contact.search import Search
 from core.dance import HEAD_SPEED_MAX, HEAD_SPEED_MIN, TIME_MAX, Dance
 from core.errors import InvalidValue, said
-from core.paths.route import Route
+from core.kernels.constants import EXCEEDED, KEPT
+from core.sampling import bisected
 from core.shown import Shown
 from core.values import checked_number, checked_type
 
@@ -18,7 +19,7 @@ from core.values import checked_number, checked_type
 RATE_TOLERANCE = 1e-9
 # Rates are first sampled in steps of this part of the longest chord [1] ...
 SAMPLE_STEP = 0.5
-# ... or in as many as take so many links of chains, on ways of many kilometres [1].
+# ... or, on ways of many kilometres, in as many steps as take so many links of chains [1].
 SAMPLED_LINKS = 1_000_000
 SAMPLES_MIN = 16
 # The tolerance grows fourfold after so many links of chains, 15 to 250 ms, so that nearly equal peaks of many handles
@@ -37,13 +38,11 @@ SPEED_PROVEN = 1e-6
 # travel is good to: TRAVEL_WIDTH of the longest one [1].
 EXCESS_WIDTH = 5e-10
 TRAVEL_WIDTH = 1e-14
-# And given up after so many links of chains: about a second.
+# The search for it is given up after so many links of chains: about a second.
 EXCESS_LINKS = 1_000_000
-# Then instants are tried ever nearer to the end of the stretch, where the fold may be: so many, each at half the
+# After that, so many instants are tried ever nearer to the end of the stretch, where the fold may be: each at half the
 # distance of the one before.
 HALVINGS = 50
-# Outcomes of kernels.first_excess().
-KEPT, EXCEEDED = 0, 1
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -108,44 +107,28 @@ def highest_speed(dance: Dance, *, start: float | None = None, stop: float | Non
     begin, until = dance.span(dance.begin if start is None else start, stop)
     search = Search(dragon, dance.path, 0.0)
     search.resize(dragon.benches)
-    rate, upper, travel, _ = peak_over(search, begin * head_speed, until * head_speed)
+    peak = peak_over(search, begin * head_speed, until * head_speed)
+    rate, upper, travel = float(peak.rate), float(peak.upper), float(peak.travel)
     rates = np.abs(search.rates(travel))
     tied = tuple(int(k) for k in np.flatnonzero(rates >= rate * (1.0 - TIED)))
     proven = upper * head_speed if upper < kernels.FREE else None
     return HighestSpeed(rate * head_speed, (rate * head_speed, proven), travel / head_speed, tied)
 
 
-def peak_over(search: Search, begin: float, until: float) -> tuple[float, float, float, float]:
-    """kernels.peak_rate() between two travels of the head [m]: the rate, its upper bound, the travel, the intervals."""
-    benches, out = search.dragon.benches, np.empty(4)
+def peak_over(search: Search, begin: float, until: float) -> kernels.Peak:
+    """The highest rate between two travels of the head [m], sampled and proven: see core/kernels/speed.py."""
+    benches, rounding = search.dragon.benches, search.travel_rounding(begin, until)
     samples = max(SAMPLES_MIN, SAMPLED_LINKS // (benches + 1))
-    kernels.peak_rate(
-        search.growth,
-        search.pieces,
-        search.place,
-        begin,
-        until,
-        max(SAMPLE_STEP * float(search.extremes[0]), (until - begin) / samples),
-        RATE_TOLERANCE,
-        LOOSEST_TOLERANCE,
-        search.travel_rounding(begin, until),
-        LINKS_BUDGET,
-        benches,
-        _calm(search),
-        search.sizes,
-        search.rows,
-        search.motion,
-        out,
-    )
-    rate, upper, travel, intervals = out.tolist()
-    return rate, upper, travel, intervals
+    step = max(SAMPLE_STEP * float(search.extremes[0]), (until - begin) / samples)
+    peak = kernels.Peak(search.interval, search.rows[2], _calm(search), begin, until, rounding)
+    peak.sample(step)
+    peak.prove(step, RATE_TOLERANCE, LOOSEST_TOLERANCE, LINKS_BUDGET)
+    return peak
 
 
 def _calm(search: Search) -> float:
-    """What kernels.peak_rate needs to leave out handles that are no faster than those before them."""
-    if isinstance(search.path, Route):
-        return 1.0 if search.path.calm_beginning else 0.0
-    return search.growth * search.path.gentle_theta(2.0 * kernels.BEND_LIMIT / search.extremes[0])
+    """What kernels.Peak needs to leave out handles that are no faster than those before them."""
+    return search.path.calm(2.0 * kernels.BEND_LIMIT / search.extremes[0])
 
 
 def maximum_head_speed(
@@ -183,60 +166,37 @@ def first_excess(
     search = Search(dragon, dance.path, 0.0)
     search.resize(dragon.benches)
     ratio = limit / head_speed
-    outcome, proven, found, handle = _excess(search, begin * head_speed, until * head_speed, head_speed, ratio)
+    outcome, excess = _excess(search, begin * head_speed, until * head_speed, head_speed, ratio)
     if outcome == EXCEEDED:
-        return FirstExcess(found / head_speed, (proven / head_speed, found / head_speed), handle)
-    return None if outcome == KEPT else _late_excess(search, ratio, head_speed, proven / head_speed, until)
+        time = excess.found / head_speed
+        return FirstExcess(time, (excess.proven / head_speed, time), excess.handle)
+    return None if outcome == KEPT else _late_excess(search, ratio, head_speed, excess.proven / head_speed, until)
 
 
-def _excess(
-    search: Search, first: float, last: float, head_speed: float, ratio: float
-) -> tuple[int, float, float, int]:
-    """kernels.first_excess() between two travels of the head [m] for a limit of this rate: outcome, proven up to [m],
-    found at [m], handle."""
-    out, rounding = np.empty(5), search.travel_rounding(first, last)
-    kernels.first_excess(
-        search.growth,
-        search.pieces,
-        search.place,
-        first,
-        last,
-        SAMPLE_STEP * float(search.extremes[0]),
-        ratio * (1.0 + SPEED_ROUNDING),
-        ratio * (1.0 + SPEED_PROVEN),
-        max(
-            EXCESS_WIDTH * min(1.0, head_speed),
-            TRAVEL_WIDTH * max(abs(first), abs(last), search.place),
-            4.0 * rounding,
-        ),
-        rounding,
-        EXCESS_LINKS,
-        search.dragon.benches,
-        _calm(search),
-        search.sizes,
-        search.rows,
-        search.motion,
-        out,
-    )
-    outcome, proven, found, handle, _ = out.tolist()
-    return int(outcome), proven, found, int(handle)
+def _excess(search: Search, first: float, last: float, head_speed: float, ratio: float) -> tuple[int, kernels.Excess]:
+    """The search for the first excess over a rate between two travels of the head [m], and its outcome."""
+    rounding = search.travel_rounding(first, last)
+    step, way = SAMPLE_STEP * float(search.extremes[0]), max(abs(first), abs(last), search.place)
+    limit, kept = ratio * (1.0 + SPEED_ROUNDING), ratio * (1.0 + SPEED_PROVEN)
+    width = max(EXCESS_WIDTH * min(1.0, head_speed), TRAVEL_WIDTH * way, 4.0 * rounding)
+    excess = kernels.Excess(search.interval, _calm(search))
+    return excess.run(first, last, step, limit, kept, width, rounding, EXCESS_LINKS), excess
 
 
 def _late_excess(search: Search, ratio: float, head_speed: float, proven: float, until: float) -> FirstExcess:
-    """Some excess between where a proof was given up and the end [s], looked for ever nearer to that."""
+    """Some excess between the time where a proof was given up and the end [s], sought ever nearer to the end."""
 
     def faster(time: float) -> int | None:
         """A handle that is faster than the limit at an instant for certain."""
-        outcome, *_, handle = _excess(search, time * head_speed, time * head_speed, head_speed, ratio)
-        return handle if outcome == EXCEEDED else None
+        outcome, excess = _excess(search, time * head_speed, time * head_speed, head_speed, ratio)
+        return excess.handle if outcome == EXCEEDED else None
 
     times = [until - (until - proven) * 0.5**k for k in range(HALVINGS)] + [until]
     high = next((time for time in times if faster(time) is not None), None)
     if high is None:
         return FirstExcess(None, (proven, until), None)
     low = max([proven, *(time for time in times if time < high)])
-    while low < (middle := 0.5 * (low + high)) < high:
-        low, high = (low, middle) if faster(middle) is not None else (middle, high)
+    low, high = bisected(lambda time: faster(time) is not None, low, high)
     return FirstExcess(high, (proven, high), faster(high))
 
 

@@ -118,7 +118,7 @@ def trajectory(dance: Dance, times: Floats | Sequence[float] | float) -> Traject
     columns = position, velocity, speed = np.empty((*shape, 2)), np.empty((*shape, 2)), np.empty(shape)
     if isinstance(path, Route):
         sizes = np.zeros((dragon.benches, kernels.SIZE_COLUMNS))
-        sizes[:, 0] = dragon.chords
+        sizes[:, kernels.CHORD] = dragon.chords
         chain = np.empty((dragon.benches + 1, kernels.CHAIN_COLUMNS))
         kernels.route_trajectory(path.table, time * head_speed, head_speed, sizes, chain, position, velocity, speed)
         return Trajectory(asked, *(column.reshape(*asked.shape, *column.shape[1:]) for column in columns), dance=dance)

@@ -1,4 +1,4 @@
-"""Cubics cut until the kernels' quadrature is exact on each and its curvature lies between two near bounds.
+"""Cubics, cut until the kernels' quadrature is exact on each piece and tight bounds enclose its curvature.
 
 The curvature of r(t) = (x, y) on [0, e] is k = T / F^(3/2) with T = x' y'' - y' x'' (of degree 2, as its cubes cancel)
 and F = x'^2 + y'^2 (of degree 4), so
@@ -21,24 +21,26 @@ from core.values import Floats
 
 # A cubic is cut until halving it changes its quadrature by less than this [1] ...
 CUBIC_ARC = 1e-13
-# ... and its curvature is monotonic, or its bounds exceed the ends by less than this [1/m] or this part of them [1].
+# ... and its curvature is monotonic, or its bounds exceed the ends by less than this [1/m] or this fraction [1].
 CREST_EXCESS = 0.01
-# Squares of the speed on one cubic below this part of the largest are no more than its rounding [1].
+# A squared speed on one cubic below this fraction of the largest is within its rounding [1].
 SPEED_ROUNDING = 1e-15
-# A cubic this short [m] that is not exact yet comes to rest or turns on the spot. Its halves are as 16 to 1 at most, so
-# no cubic is shorter than 6e-7 m, ten times the rounding of an arc length on a curve of 4e8 m.
+# A cubic this short [m] that is not yet exact comes to rest or turns on the spot. The lengths of its halves differ by
+# a factor of 16 at most, so no cubic is shorter than 6e-7 m: ten times the rounding of an arc length on a curve of
+# 4e8 m.
 CUBIC_SHORT = 1e-5
-# Most cubics of one curve: a zigzag of 1,000 points makes 6,000; 34,000 were cut in 0.07 s (measured 2026-11-21).
+# Largest number of cubics in one curve: a zigzag of 1,000 points makes 6,000; 34,000 were cut in 0.07 s (measured
+# 2026-11-21).
 CUBICS_MAX = 100_000
 
 CUBIC, CREST = (float(kernels.PIECE_KINDS.index(kind)) for kind in ("cubic", "crest"))
 
 
 def cut(name: str, coefficients: Floats, ends: Floats) -> Floats:
-    """Rows of the kernels' table for cubics r(t) = sum c_k t^k on [0, end], in order, each cut in as many as it takes.
+    """Rows of the kernels' table for cubics r(t) = sum c_k t^k on [0, end], in order, each cut into as many as needed.
 
     coefficients: (N, 4, 2), ends: (N,); returns (rows, PIECE_COLUMNS), each from S_START 0 to S_END, its length
-    raises: InvalidValue (name) where a curve comes to rest, or would need more than CUBICS_MAX
+    raises: InvalidValue (name) if a curve comes to rest or needs more than CUBICS_MAX
     """
     piece, place = np.arange(len(ends)), np.zeros(len(ends))
     lengths = _arcs(coefficients, ends)
@@ -71,7 +73,7 @@ def cut(name: str, coefficients: Floats, ends: Floats) -> Floats:
 
 
 def _rows(coefficients: Floats, ends: Floats) -> Floats:
-    """Rows that hold the curve alone."""
+    """Rows with the columns of the curve alone."""
     rows = np.zeros((len(ends), kernels.PIECE_COLUMNS))
     rows[:, 5:9], rows[:, 9:13], rows[:, 13] = coefficients[..., 0], coefficients[..., 1], ends
     return rows
@@ -94,21 +96,21 @@ def _shifted(coefficients: Floats, t: Floats) -> Floats:
 
 
 def _curvatures(coefficients: Floats, ends: Floats) -> tuple[Floats, Floats, Floats]:
-    """Kind of every cubic, -1 where it is to be cut; two curvatures (N, 2) [1/m]; bound on |dk / ds| [1/m^2].
+    """Kind of every cubic, -1 if it must be cut; two curvatures (N, 2) [1/m]; bound on |dk / ds| [1/m^2].
 
-    A 'cubic' has a monotonic curvature: its ends; a 'crest' has not: its bounds.
+    The curvature of a 'cubic' is monotonic, and the two are those of its ends; of a 'crest' they are bounds.
     """
-    # By u = t / end, which leaves curvatures as they are.
+    # In u = t / end, which does not change curvatures.
     _, c1, c2, c3 = np.moveaxis(coefficients * ends[:, None, None] ** np.arange(4)[:, None], 1, 0)
     first, second = np.stack([c1, 2 * c2, 3 * c3], axis=1), np.stack([2 * c2, 6 * c3], axis=1)
-    turn = (_product(first[..., 0], second[..., 1]) - _product(first[..., 1], second[..., 0]))[:, :3]
+    cross = (_product(first[..., 0], second[..., 1]) - _product(first[..., 1], second[..., 0]))[:, :3]
     fast = _product(first[..., 0], first[..., 0]) + _product(first[..., 1], first[..., 1])
-    change = _bernstein(_product(_derivative(turn), fast) - 1.5 * _product(turn, _derivative(fast)))
+    change = _bernstein(_product(_derivative(cross), fast) - 1.5 * _product(cross, _derivative(fast)))
     speeds = _bernstein(fast)
     slowest = speeds.min(axis=1)
     moves = slowest > SPEED_ROUNDING * speeds.max(axis=1)
-    slowest[~moves], fast[~moves] = 1.0, np.eye(1, 5)  # those are cut anyway
-    k0, k1 = turn[:, 0] / fast[:, 0] ** 1.5, turn.sum(axis=1) / fast.sum(axis=1) ** 1.5
+    slowest[~moves], fast[~moves] = 1.0, np.eye(1, 5)  # these are cut in any case
+    k0, k1 = cross[:, 0] / fast[:, 0] ** 1.5, cross.sum(axis=1) / fast.sum(axis=1) ** 1.5
     least, most = change.min(axis=1) / slowest**2.5, change.max(axis=1) / slowest**2.5
     monotonic = (least >= 0.0) | (most <= 0.0)
     span = np.where(monotonic, 1.0, most - least)
@@ -121,9 +123,9 @@ def _curvatures(coefficients: Floats, ends: Floats) -> tuple[Floats, Floats, Flo
     return np.where(moves & near, kinds, -1.0), np.stack([low, high], axis=1), slopes
 
 
-# For all cubics at once, as no library does: polymul of numpy takes one pair at a time, 45 times as long for 1,000 of
-# them, and BPoly.from_power_basis of scipy takes 13 to 20 times as long (a curve through five points 1.8 ms instead of
-# 1.1 ms, measured 2026-11-21).
+# For all cubics at once, which no library does: numpy's polymul takes one pair at a time, 45 times as long for 1,000
+# pairs, and scipy's BPoly.from_power_basis takes 13 to 20 times as long (a curve through five points 1.8 ms instead
+# of 1.1 ms, measured 2026-11-21).
 def _product(a: Floats, b: Floats) -> Floats:
     """Of polynomials by their coefficients, (N, n + 1) and (N, m + 1), the constant first; returns (N, n + m + 1)"""
     product = np.zeros((len(a), a.shape[1] + b.shape[1] - 1))

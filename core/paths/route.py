@@ -1,4 +1,4 @@
-"""Route: pieces joined into one path by arc length, each joint checked for position and tangent."""
+"""Route: pieces joined into one path by arc length; the position and the tangent of every joint are checked."""
 
 from __future__ import annotations
 
@@ -11,31 +11,39 @@ from typing import Any
 import numpy as np
 
 from core import kernels
-from core.errors import InvalidValue
+from core.errors import InvalidValue, said
 from core.paths.cubics import cut
+from core.paths.path import HeadState
 from core.shown import REPR_MOST, TABLE_DIGITS, Shown, counted, worded
 from core.values import Floats, checked_number, checked_size
 
 # Coordinates beyond this lose the digits that the chords need [m].
 COORDINATE_MAX = 1e5
-# A route is drawn this far around its start [m], with so many points.
+# Largest distance from its start to which a route is drawn [m], and the number of points.
 DRAWN = 2_000.0
 DRAWN_POINTS = 20_000
-# Pieces that meet within this are joined [m], [rad]: rounding of coordinates up to 1 km.
+# Largest gap [m] and kink [rad] of two joined pieces: rounding of coordinates up to 1 km.
 JOINT_GAP = 1e-9
 JOINT_KINK = 1e-9
-# Waypoints nearer to each other than this are one [m]: a slip of the hand, no step of a dance.
+# Least distance of two consecutive waypoints [m]: nearer ones are a slip of the hand.
 WAYPOINT_GAP = 1e-3
-# A piece shorter than this has no direction to speak of [m].
+# Least length of a piece [m]: the direction of a shorter one is lost in rounding.
 LENGTH_MIN = 1e-6
 # Angles beyond this lose the digits that the joints need [rad].
 ANGLE_MAX = 1e6
+
+# Kinds of pieces are listed one by one up to so many [1].
+PIECES_LISTED = 6
 
 Point = tuple[float, float]
 _KINDS = {name: float(code) for code, name in enumerate(kernels.PIECE_KINDS)}
 
 
-def _checked_point(name: str, value: Any) -> Point:
+def checked_point(name: str, value: Any) -> Point:
+    """The value as a point with both coordinates within COORDINATE_MAX.
+
+    raises: InvalidValue
+    """
     try:
         x, y = value
     except (TypeError, ValueError) as error:
@@ -48,8 +56,11 @@ def _checked_angle(name: str, value: Any) -> float:
     return checked_number(name, value, "rad", -ANGLE_MAX, ANGLE_MAX)
 
 
-def _listed(name: str, value: Any, what: str) -> list[Any]:
-    """The value's entries, where it has some and is no text."""
+def listed(name: str, value: Any, what: str) -> list[Any]:
+    """The entries of a value that is a sequence and not a text.
+
+    raises: InvalidValue naming the field and what it must be
+    """
     try:
         if not isinstance(value, str | bytes | Mapping):
             return list(value)
@@ -81,13 +92,13 @@ class Line(Shown):
     end: Point
 
     def __post_init__(self) -> None:
-        _settle(self, start=_checked_point("line.start", self.start), end=_checked_point("line.end", self.end))
+        _settle(self, start=checked_point("line.start", self.start), end=checked_point("line.end", self.end))
 
     def rows(self, name: str, s: float) -> Floats:
         """Rows of the kernels' table from arc length s on."""
         (x, y), end = self.start, self.end
         length = math.hypot(end[0] - x, end[1] - y)
-        _check_length(name, length)
+        _refuse_short(name, length)
         dx, dy = (end[0] - x) / length, (end[1] - y) / length
         return _row("line", s, s + length, (0.0, 0.0), x, y, dx, dy)
 
@@ -105,24 +116,24 @@ class Arc(Shown):
     sweep: float
 
     def __post_init__(self) -> None:
-        _settle(self, centre=_checked_point("arc.centre", self.centre), radius=checked_size("arc.radius", self.radius))
+        _settle(self, centre=checked_point("arc.centre", self.centre), radius=checked_size("arc.radius", self.radius))
         _settle(self, start_angle=_checked_angle("arc.start_angle", self.start_angle))
         _settle(self, sweep=_checked_angle("arc.sweep", self.sweep))
 
     def rows(self, name: str, s: float) -> Floats:
         """Rows of the kernels' table from arc length s on."""
         (x, y), radius, angle, sweep = self.centre, self.radius, self.start_angle, self.sweep
-        _check_length(name, radius * abs(sweep))
+        _refuse_short(name, radius * abs(sweep))
         sign = math.copysign(1.0, sweep)
-        bend = sign / radius
-        return _row("arc", s, s + radius * abs(sweep), (bend, bend), x, y, radius, angle, sign)
+        curvature = sign / radius
+        return _row("arc", s, s + radius * abs(sweep), (curvature, curvature), x, y, radius, angle, sign)
 
 
 @dataclass(frozen=True)
 class Coil(Shown):
     """Part of an Archimedean spiral between two turns: inwards (clockwise) or outwards (counter-clockwise).
 
-    pitch: [m]; start_turns, end_turns: turns from its centre, danced from the one to the other
+    pitch: [m]; start_turns, end_turns: turns from its centre, danced from the first to the second
     centre: (x, y) [m]; rotation: of the whole spiral [rad]
     """
 
@@ -133,7 +144,7 @@ class Coil(Shown):
     rotation: float = 0.0
 
     def __post_init__(self) -> None:
-        _settle(self, pitch=checked_size("coil.pitch", self.pitch), centre=_checked_point("coil.centre", self.centre))
+        _settle(self, pitch=checked_size("coil.pitch", self.pitch), centre=checked_point("coil.centre", self.centre))
         _settle(self, start_turns=checked_number("coil.start_turns", self.start_turns, "turns", 0.0, 1e5))
         _settle(self, end_turns=checked_number("coil.end_turns", self.end_turns, "turns", 0.0, 1e5))
         _settle(self, rotation=_checked_angle("coil.rotation", self.rotation))
@@ -144,18 +155,18 @@ class Coil(Shown):
         start, end = 2.0 * math.pi * self.start_turns, 2.0 * math.pi * self.end_turns
         (x, y), rotation = self.centre, self.rotation
         arc, end_arc = growth * kernels.spiral_arc(start), growth * kernels.spiral_arc(end)
-        _check_length(name, abs(end_arc - arc))
+        _refuse_short(name, abs(end_arc - arc))
         sign = 1.0 if end > start else -1.0
-        bends = (sign * kernels.spiral_curvature(start) / growth, sign * kernels.spiral_curvature(end) / growth)
+        curvatures = (sign * kernels.spiral_curvature(start) / growth, sign * kernels.spiral_curvature(end) / growth)
         slope = kernels.steepest_bend(min(start, end)) / growth**2
-        return _row("spiral", s, s + abs(end_arc - arc), bends, x, y, growth, rotation, sign, arc, slope=slope)
+        return _row("spiral", s, s + abs(end_arc - arc), curvatures, x, y, growth, rotation, sign, arc, slope=slope)
 
 
 @dataclass(frozen=True, repr=False)
 class Waypoints(Shown):
     """A smooth curve through points (x, y) [m]: the cubic spline over the length of its polygon, curvature-continuous.
 
-    start_heading, end_heading: direction at its ends [rad]; None leaves the end without curvature
+    start_heading, end_heading: direction at its ends [rad]; None: no curvature at that end
     """
 
     points: tuple[Point, ...]
@@ -163,10 +174,10 @@ class Waypoints(Shown):
     end_heading: float | None = None
 
     def __post_init__(self) -> None:
-        given = _listed("waypoints.points", self.points, "a list of points [x, y] in metres")
+        given = listed("waypoints.points", self.points, "a list of points [x, y] in metres")
         if len(given) < 2:
             raise InvalidValue("waypoints.points", f"waypoints.points must be at least 2 points, got {len(given)}")
-        _settle(self, points=tuple(_checked_point(f"waypoints.points.{k}", point) for k, point in enumerate(given)))
+        _settle(self, points=tuple(checked_point(f"waypoints.points.{k}", point) for k, point in enumerate(given)))
         for name in ("start_heading", "end_heading"):
             if (heading := getattr(self, name)) is not None:
                 _settle(self, **{name: _checked_angle(f"waypoints.{name}", heading)})
@@ -179,7 +190,7 @@ class Waypoints(Shown):
         return f"{len(self.points)} points from {self.points[0]!r} to {self.points[-1]!r} m"
 
     def rows(self, name: str, s: float) -> Floats:
-        """Rows of the kernels' table from arc length s on: as many cubics as exact arc lengths take."""
+        """Rows of the kernels' table from arc length s on: as many cubics as exact arc lengths need."""
         from scipy.interpolate import CubicSpline  # type: ignore[import-untyped]
 
         points = np.array(self.points)
@@ -210,7 +221,7 @@ class Waypoints(Shown):
 Piece = Line | Arc | Coil | Waypoints
 
 
-def _check_length(name: str, length: float) -> None:
+def _refuse_short(name: str, length: float) -> None:
     if length < LENGTH_MIN:
         raise InvalidValue(name, f"{name} must be at least {LENGTH_MIN:g} m long, got {length:g} m")
 
@@ -219,15 +230,18 @@ class Route(Shown):
     """Pieces joined into one path, s = 0 at `start` metres from the beginning of the first one.
 
     pieces: in the order they are danced; joints must agree within JOINT_GAP and JOINT_KINK
-    table: rows for the kernels; joints: s of every joint [m]; begin, end: s of both ends [m]. A first piece that coils
-    inwards goes on outwards behind `begin`, so that the tail has a place: then tail_begin is None, else begin.
-    calm_beginning: along the first piece curvature does not fall, so that no handle there is faster than its leader
-    slide: how far the head's point may be from its s along the path, by rounding and at joints [m]
+    table: rows for the kernels; joints: s of every joint [m]; begin, end: s of both ends [m]
+    tail_begin: least s of a handle [m]; None if the first piece coils inwards: it continues outwards for the tail
+    calm_beginning: the curvature does not fall along the first piece, so no handle there is faster than its leader
+    slide: largest distance along the path of the head's point from its s, by rounding and at joints [m]
     raises: InvalidValue naming the piece or the joint and its gap
     """
 
+    # For the kernels: places are minus s, and a search may look a little past the end.
+    growth, place, limit = 1.0, 0.0, math.inf
+
     def __init__(self, pieces: Sequence[Piece], start: float = 0.0) -> None:
-        self.pieces: tuple[Piece, ...] = tuple(_listed("path.pieces", pieces, "a list of pieces"))
+        self.pieces: tuple[Piece, ...] = tuple(listed("path.pieces", pieces, "a list of pieces"))
         if not self.pieces:
             raise InvalidValue("path.pieces", "path.pieces must hold at least one piece")
         self.start = checked_number("path.start", start, "m", -1e9, 1e9)
@@ -251,17 +265,17 @@ class Route(Shown):
         self.slide = self._smooth()
         self.table.flags.writeable = False
         for k, (s, row) in enumerate(joints[1:], start=1):
-            self._check_joint(k, s, row)
+            self._refuse_joint(k, s, row)
 
-    # Pieces that miss each other are led together, on the longer of the two, by a polynomial of degree 5 over a length
-    # l of at most 1 m (BLEND in core/kernels/constants.py): from a gap g across the path, a kink k and a step of
-    # curvature d inside a part to none, it lies within g + k l + d l^2 of the piece, its second derivative within 10 g
-    # / l^2 + 6 k / l + 3 d, its third within 60 g / l^3 + 36 k / l^2 + 9 d / l. Both ends of a piece may do so, hence
-    # twice that; and a curve beside a bend is more curved by the square of the bend times its distance. Gaps along the
-    # path displace the head alone.
+    # Two pieces that do not quite meet are blended, on the longer of the two, by a polynomial of degree 5 over a length
+    # l of at most 1 m (BLEND in core/kernels/constants.py). It takes a gap g across the path, a kink k and a step d of
+    # the curvature inside a part to zero. It stays within g + k l + d l^2 of the piece, its second derivative within
+    # 10 g / l^2 + 6 k / l + 3 d, its third within 60 g / l^3 + 36 k / l^2 + 9 d / l. A piece may have one at either
+    # end, hence twice that. A curve at some distance beside a bend has more curvature, by the square of the bend times
+    # the distance. Gaps along the path displace the head alone.
     def _smooth(self) -> float:
-        """Fills in how near the pieces are to a smooth path; how far the head's point is from its s at most [m]."""
-        table, misses, slides = self.table, np.zeros((len(self.table), 4)), np.zeros(len(self.table))
+        """Fill in the distance of the pieces from a smooth path; returns `slide` [m]."""
+        table, misses, slides = self.table, np.zeros((len(self.table), kernels.MISS_COLUMNS)), np.zeros(len(self.table))
         kernels.joint_misses(table, misses)
         kernels.piece_slides(table, slides)
         across, along, kink, step = misses[1:].T
@@ -276,8 +290,8 @@ class Route(Shown):
         table[:, kernels.K_SLOPE] += slope
         return float(slides.max() + along.sum())
 
-    def _check_joint(self, k: int, s: float, row: int) -> None:
-        ends = np.empty((2, 5))
+    def _refuse_joint(self, k: int, s: float, row: int) -> None:
+        ends = np.empty((2, kernels.POINT_COLUMNS))
         for side, part in enumerate((self.table[:row], self.table[row:])):
             kernels.route_points(np.ascontiguousarray(part), np.array([s]), ends[side : side + 1])
         (x, y, tx, ty, _), (x2, y2, tx2, ty2, _) = ends
@@ -310,16 +324,36 @@ class Route(Shown):
 
     def _points(self, s: Floats | float) -> Floats:
         flat = np.ascontiguousarray(np.asarray(s, dtype=np.float64).reshape(-1))
-        out = np.empty((flat.size, 5))
+        out = np.empty((flat.size, kernels.POINT_COLUMNS))
         kernels.route_points(self.table, flat, out)
-        return out.reshape(*np.shape(s), 5)
+        return out.reshape(*np.shape(s), kernels.POINT_COLUMNS)
 
     def position(self, s: Floats | float) -> Floats:
         """Points at arc length s. s: (...) [m]; returns (..., 2) x, y [m]."""
         return self._points(s)[..., 0:2]
 
+    @property
+    def curve(self) -> kernels.Curve:
+        """The route as the kernels take it."""
+        return kernels.route_curve(self.table)
+
+    def head(self, s: float) -> HeadState:
+        """The head at arc length s [m]."""
+        x, y = self.position(s).tolist()
+        return HeadState(None, math.hypot(x, y), x, y)
+
+    def calm(self, curvature: float) -> float:
+        """1 if no handle on the first piece is faster than its leader, else 0, as kernels.peak_rate() takes it."""
+        return 1.0 if self.calm_beginning else 0.0
+
+    def words(self) -> str:
+        """The route in a sentence that names all that matters for a proof."""
+        kinds = [type(piece).__name__.lower() for piece in self.pieces]
+        listed = kinds if len(kinds) <= PIECES_LISTED else sorted(set(kinds))
+        return f"a route from s = {said(self.begin)} m to {said(self.end)} m ({', '.join(listed)})"
+
     def drawn(self, reach: float) -> Floats:
-        """Points (N, 2) [m] for a picture: the whole route, however far the dragon reaches."""
+        """Points (N, 2) [m] for a picture: the whole route, whatever the reach of the dragon."""
         s = np.linspace(max(self.begin, -DRAWN), min(self.end, DRAWN), DRAWN_POINTS)
         return self.position(s)
 
@@ -333,7 +367,7 @@ class Route(Shown):
 
     @cached_property
     def sharpest(self) -> tuple[float, float]:
-        """The largest |curvature| [1/m] and an s [m] where it is reached (for a cubic, bounded)."""
-        bends = np.abs(self.table[:, 3:5])
-        row, end = np.unravel_index(int(bends.argmax()), bends.shape)
-        return float(bends[row, end]), float(self.table[row, 1 + end])
+        """The largest |curvature| [1/m], on a cubic its bound, and an s [m] where it occurs."""
+        curvatures = np.abs(self.table[:, 3:5])
+        row, end = np.unravel_index(int(curvatures.argmax()), curvatures.shape)
+        return float(curvatures[row, end]), float(self.table[row, 1 + end])

@@ -1,4 +1,4 @@
-"""Paths: arc length s -> point and tangent. s grows in the direction of travel, the tail has the smaller s.
+"""Spiral: arc length s -> point and tangent. s grows in the direction of travel; the tail has the smaller s.
 
 Spiral is the whole dance of the contest; Route joins pieces (Line, Arc, Coil, Waypoints) into one path.
 """
@@ -12,11 +12,14 @@ from functools import cached_property
 import numpy as np
 
 from core import kernels
+from core.errors import said
+from core.paths.path import HeadState
+from core.sampling import bisected
 from core.shown import TABLE_DIGITS, Shown, worded
 from core.values import Floats, checked_number, checked_size
 
 START_TURNS_MAX = 1e5
-# A spiral is drawn with so many points a turn.
+# Points in each drawn turn of a spiral.
 DRAWN_POINTS = 120
 # Width to which gentle_theta() is bisected, relative [1].
 GENTLE_WIDTH = 1e-9
@@ -46,19 +49,27 @@ class Spiral(Shown):
     def _rows(self) -> list[tuple[str, str]]:
         return [*super()._rows(), ("length", worded(self.length, "m", TABLE_DIGITS))]
 
-    # The head enters at s = 0 and may go to the centre; the tail stands on the extension, which has no beginning.
+    # The head enters at s = 0 and may go to the centre; the tail stands on the outward extension, which has no end.
     begin = 0.0
     tail_begin = None
+    slide = 0.0  # points are exact but for the rounding of s
 
     @property
     def end(self) -> float:
         """s of the centre [m]."""
         return self.length
 
+    limit = place = end
+
     @cached_property
     def growth(self) -> float:
         """Radial advance per radian [m/rad]."""
         return self.pitch / (2.0 * math.pi)
+
+    @property
+    def curve(self) -> kernels.Curve:
+        """The spiral as the kernels take it."""
+        return kernels.spiral_curve(self.growth)
 
     @cached_property
     def start_theta(self) -> float:
@@ -78,22 +89,21 @@ class Spiral(Shown):
         return theta.reshape(from_centre.shape)
 
     def gentle_theta(self, curvature: float) -> float:
-        """Polar angle from which outwards the spiral bends no more than this [1/m], from above [rad].
+        """Polar angle beyond which the |curvature| stays below this [1/m]; rounded up [rad].
 
         Curvature growth is (2 + theta^2) / (1 + theta^2)^(3/2), which falls and is at most 2 / theta.
         """
-        low, high = 0.0, 2.0 / (self.growth * curvature)
-        while high - low > GENTLE_WIDTH * high:
-            middle = 0.5 * (low + high)
-            bends = kernels.spiral_curvature(middle) > curvature * self.growth
-            low, high = (middle, high) if bends else (low, middle)
-        return high
+
+        def is_gentle(theta: float) -> bool:
+            return bool(kernels.spiral_curvature(theta) <= curvature * self.growth)
+
+        return bisected(is_gentle, 0.0, 2.0 / (self.growth * curvature), relative=GENTLE_WIDTH)[1]
 
     def curvature(self, s: Floats | float) -> Floats:
         """Curvature, counter-clockwise positive, so negative here. s: (...) [m]; returns (...) [1/m]."""
         square = self.theta(s) ** 2
-        bends: Floats = -(2.0 + square) / (self.growth * (1.0 + square) ** 1.5)
-        return bends
+        curvature: Floats = -(2.0 + square) / (self.growth * (1.0 + square) ** 1.5)
+        return curvature
 
     def position(self, s: Floats | float) -> Floats:
         """Points at arc length s. s: (...) [m]; returns (..., 2) x, y [m]."""
@@ -101,8 +111,22 @@ class Spiral(Shown):
         direction: Floats = np.stack([np.cos(theta), np.sin(theta)], axis=-1)
         return direction * (self.growth * theta[..., None])
 
+    def head(self, s: float) -> HeadState:
+        """The head at arc length s [m]."""
+        theta = float(self.theta(s))
+        radius = self.growth * theta
+        return HeadState(theta, radius, radius * math.cos(theta), radius * math.sin(theta))
+
+    def calm(self, curvature: float) -> float:
+        """Radius from which outwards the spiral bends no more than this [1/m], as kernels.peak_rate() takes it [m]."""
+        return self.growth * self.gentle_theta(curvature)
+
+    def words(self) -> str:
+        """The spiral in a sentence that names all that matters for a proof."""
+        return f"a spiral of {said(self.pitch)} m pitch from {said(self.start_turns)} turns"
+
     def drawn(self, reach: float) -> Floats:
-        """Points (N, 2) [m] for a picture: from the centre to the start, or further out to `reach` from it [m]."""
+        """Points (N, 2) [m] for a picture: from the centre to the start, or further out to a radius of `reach` [m]."""
         radius = max(reach, self.growth * self.start_theta)
         theta = np.linspace(0.0, radius / self.growth, DRAWN_POINTS * int(radius / self.pitch + 2))
         line: Floats = np.stack([np.cos(theta), np.sin(theta)], axis=-1)

@@ -17,13 +17,12 @@ RATIO_MAX = 100.0
 
 
 # Where the arcs lie.
-# At the entry E, |E| = R, the direction of travel T makes the angle gamma with the circle, tan gamma = 1 / theta
-# (theta
-# the polar angle there). By symmetry the dance leaves at -E in the same direction T. With n the normal to the
-# right of T the centres are C1 = E + r1 n and C2 = -E - r2 n, and the arcs touch if |C1 - C2| = r1 + r2 =: S:
+# At the entry E, |E| = R, the direction of travel T makes the angle gamma with the circle, tan gamma = 1 / theta,
+# where theta is the polar angle. By symmetry the dance leaves at -E in the same direction T. With n the normal to the
+# right of T, the centres are C1 = E + r1 n and C2 = -E - r2 n, and the arcs touch if |C1 - C2| = r1 + r2 =: S:
 #     |2 E + S n|^2 = S^2   =>   S = |E|^2 / (-E . n) = R / cos gamma = R sqrt(1 + theta^2) / theta,
-# whatever the ratio: so r1 = S ratio / (1 + ratio), r2 = S / (1 + ratio). The triangles O C1 E and O C2 (-E) show the
-# same angle turned on both arcs, hence the length S alpha does not depend on the ratio either.
+# for every ratio; so r1 = S ratio / (1 + ratio), r2 = S / (1 + ratio). The triangles O C1 E and O C2 (-E) show that
+# both arcs turn by the same angle alpha, so the length S alpha does not depend on the ratio either.
 class Turn(Route):
     """Two tangent arcs, tangent to the incoming coil and to the outgoing one, its rotation by 180 degrees.
 
@@ -68,7 +67,7 @@ class Turn(Route):
         start, end = _angle(entry - first), _angle(middle - first)
         begin, finish = _angle(middle - second), _angle(-entry - second)
         angles = ((start - end) % (2.0 * math.pi), (finish - begin) % (2.0 * math.pi))
-        _check_arcs(radii, angles, ratio, radius, entry_radius)
+        _refuse_arcs(radii, angles, ratio, radius, entry_radius)
         here = inner / pitch
         pieces = (
             Coil(pitch, turns, here),
@@ -78,7 +77,7 @@ class Turn(Route):
         )
         try:
             route = Route(pieces)
-        except InvalidValue as error:  # each piece is sound, so it is a joint
+        except InvalidValue as error:  # every piece is valid, so a joint is at fault
             rule = "must be smaller: on so long a coil rounding of arc lengths opens the joints of the turn"
             raise InvalidValue.of("start_turns", rule, turns, "turns") from error
         super().__init__(pieces, start=route.joints[0])
@@ -100,8 +99,8 @@ class Turn(Route):
         return [(name.replace("_", " "), worded(value, unit, TABLE_DIGITS)) for name, value, unit in named]
 
 
-def _check_arcs(radii: Point, angles: Point, ratio: float, radius: float, entry_radius: float | None) -> None:
-    """Refuse arcs that are none, by the parameter that makes them so: the ratio if equal arcs would do."""
+def _refuse_arcs(radii: Point, angles: Point, ratio: float, radius: float, entry_radius: float | None) -> None:
+    """Refuse impossible arcs by the parameter at fault: the ratio if equal arcs would be possible."""
     shorter = min(r * angle for r, angle in zip(radii, angles, strict=True))
     if min(radii) >= SIZE_MIN and max(radii) <= SIZE_MAX and shorter >= LENGTH_MIN:
         return

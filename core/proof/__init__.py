@@ -6,15 +6,15 @@ Four claims about a dragon, each number exactly the double given:
                        strictly overlaps at t + 1e-10 s
     minimum pitch p    every bench follows and nothing touches from the start until the head reaches the circle, and
                        with p - 1e-6 m a pair strictly overlaps on that way, or a bench cannot follow as far as the
-                       circle (it folds), or the start lies within the circle; larger pitches are no part of the claim
-    clear run          on a spiral, a turn or a route of lines, arcs and coils: nothing touches in [start, stop]; and
-                       if the claim says so, the run has ended by stop + 1e-9 s: a bench folds, the head is at the
-                       centre, or the route is at its end
+                       circle (it folds), or the start lies within the circle; larger pitches are not claimed
+    clear run          on a spiral, a turn or a route of lines, arcs and coils: nothing touches in [start, stop]; if
+                       the claim includes the end, the run is over by stop + 1e-9 s: a bench folds, the head is at
+                       the centre, or the route is at its end
     contact t          a collision time on any of these paths, from a start on
 
 With a margin, "touches" is "comes within the margin", and "strictly overlaps" is "is strictly nearer than the margin".
 
-Handles. With chord c, the bend d from a handle at theta to the next one, at f(theta) = theta + d, is the first
+Handles. With chord c, the angle d from a handle at theta to the next one, at f(theta) = theta + d, is the first
 root of F(theta, d) = d^2 + 2 theta (theta + d) (1 - cos d) = (c / b)^2.
   1. F_d = 2 d + 2 theta (1 - cos d) + 2 theta (theta + d) sin d > 0 for 0 < d <= pi: a root there is the first.
      A root d > pi is the first if F_d > 0 at d and F_dd = 2 + 4 theta sin d + 2 theta (theta + d) cos d < 0 on
@@ -24,38 +24,38 @@ root of F(theta, d) = d^2 + 2 theta (theta + d) (1 - cos d) = (c / b)^2.
      reached (c / b)^2 at d(m): the first root lies in [d(M), d(m)]. Where F_d > 0 on that box it is the only
      one there, with the derivative d' = -F_theta / F_d < 0.
   3. So where 1 + d' > 0 on the box, the next handle rises with theta from f(m) to f(M): the chains at the two
-     ends enclose those between, link after link, without wrapping. Where it does not (handle 1 turns back near
-     the fold), the mean value theorem encloses the rest of the chain. The chain at one theta comes from one
+     ends enclose those between, link after link, without wrapping effect. Elsewhere (handle 1 turns back
+     near the fold) the mean value theorem encloses the rest of the chain. The chain at one theta comes from one
      interval Newton step for each link.
 
 Pairs. A stretch is one bench a whose front handle goes through [m, M], and the benches behind it, in the frame
-that turns with that handle, for there neighbouring rings move slowly. Bench j >= a + 2 is apart from a if one
-face of either has all four corners of the other beyond it. Let g(theta) be the distance of one corner beyond a
+that turns with that handle, because neighbouring rings move slowly there. Bench j >= a + 2 is apart from a if all
+four corners of one lie beyond one face of the other. Let g(theta) be the distance of one corner beyond a
 face, w = M - m, and D1 <= g' <= D2 on the stretch, from the exact velocities of rigid links. Then
     g >= g(m) + D1 (theta - m)   and   g >= g(M) - D2 (M - theta).
   4. If g(m) > 0 and g(M) > 0, then g > 0 throughout when D1 >= 0, or D2 <= 0, or D2 g(m) - D1 g(M) + D1 D2 w > 0:
-     for both bounds to be 0 or less at one theta, w >= g(m) / -D1 + g(M) / D2 is needed. Near the contact g
-     is monotone, so that the last stretch, down to 1e-10 s before it, is as wide as any.
+     both bounds can be 0 or less at one theta only if w >= g(m) / -D1 + g(M) / D2. Near the contact g is
+     monotone, so that the last stretch, down to 1e-10 s before it, is as wide as any.
   5. Every point of a bench is within h = hypot(overhang, width / 2) of the segment between its handles. A point
      that divides this segment as q : 1 - q has r^2 = q r1^2 + (1 - q) r2^2 - q (1 - q) c^2 >= min(r1, r2)^2 - c^2 / 4.
      Handles lie outwards along the chain. So, with the longest chord c and the largest h of the dragon, all the
      benches from handle k on are apart from bench a when sqrt(r[k]^2 - c^2 / 4) - h > r[a + 1] + h[a]; and
-     they do follow, since F(theta, pi) > 4 theta^2 > (c / b)^2. All other pairs are shown one by one.
+     they do follow, since F(theta, pi) > 4 theta^2 > (c / b)^2. All other pairs are proven one by one.
 
-The whole chain. A sweep tiles with stretches every place that the front handle of one bench takes: sweep 0 the
-head's way, sweep a + 1 all places where the stretches of sweep a have handle a + 1.
-  6. If the benches from u on are alike, sweep u does for all of them when it reaches far enough out: all handles
+The whole chain. A sweep covers with stretches every place that the front handle of one bench takes: sweep 0 covers
+the head's way, sweep a + 1 all places of handle a + 1 in the stretches of sweep a.
+  6. If the benches from u on are equal and sweep u reaches far enough out, it covers all of them: all handles
      follow one path, so with handle k > u at theta the benches from k on lie as those from u on do with handle u
-     at theta, only that k - u of them are missing at the end. Let P[u] be above all places of handle u, and
-     P[k + 1] = f(P[k]). Then no handle k >= u comes above P[k]: f rises, or where 3. does not say so, the next
-     handle is below P[u + 1]. A stretch that begins above P[u], ..., P[u + s - 1] is passed only by handles
-     from u + s on: in it, bench u needs its pairs with benches up to n - 1 - s.
+     at theta, except that k - u of them are missing at the end. Let P[u] be above all places of handle u, and
+     P[k + 1] = f(P[k]). Then no handle k >= u comes above P[k]: f rises, or where 3. does not prove it, the next
+     handle is below P[u + 1]. Only handles from u + s on pass a stretch that begins above P[u], ..., P[u + s - 1]:
+     in it, bench u needs only its pairs with benches up to n - 1 - s.
 
 Margin. Let the separation of two benches be the distance of two closest points, one of each.
-  7. A line of unit normal n with bench a behind it and all corners of b more than the margin beyond it keeps them
-     farther apart than the margin, for the separation is no less than the distance of the projections onto n.
-     Besides the eight faces, n may be any direction fixed in the first bench, which two corners that are nearest
-     to one another need; 4. holds for it as for a face. Two benches are nearer than the margin m when they strictly
+  7. If bench a lies behind a line of unit normal n, and all corners of b lie more than the margin beyond it, the
+     separation exceeds the margin, because it is no less than the distance of the projections onto n. Besides the
+     eight faces, n may be any direction fixed in the first bench; two corners that are nearest to one another need
+     this. 4. holds for it as for a face. Two benches are nearer than the margin m when they strictly
      overlap, or when some corner of one, with x and y its distances beyond the nearer of two opposite faces of the
      other (0 between them), has x^2 + y^2 < m^2: the corner and the point of the other next to it are two such
      points.
@@ -71,45 +71,46 @@ of travel phi and the direction psi of the chord, alpha = phi - psi at the front
      Im(V exp(-i k1 l / 2)) >= 0. So the argument of V, -beta, lies between the two; alpha by travelling backwards.
      The distance D of the two points grows with l by cos(beta) >= cos(K l / 2), and by cos(beta) <= cos(k0 l / 2):
          (2 / K) sin(K l / 2) <= D <= (2 / k0) sin(k0 l / 2)   while K l <= pi.
-     So a point behind at distance c with K l <= pi is the first, and where K c < 2 there is one, with
+     So a point behind at distance c with K l <= pi is the first one, and it exists if K c < 2, with
      (2 / k0) asin(k0 c / 2) <= l <= (2 / K) asin(K c / 2) < pi / K. Over a stretch z in [m, M], with K the bound on
      [m, f(M)] and K c < 2: seen from the fixed point R = f(M) the distance of the point at z falls with z while
      K (R - z) <= pi, so at R it is c or more, and so it is at pi c / 2 behind z where R - z is more than pi / K: f(z)
      does not exceed f(M). So f does not fall, the chains at the two ends enclose those between as in 3., and
      f' = cos(alpha) / cos(beta) > 0, since the chord keeps its length.
      alpha and beta change by k - psi' and f' k - psi' per length of the front handle's way, psi' = (sin(alpha) -
-     f' sin(beta)) / c. No place of the stretch is farther than half that way from the nearer end, so they are also
-     within that times these rates of their values at an end. On one line or arc l, alpha and beta do not change.
+     f' sin(beta)) / c. No place of the stretch is farther than half that way from the nearer end, so they also
+     differ from their values at an end by at most this half way times these rates. On one line or arc l, alpha and beta
+     do not change.
   9. Seen from the first bench a, in its own frame, bench b has its centre at q and the direction e. With v the
      velocity of a centre in its bench's own frame, (cos(alpha), (sin(alpha) + f' sin(beta)) / 2) times the speed
      r of the front handle, and w = r psi' the turning rate,
          e' = i (w_b - w_a) e,   q' = e v_b - v_a - i w_a q,   |q|' <= |e v_b - v_a|,
      and r of the next handle is f' r. Each encloses e and q from either end of the stretch through half of it. So
      4. applies with g' from e, e', q and q', and with a and b exchanged.
- 10. Benches whose centres are farther apart than both half diagonals are apart; by the last of 9. the distance of
-     the centres is never less than half of: its values at both ends, less |e v_b - v_a| times the stretch.
- 11. Where the first piece coils inwards and goes on outwards without end, 5. holds for all benches from a handle on
-     that stands on it, when bench a is inside the circle: a point of the way of its handle, of length w, is no
-     farther from the centre than half of: its distances at both ends and w.
-     The pieces are joined as core/proof/paths.py says.
+ 10. Benches are apart if the distance of their centres exceeds the sum of their half diagonals. By the last of 9. this
+     distance is never less than half of: the sum of its values at both ends, less |e v_b - v_a| times the stretch.
+ 11. Let the first piece coil inwards; it continues outwards without end. If a handle stands on it and bench a is
+     inside the circle, 5. holds for all benches from that handle on: a point of the way of its handle, of length w,
+     is no farther from the centre than half the sum of w and its distances at both ends.
+     core/proof/paths.py describes how the pieces are joined.
 
-Fold. The claim that bench k folds while the head goes from theta = M in to m, its handle k being at t(m) at last. (A
-minimum pitch need not show how the dance gets to M: if a bench folds before, the head does not reach the circle.)
- 12. Until bench k folds, all handles up to k follow continuously, and so does the bend d of bench k, from d1 on. Let
+Fold. The claim: bench k folds while the head goes from theta = M in to m, where its handle k is at t(m). (A minimum
+pitch need not prove how the dance gets to M: if a bench folds earlier, the head does not reach the circle either.)
+ 12. Until bench k folds, all handles up to k follow continuously, and so does the angle d of bench k, from d1 on. Let
      T be above all places of handle k on the way. If F(T, D) < (c / b)^2 for some D > d1, then F(theta, D) < (c / b)^2
-     for all theta <= T by 2.: d never is D, and stays below. If moreover F(t(m), d) < (c / b)^2 for all d in [0, D],
-     then there is no bend left at m.
- 13. Sweeps that tile the way of the head show that all benches follow on it. Over a stretch F_d > 0 on the box of every
-     bend that is placed, so that it is the first root and changes without a jump; where two stretches join it is the
-     same root. The bends further out are below pi by 5., and 1. says this of them. 6. holds for bends as for pairs.
-     One or two benches have no pair, but for a minimum pitch they have sweep 0, too, which shows only this.
+     for all theta <= T by 2.: d never equals D, so it stays below. If moreover F(t(m), d) < (c / b)^2 for all d in
+     [0, D], then no root is left at m.
+ 13. Sweeps that cover the way of the head prove that all benches follow on it. Over a stretch F_d > 0 on the box of
+     every placed angle, so it is the first root and changes without a jump; where two stretches join it is the same
+     root. The angles further out are below pi by 5., so 1. applies to them. 6. holds for them as for pairs. One or
+     two benches have no pair, but a minimum pitch has sweep 0 for them too, which proves only that they follow.
 
 A certificate holds the parameters, the stretches as [highest place, lowest place, faces], and the overlap, or the bench
-that folds with M and m of 12. A face is a digit for each bench from the next but one on: 0 to 3 for the faces +x, +y,
--x, -y of the first bench, 4 to 7 for those of the other one, 8 for a direction of 7. (then the directions [rad] stand
-fourth), 9 for 10. The doubles and the faces are guesses, made in double precision; every inequality above is decided on
-balls, when a proof is made and when it is checked. The precision of flint is one for the process: prove and check in
-one thread at a time.
+that folds with M and m of 12. `faces` has one digit for each bench from the next but one on: 0 to 3 for the faces +x,
++y, -x, -y of the first bench, 4 to 7 for those of the other one, 8 for a direction of 7. (then the directions [rad] are
+the fourth entry), 9 for 10. The doubles and the faces are guesses, made in double precision; every inequality above is
+decided on balls, when a proof is made and when it is checked. The precision of flint is global to the process: prove
+and check in one thread at a time.
 """
 
 from __future__ import annotations

@@ -14,9 +14,9 @@ from core.dance import Dance
 from core.dragon import BENCHES_MAX, Dragon
 from core.errors import InvalidValue, OutsideRun, ProofRefused, spoken
 from core.paths.spiral import Spiral
-from core.proof.claims import CollisionTime, MinimumPitch, refusing
+from core.proof.claims import CollisionTimeClaim, MinimumPitchClaim, refusing
 from core.proof.dances import Clear, Contact, last_stop
-from core.proof.members import CLAIMS, SHOWN_MOST, check_members
+from core.proof.members import CLAIMS, SHOWN_MOST, refuse_malformed
 from core.proof.paths import recorded_path
 from core.proof.sweeps import Progress, found, recorded, swept
 from core.proof.words import runs
@@ -26,12 +26,12 @@ FORMAT = "bench-dragon proof 1"
 PRECISION = 96
 
 Certificate = dict[str, Any]
-Claim = CollisionTime | MinimumPitch | Clear | Contact
+Claim = CollisionTimeClaim | MinimumPitchClaim | Clear | Contact
 
 
 @dataclass(frozen=True, slots=True)
 class Proof:
-    """What a certificate proves: statement, and its size: stretches, pair_proofs (a pair apart over a stretch)."""
+    """A proven statement, and the size of its proof: stretches, pair_proofs (a pair apart over a stretch)."""
 
     statement: str
     stretches: int
@@ -48,16 +48,16 @@ def prove_collision_time(
 ) -> Certificate:
     """A certificate that nothing touches in [0, time - 1e-10], and that a pair strictly overlaps at time + 1e-10 [s].
 
-    margin: [m]; with one, that nothing comes within it, and that a pair is strictly nearer then
-    every_pair: prove each pair of the chain in its own right, without 6.: slower by the number of benches
-    progress: called with the share done, 0 to 1
-    returns: what json can write and check() verifies
-    raises: ProofRefused when the claim is wrong, or nearer to wrong than the balls decide
+    margin: [m]; if positive, nothing comes within it until then, and a pair is strictly nearer after
+    every_pair: prove each pair of the chain by itself, without 6.: slower by the number of benches
+    progress: called with the fraction done, 0 to 1
+    returns: a dictionary that json can write and check() verifies
+    raises: ProofRefused if the claim is wrong, or too close to wrong for the balls to decide
     """
     path = dance.path
     if not isinstance(path, Spiral):
         raise InvalidValue("path", "path must be a spiral: prove_contact() takes any other")
-    claim = CollisionTime(dance.dragon, path.pitch, path.start_turns, dance.head_speed, time, margin)
+    claim = CollisionTimeClaim(dance.dragon, path.pitch, path.start_turns, dance.head_speed, time, margin)
     return _proven(claim, every_pair, progress)
 
 
@@ -73,11 +73,11 @@ def prove_minimum_pitch(
 ) -> Certificate:
     """A certificate that nothing touches on the way to the circle, and that with 1e-6 m less a pair overlaps on it.
 
-    Every bench follows on that way; with 1e-6 m less one may also fold before the circle, or the start may lie within
-    the circle: then the certificate says that instead. It says nothing of larger pitches.
+    Every bench follows on that way. With 1e-6 m less a bench may also fold before the circle, or the start may lie
+    within the circle; then the certificate proves that instead. It proves nothing about larger pitches.
     pitch, turning_radius: [m]; margin, every_pair, progress, returns, raises: as prove_collision_time()
     """
-    return _proven(MinimumPitch(dragon, pitch, start_turns, turning_radius, margin), every_pair, progress)
+    return _proven(MinimumPitchClaim(dragon, pitch, start_turns, turning_radius, margin), every_pair, progress)
 
 
 def prove_clear(
@@ -92,9 +92,9 @@ def prove_clear(
     """A certificate that nothing touches in [start, stop] [s], or comes within the margin [m].
 
     dance: on a spiral, a turn, or a route of lines, arcs and coils
-    stop: None for the end of the run: then the certificate also says what the run has come to 1e-9 s after its stop,
-        a fold, the centre of the spiral, or the end of the route
-    every_pair, progress, returns, raises: as prove_collision_time(); OutsideRun for times that the dance has not
+    stop: None for the end of the run: then the certificate also proves the end within 1e-9 s after its stop: a fold,
+        the centre of the spiral, or the end of the route
+    every_pair, progress, returns, raises: as prove_collision_time(); OutsideRun for times outside the dance
     """
     record, until = recorded_path(dance.path), "stop"
     if stop is None:
@@ -145,7 +145,7 @@ def _proven(claim: Claim, every_pair: bool, progress: Progress) -> Certificate:
 
 
 def _values(claim: Claim) -> dict[str, Any]:
-    """The members of a claim; a margin only where there is one, so that a certificate without one stays as it was."""
+    """The members of a claim; a margin only if it is positive, so that certificates without one keep their form."""
     values = {field.name: getattr(claim, field.name) for field in fields(claim) if field.name != "dragon"}
     if not values["margin"]:
         del values["margin"]
@@ -153,15 +153,15 @@ def _values(claim: Claim) -> dict[str, Any]:
 
 
 def check(certificate: Certificate, *, progress: Progress = lambda share: None) -> Proof:
-    """What a certificate proves, after every inequality in it was verified again, without a search.
+    """The statement that a certificate proves, after every inequality in it was verified again, without a search.
 
     certificate: as made here, or read from JSON; the balls have the precision that it states
-    raises: ProofRefused when anything was changed, is missing, is unknown, or is not proven
+    raises: ProofRefused if any member is changed, missing or unknown, or any step is not proven
     """
     stated = certificate.get("format") if isinstance(certificate, dict) else None
     if isinstance(stated, str) and stated != FORMAT:
         raise ProofRefused("format", f"the certificate's format is not {FORMAT!r}: {stated[:SHOWN_MOST]!r}")
-    check_members(certificate)
+    refuse_malformed(certificate)
     content = {name: value for name, value in certificate.items() if name != "digest"}
     if certificate["digest"] != digest(content):
         raise ProofRefused("digest", "the certificate was changed after it was made")
@@ -190,7 +190,7 @@ def _verified(content: Certificate, progress: Progress) -> Proof:
 
 
 def digest(content: Any) -> str:
-    """A fingerprint of a certificate without its digest: tells accidents and careless edits; the proof is the judge."""
+    """A fingerprint of a certificate without its digest: it detects accidents and careless edits; the proof decides."""
     return hashlib.sha256(_text(content).encode()).hexdigest()
 
 

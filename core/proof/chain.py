@@ -1,4 +1,4 @@
-"""The dragon on its spiral in balls: bends, the chain at one exact place, and over a stretch of places."""
+"""The dragon on its spiral in balls: deltas, the chain at one exact place, and over a stretch of places."""
 
 from __future__ import annotations
 
@@ -12,19 +12,19 @@ from core.proof.pairs import Benches, Limit, Size, Unproven, above, below, stays
 
 # A guess from doubles is within this of its root [rad]; an interval Newton step verifies it.
 GUESS_RADIUS = 1e-8
-# The longest step of Newton's towards a guess [rad]: near the centre the first ones lead too far.
+# Longest Newton step towards a guess [rad]: near the centre the first steps overshoot.
 STEP_MOST = 1.0
-# Pieces of [pi, d] over which F_d > 0 is shown, near the centre, and how many are tried with those that they are halved
-# into: 95 where a pitch of 2 m is 2e-7 m wider than one with a fold (measured 2026-11-21).
+# Pieces of [pi, d] over which F_d > 0 is proven, near the centre, and the largest number of tries, with the halves of
+# pieces: 95 for a pitch of 2 m that is 2e-7 m wider than one with a fold (measured 2026-11-21).
 PIECES_PAST_PI, PIECES_MOST = 32, 1000
-# Poses that a chain remembers: the one that two stretches share, and those of tries that failed.
+# Number of poses that a chain remembers: the one that two stretches share, and those of failed tries.
 POSES_KEPT = 16
 
 
 class Follower:
     """A dragon on some path, and the margin that its benches keep [m]. A place falls as the dance goes on.
 
-    repeats_from: u of 6., from where one sweep does for all, at most the last bench that has a pair
+    repeats_from: u of 6., from which one sweep covers all, at most the last bench that has a pair
     longest, reach: the longest chord, the largest h of 5. [m]
     """
 
@@ -74,18 +74,18 @@ class Chain(Follower):
         return self.growth / 2 * (theta * (1 + theta**2).sqrt() + theta.asinh())
 
     def place_after(self, way: arb) -> arb:
-        """Where the head is after this way from the start. way: [m], negative outside the start; returns [rad]."""
+        """Place of the head after this way from the start. way: [m], negative outside the start; returns [rad]."""
         left = self.arc(self.start) - way
         if not left > 0:
             raise Unproven("the claim reaches past the centre of the spiral")
         theta = (2 * left / self.growth).sqrt().mid()
-        for _ in range(20):  # Newton's steps, quadratic from the first on: arc is convex
+        for _ in range(20):  # Newton steps, quadratic from the first one on, because arc is convex
             theta = (theta - (self.arc(theta) - left) / (self.growth * (1 + theta**2).sqrt())).mid()
         around = theta + arb(0, GUESS_RADIUS)
         return newton(theta, around, self.arc(theta) - left, self.growth * (1 + around**2).sqrt())
 
     def far(self, bench: int, rear: arb, theta: arb) -> bool:
-        """Is every bench from a handle at theta on apart from this one, whose rear handle is at rear (5.)? [rad]"""
+        """Whether every bench from a handle at theta on is apart from this one, its rear handle at rear (5.) [rad]."""
         inner = (self.growth * theta.lower()) ** 2 - arb(self.longest) ** 2 / 4
         outer = self.growth * rear.upper() + self.sizes[bench].reach
         return bool(inner > 0 and inner.sqrt() - self.reach > outer + self.margin)
@@ -94,7 +94,7 @@ class Chain(Follower):
         """P[bench], ..., P[n - 3] of 6., rounded up. highest: P[bench] [rad]"""
         places, theta = [highest], arb(highest)
         for needed in self.needed[bench : max(bench, self.count - 3)]:
-            theta += bend(theta, needed)
+            theta += delta(theta, needed)
             places.append(above(theta))
         return places
 
@@ -109,8 +109,8 @@ def newton(guess: arb, around: arb, value: arb, slope: arb) -> arb:
     return root
 
 
-def bend_guess(theta: float, needed: float) -> float:
-    """The first root of F, unverified. A long chord starts at pi: Newton then comes from below, F is concave there."""
+def delta_guess(theta: float, needed: float) -> float:
+    """The first root of F, unverified. A long chord starts at pi: there F is concave, so Newton comes from below."""
     chord = math.sqrt(needed)
     found = 2.0 * math.asin(min(1.0, chord / (2.0 * math.sqrt(theta * theta + chord))))
     for _ in range(40):
@@ -132,9 +132,9 @@ def slopes(theta: arb, d: arb) -> tuple[arb, arb]:
     return (theta + outer) * rest, 2 * d + theta * (rest + 2 * outer * sine)
 
 
-def bend(theta: arb, needed: arb) -> arb:
+def delta(theta: arb, needed: arb) -> arb:
     """The first root d of F(theta, d) = needed (1.) [rad]."""
-    guess = arb(bend_guess(float(theta), float(needed)))
+    guess = arb(delta_guess(float(theta), float(needed)))
     around = guess + arb(0, GUESS_RADIUS)
     value = guess**2 + 2 * theta * (theta + guess) * (1 - guess.cos()) - needed
     found = newton(guess, around, value, slopes(theta, around)[1])
@@ -146,7 +146,7 @@ def bend(theta: arb, needed: arb) -> arb:
 
 
 def rises_to(theta: arb, d: arb) -> bool:
-    """Is F(theta, .) < F(theta, d) before d > pi (1.)? Where F_d > 0 at d is known."""
+    """Whether F(theta, .) < F(theta, d) before d > pi (1.), if F_d > 0 at d is known."""
     step = (d - arb.pi()) / PIECES_PAST_PI
     pieces = [(float(k), k + 1.0) for k in reversed(range(PIECES_PAST_PI))]
     for _ in range(PIECES_MOST):
@@ -163,7 +163,7 @@ def rises_to(theta: arb, d: arb) -> bool:
 
 
 def _rises(theta: arb, start: arb, end: arb) -> bool:
-    """Is F_d > 0 from one bend to another? At once, or from the middle by the mean value theorem."""
+    """Whether F_d > 0 from one delta to another: by one ball, or from the middle by the mean value theorem."""
     hull, middle = start.union(end), (start + end) / 2
     return bool(slopes(theta, hull)[1] > 0 or slopes(theta, middle)[1] + _curving(theta, hull) * (hull - middle) > 0)
 
@@ -177,14 +177,14 @@ def _curving(theta: arb, d: arb) -> arb:
 class Pose(Benches):
     """The benches from one on when its front handle is at theta, in the frame that turns with that handle.
 
-    thetas, turns [rad], points [m]: of the handles; bends: of the benches, grown one by one
+    thetas, turns [rad], points [m]: of the handles; deltas: of the benches, grown one by one
     """
 
     def __init__(self, chain: Chain, bench: int, theta: arb) -> None:
         super().__init__(chain.sizes[bench:])
         self.chain, self.bench = chain, bench
         self.thetas, self.turns, self.points = [theta], [arb(0)], [acb(chain.growth * theta)]
-        self.bends: list[arb] = []
+        self.deltas: list[arb] = []
 
     @property
     def places(self) -> list[arb]:
@@ -192,20 +192,20 @@ class Pose(Benches):
         return self.thetas
 
     def far_from(self, count: int) -> bool:
-        """Are all benches behind so many apart from the first one (5.)?"""
+        """Whether all benches behind this number of benches are apart from the first one (5.)."""
         return self.chain.far(self.bench, self.thetas[1], self.thetas[count])
 
     def grow_to(self, count: int) -> None:
-        """Have at least so many benches, as far as there are any."""
-        self.grow(count - len(self.bends))
+        """Place at least this number of benches, if the dragon has as many."""
+        self.grow(count - len(self.deltas))
 
     def grow(self, benches: int = 1) -> None:
-        """Add the next benches, as far as there are any."""
-        first = self.bench + len(self.bends)
+        """Place the next benches, if the dragon has more."""
+        first = self.bench + len(self.deltas)
         for k in range(first, min(first + benches, self.chain.count)):
-            self.bends.append(bend(self.thetas[-1], self.chain.needed[k]))
-            self.thetas.append(self.thetas[-1] + self.bends[-1])
-            self.turns.append(self.turns[-1] + self.bends[-1])
+            self.deltas.append(delta(self.thetas[-1], self.chain.needed[k]))
+            self.thetas.append(self.thetas[-1] + self.deltas[-1])
+            self.turns.append(self.turns[-1] + self.deltas[-1])
             sine, cosine = self.turns[-1].sin_cos()
             radius = self.chain.growth * self.thetas[-1]
             self.points.append(acb(radius * cosine, radius * sine))
@@ -232,7 +232,7 @@ class Stretch:
         self.grow()
 
     def grow(self) -> None:
-        """Add the next bench: between the ends by 3., or by the mean value once a handle may turn back."""
+        """Place the next bench: between the ends by 3., or by the mean value once a handle may turn back."""
         k = len(self.placed)
         size, theta = self.chain.sizes[self.bench + k], self.thetas[k]
         before, after = self.ends
@@ -240,13 +240,13 @@ class Stretch:
         after.grow_to(k + 1)
         needed = self.chain.needed[self.bench + k]
         if self._hull:
-            bends = after.bends[k].union(before.bends[k])
+            deltas = after.deltas[k].union(before.deltas[k])
         else:
-            bends = bend(theta.upper(), needed).union(bend(theta.lower(), needed))
-        by_theta, by_bend = slopes(theta, bends)
-        if not by_bend > 0:
+            deltas = delta(theta.upper(), needed).union(delta(theta.lower(), needed))
+        by_theta, by_delta = slopes(theta, deltas)
+        if not by_delta > 0:
             raise Unproven(f"handle {self.bench + k + 1} is not enclosed")
-        rise = 1 - by_theta / by_bend
+        rise = 1 - by_theta / by_delta
         self.rates.append(self.rates[k] * rise)
         self._hull = self._hull and bool(rise > 0)
         if self._hull:
@@ -272,7 +272,7 @@ class Stretch:
 
     @property
     def complete(self) -> bool:
-        """Are all benches that are not placed either far (5.) or none of this stretch's (6.)?"""
+        """Whether every bench that is not placed is either far (5.) or not needed in this stretch (6.)."""
         count = len(self.placed)
         return self.bench + count >= self.last or (
             count >= 2 and self.chain.far(self.bench, self.thetas[1], self.thetas[-1])
@@ -280,16 +280,16 @@ class Stretch:
 
     @property
     def rear(self) -> tuple[float, float]:
-        """Between which thetas the next handle stays [rad]; when it rises, to the last digit of a double."""
+        """Lower and upper bound of the next handle's theta [rad]; if it rises, to the last digit of a double."""
         first, last = (pose.thetas[1] for pose in self.ends) if self.rising else (self.thetas[1], self.thetas[1])
         return below(first), above(last)
 
     def within_circles(self, partner: int) -> bool:
-        """Spirals do without 10.: beyond the next ring or two 5. has them all."""
+        """Spirals need no 10.: beyond the next ring or two 5. covers all benches."""
         return False
 
     def apart(self, partner: int, face: str, direction: float) -> bool:
-        """Is one of the two more than the margin beyond this line of the other, all over the stretch (4.)?
+        """Whether one of the two is more than the margin beyond this line of the other, over the whole stretch (4.).
 
         partner: counted from bench; face, direction: see Limit
         """

@@ -1,4 +1,4 @@
-"""The claims about the spiral, collision time and minimum pitch: what each says, its way, and its overlap."""
+"""The claims about the spiral, collision time and minimum pitch: statement, way and overlap of each."""
 
 from __future__ import annotations
 
@@ -15,31 +15,30 @@ from core.dance import checked_head_speed, end_theta
 from core.dragon import Dragon
 from core.errors import ProofRefused, said
 from core.paths.spiral import Spiral
-from core.proof.chain import Chain, bend_guess
+from core.proof.chain import Chain, delta_guess
 from core.proof.fold import check_fold
 from core.proof.pairs import Unproven, above, below
 from core.proof.sweeps import AnyChain, Overlap, Progress, found, swept
 from core.proof.words import apart_words, contact_words, dragon_words, near_words
+from core.sampling import bisected
 from core.values import SIZE_MIN, checked_number, checked_size
 
 # Half the bracket around a collision time [s], and the step below a minimum pitch [m]: exact decimals, in balls.
 TIME_BRACKET = "1e-10"
 PITCH_STEP = "1e-6"
-# A fold is shown between two places of the head, each so far from where doubles see it [1]. They see it within 1e-12;
-# where it only just exists, 12. finds no wall from farther away.
+# A fold is proven between two places of the head, each at this relative distance from the place that doubles find [1].
+# Doubles are within 1e-12 of it; if the fold only just exists, 12. finds no wall from farther away.
 FOLD_WITHIN = (1e-9, 1e-11)
-# Halvings that bring the head's theta to the last digit of a double.
-HALVINGS = 60
 
 
 @dataclass(frozen=True)
-class CollisionTime:
+class CollisionTimeClaim:
     """Nothing touches in [0, time - 1e-10], and one pair strictly overlaps at time + 1e-10 [s].
 
-    margin: [m]; where it is more than 0, nothing comes within it, and one pair is strictly nearer
+    margin: [m]; if positive, nothing comes within it, and one pair is strictly nearer
     way: (highest, lowest) theta of the head between which nothing may touch [rad]
     find_overlap(): the record of an overlap that check_overlap() verifies, returning the whole claim in words
-    search_share: how much of the work of a proof find_overlap() is; follows: as swept() has it
+    search_share: fraction of a proof's work in find_overlap(); follows: see swept()
     """
 
     kind: ClassVar[str] = "collision-time"
@@ -86,11 +85,11 @@ class CollisionTime:
 
 
 @dataclass(frozen=True)
-class MinimumPitch:
+class MinimumPitchClaim:
     """Every bench follows and nothing touches on the head's way from the start to the circle; with 1e-6 m less one pair
     overlaps on it, or one bench folds.
 
-    margin, way, find_overlap(), check_overlap(), search_share, follows: as of CollisionTime
+    margin, way, find_overlap(), check_overlap(), search_share, follows: as of CollisionTimeClaim
     """
 
     kind: ClassVar[str] = "minimum-pitch"
@@ -142,7 +141,7 @@ class MinimumPitch:
         raise ProofRefused("claim", f"{PITCH_STEP} m less than pitch {said(self.pitch)} m {free}")
 
     def _find_fold(self, start: float, circle: float) -> dict[str, Any]:
-        """Where a bench folds on the way with PITCH_STEP less, as doubles see it; empty where none does. [rad]"""
+        """The fold on the way with PITCH_STEP less, as doubles find it; empty if no bench folds [rad]."""
         less = Spiral(max(self.pitch - float(PITCH_STEP), SIZE_MIN), self.start_turns)
         theta, bench = end_theta(self.dragon, less)
         if bench is None or not circle < theta < start:
@@ -183,7 +182,7 @@ class MinimumPitch:
 
 
 def checked_margin(margin: float) -> float:
-    """margin [m] if it lies in the range allowed."""
+    """margin [m] if it lies in the allowed range."""
     return checked_number("margin", margin, "m", 0.0, MARGIN_MAX)
 
 
@@ -194,9 +193,9 @@ def settle(claim: object, **checked: float) -> None:
 
 
 def near_pair(chain: AnyChain, head: arb, when: str) -> list[int]:
-    """Two benches a < b, no neighbours, that strictly overlap, or are nearer than the margin, when the head is there.
+    """Two benches a < b, no neighbours, that strictly overlap, or are nearer than the margin, at a place of the head.
 
-    head: its place [rad], [m]; raises: ProofRefused when there are none
+    head: the place [rad], [m]; raises: ProofRefused if there are none
     """
     place = head
     for bench in range(chain.count - 2):
@@ -214,9 +213,9 @@ def near_pair(chain: AnyChain, head: arb, when: str) -> list[int]:
 
 
 def check_near(chain: AnyChain, head: arb, a: int, b: int, when: str) -> None:
-    """Check that benches a < b, no neighbours, strictly overlap, or are nearer than the margin, when the head is there.
+    """Check that benches a < b, no neighbours, strictly overlap, or are nearer than the margin, at a place of the head.
 
-    head: its place [rad], [m]; raises: Unproven
+    head: the place [rad], [m]; raises: Unproven
     """
     if not 0 <= a < b - 1 < chain.count - 1:
         raise Unproven(f"benches {a} and {b} are no pair")
@@ -230,18 +229,19 @@ def check_near(chain: AnyChain, head: arb, a: int, b: int, when: str) -> None:
 
 
 def head_theta(chain: Chain, handle: int, theta: float, low: float, high: float) -> float:
-    """Where the head is, between low and high, when a handle is at theta, about [rad]."""
-    for _ in range(HALVINGS if handle else 0):
-        theta_handle = middle = (low + high) / 2
+    """Place of the head, between low and high, when a handle is at theta, approximately [rad]."""
+
+    def is_beyond(theta_handle: float) -> bool:
         for needed in chain.needed[:handle]:
-            theta_handle += bend_guess(theta_handle, float(needed))
-        low, high = (low, middle) if theta_handle > theta else (middle, high)
-    return high if handle else theta
+            theta_handle += delta_guess(theta_handle, float(needed))
+        return theta_handle > theta
+
+    return bisected(is_beyond, low, high)[1] if handle else theta
 
 
 @contextmanager
 def refusing(field: str) -> Iterator[None]:
-    """Turn what is not proven into ProofRefused."""
+    """Turn Unproven into ProofRefused."""
     try:
         yield
     except (Overlap, Unproven) as why:

@@ -1,4 +1,4 @@
-"""The claims about any path, clear and contact: what each says, its way, how it ends."""
+"""The claims about any path, clear and contact: statement, way and end of each."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from core.proof.route import RouteChain
 from core.proof.sweeps import AnyChain, Progress
 from core.proof.words import apart_words, contact_words, dragon_words
 
-# How much later than the stop of a claim the run has ended for certain, where the claim says so: an exact decimal [s].
+# Time after the stop of a claim by which the run is certainly over, if the claim includes the end: exact decimal [s].
 END_BRACKET = "1e-9"
 ENDINGS = ("stop", "fold", "centre", "end")
 
@@ -29,9 +29,9 @@ ENDINGS = ("stop", "fold", "centre", "end")
 class Clear:
     """Nothing touches in [start, stop] [s], or comes within the margin [m].
 
-    path: as paths.py writes it; until: "stop", or what the run has come to END_BRACKET later: a fold, the centre of
-    the spiral, the end of the route
-    way, find_overlap(), check_overlap(), search_share, follows: as of CollisionTime
+    path: as paths.py writes it; until: "stop", or the end that the run has reached END_BRACKET later: a fold, the
+    centre of the spiral, the end of the route
+    way, find_overlap(), check_overlap(), search_share, follows: as of CollisionTimeClaim
     """
 
     kind: ClassVar[str] = "clear"
@@ -90,7 +90,7 @@ class Contact:
     """Nothing touches in [start, time - 1e-10], and one pair strictly overlaps at time + 1e-10 [s].
 
     path: as paths.py writes it; margin, way, find_overlap(), check_overlap(), search_share, follows: as of
-    CollisionTime
+    CollisionTimeClaim
     """
 
     kind: ClassVar[str] = "contact"
@@ -131,9 +131,9 @@ class Contact:
 
 
 def last_stop(dragon: Dragon, path: Mapping[str, Any], head_speed: float) -> tuple[float, str]:
-    """When a clear run is to stop for a claim that includes its end [s], and which end that is."""
+    """Stop of a clear run whose claim includes the end [s], and the kind of end."""
     end = Dance(dragon, core_path(path), head_speed).end
-    at_once = end.reason is EndReason.END  # every place up to the end of a route has its chain
+    at_once = end.reason is EndReason.END  # every place up to the end of a route has a chain
     return end.time - (0.0 if at_once else float(END_BRACKET) / 2), end.reason.value
 
 

@@ -1,4 +1,4 @@
-"""Folds in balls: that a bench cannot follow any more (12.)."""
+"""Folds in balls: proofs that a bench cannot follow any further (12.)."""
 
 from __future__ import annotations
 
@@ -9,15 +9,15 @@ from flint import arb
 from core.proof.chain import Chain, Stretch, slopes
 from core.proof.pairs import Unproven, above, below
 
-# Pieces of a bend that are looked at before a fold counts as not shown; 20 to 60 are usual.
+# Largest number of pieces of an angle delta before a fold counts as not proven; 20 to 60 are usual.
 FOLD_PIECES = 10_000
-# Where the wall of 12. is looked for: by steps of these [rad], up to so far. Where a fold only just exists F falls only
-# on a short way.
+# Search for the wall of 12.: its steps and its reach [rad]. If a fold only just exists, F falls only over a short
+# distance.
 WALL_STEPS, WALL_MOST = (0.01, 0.0001), 7.0
 
 
 def folding(chain: Chain, before: arb, after: arb) -> int:
-    """The bench that cannot follow any more when the head gets from one theta to another [rad].
+    """The bench that can no longer follow when the head goes from one theta to another [rad].
 
     raises: Unproven
     """
@@ -25,7 +25,7 @@ def folding(chain: Chain, before: arb, after: arb) -> int:
     try:
         pose.grow(chain.count)
     except Unproven:
-        bench = len(pose.bends)
+        bench = len(pose.deltas)
     else:
         raise Unproven("every bench is shown to follow past the end that is claimed")
     check_fold(chain, bench, before, after)
@@ -33,7 +33,7 @@ def folding(chain: Chain, before: arb, after: arb) -> int:
 
 
 def check_fold(chain: Chain, bench: int, before: arb, after: arb) -> None:
-    """Check that this bench cannot follow any more when the head gets from one theta to another [rad].
+    """Check that this bench can no longer follow when the head goes from one theta to another [rad].
 
     raises: Unproven
     """
@@ -48,8 +48,8 @@ def check_fold(chain: Chain, bench: int, before: arb, after: arb) -> None:
     needed, lowest = chain.needed[bench], pose.thetas[bench]
     start = chain.pose_at(0, before)
     start.grow(bench + 1)
-    wall = _wall(float(lowest), float(start.bends[bench]))
-    if not (start.bends[bench] < wall and _moved(highest, arb(wall)) < needed):
+    wall = _wall(float(lowest), float(start.deltas[bench]))
+    if not (start.deltas[bench] < wall and _moved(highest, arb(wall)) < needed):
         raise Unproven(f"no wall is found behind bench {bench}")
     if not _stays_short(lowest, wall, needed):
         raise Unproven(f"bench {bench} is not shown to fold")
@@ -61,7 +61,7 @@ def _moved(theta: arb, d: arb) -> arb:
 
 
 def _wall(theta: float, d: float) -> float:
-    """About the first local minimum of F(theta, .) beyond d [rad]."""
+    """Approximate first local minimum of F(theta, .) beyond d [rad]."""
     for step in WALL_STEPS:
         falls, wall = False, d
         while wall < d + WALL_MOST:
@@ -70,11 +70,11 @@ def _wall(theta: float, d: float) -> float:
                 return wall
             falls = falls or slope < 0.0
             wall += step
-    raise Unproven("bends of every size are possible")
+    raise Unproven("angles of every size are possible")
 
 
 def _stays_short(theta: arb, wall: float, needed: arb) -> bool:
-    """Is F(theta, d) < needed for all d from 0 to the wall [rad]?"""
+    """Whether F(theta, d) < needed for all d from 0 to the wall [rad]."""
     pieces = [(0.0, wall)]
     for _ in range(FOLD_PIECES):
         if not pieces:

@@ -1,4 +1,4 @@
-"""Two benches in balls: how far each is beyond a line of the other, how near they are, and what keeps them apart."""
+"""Two benches in balls: distances beyond a line of the other, nearness, and the line that keeps them apart."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ class Unproven(Exception):
 
 # Turns that bring the faces +x, +y, -x, -y of a bench's own frame to +x.
 FACES = (acb(1), acb(0, -1), acb(-1), acb(0, 1))
-# What shows a pair apart, one letter each: a face of the first bench (0 to 3) or of the second (4 to 7), a direction
+# Proof that a pair is apart, one letter each: a face of the first bench (0 to 3) or of the second (4 to 7), a direction
 # fixed in the first bench (7.), or the circles around both (10.).
 DIRECTION, CIRCLES = "8", "9"
 ALL_FACES = "01234567"
@@ -43,10 +43,11 @@ class Size:
 
 
 class Limit:
-    """A line fixed in one of two benches a, b, that touches it: the other is beyond when all its corners are.
+    """A line fixed in one of two benches a, b, that touches it; the other bench is beyond if all its corners are.
 
     face: of ALL_FACES or DIRECTION; direction: the angle of the line's normal in the first bench [rad]
-    by_partner: is it fixed in the second one? turn: brings its normal to +x; support: from that bench's centre [m]
+    by_partner: whether it is fixed in the second bench; turn: brings its normal to +x; support: distance from that
+    bench's centre [m]
     """
 
     def __init__(self, face: str, direction: float, first: Size, second: Size) -> None:
@@ -62,7 +63,7 @@ class Limit:
 
 
 def stays_above(first: Sequence[arb], last: Sequence[arb], slopes: Sequence[arb], width: arb, least: arb) -> bool:
-    """Is every g > least over a stretch, from g at its ends and an enclosure of g' (4.)?"""
+    """Whether every g > least over a stretch, from g at its ends and an enclosure of g' (4.)."""
     return all(
         stays_positive(before - least, after - least, slope, width)
         for before, after, slope in zip(first, last, slopes, strict=True)
@@ -70,7 +71,7 @@ def stays_above(first: Sequence[arb], last: Sequence[arb], slopes: Sequence[arb]
 
 
 def stays_positive(first: arb, last: arb, slope: arb, width: arb) -> bool:
-    """Is g > 0 over a stretch, from g at its ends and an enclosure of g' (4.)?"""
+    """Whether g > 0 over a stretch, from g at its ends and an enclosure of g' (4.)."""
     if not (first > 0 and last > 0):
         return False
     if slope >= 0 or slope <= 0:
@@ -80,7 +81,7 @@ def stays_positive(first: arb, last: arb, slope: arb, width: arb) -> bool:
 
 
 class Benches:
-    """Benches placed at one instant, grown one by one: centres, along: of each, in one frame, whichever it is.
+    """Benches placed at one instant, one after the other: centres and directions along, in any common frame.
 
     sizes: of the benches from the first one here on
     """
@@ -97,7 +98,7 @@ class Benches:
         return turn * (self.centres[other] - self.centres[owner]), turn * self.along[other]
 
     def gaps(self, partner: int) -> list[arb]:
-        """How far each is beyond each face of the other: four of the first, four of partner (counted from it) [m]."""
+        """Distance of each beyond each face of the other: four of the first, four of partner (counted from it) [m]."""
         if partner not in self._gaps:
             self._gaps[partner] = [gap for pair in ((0, partner), (partner, 0)) for gap in self._beyond(*pair)]
         return self._gaps[partner]
@@ -111,11 +112,11 @@ class Benches:
         return [to.real - x, to.imag - y, -to.real - x, -to.imag - y]
 
     def overlapping(self, partner: int) -> bool:
-        """Do bench and partner strictly overlap? Two rectangles that do not lie apart along a face of one of them."""
+        """Whether bench and partner strictly overlap: no face of either separates them."""
         return all(gap < 0 for gap in self.gaps(partner))
 
     def within(self, partner: int, margin: arb) -> bool:
-        """Are they strictly nearer than the margin, or strictly overlapping where it is 0 (7.)? margin: [m]"""
+        """Whether they are strictly nearer than the margin, or strictly overlapping if it is 0 (7.). margin: [m]"""
         around = self.sizes[0].diagonal + self.sizes[partner].diagonal + margin
         if abs(self.centres[partner] - self.centres[0]) > around or not all(gap < margin for gap in self.gaps(partner)):
             return False
@@ -126,13 +127,13 @@ class Benches:
         )
 
     def _outside(self, a: int, b: int) -> list[tuple[arb, arb]]:
-        """How far each corner of b is beyond the nearer of two opposite faces of a, along and across it [m]."""
+        """Distance of each corner of b beyond the nearer of two opposite faces of a, along and across it [m]."""
         own, (to, axis) = self.sizes[a], self.seen(a, b)
         corners = [to + axis * corner for corner in self.sizes[b].corners]
         return [(abs(z.real) - own.half_length, abs(z.imag) - own.half_width) for z in corners]
 
     def nearest(self, partner: int) -> tuple[float, float]:
-        """How near they are about [m], and the direction from the first to the partner, in the first's frame [rad]."""
+        """Approximate separation [m], and direction from the first to the partner, in the first's frame [rad]."""
         best = (math.inf, 0.0)
         for a, b in ((0, partner), (partner, 0)):
             own, (to, axis) = self.sizes[a], self.seen(a, b)

@@ -1,9 +1,9 @@
-"""Paths of a certificate: how each is written down, what core makes of it, and the path in balls.
+"""Paths of a certificate: in writing, as objects of core, and in balls.
 
-A spiral and the turn are exactly what their numbers say: the turn's arcs are found in balls. The pieces of a route meet
-to within 1e-9 m and 1e-9 rad only, so the route of a proof is joined exactly: each piece keeps its shape and is moved
-and turned so that it goes on where and in the direction in which the one before it ends. The first piece goes on
-backwards and the last one forwards.
+The numbers of a spiral and of the turn define them exactly: the turn's arcs are computed in balls. The pieces of a
+route meet to within 1e-9 m and 1e-9 rad only, so the route of a proof is joined exactly: each piece keeps its shape and
+is moved and turned so that it continues the one before it in place and direction. The first piece continues backwards
+and the last one forwards.
 """
 
 from __future__ import annotations
@@ -31,12 +31,12 @@ PIECES: dict[str, tuple[type[route.Line | route.Arc | route.Coil], tuple[str, ..
     "arc": (route.Arc, ("centre", "radius", "start_angle", "sweep")),
     "coil": (route.Coil, ("pitch", "start_turns", "end_turns", "centre", "rotation")),
 }
-# Those of them that are points, [x, y].
+# Members that are points, [x, y].
 POINTS = frozenset({"start", "end", "centre"})
 
 
 def recorded_path(path: AnyPath) -> dict[str, Any]:
-    """A path as a certificate has it.
+    """A path as a certificate writes it.
 
     raises: InvalidValue for waypoints
     """
@@ -71,7 +71,7 @@ def _recorded_piece(piece: route.Line | route.Arc | route.Coil) -> dict[str, Any
 
 
 def core_path(record: Record) -> Spiral | route.Route:
-    """The path as the rest of core knows it.
+    """The path as an object of core.
 
     raises: InvalidValue
     """
@@ -80,13 +80,13 @@ def core_path(record: Record) -> Spiral | route.Route:
     if record["kind"] == "turn":
         try:
             return _turn(record)
-        except InvalidValue as error:  # Turn knows no path around its fields
+        except InvalidValue as error:  # Turn does not name the path around its fields
             raise InvalidValue(f"path.{error.field}", f"path.{error.message}") from error
     pieces = []
     for k, piece in enumerate(record["pieces"]):
         try:
             pieces.append(PIECES[piece["kind"]][0](**_arguments(piece)))
-        except InvalidValue as error:  # a piece knows no route around its fields
+        except InvalidValue as error:  # a piece does not name the route around its fields
             raise error.named(error.field.replace(piece["kind"], f"path.pieces.{k}", 1)) from error
     return route.Route(pieces, record["start"])
 
@@ -101,7 +101,7 @@ def _turn(record: Record) -> Turn:
 
 
 def described(record: Record) -> str:
-    """The path in words, with every number of it that is no piece's."""
+    """The path in words, with all its numbers except those of pieces."""
     if record["kind"] == "spiral":
         return f"the spiral of pitch {said(record['pitch'])} m inwards from {said(record['start_turns'])} turns"
     if record["kind"] == "turn":
@@ -146,7 +146,7 @@ def _route_path(record: Record) -> Path:
 
 
 def _piece(record: Record) -> tuple[Piece, acb, acb]:
-    """A piece, and where it lies as given: its shift and turn."""
+    """A piece, and its given position: shift and turn."""
     if record["kind"] == "line":
         start, end = (acb(*record[name]) for name in ("start", "end"))
         return Piece(arb(0), abs(end - start)), start, (end - start) / abs(end - start)

@@ -10,10 +10,10 @@ from flint import acb, arb
 
 from core.dragon import Dragon
 from core.errors import said
-from core.proof.chain import GUESS_RADIUS, POSES_KEPT, Follower, bend, newton
+from core.proof.chain import GUESS_RADIUS, POSES_KEPT, Follower, delta, newton
 from core.proof.pairs import Benches, Unproven, above
 
-# Newton's steps towards a guess in doubles: each doubles the digits.
+# Newton steps towards a guess in doubles: each doubles the digits.
 GUESS_STEPS = 40
 
 
@@ -57,7 +57,7 @@ class Piece:
         """-ds / dt at a parameter [m]."""
         return arb(1)
 
-    def bends(self, t: arb) -> arb:
+    def curvature_at(self, t: arb) -> arb:
         """The curvature at a parameter [1/m]."""
         return self.curvature
 
@@ -75,7 +75,7 @@ class Piece:
 class Coil(Piece):
     """Part of the spiral r = growth |t|: inwards for t > 0, outwards for t < 0, so that t falls as the dance goes on.
 
-    growth [m/rad]; first, last: t where it begins and ends [rad]; it goes on beyond both, but not past its centre
+    growth [m/rad]; first, last: t where it begins and ends [rad]; it continues beyond both, but not past its centre
     """
 
     growth: arb = field(default_factory=arb)
@@ -91,7 +91,7 @@ class Coil(Piece):
 
     @property
     def inwards(self) -> bool:
-        """Is it danced towards its centre?"""
+        """Whether it is danced towards its centre."""
         return bool(self.first > 0)
 
     def _theta(self, t: arb) -> arb:
@@ -106,7 +106,7 @@ class Coil(Piece):
         left = z - self.high + self._arc(self.first)
         sign = 1 if left > 0 else -1
         t = (sign * (2 * abs(left) / self.growth).sqrt()).mid()
-        for _ in range(20):  # quadratic from the first on: the arc is convex on either side of the centre
+        for _ in range(20):  # quadratic from the first step on: the arc is convex on either side of the centre
             t = (t - (self._arc(t) - left) / self.slope(t)).mid()
         around = t + arb(0, GUESS_RADIUS)
         return newton(t, around, self._arc(t) - left, self.slope(around))
@@ -126,19 +126,19 @@ class Coil(Piece):
     def slope(self, t: arb) -> arb:
         return self.growth * (1 + t**2).sqrt()
 
-    def bends(self, t: arb) -> arb:
+    def curvature_at(self, t: arb) -> arb:
         square = 1 + self._theta(t) ** 2
         size = (square + 1) / (square * square.sqrt()) / self.growth
         return -size if self.inwards else size
 
     def behind(self, t: arb, chord: arb) -> arb:
-        return t + bend(t, (chord / self.growth) ** 2)
+        return t + delta(t, (chord / self.growth) ** 2)
 
 
 class Path:
-    """Pieces in the order they are danced, each moved so that it goes on where and whither the one before ends.
+    """Pieces in the order they are danced, each moved so that it continues the one before in place and direction.
 
-    anchor: (piece, place where it begins [m]); the first piece goes on backwards, and the last one forwards
+    anchor: (piece, place where it begins [m]); the first piece continues backwards, and the last one forwards
     """
 
     def __init__(self, pieces: Sequence[Piece], anchor: tuple[int, arb], shift: acb, turn: acb) -> None:
@@ -167,7 +167,7 @@ class Path:
         return start, before.last if isinstance(before, Coil) else before.low
 
     def holds(self, piece: Piece, z: arb) -> bool:
-        """Is this place on that piece for certain? z: [m]"""
+        """Whether this place is certainly on that piece. z: [m]"""
         first, last = piece.index == 0, piece.index == len(self.pieces) - 1
         return (first or z <= piece.high) and (last or z >= piece.low)
 
@@ -179,11 +179,11 @@ class Path:
         raise Unproven("a handle is on a joint to the last digit")
 
     def curvature(self, front: tuple[Piece, arb], rear: tuple[Piece, arb]) -> tuple[arb, arb]:
-        """Between which values the curvature stays from a place back to another one [1/m]."""
-        found = [front[0].bends(front[1]), rear[0].bends(rear[1])]
+        """Lower and upper bound of the curvature from a place back to another one [1/m]."""
+        found = [front[0].curvature_at(front[1]), rear[0].curvature_at(rear[1])]
         for k in range(rear[0].index + 1, front[0].index + 1):
             start, end = self.ends(k)
-            found += [self.pieces[k].bends(start), self.pieces[k - 1].bends(end)]
+            found += [self.pieces[k].curvature_at(start), self.pieces[k - 1].curvature_at(end)]
         hull = found[0]
         for other in found[1:]:
             hull = hull.union(other)
@@ -208,7 +208,7 @@ class Path:
         point, z = front[0].point(front[1]), front[0].place(front[1])
         for k in range(front[0].index - 1, -1, -1):
             piece, end = self.pieces[k], self.ends(k + 1)[1]
-            # From where it would be if path and chord were one.
+            # Start at the place at which path and chord would have equal lengths.
             t = (end + (z + chord - piece.low).nonnegative_part() / piece.slope(end)).mid()
             t = self._meeting(piece, point, chord, t)
             if self.holds(piece, piece.place(t)):
@@ -218,7 +218,7 @@ class Path:
         raise Unproven("no next handle is found across a joint")
 
     def _meeting(self, piece: Piece, point: acb, chord: arb, t: arb) -> arb:
-        """Where |piece - point| = chord rises through it, near a guess: one interval Newton step."""
+        """The place near a guess at which |piece - point| rises through chord: one interval Newton step."""
         for _ in range(GUESS_STEPS):
             to = piece.point(t) - point
             slope = -2 * (to.conjugate() * piece.tangent(t)).real * piece.slope(t)
@@ -250,7 +250,7 @@ class RouteChain(Follower):
         return f"s = {said(-place)} m"
 
     def place_after(self, way: arb) -> arb:
-        """Where the head is after this way from s = 0. way: [m], negative before it; returns [m]."""
+        """Place of the head after this way from s = 0. way: [m], negative before it; returns [m]."""
         return -way
 
     def pose_at(self, bench: int, place: arb) -> RoutePose:
@@ -273,18 +273,21 @@ class RouteChain(Follower):
 
     @property
     def centre(self) -> acb | None:
-        """The centre of the first piece where it coils inwards; else None."""
+        """The centre of the first piece if it coils inwards; else None."""
         first = self.path.pieces[0]
         return first.shift if isinstance(first, Coil) and first.inwards else None
 
     def inner_circle(self, handle: tuple[Piece, arb]) -> arb | None:
-        """The circle around the first piece's centre that every bench from this handle on is outside of (11.) [m].
+        """Radius around the first piece's centre outside which every bench from this handle on lies (11.) [m].
 
-        None where no such circle is known.
+        None if no such circle is known.
         """
         first, (piece, t) = self.path.pieces[0], handle
         if not (
-            isinstance(first, Coil) and first.inwards and piece is first and abs(first.bends(t)) * self.longest < 2
+            isinstance(first, Coil)
+            and first.inwards
+            and piece is first
+            and abs(first.curvature_at(t)) * self.longest < 2
         ):
             return None
         inner = (first.growth * t.lower()) ** 2 - arb(self.longest) ** 2 / 4
@@ -309,7 +312,7 @@ class RoutePose(Benches):
         return piece.point(t)
 
     def grow_to(self, count: int) -> None:
-        """Have at least so many benches, as far as there are any."""
+        """Place at least this number of benches, if the dragon has as many."""
         while len(self.centres) < min(count, len(self.sizes)):
             k = len(self.centres)
             self.handles.append(self.chain.path.behind(self.handles[k], self.sizes[k].chord))
@@ -320,7 +323,7 @@ class RoutePose(Benches):
             self.along.append((self.points[k] - self.points[k + 1]) / self.sizes[k].chord)
 
     def far_from(self, count: int) -> bool:
-        """Are all benches behind so many apart from the first one? Pair by pair they are quickly told apart (10.)."""
+        """Whether all benches behind this number are apart from the first one: pair by pair, which is quick (10.)."""
         return False
 
     def angles(self, k: int) -> tuple[arb, arb]:

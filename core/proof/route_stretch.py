@@ -1,4 +1,4 @@
-"""A dragon on a route over a stretch of places: how every bench moves as seen from the first one."""
+"""A dragon on a route over a stretch of places: motion of every bench as seen from the first one."""
 
 from __future__ import annotations
 
@@ -7,8 +7,8 @@ from flint import acb, arb
 from core.proof.pairs import Limit, Unproven, above, below, stays_above
 from core.proof.route import Coil, RouteChain
 
-# Times that q of 9. is enclosed anew from its own derivative: each takes the excess down by the angle turned in half
-# a stretch.
+# Number of times that q of 9. is enclosed again from its own derivative: each time the excess is multiplied by the
+# angle turned in half a stretch.
 ROUNDS = 3
 TO_LEFT = acb(0, 1)
 
@@ -16,7 +16,7 @@ TO_LEFT = acb(0, 1)
 class RouteStretch:
     """The benches from one on while its front handle goes from the place high to low [m]: at both ends, and between.
 
-    speeds: of the handles, for one of the front handle; placed: of the benches, grown one by one: velocity of the
+    speeds: of the handles, relative to the front handle; placed: of the benches, grown one by one: velocity of the
     centre in the bench's own frame, and turning rate [rad/m]; all enclosed over the stretch (8.)
     last: one more than the last bench that counts
     """
@@ -34,15 +34,15 @@ class RouteStretch:
         self._outermost = self._circle()
 
     def grow(self) -> None:
-        """Add the next bench."""
+        """Place the next bench."""
         k = len(self.placed)
         for pose in self.ends:
             pose.grow_to(k + 1)
         after, before = self.ends
         chord, front, rear, speed = after.sizes[k].chord, after.handles[k], before.handles[k + 1], self.speeds[k]
         if front[0] is rear[0] and not isinstance(front[0], Coil):
-            bend = front[0].curvature
-            self.placed.append((acb(speed * (1 - (bend * chord / 2) ** 2).sqrt()), speed * bend))
+            curvature = front[0].curvature
+            self.placed.append((acb(speed * (1 - (curvature * chord / 2) ** 2).sqrt()), speed * curvature))
             self.speeds.append(speed)
             return
         low, high = self.chain.path.curvature(front, rear)
@@ -56,8 +56,8 @@ class RouteStretch:
         self.placed.append((speed * acb(cosine, (sine + across) / 2), speed * (sine - across) / chord))
         self.speeds.append(speed * ratio)
 
-    def _from_ends(self, k: int, alpha: arb, bend: arb) -> tuple[arb, arb]:
-        """alpha and beta of bench k, enclosed from their values at both ends too (8.)."""
+    def _from_ends(self, k: int, alpha: arb, curvature: arb) -> tuple[arb, arb]:
+        """alpha and beta of bench k, also enclosed from their values at both ends (8.)."""
         after, before = self.ends
         half_way = (before.places[k] - after.places[k]) / 2
         cosine = alpha.cos()
@@ -67,14 +67,18 @@ class RouteStretch:
         turning = (alpha.sin() - ratio * (-alpha).sin()) / after.sizes[k].chord
         found = []
         for last, first, wide, rate in zip(
-            after.angles(k), before.angles(k), (alpha, -alpha), (bend - turning, ratio * bend - turning), strict=True
+            after.angles(k),
+            before.angles(k),
+            (alpha, -alpha),
+            (curvature - turning, ratio * curvature - turning),
+            strict=True,
         ):
             near = first.union(last) + arb(0, 1) * abs(rate).upper() * half_way
             found.append(near.intersection(wide))
         return found[0], found[1]
 
     def _circle(self) -> arb | None:
-        """The circle around the first piece's centre that the first bench stays in [m], where a tail may be beyond."""
+        """Radius around the first piece's centre within which the first bench stays [m], if a tail may be beyond."""
         centre = self.chain.centre
         if centre is None:
             return None
@@ -91,7 +95,7 @@ class RouteStretch:
 
     @property
     def complete(self) -> bool:
-        """Are all benches that are not placed either far (11.) or none of this stretch's (6.)?"""
+        """Whether every bench that is not placed is either far (11.) or not needed in this stretch (6.)."""
         count = len(self.placed)
         if self.bench + count >= self.last:
             return True
@@ -102,12 +106,12 @@ class RouteStretch:
 
     @property
     def rear(self) -> tuple[float, float]:
-        """Between which places the next handle stays [m], to the last digit of a double."""
+        """Lower and upper bound of the next handle's place [m], to the last digit of a double."""
         first, last = (pose.places[1] for pose in self.ends)
         return below(first), above(last)
 
     def within_circles(self, partner: int) -> bool:
-        """Are the circles around both benches more than the margin apart all over the stretch (10.)?"""
+        """Whether the circles around both benches are more than the margin apart over the whole stretch (10.)."""
         sizes = self.ends[0].sizes
         (before, _), (after, _) = self.ends[1].seen(0, partner), self.ends[0].seen(0, partner)
         passed = abs(self.relative(partner)[1]) * self.width
@@ -115,7 +119,7 @@ class RouteStretch:
         return bool(abs(before) + abs(after) - passed > 2 * needed)
 
     def relative(self, partner: int) -> tuple[acb, acb]:
-        """e and v of 9.: partner's direction and velocity seen from the first bench, its turning left out."""
+        """e and v of 9.: partner's direction and velocity seen from the first bench, without its turning."""
         if self._turned is None or self._turned[0] != partner:
             (velocity, rate), (velocity_b, rate_b) = self.placed[0], self.placed[partner]
             turned = (TO_LEFT * (rate_b - rate) * arb(0).union(self.width / 2)).exp()
@@ -136,7 +140,7 @@ class RouteStretch:
         return place
 
     def apart(self, partner: int, face: str, direction: float) -> bool:
-        """Is one of the two more than the margin beyond this line of the other, all over the stretch (4., 9.)?
+        """Whether one of the two is more than the margin beyond this line of the other, all over the stretch (4., 9.).
 
         partner: counted from bench; face, direction: see Limit
         """
@@ -163,7 +167,7 @@ class RouteStretch:
 
 
 def half_turn(low: arb, high: arb, chord: arb) -> arb:
-    """Between which angles alpha and -beta of 8. lie, for a curvature between low and high [1/m]. chord: [m]"""
+    """Lower and upper bound of alpha and -beta of 8., for a curvature between low and high [1/m]. chord: [m]"""
     gentlest = arb(0)
     if low > 0 or high < 0:
         gentlest = abs(low).min(abs(high))
@@ -175,5 +179,5 @@ def half_turn(low: arb, high: arb, chord: arb) -> arb:
 
 
 def _arc(curvature: arb, chord: arb) -> arb:
-    """The arc of a circle of this curvature [1/m] over a chord [m]."""
+    """Arc length over a chord [m] on a circle of this curvature [1/m]."""
     return 2 * (curvature * chord / 2).asin() / curvature if curvature > 0 else chord

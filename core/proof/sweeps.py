@@ -1,4 +1,4 @@
-"""Sweeps: all the places that one bench passes, tiled with stretches over which every later bench is apart from it."""
+"""Sweeps: all places that one bench passes, in stretches over which every later bench is apart from it."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from core.proof.pairs import ALL_FACES, CIRCLES, DIRECTION, Unproven
 from core.proof.route import RouteChain
 from core.proof.route_stretch import RouteStretch
 
-# The first try for the width of a stretch, how it grows after a success, and where the search gives up [rad], [m].
+# First width of a stretch, its growth after a success, and the width at which the search gives up [rad], [m].
 WIDTH_FIRST = 0.5
 WIDTH_GROWTH = 1.5
 WIDTH_LEAST = 1e-13
@@ -21,8 +21,8 @@ WIDTH_LEAST = 1e-13
 Progress = Callable[[float], None]
 AnyChain = Chain | RouteChain
 AnyStretch = Stretch | RouteStretch
-# (highest place, lowest place, one face for each bench from the next but one on, until all others are far, the
-# directions among them)
+# (highest place, lowest place, one face for each bench from the next but one on, until all others are far, and the
+# directions)
 Tile = tuple[float, float, str, list[float]]
 # Sweep of one bench: (bench, highest place, lowest place, places of 6.) -> proven tiles, in the order of the dance.
 Source = Callable[[int, float, float, Sequence[float]], Iterator["tuple[AnyStretch, Tile]"]]
@@ -45,7 +45,7 @@ def stretch_of(chain: AnyChain, bench: int, low: float, high: float, last: int) 
 
 
 def _faces(stretch: AnyStretch) -> Tile:
-    """What keeps each bench apart that needs it, verified; Overlap when an end of the stretch shows a pair too near."""
+    """Verified faces that keep all benches of the stretch apart; raises Overlap if a pair is too near at an end."""
     faces, directions = "", []
     while not stretch.complete:
         stretch.grow()
@@ -60,7 +60,7 @@ def _faces(stretch: AnyStretch) -> Tile:
 
 
 def _face(stretch: AnyStretch, partner: int) -> tuple[str, float]:
-    """What keeps this pair apart all over the stretch, and the direction when it is one."""
+    """The face that keeps this pair apart over the whole stretch, and the direction if it is one."""
     if stretch.within_circles(partner):
         return CIRCLES, 0.0
     margin = stretch.chain.margin
@@ -79,7 +79,7 @@ def _face(stretch: AnyStretch, partner: int) -> tuple[str, float]:
 
 
 def found(chain: AnyChain) -> Source:
-    """Stretches as wide as the balls allow."""
+    """Stretches as wide as the balls can prove."""
 
     def source(bench: int, high: float, low: float, places: Sequence[float]) -> Iterator[tuple[AnyStretch, Tile]]:
         width = WIDTH_FIRST
@@ -141,11 +141,11 @@ def swept(
     progress: Progress,
     follows: bool = False,
 ) -> list[dict[str, Any]]:
-    """The sweeps that show that nothing touches while the head goes from the place high on to low [rad], [m].
+    """Sweeps that prove that nothing touches while the head goes from the place high on to low [rad], [m].
 
-    repeats_from: u of 6.; source: where the proven stretches come from; follows: of one or two benches, which have no
-        pair, too: that they follow all the way (13.)
-    raises: Unproven when the stretches leave a place uncovered
+    repeats_from: u of 6.; source: makes or reads the proven stretches; follows: also prove that one or two benches,
+        which have no pair, follow all the way (13.)
+    raises: Unproven if the stretches leave a place uncovered
     """
     sweeps: list[dict[str, Any]] = []
     if (chain.count < 3 and not follows) or low >= high:

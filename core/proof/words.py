@@ -7,12 +7,12 @@ from itertools import groupby
 from core.dragon import Dragon
 from core.errors import said
 
-# So many kinds of benches in a row are listed; of more only their number.
+# Largest number of runs of equal benches that are listed; beyond it only their number is given.
 RUNS_SHOWN = 4
 
 
 def runs(dragon: Dragon) -> list[list[float]]:
-    """Benches alike in a row as [count, length, width, overhang]."""
+    """Runs of equal benches as [count, length, width, overhang]."""
     rows = zip(dragon.lengths.tolist(), dragon.widths.tolist(), dragon.overhangs.tolist(), strict=True)
     return [[len(list(run)), *sizes] for sizes, run in groupby(rows)]
 
@@ -29,15 +29,15 @@ def dragon_words(dragon: Dragon) -> str:
 
 
 def apart_words(margin: float) -> str:
-    """What no two benches do."""
+    """The words for benches that stay apart."""
     touch = f"come nearer to one another than {said(margin)} m" if margin else "touch"
     return f"no two benches but neighbours {touch}"
 
 
 def contact_words(benches: list[int], margin: float, start: float, time: float, bracket: str, *, clear: bool) -> str:
-    """What two benches do `bracket` [s] after a time [s]; and, where that is clear, what none do until as long before.
+    """A contact of two benches within `bracket` [s] of a time [s], and the clear run until the bracket before it.
 
-    clear: there is a time before: a contact at the start has none, and twice the bracket is all that lies between
+    clear: whether a clear run comes before; a contact at the start lies within twice the bracket of the start
     """
     near = f"{near_words(benches, margin)} at {said(time)} + {bracket} s"
     if not clear:
@@ -47,5 +47,5 @@ def contact_words(benches: list[int], margin: float, start: float, time: float, 
 
 
 def near_words(benches: list[int], margin: float) -> str:
-    """What two benches do."""
+    """The words for two benches that meet."""
     return f"benches {benches[0]} and {benches[1]} " + (f"are nearer than {said(margin)} m" if margin else "overlap")

@@ -1,4 +1,4 @@
-"""The paper's way to find overlapping benches: corners by its rotation matrix, collision by a sum of angles.
+"""The paper's rule for overlapping benches: corners by its rotation matrix, collision by a sum of angles.
 
 A cross-check, never the judge: the rule sees only corners inside rectangles, and needs a tolerance.
 """
@@ -14,7 +14,7 @@ from core.values import Floats
 # the middle of an edge of length e lacks 8 d / e, so in reach this is 4e-13 m for an edge of 3.41 m [rad].
 ANGLE_TOLERANCE = 1e-12
 
-# More than any such sum is rounded by [rad].
+# Upper bound on the rounding of such a sum [rad].
 SUM_ROUNDING = 1e-13
 
 # Eq. 12's order of the corners, top right, bottom right, bottom left, top left, in units of (half length, half
@@ -27,7 +27,7 @@ def paper_corners(poses: Floats, sizes: Floats) -> Floats:
 
     Eq. 12 as printed does not multiply by the matrix of eq. 11: the sign of w/2 cos theta is wrong in the y of all
     four corners. Here it is right. The paper's theta points from the front handle to the rear one, and its arctan
-    knows no quadrant: both differ from our heading by half a turn at most, which only renames corners.
+    ignores the quadrant: both differ from our heading by at most half a turn, which only renames corners.
 
     poses: (..., 3) x [m], y [m], heading [rad]; sizes: (..., 2) length [m], width [m]
     source: Yang et al., eqs. 8-12
@@ -71,7 +71,7 @@ def angle_sums(points: Floats, polygon: Floats) -> Floats:
 def angle_sum_overlap(corners_a: Floats, corners_b: Floats, *, tolerance: float = ANGLE_TOLERANCE) -> NDArray[np.bool_]:
     """Whether the rule sees a corner of one polygon in the other, pair by pair.
 
-    It misses polygons that cross without a corner inside, and takes corners a little outside for inside: see
+    It misses polygons that cross without a corner inside, and counts corners slightly outside as inside: see
     ANGLE_TOLERANCE.
 
     corners_a, corners_b: (..., C, 2) [m]; tolerance [rad]; returns (...)
@@ -80,13 +80,13 @@ def angle_sum_overlap(corners_a: Floats, corners_b: Floats, *, tolerance: float 
     return _holds_any(corners_a, corners_b, tolerance) | _holds_any(corners_b, corners_a, tolerance)
 
 
-# Only corners in or near the upright box of the polygon are asked about. The others cannot have a full sum: let a point
-# lie d > 0 away from a convex polygon of diameter at most D (that of its box). Seen from the point, with the nearest
-# point of the polygon straight ahead, all of it lies beyond the line across at distance d and within D to either side,
-# so it fills an angle of at most pi - 2 atan(d / D). From outside, each direction into the polygon meets its edges
-# twice, so the sum is at most 2 pi - 4 atan(d / D), which is less than 2 pi - tolerance where d > D tan(tolerance / 4).
+# Only corners in or near the upright box of the polygon are tested. The others cannot have a full sum: let a point lie
+# d > 0 away from a convex polygon of diameter at most D (that of its box). Seen from the point, with the nearest point
+# of the polygon straight ahead, the polygon lies beyond the perpendicular line at distance d and within D to either
+# side, so it fills an angle of at most pi - 2 atan(d / D). From outside, each direction into the polygon meets two
+# edges, so the sum is at most 2 pi - 4 atan(d / D), which is less than 2 pi - tolerance if d > D tan(tolerance / 4).
 def _holds_any(points: Floats, polygon: Floats, tolerance: float) -> NDArray[np.bool_]:
-    """Whether a polygon has one of some points inside, by the rule. points: (..., P, 2), polygon: (..., C, 2) [m]"""
+    """Whether any of the points lies inside the polygon, by the rule. points: (..., P, 2), polygon: (..., C, 2) [m]"""
     # x and y first, then the points: numpy is slow along short last axes.
     place, edge = (np.ascontiguousarray(np.moveaxis(one, (-1, -2), (0, 1))) for one in (points, polygon))
     low, high = edge.min(axis=1), edge.max(axis=1)

@@ -12,22 +12,22 @@ from core.values import SIZE_MAX, Floats, checked_number
 
 Pairs = NDArray[np.int64]
 
-# Overlapping pairs in one answer: 10 for each of 100,000 benches, and 200 MB while they are found.
+# Largest number of overlapping pairs in one answer: 10 for each of 100,000 benches; the search takes 200 MB for them.
 PAIRS_MAX = 1_000_000
-# Pairs of upright boxes that the search may meet: under a second. 100,000 benches on a spiral of pitch 0.55 m meet
-# 340,000, neighbours aside.
+# Largest number of upright boxes that meet, in pairs: under a second of search. 100,000 benches on a spiral of pitch
+# 0.55 m have 340,000 such pairs without neighbours.
 CANDIDATES_MAX = 20_000_000
-# The same for the other engines, of which FCL takes about 5 microseconds for each.
+# The same for the other engines; FCL takes about 5 microseconds for each pair.
 CROSS_CANDIDATES_MAX = 2_000_000
-# Searches reach further by this share of the coordinates and sizes that they compute with: each of their few
-# operations rounds by 1.1e-16, and so does the separation that they must not miss [1].
+# Searches reach further by this fraction of the coordinates and sizes in their operands: each of their few operations
+# rounds by 1.1e-16, and so does the separation that they must not miss [1].
 ROUNDING = 4e-15
 
 
 def checked_benches(
     poses: ArrayLike, lengths: ArrayLike, widths: ArrayLike, margin: float
 ) -> tuple[Floats, Floats, float]:
-    """Poses (n, 3), sizes (n, 2) length and width, and margin, as doubles that keep every promise.
+    """Poses (n, 3), sizes (n, 2) length and width, and margin, as doubles within their limits.
 
     raises: InvalidValue with the field benches.K.x, y, heading, length or width, or margin
     """
@@ -43,13 +43,13 @@ def checked_benches(
     return pose, np.stack([length, width], axis=-1), checked_number("margin", margin, "m", 0.0, SIZE_MAX)
 
 
-# Two rectangles within the margin have upright boxes within it along x and along y, so boxes wider by half of it
-# meet.
+# If two rectangles lie within the margin, so do their upright boxes along x and along y; grown by half the margin on
+# every side, these boxes meet.
 def meeting_pairs(frame: Floats, margin: float, chained: bool, *, exact: bool) -> Pairs:
-    """Pairs (P, 2), a < b, whose upright boxes meet, or when exact only those within the margin, rounded up.
+    """Pairs (P, 2), a < b, whose upright boxes meet; if exact, only those within the margin, rounded up.
 
     frame: rows of rectangles.frames()
-    raises: TooLarge with the field benches: beyond PAIRS_MAX pairs or CANDIDATES_MAX boxes that meet when exact, beyond
+    raises: TooLarge with the field benches beyond PAIRS_MAX pairs or CANDIDATES_MAX boxes that meet if exact, beyond
         CROSS_CANDIDATES_MAX otherwise
     """
     half = np.abs(frame[:, 2:4]) * frame[:, 4:5] + np.abs(frame[:, 3:1:-1]) * frame[:, 5:6]
@@ -58,27 +58,28 @@ def meeting_pairs(frame: Floats, margin: float, chained: bool, *, exact: bool) -
     boxes = np.hstack([frame[:, :2] - half, frame[:, :2] + half])
     leaves = 1 << max(0, (-(-len(frame) // kernels.BOXES_PER_LEAF) - 1).bit_length())
     order = _tree_order(frame[:, :2], leaves)
-    frame, boxes, tree = frame[order], boxes[order], np.empty((2 * leaves, 4))
+    frame, boxes, tree = frame[order], boxes[order], np.empty((2 * leaves, kernels.BOX_COLUMNS))
     kernels.grow_tree(boxes, tree)
     most = (PAIRS_MAX, CANDIDATES_MAX) if exact else (CROSS_CANDIDATES_MAX, CROSS_CANDIDATES_MAX)
     words = "within the margin" if exact else "close by", "close by"
-    counts = np.zeros(2, dtype=np.int64)
+    meetings = kernels.Meetings(frame, boxes, tree, order)
     pairs = np.empty((2 * len(frame), 2), dtype=np.int64)
     while True:
-        kernels.meeting_pairs(frame, boxes, tree, order, margin, exact, chained, np.array(most), pairs, counts)
+        meetings.find(margin, exact, chained, *most, pairs)
+        counts = (meetings.found, meetings.met)
         for count, limit, what in zip(counts, most, words, strict=True):
             if count > limit:
                 message = f"benches must have at most {limit} pairs {what}, got more among {len(frame)}"
                 raise TooLarge("benches", message)
-        if counts[0] <= len(pairs):
-            return pairs[: counts[0]]
-        pairs = np.empty((int(counts[0]), 2), dtype=np.int64)
+        if meetings.found <= len(pairs):
+            return pairs[: meetings.found]
+        pairs = np.empty((meetings.found, 2), dtype=np.int64)
 
 
 def _tree_order(centres: Floats, leaves: int) -> Pairs:
-    """Rows so that fours of them lie close together: strips of equal count along x, each sorted along y.
+    """Order of the rows in which groups of four lie close together: strips of equal count along x, each sorted along y.
 
-    By rank, not by coordinate: one bench far away must not crowd all others into one strip.
+    Strips go by rank, not by coordinate, so that one distant bench does not crowd all others into one strip.
     """
     strip = kernels.BOXES_PER_LEAF << (leaves.bit_length() // 2)
     strip_of = np.empty(len(centres), dtype=np.int64)

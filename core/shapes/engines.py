@@ -1,6 +1,6 @@
-"""Four independent ways to find overlapping benches, and shapely's word on polygons at rest.
+"""Four independent ways to find overlapping benches, and shapely's tests of polygons at rest.
 
-The only file that knows FCL and shapely, and it imports them only when they are asked for.
+The only file that knows FCL and shapely; it imports them on demand.
 """
 
 from __future__ import annotations
@@ -22,9 +22,9 @@ from core.shapes.broad_phase import CROSS_CANDIDATES_MAX, ROUNDING, Pairs, meeti
 from core.shapes.rectangles import corners, frames, frames_separation
 from core.values import Floats
 
-# Pairs that the angle-sum rule judges at once, to keep its 32 angles a pair within 60 MB.
+# Pairs that the angle-sum rule judges at once: 32 angles a pair stay within 60 MB.
 ANGLE_BATCH = 50_000
-# FCL's objects are kept for so many dragons, of so many benches at most: 8 MB in all.
+# Number of dragons whose FCL objects are kept, and their largest number of benches: 8 MB in all.
 KEPT_DRAGONS = 8
 KEPT_BENCHES = 2_000
 
@@ -39,14 +39,14 @@ class Engine(StrEnum):
 
 
 def able(margin: float) -> list[Engine]:
-    """The engines that can judge a margin [m]: the angle-sum rule knows only inside and outside."""
+    """The engines that can judge a margin [m]: the angle-sum rule distinguishes only inside and outside."""
     return [engine for engine in Engine if margin == 0.0 or engine is not Engine.ANGLE_SUM]
 
 
 def found_pairs(engine: Engine, poses: Floats, sizes: Floats, margin: float, *, chained: bool) -> list[Pairs]:
     """The pairs (P, 2) within the margin that an engine finds at each instant: a < b, sorted.
 
-    poses: (T, n, 3); sizes: (n, 2); margin: [m]; chained: without neighbours
+    poses: (T, n, 3); sizes: (n, 2); margin: [m]; chained: leave out neighbours
     raises: InvalidValue for the angle-sum rule with a margin; TooLarge as meeting_pairs()
     """
     found = []
@@ -67,7 +67,7 @@ def _separating_axis(poses: Floats, sizes: Floats, margin: float, chained: bool)
 
 
 def _refuse_hopeless(frame: Floats, margin: float, chained: bool) -> None:
-    """raises: TooLarge where more boxes meet than FCL and shapely, which seek pairs by themselves, can be asked of"""
+    """raises: TooLarge if too many boxes meet for FCL and shapely, which search for pairs themselves"""
     if len(frame) ** 2 > 2 * CROSS_CANDIDATES_MAX:
         meeting_pairs(frame, margin, chained, exact=False)
 
@@ -77,8 +77,8 @@ def _refuse_hopeless(frame: Floats, margin: float, chained: bool) -> None:
 
 # FCL's yes/no is exact for two boxes and for a sphere and a box; its distance is not. The points within the margin
 # of a rectangle are the rectangle made longer by the margin at both ends, the same made wider, and four discs
-# around the corners, so b comes within the margin of a just where its box meets one of two boxes and four spheres.
-# The manager runs over boxes grown by half the margin on every side, which contain what is within half of it.
+# around the corners, so b is within the margin of a exactly if its box meets one of two boxes or four spheres. The
+# manager searches boxes grown by half the margin on every side; they contain all points within half the margin.
 def _fcl(poses: Floats, sizes: Floats, margin: float, chained: bool) -> Iterator[Pairs]:
     frame = frames(poses, sizes)
     with _KEPT.boxes(sizes + margin) as boxes:
@@ -86,7 +86,7 @@ def _fcl(poses: Floats, sizes: Floats, margin: float, chained: bool) -> Iterator
             _refuse_hopeless(rows, margin, chained)
             pairs = boxes.meeting(pose)
             if margin > 0.0:
-                if chained:  # All neighbours are among them, and each pair takes six more bodies.
+                if chained:  # Neighbours are all among them, and testing a pair takes six more bodies.
                     pairs = pairs[pairs[:, 1] - pairs[:, 0] != 1]
                 near = [_fcl_within(pose[pair], sizes[pair], margin) for pair in pairs]
                 pairs = pairs[np.array(near, dtype=bool)]
@@ -96,9 +96,9 @@ def _fcl(poses: Floats, sizes: Floats, margin: float, chained: bool) -> Iterator
 class _FclBoxes:
     """FCL's boxes of benches, made once and moved from pose to pose, by one thread at a time.
 
-    Making them takes longer than moving them, and each leaks 44 bytes: python-fcl 0.7 frees a body without its
-    destructor. A manager is made anew for each pose: its tree fits the pose, and building one for 223 benches takes
-    0.05 ms, less than searching one built for another pose loses (up to 0.2 ms of 2.0, 2026-11-21).
+    Making them takes longer than moving them, and each leaks 44 bytes, because python-fcl 0.7 frees a body without its
+    destructor. Every pose gets a new manager, whose tree fits it: building one for 223 benches takes 0.05 ms, while a
+    search in a tree built for another pose loses up to 0.2 ms of 2.0 (2026-11-21).
     """
 
     def __init__(self, sizes: Floats) -> None:
@@ -107,10 +107,10 @@ class _FclBoxes:
         self.boxes = [_fcl_box(length, width) for length, width in sizes.tolist()]
         self.bodies = [fcl.CollisionObject(box, fcl.Transform()) for box in self.boxes]
 
-    # FCL's tree keeps the upright cube around a sphere around each box: of 223 benches 1,925 pairs of cubes meet, where
-    # 661 upright boxes do. An exception in the callback would vanish, and the bodies handed to it are fresh wrappers:
-    # only the geometries of a contact can be told apart. fcl.collide() asks FCL with a result of its own each time and
-    # only appends the contact to ours, so that one result can gather all of them.
+    # FCL's tree keeps the upright cube around the sphere around each box: of 223 benches 1,925 pairs of cubes meet, but
+    # only 661 pairs of upright boxes. An exception in the callback would vanish. The bodies that it gets are new
+    # wrappers, so only the geometries of a contact identify the benches. fcl.collide() makes a result of its own each
+    # time and only appends the contact to ours, so one result can gather all contacts.
     def meeting(self, poses: Floats) -> Pairs:
         """Pairs (P, 2), a < b, that overlap, neighbours among them. poses: (n, 3) x [m], y [m], heading [rad]"""
         import fcl
@@ -137,8 +137,8 @@ class _FclBoxes:
 
 
 class _Kept:
-    """Boxes of the dragons asked about last. Whoever uses some has them alone: python-fcl never releases Python's
-    lock, but Python may pass it on while a callback runs, and a body can only be in one place."""
+    """Boxes of the most recent dragons. A user has its boxes alone: python-fcl never releases Python's lock, but
+    Python may pass the lock on while a callback runs, and a body can only be in one place."""
 
     def __init__(self) -> None:
         self.lock = Lock()
@@ -146,11 +146,11 @@ class _Kept:
 
     @contextmanager
     def boxes(self, sizes: Floats) -> Iterator[_FclBoxes]:
-        """Boxes of these sizes (n, 2) length and width [m], for the time of a with-statement."""
+        """Boxes of these sizes (n, 2) length and width [m], lent for a with-statement."""
         key = sizes.tobytes()
         boxes = self._taken(key) or _FclBoxes(sizes)
         yield boxes
-        if len(sizes) <= KEPT_BENCHES:  # and not after an exception
+        if len(sizes) <= KEPT_BENCHES:  # but not after an exception
             with self.lock:
                 self.resting.append((key, boxes))
 
@@ -166,9 +166,9 @@ class _Kept:
 _KEPT = _Kept()
 
 
-# FCL parts two boxes by the separating axis theorem [boxBox2 of its narrow phase]. All lie flat on the same plane, so
-# no axis along or across it parts them by their heights, and any height gives the same answer: a low one keeps the
-# sphere around the box small.
+# FCL separates two boxes by the separating axis theorem [boxBox2 of its narrow phase]. All boxes lie flat on one plane,
+# so no axis separates them by their heights, and every height gives the same answer: a low one keeps the sphere around
+# the box small.
 def _fcl_box(length: float, width: float) -> object:
     import fcl
 
@@ -210,7 +210,7 @@ def _shapely(poses: Floats, sizes: Floats, margin: float, chained: bool) -> Iter
             reach = margin + ROUNDING * (margin + np.abs(rows).max(initial=0.0))
             asking = shapely.box(*(shapely.bounds(polygons) + reach * np.array([-1.0, -1.0, 1.0, 1.0])).T)
         first, second = shapely.STRtree(polygons).query(asking)
-        asked = second > first + chained  # each pair once, and neighbours never
+        asked = second > first + chained  # each pair once, without neighbours
         first, second = first[asked], second[asked]
         shapely.prepare(polygons)
         a, b = polygons[first], polygons[second]
@@ -219,7 +219,7 @@ def _shapely(poses: Floats, sizes: Floats, margin: float, chained: bool) -> Iter
 
 
 def polygon_fault(rings: Sequence[ArrayLike]) -> tuple[str, float, float] | None:
-    """What is wrong with a polygon and where, (reason, x [m], y [m]); None if it is valid.
+    """The fault of a polygon and its place, (reason, x [m], y [m]); None if the polygon is valid.
 
     rings: closed, (points, 2) [m]: the outer one, then the holes
     """
@@ -268,10 +268,13 @@ FINDERS: dict[Engine, Callable[[Floats, Floats, float, bool], Iterator[Pairs]]] 
 # -- one pair at several instants -----------------------------------------------------------------------------
 
 
-# One pair needs no search. poses: (T, 2, 3); sizes: (2, 2); each judge says for each of the T instants whether the pair
-# is within the margin, by the means of its engine above.
+# One pair needs no search. poses: (T, 2, 3); sizes: (2, 2); each judge tells for each of the T instants whether the
+# pair is within the margin, by the method of its engine above.
 def _judged_by_separating_axis(poses: Floats, sizes: Floats, margin: float) -> list[bool]:
-    return [kernels.pair_gap(*a, *b) <= margin for a, b in frames(poses, sizes).tolist()]
+    pairs, gaps = frames(poses, sizes), np.empty(len(poses))
+    first, second = (np.ascontiguousarray(pairs[:, bench]) for bench in (0, 1))
+    kernels.pair_gaps(first, second, kernels.NO_LIMIT, gaps)
+    return [gap <= margin for gap in gaps.tolist()]
 
 
 def _judged_by_fcl(poses: Floats, sizes: Floats, margin: float) -> list[bool]:

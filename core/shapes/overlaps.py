@@ -1,4 +1,4 @@
-"""Which benches overlap at one instant, four ways, and whether the four agree."""
+"""Overlapping benches at one instant, found by four engines, and whether the four agree."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ class Overlaps(Shown):
 class CrossCheck(Shown):
     """pairs: what each engine found; agree: all the same; only: pairs by engine that not all engines found;
     missing: pairs by engine that some other engine found and this one did not.
-    left_out: engines that cannot judge this margin; they stand in none of the others.
+    left_out: engines that cannot judge this margin; they appear in no other field.
     """
 
     agree: bool
@@ -52,7 +52,7 @@ class CrossCheck(Shown):
 
 @dataclass(frozen=True, slots=True)
 class Verdict(Shown):
-    """Does an engine find the pair overlapping just before and just after first contact? None: there is no before."""
+    """Whether an engine finds the pair overlapping just before and just after first contact; None: no before."""
 
     before: bool | None
     after: bool
@@ -67,14 +67,14 @@ def overlaps(
     margin: float = 0.0,
     chained: bool = True,
 ) -> Overlaps:
-    """All pairs with separation <= margin (neighbours in the chain left out when chained).
+    """All pairs with separation <= margin; if chained, without neighbours in the chain.
 
-    The engine finds the pairs; their separation is always the exact one of rectangles.py. The angle-sum rule
-    misses rectangles that cross without a corner inside, and knows no margin; the other three miss none.
+    The engine finds the pairs; their separation is always the exact one of rectangles.py. The angle-sum rule misses
+    rectangles that cross without a corner inside, and takes no margin; the other three engines miss no pair.
 
     poses: (n, 3) x [m], y [m], heading [rad]; lengths, widths: (n,) [m]
     raises: InvalidValue with the field benches.K.x, y, heading, length or width, margin or engine; TooLarge with the
-        field benches when so many overlap that the pairs are beyond PAIRS_MAX or the work beyond CANDIDATES_MAX
+        field benches if the overlapping pairs exceed PAIRS_MAX or the work exceeds CANDIDATES_MAX
 
     >>> overlaps([[0, 0, 0], [3, 0, 0], [1, 0, 1.57]], [2.2] * 3, [0.3] * 3).pairs
     array([[0, 2]])
@@ -91,7 +91,7 @@ def overlaps(
 def cross_check(
     poses: ArrayLike, lengths: ArrayLike, widths: ArrayLike, *, margin: float = 0.0, chained: bool = True
 ) -> CrossCheck:
-    """The four engines side by side at one instant (three when the margin is not 0).
+    """The verdicts of the four engines at one instant (three if the margin is not 0).
 
     poses, lengths, widths, raises: as overlaps(), with CROSS_CANDIDATES_MAX
     """
@@ -116,10 +116,10 @@ def cross_check(
 def verdicts(
     before: ArrayLike, after: ArrayLike, lengths: ArrayLike, widths: ArrayLike, *, margin: float = 0.0
 ) -> dict[Engine, Verdict]:
-    """Each engine's word on one pair just before and just after contact (no angle sum if the margin is not 0).
+    """Each engine's verdict on one pair just before and just after contact (no angle sum if the margin is not 0).
 
     before, after: (2, 3) poses of the two benches; lengths, widths: (2,) [m]
-    raises: InvalidValue as overlaps(), and with the field benches when they are not two
+    raises: InvalidValue as overlaps(), and with the field benches if they are not two
 
     >>> verdicts([[0, 0, 0], [0, 0.4, 0]], [[0, 0, 0], [0, 0.2, 0]], [2.2] * 2, [0.3] * 2)[Engine.FCL]
     Verdict(before=False, after=True)

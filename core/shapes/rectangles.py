@@ -1,7 +1,7 @@
 """Exact signed separation of two oriented rectangles, with witness points and normal.
 
-The derivation stands in core/kernels/rectangles.py: the separating axis theorem when they meet, the least
-distance from a corner of the one to the other when they are apart.
+The derivation stands in core/kernels/rectangles.py: the separating axis theorem for rectangles that meet, the least
+distance from a corner of one to the other for rectangles apart.
 """
 
 from __future__ import annotations
@@ -13,13 +13,29 @@ from numpy.typing import ArrayLike
 
 from core import kernels
 from core.errors import InvalidValue, said
+from core.kernels.constants import (
+    FRAME_COLUMNS,
+    FRAME_HALF_LENGTH,
+    FRAME_UX,
+    FRAME_UY,
+    FRAME_X,
+    FRAME_Y,
+    NORMAL_X,
+    NORMAL_Y,
+    SEPARATION,
+    SEPARATION_COLUMNS,
+    WITNESS_AX,
+    WITNESS_AY,
+    WITNESS_BX,
+    WITNESS_BY,
+)
 from core.shown import Shown, worded
 from core.values import SIZE_MAX, SIZE_MIN, Floats
 
-# Further out than any dance: a double resolves only 1e-7 m there [m].
+# Beyond any dance: a double resolves only 1e-7 m there [m].
 POSITION_MAX = 1e9
 
-# Lowest and highest value, and unit, of everything that describes a rectangle in the plane.
+# Lowest and highest value, and unit, of each number that describes a rectangle in the plane.
 LIMITS = {
     "x": (-POSITION_MAX, POSITION_MAX, "m"),
     "y": (-POSITION_MAX, POSITION_MAX, "m"),
@@ -56,10 +72,10 @@ class Separation(Shown):
 def separation(poses_a: ArrayLike, sizes_a: ArrayLike, poses_b: ArrayLike, sizes_b: ArrayLike) -> Separation:
     """Signed separation of rectangles a and b, pair by pair.
 
-    Apart, the Euclidean distance and the nearest points; overlapping, minus the length of the shortest
-    translation that parts them, the corner that reaches deepest and the point of the face over it. Where
-    parallel edges meet, the witnesses are the middle of the stretch that they share. Off by a few ulp of the
-    larger of the sizes and the distance, and witnesses also by an ulp of their own coordinates.
+    Rectangles apart: the Euclidean distance and the nearest points. Overlapping rectangles: minus the length of the
+    shortest translation that separates them, the deepest corner, and the point of the face above it. If parallel edges
+    meet, the witnesses are the middle of their common stretch. The error is a few ulp of the larger of the sizes and
+    the distance; witnesses also round by an ulp of their own coordinates.
 
     poses: (..., 3) x [m], y [m], heading [rad]; sizes: (..., 2) length [m], width [m]; shapes broadcast
     raises: InvalidValue for a shape that does not fit, a value that is not finite, or one outside LIMITS
@@ -81,29 +97,29 @@ def separation(poses_a: ArrayLike, sizes_a: ArrayLike, poses_b: ArrayLike, sizes
 def frames_separation(a: Floats, b: Floats) -> Separation:
     """Signed separation of rectangles given as frames. a, b: (..., 6) as frames() returns, of equal shape."""
     shape = a.shape[:-1]
-    out = np.empty((a.size // 6, 8))
-    rows_a, rows_b = (np.require(frame, requirements=["C", "W"]).reshape(-1, 6) for frame in (a, b))
+    out = np.empty((a.size // FRAME_COLUMNS, SEPARATION_COLUMNS))
+    rows_a, rows_b = (np.require(frame, requirements=["C", "W"]).reshape(-1, FRAME_COLUMNS) for frame in (a, b))
     kernels.pair_separations(rows_a, rows_b, out)
     return Separation(
-        separation=out[:, 0].reshape(shape),
-        witness_a=out[:, 1:3].reshape(*shape, 2),
-        witness_b=out[:, 3:5].reshape(*shape, 2),
-        normal=out[:, 5:7].reshape(*shape, 2),
+        separation=out[:, SEPARATION].reshape(shape),
+        witness_a=out[:, WITNESS_AX : WITNESS_AY + 1].reshape(*shape, 2),
+        witness_b=out[:, WITNESS_BX : WITNESS_BY + 1].reshape(*shape, 2),
+        normal=out[:, NORMAL_X : NORMAL_Y + 1].reshape(*shape, 2),
     )
 
 
 def frames(poses: Floats, sizes: Floats) -> Floats:
-    """What the kernels take for a rectangle: x, y, unit vector (x, y) along it, half length, half width.
+    """Rectangles as the kernels take them: x, y, unit vector (x, y) along it, half length, half width.
 
     poses: (..., 3) x [m], y [m], heading [rad]; sizes: (..., 2) length [m], width [m]; shapes broadcast
-    returns: (..., 6) in memory of its own
+    returns: (..., 6), never a view
     """
     shape = np.broadcast_shapes(poses.shape[:-1], sizes.shape[:-1])
-    out = np.empty((*shape, 6))
-    out[..., :2] = poses[..., :2]
-    out[..., 2] = np.cos(poses[..., 2])
-    out[..., 3] = np.sin(poses[..., 2])
-    out[..., 4:] = 0.5 * sizes
+    out = np.empty((*shape, FRAME_COLUMNS))
+    out[..., FRAME_X : FRAME_Y + 1] = poses[..., :2]
+    out[..., FRAME_UX] = np.cos(poses[..., 2])
+    out[..., FRAME_UY] = np.sin(poses[..., 2])
+    out[..., FRAME_HALF_LENGTH:] = 0.5 * sizes
     return out
 
 
@@ -147,7 +163,7 @@ def checked_columns(subject: str, columns: Floats, names: tuple[str, ...]) -> No
 def checked_array(name: str, values: ArrayLike, shape: str, last: int | None) -> Floats:
     """The values as float64 with a last axis of that length (a plain list if None).
 
-    raises: InvalidValue when they are no numbers or have another shape
+    raises: InvalidValue if they are no numbers or have another shape
     """
     try:
         array = np.asarray(values, dtype=np.float64)

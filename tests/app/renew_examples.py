@@ -1,4 +1,4 @@
-"""`make examples`: asks the service, in this process, the requests of app/examples.json and renews their answers."""
+"""`make examples`: asks the service, in this process, the requests of the examples and renews their answers."""
 
 from __future__ import annotations
 
@@ -8,8 +8,8 @@ from typing import Any
 
 import httpx
 
-from app.examples import FILE
-from app.main import create_app
+from app.service.examples import FILE
+from app.service.main import create_app
 from app.settings import Settings
 
 # Values that fit into a line of so many characters stay on one.

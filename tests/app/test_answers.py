@@ -6,7 +6,9 @@ import re
 
 import pytest
 
-from app import answers, report
+import app.service.main  # noqa: F401  so that every answer is known
+from app.questions.collision_time import Certificate
+from app.wire.models import Answer
 
 TOUCHING = re.compile(r"\b(touch|overlap|meet)", re.IGNORECASE)
 # What is said of a touch alone, of both by `nearest`, or of no contact.
@@ -14,11 +16,16 @@ APART_FROM_MARGINS = {
     ("Turn", "tangent_point"), ("ShortestTurn", "tangent_point"), ("Overlap", "separation"), ("Nearest", "distance"),
     ("LeastClearance", "distance"), *(("CollisionTime", name) for name in ("margin", "corner", "edge")),
 }  # fmt: skip
+
+
+def answers(model: type[Answer]) -> list[type[Answer]]:
+    """All kinds of an answer."""
+    return [inner for kind in model.__subclasses__() for inner in (kind, *answers(kind))]
+
+
 FIELDS = [
     (model.__name__, name, field.description or "")
-    for module in (answers, report)
-    for model in vars(module).values()
-    if isinstance(model, type) and issubclass(model, answers.Answer) and model.__module__ == module.__name__
+    for model in answers(Answer)
     for name, field in model.model_fields.items()
 ]
 
@@ -31,5 +38,5 @@ def test_a_field_that_speaks_of_a_touch_speaks_of_the_margin_too(model: str, nam
 
 
 def test_when_nothing_is_proven_clear_is_said() -> None:
-    words = answers.Certificate.model_fields["clear_until"].description or ""
+    words = Certificate.model_fields["clear_until"].description or ""
     assert "null where no time is proven clear" in words

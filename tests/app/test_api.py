@@ -14,7 +14,7 @@ import httpx
 import openpyxl
 import pytest
 
-from app.tables import ARROW_TYPE, CSV_TYPE, XLSX_TYPE
+from app.files.tables import ARROW_TYPE, CSV_TYPE, XLSX_TYPE
 
 SMALL: dict[str, Any] = {"dragon": {"benches": 3}, "times": [0.0, 1.5]}
 GETS = ("/collision-time", "/minimum-pitch", "/clearance", "/paper", "/figures/trajectory.svg", "/figures/contact.png")

@@ -15,7 +15,7 @@ from pathlib import Path
 import httpx
 import pytest
 
-from app.tables import XLSX_TYPE
+from app.files.tables import XLSX_TYPE
 from tests.conftest import ROOT, wait_until_live
 
 BODY_BYTES_MAX = 1000
@@ -39,7 +39,7 @@ def small(tmp_path_factory: pytest.TempPathFactory) -> Iterator[httpx.Client]:
     with socket.socket() as free:
         free.bind(("127.0.0.1", 0))
         port = free.getsockname()[1]
-    command = [sys.executable, "-m", "uvicorn", "--factory", "app.main:create_app", "--port", str(port)]
+    command = [sys.executable, "-m", "uvicorn", "--factory", "app.service.main:create_app", "--port", str(port)]
     with log.open("wb") as output:
         process = subprocess.Popen(command, cwd=ROOT, env=os.environ | LIMITS, stdout=output, stderr=output)
     try:

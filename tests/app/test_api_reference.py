@@ -116,5 +116,6 @@ def test_a_minimum_pitch_says_from_where_and_up_to_where_every_pitch_is_proven(c
     got = client.get("/minimum-pitch", params=query).raise_for_status().json()
     assert got["pitch"] == pytest.approx(0.525552677857343, rel=0, abs=PITCH_TOLERANCE)
     assert (got["limited_by"], got["benches"], got["justified_by"]) == ("fold", None, "scan")
+    assert got["bench"] == 0
     assert got["pitch"] < got["proven_from"] - got["scan_step"]
     assert got["proven_up_to"] is None

@@ -176,7 +176,7 @@ def test_too_much_work_before_an_answer_is_said_and_gets_exit_code_2() -> None:
     done = run("minimum-pitch", "--body-length", "0.001", "--overhang", "0")
     assert (done.returncode, done.stdout) == (2, "")
     assert done.stderr.startswith(
-        "Error: body_length must be larger, or benches fewer: their minimum pitch was not found"
+        "Error: body_length must be larger, or benches fewer, got 0.001 m: their minimum pitch was not found"
     )
     assert done.stderr.endswith("got 0.001 m\n")
 
@@ -272,7 +272,9 @@ def test_handles_and_times_choose_what_is_shown() -> None:
     assert headings(said) == [["0", "60", "120"]] * 3
     rows = [line.split()[0] for line in said.splitlines() if re.match(r"  \d+ (head|body)", line)]
     assert rows == ["51", "0", "1"] * 3
-    assert "3 of 224 handles, 3 of 3 instants" in said
+    assert said.endswith("3 of 224 handles, 3 of 3 instants: --output has all.\n")
+    assert answer_of("trajectory", "--times", "0,1").endswith(": --output has all, --handles chooses.\n")
+    assert answer_of("trajectory", "--handles", "0").endswith(": --output has all, --times chooses.\n")
 
 
 def test_times_that_were_asked_for_are_all_shown_in_as_many_tables_as_they_take() -> None:

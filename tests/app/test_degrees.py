@@ -13,7 +13,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from app.degrees import ACROSS_MAX, Origin, place_of
+from app.wire.degrees import ACROSS_MAX, Origin, place_of
 from core import Dance, Dragon, InvalidValue, check
 from core import Spiral as CoreSpiral
 from tests.app.test_cli import answer_of, run

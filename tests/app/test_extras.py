@@ -34,7 +34,7 @@ class Plain(PathFinder):
 
 sys.meta_path[:] = [Plain if finder is PathFinder else finder for finder in sys.meta_path]
 sys.argv[0] = "bench-dragon"
-from app.cli import app
+from app.command.main import app
 app()
 """
 
@@ -96,7 +96,7 @@ def test_what_needs_an_extra_names_it_in_one_line_and_leaves_nothing(line: str, 
 
 def test_the_command_starts_without_what_only_an_extra_brings() -> None:
     names = sorted({*sum(MODULES.values(), ()), *DISPENSABLE, "starlette"})
-    code = f"import sys, app.cli; print(*(name for name in {names} if name in sys.modules))"
+    code = f"import sys, app.command.main; print(*(name for name in {names} if name in sys.modules))"
     loaded = subprocess.check_output([sys.executable, "-c", code], cwd=ROOT, text=True)
     assert loaded.split() == []
 

@@ -13,7 +13,7 @@ from pathlib import Path
 
 import pytest
 
-from app.files import checked_output, write_whole
+from app.files.disk import checked_output, write_whole
 from core import InvalidValue
 from tests.app.test_cli import COMMAND, ENVIRONMENT, PATIENCE, run
 

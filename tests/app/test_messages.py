@@ -7,8 +7,11 @@ from typing import Any
 import httpx
 import pytest
 
-from app.messages import names_at
-from app.schemas import CheckRequest, CollisionQuery, OverlapsRequest, TrajectoryRequest
+from app.questions.check import CheckRequest
+from app.questions.collision_time import CollisionQuery
+from app.questions.overlaps import OverlapsRequest
+from app.questions.trajectory import TrajectoryRequest
+from app.wire.messages import names_at
 
 
 @pytest.mark.parametrize(

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import dataclasses
-
 import numpy as np
 import pytest
+from pydantic import ValidationError
 
-from app.paper import Comparison, comparison
+from app.questions.paper import PaperNumber, comparison
 from core import Dance, Dragon, Outcome, Spiral, first_contact, minimum_pitch, separation, trajectory
 from core.motion.trajectory import bench_poses
 
@@ -17,17 +16,17 @@ NANO = 1e-9  # [s and m]
 
 
 @pytest.fixture(scope="module")
-def rows() -> dict[str, Comparison]:
+def rows() -> dict[str, PaperNumber]:
     return {row.quantity: row for row in comparison()}
 
 
-def evidence(row: Comparison, start: str) -> list[float]:
+def evidence(row: PaperNumber, start: str) -> list[float]:
     found = [fact.value for fact in row.evidence if fact.what.startswith(start)]
     assert found, [fact.what for fact in row.evidence]
     return found
 
 
-def test_the_paper_reports_four_numbers(rows: dict[str, Comparison]) -> None:
+def test_the_paper_reports_four_numbers(rows: dict[str, PaperNumber]) -> None:
     assert {name: row.paper for name, row in rows.items()} == {
         "arc length of the spiral": 442.590256,
         "time of first contact": 406.43,
@@ -36,7 +35,7 @@ def test_the_paper_reports_four_numbers(rows: dict[str, Comparison]) -> None:
     }
 
 
-def test_each_row_states_difference_unit_source_and_reason(rows: dict[str, Comparison]) -> None:
+def test_each_row_states_difference_unit_source_and_reason(rows: dict[str, PaperNumber]) -> None:
     for row in rows.values():
         assert row.difference == row.ours - row.paper
         assert row.unit in ("m", "s")
@@ -44,7 +43,7 @@ def test_each_row_states_difference_unit_source_and_reason(rows: dict[str, Compa
         assert row.source
 
 
-def test_ours_is_what_core_answers(rows: dict[str, Comparison]) -> None:
+def test_ours_is_what_core_answers(rows: dict[str, PaperNumber]) -> None:
     found = first_contact(Dance(Dragon(), Spiral()))
     assert found.head is not None
     assert rows["time of first contact"].ours == found.time
@@ -52,17 +51,17 @@ def test_ours_is_what_core_answers(rows: dict[str, Comparison]) -> None:
     assert rows["minimum pitch"].ours == minimum_pitch(Dragon()).pitch
 
 
-def test_ours_is_what_an_independent_computation_proved(rows: dict[str, Comparison]) -> None:
+def test_ours_is_what_an_independent_computation_proved(rows: dict[str, PaperNumber]) -> None:
     assert rows["time of first contact"].ours == pytest.approx(412.47383768211466, abs=NANO)
     assert rows["radius of the head at first contact"].ours == pytest.approx(2.288742638382156, abs=NANO)
     assert rows["minimum pitch"].ours == pytest.approx(0.4503373930271955, abs=NANO)
 
 
-def test_the_arc_length_agrees_to_the_digits_of_the_paper(rows: dict[str, Comparison]) -> None:
+def test_the_arc_length_agrees_to_the_digits_of_the_paper(rows: dict[str, PaperNumber]) -> None:
     assert abs(rows["arc length of the spiral"].difference) <= MICROMETRE
 
 
-def test_an_angle_sum_of_359_1_degrees_first_comes_at_the_time_of_the_paper(rows: dict[str, Comparison]) -> None:
+def test_an_angle_sum_of_359_1_degrees_first_comes_at_the_time_of_the_paper(rows: dict[str, PaperNumber]) -> None:
     row = rows["time of first contact"]
     [loose] = evidence(row, "first time of an angle sum of 359.1 degrees")
     assert round(loose, 2) == 406.43
@@ -70,7 +69,7 @@ def test_an_angle_sum_of_359_1_degrees_first_comes_at_the_time_of_the_paper(rows
     assert 359.1 < largest < 360.0
 
 
-def test_at_the_time_of_the_paper_the_head_passes_bench_9_without_touching(rows: dict[str, Comparison]) -> None:
+def test_at_the_time_of_the_paper_the_head_passes_bench_9_without_touching(rows: dict[str, PaperNumber]) -> None:
     [gap] = evidence(rows["time of first contact"], "clearance at the paper's time, benches 0 and 9")
     dragon = Dragon()
     poses = bench_poses(trajectory(Dance(dragon, Spiral()), [406.43]).position[0])[[0, 9]]
@@ -79,7 +78,7 @@ def test_at_the_time_of_the_paper_the_head_passes_bench_9_without_touching(rows:
     assert round(1000 * gap, 1) == 4.3
 
 
-def test_the_exact_angle_rule_agrees_with_ours_and_eq_12_as_printed_does_not(rows: dict[str, Comparison]) -> None:
+def test_the_exact_angle_rule_agrees_with_ours_and_eq_12_as_printed_does_not(rows: dict[str, PaperNumber]) -> None:
     row = rows["time of first contact"]
     [exact] = evidence(row, "first time of an angle sum of 360 degrees")
     [literal] = evidence(row, "the same with eq. 12 as printed")
@@ -87,7 +86,7 @@ def test_the_exact_angle_rule_agrees_with_ours_and_eq_12_as_printed_does_not(row
     assert round(literal, 1) == 407.4
 
 
-def test_the_radius_and_the_time_of_the_paper_exclude_each_other(rows: dict[str, Comparison]) -> None:
+def test_the_radius_and_the_time_of_the_paper_exclude_each_other(rows: dict[str, PaperNumber]) -> None:
     row = rows["radius of the head at first contact"]
     [radius] = evidence(row, "radius of the head at the paper's time")
     [passed] = evidence(row, "time at which the head passes the paper's radius")
@@ -97,7 +96,7 @@ def test_the_radius_and_the_time_of_the_paper_exclude_each_other(rows: dict[str,
     )
 
 
-def test_bisecting_the_radius_ends_at_a_jump_past_the_circle(rows: dict[str, Comparison]) -> None:
+def test_bisecting_the_radius_ends_at_a_jump_past_the_circle(rows: dict[str, PaperNumber]) -> None:
     row = rows["minimum pitch"]
     [pitch] = evidence(row, "pitch at which a bisection of the radius ends")
     [below] = evidence(row, "radius of first contact just below it")
@@ -106,7 +105,7 @@ def test_bisecting_the_radius_ends_at_a_jump_past_the_circle(rows: dict[str, Com
     assert (round(below, 3), round(above, 3)) == (4.573, 4.406)
 
 
-def test_the_pitch_of_the_paper_is_feasible_but_not_the_smallest(rows: dict[str, Comparison]) -> None:
+def test_the_pitch_of_the_paper_is_feasible_but_not_the_smallest(rows: dict[str, PaperNumber]) -> None:
     [radius] = evidence(rows["minimum pitch"], "radius of first contact at the paper's pitch")
     found = first_contact(Dance(Dragon(), Spiral(pitch=0.474924)))
     assert found.outcome is Outcome.CONTACT
@@ -114,7 +113,7 @@ def test_the_pitch_of_the_paper_is_feasible_but_not_the_smallest(rows: dict[str,
     assert radius == found.head.radius < 4.5
 
 
-def test_the_pose_on_the_circle_alone_gives_smaller_pitches(rows: dict[str, Comparison]) -> None:
+def test_the_pose_on_the_circle_alone_gives_smaller_pitches(rows: dict[str, PaperNumber]) -> None:
     row = rows["minimum pitch"]
     [alone] = evidence(row, "largest pitch at which the pose on the circle alone touches")
     [head] = evidence(row, "the same with the pairs of the head only")
@@ -123,4 +122,5 @@ def test_the_pose_on_the_circle_alone_gives_smaller_pitches(rows: dict[str, Comp
 
 def test_the_table_is_computed_once() -> None:
     assert comparison() is comparison()
-    assert dataclasses.is_dataclass(comparison()[0])
+    with pytest.raises(ValidationError, match="frozen"):
+        comparison()[0].ours = 0.0

@@ -11,12 +11,13 @@ from fastapi import FastAPI
 from pydantic import ValidationError
 
 import core
-from app.main import create_app
-from app.messages import message
-from app.problems import pointer
-from app.reply import accepted
-from app.schemas import CollisionQuery, TrajectoryRequest
+from app.questions.collision_time import CollisionQuery
+from app.questions.trajectory import TrajectoryRequest
+from app.service.main import create_app
+from app.service.problems import pointer
+from app.service.reply import accepted
 from app.settings import Settings
+from app.wire.messages import message
 
 pytestmark = pytest.mark.uncompiled
 

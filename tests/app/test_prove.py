@@ -168,6 +168,11 @@ def test_a_dance_from_a_file_is_proven_to_its_end(tmp_path: Path) -> None:
     assert "the route of 2 pieces (line, arc), joined exactly" in done.stdout
     assert "come nearer to one another than 0.2 m" in done.stdout
     assert "and the route ends before" in done.stdout
+    assert "no part of the proof" not in done.stderr
+    file.write_text(f"speed_limit = 2.0\n{LINES.format(sweep=3.0)}")
+    assert run("dance", str(file), "--output", str(path)).stderr.startswith(
+        "The speed limit is no part of the proof.\n"
+    )
 
 
 @pytest.mark.parametrize(

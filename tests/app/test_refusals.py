@@ -32,12 +32,27 @@ FLAT = [
     Asked("collision-time", {"overhang": 1.1}, "overhang", "must be less than half of body_length (2.2 m / 2 = 1.1 m)"),
     Asked("collision-time", {"head_length": 0.5, "overhang": 0.25}, "overhang", "less than half of head_length"),
     Asked("collision-time", {"benches": 100_001}, "benches", "must be at most 100000 here, got 100001"),
-    Asked("minimum-pitch", HARDLY_APART, "turning_diameter", "must be larger for this dragon"),
-    Asked("minimum-pitch", HARDLY_APART, "turning_diameter", "got 9 m"),
+    Asked(
+        "minimum-pitch", HARDLY_APART, "overhang", "must be smaller, got 0.549999999 m: at a pitch of 10000 m benches"
+    ),
+    Asked("minimum-pitch", {"margin": 1.0999999}, "margin", "must be smaller, got 1.0999999 m: at a pitch of 10000 m"),
+    Asked(
+        "minimum-pitch", {"margin": 1.09}, "margin", "must be smaller, got 1.09 m: the minimum pitch is 708.344074 m"
+    ),
+    Asked("minimum-pitch", {"start_turns": 0.2}, "start_turns", "must be at least 0.45 turns, or the turning circle"),
+    Asked(
+        "minimum-pitch", {"start_turns": 0.2}, "start_turns", "got 0.2 turns: the minimum pitch is 22.5 m, and pitch"
+    ),
+    Asked(
+        "minimum-pitch",
+        {"overhang": 0.549},
+        "overhang",
+        "must be smaller, or the benches narrower, got 0.549 m: the min",
+    ),
     Asked("minimum-pitch", {"overhang": 0.56}, "overhang", "must be less than a quarter of body_length (2.2 m / 4 = "),
     Asked("minimum-pitch", {"margin": 1.2}, "margin", "must be less than 1.1 m, got 1.2 m"),
     Asked("minimum-pitch", {"start_turns": 1e-5}, "start_turns", "must be at least 0.00045 turns"),
-    Asked("shortest-turn", {"turning_diameter": 8}, "turning_diameter", "bends to a radius of 1.336 m, too tight"),
+    Asked("shortest-turn", {"turning_diameter": 8}, "turning_diameter", "must be larger, got 8 m: a turn that"),
     Asked("shortest-turn", {"turning_diameter": 8}, "turning_diameter", "got 8 m"),
     Asked("shortest-turn", {"margin": 0.4}, "turning_diameter", "come nearer than 0.4 m"),
     Asked("shortest-turn", {"pitch": 0.8}, "turning_diameter", "benches 0 and 15 touch 13.286258 s after the entry"),
@@ -57,11 +72,13 @@ FLAT = [
 ]
 FLAT_GET = [
     Asked("clearance", {"stop": 440.5}, "stop", "must be at most 432.917924228 s, when bench 0 folds, got 440.5 s"),
+    Asked("clearance", {"start": 432.9179242284, "stop": 433}, "start", "must be at most 432.917924228 s, when bench"),
+    Asked("clearance", {"start": 432.9179242284, "stop": 433}, "start", "got 432.9179242284 s"),
     Asked("clearance", {"start": 435, "stop": 440}, "start", "must be at most 432.917924228 s"),
     Asked("clearance", {"start": 5, "stop": 1}, "stop", "must not be before start (5 s), got 1 s"),
     Asked("clearance", {"step": 1e-4}, "step", "instants x handles must be at most 1000000 here"),
     Asked("clearance", {"benches": 2}, "benches", "must be at least 3 for two to share no handle, got 2"),
-    Asked("pitch-scan", HARDLY_APART, "turning_diameter", "must be larger for this dragon"),
+    Asked("pitch-scan", HARDLY_APART, "overhang", "must be smaller, got 0.549999999 m: at a pitch of 10000 m"),
     Asked("pitch-scan", {"turning_diameter": 0.036, "benches": 1, "head_length": 0.005, "overhang": 0},
           "turning_diameter", "must allow pitches of 0.00125 m and more, got 0.036 m"),
     Asked("figures/trajectory.svg", {"time": 440}, "time", "must be at most 432.917924228 s, when bench 0"),

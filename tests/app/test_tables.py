@@ -12,9 +12,9 @@ import openpyxl
 import pyarrow
 import pytest
 
-from app import tables
 from app.extras import MissingPackage
-from app.tables import Language
+from app.files import tables
+from app.files.tables import Language
 from core import Dance, Dragon, Spiral, TooLarge, Trajectory, trajectory
 from core.values import Floats
 

@@ -17,7 +17,7 @@ from flint import arb
 
 from core import Arc, Coil, Dance, Dragon, InvalidValue, Line, Route, Spiral, Turn, Waypoints, kernels
 from core.contact.search import Search
-from core.kernels.constants import ERROR, MX, MY, PX, PY, SWAY, UX, UY
+from core.kernels.constants import ERROR, HALF_LENGTH, HALF_WIDTH, MX, MY, PX, PY, RADIUS, SWAY, UX, UY
 from core.values import SIZE_MAX, SIZE_MIN
 from tests.core.exact_chain import ExactRoute, Floats, Point, separation, spiral_handles
 
@@ -125,7 +125,7 @@ ROUTES = (_lines_and_arcs, _coil, _turn, _waypoints)
 
 def compare(errors: Errors, search: Search, head: float, rng: np.random.Generator) -> None:
     """Adds the errors of one chain, its head at theta on a spiral, at s on a route."""
-    dragon, growth, pieces = search.dragon, search.growth, search.pieces
+    dragon, growth = search.dragon, search.growth
     search.resize(dragon.benches)
     sizes, chain = search.sizes, search.rows[0]
     if isinstance(search.path, Spiral):
@@ -133,14 +133,14 @@ def compare(errors: Errors, search: Search, head: float, rng: np.random.Generato
         assert kernels.extend_chain(growth, 0, dragon.benches, kernels.FREE, sizes, chain) == dragon.benches
         handles = spiral_handles(growth, head, dragon.chords)
     else:
-        kernels.place_chain(growth, pieces, -head, dragon.benches, sizes, chain)
-        exact = ExactRoute(pieces)
+        kernels.place_chain(search.curve, -head, dragon.benches, sizes, chain)
+        exact = ExactRoute(search.path.table)
         place = arb(head)
         (x, y), (tx, ty) = exact.point(place)
         slide = (chain[0, PX] - x) * tx + (chain[0, PY] - y) * ty
         errors.slides.append(abs(float(slide)) / search.path.slide)
         handles = exact.handles(place + slide, dragon.chords)
-    kernels.chain_rounding(growth, pieces, dragon.benches, sizes, chain)
+    kernels.chain_rounding(search.curve, dragon.benches, sizes, chain)
     if chain[dragon.benches - 1, ERROR] >= kernels.FREE:  # within about 1e-12 m of a fold, where nothing is claimed
         return
     benches = list(pairwise(handles))
@@ -150,9 +150,10 @@ def compare(errors: Errors, search: Search, head: float, rng: np.random.Generato
         size = sizes[[a, b]]
         apart = float(np.hypot(*(chain[b, MX : MY + 1] - chain[a, MX : MY + 1])))
         bound = kernels.pair_rounding(a, b, apart, sizes, chain, chain)
-        gap = kernels.pair_gap(*chain[a, MX : UY + 1], *size[0, 1:3], *chain[b, MX : UY + 1], *size[1, 1:3])
-        true = separation(benches[a], benches[b], (size[0, :3], size[1, :3]))
-        errors.gaps.append(abs(float(true - gap)) / bound)
+        frames = np.hstack([chain[[a, b], MX : UY + 1], size[:, HALF_LENGTH : HALF_WIDTH + 1]])
+        kernels.pair_gaps(frames[:1], frames[1:], kernels.NO_LIMIT, gap := np.empty(1))
+        true = separation(benches[a], benches[b], (size[0, :RADIUS], size[1, :RADIUS]))
+        errors.gaps.append(abs(float(true - gap[0])) / bound)
         errors.bounds.append(bound)
 
 

@@ -13,13 +13,13 @@ import pytest
 
 import core
 from core import kernels
-from core.kernels import constants
 from tests.core.every_digit import every_digit
 
 ROOT = Path(__file__).parents[2]
 SOURCES = ROOT / "core" / "kernels"
-# Modules with a .pxd beside them are compiled; constants is one to the C compiler alone.
-COMPILED = sorted(path.stem for path in SOURCES.glob("*.pxd") if path.stem != "constants")
+# Modules with a .pxd beside them are compiled; these two hold names for the C compiler alone.
+NAMES = {"constants", "records"}
+COMPILED = sorted({path.stem for path in SOURCES.glob("*.pxd")} - NAMES)
 
 needs_compiled = pytest.mark.skipif(not kernels.COMPILED, reason="the kernels run uncompiled")
 
@@ -75,31 +75,48 @@ def uncompiled() -> dict[str, str]:
 @pytest.mark.parametrize("module", COMPILED)
 def test_compiled_file_is_not_older_than_its_source(module: str) -> None:
     compiled = Path(str(sys.modules[f"core.kernels.{module}"].__file__))
-    sources = (SOURCES / f"{module}.py", SOURCES / f"{module}.pxd", SOURCES / "constants.pxd")
+    sources = (SOURCES / f"{module}.py", SOURCES / f"{module}.pxd", *(SOURCES / f"{name}.pxd" for name in NAMES))
     assert compiled.suffix != ".py", "all modules are compiled, or none"
     assert compiled.stat().st_mtime >= max(source.stat().st_mtime for source in sources), "run make setup"
-
-
-def test_constants_are_the_same_for_the_compiler() -> None:
-    text = (SOURCES / "constants.pxd").read_text(encoding="utf-8")
-    literals = re.findall(r'(\w+) "([^"]+)"', text) + re.findall(r"(\w+) = (\d+)", text)
-    assert {name: float(value) for name, value in literals} == {
-        name: value
-        for name, value in vars(constants).items()
-        if (isinstance(value, int | float) and not name.endswith(("_COLUMNS", "_ENTRIES"))) or name == "MARCH_ENTRIES"
-    }
 
 
 @pytest.mark.parametrize("module", COMPILED)
 def test_modules_take_the_same_from_each_other_compiled_and_uncompiled(module: str) -> None:
     declared = (SOURCES / f"{module}.pxd").read_text(encoding="utf-8")
-    compiled = set(re.findall(r"^from (core\.\S+) cimport (.+)$", declared, re.MULTILINE))
+    compiled = {
+        (source, name)
+        for source, names in re.findall(r"^from (core\.\S+) cimport (.+)$", declared, re.MULTILINE)
+        for name in names.split(", ")
+    }
     uncompiled = {
-        (node.module, ", ".join(name.name for name in node.names))
+        (str(node.module), name.name)
         for node in ast.walk(ast.parse((SOURCES / f"{module}.py").read_text(encoding="utf-8")))
         if isinstance(node, ast.ImportFrom) and str(node.module).startswith("core.")
+        for name in node.names
     }
-    assert compiled == uncompiled
+    types = {(source, name) for source, name in compiled if name[0].isupper() and not name.isupper()}
+    assert uncompiled <= compiled
+    assert compiled - uncompiled <= types  # which the compiler alone must know
+
+
+STUB = ast.parse((SOURCES / "__init__.pyi").read_text(encoding="utf-8"))
+
+
+def test_type_checkers_see_every_name_that_the_kernels_offer() -> None:
+    door = ast.parse((SOURCES / "__init__.py").read_text(encoding="utf-8"))
+    offered = {name.name for node in door.body if isinstance(node, ast.ImportFrom) for name in node.names}
+    declared = {node.name for node in STUB.body if isinstance(node, ast.FunctionDef | ast.ClassDef)}
+    declared |= {str(node.target.id) for node in STUB.body if isinstance(node, ast.AnnAssign)}
+    assert declared == offered - {"*"}
+
+
+@needs_compiled
+def test_what_type_checkers_see_of_the_types_is_there() -> None:
+    for node in STUB.body:
+        if isinstance(node, ast.ClassDef):
+            members = {str(part.target.id) for part in node.body if isinstance(part, ast.AnnAssign)}
+            members |= {part.name for part in node.body if isinstance(part, ast.FunctionDef)}
+            assert members <= set(dir(getattr(kernels, node.name))), node.name
 
 
 @needs_compiled

@@ -9,7 +9,6 @@ import pytest
 
 from core import Dance, Dragon, EndReason, Outcome, Route, Spiral, Turn, first_contact
 from core.contact.search import BRACKET, NO_BOUND, Search
-from core.kernels.constants import RING_END, RING_PLACE
 from core.motion.trajectory import trajectory
 from tests.core.contact.test_first_contact import ACCURACY
 
@@ -152,14 +151,14 @@ def test_on_a_turn_the_search_finds_what_it_finds_when_all_benches_are_followed(
     margin, start = rng.choice([0.0, 0.1]), rng.choice([-60.0, 0.0, rng.uniform(0.0, 120.0)])
     found = Search(dragon, path, margin).approach(start, path.end, 1.0)
     every = Search(dragon, path, margin)
-    assert every.ring[RING_PLACE] < NO_BOUND
-    every.ring[RING_PLACE], every.ring[RING_END] = NO_BOUND, -NO_BOUND
+    assert every.rings.clear_place < NO_BOUND
+    every.rings.clear_place, every.rings.end_place = NO_BOUND, -NO_BOUND
     every.resize(benches)
     slow = every.approach(start, path.end, 1.0)
     assert found[0] == slow[0]
     if found[0] == "touched":
-        assert found[1]["touching"] == pytest.approx(slow[1]["touching"], rel=0, abs=ACCURACY)
-        assert (found[1]["first"], found[1]["second"]) == (slow[1]["first"], slow[1]["second"])
+        assert found[1].touching == pytest.approx(slow[1].touching, rel=0, abs=ACCURACY)
+        assert found[1].benches == slow[1].benches
 
 
 def test_ten_thousand_benches_through_the_turn_are_decided_as_two_hundred_are() -> None:

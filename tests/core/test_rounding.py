@@ -26,7 +26,7 @@ from core import (
     trajectory,
 )
 from core.contact.search import Search
-from core.design.minimum_pitch import _PitchSearch
+from core.design.ways import Ways
 from core.kernels.constants import CLIMB, CLIMB_ERROR, ERROR, RATE, RATE_ERROR
 from core.motion.speed import EXCEEDED, SPEED_ROUNDING, _excess
 from tests.core.exact_chain import BITS, middle, next_delta, separation, spiral_place
@@ -80,7 +80,7 @@ def test_towards_the_fold_the_bound_grows_with_the_error_until_nothing_is_claime
     assert bounds[-1] > 100.0 * bounds[0]
     kernels.start_chain(fold, search.rows[0])
     if kernels.extend_chain(search.growth, 0, 1, kernels.FREE, search.sizes, search.rows[0]) == 1:
-        kernels.chain_rounding(search.growth, search.pieces, 1, search.sizes, search.rows[0])
+        kernels.chain_rounding(search.curve, 1, search.sizes, search.rows[0])
         assert search.rows[0, 0, ERROR] > bounds[-1]
 
 
@@ -160,13 +160,9 @@ def test_what_is_within_a_margin_for_certain_stays_so_over_the_interval(seed: in
     a = int(rng.integers(0, 3))
     b = int(rng.integers(a + 2, 9))
     h, place = 10 ** rng.uniform(-12.0, -2.0), search.place - rng.uniform(0.0, 6.0)
-    rows = search.rows
-    most = kernels.pair_most(
-        search.growth, search.pieces, place, h, a, b, 9, search.sizes, rows[0], rows[1], search.motion, np.empty(8)
-    )
+    most = kernels.pair_most(search.scene, search.probe, place, h, a, b)
     gaps = [
-        kernels.gap_at(search.growth, search.pieces, place - part * h, 9, a, b, search.sizes, rows[2])
-        for part in np.linspace(0.0, 1.0, INSTANTS)
+        kernels.gap_at(search.scene, place - part * h, a, b, search.rows[0]) for part in np.linspace(0.0, 1.0, INSTANTS)
     ]
     assert max(gaps) <= max(most, 0.0)
 
@@ -184,7 +180,7 @@ def test_pieces_that_miss_each_other_count_as_rounding(joined: Callable[[float],
     assert route.slide >= abs(x)
     search = Search(Dragon(3), route, 0.0)
     search.clearance(30.5)
-    kernels.chain_rounding(search.growth, search.pieces, 3, search.sizes, search.rows[0])
+    kernels.chain_rounding(search.curve, 3, search.sizes, search.rows[0])
     assert search.rows[0, 0, ERROR] >= abs(y)
 
 
@@ -237,8 +233,8 @@ def test_rates_and_slopes_near_the_centre_are_good_to_what_is_said_of_them(seed:
     chain, growth = search.rows[0], spiral.growth
     kernels.start_chain(theta, chain)
     assert kernels.extend_chain(growth, 0, 9, kernels.FREE, search.sizes, chain) == 9
-    kernels.climbs(growth, search.pieces, 9, search.sizes, chain)
-    kernels.chain_rounding(growth, search.pieces, 9, search.sizes, chain)
+    kernels.climbs(search.curve, 9, search.sizes, chain)
+    kernels.chain_rounding(search.curve, 9, search.sizes, chain)
     kernels.spiral_errors(growth, 9, search.sizes, chain, chain, search.motion)
     rates, slopes = exact_climbs(growth, theta, dragon.chords)
     for k in range(1, 10):
@@ -256,29 +252,27 @@ def test_a_speed_that_is_said_to_exceed_a_limit_does(seed: int) -> None:
         speed = float(trajectory(Dance(dragon, spiral), time).speed.max())
         for above in (-1e-3, -1e-9, *(units * kernels.ULP for units in range(-6, 7, 2)), 1e-9):
             limit = speed * (1.0 + above) / (1.0 + SPEED_ROUNDING)
-            outcome, _, found, handle = _excess(search, time, time, 1.0, limit)
+            outcome, excess = _excess(search, time, time, 1.0, limit)
             outcomes.add(outcome)
             if outcome == EXCEEDED:
-                rates, _ = exact_climbs(spiral.growth, exact_theta(spiral, found), dragon.chords)
-                assert abs(float(rates[handle])) > limit
+                rates, _ = exact_climbs(spiral.growth, exact_theta(spiral, excess.found), dragon.chords)
+                assert abs(float(rates[excess.handle])) > limit
         assert outcomes > {EXCEEDED}
 
 
 def test_a_pitch_at_which_rounding_hides_whether_benches_graze_is_not_called_infeasible() -> None:
     """Pitches around that at which benches 0 and 19 graze by the doubles, nearer than gaps are proven good to."""
     dragon, found = Dragon(60), minimum_pitch(Dragon(60))
-    search = _PitchSearch(dragon, 4.5, 16.0, 0.0)
-    search.strips.graze = found.benches, found.head_radius
+    ways = Ways(dragon, 4.5, 16.0, 0.0)
+    ways.bands.graze = found.benches, found.head_radius
     low, high = found.pitch_bracket
     while low < (middle := 0.5 * (low + high)) < high:
-        low, high = (
-            (middle, high) if search.strips.dip(middle, *reversed(search.strips.graze))[0] <= 0.0 else (low, middle)
-        )
+        low, high = (middle, high) if ways.bands.dip(middle, *reversed(ways.bands.graze))[0] <= 0.0 else (low, middle)
     said = []
     for pitch in np.concatenate([high + NEAR * np.linspace(-4.0, 4.0, 41), found.pitch_bracket]).tolist():
-        said.append(search.grazes(pitch))
-        gap, radius = search.strips.dip(pitch, *reversed(search.strips.graze))
-        travel = search.search.travel_at(radius / search.search.growth)
+        said.append(ways.grazes(pitch))
+        gap, radius = ways.bands.dip(pitch, *reversed(ways.bands.graze))
+        travel = ways.search.travel_at(radius / ways.search.growth)
         exact = exact_gap(dragon, Spiral(pitch), travel, 1.0, found.benches)
         assert abs(exact - gap) <= NEAR
         assert not said[-1] or exact <= 0.0

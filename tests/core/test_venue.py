@@ -1,8 +1,10 @@
-"""The square: what GeoJSON is read, what is refused, and distances that are shapely's."""
+"""The square: what is refused, and distances that are shapely's."""
 
 from __future__ import annotations
 
 import math
+from time import process_time
+from typing import Any
 
 import numpy as np
 import pytest
@@ -28,11 +30,13 @@ from core import (
 )
 from core.contact.first_contact import Search
 from core.shapes.rectangles import corners
+from core.venue import EDGES_MAX, Ring
 
 SAME_DISTANCE = 1e-11  # [m]: ours and shapely's, at coordinates to 30 m
 PROVEN = 1.1e-5  # [m]: a distance is proven to this
 AT_MARGIN = 1e-8  # [m]: the distance at the time of first coming within the margin, and in closed form
 TIME_ERROR = 1e-9  # [s]
+AT_ONCE = 2.0  # [s] of processor time; judging the validity of so many rings takes more than a minute
 
 DRAGON = Dragon(benches=12)
 # Around a hall of 12 x 6 m with rounded corners, anti-clockwise; one lap is 2 (12 + 6) + 4 pi long.
@@ -50,92 +54,63 @@ LAP = Route(
 )
 
 
-def box(x: float, y: float, right: float, top: float) -> list[list[float]]:
-    return [[x, y], [right, y], [right, top], [x, top], [x, y]]
+def box(x: float, y: float, right: float, top: float) -> Ring:
+    return ((x, y), (right, y), (right, top), (x, top), (x, y))
 
 
-def polygon(*rings: list[list[float]]) -> dict:
-    return {"type": "Polygon", "coordinates": list(rings)}
-
-
-def feature(name: str | None, *rings: list[list[float]]) -> dict:
-    return {"type": "Feature", "properties": {"name": name}, "geometry": polygon(*rings)}
-
-
-def features(*members: dict) -> dict:
-    return {"type": "FeatureCollection", "features": list(members)}
+def boxed(name: str, x: float, y: float, right: float, top: float) -> Area:
+    return Area(name, (box(x, y, right, top),))
 
 
 SQUARE = box(-35, -5, 20, 20)
-WELL = [[5 + math.cos(a), 4 + math.sin(a)] for a in np.linspace(0, 2 * math.pi, 24, endpoint=False)]
-WELL.append(WELL[0])
+WELL = tuple((5 + math.cos(a), 4 + math.sin(a)) for a in np.linspace(0, 2 * math.pi, 24, endpoint=False).tolist())
+WELL = (*WELL, WELL[0])
 STAGE = box(15.0, 0.0, 18.0, 3.0)
-VENUE = Venue.from_geojson(features(feature("square", SQUARE), feature("well", WELL), feature("stage", STAGE)))
+VENUE = Venue(Area("square", (SQUARE,)), (Area("well", (WELL,)), Area("stage", (STAGE,))))
+VENUE_ROUND = Venue(boxed("square", -13, -14, 13.5, 12.5))
 
 
-VENUE_ROUND = Venue.from_geojson(polygon(box(-13, -14, 13.5, 12.5)))
+# -- what is refused -----------------------------------------------------------------------------------------
 
 
-# -- reading -------------------------------------------------------------------------------------------------
+def test_edges_without_length_are_passed_over() -> None:
+    square = Area("square", (((0, 0), (9, 0), (9, 0), (9, 9), (0, 0)),))
+    assert square.edges.tolist() == [[0, 0, 9, 0], [9, 0, 9, 9], [9, 9, 0, 0]]
 
 
-def test_a_single_polygon_is_the_square_with_its_holes() -> None:
-    venue = Venue.from_geojson(polygon(SQUARE, WELL))
-    assert venue.square.name == "square"
-    assert len(venue.square.rings) == 2
-    assert venue.square.edges.shape == (4 + 24, 4)
-    assert venue.obstacles == ()
-
-
-def test_the_feature_named_square_is_the_square_wherever_it_stands() -> None:
-    venue = Venue.from_geojson(features(feature("well", WELL), feature("square", SQUARE), feature(None, STAGE)))
-    assert [area.name for area in venue.areas] == ["square", "well", "obstacle 2"]
-
-
-def test_the_first_polygon_of_a_collection_is_the_square() -> None:
-    venue = Venue.from_geojson({"type": "GeometryCollection", "geometries": [polygon(SQUARE), polygon(WELL)]})
-    assert [area.name for area in venue.areas] == ["square", "obstacle 1"]
-    assert venue.square.rings[0][0] == (-35.0, -5.0)
-
-
-def test_heights_and_edges_without_length_are_passed_over() -> None:
-    ring = [[0, 0, 7], [9, 0, 7], [9, 0, 7], [9, 9, 8], [0, 0, 7]]
-    assert Venue.from_geojson(polygon(ring)).square.edges.tolist() == [[0, 0, 9, 0], [9, 0, 9, 9], [9, 9, 0, 0]]
+def test_a_hole_has_its_edges() -> None:
+    assert Area("square", (SQUARE, WELL)).edges.shape == (4 + 24, 4)
 
 
 @pytest.mark.parametrize(
-    ("geometry", "field"),
+    ("rings", "words"),
     [
-        ([], "venue"),
-        (None, "venue"),
-        ({}, "venue.type"),
-        ({"type": "Point", "coordinates": [0, 0]}, "venue.type"),
-        ({"type": "Polygon"}, "venue.coordinates"),
-        ({"type": "Polygon", "coordinates": []}, "venue.coordinates"),
-        ({"type": "Polygon", "coordinates": [3]}, "venue.coordinates.0"),
-        (polygon([[0, 0], [1, 0], 5]), "venue.coordinates.0.2"),  # type: ignore[list-item]
-        (polygon([[0, 0], [1], [1, 1], [0, 0]]), "venue.coordinates.0.1"),
-        (polygon([[0, 0], [1, math.nan], [1, 1], [0, 0]]), "venue.coordinates.0.1.1"),
-        (polygon([[0, 0], [2e5, 0], [1, 1], [0, 0]]), "venue.coordinates.0.1.0"),
-        (polygon([[0, 0], [1, 0], [1, 1]]), "venue"),
-        (polygon([[0, 0], [1, 0], [1, 1], [0, 1]]), "venue"),
-        (polygon([]), "venue"),
-        ({"type": "FeatureCollection", "features": []}, "venue"),
-        (features({"type": "Feature", "properties": None, "geometry": None}), "venue.features.0.geometry"),
-        (features(feature(7, SQUARE)), "venue.features.0.properties.name"),  # type: ignore[arg-type]
-        (features(feature("a", SQUARE), feature("a", WELL)), "venue"),
+        ((), "venue: 'stage' must have at least one ring"),
+        (((),), "venue: a ring of 'stage' must be closed and have at least 4 points, got 0"),
+        ((((0, 0), (1, 0), (1, 1)),), "venue: a ring of 'stage' must be closed and have at least 4 points, got 3"),
+        ((((0, 0), (1, 0), (1, 1), (0, 1)),), "venue: a ring of 'stage' must be closed"),
+        ((((0, 0), (1, 0, 5), (1, 1), (0, 0)),), "venue[0][1] must be a point [x, y] in metres"),
+        ((((0, 0), (1, math.nan), (1, 1), (0, 0)),), "venue[0][1][1] must be a finite number"),
+        ((((0, 0), (2e5, 0), (1, 1), (0, 0)),), "venue[0][1][0] must be at most 100000 m"),
+        ("rings", "venue must be a list of rings"),
+        ((3,), "venue[0] must be a list of rings"),
     ],
+    ids=["none", "empty", "three points", "open", "height", "no number", "far", "text", "number"],
 )
-def test_what_is_no_venue_is_refused_where_it_is_wrong(geometry: object, field: str) -> None:
+def test_rings_that_are_none_are_refused_where_they_are_wrong(rings: Any, words: str) -> None:
     with pytest.raises(InvalidValue) as e:
-        Venue.from_geojson(geometry)  # type: ignore[arg-type]
-    assert e.value.field == field
+        Area("stage", rings)
+    assert e.value.message.startswith(words)
+
+
+def test_two_areas_of_one_name_are_refused() -> None:
+    with pytest.raises(InvalidValue, match="its own name"):
+        Venue(Area("a", (SQUARE,)), (Area("a", (WELL,)),))
 
 
 def test_a_self_crossing_polygon_is_refused_with_the_place() -> None:
-    bow = [[0, 0], [10, 10], [10, 0], [0, 10], [0, 0]]
     with pytest.raises(InvalidValue, match=r"'square' must be a valid polygon, got a self-intersection at \(5, 5\) m"):
-        Venue.from_geojson(polygon(bow))
+        Area("square", (((0, 0), (10, 10), (10, 0), (0, 10), (0, 0)),))
 
 
 @pytest.mark.parametrize(
@@ -143,31 +118,36 @@ def test_a_self_crossing_polygon_is_refused_with_the_place() -> None:
     [
         ((STAGE, box(40, 40, 41, 41)), "a hole outside the outer ring at (40, 40) m"),
         ((box(0, 0, 9, 9), box(2, 2, 8, 8), box(3, 3, 4, 4)), "a hole inside another hole at (3, 3) m"),
-        ((box(0, 0, 9, 9), [[0, 4], [4, 0], [9, 4], [4, 9], [0, 4]]), "an inside cut in two by rings that touch at"),
-        (([[0, 0], [5, 5], [9, 0], [9, 9], [5, 5], [0, 9], [0, 0]],), "a ring that touches itself at (5, 5) m"),
-        (([[2, 1]] * 4,), "a ring of fewer than three different points at (2, 1) m"),
+        ((box(0, 0, 9, 9), ((0, 4), (4, 0), (9, 4), (4, 9), (0, 4))), "an inside cut in two by rings that touch at"),
+        ((((0, 0), (5, 5), (9, 0), (9, 9), (5, 5), (0, 9), (0, 0)),), "a ring that touches itself at (5, 5) m"),
+        ((((2, 1),) * 4,), "a ring of fewer than three different points at (2, 1) m"),
         ((box(0, 0, 9, 9), box(8, 8, 12, 12)), "a self-intersection at (8, 9) m"),
     ],
     ids=["hole outside", "nested holes", "cut", "touching itself", "too few points", "crossing hole"],
 )
 def test_a_polygon_that_is_none_is_refused_by_name_in_plain_words(rings: tuple, words: str) -> None:
     with pytest.raises(InvalidValue) as e:
-        Venue.from_geojson(features(feature("square", SQUARE), feature("stage", *rings)))
+        Area("stage", rings)
     assert e.value.message.startswith(f"venue: 'stage' must be a valid polygon, got {words}")
 
 
-def test_endless_nesting_is_refused() -> None:
-    nested: dict = polygon(SQUARE)
-    for _ in range(900):
-        nested = {"type": "GeometryCollection", "geometries": [nested]}
-    with pytest.raises(InvalidValue, match="nest"):
-        Venue.from_geojson(nested)
+def circle(edges: int) -> Ring:
+    ring = tuple((math.cos(a), math.sin(a)) for a in np.linspace(0, 2 * math.pi, edges, endpoint=False).tolist())
+    return (*ring, ring[0])
 
 
-def test_too_many_edges_are_refused() -> None:
-    circle = [[math.cos(a), math.sin(a)] for a in np.linspace(0, 2 * math.pi, 2_001, endpoint=False)]
-    with pytest.raises(InvalidValue, match="at most 2000 edges, got 2001"):
-        Venue.from_geojson(polygon([*circle, circle[0]]))
+def test_the_edges_of_all_areas_together_are_limited() -> None:
+    circles = [Area(f"{edges}", (circle(edges),)) for edges in (EDGES_MAX - 4, EDGES_MAX - 3)]
+    assert len(Venue(boxed("square", -9, -9, 9, 9), (circles[0],)).areas) == 2
+    with pytest.raises(InvalidValue, match=f"at most {EDGES_MAX} edges, got {EDGES_MAX + 1}"):
+        Venue(boxed("square", -9, -9, 9, 9), (circles[1],))
+
+
+def test_edges_are_counted_before_validity_is_judged() -> None:
+    began = process_time()
+    with pytest.raises(InvalidValue, match=f"at most {EDGES_MAX} edges, got 420000"):
+        Area("square", (((0, 0), (1, 0), (1, 1), (0, 0)),) * 140_000)
+    assert process_time() - began < AT_ONCE
 
 
 # -- distances -----------------------------------------------------------------------------------------------
@@ -244,7 +224,7 @@ def test_any_obstacle_is_met_when_a_slow_search_meets_it(
 
 def test_a_wall_across_the_way_is_met_where_the_head_reaches_it() -> None:
     route = Route([Line((-60, 0), (60, 0))], start=60.0)
-    wall = Venue.from_geojson(features(feature("square", box(-70, -9, 70, 9)), feature("wall", box(20, -1, 21, 1))))
+    wall = Venue(boxed("square", -70, -9, 70, 9), (boxed("wall", 20, -1, 21, 1),))
     found = venue_clearance(Dance(DRAGON, route), wall, margin=0.25).areas[1]
     assert found.outcome is Outcome.CONTACT
     assert found.time == pytest.approx(20.0 - 0.275 - 0.25, abs=TIME_ERROR)
@@ -258,9 +238,7 @@ def test_a_wall_across_the_way_is_met_where_the_head_reaches_it() -> None:
 def test_a_bench_that_is_not_the_head_may_be_the_first_to_touch() -> None:
     dragon = Dragon.of([2.2] * 6, [0.3, 0.3, 0.3, 0.9, 0.3, 0.3], [0.275] * 6)
     route = Route([Line((-60, 0), (60, 0))], start=60.0)
-    square = Venue.from_geojson(
-        features(feature("square", box(-70, -9, 70, 9)), feature("post", box(20, 0.3, 20.5, 1)))
-    )
+    square = Venue(boxed("square", -70, -9, 70, 9), (boxed("post", 20, 0.3, 20.5, 1),))
     found = venue_clearance(Dance(dragon, route), square).areas[1]
     assert found.bench == 3
     assert found.time == pytest.approx(20.0 + 3 * 1.65 - 0.275, abs=TIME_ERROR)
@@ -300,7 +278,7 @@ def test_a_dragon_inside_the_square_has_no_stray() -> None:
 
 
 def test_a_dragon_wholly_outside_is_told_though_it_touches_nothing() -> None:
-    far = Venue.from_geojson(polygon(box(100, 100, 120, 120)))
+    far = Venue(boxed("square", 100, 100, 120, 120))
     found = venue_clearance(Dance(DRAGON, LAP), far)
     assert found.stray is not None
     assert (found.stray.name, found.stray.bench) == ("square", 0)
@@ -308,7 +286,7 @@ def test_a_dragon_wholly_outside_is_told_though_it_touches_nothing() -> None:
 
 
 def test_the_first_bench_outside_is_named_with_its_place() -> None:
-    small = Venue.from_geojson(polygon(box(-8, -5, 20, 20)))
+    small = Venue(boxed("square", -8, -5, 20, 20))
     found = venue_clearance(Dance(DRAGON, LAP), small)
     centres = bench_poses(trajectory(Dance(DRAGON, LAP), [0.0]).position[0])[:, 0]
     assert found.stray is not None
@@ -319,8 +297,8 @@ def test_the_first_bench_outside_is_named_with_its_place() -> None:
 @pytest.mark.parametrize("hole", [True, False], ids=["hole", "obstacle"])
 def test_a_bench_inside_a_hole_or_an_obstacle_is_told(hole: bool) -> None:
     lake = box(-32, -1, 3, 1)
-    geometry = polygon(SQUARE, lake) if hole else features(feature("square", SQUARE), feature("lake", lake))
-    found = venue_clearance(Dance(DRAGON, LAP), Venue.from_geojson(geometry))
+    square = Area("square", (SQUARE, lake) if hole else (SQUARE,))
+    found = venue_clearance(Dance(DRAGON, LAP), Venue(square, () if hole else (Area("lake", (lake,)),)))
     assert found.stray is not None
     assert (found.stray.name, found.stray.bench) == ("square" if hole else "lake", 0)
 
@@ -335,9 +313,7 @@ def test_head_speed_scales_times_and_nothing_else() -> None:
 
 def test_a_coil_with_its_centre_elsewhere_meets_a_post_at_its_centre() -> None:
     route = Route([Coil(1.7, 8, 1.2, centre=(3, -2))])
-    post = Venue.from_geojson(
-        features(feature("square", box(-30, -30, 30, 30)), feature("post", box(2.9, -2.1, 3.1, -1.9)))
-    )
+    post = Venue(boxed("square", -30, -30, 30, 30), (boxed("post", 2.9, -2.1, 3.1, -1.9),))
     nearest = venue_clearance(Dance(DRAGON, route), post).areas[1].nearest
     known = shapely_distances(DRAGON, route, post.obstacles[0], np.linspace(0.0, route.end, 2_000)).min()
     assert nearest.distance == pytest.approx(known, abs=1e-4)

@@ -16,6 +16,7 @@ from hypothesis import strategies as st
 import core.motion.speed
 from core import (
     Arc,
+    Area,
     Coil,
     Dance,
     Dragon,
@@ -50,18 +51,17 @@ REFERENCE_ERROR = 1e-9  # [m], [m/s], [s]
 EXCESS_ERROR = 1e-9  # [s]: a first excess is bracketed so closely at 1 m/s and more
 
 TURN = Turn(1.7)
-SQUARE = Venue.from_geojson(
-    {"type": "Polygon", "coordinates": [[[-30, -30], [30, -30], [30, 30], [-30, 30], [-30, -30]]]}
-)
 
 
-def box(name: str, x: float, y: float, right: float, top: float) -> dict:
-    ring = [[x, y], [right, y], [right, top], [x, top], [x, y]]
-    return {"type": "Feature", "properties": {"name": name}, "geometry": {"type": "Polygon", "coordinates": [ring]}}
+def box(name: str, x: float, y: float, right: float, top: float) -> Area:
+    return Area(name, (((x, y), (right, y), (right, top), (x, top), (x, y)),))
 
 
-def venue(*boxes: dict) -> Venue:
-    return Venue.from_geojson({"type": "FeatureCollection", "features": list(boxes)})
+def venue(square: Area, *obstacles: Area) -> Venue:
+    return Venue(square, obstacles)
+
+
+SQUARE = venue(box("square", -30, -30, 30, 30))
 
 
 # -- the verdict ---------------------------------------------------------------------------------------------
@@ -287,7 +287,8 @@ def test_a_speed_failure_is_at_the_first_instant_above_the_limit(
 
 
 def test_a_head_that_is_too_fast_is_so_from_the_start() -> None:
-    (speed,) = check(Dance(Dragon(5), TURN, 1.5), speed_limit=1.0, start=-20.0, stop=0.0).failures
+    (speed,) = check(Dance(Dragon(5), TURN, 1.5), speed_limit=1.0000001, start=-20.0, stop=0.0).failures
+    assert "exceeds 1.0000001 m/s" in speed.message
     assert (speed.time, speed.time_bracket, speed.benches) == (-20.0, (-20.0, -20.0), (0,))
 
 

@@ -9,12 +9,10 @@ import numpy as np
 import pytest
 
 import core
-from core import Dragon, InvalidValue, Line, Spiral, Venue
+from core import Area, Dragon, InvalidValue, Line, Spiral, Venue
 
 DRAGON, SPIRAL = Dragon(benches=5), Spiral()
-SQUARE = Venue.from_geojson(
-    {"type": "Polygon", "coordinates": [[[-30, -30], [30, -30], [30, 30], [-30, 30], [-30, -30]]]}
-)
+SQUARE = Venue(Area("square", (((-30, -30), (30, -30), (30, 30), (-30, 30), (-30, -30)),)))
 DANCE = core.Dance(DRAGON, SPIRAL)
 POSES, COLUMN = [[0.0, 0.0, 0.0], [0.0, 1.0, 0.0]], [2.0, 2.0]
 CONTACT, PITCH = core.first_contact(DANCE), core.minimum_pitch(DRAGON)
@@ -58,7 +56,6 @@ CALLS: dict[Callable[..., Any], dict[str, Any]] = {
     core.Route: {"pieces": [Line((0, 0), (60, 0))], "start": 0.0},
     core.Spiral: {"pitch": 0.55, "start_turns": 16.0},
     core.Venue: {"square": SQUARE.square, "obstacles": ()},
-    core.Venue.from_geojson: {"geometry": {"type": "Polygon", "coordinates": [SQUARE.square.rings[0]]}},
     core.Waypoints: {"points": ((0, 0), (5, 5)), "start_heading": 0.0, "end_heading": 0.0},
 }
 # What the refusal calls a parameter where not by its own name: as part of the whole, or by its columns.
@@ -72,7 +69,6 @@ SPOKEN = {
     core.Route: {"pieces": "path.pieces", "start": "path.start"},
     core.Spiral: {"pitch": "path.pitch", "start_turns": "path.start_turns"},
     core.Venue: {"square": "venue", "obstacles": "venue"},
-    core.Venue.from_geojson: {"geometry": "venue"},
     core.Waypoints: dict.fromkeys(CALLS[core.Waypoints], "waypoints."),
     core.cross_check: {"poses": "benches"},
     core.overlaps: {"poses": "benches"},

@@ -26,7 +26,7 @@ def port() -> int:
 
 
 def started(port: int) -> subprocess.Popen[bytes]:
-    command = [sys.executable, "-m", "uvicorn", "--factory", "app.main:create_app", "--port", str(port)]
+    command = [sys.executable, "-m", "uvicorn", "--factory", "app.service.main:create_app", "--port", str(port)]
     quiet = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
     process = subprocess.Popen(command, cwd=ROOT, env=dict(os.environ), **quiet)
     for _ in range(600):
@@ -76,18 +76,58 @@ def test_an_idle_page_notices_a_lost_service(open_page: Any, settled: Any, port:
     page.locator("#lost", has_text="does not answer").wait_for()
 
 
-def test_a_wrong_value_has_the_services_own_words_beside_it(open_page: Any, settled: Any, server: str) -> None:
+def test_a_wrong_value_has_the_services_words_and_the_label_of_its_control_beside_it(
+    open_page: Any, settled: Any, server: str
+) -> None:
     page = open_page(failing=True)
     settled(page)
-    for name, text in (("pitch", "55"), ("benches", "0"), ("overhang", "3"), ("turning_diameter", "wide")):
+    labels = {
+        "pitch": "Pitch",
+        "benches": "Benches",
+        "start_turns": "Start",
+        "turning_diameter": "Turning circle, diameter",
+    }
+    for name, text in (("pitch", "55"), ("benches", "0"), ("start_turns", "0.5"), ("turning_diameter", "wide")):
         page.locator(f"#{name}").fill(text)
         call = "minimum-pitch" if name == "turning_diameter" else "collision-time"
         [error] = httpx.get(f"{server}/{call}", params={name: text}).json()["errors"]
-        page.locator(f"#{name}-error", has_text=error["detail"]).wait_for()
+        words = error["detail"].replace(name, f"“{labels[name]}”")
+        page.locator(f"#{name}-error", has_text=words).wait_for()
         assert page.locator(f"#{name}").get_attribute("aria-invalid") == "true"
         page.get_by_role("button", name="Reset all").click()
         page.locator(f"#{name}-error").wait_for(state="hidden")
     page.locator("#first-contact .value", has_text="412.473838").wait_for()
+
+
+def test_a_refusal_names_the_controls_in_the_language_of_the_page(open_page: Any) -> None:
+    """Wherever it is told: beside the control, and in the place of the answer."""
+    page = open_page("?lang=zh&overhang=3", failing=True)
+    words = "“孔心距板头”应小于“龙头板长”的一半（3.41 m / 2 = 1.705 m），现为 3 m。"
+    page.locator("#overhang-error:lang(zh)", has_text=words).wait_for()
+    page.locator("#first-contact p:lang(zh)", has_text=words).wait_for()
+    for name, text, words in (
+        ("overhang", "0.275", ""),
+        ("pitch", "55", "“螺距”最多为 10 m，现为 55 m（长度以米为单位，55 cm 即 0.55 m）。"),
+        ("start_turns", "0.2", "“起始圈数”应大于 2.34509 圈（0 号板凳在该处折叠），现为 0.2 圈。"),
+        (
+            "margin",
+            "1.2",
+            "“安全间距”应小于 1.1 m，现为 1.2 m（在直线上，因而在足够宽的螺线上，0 号与 2 号板凳相距 1.1 m）。",
+        ),
+        ("margin", "x", '“安全间距”应为数字，现为 "x"。'),
+        ("benches", "2.5", "“板凳节数”应为整数，现为 2.5。"),
+    ):
+        page.get_by_role("button", name="全部重置").click()
+        page.locator(f"#{name}").fill(text)
+        page.locator(f"#{name}-error", has_text=words).wait_for(state="visible" if words else "hidden")
+    page.get_by_role("button", name="全部重置").click()
+    page.get_by_role("button", name="调头", exact=True).click()
+    page.locator("#turning_diameter").fill("4")
+    words = "“调头空间直径”应大于 4 m（调头的弯曲半径为 0.6727 m，而 0 号板凳至少需要"
+    page.locator("#turning_diameter-error", has_text=words).wait_for()
+    page.locator("[data-lang=en]").click()
+    words = "“Turning circle, diameter” must be larger than 4 m: the turn bends to a radius of 0.6727 m, and bench 0"
+    page.locator("#turning_diameter-error:lang(en)", has_text=words).wait_for()
 
 
 def test_limits_and_units_are_the_services_own(open_page: Any, server: str) -> None:
@@ -98,6 +138,7 @@ def test_limits_and_units_are_the_services_own(open_page: Any, server: str) -> N
     for one in (one for one in parameters if one["name"] not in words):
         low = one["schema"].get("minimum", one["schema"].get("exclusiveMinimum"))
         page.locator(f"#{one['name']}-limits", has_text=f"{low:.15g} to {one['schema']['maximum']:.15g}").wait_for()
+        assert page.locator(f".field:has(#{one['name']}) .unit").text_content() == one["schema"].get("x-unit", "")
 
 
 def test_superseded_questions_are_aborted_and_the_slider_does_not_wait(

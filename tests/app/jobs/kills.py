@@ -14,11 +14,11 @@ from typing import Any
 
 import httpx
 
+from app.files.tables import XLSX_TYPE
 from app.jobs.store import Store
-from app.tables import XLSX_TYPE
 from tests.app.jobs.service import Service, direct, wait_for
 
-ROLES = ("child", "runner", "worker", "parent")
+ROLES = ("child", "spare", "runner", "worker", "parent")
 # Between two kills [s].
 PAUSE = (0.1, 2.0)
 # Jobs that are not finished, at least, while there are kills to come.

@@ -16,7 +16,7 @@ from typing import Any, Self
 
 import httpx
 
-from app.tables import XLSX_TYPE
+from app.files.tables import XLSX_TYPE
 from tests.conftest import ROOT, STOP_TIMEOUT, wait_until_live
 
 PATIENCE = 60.0  # [s] for what is coming
@@ -98,6 +98,8 @@ class Service:
     def _role(self, pid: int, words: str) -> str:
         if pid == self.process.pid:
             return "parent"
+        if "app.jobs.work" in words and not _has_job(pid):
+            return "spare"
         marks = {"app.jobs.runner": "runner", "app.jobs.work": "child", "resource_tracker": "tracker"}
         return next((role for mark, role in marks.items() if mark in words), "worker")
 
@@ -127,6 +129,11 @@ class Service:
 
     def finished(self, address: str) -> Any:
         return self.until(address, "successful", "failed", "dismissed")
+
+
+def _has_job(pid: int) -> bool:
+    """Does a process for jobs have one? It opens the store only then."""
+    return any("jobs.sqlite" in os.readlink(file) for file in Path(f"/proc/{pid}/fd").iterdir())
 
 
 def direct(client: httpx.Client, wanted: Any) -> httpx.Response:

@@ -3,16 +3,13 @@
 from __future__ import annotations
 
 import os
-import re
 from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 
 from app.jobs.store import DAY
-from app.settings import Settings
 from tests.app.jobs.service import LONG, SHORT, Service, wait_for
-from tests.conftest import ROOT
 
 TOKEN = "correct horse"
 BEARER = {"Authorization": f"Bearer {TOKEN}"}
@@ -170,13 +167,3 @@ def test_a_data_folder_that_cannot_be_used_costs_the_jobs_alone(tmp_path: Path) 
 def test_other_users_of_the_machine_cannot_read_the_data_folder(strict: Service) -> None:
     assert (os.stat(strict.folder / "jobs.sqlite").st_mode & 0o077) == 0
     assert (os.stat(strict.folder / "results").st_mode & 0o077) == 0
-
-
-def test_every_setting_of_jobs_is_in_the_handbook_with_its_default() -> None:
-    rows = re.findall(
-        r"^\| `([A-Z_]*[A-Z])` \| ([^|]+) \|", (ROOT / "docs" / "operations.md").read_text(), re.MULTILINE
-    )
-    units = {"10 GB": 10**10, "1 GB": 10**9, "4 GiB": 4 * 2**30, "none": None}
-    told = {name.lower(): units[value] if value in units else float(value.replace(",", "")) for name, value in rows}
-    fields = {name: field.default or None for name, field in Settings.model_fields.items()}
-    assert told == {name: fields[name] for name in fields if name.startswith("job") or name in ("data", "token")}

@@ -17,13 +17,13 @@ from core import (
     EndReason,
     InvalidValue,
     Outcome,
-    OutsideRun,
     Spiral,
     Turn,
     clearance_profile,
     first_contact,
     minimum_pitch,
 )
+from core.contact.fold import least_left, least_to_fold
 from core.contact.search import BRACKET, MARGIN_MAX, Search
 from core.design.pitch_bands import BORDER_WIDTH
 from tests.core.slow_search import SlowDance
@@ -228,11 +228,11 @@ def test_no_instant_before_a_fold_has_benches_nearer_than_the_bound_on_the_motio
     search = Search(dragon, spiral, 0.0)
     for left in LEFT:
         travel = (1.0 - left) * end.time
-        least = search.least_to_fold(travel, end)
+        least = least_to_fold(search, travel, end)
         assert least is not None
         gaps, _ = SlowDance.of(dragon, spiral).clearance(end.time - left * end.time * np.linspace(1.0, 1e-3, 60) ** 2)
         assert least <= gaps.min() + TIED
-        one = search._least_left(travel - search.travel_rounding(travel), end.theta)
+        one = least_left(search, travel - search.travel_rounding(travel), end.theta)
         assert one <= least
 
 
@@ -321,7 +321,7 @@ def test_a_search_whose_work_is_done_gives_up() -> None:
     search = Search(Dragon(), Turn(1.7), 0.0, work=2e4)
     state, found, _ = search.approach(-50.0, 100.0, 1.0)
     assert state == "stuck"
-    assert -50.0 < found["proven"] < 100.0
+    assert -50.0 < found.proven < 100.0
 
 
 # -- margin ------------------------------------------------------------------------------------------
@@ -397,47 +397,6 @@ def test_the_bracket_is_as_narrow_as_promised() -> None:
     assert 0.0 < high - low <= 2.1 * BRACKET
 
 
-# -- clearance along time --------------------------------------------------------------------------------
-
-
-@pytest.mark.parametrize("seed", range(400, 406))
-def test_the_profile_is_the_least_separation_of_all_pairs(seed: int) -> None:
-    dragon, spiral = random_dance(seed, seed % 2 == 0)
-    times = np.linspace(0.0, 0.999 * Dance(dragon, spiral).end.time, 25)
-    profile = clearance_profile(Dance(dragon, spiral), times)
-    slow, pairs = SlowDance.of(dragon, spiral).clearance(times)
-    np.testing.assert_allclose(profile.clearance, slow, rtol=0, atol=1e-10)
-    for k in np.flatnonzero((profile.benches != pairs).any(axis=1)):
-        gap = SlowDance.of(dragon, spiral).pair_gap(times[k], tuple(profile.benches[k]))
-        assert gap == pytest.approx(slow[k], abs=1e-10)
-
-
-def test_the_grazes_of_a_profile_are_the_bottoms_of_its_dips() -> None:
-    """At pitch 0.55 the benches overlap from 412.47 to 415.02 s, are clear to 415.375 s and overlap again."""
-    profile = clearance_profile(Dance(Dragon(30), Spiral()), np.linspace(405.0, 416.0, 50))
-    assert profile.grazes
-    slow = SlowDance.of(Dragon(30), Spiral())
-    for graze in profile.grazes:
-        around = graze.time + np.linspace(-1e-3, 1e-3, 11)
-        values, pairs = slow.clearance(around)
-        assert graze.clearance == pytest.approx(values[5], abs=ROUNDING)
-        assert values.min() >= graze.clearance - ROUNDING
-        assert tuple(pairs[5]) == graze.benches
-
-
-@pytest.mark.parametrize("benches", [1, 2])
-def test_a_profile_needs_two_benches_that_share_no_handle(benches: int) -> None:
-    with pytest.raises(InvalidValue) as refused:
-        clearance_profile(Dance(Dragon(benches), Spiral()), [0.0])
-    assert refused.value.field == "dragon.benches"
-
-
-def test_a_profile_past_the_end_is_outside_the_run() -> None:
-    with pytest.raises(OutsideRun) as refused:
-        clearance_profile(Dance(Dragon(5), Spiral()), [0.0, 433.0])
-    assert refused.value.field == "times.1"
-
-
 # -- limits ----------------------------------------------------------------------------------------------
 
 
@@ -451,15 +410,6 @@ def test_a_margin_beyond_its_limits_is_refused(margin: object) -> None:
     with pytest.raises(InvalidValue) as refused:
         first_contact(Dance(Dragon(5), Spiral()), margin=margin)  # type: ignore[arg-type]
     assert refused.value.field == "margin"
-
-
-def test_the_profile_of_one_time_is_that_instant() -> None:
-    many = clearance_profile(Dance(Dragon(30), Spiral()), [400.0, 410.0])
-    for k, time in enumerate([400.0, 410.0]):
-        one = clearance_profile(Dance(Dragon(30), Spiral()), time)
-        assert (one.time.shape, one.clearance.shape, one.benches.shape, one.grazes) == ((), (), (2,), ())
-        assert one.clearance == many.clearance[k]
-        assert one.benches.tolist() == many.benches[k].tolist()
 
 
 def test_the_gap_of_a_contact_is_the_margin_and_at_the_start_what_there_is() -> None:

@@ -11,7 +11,7 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from core import Dance, Dragon, Outcome, Route, Spiral, Turn, Waypoints, first_contact, minimum_pitch, separation
-from core.contact.near_graze import DIGITS, LAST_BENCH, Bench, Pair, gap_along, narrowed
+from core.contact.near_graze import DIGITS, LAST_BENCH, Bench, ExactPair, gap_along, narrowed
 from core.contact.near_graze import separation as precise_separation
 from core.contact.search import Search
 
@@ -22,10 +22,10 @@ BRACKET = 1e-9  # [s]
 TURN = Turn(1.7)
 
 
-def pair_of(path: Spiral | Route, pair: tuple[int, int]) -> Pair:
+def pair_of(path: Spiral | Route, pair: tuple[int, int]) -> ExactPair:
     search = Search(Dragon(60), path, 0.0)
     search.resize(60)
-    return Pair(search, pair)
+    return ExactPair(search, pair)
 
 
 @pytest.mark.parametrize(
@@ -120,7 +120,7 @@ def test_where_a_second_pair_is_as_near_the_bracket_stays() -> None:
     state, found, half = search.approach(0.0, 300.0, 1.0)
     assert (state, half > 0.5 * BRACKET) == ("touched", True)
     assert narrowed(search, found, 0.4 * BRACKET) is not None
-    assert narrowed(search, found | {"first": 0.0, "second": 18.0}, 0.4 * BRACKET) is None
+    assert narrowed(search, found._replace(benches=(0, 18)), 0.4 * BRACKET) is None
 
 
 def test_a_curve_through_waypoints_is_followed_in_doubles_alone() -> None:

@@ -12,7 +12,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.optimize import brentq
 
-import core.design.minimum_pitch
+import core.design.ways
 from core import (
     Dance,
     Dragon,
@@ -173,7 +173,7 @@ def test_a_short_dragon_is_proven_up_from_its_start_whatever_bounds_hold_at_lowe
         assert is_feasible(dragon, pitch, 1.32, 10.0, 0.29)
 
 
-def test_benches_far_across_the_circle_are_proven_by_strips_too() -> None:
+def test_benches_far_across_the_circle_are_proven_by_bands_too() -> None:
     found = minimum_pitch(Dragon(20), turning_radius=1.5, start_turns=12.0)
     assert (found.justified_by, found.limited_by, found.scan_step) == ("bound", LimitedBy.CIRCLE, None)
     assert is_feasible(Dragon(20), found.pitch + BESIDE, 1.5, 12.0, 0.0)
@@ -224,7 +224,8 @@ def test_a_minimum_limited_by_the_fold_is_where_the_head_folds_on_the_circle() -
     assert expected == pytest.approx(0.525552677857343, rel=0, abs=ACCURACY)
     assert found.pitch == pytest.approx(expected, rel=0, abs=ACCURACY)
     assert found.pitch_bracket[0] == pytest.approx(expected, rel=0, abs=ACCURACY)
-    assert (found.limited_by, found.benches, found.head_radius) == (LimitedBy.FOLD, None, 0.85)
+    assert (found.limited_by, found.benches, found.bench, found.head_radius) == (LimitedBy.FOLD, None, 0, 0.85)
+    assert "limited by fold of bench 0;" in repr(found)
 
 
 def test_a_small_circle_is_reached_at_larger_pitches() -> None:
@@ -258,6 +259,24 @@ def test_benches_that_meet_on_a_straight_line_are_refused(
     """Equality too: any bend brings the inner corners nearer."""
     with pytest.raises(InvalidValue) as refused:
         minimum_pitch(dragon, turning_radius=1.0, margin=margin)
+    assert refused.value.field == field
+    assert all(word in refused.value.message for word in words)
+
+
+@pytest.mark.parametrize(
+    ("dragon", "margin", "field", "words"),
+    [
+        (Dragon(5, 2.2, 2.2, 0.3, 0.54999), 0.0, "dragon.overhang", ("must be smaller, got 0.54999 m", "4e-05 m")),
+        (Dragon(), 1.0999, "margin", ("must be smaller, got 1.0999 m", "nearer than that", "1.1 m apart")),
+        (listed(0.7999999), 0.0, "dragon.overhangs.0", ("must be smaller, got 0.2 m + 0.7999999 m",)),
+    ],
+)
+def test_benches_that_are_hardly_apart_on_a_straight_line_are_refused_by_what_keeps_them_apart(
+    dragon: Dragon, margin: float, field: str, words: tuple[str, ...]
+) -> None:
+    """Their inner corners lean to each other on the widest spiral allowed: no circle mends that."""
+    with pytest.raises(InvalidValue) as refused:
+        minimum_pitch(dragon, turning_radius=1000.0, margin=margin)
     assert refused.value.field == field
     assert all(word in refused.value.message for word in words)
     assert "straight line" in refused.value.message
@@ -356,7 +375,7 @@ def test_work_that_ends_before_the_minimum_pitch_is_found_is_an_error() -> None:
     assert caught.value.field == "dragon.body_length"
     assert "4e+07 steps of work" in caught.value.message
     assert "the shortest of 223 chords is 0.001 m long" in caught.value.message
-    assert caught.value.message.endswith("got 0.001 m")
+    assert "must be larger, or benches fewer, got 0.001 m: " in caught.value.message
 
 
 @pytest.mark.parametrize(
@@ -370,7 +389,7 @@ def test_work_that_ends_before_the_minimum_pitch_is_found_is_an_error() -> None:
 def test_the_shortest_bench_is_named_where_the_work_ends(
     dragon: Dragon, field: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(core.design.minimum_pitch, "PITCH_WORK", 1e2)
+    monkeypatch.setattr(core.design.ways, "PITCH_WORK", 1e2)
     with pytest.raises(TooMuchWork) as caught:
         minimum_pitch(dragon)
     assert caught.value.field == field

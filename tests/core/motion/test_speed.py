@@ -139,11 +139,11 @@ INTERVAL_LINKS = 20
 UNSEEN = 1e-6
 
 
-def intervals_of(dragon: Dragon, path: Spiral | Route, start: float, stop: float) -> float:
+def intervals_of(dragon: Dragon, path: Spiral | Route, start: float, stop: float) -> int:
     """How many intervals the proof of the highest speed takes, the head at 1 m/s."""
     search = Search(dragon, path, 0.0)
     search.resize(dragon.benches)
-    return core.motion.speed.peak_over(search, start, stop)[3]
+    return core.motion.speed.peak_over(search, start, stop).intervals
 
 
 # The rear handle turns back before its bench could fold, and is 3.7 times as fast as the head on its way outwards: the

@@ -39,6 +39,8 @@ from core import (
     maximum_head_speed,
     trajectory,
 )
+from core.errors import said_bound
+from core.paths.path import Path
 from core.shapes.rectangles import corners
 
 TURN = Turn(1.7, 4.5, 2.0)
@@ -177,7 +179,9 @@ def test_a_start_before_the_beginning_of_the_path_is_refused() -> None:
     route = Route([Line((0, 0), (100, 0))])
     length = float(DRAGON.chords.sum())
     assert trajectory(Dance(DRAGON, route), [length + 1e-6]).position[0, -1, 0] == pytest.approx(1e-6, abs=SAME)
-    with pytest.raises(OutsideRun, match=f"at least {length:.6f} s, when the whole dragon is on the path"):
+    with pytest.raises(
+        OutsideRun, match=f"at least {said_bound(length, 6, 1)} s, when the whole dragon is on the path"
+    ):
         trajectory(Dance(DRAGON, route), [length - 0.001])
     with pytest.raises(OutsideRun) as e:
         first_contact(Dance(DRAGON, route), start=0.0)
@@ -556,3 +560,14 @@ def test_a_coil_bends_no_faster_than_its_row_says(pitch: float, start: float, en
     row = route.table[0]
     assert steepest <= row[14] * (1.0 + 1e-9) + 1e-9
     assert min(start, end) < 0.5 or steepest >= 0.4 * row[14]
+
+
+@pytest.mark.uncompiled
+@pytest.mark.parametrize("path", [Spiral(), Turn(1.7), Route([Line((3, 4), (60, 4))])], ids=["spiral", "turn", "line"])
+def test_the_head_of_any_path_is_at_its_position(path: Path) -> None:
+    for s in np.linspace(path.begin, 0.9 * path.end, 7).tolist():
+        head, (x, y) = path.head(s), path.position(s).tolist()
+        assert (head.x, head.y) == pytest.approx((x, y), abs=SAME)
+        assert head.radius == pytest.approx(math.hypot(x, y), abs=SAME)
+        assert (head.theta is None) == isinstance(path, Route)
+        assert path.limit >= path.end

@@ -32,7 +32,7 @@ PITCHES = {
 # The reference pitches are rounded: this much more is free of contact [m].
 PITCH_ROUNDING = 1e-9
 SMALL = CONTACTS["n_5"]
-# A bend from doubles, where F is steep, is this near to the true one [rad].
+# A delta from doubles, where F is steep, is this near to the true one [rad].
 DOUBLES = 1e-9
 
 

@@ -10,10 +10,10 @@ import shapely
 from flint import arb, ctx
 
 from core import Dragon, Spiral
-from core.proof.chain import Chain, Pose, Stretch, bend, newton
+from core.proof.chain import Chain, Pose, Stretch, delta, newton
 from core.proof.pairs import Unproven
 
-# A bend from doubles, where F is steep, is this near to the true one [rad].
+# A delta from doubles, where F is steep, is this near to the true one [rad].
 DOUBLES = 1e-9
 # The default dragon, where handle 1 turns back near the fold (combo_b), and bench by bench.
 PLACES = {
@@ -70,16 +70,16 @@ def test_a_bench_called_far_is_clear_of_the_ring_inside_it() -> None:
 @pytest.mark.parametrize("chord", [0.1, 1.65, 2.86])
 def test_a_bend_is_the_first_root(theta: float, chord: float) -> None:
     needed = (arb(chord) / (arb("0.55") / (2 * arb.pi()))) ** 2
-    found = float(bend(arb(theta), needed))
+    found = float(delta(arb(theta), needed))
     before = np.linspace(0.0, found - DOUBLES, 100_000)
     assert np.all(before**2 + 2 * theta * (theta + before) * (1 - np.cos(before)) < float(needed))
 
 
 def test_there_is_no_bend_past_the_fold_and_one_beyond_pi_just_before() -> None:
     needed = (arb("2.86") / (arb("0.55") / (2 * arb.pi()))) ** 2
-    assert bend(arb("14.735"), needed) > arb.pi()
+    assert delta(arb("14.735"), needed) > arb.pi()
     with pytest.raises(Unproven):
-        bend(arb("14.73"), needed)
+        delta(arb("14.73"), needed)
 
 
 def test_a_newton_step_that_leaves_its_ball_or_finds_no_slope_proves_nothing() -> None:

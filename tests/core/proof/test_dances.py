@@ -14,7 +14,7 @@ import shapely
 from flint import acb, arb
 
 from core import Arc, Coil, Dance, Dragon, Line, Route, Spiral, Turn, Waypoints, bench_poses, first_contact, trajectory
-from core.contact.least_clearance import least_clearance
+from core.contact.clearance import least_clearance
 from core.errors import InvalidValue, OutsideRun, ProofRefused
 from core.proof import Certificate, check, prove_clear, prove_collision_time, prove_contact, prove_minimum_pitch
 from core.proof.pairs import Benches, Size

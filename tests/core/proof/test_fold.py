@@ -14,7 +14,7 @@ from core import Dragon, LimitedBy, Spiral, minimum_pitch
 from core.dance import end_theta
 from core.errors import ProofRefused
 from core.proof import Certificate, check, prove_minimum_pitch
-from core.proof.chain import Chain, bend, rises_to
+from core.proof.chain import Chain, delta, rises_to
 from core.proof.fold import check_fold
 from core.proof.pairs import Unproven
 from tests.core.forgeries import edit, places, refusal, stretches, through_json
@@ -28,7 +28,7 @@ TRUE = 0.52555267785787
 OFF = 1e-11
 # The step below a minimum pitch, and a little more than it [m].
 STEP, MORE_THAN_STEP = 1e-6, 1.1e-6
-# Dense samples of a bend miss no root by more than this [rad].
+# Dense samples of a delta miss no root by more than this [rad].
 SAMPLES, SAMPLED = 200_001, 1e-4
 # One bench, chord 2 m: from this pitch on [m] the head passes to the centre (CREST_DELTA of core/kernels/fold.py), and
 # so much above [m] the balls still decide.
@@ -48,23 +48,23 @@ def alone() -> Certificate:
     return through_json(prove_minimum_pitch(ONE, pitch, turning_radius=RADIUS, start_turns=TURNS))
 
 
-def moved(theta: float, bends: Any) -> Any:
+def moved(theta: float, deltas: Any) -> Any:
     """The squared distance of two handles in units of growth, law of cosines."""
-    return theta**2 + (theta + bends) ** 2 - 2.0 * theta * (theta + bends) * np.cos(bends)
+    return theta**2 + (theta + deltas) ** 2 - 2.0 * theta * (theta + deltas) * np.cos(deltas)
 
 
 def assert_folds(certificate: Certificate) -> None:
-    """On dense samples the bend of the head bench at the first place is cut off from any bend at the second one."""
+    """On dense samples the delta of the head bench at the first place is cut off from any delta at the second one."""
     claim, (before, after) = certificate["claim"], certificate["overlap"]["head_theta"]
     growth = (claim["pitch"] - STEP) / (2.0 * math.pi)
     assert claim["turning_radius"] / growth <= after < before <= 2.0 * math.pi * claim["start_turns"]
     _, length, _, overhang = certificate["dragon"][0]
-    needed, bends = ((length - 2.0 * overhang) / growth) ** 2, np.linspace(0.0, 2.0 * math.pi, SAMPLES)
-    reached = int(np.argmax(moved(before, bends) >= needed))
-    assert bends[reached] > math.pi
-    wall = reached + int(np.argmax(moved(before, bends[reached:]) < needed))
+    needed, deltas = ((length - 2.0 * overhang) / growth) ** 2, np.linspace(0.0, 2.0 * math.pi, SAMPLES)
+    reached = int(np.argmax(moved(before, deltas) >= needed))
+    assert deltas[reached] > math.pi
+    wall = reached + int(np.argmax(moved(before, deltas[reached:]) < needed))
     assert wall > reached
-    assert np.all(moved(after, bends[: wall + 1]) < needed)
+    assert np.all(moved(after, deltas[: wall + 1]) < needed)
 
 
 @pytest.mark.uncompiled
@@ -142,7 +142,7 @@ def test_a_bend_where_a_fold_has_just_vanished_is_the_first_root() -> None:
         chain = Chain(Dragon(1, 2.2, 2.2, 0.02, 0.1), arb(VANISHED + DECIDED), 2.0)
         growth = (VANISHED + DECIDED) / (2.0 * math.pi)
         for theta in np.linspace(0.97, 1.0, 60):
-            found = float(bend(arb(theta), chain.needed[0]))
+            found = float(delta(arb(theta), chain.needed[0]))
             before = np.linspace(0.0, found - SAMPLED, SAMPLES)
             assert found > math.pi
             assert np.all(moved(theta, before) < (2.0 / growth) ** 2)
@@ -162,7 +162,7 @@ def test_no_fold_is_shown_where_every_bench_follows(folding: Certificate) -> Non
 
 
 def test_a_fold_with_a_shallow_wall_is_shown_from_near_it_alone() -> None:
-    """From farther out a bend might grow past the wall before it is one: then nothing is shown, though it does fold."""
+    """From farther out a delta might grow past the wall before it is one: nothing is shown then, though it folds."""
     pitch = VANISHED * 0.999
     fold, bench = end_theta(Dragon(1, 2.2, 2.2, 0.02, 0.1), Spiral(pitch, 2.0))
     assert bench == 0
@@ -175,14 +175,14 @@ def test_a_fold_with_a_shallow_wall_is_shown_from_near_it_alone() -> None:
 
 @pytest.mark.parametrize("theta", [1.1, 2.0, 10.0, 100.0])
 def test_only_up_to_its_first_crest_a_distance_is_shown_to_rise(theta: float) -> None:
-    bends = np.linspace(math.pi, 4.0 * math.pi, SAMPLES)
-    distance = moved(theta, bends)
+    deltas = np.linspace(math.pi, 4.0 * math.pi, SAMPLES)
+    distance = moved(theta, deltas)
     crest = int(np.argmax(np.diff(distance) < 0.0))
     later = int(np.argmax(distance[crest:] > distance[crest] + SAMPLED)) + crest
     assert 0 < crest < later
     with ctx.workprec(96):
-        assert rises_to(arb(theta), arb(float(bends[crest]) - SAMPLED))
-        assert not rises_to(arb(theta), arb(float(bends[later])))
+        assert rises_to(arb(theta), arb(float(deltas[crest]) - SAMPLED))
+        assert not rises_to(arb(theta), arb(float(deltas[later])))
 
 
 def claim(name: str, more: float) -> Callable[[dict[str, Any]], None]:

@@ -10,7 +10,7 @@ import pytest
 from flint import acb, arb, ctx
 
 from core import Arc, Coil, Dance, Dragon, Line, Route, Turn, trajectory
-from core.proof.chain import bend
+from core.proof.chain import delta
 from core.proof.pairs import Benches, Unproven
 from core.proof.paths import chain_on, recorded_path
 from core.proof.route import RouteChain
@@ -50,7 +50,7 @@ def test_the_chain_in_balls_is_the_dance_of_core(name: str) -> None:
             away = np.array([complex(point) for point in pose.points]) - there @ [1.0, 1.0j]
             assert np.abs(away).max() < DOUBLES
             for (piece, t), place in zip(pose.handles, pose.places, strict=True):
-                assert abs(float(piece.bends(t)) - float(route.curvature(-float(place)))) < DOUBLES
+                assert abs(float(piece.curvature_at(t)) - float(route.curvature(-float(place)))) < DOUBLES
 
 
 @pytest.mark.parametrize("name", ROUTES)
@@ -119,7 +119,7 @@ def test_on_a_circle_the_angles_are_exact() -> None:
 def test_a_bend_beyond_pi_near_the_centre_is_the_first_root_or_unproven(theta: float, chord: float) -> None:
     needed = arb(chord) ** 2
     try:
-        found = float(bend(arb(theta), needed))
+        found = float(delta(arb(theta), needed))
     except Unproven:
         return
     before = np.linspace(0.0, found - DOUBLES, 100_000)

@@ -163,12 +163,15 @@ def test_scaling_every_length_scales_the_separation(pair: Pair, scale: float) ->
 @settings(deadline=None)
 @given(pairs)
 def test_gap_alone_equals_the_separation(pair: Pair) -> None:
-    a, b = frames(*pair[:2]), frames(*pair[2:])
-    gap = kernels.pair_gap(*a, *b)
+    def gap_within(limit: float) -> float:
+        kernels.pair_gaps(frames(*pair[:2])[None], frames(*pair[2:])[None], limit, out := np.empty(1))
+        return out[0]
+
+    gap = gap_within(kernels.NO_LIMIT)
     assert gap == pytest.approx(separation(*pair).separation, rel=0, abs=ROUNDING)
-    assert kernels.pair_gap_within(*a, *b, max(gap, 0.0) + ROUNDING) == gap
+    assert gap_within(max(gap, 0.0) + ROUNDING) == gap
     if gap > ROUNDING:
-        assert gap / 2 < kernels.pair_gap_within(*a, *b, gap / 2) <= gap + ROUNDING
+        assert gap / 2 < gap_within(gap / 2) <= gap + ROUNDING
 
 
 def test_separation_equals_the_minkowski_oracle_on_random_pairs() -> None:
@@ -233,10 +236,10 @@ def test_witness_of_parallel_edges_does_not_depend_on_rounding() -> None:
 
 def test_features_name_the_corner_or_edge_that_holds_each_witness() -> None:
     pose_a, size_a, pose_b, size_b = random_pairs(5_000, seed=5)
-    out = np.empty((5_000, 8))
+    out = np.empty((5_000, kernels.SEPARATION_COLUMNS))
     kernels.pair_separations(frames(pose_a, size_a), frames(pose_b, size_b), out)
-    features = np.divmod(out[:, 7].astype(int), 8)
-    witnesses = out[:, 1:3], out[:, 3:5]
+    features = out[:, kernels.FEATURE_A : kernels.FEATURE_B + 1].T.astype(int)
+    witnesses = out[:, kernels.WITNESS_AX : kernels.WITNESS_AY + 1], out[:, kernels.WITNESS_BX : kernels.WITNESS_BY + 1]
     rows = np.arange(5_000)
     for feature, witness, corner in zip(
         features, witnesses, (corners(pose_a, size_a), corners(pose_b, size_b)), strict=True

@@ -1,0 +1,69 @@
+"""The command bench-dragon figures: the pictures as files."""
+
+from __future__ import annotations
+
+import sys
+from enum import StrEnum
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from app.command import show
+from app.command.options import asks, of_file, unused
+from app.extras import require
+from app.files.disk import checked_output, write_whole
+from app.questions import figures as drawn
+from app.questions.figures import Format
+from app.questions.pitch_scan import PitchScanQuery
+from app.settings import Settings
+from app.wire.refusals import refusing
+from core import InvalidValue
+
+
+class FigureOptions(drawn.InstantQuery, PitchScanQuery):
+    """GET /figures, all three."""
+
+
+class Kind(StrEnum):
+    """The figures, by the names of the service."""
+
+    TRAJECTORY = "trajectory"
+    CONTACT = "contact"
+    PITCH_SCAN = "pitch-scan"
+
+
+ASKED = {Kind.TRAJECTORY: drawn.TRAJECTORY, Kind.CONTACT: drawn.CONTACT, Kind.PITCH_SCAN: drawn.PITCH_SCAN}
+
+
+@asks(FigureOptions)
+def figures(
+    asked: FigureOptions,
+    context: typer.Context,
+    folder: Annotated[Path, typer.Argument(help="Where the files go; made if missing.")] = Path(),
+    file: Annotated[
+        Path | None, typer.Argument(help="A dance, .toml or .json, as check takes it: any dragon, path and venue.")
+    ] = None,
+    kind: Annotated[
+        list[Kind] | None, typer.Option(help="Which, once or more; else all three, of a FILE the first two.")
+    ] = None,
+    format: Annotated[Format, typer.Option(help="File format.")] = Format.PNG,
+) -> None:
+    """The paper's figures 6, 7 and 8 from live numbers, as files."""
+    require("figures", "format", "A figure")
+    if folder.is_file():
+        raise InvalidValue("folder", f"FOLDER must be a folder, got the file {folder}: give both, as in: . {folder}")
+    kinds = kind or list(Kind)[: 2 if file else None]
+    used = {name for one in kinds for name in (ASKED[one].flat or FigureOptions).model_fields}
+    why = f"has no part in the figure {' or '.join(kinds)}: leave it out, or draw another --kind too"
+    unused(context, FigureOptions.model_fields.keys() - used, why)
+    requests = {one: of_file(file, ASKED[one].body or FigureOptions, context) if file else asked for one in kinds}
+    folder.mkdir(parents=True, exist_ok=True)
+    files = {one: folder / f"{one.value}.{format.value}" for one in kinds}
+    for picture in files.values():
+        checked_output("format", picture)
+    for one, request in requests.items():
+        with refusing(request), show.waiting(f"figure {one.value}") as progress:
+            data = ASKED[one].told(request, Settings(), format.media_type, progress)
+        write_whole(files[one], data)
+        print(files[one], file=sys.stderr)

@@ -1,0 +1,257 @@
+"""The command bench-dragon: the questions of the HTTP service, asked from a terminal.
+
+The options of a command are the fields of the service's request, with the same names, limits and words; a FILE holds
+the body of a request. Answers go to standard output, as tables for people or, with --json, as the service's JSON;
+progress and messages go to standard error. Exit code 0 for an answer, also when benches touch or a check fails; 2 for
+wrong usage.
+"""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+from typer.core import TyperGroup
+
+import core
+from app import questions
+from app.command import figures, jobs, prove, show, trajectory
+from app.command.options import Json, asks, checked, unused
+from app.extras import require
+from app.files.disk import checked_output, read_dance, read_json, write_whole
+from app.questions.check import CheckRequest
+from app.questions.clearance import ClearanceQuery, ClearanceRequest
+from app.questions.collision_time import CollisionQuery, CollisionRequest
+from app.questions.figures import Format, InstantQuery, TrajectoryFigureRequest
+from app.questions.maximum_head_speed import MaximumHeadSpeedQuery, MaximumHeadSpeedRequest
+from app.questions.minimum_pitch import MinimumPitchQuery
+from app.questions.overlaps import OverlapsRequest
+from app.questions.shortest_turn import ShortestTurnQuery
+from app.questions.trajectory import TrajectoryRequest
+from app.questions.turn import TurnQuery
+from app.settings import WORKERS_MAX, Settings
+from app.wire.refusals import refusing
+from core import BenchDragonError, InvalidValue
+from core.errors import said
+
+
+class _Commands(TyperGroup):
+    """Turns what a user can mend into one line on standard error and exit code 2."""
+
+    def invoke(self, ctx: Any) -> Any:
+        try:
+            return super().invoke(ctx)
+        except BenchDragonError as error:
+            message = error.message
+        except BrokenPipeError:
+            raise
+        except OSError as error:
+            message = f"{error.filename}: {error.strerror}" if error.filename else str(error)
+        print(f"Error: {message}", file=sys.stderr)
+        raise typer.Exit(2)
+
+
+app = typer.Typer(
+    name="bench-dragon",
+    cls=_Commands,
+    help="Where every bench of a dancing dragon is, when two first touch, and how tight the spiral may be.",
+    no_args_is_help=True,
+    pretty_exceptions_enable=False,
+    context_settings={"help_option_names": ["-h", "--help"]},
+)
+
+
+def _print_version(asked: bool) -> None:
+    if asked:
+        print(f"bench-dragon {core.__version__}")
+        raise typer.Exit
+
+
+@app.callback()
+def bench_dragon(
+    version: Annotated[
+        bool, typer.Option("--version", callback=_print_version, is_eager=True, help="Print the version and exit.")
+    ] = False,
+) -> None:
+    """The options that stand before a command."""
+
+
+app.command("trajectory")(asks(trajectory.TrajectoryOptions, TrajectoryRequest)(trajectory.trajectory))
+app.command()(figures.figures)
+
+
+@app.command()
+@asks(CollisionQuery, CollisionRequest)
+def collision_time(asked: CollisionQuery | CollisionRequest, json: Json = False) -> None:
+    """When two benches first touch, or come nearer than a margin, and how that is known."""
+    with show.waiting("first contact"):
+        answer = questions.collision_time.collision_time(asked, Settings())
+    title = f"First time that two benches are nearer than {said(asked.margin)} m" if asked.margin else "First contact"
+    show.print_answer(title, answer, json, margin=asked.margin, benches=asked.benches)
+
+
+@app.command()
+@asks(ClearanceQuery, ClearanceRequest)
+def clearance(asked: ClearanceQuery | ClearanceRequest, json: Json = False) -> None:
+    """How near two benches that share no handle come, and which, at every instant."""
+    with show.waiting("clearance"):
+        answer = questions.clearance.clearance(asked, Settings())
+    if json:
+        show.print_json(answer.to_json())
+    else:
+        show.print_parts(*show.clearance_tables(answer.columns))
+
+
+@app.command()
+@asks(MinimumPitchQuery)
+def minimum_pitch(asked: MinimumPitchQuery, json: Json = False) -> None:
+    """The smallest pitch such that every larger one lets the head reach the turning circle."""
+    with show.waiting("minimum pitch"):
+        answer = questions.minimum_pitch.minimum_pitch(asked, Settings())
+    gap = f" and no bench nearer than {said(asked.margin)} m to another" if asked.margin else ""
+    title = f"Minimum pitch for a turning circle of {said(asked.turning_diameter)} m{gap}"
+    show.print_answer(title, answer, json, margin=asked.margin, benches=asked.benches)
+
+
+@app.command()
+@asks(TurnQuery)
+def turn(asked: TurnQuery, json: Json = False) -> None:
+    """Two tangent arcs that lead from a spiral inwards to the same one outwards."""
+    show.print_answer("Turn", questions.turn.turn(asked, Settings()), json)
+
+
+@app.command()
+@asks(ShortestTurnQuery)
+def shortest_turn(asked: ShortestTurnQuery, json: Json = False) -> None:
+    """The turn that begins as deep inside its circle as the dragon can dance, and what limits it."""
+    with show.waiting("shortest turn"):
+        answer = questions.shortest_turn.shortest_turn(asked, Settings())
+    gap = f" with no bench nearer than {said(asked.margin)} m to another" if asked.margin else ""
+    show.print_answer(f"Shortest turn{gap}", answer, json, margin=asked.margin)
+
+
+@app.command()
+@asks(MaximumHeadSpeedQuery, MaximumHeadSpeedRequest)
+def maximum_head_speed(asked: MaximumHeadSpeedQuery | MaximumHeadSpeedRequest, json: Json = False) -> None:
+    """The largest constant head speed at which no handle exceeds the limit on the way through a turn."""
+    with show.waiting("maximum head speed"):
+        answer = questions.maximum_head_speed.maximum_head_speed(asked, Settings())
+    show.print_answer(f"Maximum head speed for {said(asked.speed_limit)} m/s", answer, json)
+
+
+@app.command()
+def check(
+    file: Annotated[Path, typer.Argument(help="Dragon, path, venue and limits as for POST /check, .toml or .json.")],
+    figure: Annotated[Path | None, typer.Option(help="Draw the dance, in a .svg or .png file.")] = None,
+    time: Annotated[
+        float | None, typer.Option(help="When it is drawn; else at the first failure or the closest [s]")
+    ] = None,
+    cross_check: Annotated[
+        str | None,
+        typer.Option(metavar="dragon|pair|none", help="Whom independent engines judge; else as the file says."),
+    ] = None,
+    json: Json = False,
+) -> None:
+    """Can the dragon dance this path here? What fails is an answer: the exit code is 0."""
+    if time is not None and figure is None:
+        raise InvalidValue("time", "--time says when --figure draws the dance: give --figure too, or leave --time out")
+    if figure:
+        require("figures", "figure", "--figure")
+    ending = checked_output("figure", figure, (".svg", ".png")) if figure else ""
+    told = read_dance(file)
+    if cross_check is not None and isinstance(told, dict):
+        told["cross_check"] = cross_check
+    asked = checked(CheckRequest, told)
+    with refusing(asked), show.waiting("check"):
+        answer = questions.check.check(asked, Settings())
+        drawn = _drawn_check(asked, answer, Format(ending[1:]), time) if figure else b""
+    if figure:
+        write_whole(figure, drawn)
+        print(figure, file=sys.stderr)
+    if json:
+        show.print_json(answer.to_json())
+    else:
+        show.print_parts(*show.report_tables(answer, margin=asked.margin, benches=asked.benches))
+
+
+def _drawn_check(asked: CheckRequest, answer: questions.check.Report, format: Format, time: float | None) -> bytes:
+    if time is None:
+        closest = answer.least_clearance.time if answer.least_clearance else answer.start
+        time = answer.failures[0].time if answer.failures else closest
+    shown = {name: getattr(asked, name) for name in TrajectoryFigureRequest.model_fields if name != "time"}
+    # The time is no part of the file, and what is wrong with it is said of the option.
+    picture = TrajectoryFigureRequest.model_construct(**shown, time=time)
+    with refusing(picture):
+        return questions.figures.trajectory_figure(picture, Settings(), format.media_type)
+
+
+@app.command()
+@asks(InstantQuery)
+def overlaps(
+    asked: InstantQuery,
+    context: typer.Context,
+    file: Annotated[
+        Path | None, typer.Argument(help="Benches as for POST /overlaps (- for standard input), not the dance.")
+    ] = None,
+    json: Json = False,
+) -> None:
+    """Which benches overlap, or are nearer than a margin, at one instant, by four engines."""
+    if file:
+        why = "is about a dance, and the benches are those of FILE: give one of them"
+        unused(context, InstantQuery.model_fields, why)
+        benches = checked(OverlapsRequest, read_json(file))
+    with show.waiting("overlaps"):
+        if file:
+            answer, margin = questions.overlaps.overlaps(benches, Settings()), benches.margin
+        else:
+            answer, margin = questions.overlaps.of_dance(asked, Settings()), asked.margin
+    if json:
+        show.print_json(answer.to_json())
+    else:
+        show.print_parts(*show.overlap_tables(answer, margin))
+
+
+@app.command()
+def paper(json: Json = False) -> None:
+    """What the paper reports beside what this program computes, with the reason for each difference."""
+    with show.waiting("recomputing the paper"):
+        answer = questions.paper.paper(questions.paper.Nothing(), Settings())
+    if json:
+        show.print_json(answer.to_json())
+    else:
+        show.print_parts(*show.paper_tables(answer.rows))
+
+
+@app.command()
+def serve(
+    host: Annotated[str, typer.Option(help="Address to listen on.")] = "127.0.0.1",
+    port: Annotated[int, typer.Option(min=0, max=65535, help="Port to listen on.")] = 8000,
+    workers: Annotated[
+        int | None, typer.Option(min=1, max=WORKERS_MAX, help="Processes that share the port; else one for each core.")
+    ] = None,
+) -> None:
+    """The HTTP service."""
+    require("service", "serve", "serve")
+    from app.service import workers as processes
+
+    count = processes.process_count(workers)
+    try:
+        processes.serve(host, port, count)
+    except OSError as taken:
+        print(f"Error: cannot listen on {host}:{port}: {taken.strerror}", file=sys.stderr)
+        raise typer.Exit(2) from taken
+    except SystemExit as stop:  # The port is taken, or the address is not ours; uvicorn has said so.
+        raise typer.Exit(2 if stop.code else 0) from stop
+
+
+proofs = typer.Typer()
+proofs.callback(invoke_without_command=True)(prove.prove)
+proofs.command()(asks(prove.CollisionClaim)(prove.collision_time))
+proofs.command()(asks(prove.PitchClaim)(prove.minimum_pitch))
+proofs.command()(asks(prove.ClearClaim)(prove.clear))
+proofs.command()(asks(prove.TurnClaim)(prove.turn))
+proofs.command()(prove.dance)
+app.add_typer(proofs, name="prove")
+app.add_typer(jobs.jobs, name="jobs")

@@ -1,0 +1,266 @@
+"""The command bench-dragon prove: a certificate for a claim, and the check of one.
+
+Exit code 0 for a proof, 1 when a claim or a certificate is refused, 2 for wrong usage, 130 when interrupted. A
+certificate is checked before it is written, and its file is there whole or not at all.
+"""
+
+from __future__ import annotations
+
+import math
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from fractions import Fraction
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import orjson
+import typer
+from pydantic import Field
+from rich.console import Console
+from rich.progress import Progress
+
+import core
+from app.command.options import checked
+from app.files.disk import checked_output, read_dance, write_whole
+from app.questions.check import CheckRequest
+from app.settings import Settings
+from app.wire.dances import Circle, DanceQuery, HeadSpeed, UniformDragon
+from app.wire.models import Instant, Margin, Wire, measure
+from app.wire.paths import TurnFields
+from core import InvalidValue, Outcome
+from core.dance import Dance
+from core.errors import ProofRefused, said
+
+if TYPE_CHECKING:
+    from core.proof import Proof
+
+# Exit codes.
+REFUSED = 1
+WRONG_USAGE = 2
+INTERRUPTED = 130
+
+
+class _Thorough(Wire):
+    every_pair: bool = Field(
+        False, description="Prove each pair in its own right, also those that equal benches repeat"
+    )
+
+
+class CollisionClaim(_Thorough, DanceQuery):
+    """When two benches first touch, or come nearer than the margin."""
+
+    time: float | None = measure("s", "The claim; else what collision-time answers", None, ge=0)
+    margin: Margin = 0.0
+
+
+class PitchClaim(_Thorough, Circle, UniformDragon):
+    """How tight the spiral may be."""
+
+    pitch: float | None = measure("m", "The claim; else what minimum-pitch answers", None, ge=1e-3, le=10)
+
+
+class ClearClaim(_Thorough, DanceQuery):
+    """A run on the spiral without a contact."""
+
+    start: Instant = measure("s", "From when", 0.0)
+    stop: Instant | None = measure("s", "Until when; else the end of the run, which is proven too", None)
+    margin: Margin = 0.0
+
+
+class TurnClaim(_Thorough, HeadSpeed, TurnFields, UniformDragon):
+    """A dance through the turn."""
+
+    start: Instant = measure("s", "From when; 0 is the entry into the turn", -100.0)
+    stop: Instant = measure("s", "Until when", 100.0)
+    margin: Margin = 0.0
+
+
+@contextmanager
+def _working(what: str) -> Iterator[Callable[[float], None]]:
+    """A bar on standard error; yields the function that takes the share done. Ends the command when it must."""
+    bar = Progress(console=Console(stderr=True), transient=True, disable=not sys.stderr.isatty())
+    try:
+        with bar:
+            task = bar.add_task(what, total=1.0)
+            yield lambda share: bar.update(task, completed=share)
+    except KeyboardInterrupt:
+        code, message = INTERRUPTED, "Interrupted: nothing was written."
+    except ProofRefused as refused:
+        code, message = REFUSED, f"Refused: {refused.message}"
+    except ImportError as missing:
+        code, message = WRONG_USAGE, f"Error: {missing}"
+    else:
+        return
+    print(message, file=sys.stderr)
+    raise typer.Exit(code)
+
+
+def prove(
+    context: typer.Context,
+    check: Annotated[Path | None, typer.Option(help="Verify this certificate, without a search; - reads it.")] = None,
+) -> None:
+    """Prove a contact, a clear run or a minimum pitch in ball arithmetic, or check a proof; needs python-flint."""
+    if (check is None) == (context.invoked_subcommand is None):
+        raise typer.BadParameter("give either a claim to prove or --check FILE")
+    if check is None:
+        return
+    data = sys.stdin.buffer.read() if str(check) == "-" else check.read_bytes()
+    try:
+        certificate = orjson.loads(data)
+    except orjson.JSONDecodeError as error:
+        raise InvalidValue("check", f"{check} is not JSON: {error}") from error
+    _print(_checked(certificate))
+
+
+def collision_time(
+    asked: CollisionClaim,
+    output: Annotated[Path, typer.Option(help="The certificate.")] = Path("collision-time.proof.json"),
+) -> None:
+    """Nothing touches up to 1e-10 s before this time, and two benches overlap 1e-10 s after it.
+
+    With a margin: nothing comes within it, and two benches are nearer.
+    """
+    checked_output("output", output, (".json",))
+    dragon, path, time = asked.to_dragon(Settings().benches_max), asked.to_path(), asked.time
+    with _working("proof") as progress:
+        from core.proof import prove_collision_time
+
+        if time is None:
+            time = core.first_contact(core.Dance(dragon, path, asked.head_speed), margin=asked.margin).time
+        if time is None:
+            near = f"no two benches come nearer than {said(asked.margin)} m" if asked.margin else "nothing touches"
+            raise ProofRefused("time", f"{near}, so there is no collision time to prove: prove clear")
+        certificate = prove_collision_time(
+            Dance(dragon, path, asked.head_speed),
+            time,
+            margin=asked.margin,
+            every_pair=asked.every_pair,
+            progress=progress,
+        )
+    _finish(certificate, output)
+
+
+def minimum_pitch(
+    asked: PitchClaim,
+    output: Annotated[Path, typer.Option(help="The certificate.")] = Path("minimum-pitch.proof.json"),
+) -> None:
+    """Nothing touches on the way to the circle with this pitch; two benches overlap, or one folds, with 1e-6 m less.
+
+    With a margin: nothing comes within it, and two benches are nearer. Larger pitches are no part of the proof.
+    """
+    checked_output("output", output, (".json",))
+    dragon, radius, pitch = asked.to_dragon(Settings().benches_max), asked.turning_diameter / 2, asked.pitch
+    with _working("proof") as progress:
+        from core.proof import prove_minimum_pitch
+
+        if pitch is None:
+            found = core.minimum_pitch(
+                dragon, turning_radius=radius, start_turns=asked.start_turns, margin=asked.margin
+            )
+            pitch = found.pitch_bracket[1]
+            if Fraction(pitch) * Fraction(asked.start_turns) < Fraction(radius):  # rounded down: within the circle
+                pitch = math.nextafter(pitch, math.inf)
+        certificate = prove_minimum_pitch(
+            dragon,
+            pitch,
+            turning_radius=radius,
+            start_turns=asked.start_turns,
+            margin=asked.margin,
+            every_pair=asked.every_pair,
+            progress=progress,
+        )
+    _finish(certificate, output)
+
+
+def clear(
+    asked: ClearClaim,
+    output: Annotated[Path, typer.Option(help="The certificate.")] = Path("clear.proof.json"),
+) -> None:
+    """Nothing touches on the spiral, or comes within the margin, until a time or the end of the run."""
+    checked_output("output", output, (".json",))
+    dragon, path = asked.to_dragon(Settings().benches_max), asked.to_path()
+    with _working("proof") as progress:
+        from core.proof import prove_clear
+
+        certificate = prove_clear(
+            Dance(dragon, path, asked.head_speed),
+            asked.stop,
+            start=asked.start,
+            margin=asked.margin,
+            every_pair=asked.every_pair,
+            progress=progress,
+        )
+    _finish(certificate, output)
+
+
+def turn(
+    asked: TurnClaim,
+    output: Annotated[Path, typer.Option(help="The certificate.")] = Path("turn.proof.json"),
+) -> None:
+    """The contest's turn between two spirals: clear from start to stop, or its first contact."""
+    checked_output("output", output, (".json",))
+    dance = core.Dance(asked.to_dragon(Settings().benches_max), asked.to_turn(), asked.head_speed)
+    times = {"start": asked.start, "stop": asked.stop, "margin": asked.margin}
+    _finish(_dance_proven(dance, times, asked.every_pair), output)
+
+
+def dance(
+    file: Annotated[Path, typer.Argument(help="Dragon, path, margin and times as for check, .toml or .json.")],
+    every_pair: Annotated[bool, typer.Option(help="Prove each pair in its own right, also those that repeat.")] = False,
+    output: Annotated[Path, typer.Option(help="The certificate.")] = Path("dance.proof.json"),
+) -> None:
+    """A dance on any path but waypoints: clear from its start to its stop or end, or its first contact."""
+    checked_output("output", output, (".json",))
+    asked = checked(CheckRequest, read_dance(file))
+    dragon = asked.dragon.to_dragon(Settings().checked_benches_max)
+    path = asked.path.to_path()
+    for name in ("venue", "speed_limit"):
+        if getattr(asked, name) is not None:
+            print(f"The {name.replace('_', ' ')} is no part of the proof.", file=sys.stderr)
+    dance = core.Dance(dragon, path, asked.head_speed)
+    start = dance.begin if asked.start is None else asked.start
+    times = {"start": start, "stop": asked.stop, "margin": asked.margin}
+    _finish(_dance_proven(dance, times, every_pair), output)
+
+
+def _dance_proven(dance: core.Dance, times: dict[str, Any], every_pair: bool) -> dict[str, Any]:
+    """A certificate for the first contact of a dance, or that it is clear."""
+    with _working("proof") as progress:
+        from core.proof import prove_clear, prove_contact
+
+        found = core.first_contact(dance, **times)
+        stop = times.pop("stop")
+        asked: dict[str, Any] = {"every_pair": every_pair, "progress": progress}
+        if found.outcome is Outcome.CLEAR:
+            return prove_clear(dance, stop, **times, **asked)
+        if found.outcome is Outcome.CONTACT and found.time is not None:
+            return prove_contact(dance, found.time, **times, **asked)
+        if found.benches is None:
+            near = f"come nearer than {said(times['margin'])} m" if times["margin"] else "touch"
+            raise ProofRefused("time", f"the search did not decide whether two benches {near}")
+        a, b = found.benches
+        near = f"are nearer than {said(times['margin'])} m" if times["margin"] else "overlap"
+        raise ProofRefused("start", f"benches {a} and {b} {near} at the start already, {said(times['start'])} s")
+
+
+def _checked(certificate: Any) -> Proof:
+    with _working("check") as progress:
+        from core.proof import check
+
+        return check(certificate, progress=progress)
+
+
+def _finish(certificate: dict[str, Any], output: Path) -> None:
+    """Check a fresh certificate as anyone would, write it whole, and say what it proves."""
+    data = orjson.dumps(certificate, option=orjson.OPT_APPEND_NEWLINE)
+    checked = _checked(orjson.loads(data))
+    with _working("writing"):
+        write_whole(output, data)
+    _print(checked)
+    print(f"{output}: {len(data)} bytes", file=sys.stderr)
+
+
+def _print(checked: Proof) -> None:
+    print(f"Proven: {checked.statement}")
+    print(f"{checked.pair_proofs} pair proofs over {checked.stretches} stretches.")

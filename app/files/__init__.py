@@ -1,0 +1,1 @@
+"""Tables, workbooks and figures, and files on the disk."""

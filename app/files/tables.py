@@ -1,0 +1,156 @@
+"""A trajectory as a file: JSON, CSV, Arrow, or a workbook laid out like the contest's result1.xlsx.
+
+The same trajectory gives the same bytes, so an answer may carry a strong ETag.
+"""
+
+from __future__ import annotations
+
+import io
+from datetime import datetime
+from enum import StrEnum
+from typing import TYPE_CHECKING
+
+import numpy as np
+import orjson
+
+from app.extras import require
+from app.wire.answers import Columns
+from core import TooLarge, Trajectory
+from core.values import Floats
+
+if TYPE_CHECKING:
+    from xlsxwriter.worksheet import Worksheet
+
+COLUMNS = ("time", "handle", "x", "y", "speed")
+CSV_TYPE = "text/csv"
+XLSX_TYPE = "application/vnd.openxmlformats-officedocument.spreadsheetml.sheet"
+ARROW_TYPE = "application/vnd.apache.arrow.file"
+
+# The contest asks for six decimals.
+XLSX_DECIMALS = 6
+# The format's own limits; the first row and column hold names.
+XLSX_ROWS_MAX = 1_048_576
+XLSX_COLUMNS_MAX = 16_384
+# Written into every workbook in place of the present moment, for equal bytes.
+XLSX_CREATED = datetime(2024, 9, 5)
+
+
+class Language(StrEnum):
+    """Language of the names in a workbook."""
+
+    ENGLISH = "en"
+    CHINESE = "zh"
+
+
+def handle_names(benches: int, language: Language = Language.ENGLISH) -> list[str]:
+    """Name of every handle by the bench that it leads, the last one at the rear of the tail.
+
+    returns: benches + 1 names; the single bench of a dragon of one is its head
+
+    >>> handle_names(4)
+    ['head', 'body 1', 'body 2', 'tail', 'tail (rear)']
+    """
+    chinese = language is Language.CHINESE
+    body = [f"第{k}节龙身" if chinese else f"body {k}" for k in range(1, benches - 1)]
+    head, tail, rear = ("龙头", "龙尾", "龙尾（后）") if chinese else ("head", "tail", "tail (rear)")
+    return [head, *body, tail, rear] if benches > 1 else [head, rear]
+
+
+def _rounded(column: Floats, decimals: int | None) -> Floats:
+    # Adding zero turns a rounded -0.0 into 0.0.
+    return column if decimals is None else np.round(column, decimals) + 0.0
+
+
+def _columns(result: Trajectory, decimals: int | None) -> dict[str, np.ndarray]:
+    """time, handle, x, y, speed, each (T * H,): instants in order, handles in order within each."""
+    instants, handles = result.speed.shape
+    values = (
+        np.repeat(result.time, handles),
+        np.tile(np.arange(handles, dtype=np.int32), instants),
+        _rounded(result.position[..., 0].ravel(), decimals),
+        _rounded(result.position[..., 1].ravel(), decimals),
+        _rounded(result.speed.ravel(), decimals),
+    )
+    return dict(zip(COLUMNS, values, strict=True))
+
+
+def trajectory_json(result: Trajectory, decimals: int | None = None) -> bytes:
+    """JSON columns time (T,) [s]; x, y (T, H) [m]; speed (T, H) [m/s]."""
+    x, y = result.position[..., 0], result.position[..., 1]
+    return Columns({"time": result.time, "x": x, "y": y, "speed": result.speed}, decimals).to_json()
+
+
+def trajectory_csv(result: Trajectory, decimals: int | None = None) -> bytes:
+    """CSV with the columns time [s], handle, x [m], y [m], speed [m/s].
+
+    decimals: of x, y and speed; None writes the shortest text that reads back as the same double
+    """
+    columns = [
+        orjson.dumps(np.ascontiguousarray(column), option=orjson.OPT_SERIALIZE_NUMPY)[1:-1].split(b",")
+        for column in _columns(result, decimals).values()
+    ]
+    rows = [",".join(COLUMNS).encode()]
+    if result.speed.size:
+        rows.extend(map(b",".join, zip(*columns, strict=True)))
+    return b"\n".join(rows) + b"\n"
+
+
+def trajectory_arrow(result: Trajectory, decimals: int | None = None) -> bytes:
+    """Arrow IPC file with the columns of the CSV.
+
+    raises: MissingPackage without pyarrow
+    """
+    require("arrow", "format", "Arrow")
+    import pyarrow
+
+    table = pyarrow.table(_columns(result, decimals))
+    sink = io.BytesIO()
+    with pyarrow.ipc.new_file(sink, table.schema) as writer:
+        writer.write_table(table)
+    return sink.getvalue()
+
+
+def trajectory_xlsx(result: Trajectory, decimals: int | None = None, language: Language = Language.ENGLISH) -> bytes:
+    """Workbook with a sheet of positions and a sheet of speeds: handles as rows, instants as columns.
+
+    Positions have two rows for each handle, x above y.
+    decimals: None gives XLSX_DECIMALS
+    raises: MissingPackage without xlsxwriter, TooLarge when the format has too few rows or columns
+    """
+    require("xlsx", "format", "xlsx")
+    import xlsxwriter
+
+    decimals = XLSX_DECIMALS if decimals is None else decimals
+    instants, handles = result.speed.shape
+    if 2 * handles + 1 > XLSX_ROWS_MAX or instants + 1 > XLSX_COLUMNS_MAX:
+        raise TooLarge(
+            "format",
+            f"xlsx holds at most {(XLSX_ROWS_MAX - 1) // 2} handles and {XLSX_COLUMNS_MAX - 1} instants, "
+            f"got {handles} handles and {instants} instants: ask for csv",
+        )
+    names = handle_names(handles - 1, language)
+    chinese = language is Language.CHINESE
+    gap = "" if chinese else " "
+    sink = io.BytesIO()
+    with xlsxwriter.Workbook(sink, {"in_memory": True}) as book:
+        book.set_properties({"created": XLSX_CREATED})
+        number = book.add_format({"num_format": "0." + "0" * decimals if decimals else "0"})
+        positions = result.position.transpose(1, 2, 0).reshape(2 * handles, instants)
+        for title, labels, rows in (
+            ("位置" if chinese else "positions", [f"{n}{gap}{axis} (m)" for n in names for axis in "xy"], positions),
+            ("速度" if chinese else "speeds", [f"{n} (m/s)" for n in names], result.speed.T),
+        ):
+            sheet = book.add_worksheet(title)
+            sheet.freeze_panes(1, 1)
+            sheet.set_column(0, 0, 20)
+            sheet.set_column(1, max(instants, 1), 11, number)
+            _write_rows(sheet, result.time, labels, _rounded(rows, decimals))
+    return sink.getvalue()
+
+
+def _write_rows(sheet: Worksheet, time: Floats, labels: list[str], rows: Floats) -> None:
+    sheet.write_row(0, 1, [f"{instant:.12g} s" for instant in time.tolist()])
+    for k, (label, row) in enumerate(zip(labels, rows.tolist(), strict=True), start=1):
+        sheet.write_string(k, 0, label)
+        for column, value in enumerate(row, start=1):
+            sheet.write_number(k, column, value)

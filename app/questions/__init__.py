@@ -1,0 +1,44 @@
+"""The questions: what each is asked with, and what it answers. QUESTIONS has all of them by name.
+
+CALLS has the calls of the service that ask them, by operation id.
+"""
+
+from __future__ import annotations
+
+from app.questions import (
+    check,
+    clearance,
+    collision_time,
+    figures,
+    maximum_head_speed,
+    minimum_pitch,
+    overlaps,
+    paper,
+    pitch_scan,
+    shortest_turn,
+    trajectory,
+    turn,
+)
+from app.questions.question import Call, Question, calls_of
+
+# In the order in which they are documented.
+_ALL = (
+    trajectory.QUESTION,
+    collision_time.QUESTION,
+    minimum_pitch.QUESTION,
+    pitch_scan.QUESTION,
+    clearance.QUESTION,
+    turn.QUESTION,
+    shortest_turn.QUESTION,
+    maximum_head_speed.QUESTION,
+    check.QUESTION,
+    overlaps.QUESTION,
+    paper.QUESTION,
+    figures.TRAJECTORY,
+    figures.CONTACT,
+    figures.PITCH_SCAN,
+)
+QUESTIONS: dict[str, Question] = {question.name: question for question in _ALL}
+CALLS: dict[str, Call] = {call.name: call for question in _ALL for call in calls_of(question)}
+
+__all__ = ["CALLS", "QUESTIONS", "Call", "Question"]

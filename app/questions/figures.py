@@ -1,0 +1,107 @@
+"""The paper's figures 6, 7 and 8: what each is drawn from."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from enum import StrEnum
+
+from app.questions.pitch_scan import PitchScanQuery, PitchScanRequest
+from app.questions.question import Question
+from app.settings import Settings
+from app.wire.dances import DanceQuery, PlacedDance
+from app.wire.models import Instant, Margin, measure
+
+
+class Format(StrEnum):
+    """File format of a figure."""
+
+    SVG = "svg"
+    PNG = "png"
+
+    @property
+    def media_type(self) -> str:
+        return {"svg": "image/svg+xml", "png": "image/png"}[self.value]
+
+
+FORMATS = {one.media_type: one.value for one in Format}
+FORMS = tuple(FORMATS)
+
+
+class TrajectoryFigureQuery(DanceQuery):
+    """Every handle at one instant, drawn."""
+
+    time: Instant = measure("s", "The instant", 300.0)
+
+
+class TrajectoryFigureRequest(PlacedDance):
+    """Every handle at one instant, drawn on any path."""
+
+    time: Instant | None = measure(
+        "s", "The instant; null: 0, or if the dance has no 0, when the whole dragon is on the path", None
+    )
+
+
+class ContactQuery(DanceQuery):
+    """The dance at first contact."""
+
+    margin: Margin = 0.0
+
+
+class InstantQuery(TrajectoryFigureQuery, ContactQuery):
+    """The dance at one instant, and what counts as a contact."""
+
+
+class ContactFigureRequest(PlacedDance):
+    """The dance at first contact, drawn on any path."""
+
+    margin: Margin = 0.0
+    start: Instant | None = measure(
+        "s", "From when; null: 0, or if the dance has no 0, when the whole dragon is on the path", None
+    )
+    stop: Instant | None = measure("s", "Until when; null: the end of the run", None)
+
+
+def trajectory_figure(asked: TrajectoryFigureQuery | TrajectoryFigureRequest, settings: Settings, form: str) -> bytes:
+    """Every handle at one instant, coloured by its speed; on any path and in any venue where those are given."""
+    from app.files import figures
+
+    dance = asked.to_dance(settings.drawn_benches_max)
+    venue = asked.to_place(dance.dragon).venue if isinstance(asked, PlacedDance) else None
+    time = dance.default_start if asked.time is None else asked.time
+    return figures.trajectory_figure(dance, venue=venue, time=time, format=FORMATS[form])
+
+
+def contact_figure(asked: ContactQuery | ContactFigureRequest, settings: Settings, form: str) -> bytes:
+    """The dance at first contact, with the pair that touches or is too near marked and enlarged."""
+    from app.files import figures
+
+    if isinstance(asked, ContactQuery):
+        dance = asked.to_dance(settings.drawn_benches_max)
+        return figures.contact_figure(dance, margin=asked.margin, format=FORMATS[form])
+    dance = asked.to_dance(settings.checked_benches_max)
+    start = dance.default_start if asked.start is None else asked.start
+    venue = asked.to_place(dance.dragon).venue
+    return figures.contact_figure(
+        dance, venue=venue, margin=asked.margin, start=start, stop=asked.stop, format=FORMATS[form]
+    )
+
+
+def pitch_scan_figure(
+    asked: PitchScanQuery | PitchScanRequest,
+    settings: Settings,
+    form: str,
+    *,
+    progress: Callable[[float], None] = lambda share: None,
+) -> bytes:
+    """Where the head stands at first contact, against the pitch: jumps as jumps, the minimum pitch marked."""
+    from app.files import figures
+
+    dragon = asked.to_dragon(min(settings.drawn_benches_max, asked.most_benches(settings)))
+    return figures.pitch_scan_figure(
+        dragon, samples=asked.samples, format=FORMATS[form], progress=progress, **asked.to_circle()
+    )
+
+
+TRAJECTORY = Question(trajectory_figure, None, flat=TrajectoryFigureQuery, body=TrajectoryFigureRequest, forms=FORMS)
+CONTACT = Question(contact_figure, None, flat=ContactQuery, body=ContactFigureRequest, forms=FORMS)
+PITCH_SCAN = Question(pitch_scan_figure, None, flat=PitchScanQuery, body=PitchScanRequest, forms=FORMS, tells=True)

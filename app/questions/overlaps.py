@@ -1,0 +1,108 @@
+"""Which of these benches overlap?"""
+
+from __future__ import annotations
+
+from typing import Self
+
+import numpy as np
+from pydantic import Field
+
+import core
+from app.questions.figures import InstantQuery
+from app.questions.question import Question
+from app.settings import Settings
+from app.wire.answers import LEFT_OUT, Pair, Point
+from app.wire.models import Answer, Coordinate, Length, Margin, Width, Wire, check_limit, measure
+from core import Engine
+from core.values import Floats
+
+
+class BenchPose(Wire, strict=True):
+    """One bench, anywhere."""
+
+    x: Coordinate = measure("m", "Centre")
+    y: Coordinate = measure("m", "Centre")
+    heading: float = measure("rad", "Direction, counter-clockwise from the x axis", ge=-1000, le=1000)
+    length: Length = measure("m", "Along the heading")
+    width: Width = measure("m", "Across the heading")
+
+
+class OverlapsRequest(Wire, strict=True):
+    """Which of these benches overlap?"""
+
+    benches: list[BenchPose] = Field(min_length=1, fail_fast=True, description="The benches, in order")
+    margin: Margin = 0.0
+    chained: bool = Field(True, description="Consecutive benches are neighbours, which are never a checked pair")
+
+    def to_poses(self, poses_max: int) -> tuple[Floats, Floats, Floats]:
+        """Poses (n, 3), lengths (n,) [m] and widths (n,) [m]. raises: TooLarge"""
+        check_limit("benches", "benches", len(self.benches), poses_max, "ask for fewer in one request")
+        rows = np.array([(b.x, b.y, b.heading, b.length, b.width) for b in self.benches], dtype=np.float64)
+        return rows[:, :3], rows[:, 3], rows[:, 4]
+
+
+class Overlap(Answer):
+    """Two benches nearer than the margin, or overlapping if it is 0. witness_b - witness_a = separation * normal."""
+
+    benches: Pair = Field(description="The pair a, b")
+    separation: float = measure("m", "Signed: minus the penetration depth when they overlap")
+    witness_a: Point = measure("m", "Point of a that realises the separation, x and y")
+    witness_b: Point = measure("m", "Point of b that realises the separation, x and y")
+    normal: Point = Field(description="Unit vector from a to b")
+
+
+class OverlapsCheck(Answer):
+    """Independent engines side by side."""
+
+    agree: bool = Field(description="All engines asked found the same pairs")
+    engines: dict[Engine, list[Pair]] = Field(description="The pairs that each engine found")
+    left_out: list[Engine] = Field(description=LEFT_OUT)
+
+
+class OverlapsAnswer(Answer):
+    """All pairs with separation <= margin."""
+
+    overlaps: list[Overlap] = Field(description="The pairs, sorted")
+    cross_check: OverlapsCheck = Field(description="Independent engines side by side")
+
+    @classmethod
+    def of(cls, found: core.Overlaps, check: core.CrossCheck) -> Self:
+        contact = found.contact
+        columns = (contact.separation, contact.witness_a, contact.witness_b, contact.normal)
+        # Adding 0.0 turns -0.0 into 0.0.
+        rows = zip(found.pairs.tolist(), *((column + 0.0).tolist() for column in columns), strict=True)
+        names = tuple(Overlap.model_fields)
+        return cls(
+            overlaps=[Overlap(**dict(zip(names, row, strict=True))) for row in rows],
+            cross_check=OverlapsCheck(
+                agree=check.agree,
+                engines={engine: pairs.tolist() for engine, pairs in check.pairs.items()},
+                left_out=check.left_out,
+            ),
+        )
+
+
+def overlaps(asked: OverlapsRequest, settings: Settings) -> OverlapsAnswer:
+    """Which benches overlap, or are nearer than a margin, how deep and where, by each of four engines."""
+    poses, lengths, widths = asked.to_poses(settings.poses_max)
+    return _judged(poses, lengths, widths, settings, margin=asked.margin, chained=asked.chained)
+
+
+def of_dance(asked: InstantQuery, settings: Settings) -> OverlapsAnswer:
+    """The same of the benches of a dance at one instant."""
+    dance = asked.to_dance(settings.poses_max)
+    dragon, poses = dance.dragon, core.bench_poses(core.trajectory(dance, [asked.time]).position[0])
+    return _judged(poses, dragon.lengths, dragon.widths, settings, margin=asked.margin, chained=True)
+
+
+def _judged(
+    poses: Floats, lengths: Floats, widths: Floats, settings: Settings, *, margin: float, chained: bool
+) -> OverlapsAnswer:
+    """The overlaps of benches, and what each engine says of them. raises: TooLarge, InvalidValue"""
+    found = core.overlaps(poses, lengths, widths, margin=margin, chained=chained)
+    check_limit("benches", "overlapping pairs", len(found.pairs), settings.pairs_max, "move them apart")
+    check = core.cross_check(poses, lengths, widths, margin=margin, chained=chained)
+    return OverlapsAnswer.of(found, check)
+
+
+QUESTION = Question(overlaps, OverlapsAnswer, body=OverlapsRequest)

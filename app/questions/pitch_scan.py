@@ -1,0 +1,55 @@
+"""Where does the head stand at first contact, against the pitch?"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from pydantic import Field
+
+from app.questions.minimum_pitch import allowed
+from app.questions.question import Question
+from app.settings import Settings
+from app.wire.answers import Columns, Pair
+from app.wire.dances import Circle, DragonFields, UniformDragon
+from app.wire.models import Answer, measure
+from core.design.pitch_scan import scan_near_minimum
+
+
+class ScanFields(Circle):
+    """Pitches around the minimum pitch."""
+
+    samples: int = Field(101, ge=2, le=401, description="Pitches to sample; jumps between them are searched for")
+
+
+class PitchScanQuery(ScanFields, UniformDragon):
+    """First contact against the pitch."""
+
+
+class PitchScanRequest(ScanFields, DragonFields, strict=True):
+    """First contact against the pitch, of any dragon."""
+
+
+class PitchScanTable(Answer):
+    """Columns: one entry per pitch at which two benches come nearer than the margin, or touch, and where the radius
+    jumps."""
+
+    pitch: list[float] = measure("m", "Ascending")
+    radius: list[float] = measure("m", "Distance of the head from the centre at first contact")
+    pieces: list[Pair] = Field(description="Continuous stretches, as indices [from, to) into pitch and radius")
+    minimum_pitch: float = measure("m", "The minimum pitch, around which the pitches lie")
+
+
+def pitch_scan(
+    asked: PitchScanQuery | PitchScanRequest,
+    settings: Settings,
+    *,
+    progress: Callable[[float], None] = lambda share: None,
+) -> Columns:
+    """Where the head stands at first contact, against the pitch, around the minimum pitch."""
+    dragon = asked.to_dragon(min(settings.scanned_benches_max, asked.most_benches(settings)))
+    scan, least = scan_near_minimum(dragon, samples=asked.samples, progress=progress, **asked.to_circle())
+    table = {"pitch": scan.pitch, "radius": scan.radius, "pieces": scan.pieces}
+    return Columns(table | {"minimum_pitch": allowed(least, asked, dragon).pitch})
+
+
+QUESTION = Question(pitch_scan, PitchScanTable, flat=PitchScanQuery, body=PitchScanRequest, tells=True)

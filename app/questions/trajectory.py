@@ -1,0 +1,50 @@
+"""Where is every handle at every instant, and how fast?"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from importlib.util import find_spec
+
+from pydantic import Field
+
+import core
+from app.files import tables
+from app.questions.question import Question
+from app.settings import Settings
+from app.wire.dances import TimedDance
+from app.wire.models import JSON, Answer, measure
+
+
+class TrajectoryRequest(TimedDance):
+    """Where every handle is at every instant, and how fast."""
+
+    decimals: int | None = Field(None, ge=0, le=15, description="Decimals of x, y and speed; null: full precision")
+
+
+class TrajectoryTable(Answer):
+    """Columns: one row per instant, one entry per handle, handle 0 leading (H = benches + 1)."""
+
+    time: list[float] = measure("s", "Instants, T of them")
+    x: list[list[float]] = measure("m", "T rows of H")
+    y: list[list[float]] = measure("m", "T rows of H")
+    speed: list[list[float]] = measure("m/s", "T rows of H")
+
+
+# What a trajectory is written in: media type -> function of it and the decimals.
+FORMS: dict[str, Callable[[core.Trajectory, int | None], bytes]] = {
+    JSON: tables.trajectory_json,
+    tables.CSV_TYPE: tables.trajectory_csv,
+    tables.XLSX_TYPE: tables.trajectory_xlsx,
+}
+if find_spec("pyarrow"):
+    FORMS[tables.ARROW_TYPE] = tables.trajectory_arrow
+
+
+def trajectory(asked: TrajectoryRequest, settings: Settings, form: str = JSON) -> bytes:
+    """Position and speed of every handle at every instant."""
+    cells_max = settings.workbook_cells_max if form == tables.XLSX_TYPE else settings.cells_max
+    dance = asked.to_dance(settings.benches_max)
+    return FORMS[form](core.trajectory(dance, asked.times_of(dance, cells_max)), asked.decimals)
+
+
+QUESTION = Question(trajectory, TrajectoryTable, body=TrajectoryRequest, forms=tuple(FORMS))

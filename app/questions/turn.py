@@ -1,0 +1,52 @@
+"""How does the dance turn between two coils?"""
+
+from __future__ import annotations
+
+from typing import Self
+
+from pydantic import Field
+
+import core
+from app.questions.question import Question
+from app.settings import Settings
+from app.wire.answers import Point
+from app.wire.models import Answer, Wire, measure
+from app.wire.paths import TurnFields, TurnPath
+
+
+class TurnQuery(TurnFields):
+    """Two tangent arcs between two coils."""
+
+
+class TurnRequest(Wire, strict=True):
+    """Two tangent arcs between two coils, as a path."""
+
+    path: TurnPath = Field(default_factory=lambda: TurnPath(kind="turn"), description="The turn")
+
+
+class Turn(Answer):
+    """Two tangent arcs between two coils: the first clockwise, the second counter-clockwise."""
+
+    pitch: float = measure("m", "Of both coils")
+    turning_diameter: float = measure("m", "Diameter of the circle in which the turn lies")
+    ratio: float = Field(description="Radius of the first arc over that of the second")
+    entry_radius: float = measure("m", "Distance of the entry from the centre")
+    radii: Point = measure("m", "Radii of both arcs")
+    centres: tuple[Point, Point] = measure("m", "Centres of both arcs, x and y")
+    angles: Point = measure("rad", "Angle turned on each arc")
+    entry: Point = measure("m", "Where the first arc begins, x and y")
+    tangent_point: Point = measure("m", "Where the two arcs meet, x and y")
+    exit: Point = measure("m", "Where the second arc ends, x and y")
+    length: float = measure("m", "Of both arcs together")
+
+    @classmethod
+    def of(cls, found: core.Turn) -> Self:
+        return cls.known(found, turning_diameter=2 * found.turning_radius)
+
+
+def turn(asked: TurnQuery | TurnRequest, settings: Settings) -> Turn:
+    """Two tangent arcs that lead from a spiral inwards to the same one outwards."""
+    return Turn.of(asked.to_turn() if isinstance(asked, TurnQuery) else asked.path.to_path())
+
+
+QUESTION = Question(turn, Turn, flat=TurnQuery, body=TurnRequest)

@@ -1,0 +1,93 @@
+"""Every error as an RFC 9457 problem: what is wrong, where, and what to change."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from http import HTTPStatus
+from typing import get_type_hints
+
+from fastapi import FastAPI, Request, Response
+from fastapi.exceptions import RequestValidationError
+from starlette.exceptions import HTTPException
+
+from app.wire.faults import Placing, in_body, in_query, refused, unfit
+from app.wire.messages import shown
+from app.wire.problem import PROBLEM_TYPE, ErrorItem, Problem, problem_of, title
+from core import BenchDragonError
+
+
+class Refused(HTTPException):
+    """A request that the edge refuses; errors name the place."""
+
+    def __init__(
+        self, status: int, detail: str, errors: Sequence[ErrorItem] = (), headers: Mapping[str, str] | None = None
+    ) -> None:
+        super().__init__(status, detail, headers)
+        self.errors = errors
+
+
+def problem(
+    status: int, code: str, detail: str, errors: Iterable[ErrorItem] = (), headers: Mapping[str, str] | None = None
+) -> Response:
+    """The answer to a request that failed."""
+    return answer_of(problem_of(status, code, detail, errors), headers)
+
+
+def answer_of(said: Problem, headers: Mapping[str, str] | None = None) -> Response:
+    kept = {"Cache-Control": "no-store", **(headers or {})}
+    return Response(said.to_json(), said.status, kept, media_type=PROBLEM_TYPE)
+
+
+def install(app: FastAPI) -> None:
+    """Let the app answer every error with a problem."""
+    app.add_exception_handler(BenchDragonError, core_problem)  # type: ignore[arg-type]
+    app.add_exception_handler(RequestValidationError, validation_problem)  # type: ignore[arg-type]
+    app.add_exception_handler(HTTPException, http_problem)  # type: ignore[arg-type]
+
+
+async def core_problem(request: Request, error: BenchDragonError) -> Response:
+    """A value that core, or a limit of the service, refuses."""
+    return answer_of(refused(error, await _placing(request)))
+
+
+async def validation_problem(request: Request, error: RequestValidationError) -> Response:
+    """A request whose fields do not fit the schema, or a body that is no JSON."""
+    found = error.errors()
+    if found[0]["type"] == "json_invalid":
+        position, why = found[0]["loc"][-1], found[0]["ctx"]["error"]
+        detail = f"The body is not JSON: {why} at character {position}. Send an object such as {{}}."
+        return problem(400, "broken-json", detail, [ErrorItem(pointer="", detail=detail)])
+    if found[0]["loc"][0] == "path":
+        return await http_problem(request, HTTPException(404))
+    return answer_of(unfit(found, get_type_hints(request.scope["endpoint"]).get("wanted"), await _placing(request)))
+
+
+async def _placing(request: Request) -> Placing:
+    if request.method in ("GET", "HEAD"):
+        return in_query
+    return in_body(await request.json() if await request.body() else {})
+
+
+async def http_problem(request: Request, error: HTTPException) -> Response:
+    """An error of HTTP itself: no such path, method, media type and so on."""
+    status, headers = error.status_code, dict(error.headers or {})
+    detail, code = str(error.detail), title(status).lower().replace(" ", "-")
+    items: Sequence[ErrorItem] = getattr(error, "errors", ())
+    if status == 404 and detail == HTTPStatus.NOT_FOUND.phrase:
+        detail = f"There is nothing at {shown(request.url.path)}: see /docs for all calls."
+    elif status == 405:
+        allowed = {method.strip() for method in headers.get("Allow", "").split(",") if method.strip()}
+        allowed |= {"OPTIONS"} | ({"HEAD"} if "GET" in allowed else set())
+        headers["Allow"] = ", ".join(sorted(allowed))
+        if request.method == "OPTIONS":
+            return Response(status_code=204, headers=headers)
+        detail = f"{request.url.path} does not know {request.method}: use {headers['Allow']}."
+    elif status == 400 and detail == "There was an error parsing the body":
+        detail, code = "The body is not JSON in UTF-8. Send an object such as {}.", "broken-json"
+        items = [ErrorItem(pointer="", detail=detail)]
+    return problem(status, code, detail, items, headers)
+
+
+def server_problem() -> Response:
+    """A mistake of ours; the log has the traceback, the client has not."""
+    return problem(500, "internal-error", "The service failed on this request; the log of the service says why.")

@@ -1,0 +1,101 @@
+"""The calls of the service: every question over a query, and over a body with a dragon and a path.
+
+A call is named as its question is, `collision_time`; over a body, where it can be asked both ways, `collision_time_of`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Annotated, Any
+
+from fastapi import APIRouter, Body, Query, Response
+from pydantic import ValidationError
+
+from app.files.tables import CSV_TYPE
+from app.questions import CALLS, Call
+from app.questions.figures import Format
+from app.service.examples import EXAMPLES
+from app.service.reply import BodyReply, QueryReply, Reply
+from app.wire.models import JSON, Wire
+from app.wire.problem import PROBLEM_TYPE
+
+PROBLEM = {PROBLEM_TYPE: {"schema": {"$ref": "#/components/schemas/Problem"}}}
+FILE = {"schema": {"type": "string", "format": "binary"}}
+TEXT = {"schema": {"type": "string"}}
+PROBLEMS = {
+    400: "The body is not JSON",
+    404: "There is no such format",
+    406: "Accept asks for a form that this call does not answer in",
+    413: "The body is too long",
+    415: "The body is not of type application/json",
+    422: "A value is outside its limits, a name is unknown, or an instant lies after the end of the run",
+    500: "The service failed",
+    503: "As many computations run as may run at once",
+}
+QUERY_STATUSES = (406, 422, 500, 503)
+BODY_STATUSES = (400, 406, 413, 415, 422, 500, 503)
+
+
+def router() -> APIRouter:
+    found = APIRouter()
+    for call in CALLS.values():
+        _add(found, call)
+    return found
+
+
+def _default(body: type[Wire]) -> tuple[Wire, ...]:
+    """What is asked where a request has no body; empty where it must have one."""
+    try:
+        return (body(),)
+    except ValidationError:
+        return ()
+
+
+def _add(router: APIRouter, call: Call) -> None:
+    question, method = call.question, call.method
+    statuses = QUERY_STATUSES if method == "GET" else BODY_STATUSES
+    if question.model is None:
+        statuses = (404, *statuses)
+    problems: dict[int | str, dict[str, Any]] = {
+        status: {"description": PROBLEMS[status], "content": PROBLEM} for status in statuses
+    }
+    unchanged = {"description": "The client has this answer already (If-None-Match)"}
+    content: dict[str, Any] = {form: TEXT if form == CSV_TYPE else FILE for form in question.forms if form != JSON}
+    if question.model is not None:
+        content = {JSON: {"example": EXAMPLES[f"{method} {question.path}"].answer}, **content}
+    answer = {"description": "The answer", "content": content, "model": question.model}
+    title = question.name.replace("_", " ").capitalize()
+    router.add_api_route(
+        question.path,
+        _endpoint(call),
+        methods=[method],
+        operation_id=call.name,
+        summary=title + (", in a body" if method == "POST" else ""),
+        description=question.summary,
+        tags=["Figures" if question.model is None else "Questions"],
+        response_class=Response,
+        responses={200: answer, 304: unchanged, **problems},
+        openapi_extra={"security": []},
+    )
+
+
+def _endpoint(call: Call) -> Callable[..., Response]:
+    """What FastAPI calls, which reads its parameters from the annotations."""
+
+    def answer(reply: Reply, wanted: Wire) -> Response:
+        return reply(call, wanted)
+
+    def figure(reply: Reply, format: Format, wanted: Wire) -> Response:
+        return reply(call, wanted, format)
+
+    endpoint = answer if call.question.model else figure
+    wanted: Any
+    if call.method == "GET":
+        replying, wanted = QueryReply, Annotated[call.asked, Query()]
+    else:
+        example = EXAMPLES.get(f"POST {call.question.path}")
+        replying, wanted = BodyReply, Annotated[call.asked, Body(examples=[example.body] if example else None)]
+        endpoint.__defaults__ = _default(call.asked)
+    endpoint.__name__ = call.name
+    endpoint.__annotations__ |= {"reply": replying, "wanted": wanted, "format": Format, "return": Response}
+    return endpoint

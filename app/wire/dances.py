@@ -1,0 +1,272 @@
+"""Dragons, instants and dances on the wire, and what they become in core.
+
+Queries are flat, bodies are nested; both are made of the same field groups and become the same dance.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Annotated, Any, TypedDict
+
+import numpy as np
+from pydantic import AfterValidator, Discriminator, Field, Tag
+from pydantic_core import PydanticCustomError
+
+from app.settings import Settings
+from app.wire.degrees import Coordinates, Place, place_of
+from app.wire.models import (
+    Instant,
+    Length,
+    Margin,
+    Overhang,
+    StartTurns,
+    TurningDiameter,
+    Width,
+    Wire,
+    check_limit,
+    measure,
+)
+from app.wire.paths import BY_KIND, KINDS, AnyPath, SpiralFields, SpiralPath
+from core import Dance, Dragon, InvalidValue
+from core.dragon import BENCHES_MAX
+from core.errors import said
+from core.values import Floats
+
+# The last instant of a range may miss `stop` by this share of a step, so that 0 to 0.3 by 0.1 has four instants.
+LAST_STEP_TOLERANCE = 1e-9
+FEWER_CELLS = "take a larger step, a shorter range or fewer benches"
+# Objects and lists in one another: a collection of features of polygons has nine.
+VENUE_DEPTH_MAX = 20
+
+
+class UniformDragon(Wire):
+    """A head and a body of equal benches."""
+
+    benches: int = Field(223, ge=1, le=BENCHES_MAX, description="Number of benches")
+    head_length: Length = measure("m", "Length of the head's bench", 3.41)
+    body_length: Length = measure("m", "Length of every other bench", 2.20)
+    width: Width = measure("m", "Width of every bench", 0.30)
+    overhang: Overhang = measure("m", "From a handle to the nearer end of its bench", 0.275)
+
+    def to_dragon(self, benches_max: int) -> Dragon:
+        """raises: TooLarge, InvalidValue"""
+        check_limit("dragon.benches", "benches", self.benches, benches_max, "shorten the dragon")
+        return Dragon(self.benches, self.head_length, self.body_length, self.width, self.overhang)
+
+    def most_benches(self, settings: Settings) -> int:
+        """The longest dragon: equal benches repeat one another, so theirs may be long."""
+        return settings.benches_max
+
+
+class BenchByBench(Wire, strict=True):
+    """A dragon given bench by bench, head first; the three lists are equally long."""
+
+    lengths: list[Length] = measure("m", "Length of each bench", min_length=1, fail_fast=True)
+    widths: list[Width] = measure("m", "Width of each bench", min_length=1, fail_fast=True)
+    overhangs: list[Overhang] = measure(
+        "m", "From a handle to the nearer end of its bench, for each bench", min_length=1, fail_fast=True
+    )
+
+    @property
+    def benches(self) -> int:
+        """Number of benches."""
+        return len(self.lengths)
+
+    def to_dragon(self, benches_max: int) -> Dragon:
+        """raises: TooLarge, InvalidValue"""
+        check_limit("dragon.lengths", "benches", self.benches, benches_max, "shorten the dragon")
+        return Dragon.of(self.lengths, self.widths, self.overhangs)
+
+
+class HeadSpeed(Wire):
+    """How fast the head dances."""
+
+    head_speed: float = measure("m/s", "Constant speed of the head", 1.0, ge=1e-3, le=20)
+
+
+class UniformBody(UniformDragon, strict=True):
+    """A head and a body of equal benches, in a body."""
+
+
+class TimeRange(Wire):
+    """Evenly spaced instants, both ends included where the step meets them."""
+
+    start: Instant = measure("s", "First instant", 0.0)
+    stop: Instant = measure("s", "Last instant, if the step meets it", 300.0)
+    step: float = measure("s", "Between two instants", 1.0, ge=1e-6, le=1e6)
+
+    def instants(self) -> int:
+        """Number of instants, known before any is made.
+
+        raises: InvalidValue when stop lies before start
+        """
+        if self.stop < self.start:
+            raise InvalidValue(
+                "times.stop",
+                f"{{field}} must not be before {{start}} ({said(self.start)} s), got {said(self.stop)} s",
+                start="times.start",
+            )
+        return math.floor((self.stop - self.start) / self.step + LAST_STEP_TOLERANCE) + 1
+
+    def times_of(self, dance: Dance, cells_max: int) -> Floats:
+        """Instants (T,) [s]. raises: TooLarge, InvalidValue"""
+        instants, handles = self.instants(), dance.dragon.benches + 1
+        check_limit("times.step", "instants x handles", instants * handles, cells_max, FEWER_CELLS)
+        return self.start + self.step * np.arange(instants, dtype=np.float64)
+
+
+class TimeSteps(TimeRange, strict=True):
+    """Evenly spaced instants, in a body."""
+
+
+def _shape_of_dragon(value: Any) -> str:
+    listed = isinstance(value, dict) and not value.keys().isdisjoint(BenchByBench.model_fields)
+    return "bench_by_bench" if listed or isinstance(value, BenchByBench) else "uniform"
+
+
+def _shape_of_times(value: Any) -> str:
+    return "list" if isinstance(value, list) else "range"
+
+
+# Names of shapes: pydantic puts them into the place of an error, though they stand in no body.
+SHAPES = frozenset({"uniform", "bench_by_bench", "range", "list"}) | KINDS
+
+# The one that has required names stands first: generated clients take the first that fits.
+AnyDragon = Annotated[
+    Annotated[BenchByBench, Tag("bench_by_bench")] | Annotated[UniformBody, Tag("uniform")],
+    Discriminator(_shape_of_dragon),
+]
+AnyTimes = Annotated[
+    Annotated[TimeSteps, Tag("range")] | Annotated[list[Instant], Field(min_length=1, fail_fast=True), Tag("list")],
+    Discriminator(_shape_of_times),
+]
+
+
+class DragonFields(Wire, strict=True):
+    """A dragon, as the body of a request."""
+
+    dragon: AnyDragon = Field(default_factory=UniformBody, description="The dragon")
+
+    @property
+    def benches(self) -> int:
+        """Number of benches."""
+        return self.dragon.benches
+
+    def to_dragon(self, benches_max: int) -> Dragon:
+        """raises: TooLarge, InvalidValue"""
+        return self.dragon.to_dragon(benches_max)
+
+    def most_benches(self, settings: Settings) -> int:
+        """The longest dragon: what does not repeat itself is searched bench by bench."""
+        return settings.benches_max if isinstance(self.dragon, UniformBody) else settings.checked_benches_max
+
+
+class DanceFields(HeadSpeed, DragonFields, strict=True):
+    """A dragon on a path, as the body of a request."""
+
+    path: AnyPath = Field(
+        default_factory=SpiralPath, description="The path", json_schema_extra={"discriminator": BY_KIND}
+    )
+
+    def most_benches(self, settings: Settings) -> int:
+        return super().most_benches(settings) if isinstance(self.path, SpiralPath) else settings.checked_benches_max
+
+    def to_dance(self, benches_max: int) -> Dance:
+        """raises: TooLarge, InvalidValue"""
+        return Dance(self.dragon.to_dragon(benches_max), self.path.to_path(), self.head_speed)
+
+
+class TimedDance(DanceFields):
+    """A dance at some instants."""
+
+    times: AnyTimes | None = measure(
+        "s",
+        "Instants: evenly spaced, or a list; 0 is the start of the dance; null: every second from 0 to "
+        "300 s; on a path that is no spiral every second from 0, or if the dance has no 0, from the first at which the "
+        "whole dragon is on the path, for 300 s or to the end of the path",
+        None,
+    )
+
+    def times_of(self, dance: Dance, cells_max: int) -> Floats:
+        """Instants (T,) [s]. raises: TooLarge, InvalidValue"""
+        handles = dance.dragon.benches + 1
+        if self.times is None and not isinstance(self.path, SpiralPath):
+            times = dance.default_times
+            check_limit("times", "instants x handles", len(times) * handles, cells_max, FEWER_CELLS)
+            return times
+        if not isinstance(self.times, list):
+            return (self.times or TimeSteps()).times_of(dance, cells_max)
+        check_limit("times", "instants x handles", len(self.times) * handles, cells_max, FEWER_CELLS)
+        return np.array(self.times, dtype=np.float64)
+
+
+def _shallow(value: dict[str, Any] | None) -> dict[str, Any] | None:
+    """Deeper ones exhaust the stack of whoever walks them by recursion."""
+    level: list[Any] = [value]
+    for _ in range(VENUE_DEPTH_MAX):
+        level = [inner for outer in level for inner in _inside(outer)]
+    if level:
+        raise PydanticCustomError("too_deep", "objects and lists in one another", {"most": VENUE_DEPTH_MAX})
+    return value
+
+
+def _inside(outer: Any) -> list[Any]:
+    """Objects and lists right inside of an object or a list."""
+    entries = outer.values() if isinstance(outer, dict) else outer if isinstance(outer, list) else ()
+    return [inner for inner in entries if isinstance(inner, (dict, list))]
+
+
+class PlacedDance(DanceFields):
+    """A dance, and the place where it is danced."""
+
+    venue: Annotated[dict[str, Any] | None, AfterValidator(_shallow)] = Field(
+        None,
+        description="GeoJSON with coordinates in metres, or in degrees: the square (the polygon named square, else the "
+        "first one; its holes are outside) and the obstacles in it; null: an endless plain",
+    )
+    coordinates: Coordinates | None = Field(
+        None,
+        description="Of the venue: metres, or degrees of longitude and latitude (WGS 84), which are laid out on the "
+        "plane that touches the earth in the middle of the square's bounding box, x to the east and y to the north "
+        "from there; null: what the venue's crs says, else metres",
+    )
+
+    def to_place(self, dragon: Dragon) -> Place:
+        """raises: InvalidValue"""
+        if self.venue is None:
+            if self.coordinates is not None:
+                words = f"got {self.coordinates} without a venue: give the venue, or leave coordinates out"
+                raise InvalidValue("coordinates", f"coordinates must stand beside the venue that they are of, {words}")
+            return Place()
+        return place_of(self.venue, self.coordinates, dragon)
+
+
+class DanceQuery(HeadSpeed, SpiralFields, UniformDragon):
+    """A uniform dragon on a spiral, as query parameters."""
+
+    def to_dance(self, benches_max: int) -> Dance:
+        """raises: TooLarge, InvalidValue"""
+        return Dance(self.to_dragon(benches_max), self.to_path(), self.head_speed)
+
+
+class CoreCircle(TypedDict):
+    """A circle in the words of core."""
+
+    turning_radius: float
+    start_turns: float
+    margin: float
+
+
+class Circle(Wire):
+    """A circle that the head must reach, from a start on a spiral of any pitch."""
+
+    turning_diameter: TurningDiameter = measure("m", "Diameter of the circle that the head must reach", 9.0)
+    start_turns: StartTurns = 16.0
+    margin: Margin = 0.0
+
+    def to_circle(self) -> CoreCircle:
+        return {
+            "turning_radius": self.turning_diameter / 2,
+            "start_turns": self.start_turns,
+            "margin": self.margin,
+        }

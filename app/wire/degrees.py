@@ -1,0 +1,175 @@
+"""Longitude and latitude: told from metres, and laid out on a plane in metres.
+
+Core knows metres alone. GeoJSON, by RFC 7946, means degrees; read as metres, a square of 200 m would be 2 mm wide.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from app.wire.geojson import Polygon, Scale, read_polygons, venue_of
+from core import Dragon, InvalidValue, Venue
+from core.venue import Ring
+
+Coordinates = Literal["metres", "degrees"]
+
+# The ellipsoid of WGS 84: half of its long axis [m], and its flattening [1]. CGCS2000 differs by 0.1 mm.
+AXIS = 6_378_137.0
+FLATTENING = 1 / 298.257223563
+# A venue in degrees is at most so far across [m]: 10 km from the middle the plane shortens lengths by 1e-6 of them.
+ACROSS_MAX = 20_000.0
+# Names of coordinate systems whose coordinates are longitude and latitude: CRS84, and by their EPSG numbers WGS 84,
+# CGCS2000, ETRS89 and NAD83.
+GEOGRAPHIC = re.compile(r"CRS:?84|\bEPSG:+[\d.]*:*(?:4326|4979|4490|4258|4269)$", re.IGNORECASE)
+
+DEGREES: Scale = ("degrees", 180.0, 90.0)
+LATITUDE_FIRST: Scale = ("degrees", 90.0, 180.0)
+SWAPPED = "longitude comes first and latitude second, and here they look swapped"
+
+
+@dataclass(frozen=True, slots=True)
+class Origin:
+    """Where x = y = 0 lies [degrees]."""
+
+    longitude: float
+    latitude: float
+
+
+@dataclass(frozen=True, slots=True)
+class Place:
+    """A venue in metres, and where on earth its origin lies if it was given in degrees."""
+
+    venue: Venue | None = None
+    origin: Origin | None = None
+
+
+def place_of(geometry: Mapping[str, object], coordinates: Coordinates | None, dragon: Dragon) -> Place:
+    """The venue in a GeoJSON object.
+
+    coordinates: what it is given in; None: what its member `crs` says, else metres
+    raises: InvalidValue, also for what can only be degrees where metres are meant: all coordinates within 180 and 90,
+        in either order, and the square narrower than a bench
+    """
+    named = _named_system(geometry)
+    for member in ("geometry", "features", "geometries"):
+        _refuse_systems_inside(f"venue.{member}", geometry.get(member))
+    geographic = named is not None and GEOGRAPHIC.search(named) is not None
+    if coordinates is None and named is not None and not geographic:
+        words = "give longitude and latitude without crs, or true metres with coordinates: metres beside the venue"
+        raise InvalidValue("venue.crs", f"venue.crs must be left out or name CRS84, got {named!r}: {words}")
+    if named is not None and coordinates == ("metres" if geographic else "degrees"):
+        meant = "longitude and latitude" if geographic else "something else"
+        raise InvalidValue(
+            "coordinates", f"coordinates must agree with venue.crs, which is {named!r}: {meant}, got {coordinates!r}"
+        )
+    if coordinates == "degrees" or geographic:
+        return _laid_out(_in_degrees(geometry))
+    polygons = read_polygons(geometry)
+    _refuse_degrees(polygons, float(dragon.lengths.max()))
+    return Place(venue_of(polygons))
+
+
+def _named_system(geometry: Mapping[str, object]) -> str | None:
+    """The coordinate system that the GeoJSON of 2008 names; None where there is none."""
+    system = geometry.get("crs") if isinstance(geometry, Mapping) else None
+    if system is None:
+        return None
+    properties = system.get("properties") if isinstance(system, Mapping) else None
+    name = properties.get("name") if isinstance(properties, Mapping) else None
+    if not isinstance(name, str):
+        raise InvalidValue("venue.crs", "venue.crs must be left out, or name a coordinate system in properties.name")
+    return name
+
+
+def _refuse_systems_inside(field: str, part: object) -> None:
+    """Refuse a coordinate system named further in: it would be read as none."""
+    if isinstance(part, Mapping):
+        if part.get("crs") is not None:
+            words = "its coordinate system is that of the whole venue: name it in venue.crs"
+            raise InvalidValue(f"{field}.crs", f"{field}.crs must be left out: {words}")
+        for member in ("geometry", "features", "geometries"):
+            _refuse_systems_inside(f"{field}.{member}", part.get(member))
+    elif isinstance(part, list):
+        for k, item in enumerate(part):
+            _refuse_systems_inside(f"{field}.{k}", item)
+
+
+def _in_degrees(geometry: Mapping[str, object]) -> list[Polygon]:
+    """The polygons in degrees. raises: InvalidValue, which says so where longitude and latitude look swapped"""
+    try:
+        return read_polygons(geometry, DEGREES)
+    except InvalidValue as error:
+        try:
+            read_polygons(geometry, LATITUDE_FIRST)
+        except InvalidValue:
+            raise error from None
+        raise InvalidValue(error.field, f"{error.message}: {SWAPPED}") from error
+
+
+def _bounds(rings: list[Ring]) -> tuple[float, float, float, float]:
+    """Least x and y, largest x and y."""
+    xs, ys = zip(*(point for ring in rings for point in ring), strict=True)
+    return min(xs), min(ys), max(xs), max(ys)
+
+
+def _refuse_degrees(polygons: list[Polygon], longest: float) -> None:
+    places = [point for _, rings in polygons for ring in rings for point in ring]
+    in_order = all(abs(x) <= 180.0 and abs(y) <= 90.0 for x, y in places)
+    swapped = all(abs(x) <= 90.0 and abs(y) <= 180.0 for x, y in places)
+    if not places or not (in_order or swapped):
+        return
+    left, low, right, high = _bounds([polygons[0][1][0]])
+    if max(right - left, high - low) >= longest:
+        return
+    size = f"{right - left:.6g} by {high - low:.6g}, narrower than a bench of {longest:g} m"
+    looks = "longitude and latitude" if in_order else "latitude and longitude in that order"
+    change = "say coordinates: degrees beside the venue to have it laid out in metres"
+    if not in_order:
+        change = f"{SWAPPED}; put them in order, and {change}"
+    raise InvalidValue("venue", f"venue must be in metres, got what looks like {looks}, a square of {size}: {change}")
+
+
+# The plane touches the ellipsoid at the middle O of the square's box. A point P at longitude l and latitude p is, from
+# the centre of the earth, (n cos p cos l, n cos p sin l, n (1 - e2) sin p) with n = AXIS / sqrt(1 - e2 sin^2 p) and
+# e2 = f (2 - f). East and north of O are the projections of P - O on the unit vectors (-sin l0, cos l0, 0) and
+# (-sin p0 cos l0, -sin p0 sin l0, cos p0).
+def _laid_out(polygons: list[Polygon]) -> Place:
+    turned = [(name, tuple(_unwrapped(ring, polygons[0][1][0][0][0]) for ring in rings)) for name, rings in polygons]
+    left, low, right, high = _bounds([turned[0][1][0]])
+    longitude, latitude = 0.5 * (left + right), 0.5 * (low + high)
+    l0, p0 = math.radians(longitude), math.radians(latitude)
+    origin = _from_centre(longitude, latitude)
+    east = (-math.sin(l0), math.cos(l0), 0.0)
+    north = (-math.sin(p0) * math.cos(l0), -math.sin(p0) * math.sin(l0), math.cos(p0))
+
+    def placed(ring: Ring) -> Ring:
+        ways = np.array([_from_centre(*point) for point in ring]) - origin
+        return tuple(map(tuple, (ways @ np.array([east, north]).T).tolist()))
+
+    left, low, right, high = _bounds([ring for _, rings in turned for ring in rings])
+    across = AXIS * math.radians(max((right - left) * math.cos(p0), high - low))
+    if across > ACROSS_MAX:
+        limit, size = ACROSS_MAX / 1000.0, across / 1000.0
+        raise InvalidValue("venue", f"venue must be at most {limit:g} km across, got about {size:.4g} km")
+    metres = [(name, tuple(placed(ring) for ring in rings)) for name, rings in turned]
+    return Place(venue_of(metres), Origin((longitude + 180.0) % 360.0 - 180.0, latitude))
+
+
+def _unwrapped(ring: Ring, near: float) -> Ring:
+    """The ring with longitudes within half a turn of one: across the date line they jump."""
+    return tuple((near + (x - near + 180.0) % 360.0 - 180.0, y) for x, y in ring)
+
+
+def _from_centre(longitude: float, latitude: float) -> tuple[float, float, float]:
+    """A place on the ellipsoid from the centre of the earth [m]."""
+    long, lat = math.radians(longitude), math.radians(latitude)
+    squared = FLATTENING * (2.0 - FLATTENING)
+    n = AXIS / math.sqrt(1.0 - squared * math.sin(lat) ** 2)
+    across = n * math.cos(lat)
+    return across * math.cos(long), across * math.sin(long), n * (1.0 - squared) * math.sin(lat)

@@ -1,0 +1,98 @@
+"""What core refuses, by the names and values of the request that asked for it.
+
+Core knows one dance: its instants one by one, a radius, a path with fields. A request may have given a range of
+instants, a diameter, or names without `dragon.` and `path.` before them; whoever wrote those cannot mend others.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Any
+
+from pydantic import BaseModel
+
+from app.wire.dances import TimeSteps
+from app.wire.paths import TurnFields
+from core import BenchDragonError, Dragon
+from core.dance import follows, tightest_bend
+from core.dragon import BENCHES_MAX
+from core.errors import said
+
+# A request that has no object of this name has its fields in its own place.
+OUTER = re.compile(r"^(dragon|path|times)\.(?=[a-z])")
+# What of a turn may make it too tight, where its default would do; else its circle is too small.
+MEND_A_TURN = ("entry_radius", "ratio", "pitch")
+INSTANT = re.compile(r"times(?:\.(\d+))?")
+
+
+@contextmanager
+def refusing(request: BaseModel) -> Iterator[None]:
+    """Within it, what core refuses names what the request gave, or could have given."""
+    try:
+        yield
+    except BenchDragonError as error:
+        raise reworded(error, request) from error
+
+
+def reworded(error: BenchDragonError, request: BaseModel) -> BenchDragonError:
+    """The same error about what the request gave."""
+    names = type(request).model_fields.keys()
+    if found := INSTANT.fullmatch(error.field):
+        error = _of_instants(error, request, int(found[1] or 0))
+    if error.field.endswith("turning_radius"):
+        radius = error.field
+        error = error.named(radius.replace("radius", "diameter"), None if error.got is None else 2.0 * error.got)
+    if error.field == "path" and isinstance(getattr(request, "path", request), TurnFields):
+        error = _of_a_turn(error, request)
+    # A range of times may stand beside the name `times`, as among the options of the command.
+    objects = names - {"times"} if "stop" in names else names
+    return error.renamed(lambda name: OUTER.sub(lambda outer: outer[0] * (outer[1] in objects), name))
+
+
+def _of_instants(error: BenchDragonError, request: Any, index: int) -> BenchDragonError:
+    """One of the instants: of a range, its start or what lets it run so far."""
+    names = type(request).model_fields
+    if "time" in names:
+        return error.named("time")
+    times = getattr(request, "times", None)
+    if times is None:
+        times = request if "stop" in names else TimeSteps()
+    if not hasattr(times, "stop") or error.got is None:
+        return error
+    end = "start" if index == 0 else "stop"
+    return error.named(f"times.{end}", getattr(times, end))
+
+
+def _of_a_turn(error: BenchDragonError, request: Any) -> BenchDragonError:
+    """A turn that bends too tight for a bench: by what makes it so tight."""
+    body = not isinstance(request, TurnFields)
+    fields: TurnFields = request.path if body else request
+    dragon = (request.dragon if body else request).to_dragon(BENCHES_MAX)
+    path = fields.to_turn()
+    if follows(dragon, path):
+        return error
+    name = next((name for name in MEND_A_TURN if _mends(name, fields, dragon)), "turning_diameter")
+    rule = f"must be larger than {said(getattr(fields, name))} m"
+    if name == "ratio":
+        rule = f"must be nearer to 1 than {said(fields.ratio)}"
+    (tightest, bench), bend = tightest_bend(dragon), 1.0 / path.sharpest[0]
+    why = f"the turn bends to a radius of {bend:.4g} m, and bench {bench} follows none below {tightest:.4g} m"
+    place = f"path.{name}" if body else name
+    return type(error)(place, f"{place} {rule}: {why}")
+
+
+def _mends(name: str, fields: TurnFields, dragon: Dragon) -> bool:
+    """Can the dragon follow the turn that has the default in this place?"""
+    default = TurnFields.model_fields[name].default
+    if getattr(fields, name) == default:
+        return False
+    try:
+        return follows(dragon, TurnFields.model_validate(_turn_values(fields) | {name: default}).to_turn())
+    except BenchDragonError:
+        return False
+
+
+def _turn_values(fields: TurnFields) -> dict[str, Any]:
+    return {name: getattr(fields, name) for name in TurnFields.model_fields}

@@ -1,0 +1,261 @@
+"""Clearance at given times with its local minima, and the least over a stretch: sampled, then proven by a march."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from core import plots
+from core.contact.fold import least_to_fold
+from core.contact.search import NEAR_WORK_BUDGET, Search
+from core.dance import Dance, RunEnd
+from core.errors import InvalidValue
+from core.motion.trajectory import instants
+from core.sampling import dips
+from core.shown import Shown, counted, worded
+from core.tables import data_frame, data_set
+from core.values import Floats, checked_type
+
+if TYPE_CHECKING:
+    import pandas
+    import xarray
+    from matplotlib.axes import Axes
+
+# Clearances are sampled in steps of this fraction of the shortest chord [1], or longer ones where that is too much work
+# (Search.samples()); a dip is refined to this width [m of head travel], in a profile [s].
+PROFILE_STEP = 0.2
+DIP_WIDTH = 1e-11
+# Width to which the least distance is proven [m]; the second one where the first takes more steps than a search may.
+PROOF_WIDTHS = (1e-5, 1e-3)
+# Number of the lowest samples that are refined before the proof begins.
+DIPS_REFINED = 5
+# Most times that a proof may come upon something nearer; each time the distance falls by PROOF_WIDTHS[0] or more.
+ROUNDS = 100
+
+Pair = tuple[int, int]
+# Gap [m], head travel [m], pair.
+Dip = tuple[float, float, Pair]
+
+
+@dataclass(frozen=True, slots=True, repr=False)
+class Graze(Shown):
+    """A local minimum of the clearance over time: time [s], clearance [m], the pair."""
+
+    time: float
+    clearance: float
+    benches: tuple[int, int]
+
+
+@dataclass(frozen=True, slots=True, repr=False)
+class ClearanceProfile(Shown):
+    """time (...) [s], clearance (...) [m], benches (..., 2), and the local minima between the first and last time.
+
+    ... is (T,) for a list of times and nothing for one time.
+    """
+
+    time: Floats
+    clearance: Floats
+    benches: NDArray[np.int64]
+    grazes: tuple[Graze, ...]
+
+    def _line(self) -> str:
+        if not self.time.size:
+            return "no instants"
+        least = int(self.clearance.argmin())
+        a, b = self.benches.reshape(-1, 2)[least]
+        nearest = f"{worded(self.clearance.item(least), 'm')} between benches {a} and {b}"
+        grazes = counted(len(self.grazes), "graze")
+        return f"{instants(self.time)}; least {nearest} at {worded(self.time.item(least), 's')}; {grazes}"
+
+    def to_dataframe(self) -> pandas.DataFrame:
+        """One row for each time: time [s], clearance [m], bench_a, bench_b.
+
+        raises: ImportError without pandas, naming the extra
+        """
+        a, b = self.benches.reshape(-1, 2).T
+        columns = {"time": self.time.ravel(), "clearance": self.clearance.ravel(), "bench_a": a, "bench_b": b}
+        return data_frame("ClearanceProfile.to_dataframe()", columns, {})
+
+    def to_xarray(self) -> xarray.Dataset:
+        """clearance (time) [m] and benches (time, pair); without the axis `time` where one time was asked.
+
+        raises: ImportError without xarray, naming the extra
+        """
+        axis = ("time",) * self.time.ndim
+        variables = {"clearance": (axis, self.clearance), "benches": ((*axis, "pair"), self.benches)}
+        return data_set("ClearanceProfile.to_xarray()", variables, {"time": (axis, self.time), "pair": ["a", "b"]})
+
+    def plot(self, ax: Axes | None = None) -> Axes:
+        """The clearance against time, its local minima as dots.
+
+        returns: the axes given, or those of a new figure, in seconds and metres
+        raises: ImportError without matplotlib, naming the extra
+        """
+        axes = plots.wanted_axes(ax, "ClearanceProfile.plot()")
+        grazes = [(graze.time, graze.clearance) for graze in self.grazes]
+        plots.draw_clearance(axes, self.time.ravel(), self.clearance.ravel(), grazes)
+        return axes
+
+
+@dataclass(frozen=True, slots=True, repr=False)
+class LeastClearance(Shown):
+    """The least clearance over a stretch of the dance.
+
+    distance: the least found [m], met at `time` [s] by `benches`; 0 at the first touch if benches touch
+    at_least: proven [m]: nothing comes nearer than this, which is PROOF_WIDTHS[0] below the distance or, where
+        steps run short, PROOF_WIDTHS[1]; None where the search gave up first
+    """
+
+    distance: float
+    at_least: float | None
+    time: float
+    benches: Pair
+
+
+def clearance_profile(dance: Dance, times: Floats | Sequence[float] | float) -> ClearanceProfile:
+    """Exact clearance and its pair at every time, and its local minima refined.
+
+    times: (T,) or one [s]
+    grazes: looked for between the first and the last time in steps of PROFILE_STEP of the shortest chord (longer ones
+        for thousands of benches on a long way), refined to rounding; a dip of a pair
+        that is the nearest for less than a step may be missed here, never by first_contact()
+    raises: OutsideRun after the end of the run; InvalidValue for fewer than three benches
+    """
+    checked_type("dance", dance, Dance)
+    dragon, head_speed = dance.dragon, dance.head_speed
+    if dragon.benches < 3:
+        raise InvalidValue(
+            "dragon.benches", f"dragon.benches must be at least 3 for two to share no handle, got {dragon.benches}"
+        )
+    time = dance.times(times)
+    search = Search(dragon, dance.path, 0.0)
+    search.resize(dragon.benches)
+    clearance, benches = _at(search, time, head_speed)
+    return ClearanceProfile(time, clearance, benches, _grazes(search, time, head_speed))
+
+
+def _at(search: Search, time: Floats, head_speed: float) -> tuple[Floats, NDArray[np.int64]]:
+    clearance, benches = np.empty(time.size), np.empty((time.size, 2), dtype=np.int64)
+    for k, instant in enumerate(time.flat):
+        clearance[k], benches[k] = search.clearance(float(instant) * head_speed)
+    return clearance.reshape(time.shape), benches.reshape(*time.shape, 2)
+
+
+def _grid(search: Search, begin: float, until: float) -> list[float]:
+    """Travels at which clearances are sampled between two [m]."""
+    count = search.samples(until - begin, PROFILE_STEP * search.extremes[1])
+    grid: list[float] = np.linspace(begin, until, count).tolist()
+    return grid
+
+
+# Where the clearance passes from one pair to another it has a kink that points up, so each of its local minima is one
+# of a single pair: of the nearest one at either end of a step, if that pair comes nearer at first and parts at last.
+def _grazes(search: Search, time: Floats, head_speed: float) -> tuple[Graze, ...]:
+    if time.size < 2:
+        return ()
+    first, last = float(time.min()) * head_speed, float(time.max()) * head_speed
+    grid = _grid(search, first, last)
+    pairs = [search.clearance(travel)[1] for travel in grid]
+    grazes = []
+    for ends, nearest in zip(pairwise(grid), pairwise(pairs), strict=True):
+        for pair in sorted(set(nearest)):
+            if not search.gap_rate(ends[0], pair) < 0.0 < search.gap_rate(ends[1], pair):
+                continue
+            travel = search.bottom(*ends, pair, DIP_WIDTH * head_speed)
+            gap, there = search.clearance(travel)
+            if there == pair:
+                grazes.append(Graze(travel / head_speed, gap, pair))
+    return tuple(sorted(grazes, key=lambda graze: graze.time))
+
+
+def least_clearance(dance: Dance, *, start: float = 0.0, stop: float | None = None) -> LeastClearance | None:
+    """The least clearance between start and stop [s], None for the end of the run; None with fewer than three benches.
+
+    raises: InvalidValue; OutsideRun for a stop after the end of the run
+    """
+    checked_type("dance", dance, Dance)
+    begin, until = dance.span(start, stop)
+    head_speed, end = dance.head_speed, dance.end
+    if dance.dragon.benches < 3:
+        return None
+    to_fold = dance.nears_fold(until)
+    search = Search(dance.dragon, dance.path, 0.0, work=NEAR_WORK_BUDGET)
+    last = search.last_travel(until * head_speed, to_fold)
+    fold = end if to_fold else None
+    (distance, travel, pair), at_least = least_over(search, begin * head_speed, last, head_speed, fold)
+    return LeastClearance(distance, at_least, travel / head_speed, pair)
+
+
+# The least gap that samples show does occur, so it is an upper bound of the least gap of all. The march gets that gap
+# less a width as its margin. Either it reaches the end, which proves that nothing comes nearer; or it meets a lower
+# gap. Then that one is refined, and the march goes on from there with a lower margin: what it has passed is clear of
+# the higher margin, and so of the lower. A dip whose bottom lies between the margin and the gap is crossed in steps
+# far shorter than it is wide, so the march refines it.
+def least_over(
+    search: Search, begin: float, until: float, head_speed: float, fold: RunEnd | None = None
+) -> tuple[Dip, float | None]:
+    """The least gap of the search's pairs between two travels of the head, and what is proven of it [m].
+
+    A gap of 0 stands for the first touch. The search's margin is another one afterwards.
+    fold: where the run ends, if right after `until` and at a fold. Steps shrink to nothing before it, where handles
+        are fast without bound, so a bound on the motion left takes the place of the last ones: least_to_fold()
+    """
+    best = _sampled(search, begin, until)
+    proven_to, proven = begin, None
+    for width in PROOF_WIDTHS:
+        for _ in range(ROUNDS):
+            if best[0] <= 0.0:
+                return _first_touch(search, proven_to, until, head_speed, best)
+            search.use(search.path, max(best[0] - width, 0.0))
+            margin = search.margin
+            state, found = search.march(until, 0.0, start=proven_to, dips=True)
+            if found.graze is not None and found.graze.gap < best[0]:
+                best = found.graze
+            if state in ("reached", "stuck"):
+                left = margin if state == "reached" else None
+                if fold is not None:
+                    left = least_to_fold(search, min(found.proven, until), fold)
+                if left is not None and left >= margin:
+                    return best, margin
+                proven = max(proven or 0.0, left or 0.0) or None
+                break
+            proven_to = max(proven_to, found.proven)
+            reach = PROFILE_STEP * search.extremes[1]
+            touching = found.touching
+            assert touching is not None
+            best = min(best, _refined(search, max(begin, touching - reach), touching, min(until, touching + reach)))
+    return best, proven
+
+
+def _first_touch(search: Search, begin: float, until: float, head_speed: float, touching: Dip) -> tuple[Dip, float]:
+    """The first touch, where something touches for certain; the touch known already where the search gives up."""
+    search.use(search.path, 0.0)
+    state, found, tolerance = search.approach(begin, until, head_speed)
+    if not state.startswith("touched") or found.touching is None:
+        return (0.0, *touching[1:]), 0.0
+    return (0.0, found.touching - (tolerance if state == "touched" else 0.0), found.benches), 0.0
+
+
+def _sampled(search: Search, begin: float, until: float) -> Dip:
+    """The least of the ends and of the dips that samples show."""
+    grid = _grid(search, begin, until)
+    leaders = min(search.dragon.uniform_from + 1, search.dragon.benches)
+    gaps = np.array([search.clearance(travel, leaders)[0] for travel in grid])
+    ends = [(gap, travel, pair) for travel in (begin, until) for gap, pair in (search.clearance(travel),)]
+    return min(ends + [_refined(search, *grid[k - 1 : k + 2]) for k in dips(gaps, DIPS_REFINED).tolist()])
+
+
+def _refined(search: Search, low: float, middle: float, high: float) -> Dip:
+    """The bottom of the dip around the middle travel; sought once more if another pair is nearer there."""
+    gap, pair = search.clearance(middle)
+    best = (gap, middle, pair)
+    for _ in range(2):
+        travel = search.bottom(low, high, best[2], DIP_WIDTH)
+        gap, pair = search.clearance(travel)
+        best = min(best, (gap, travel, pair))
+    return best

@@ -1,0 +1,141 @@
+"""The last stretch before a fold: what benches can still move there, and so how near they may come.
+
+Steps of the march shrink to nothing before a fold, where handle speeds grow without bound; this bound replaces them.
+"""
+
+from __future__ import annotations
+
+import heapq
+import math
+
+import numpy as np
+
+from core import kernels
+from core.contact.search import NO_BOUND, NO_GAP, Search
+from core.dance import RunEnd
+from core.kernels.constants import CHORD, ERROR, HALF_LENGTH, HALF_WIDTH, THETA
+from core.values import Floats
+
+# Most stretches into which the way to a fold is cut; each takes 0.1 to 0.3 ms.
+FOLD_STRETCHES = 200
+# Angles at which dragons fold, and those of handles from leader to follower, are good to far less than this part [1]:
+# see least_left().
+THETA_ROUNDING = 1e-12
+# Work that one stretch counts as, and for each bench besides [1].
+STRETCH_WORK, FOLD_WORK = 1000.0, 20.0
+
+
+def clear_to_fold(search: Search, travel: float, end: RunEnd) -> bool:
+    """Do all pairs stay further apart than the margin from a travel [m] to the fold?"""
+    least = least_to_fold(search, travel, end)
+    return least is not None and least > search.margin
+
+
+# Towards the fold handles move as the square root of what is left of the travel, so a stretch whose bound is too
+# low is split where a quarter of it is left: about half of its motion lies on each side. Its bound holds for both.
+def least_to_fold(search: Search, travel: float, end: RunEnd) -> float | None:
+    """No two benches come nearer than this, or than the margin, from a travel to the fold [m]; None: not known.
+
+    By FOLD_STRETCHES at most, or until the bound exceeds the margin.
+    """
+    assert end.theta is not None
+    if search.dragon.benches < 3:
+        return NO_GAP
+    travel, last = travel - search.travel_rounding(travel), search.travel_at(end.theta)
+    stretches = [(least_left(search, travel, end.theta), travel, last)]
+    while stretches[0][0] <= search.margin and len(stretches) < FOLD_STRETCHES:
+        least, start, stop = heapq.heappop(stretches)
+        middle = stop - 0.25 * (stop - start)
+        ends = (
+            (start, middle, search.theta_at(middle)),
+            (middle, stop, end.theta if stop == last else search.theta_at(stop)),
+        )
+        for begin, until, theta in ends:
+            heapq.heappush(stretches, (max(least, least_left(search, begin, theta)), begin, until))
+    least = stretches[0][0]
+    return least if least > -NO_BOUND else None
+
+
+# From a travel to a later one handle 0 stands in [low_0, high_0] = [theta then, theta now]. Follower and leader
+# differ by delta(theta), which falls with theta (spiral.py), so handle k + 1 stands in
+#     [low_k + delta(high_k), high_k + delta(low_k)],
+# and where the curvature at low_k times half the chord is at most BEND_LIMIT (chord lemma, bounds.py) in
+#     [low_k + delta(low_k), high_k + delta(high_k)],
+# as the follower then moves in the direction of its leader. It goes no further than its leader there (Vogt), so
+# once this holds for all chords that follow, no handle behind moves further than that one. A handle moves by no
+# more than D_k, the arc between the ends of its interval. A bench (front handle a, rear handle b, chord c) turns by
+#     turn = min((D_a + D_b) / c, k (D_a + D_b) / 2)
+# at most, the second under the lemma, which bounds omega by k (a' + b') / 2 there; and a point of it, beyond a
+# handle by o at most and sideways by w / 2, moves by no more than
+#     max(D_a, D_b) + (o + w / 2) turn.
+# Where delta folds for low_k, or rounds to a fold, the delta of the fold itself takes its place, which is larger.
+#
+# Rounding. Stretches meet at the same computed theta, so that they leave no gap; the first one begins before its
+# travel by what that may be off by, and every interval is wider at both ends by w = THETA_ROUNDING of theta. That
+# covers delta, near the fold too. A computed delta is the root for a chord^2 = f that is off by 14 u f (spiral.py).
+# Where theta f_theta >= 0.03 f, that is a theta off by less than 500 u, far less than w. Else 4 theta (theta +
+# delta) s^2 < 0.03 f, s = sin(delta / 2), and delta^2 > 0.97 f; up to delta = pi f_delta / 2 >= delta, and from
+# there to the crest s >= 0.64 and theta (theta + delta) |sin delta| <= 2 theta (theta + delta) s <= 0.12 delta, so
+# f_delta / 2 >= 0.88 delta: delta is off by 9 u of itself, far less than w again. The arcs, widened by growth w
+# theta sqrt(1 + theta^2), and what follows from them are products and sums of terms >= 0. Gaps are good to
+# gap_rounding(): that grows with a gap by far less than the gap itself, so it need only reach as far as any pair
+# that can be the least.
+def least_left(search: Search, travel: float, theta: float) -> float:
+    """No two benches come nearer than this, or than the margin, from a travel until the head is at theta [m].
+
+    Every pair's gap after that travel, less what both can still move, each bench by its own sizes; -NO_BOUND where
+    a bench that has no place in rows[0] could come near one that leads a pair.
+    """
+    search.spend(STRETCH_WORK + FOLD_WORK * search.room)
+    gap, _ = search.clearance(travel)
+    arcs, moved = moved_until(search, theta)
+    reached = 2.0 * float(moved.max())
+    rounding = search.gap_rounding(travel, min(gap, NO_BOUND) + reached)
+    arcs += search.rows[0, search.room - 1, ERROR]
+    radii = search.growth * search.rows[0, : search.room + 1, THETA]
+    outside = np.flatnonzero(radii[:-1] - arcs[:-1] >= search.clear_radius)
+    leaders = int(outside[0]) if outside.size else search.room
+    if search.room < search.dragon.benches:
+        lead, rear = search.growth * theta * (1.0 - THETA_ROUNDING), float(radii[leaders] + arcs[leaders])
+        reach = kernels.leaders_reach(search.growth, lead, rear, search.rings) + search.margin
+        if radii[-1] - arcs[-1] < kernels.radius_beyond(search.growth, reach, search.rings):
+            return -NO_BOUND
+    least = gap - reached
+    if least <= search.margin:
+        least = kernels.clearance_left(leaders, search.room, search.sizes, search.rows[0], moved)
+    return float(least) - rounding
+
+
+def moved_until(search: Search, theta: float) -> tuple[Floats, Floats]:
+    """How far each handle in rows[0], and any point of each bench, moves until the head is at theta at most [m]."""
+    growth, benches = search.growth, search.room
+    chords = search.sizes[:benches, CHORD]
+    longest_behind = np.maximum.accumulate(chords[::-1])[::-1].tolist()
+    low, high = theta * (1.0 - THETA_ROUNDING), float(search.rows[0, 0, THETA]) * (1.0 + THETA_ROUNDING)
+    arcs, curvatures = np.empty(benches + 1), np.full(benches, NO_BOUND)
+    for k in range(benches + 1):
+        arcs[k] = growth * (high - low) * math.hypot(1.0, high)
+        if k == benches:
+            break
+        curvature = kernels.spiral_curvature(low) / growth
+        if 0.5 * curvature * longest_behind[k] <= kernels.BEND_LIMIT:
+            arcs[k:], curvatures[k:] = arcs[k], curvature
+            break
+        inner, outer = _deltas(search.growth, low, high, float(chords[k]))
+        if 0.5 * curvature * chords[k] <= kernels.BEND_LIMIT:
+            inner, outer, curvatures[k] = outer, inner, curvature
+        low, high = (low + inner) * (1.0 - THETA_ROUNDING), (high + outer) * (1.0 + THETA_ROUNDING)
+    both = arcs[:-1] + arcs[1:]
+    turned = both * np.minimum(1.0 / chords, 0.5 * curvatures)
+    over = search.sizes[:benches, HALF_LENGTH] - 0.5 * chords + search.sizes[:benches, HALF_WIDTH]
+    return arcs, np.maximum(arcs[:-1], arcs[1:]) + over * turned
+
+
+def _deltas(growth: float, low: float, high: float, chord: float) -> tuple[float, float]:
+    """delta of a follower whose leader stands at high, and at low [rad]; where there is none, that of the fold."""
+    chord2 = (chord / growth) ** 2
+    inner, outer = (float(kernels.first_root(theta, chord2)) for theta in (high, low))
+    if min(inner, outer) < 0.0:
+        fold = float(kernels.first_crest(kernels.fold_theta(chord2)))
+        inner, outer = (fold if delta < 0.0 else delta for delta in (inner, outer))
+    return inner, outer

@@ -1,0 +1,142 @@
+"""Ways from the start of a spiral to the turning circle: at which pitches are they free of contact?"""
+
+from __future__ import annotations
+
+import math
+
+from core import kernels
+from core.contact.fold import THETA_ROUNDING, clear_to_fold
+from core.contact.search import Budget, Ended, Marched, Search
+from core.dance import EndReason, RunEnd, end_theta
+from core.design.pitch_bands import Bands
+from core.dragon import Dragon
+from core.errors import TooMuchWork
+from core.paths.spiral import Spiral
+from core.values import SIZE_MIN
+
+# Half width of the bracket around a contact [m of head travel].
+CONTACT_WIDTH = 2e-11
+# Most work of all ways and bands together, see core/kernels/constants.py: about 5 s. The default case takes
+# about 150,000 [1].
+PITCH_WORK = 4e7
+# Most work of one way, and of its second march in finer steps where the first one leaves it undecided [1].
+WAY_WORK = 5e6
+FINER_WORK = 1e6
+# A way that ends this close to a fold, where handles are fast, is marched in finer steps [m of head travel].
+FINE_NEAR_FOLD = 0.1
+# The bound for wide spirals is used if it lets a march begin at this part of the radius that the ring bound gives, or
+# nearer; radii are tried in steps of this factor [1].
+NEARER = 0.8
+# Number of leading benches whose pairs are examined at both ends of a way before it is marched.
+LOOKED_AT = 2
+
+
+class Ways:
+    """The ways of one dragon from the start to the circle, one for each pitch.
+
+    lowest: the pitch whose way begins on the circle, or SIZE_MIN [m]; marched: how many ways were; bands: proofs for
+        whole intervals of pitches
+    """
+
+    def __init__(self, dragon: Dragon, radius: float, start_turns: float, margin: float) -> None:
+        self.radius, self.start_turns, self.margin = radius, start_turns, margin
+        self.lowest = max(radius / start_turns, SIZE_MIN)
+        self.search = Search(dragon, Spiral(self.lowest, start_turns), margin, work=WAY_WORK, budget=Budget(PITCH_WORK))
+        self.bands = Bands(self.search, radius, start_turns, margin)
+        self.marched = 0
+
+    def march(self, pitch: float, width: float = 0.0, work: float = WAY_WORK) -> tuple[str, Marched]:
+        """March from the start to the circle: 'reached' proves every clearance on the way larger than the margin.
+
+        width: half width of the bracket around a contact, 0 if any instant of it will do [m of travel]; work: at most
+        raises: TooMuchWork where all ways and bands have done PITCH_WORK
+        """
+        search = self.search
+        if search.budget.left <= 0.0:
+            raise self._too_much(pitch)
+        path = Spiral(pitch, self.start_turns)
+        search.use(path, self.margin)
+        search.work = work
+        self.marched += 1
+        self._start_nearer(path)
+        circle = self.radius / path.growth
+        stop = max(search.travel_at(circle), 0.0)
+        width = width and max(width, 2.0 * search.travel_rounding(0.0, stop))
+        fold, bench = (0.0, None) if self.bands.bent_little else end_theta(search.dragon, path)
+        if fold > circle * (1.0 - THETA_ROUNDING):
+            return "folded" if fold > circle * (1.0 + THETA_ROUNDING) else "stuck", Marched(0.0)
+        for state, travel in () if width else (("touched_at_start", 0.0), ("touched", stop)):
+            # a look at both ends decides most ways that are not clear, without laying out a long dragon
+            gap, pair = search.clearance(travel, min(LOOKED_AT, search.room))
+            if gap <= self.margin and search.surely_within(travel, pair):
+                return state, Marched(0.0, travel, pair)
+        if bench is None or search.travel_at(fold) - stop > FINE_NEAR_FOLD:
+            return search.march(stop, width)
+        end = RunEnd(EndReason.FOLD, search.travel_at(fold), fold, bench)
+        last = min(stop, search.last_travel(end.time, True))
+        state, found = search.march(last, width or CONTACT_WIDTH)
+        if (state == "stuck" and found.touching is None) or (state == "reached" and last < stop):
+            state = Ended.REACHED if clear_to_fold(search, min(found.proven, last), end) else Ended.STUCK
+        return state, found
+
+    def is_clear(self, pitch: float) -> bool | None:
+        """Is the whole way free of contact? None where neither is known, within rounding of a graze."""
+        for width, work in ((0.0, WAY_WORK), (CONTACT_WIDTH, FINER_WORK)):
+            state, found = self.march(pitch, width, work)
+            if state != "stuck" or found.touching is not None:
+                return state == "reached"
+        return None
+
+    def grazes(self, pitch: float) -> bool:
+        """Is the pair whose graze ended the bands within the margin on the way, as far as its dip is followed?"""
+        if not self.bands.graze:
+            return False
+        pair, radius = self.bands.graze
+        gap, radius = self.bands.dip(pitch, radius, pair)
+        if gap > self.margin or radius > pitch * self.start_turns:
+            return False
+        return self.search.surely_within(self.search.travel_at(radius / self.search.growth), pair)
+
+    def still_touches(self, pitch: float, radius: float, a: int, b: int) -> bool:
+        """Are benches a and b within the margin with this pitch too, the head at this radius?
+
+        False where that radius is not on the way.
+        """
+        growth, search = pitch / (2.0 * math.pi), self.search
+        if radius > pitch * self.start_turns:
+            return False
+        place = growth * kernels.spiral_arc(radius / growth)
+        curve = kernels.spiral_curve(growth)
+        scene = kernels.Scene(curve, place, search.rings, search.sizes, search.dragon.benches, 0)
+        return float(kernels.gap_at(scene, place, a, b, search.rows[0])) <= self.margin
+
+    def _start_nearer(self, path: Spiral) -> None:
+        """Let the march begin where the bound for wide spirals says that nothing touches further out.
+
+        Only where it says so at NEARER of the radius from which the ring bound does: short benches on wide spirals.
+        """
+        search, clears = self.search, self.bands.straight.clears
+        radius = min(search.clear_radius, path.growth * path.start_theta)
+        if NEARER * radius <= self.radius or not clears(path.growth, NEARER * radius, self.margin):
+            return
+        while radius > self.radius and clears(path.growth, NEARER * radius, self.margin):
+            radius *= NEARER
+        search.clear_beyond(max(radius, self.radius))
+
+    def _too_much(self, pitch: float) -> TooMuchWork:
+        """The error where the work is done before the pitch is found; pitch: the one that was to be tried next [m]."""
+        dragon = self.search.dragon
+        k = int(dragon.chords[: dragon.uniform_from + 1].argmin())
+        alike = all((column[1:] == column[1:2]).all() for column in (dragon.lengths, dragon.widths, dragon.overhangs))
+        field = f"dragon.lengths.{k}"
+        if alike:
+            field = "dragon.head_length" if k == 0 and dragon.uniform_from else "dragon.body_length"
+        return TooMuchWork.of(
+            field,
+            f"must be larger, or benches fewer: their minimum pitch was not found by {PITCH_WORK:g} steps of work, "
+            f"each a bench placed or a pair of benches tried; the shortest of {dragon.benches} chords is "
+            f"{float(dragon.chords[k]):g} m long, the turning circle {2.0 * self.radius:g} m across, and the next "
+            f"pitch to be tried was {pitch:g} m",
+            float(dragon.lengths[k]),
+            "m",
+        )

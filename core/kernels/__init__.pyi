@@ -1,0 +1,220 @@
+"""What the compiled loops take and give, for programs that check types."""
+
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from core.kernels.constants import *
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+
+COMPILED: Final[bool]
+LANES_PER_BLOCK: Final[int]
+BOXES_PER_LEAF: Final[int]
+
+# -- on a spiral, in units of its growth --
+
+def spiral_arc(theta: float) -> float: ...
+def spiral_theta(arc: float) -> float: ...
+def spiral_thetas(arcs: Floats, thetas: Floats) -> None: ...
+def spiral_curvature(theta: float) -> float: ...
+def steepest_bend(theta: float) -> float: ...
+def first_crest(theta: float) -> float: ...
+def first_root(theta: float, chord2: float) -> float: ...
+def fold_theta(chord2: float) -> float: ...
+def previous_theta(theta: float, chord2: float) -> float: ...
+def start_chain(theta: float, chain: Floats) -> None: ...
+def extend_chain(growth: float, first: int, last: int, radius: float, sizes: Floats, chain: Floats) -> int: ...
+def spiral_trajectory(
+    growth: float,
+    thetas: Floats,
+    chords: Floats,
+    head_speed: float,
+    position: Floats,
+    velocity: Floats,
+    speed: Floats,
+) -> int: ...
+
+# -- on a route --
+
+def cubic_arcs(pieces: Floats, out: Floats) -> None: ...
+def joint_misses(pieces: Floats, out: Floats) -> None: ...
+def piece_slides(pieces: Floats, out: Floats) -> None: ...
+def route_points(pieces: Floats, s: Floats, out: Floats) -> None: ...
+def route_tail(pieces: Floats, s: float, benches: int, sizes: Floats, chain: Floats) -> float: ...
+def route_trajectory(
+    pieces: Floats,
+    s: Floats,
+    head_speed: float,
+    sizes: Floats,
+    chain: Floats,
+    position: Floats,
+    velocity: Floats,
+    speed: Floats,
+) -> None: ...
+
+# -- on either --
+
+class Curve:
+    kind: int
+    growth: float
+
+def spiral_curve(growth: float) -> Curve: ...
+def route_curve(pieces: Floats) -> Curve: ...
+def place_chain(curve: Curve, place: float, last: int, sizes: Floats, chain: Floats) -> int: ...
+def chain_rounding(curve: Curve, last: int, sizes: Floats, chain: Floats) -> None: ...
+def climbs(curve: Curve, last: int, sizes: Floats, chain: Floats) -> None: ...
+def spiral_errors(
+    growth: float, handles: int, sizes: Floats, before: Floats, after: Floats, motion: Floats
+) -> None: ...
+
+# -- rectangles --
+
+class Witnesses:
+    separation: float
+    ax: float
+    ay: float
+    bx: float
+    by: float
+    nx: float
+    ny: float
+    feature_a: int
+    feature_b: int
+
+def bench_separation(a: int, b: int, sizes: Floats, chain: Floats) -> Witnesses: ...
+def pair_separations(a: Floats, b: Floats, out: Floats) -> None: ...
+def pair_gaps(a: Floats, b: Floats, limit: float, out: Floats) -> None: ...
+def grow_tree(boxes: Floats, tree: Floats) -> None: ...
+
+class Meetings:
+    found: int
+    met: int
+    def __init__(self, frames: Floats, boxes: Floats, tree: Floats, order: Ints) -> None: ...
+    def find(self, margin: float, exact: bool, chained: bool, most_found: int, most_met: int, pairs: Ints) -> None: ...
+
+# -- scenes --
+
+class Rings:
+    chord: float
+    shortest: float
+    overhang: float
+    half_width: float
+    all_chord: float
+    all_shortest: float
+    all_overhang: float
+    all_half_width: float
+    all_radius: float
+    between_shortest: float
+    clear_radius: float
+    clear_place: float
+    end_place: float
+
+def radius_beyond(growth: float, radius: float, rings: Rings) -> float: ...
+def leaders_reach(growth: float, lead: float, rear: float, rings: Rings) -> float: ...
+def ring_least(growth_low: float, growth: float, radius: float, rings: Rings, total: float = ...) -> float: ...
+
+class Scene:
+    curve: Curve
+    place: float
+    rings: Rings
+    benches: int
+    room: int
+    edges: int
+    against: int
+    margin: float
+    left_out: int
+    left_out_too: int
+    def __init__(self, curve: Curve, place: float, rings: Rings, sizes: Floats, benches: int, edges: int) -> None: ...
+
+class Interval:
+    scene: Scene
+    h: float
+    handles: int
+    def __init__(self, scene: Scene, before: Floats, after: Floats, motion: Floats) -> None: ...
+    def bound(self, climbing: bool) -> bool: ...
+    def lay_out(self, place: float, h: float, last: int) -> bool: ...
+
+def clearance_at(
+    scene: Scene, place: float, benches: int, leaders: int, chain: Floats, boxes: Floats
+) -> tuple[float, int, int]: ...
+def clearance_left(leaders: int, benches: int, sizes: Floats, chain: Floats, moved: Floats) -> float: ...
+def gap_at(scene: Scene, place: float, a: int, b: int, chain: Floats) -> float: ...
+def gap_rate_at(scene: Scene, place: float, a: int, b: int, chain: Floats) -> float: ...
+def bottom_between(scene: Scene, low: float, high: float, a: int, b: int, width: float, chain: Floats) -> float: ...
+def axis_bend(growth: float, i: int, j: int, distance: float, sizes: Floats, motion: Floats) -> float: ...
+def pair_rounding(i: int, j: int, distance: float, sizes: Floats, before: Floats, after: Floats) -> float: ...
+def pair_bends(scene: Scene, interval: Interval, place: float, h: float, a: int, b: int) -> tuple[float, float]: ...
+def pair_least(
+    scene: Scene, interval: Interval, i: int, j: int, enough: float, distance: float
+) -> tuple[float, float]: ...
+def pair_most(scene: Scene, interval: Interval, place: float, h: float, a: int, b: int) -> float: ...
+
+# -- searches --
+
+class March:
+    proven: float
+    touching: float
+    first: int
+    second: int
+    steps: int
+    work: float
+    bend: float
+    graze_gap: float
+    graze_travel: float
+    graze_first: int
+    graze_second: int
+    def __init__(self, interval: Interval, probe: Interval, opening: Floats) -> None: ...
+    def run(
+        self,
+        start: float,
+        stop: float,
+        leaders: int,
+        at_start: bool,
+        tolerance: float,
+        grazes: bool,
+        rounding: float,
+        budget: float,
+    ) -> int: ...
+
+class Strip:
+    proven: float
+    touching: float
+    first: int
+    second: int
+    steps: int
+    work: float
+    def __init__(self, low: Interval, high: Interval, shifts: Floats) -> None: ...
+    def run(
+        self, outer: float, inner: float, leaders: int, rounding: float, least_step: float, budget: float
+    ) -> int: ...
+
+class Peak:
+    rate: float
+    upper: float
+    travel: float
+    intervals: int
+    def __init__(
+        self, interval: Interval, spare: Floats, calm: float, start: float, stop: float, rounding: float
+    ) -> None: ...
+    def sample(self, step: float) -> None: ...
+    def prove(self, step: float, tolerance: float, loosest: float, budget: int) -> None: ...
+
+class Excess:
+    proven: float
+    found: float
+    handle: int
+    rate: float
+    def __init__(self, interval: Interval, calm: float) -> None: ...
+    def run(
+        self,
+        start: float,
+        stop: float,
+        step: float,
+        limit: float,
+        kept: float,
+        width: float,
+        rounding: float,
+        budget: int,
+    ) -> int: ...

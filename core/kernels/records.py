@@ -1,0 +1,115 @@
+"""Records: the values with names that inner loops hand on.
+
+Compiled, the same names are structs of C, from records.pxd.
+"""
+
+from typing import NamedTuple
+
+
+class Rectangle(NamedTuple):
+    """A rectangle in the plane."""
+
+    x: float  # its centre [m]
+    y: float
+    ux: float  # the unit vector along its length
+    uy: float
+    half_length: float  # [m]
+    half_width: float
+
+
+class Seen(NamedTuple):
+    """A rectangle in the frame of another, from which it is seen."""
+
+    along: float  # its centre [m]
+    left: float
+    c: float  # its unit vector
+    s: float
+    hl: float  # half length and half width of the one from which it is seen [m]
+    hw: float
+    other_hl: float  # and its own
+    other_hw: float
+
+
+class Link(NamedTuple):
+    """Bounds on a link over an interval, the leader's rate given: see bounds.py."""
+
+    cos_front: float  # at most the cosine of the angle at its front handle [1]
+    cos_rear: float  # at least that at its rear handle [1]
+    sine: float  # at most the sine of either [1]
+    rate: float  # at most the rear handle's rate [1]
+    rate_low: float  # at least that [1]
+    omega: float  # at most how fast its direction turns [1/m]
+    omega_low: float  # at least that [1/m]
+    swing_front: float  # at most |alpha'| at its front handle [1/m]
+    swing_rear: float  # and at its rear handle [1/m]
+
+
+class Stretch(NamedTuple):
+    """The stretch of a route that a bench sweeps over an interval."""
+
+    chord: float  # of the bench [m]
+    low: float  # the range of its curvature, in the sense in which it bends [1/m]
+    high: float
+    slope: float  # bound on |d curvature / d s| [1/m^2]
+    widened: float  # what the curvature may be off by, and the range has in it [1/m]
+    sine: float  # of the largest angle between path and bench, by the chord lemma [1]
+    blur: float  # what the cosines of these angles may be off by at either end [1]
+
+
+class Cosines(NamedTuple):
+    """Bounds on the cosines of the angles between a bench and the tangents at its handles over an interval [1]."""
+
+    front_low: float
+    front_high: float
+    rear_low: float
+    rear_high: float
+
+
+class Pair(NamedTuple):
+    """Two benches, or a bench and the row of an edge at rest."""
+
+    first: int
+    second: int
+
+
+class Closest(NamedTuple):
+    """The least separation at an instant [m], FREE without pairs, and its pair."""
+
+    gap: float
+    first: int
+    second: int
+
+
+class Laid(NamedTuple):
+    """How far a chain was laid out."""
+
+    last: int  # its last handle, -1 at a fold
+    leading: int  # how many benches can be the inner one of a touching pair
+
+
+class Nearest(NamedTuple):
+    """What is proven of all pairs over an interval."""
+
+    least: float  # a lower bound of their separations [m], FREE without pairs, -FREE where nothing is known
+    bend: float  # K of the least pair [1/m]
+    first: int  # that pair
+    second: int
+    room: float  # the widest interval that the same pairs would allow [m]
+    error: float  # what points may be off by [m]
+    tried: int  # how many pairs were near enough to be tried
+
+
+class Rounding(NamedTuple):
+    """What points and gaps of an interval may be off by."""
+
+    point: float  # [m]
+    gap: float  # of any pair that is not far apart [m]; 0 where only the sums of each pair serve
+
+
+class Bends(NamedTuple):
+    """Bounds on the second derivatives of a gap over a band: along the path at its lowest growth [1/m], at its highest
+    one [1/m], and across the growths [rad^2/m]."""
+
+    low: float
+    high: float
+    across: float

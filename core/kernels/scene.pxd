@@ -1,0 +1,46 @@
+cimport cython
+from core.kernels.constants cimport *
+from core.kernels.bounds cimport motion_bounds, route_bounds
+from core.kernels.chain cimport Curve, chain_rounding, place_chain
+from core.kernels.rectangles cimport Witnesses
+from core.kernels.rings cimport Rings
+
+cdef double WIDTH_ROUNDING
+
+@cython.final
+cdef class Scene:
+    cdef public Curve curve
+    cdef public double place
+    cdef public Rings rings
+    cdef double[:, ::1] sizes
+    cdef readonly Py_ssize_t benches
+    cdef readonly Py_ssize_t room
+    cdef readonly Py_ssize_t edges
+    cdef readonly int against
+    cdef public double margin
+    cdef public Py_ssize_t left_out
+    cdef public Py_ssize_t left_out_too
+    cdef Witnesses met
+
+@cython.final
+cdef class Interval:
+    cdef readonly Scene scene
+    cdef double[:, ::1] before
+    cdef double[:, ::1] after
+    cdef double[:, ::1] motion
+    cdef public double h
+    cdef public Py_ssize_t handles
+
+    cdef void swap(self) noexcept nogil
+    cdef void widen(self, double h, double rounding) noexcept nogil
+    cdef void round(self) noexcept nogil
+    cpdef bint bound(self, bint climbing) noexcept nogil
+    cpdef bint lay_out(self, double place, double h, Py_ssize_t last) noexcept nogil
+
+@cython.final
+cdef class Band:
+    cdef readonly Interval low
+    cdef readonly Interval high
+    cdef double[:, ::1] shifts
+    cdef double width
+    cdef double slack

@@ -1,0 +1,107 @@
+"""Who dances where: one scene, and an interval of head travel in it with its two chains."""
+
+import cython
+
+if not cython.compiled:  # for the compiler the same stands in the .pxd
+    from core.kernels.bounds import motion_bounds, route_bounds
+    from core.kernels.chain import chain_rounding, place_chain
+    from core.kernels.constants import *
+    from core.kernels.rectangles import Witnesses
+
+
+# Widths are widened by this part of them, for the roundings of what a step computes once [1].
+WIDTH_ROUNDING = 1e-12
+
+
+class Scene:
+    """A dragon on a path, and what its benches are kept apart from.
+
+    curve: the path; place: the head's at travel 0, see chain.py [m]; rings: extremes of the benches, and bounds
+    sizes: (room + 1 + edges, SIZE_COLUMNS), a row for every bench, one that holds none, then a row for every edge at
+        rest; chains have the same rows
+    benches: of the dragon; room: how many of them have a row
+    against: BENCHES, each other, or EDGES, the edges at rest alone, on a route only
+    margin: the clearance required [m]; left_out, left_out_too: a pair of benches not asked for, -1 for none
+    """
+
+    def __init__(self, curve, place, rings, sizes, benches, edges):
+        self.curve = curve
+        self.place = place
+        self.rings = rings
+        self.sizes = sizes
+        self.benches = benches
+        self.edges = edges
+        self.against = EDGES if edges > 0 else BENCHES
+        self.room = min(benches, sizes.shape[0] - 1 - edges)
+        self.margin = 0.0
+        self.left_out = self.left_out_too = -1
+        self.met = Witnesses()
+
+
+class Interval:
+    """An interval of head travel: the chains at both of its ends, and bounds on the motion between them.
+
+    before, after: rows of handles, (room + 1 + edges, CHAIN_COLUMNS); motion: (the same, MOTION_COLUMNS)
+    h: how far the head travels at most [m]; handles: the last handle that both chains have
+    """
+
+    def __init__(self, scene, before, after, motion):
+        self.scene = scene
+        self.before = before
+        self.after = after
+        self.motion = motion
+        self.h = 0.0
+        self.handles = 0
+
+    def swap(self):
+        """Go on from where this interval ends."""
+        self.before, self.after = self.after, self.before
+
+    def widen(self, h, rounding):
+        """Set how far the head truly travels at most: the way computed, and what both its ends may be off by [m]."""
+        self.h = h * (1.0 + WIDTH_ROUNDING) + 2.0 * rounding
+
+    def round(self):
+        """Fill in what both chains may be off by."""
+        chain_rounding(self.scene.curve, self.handles, self.scene.sizes, self.before)
+        chain_rounding(self.scene.curve, self.handles, self.scene.sizes, self.after)
+
+    def bound(self, climbing):
+        """Bound the motion; False where no bound is known. climbing: see route_bounds(), which alone asks."""
+        if self.scene.curve.kind == ON_SPIRAL:
+            return motion_bounds(
+                self.scene.curve.growth, self.h, self.handles, self.scene.sizes, self.before, self.after, self.motion
+            )
+        self.round()
+        return route_bounds(
+            self.scene.curve.pieces, self.h, self.handles, self.scene.sizes, self.before, self.after, climbing,
+            self.motion,
+        )  # fmt: skip
+
+    def lay_out(self, place, h, last):
+        """Lay out the chains up to handle `last` with the head at a place and h further on, and bound the motion.
+
+        False where no bound is known
+        """
+        self.h = h
+        self.handles = last
+        if place_chain(self.scene.curve, place, last, self.scene.sizes, self.before) < 0:
+            return False
+        if place_chain(self.scene.curve, place - h, last, self.scene.sizes, self.after) < 0:
+            return False
+        self.round()
+        return self.bound(False)
+
+
+class Band:
+    """A rectangle of head radii and growths: the same interval of radii at its lowest and at its highest growth.
+
+    low, high: that interval; shifts: (room + 1, SHIFT_COLUMNS) bounds on how benches shift with the growth
+    width: of the growths at most [m/rad]; slack: what the travels at its corners may be off by [m]
+    """
+
+    def __init__(self, low, high, shifts):
+        self.low = low
+        self.high = high
+        self.shifts = shifts
+        self.width = self.slack = 0.0

@@ -1,0 +1,80 @@
+"""Where a claim begins to hold, and where samples are lowest: the searches that everybody shares.
+
+Functions are sampled first, and what the samples show is refined: a border by bisected() or falls_to_zero(), a dip
+among the lowest ones of dips().
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from decimal import Decimal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from core.values import Floats
+
+
+def mean(a: float, b: float) -> float:
+    """The arithmetic mean of two numbers."""
+    return 0.5 * (a + b)
+
+
+def bisected(
+    holds: Callable[[float], bool | None],
+    low: float,
+    high: float,
+    *,
+    width: float = 0.0,
+    relative: float = 0.0,
+    middle: Callable[[float, float], float] = mean,
+) -> tuple[float, float]:
+    """Both ends of a bracket of the border beyond which a claim holds.
+
+    holds: asked between low, where it is False, and high, where it is True; None gives up
+    width, relative: the bracket is no wider than width + relative |high|, or its ends are neighbouring numbers
+    middle: of both ends, where the claim is asked next
+
+    >>> bisected(lambda x: x * x >= 2.0, 1.0, 2.0, width=0.1)
+    (1.375, 1.4375)
+    """
+    while high - low > width + relative * abs(high):
+        between = middle(low, high)
+        if not low < between < high or (found := holds(between)) is None:
+            break
+        low, high = (low, between) if found else (between, high)
+    return low, high
+
+
+def falls_to_zero(
+    value: Callable[[Decimal], Decimal], low: Decimal, high: Decimal, above: Decimal, below: Decimal, width: Decimal
+) -> Decimal:
+    """Where a function falls to 0 or below: no earlier, and later by less than a width.
+
+    above, below: its values at low, where it is positive, and at high, where it is not
+
+    By the false position, halved now and then.
+    """
+    looks = 0
+    while high - low > width:
+        looks += 1
+        middle = (low + high) / 2
+        if looks % 3:  # aimed a little beyond the zero, then before it, so that both ends come near
+            middle = low + (high - low) * above / (above - below) + (width / 3 if looks % 3 == 1 else -width / 3)
+            middle = min(max(middle, low + width / 4), high - width / 4)
+        found = value(middle)
+        low, above, high, below = (middle, found, high, below) if found > 0 else (low, above, middle, found)
+    return high
+
+
+def dips(samples: Floats, most: int) -> NDArray[np.intp]:
+    """Indices of the inner samples that lie no higher than their neighbours: so many of the lowest, lowest first.
+
+    samples: (N,)
+
+    >>> dips(np.array([5.0, 3.0, 4.0, 1.0, 2.0]), 5)
+    array([3, 1])
+    """
+    inner = 1 + np.flatnonzero((samples[1:-1] <= samples[:-2]) & (samples[1:-1] <= samples[2:]))
+    lowest: NDArray[np.intp] = inner[np.argsort(samples[inner], kind="stable")[:most]]
+    return lowest

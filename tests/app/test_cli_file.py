@@ -1,0 +1,119 @@
+"""Commands that are asked about the dance of a FILE: the same as `check` takes."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import httpx
+import pytest
+
+from tests.app.test_cli import run
+
+DANCE = """
+margin = 0.2
+speed_limit = 1.5
+head_speed = 2.0
+start = 20
+venue = "yard.geojson"
+
+[dragon]
+lengths = [3.41, 2.2, 2.0, 2.2, 1.9, 2.2]
+widths = [0.3, 0.3, 0.4, 0.3, 0.3, 0.3]
+overhangs = [0.275, 0.275, 0.275, 0.275, 0.275, 0.275]
+
+[path]
+kind = "waypoints"
+points = [[0, 0], [30, 0], [36, 5], [30, 10], [24, 5], [24, -20]]
+"""
+BODY: dict[str, Any] = {
+    "dragon": {
+        "lengths": [3.41, 2.2, 2.0, 2.2, 1.9, 2.2],
+        "widths": [0.3, 0.3, 0.4, 0.3, 0.3, 0.3],
+        "overhangs": [0.275] * 6,
+    },
+    "path": {"kind": "waypoints", "points": [[0, 0], [30, 0], [36, 5], [30, 10], [24, 5], [24, -20]]},
+    "head_speed": 2.0,
+}
+YARD = {"type": "Polygon", "coordinates": [[[-5, -25], [45, -25], [45, 20], [-5, 20], [-5, -25]]]}
+
+
+@pytest.fixture
+def file(tmp_path: Path) -> str:
+    (tmp_path / "yard.geojson").write_text(json.dumps(YARD))
+    dance = tmp_path / "dance.toml"
+    dance.write_text(DANCE)
+    return str(dance)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "call", "more"),
+    [
+        (["collision-time"], "collision-time", {"margin": 0.2, "start": 20}),
+        (["collision-time", "--margin", "0.1"], "collision-time", {"margin": 0.1, "start": 20}),
+        (["collision-time", "--cross-check", "none"], "collision-time",
+         {"margin": 0.2, "start": 20, "cross_check": "none"}),
+        (["trajectory"], "trajectory", {}),
+        (["trajectory", "--times", "10,11.5", "--decimals", "3"], "trajectory", {"times": [10, 11.5], "decimals": 3}),
+        (["trajectory", "--start", "10", "--stop", "12"], "trajectory", {"times": {"start": 10, "stop": 12}}),
+        (["clearance"], "clearance", {}),
+        (["clearance", "--start", "10", "--stop", "12", "--step", "0.5"], "clearance",
+         {"times": {"start": 10, "stop": 12, "step": 0.5}}),
+        (["maximum-head-speed"], "maximum-head-speed", {"speed_limit": 1.5, "start": 20}),
+        (["maximum-head-speed", "--speed-limit", "3"], "maximum-head-speed", {"speed_limit": 3, "start": 20}),
+    ],
+    ids=lambda part: " ".join(part) if isinstance(part, list) else None,
+)  # fmt: skip
+def test_a_file_is_asked_as_a_body_is(
+    client: httpx.Client, file: str, arguments: list[str], call: str, more: dict[str, Any]
+) -> None:
+    done = run(arguments[0], file, *arguments[1:], "--json")
+    assert (done.returncode, done.stderr) == (0, "")
+    assert json.loads(done.stdout) == client.post(f"/{call}", json=BODY | more).raise_for_status().json()
+
+
+def test_figures_of_a_file_are_those_of_its_dance_in_its_venue(client: httpx.Client, file: str, tmp_path: Path) -> None:
+    done = run("figures", str(tmp_path / "drawn"), file, "--time", "12", "--format", "svg")
+    assert done.returncode == 0, done.stderr
+    assert sorted(path.name for path in (tmp_path / "drawn").iterdir()) == ["contact.svg", "trajectory.svg"]
+    placed = BODY | {"venue": YARD}
+    for name, more in (("trajectory", {"time": 12}), ("contact", {"margin": 0.2, "start": 20})):
+        answer = client.post(f"/figures/{name}.svg", json=placed | more).raise_for_status()
+        assert (tmp_path / "drawn" / f"{name}.svg").read_bytes() == answer.content
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (["collision-time", "FILE", "--pitch", "1"], "--pitch is about a dance, and the dance is that of FILE"),
+        (["trajectory", "FILE", "--head-speed", "1"], "--head-speed is about a dance, and the dance is that of FILE"),
+        (["trajectory", "FILE", "--times", "10", "--stop", "12"], "--times takes the place of --stop"),
+        (["clearance", "FILE", "--stop", "1e5"], "times.stop must be at most"),
+        (["figures", "FILE"], "FOLDER must be a folder, got the file"),
+        (["figures", "FOLDER", "FILE", "--samples", "3"], "--samples has no part in the figure trajectory or contact"),
+        (["collision-time", "nothing.toml"], "nothing.toml: No such file or directory"),
+    ],
+    ids=lambda part: " ".join(part) if isinstance(part, list) else None,
+)
+def test_what_does_not_go_with_a_file_is_refused(file: str, tmp_path: Path, arguments: list[str], words: str) -> None:
+    folder = tmp_path / "figures"
+    done = run(*({"FILE": file, "FOLDER": str(folder)}.get(part, part) for part in arguments))
+    assert (done.returncode, done.stdout) == (2, "")
+    assert done.stderr.startswith(f"Error: {words}")
+    assert len(done.stderr.splitlines()) == 1
+    assert not folder.exists()
+
+
+def test_a_name_that_no_question_knows_is_refused(tmp_path: Path) -> None:
+    file = tmp_path / "dance.json"
+    file.write_text(json.dumps(BODY | {"margn": 1}))
+    done = run("collision-time", str(file))
+    assert (done.returncode, done.stderr) == (2, 'Error: "margn" is unknown here: did you mean margin?\n')
+
+
+def test_a_clearance_is_a_table(file: str) -> None:
+    done = run("clearance", file, "--start", "10", "--stop", "12")
+    assert done.returncode == 0
+    assert "clearance [m]" in done.stdout
+    assert done.stdout.count("\n") > len(("title", "names", "10", "11", "12"))

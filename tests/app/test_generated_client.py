@@ -1,0 +1,104 @@
+"""A client that openapi-python-client makes from /openapi.json asks the running service every question."""
+
+from __future__ import annotations
+
+import importlib
+import inspect
+import os
+import re
+import subprocess
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+from types import ModuleType
+from typing import Any, get_args
+
+import httpx
+import pytest
+
+from app.questions import QUESTIONS
+from app.service.examples import EXAMPLES
+from tests.app.conftest import ANSWER_TIMEOUT
+
+PACKAGE = "generated_client"
+WARNING = re.compile(r"^(?:WARNING|ERROR) parsing \S+ (\S+)", re.MULTILINE)
+# Every call: its name, its method and its question.
+CALLS = [
+    (f"{question.name}_of" if question.flat and method == "POST" else question.name, method, question)
+    for question in QUESTIONS.values()
+    for method, asked in (("GET", question.flat), ("POST", question.body))
+    if asked
+]
+
+
+@pytest.fixture(scope="module")
+def words(server: str, tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
+    """What the generator says; the client that it makes can be imported as PACKAGE."""
+    folder = tmp_path_factory.mktemp("client")
+    command = [sys.executable, "-m", "openapi_python_client", "generate", "--meta", "none"]
+    command += ["--url", f"{server}/openapi.json", "--output-path", str(folder / PACKAGE)]
+    path = os.pathsep.join([str(Path(sys.executable).parent), os.environ.get("PATH", "")])
+    done = subprocess.run(command, cwd=folder, env=os.environ | {"PATH": path}, capture_output=True, text=True)
+    assert done.returncode == 0, done.stdout + done.stderr
+    sys.path.insert(0, str(folder))
+    yield done.stdout
+    sys.path.remove(str(folder))
+
+
+@pytest.fixture(scope="module")
+def own(words: str, server: str) -> Any:
+    """The generated client of the running service."""
+    client = importlib.import_module(f"{PACKAGE}.client")
+    return client.Client(base_url=server, timeout=httpx.Timeout(ANSWER_TIMEOUT))
+
+
+def call(tag: str, name: str) -> ModuleType:
+    return importlib.import_module(f"{PACKAGE}.api.{tag}.{name}")
+
+
+def body_of(module: ModuleType, body: Any) -> Any:
+    """The body as the type that the generated call takes."""
+    annotation = inspect.signature(module.sync_detailed, eval_str=True).parameters["body"].annotation
+    kind = next(kind for kind in get_args(annotation) or (annotation,) if hasattr(kind, "from_dict"))
+    return kind.from_dict(body)
+
+
+def test_the_generator_warns_of_nothing_but_pictures(words: str) -> None:
+    warned = WARNING.findall(words)
+    assert len(warned) == words.count("WARNING") + words.count("ERROR")
+    assert {path.rpartition("/")[0] for path in warned} <= {"/figures"}
+
+
+@pytest.mark.parametrize(
+    ("name", "method", "question"), [c for c in CALLS if c[2].model], ids=[c[0] for c in CALLS if c[2].model]
+)
+def test_every_question_is_answered(own: Any, client: httpx.Client, name: str, method: str, question: Any) -> None:
+    module, example = call("questions", name), EXAMPLES[f"{method} {question.path}"]
+    asked = example.query if example.body is None else {"body": body_of(module, example.body)}
+    answer = module.sync(client=own, **asked)
+    plain = client.request(method, question.path, params=example.query, json=example.body)
+    assert answer.to_dict() == plain.raise_for_status().json()
+
+
+@pytest.mark.parametrize(
+    ("name", "method"), [c[:2] for c in CALLS if not c[2].model], ids=[c[0] for c in CALLS if not c[2].model]
+)
+def test_every_figure_is_drawn(own: Any, name: str, method: str) -> None:
+    module, formats = call("figures", name), importlib.import_module(f"{PACKAGE}.models.format_").Format
+    scan = {"samples": 3} if name.startswith("pitch_scan") else {}
+    small: dict[str, Any] = scan | ({"benches": 9} if method == "GET" else {"dragon": {"benches": 9}})
+    asked = small if method == "GET" else {"body": body_of(module, small)}
+    for ending, begins in (("svg", b"<?xml"), ("png", b"\x89PNG")):
+        answer = module.sync_detailed(formats(ending), client=own, **asked)
+        assert (answer.status_code, answer.content[: len(begins)]) == (200, begins)
+
+
+def test_a_refusal_comes_back_as_a_problem(own: Any) -> None:
+    problem = call("questions", "collision_time").sync(client=own, overhang=2.0)
+    assert (problem.status, type(problem).__name__) == (422, "Problem")
+    assert problem.errors[0].name == "overhang"
+
+
+def test_the_service_is_alive_and_ready(own: Any) -> None:
+    assert call("service", "healthz").sync(client=own).status == "ok"
+    assert call("service", "readyz").sync(client=own).status == "ready"

@@ -1,0 +1,99 @@
+"""A question over a body answers what it answers over a query, and on any path, of any dragon, what core answers."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import httpx
+import pytest
+
+import core
+from app.questions import QUESTIONS
+from app.questions.question import Question
+
+# Flat values of a question, and the same in a body.
+SMALL = {"benches": 30}
+SAME: dict[str, tuple[dict[str, Any], dict[str, Any]]] = {
+    "collision_time": (
+        {"pitch": 0.5, "margin": 0.05, "cross_check": "pair", "head_speed": 2},
+        {"path": {"kind": "spiral", "pitch": 0.5}, "margin": 0.05, "cross_check": "pair", "head_speed": 2},
+    ),
+    "minimum_pitch": ({"benches": 30, "turning_diameter": 8}, {"dragon": SMALL, "turning_diameter": 8}),
+    "pitch_scan": ({"benches": 4, "samples": 2}, {"dragon": {"benches": 4}, "samples": 2}),
+    "clearance": (
+        {"benches": 30, "start": 10, "stop": 20, "step": 5},
+        {"dragon": SMALL, "times": {"start": 10, "stop": 20, "step": 5}},
+    ),
+    "turn": ({"ratio": 3, "entry_radius": 4.2}, {"path": {"kind": "turn", "ratio": 3, "entry_radius": 4.2}}),
+    "shortest_turn": ({"benches": 20, "ratio": 1}, {"dragon": {"benches": 20}, "ratio": 1}),
+    "maximum_head_speed": (
+        {"benches": 30, "ratio": 1.5, "speed_limit": 1.5},
+        {"dragon": SMALL, "path": {"kind": "turn", "ratio": 1.5}, "speed_limit": 1.5},
+    ),
+    "trajectory_figure": ({"benches": 9, "time": 20}, {"dragon": {"benches": 9}, "time": 20}),
+    "contact_figure": ({"benches": 30, "margin": 0.1}, {"dragon": SMALL, "margin": 0.1}),
+    "pitch_scan_figure": ({"benches": 4, "samples": 2}, {"dragon": {"benches": 4}, "samples": 2}),
+}
+LENGTHS, WIDTHS, OVERHANGS = [3.41, 2.2, 2.0, 2.2, 1.9, 2.2], [0.3] * 6, [0.275] * 6
+BENCHES = {"lengths": LENGTHS, "widths": WIDTHS, "overhangs": OVERHANGS}
+POINTS = [[0, 0], [30, 0], [36, 5], [30, 10], [24, 5], [24, -20]]
+CROSSING = {"kind": "waypoints", "points": POINTS}
+
+
+def test_every_question_that_is_asked_both_ways_is_compared() -> None:
+    assert {name for name, question in QUESTIONS.items() if question.flat and question.body} == SAME.keys()
+    assert [name for name, question in QUESTIONS.items() if question.flat and not question.body] == ["paper"]
+
+
+@pytest.mark.parametrize("question", [QUESTIONS[name] for name in SAME], ids=lambda question: question.name)
+def test_both_ways_of_asking_have_one_answer(client: httpx.Client, question: Question) -> None:
+    flat, body = SAME[question.name]
+    path = question.path.format(format="svg")
+    over_query, over_body = client.get(path, params=flat), client.post(path, json=body)
+    assert over_query.status_code == over_body.status_code == 200
+    assert over_query.content == over_body.content
+    assert over_query.headers["content-type"] == over_body.headers["content-type"]
+
+
+@pytest.mark.parametrize("question", [QUESTIONS[name] for name in SAME], ids=lambda question: question.name)
+def test_an_empty_body_asks_what_an_empty_query_asks(question: Question) -> None:
+    assert question.flat is not None
+    assert question.body is not None
+    flat, body = question.flat(), question.body()
+    shared = question.flat.model_fields.keys() & question.body.model_fields.keys() - {"time"}
+    assert {name: getattr(flat, name) for name in shared} == {name: getattr(body, name) for name in shared}
+
+
+def test_the_first_contact_of_any_dragon_on_any_path_is_that_of_core(client: httpx.Client) -> None:
+    dragon = core.Dragon.of(LENGTHS, WIDTHS, OVERHANGS)
+    dance = core.Dance(dragon, core.Route([core.Waypoints(tuple((x, y) for x, y in POINTS))]), 2.0)
+    found = core.first_contact(dance, margin=0.1, start=dance.begin)
+    body = {"dragon": BENCHES, "path": CROSSING, "head_speed": 2, "margin": 0.1}
+    answer = client.post("/collision-time", json=body).raise_for_status().json()
+    assert (answer["outcome"], answer["time"]) == (found.outcome.value, found.time)
+    check = client.post("/check", json=body).raise_for_status().json()
+    assert check["first_contact"] == answer
+    until = client.post("/collision-time", json=body | {"stop": 10}).raise_for_status().json()
+    assert (until["outcome"], until["end"]["reason"]) == ("clear", "stop")
+
+
+def test_the_highest_head_speed_is_found_where_the_dance_says(client: httpx.Client) -> None:
+    """The same stretch of a path, told in seconds at another head speed."""
+    body = {"dragon": BENCHES, "path": CROSSING, "speed_limit": 3}
+    slow = client.post("/maximum-head-speed", json=body | {"start": 20, "stop": 30}).raise_for_status().json()
+    fast = client.post("/maximum-head-speed", json=body | {"head_speed": 2, "start": 10, "stop": 15})
+    assert fast.raise_for_status().json() == slow
+    refused = client.post("/maximum-head-speed", json={"dragon": BENCHES, "path": {"kind": "spiral"}})
+    assert refused.json()["errors"][0]["pointer"] == "/stop"
+
+
+def test_only_what_repeats_itself_may_be_long(client: httpx.Client) -> None:
+    long = {"benches": 2_001}
+    assert client.post("/collision-time", json={"dragon": long, "cross_check": "none"}).status_code == 200
+    assert client.post("/minimum-pitch", json={"dragon": long, "cross_check": "none"}).status_code == 200
+    on_a_turn = client.post("/collision-time", json={"dragon": long, "path": {"kind": "turn"}})
+    assert on_a_turn.json()["detail"].startswith("benches must be at most 2000 here")
+    listed = {"lengths": [2.2] * 2_001, "widths": [0.3] * 2_001, "overhangs": [0.275] * 2_001}
+    for call in ("collision-time", "minimum-pitch", "pitch-scan", "shortest-turn"):
+        refused = client.post(f"/{call}", json={"dragon": listed})
+        assert refused.json()["errors"][0]["pointer"] == "/dragon/lengths"

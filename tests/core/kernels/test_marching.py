@@ -1,0 +1,72 @@
+"""A march: how it ends, against samples of every pair."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from core import Dragon, Spiral, kernels
+from core.contact.search import Search
+
+TOLERANCE, WORK, ROUNDING = 1e-10, 1e7, 1e-12
+DRAGON, SPIRAL = Dragon(40), Spiral()
+# The default dance first touches here [m of head travel].
+CONTACT = 412.4738376822
+
+
+def march_of(search: Search) -> kernels.March:
+    return kernels.March(search.interval, search.probe, search.rows[4])
+
+
+def ended(march: kernels.March, start: float, stop: float, tolerance: float = TOLERANCE, budget: float = WORK) -> str:
+    return kernels.MARCH_STATES[march.run(start, stop, 2, True, tolerance, True, ROUNDING, budget)]
+
+
+def test_a_way_that_is_proven_is_clear_at_every_sample() -> None:
+    search = Search(DRAGON, SPIRAL, 0.05)
+    march = march_of(search)
+    assert ended(march, 300.0, 380.0) == "reached"
+    assert (march.proven, march.touching) == (380.0, kernels.FREE)
+    assert all(search.clearance(travel)[0] > 0.05 for travel in np.linspace(300.0, 380.0, 500))
+
+
+def test_a_contact_is_bracketed_by_a_clear_and_a_touching_instant() -> None:
+    search = Search(DRAGON, SPIRAL, 0.0)
+    march = march_of(search)
+    assert ended(march, 380.0, 420.0) == "touched"
+    assert march.proven <= CONTACT <= march.touching <= march.proven + 3.0 * TOLERANCE
+    assert (march.first, march.second) == (0, 8)
+    place = search.place - march.proven + 1e-6
+    assert kernels.gap_at(search.scene, place, 0, 8, search.rows[2]) > 0.0
+    assert kernels.gap_at(search.scene, search.place - march.touching, 0, 8, search.rows[2]) <= 0.0
+    # the dip before it, seen on the way
+    assert 0.0 < march.graze_gap < 0.001
+    assert (march.graze_first, march.graze_second) == (0, 11)
+
+
+def test_a_march_from_within_a_contact_ends_where_it_starts() -> None:
+    march = march_of(Search(DRAGON, SPIRAL, 0.0))
+    assert ended(march, 413.0, 420.0) == "touched_at_start"
+    assert march.proven == march.touching == 413.0
+    assert march.steps == 0
+
+
+def test_without_work_a_march_is_stuck_and_keeps_what_it_has_proven() -> None:
+    march = march_of(Search(DRAGON, SPIRAL, 0.0))
+    assert ended(march, 380.0, 420.0, budget=200.0) == "stuck"
+    assert 380.0 < march.proven < CONTACT
+    assert march.touching == kernels.FREE
+
+
+def test_a_dragon_with_too_few_rows_ends_at_capacity() -> None:
+    search = Search(DRAGON, SPIRAL, 0.0)
+    search.resize(3)
+    assert ended(march_of(search), 380.0, 420.0) == "capacity"
+
+
+def test_a_pair_that_is_left_out_is_not_found() -> None:
+    search = Search(DRAGON, SPIRAL, 0.0)
+    search.scene.left_out, search.scene.left_out_too = 0, 8
+    march = march_of(search)
+    assert ended(march, 380.0, 420.0) == "touched"
+    assert (march.first, march.second) != (0, 8)
+    assert march.touching > CONTACT

@@ -1,0 +1,108 @@
+"""The bounds under every certificate, against dense samples: motion, least gaps, rings."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from core import Dance, Dragon, Spiral, kernels
+from core.contact.search import Search
+from tests.core.slow_search import SlowDance, rectangles_gap
+
+# Instants within an interval, and how many apart the second differences are taken; those are means of the derivative.
+INSTANTS, APART = 121, 20
+# Rounding of a projected corner, relative to the largest coordinate [1], and of a travel, relative to the way [1].
+ROUNDING, ULP = 2e-14, 2.3e-16
+# Directions of axes fixed in a bench, from its length [rad].
+AXES = (0.0, 0.7, 0.5 * np.pi, 2.5)
+
+
+def random_interval(rng: np.random.Generator) -> tuple[Dragon, Spiral, float, float]:
+    """A dragon, a spiral, and an interval of time, close to the end of the run or further out."""
+    while True:
+        benches = int(rng.integers(3, 7))
+        growth = 10 ** rng.uniform(-1.5, 0.3)
+        chords = growth * 10 ** (rng.uniform(-0.3, 1.0) + rng.uniform(-0.5, 0.7, benches))
+        if rng.random() < 0.4:
+            chords[1:] = chords[1]
+        overhangs, widths = chords * rng.uniform(0.0, 0.4, benches), chords * 10 ** rng.uniform(-1.5, 0.0, benches)
+        if min(widths.min(), chords.min()) < 2e-3:
+            continue
+        dragon, spiral = Dragon.of(chords + 2 * overhangs, widths, overhangs), Spiral(2 * np.pi * growth, 30.0)
+        end = Dance(dragon, spiral).end
+        theta = end.theta + 10 ** rng.uniform(-3.0, 1.3)
+        start = spiral.length - spiral.growth * 0.5 * (theta * np.hypot(1.0, theta) + np.arcsinh(theta))
+        h = 10 ** rng.uniform(-3.0, 0.0) * chords.min()
+        if start + h < end.time:
+            return dragon, spiral, float(start), float(h)
+
+
+def frames(dance: SlowDance, times: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Centres and directions of all benches, (T, n, 2)."""
+    handles = dance.handles(times)
+    return 0.5 * (handles[:, 1:] + handles[:, :-1]), -np.diff(handles, axis=1) / dance.chords[:, None]
+
+
+@pytest.mark.parametrize("seed", range(30))
+def test_gaps_along_body_axes_bend_no_more_than_their_bound(seed: int) -> None:
+    dragon, spiral, start, h = random_interval(np.random.default_rng(seed))
+    half = 0.5 * np.stack([dragon.lengths, dragon.widths, np.hypot(dragon.lengths, dragon.widths)], axis=1)
+    sizes = np.zeros((dragon.benches + 1, kernels.SIZE_COLUMNS))
+    sizes[:-1] = np.column_stack([dragon.chords, half])
+    motion = np.zeros((dragon.benches + 1, kernels.MOTION_COLUMNS))
+    curve = kernels.spiral_curve(spiral.growth)
+    scene = kernels.Scene(curve, spiral.length, kernels.Rings(), sizes, dragon.benches, 0)
+    interval = kernels.Interval(scene, *np.zeros((2, dragon.benches + 1, kernels.CHAIN_COLUMNS)), motion)
+    while not interval.lay_out(spiral.length - start, h, dragon.benches):  # too wide for any bound
+        h *= 0.5
+    times = np.linspace(start, start + h, INSTANTS)
+    centres, along = frames(SlowDance.of(dragon, spiral), times)
+    apart = APART * (times[1] - times[0])
+    rounding = ROUNDING * np.abs(centres).max() + ULP * spiral.length * motion[:-1, kernels.HANDLE_SPEED].max()
+    for i, j in ((i, j) for i in range(dragon.benches) for j in range(dragon.benches) if abs(i - j) > 1):
+        a, b = min(i, j), max(i, j)
+        distance = np.linalg.norm(centres[0, b] - centres[0, a])
+        distance += h * (motion[a, kernels.CENTRE_SPEED] + motion[b, kernels.CENTRE_SPEED])
+        bound = kernels.axis_bend(spiral.growth, i, j, distance, sizes, motion)
+        for corner in corners(centres, along, half, i, j):
+            for axis in AXES:
+                gap = np.cos(axis) * corner[:, 0] + np.sin(axis) * corner[:, 1]
+                bend = (gap[2 * APART :] - 2 * gap[APART:-APART] + gap[: -2 * APART]) / apart**2
+                assert np.abs(bend).max() <= bound + 4 * rounding / apart**2
+        if i < j:
+            least, _ = kernels.pair_least(scene, interval, i, j, 0.0, distance)
+            sampled = rectangles_gap(
+                centres[:, i], along[:, i], half[i : i + 1, :2], centres[:, j], along[:, j], half[j : j + 1, :2]
+            )
+            assert least <= sampled.min() + rounding
+
+
+def corners(centres: np.ndarray, along: np.ndarray, half: np.ndarray, i: int, j: int) -> list[np.ndarray]:
+    """The corners of bench j from the centre of bench i, in the frame of bench i, (T, 2) each."""
+    left = np.stack([-along[..., 1], along[..., 0]], axis=-1)
+    found = []
+    for front, side in ((1, 1), (1, -1), (-1, -1), (-1, 1)):
+        corner = centres[:, j] + front * half[j, 0] * along[:, j] + side * half[j, 1] * left[:, j] - centres[:, i]
+        found.append(np.stack([(corner * along[:, i]).sum(-1), (corner * left[:, i]).sum(-1)], axis=-1))
+    return found
+
+
+@pytest.mark.parametrize("seed", range(40, 60))
+def test_no_two_benches_outside_a_radius_are_closer_than_the_ring_bound(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    chord = 10 ** rng.uniform(-0.3, 0.5)
+    head, width = chord * 10 ** rng.uniform(-0.4, 0.4), chord * 10 ** rng.uniform(-2.5, -0.4)
+    overhang = rng.choice([0.0, rng.uniform(0.0, 0.3)]) * chord
+    spiral = Spiral(max(1.2 * width, chord * 10 ** rng.uniform(-1.0, 0.4)), 200.0)
+    dragon = Dragon(int(rng.integers(20, 70)), head + 2 * overhang, chord + 2 * overhang, width, overhang)
+    search, dance = Search(dragon, spiral, 0.0), SlowDance.of(dragon, spiral)
+    bounds = 0
+    for radius in chord * np.geomspace(0.7, 12.0, 8):
+        bound = search.ring_least(float(radius))
+        if bound <= 0.0:
+            continue
+        bounds += 1
+        theta = (radius + np.linspace(0.0, spiral.pitch, 9)) / spiral.growth
+        times = spiral.length - spiral.growth * 0.5 * (theta * np.hypot(1.0, theta) + np.arcsinh(theta))
+        assert dance.clearance(times)[0].min() >= bound
+    assert bounds or search.clear_radius > 12.0 * chord

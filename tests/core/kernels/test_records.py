@@ -1,0 +1,35 @@
+"""The records that inner loops hand on: the same fields in the same order for the compiler."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+
+from core.kernels import records
+
+pytestmark = pytest.mark.uncompiled
+
+DECLARED = Path(records.__file__).with_suffix(".pxd").read_text(encoding="utf-8")
+
+
+def test_records_are_the_same_for_the_compiler() -> None:
+    structs = {
+        name: tuple(re.findall(r"(?:double|Py_ssize_t) (\w+)", fields))
+        for name, fields in re.findall(r"cdef struct (\w+):\n((?:    .+\n)+)", DECLARED)
+    }
+    assert len(structs) > 9
+    assert structs == {name: record._fields for name, record in vars(records).items() if hasattr(record, "_fields")}
+
+
+def test_counts_and_numbers_are_told_apart_as_the_compiler_tells_them() -> None:
+    counts = set(re.findall(r"Py_ssize_t (\w+)", DECLARED))
+    annotated = {
+        field
+        for record in vars(records).values()
+        if hasattr(record, "_fields")
+        for field, kind in record.__annotations__.items()
+        if kind is int
+    }
+    assert counts == annotated

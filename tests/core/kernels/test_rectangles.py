@@ -1,0 +1,25 @@
+"""Two benches of a chain: their gap, and what realises it. Any two rectangles: tests/core/shapes/test_rectangles.py."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from core import Dragon, Spiral, kernels
+from core.contact.search import Search
+
+ROUNDING = 1e-13  # [m]
+
+
+@pytest.mark.parametrize("travel", [0.0, 400.0, 412.5, 425.0])
+def test_witnesses_lie_the_gap_apart_along_the_normal(travel: float) -> None:
+    search = Search(Dragon(40), Spiral(), 0.0)
+    search.clearance(travel)
+    for b in range(2, 40):
+        met = kernels.bench_separation(0, b, search.sizes, search.rows[0])
+        apart = np.array([met.bx - met.ax, met.by - met.ay])
+        assert np.hypot(met.nx, met.ny) == pytest.approx(1.0, abs=ROUNDING)
+        assert apart == pytest.approx(met.separation * np.array([met.nx, met.ny]), abs=ROUNDING)
+        assert met.separation == pytest.approx(
+            kernels.gap_at(search.scene, search.place - travel, 0, b, search.rows[1]), abs=ROUNDING
+        )

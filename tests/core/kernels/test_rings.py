@@ -1,0 +1,38 @@
+"""Benches too far out to touch, against chains."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from core import Dragon, Spiral, kernels
+from core.contact.search import Search
+from core.shapes.rectangles import corners
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_benches_led_from_beyond_a_radius_lie_outside_it_and_leaders_within_their_reach(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    dragon, spiral = Dragon(40, 3.4, rng.uniform(0.8, 2.2), 0.3, rng.uniform(0.0, 0.3)), Spiral(rng.uniform(0.3, 1.5))
+    search = Search(dragon, spiral, 0.0)
+    search.clearance(rng.uniform(0.0, 100.0))
+    rows = search.rows[0]
+    poses = np.column_stack(
+        [rows[:40, kernels.MX], rows[:40, kernels.MY], np.arctan2(rows[:40, kernels.UY], rows[:40, kernels.UX])]
+    )
+    far = np.linalg.norm(corners(poses, np.stack([dragon.lengths, dragon.widths], axis=-1)), axis=-1)
+    handles = spiral.growth * rows[:41, kernels.THETA]
+    for k in range(40):
+        assert far[k].max() <= kernels.leaders_reach(spiral.growth, handles[k], handles[k + 1], search.rings)
+    for radius in np.linspace(0.5, handles[-1], 30):
+        outside = handles[:-1] >= kernels.radius_beyond(spiral.growth, radius, search.rings)
+        assert (far[1:][outside[1:]] >= radius).all()
+
+
+@pytest.mark.parametrize("pitch", [0.45, 0.6, 1.0])
+def test_no_clearance_falls_below_the_ring_bound_further_out(pitch: float) -> None:
+    search = Search(Dragon(60), Spiral(pitch), 0.0)
+    for travel in np.linspace(0.0, 60.0, 7):
+        radius = search.growth * search.theta_at(travel)
+        least = kernels.ring_least(search.growth, search.growth, radius, search.rings)
+        assert search.clearance(travel)[0] >= least > -kernels.FREE

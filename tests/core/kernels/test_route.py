@@ -1,0 +1,41 @@
+"""Routes: points on a table of pieces."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from core import Arc, Coil, Line, Route, Waypoints, kernels
+
+PATHS = {
+    "line and arc": Route([Line((0.0, 0.0), (7.0, 0.0)), Arc((7.0, 3.0), 3.0, -0.5 * np.pi, 2.0)]),
+    "coil": Route([Coil(1.3, 6.0, 2.0)]),
+    "waypoints": Route([Waypoints(((0, 0), (6, 1), (11, 6), (9, 13), (2, 14)))]),
+}
+# Steps of difference quotients [m], and what these and rounding leave of a tangent [1] and of a curvature [1/m].
+STEP, QUOTIENT, BEND_QUOTIENT = 1e-4, 2e-6, 1e-5
+
+
+@pytest.mark.parametrize("name", PATHS)
+def test_tangent_and_curvature_are_the_derivatives_of_the_points(name: str) -> None:
+    table = PATHS[name].table
+    s = np.linspace(0.05, PATHS[name].end - 0.05, 301)
+    s = s[np.abs(s[:, None] - table[1:, kernels.S_START]).min(axis=1, initial=1.0) > 3.0 * STEP]
+    points = np.empty((3, s.size, kernels.POINT_COLUMNS))
+    for side in range(3):
+        kernels.route_points(table, s + (side - 1) * STEP, points[side])
+    place, tangent = points[..., kernels.PX : kernels.PY + 1], points[1, :, kernels.TX : kernels.TY + 1]
+    assert (place[2] - place[0]) / (2 * STEP) == pytest.approx(tangent, abs=QUOTIENT)
+    heading = np.unwrap(np.arctan2(points[..., kernels.TY], points[..., kernels.TX]), axis=0)
+    curvature = points[1, :, kernels.POINT_CURVATURE]
+    assert (heading[2] - heading[0]) / (2 * STEP) == pytest.approx(curvature, abs=BEND_QUOTIENT)
+
+
+def test_misses_of_a_joint_are_those_that_were_made() -> None:
+    route = Route([Line((0.0, 0.0), (30.0, 0.0)), Line((30.0, 9e-10), (60.0, 9e-10))])
+    table, misses = route.table.copy(), np.zeros((2, kernels.MISS_COLUMNS))
+    table[:, kernels.LOOSE] = 0.0  # which holds these misses already
+    kernels.joint_misses(table, misses)
+    assert misses[1, kernels.MISS_ACROSS] == pytest.approx(9e-10, rel=1e-3)
+    assert misses[1, kernels.MISS_ALONG] < 1e-13
+    assert misses[1, kernels.MISS_KINK] < 1e-13

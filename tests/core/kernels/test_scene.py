@@ -1,0 +1,36 @@
+"""Scenes and intervals of head travel: what is bounded holds at every instant between."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from core import Dragon, Route, Spiral, Turn, kernels
+from core.contact.search import Search
+
+ROUNDING = 1e-10  # of rates [1]
+
+
+@pytest.mark.parametrize("path", [Spiral(), Turn(1.7)], ids=["spiral", "turn"])
+@pytest.mark.parametrize("travel", [-30.0, 5.0, 80.0])
+def test_no_handle_within_an_interval_is_faster_than_its_bound(path: Spiral | Route, travel: float) -> None:
+    search = Search(Dragon(30), path, 0.0)
+    h, place = 0.05, search.place - travel
+    assert search.interval.lay_out(place, h, 30)
+    most = search.motion[1:31, kernels.RATE_HIGH]
+    for part in np.linspace(0.0, 1.0, 11):
+        kernels.place_chain(search.curve, place - part * h, 30, search.sizes, chain := np.zeros_like(search.rows[0]))
+        assert (np.abs(chain[1:31, kernels.RATE]) <= most + ROUNDING).all()
+
+
+def test_a_scene_has_room_for_as_many_benches_as_rows() -> None:
+    rings, curve = kernels.Rings(), kernels.spiral_curve(0.1)
+    for rows, benches, edges, room in ((41, 223, 0, 40), (41, 10, 0, 10), (41, 30, 10, 30)):
+        scene = kernels.Scene(curve, 9.0, rings, np.zeros((rows, kernels.SIZE_COLUMNS)), benches, edges)
+        assert scene.room == room
+        assert scene.against == (kernels.EDGES if edges else kernels.BENCHES)
+
+
+def test_an_interval_whose_chain_folds_has_no_bounds() -> None:
+    search = Search(Dragon(5), Spiral(), 0.0)
+    assert not search.interval.lay_out(0.1, 0.01, 5)

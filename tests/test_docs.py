@@ -1,0 +1,161 @@
+"""README and docs/ are true: links lead to files, claims name tests, Python and commands print what is shown."""
+
+from __future__ import annotations
+
+import doctest
+import os
+import re
+import subprocess
+import sys
+import textwrap
+from pathlib import Path
+from urllib.parse import urlsplit
+
+import pytest
+
+from app.settings import Settings
+
+ROOT = Path(__file__).parents[1]
+README, DOCS = ROOT / "README.md", ROOT / "docs"
+PAGES = {path.relative_to(ROOT).as_posix(): path.read_text(encoding="utf-8") for path in [README, *DOCS.glob("*.md")]}
+README_LINES_MOST = 250
+PATIENCE = 300.0  # [s]: only against a command that would hang
+WIDTH = "120"  # of the terminal for which the outputs are shown [characters]
+# Other processors round the last digit of a sine differently. The time of a least clearance changes most, because the
+# clearance is flat there: by up to 1e-8 s; all other numbers change less [s, m, rad, m/s].
+ROUNDING = 1e-8
+
+NAMED = re.findall(r"\[(test_\w+)\]\(([\w/.]+)\)", PAGES["docs/claims.md"])
+LINKS = sorted(
+    {(page, link) for page, text in PAGES.items() for link in re.findall(r"\]\(((?!https?:)[^)#\s]+)\)", text)}
+)
+# Rows of README's table of results: the value, then the command that prints it.
+RESULTS = re.findall(r"^\|[^|]+\| ([^|]+) \| `(bench-dragon [^`]+)` \|$", PAGES["README.md"], re.MULTILINE)
+NUMBER = re.compile(r"-?\d+\.\d+(?:e-?\d+)?")
+
+
+def blocks(language: str) -> list[tuple[str, str]]:
+    """Every fenced block of a language, also in a list, with its page and line."""
+    fences = re.compile(rf"^( *)```{language}\n(.*?)^\1```", re.DOTALL | re.MULTILINE)
+    return [
+        (f"{page}:{text.count(chr(10), 0, found.start()) + 2}", textwrap.dedent(found[2]))
+        for page, text in PAGES.items()
+        for found in fences.finditer(text)
+    ]
+
+
+SNIPPETS, SESSIONS, DANCES = blocks("python"), blocks("console"), blocks("toml")
+
+
+def test_readme_is_short() -> None:
+    assert PAGES["README.md"].count("\n") < README_LINES_MOST
+
+
+def test_readme_leads_to_every_page() -> None:
+    linked = {link for page, link in LINKS if page == "README.md"}
+    assert set(PAGES) - {"README.md"} <= linked
+
+
+def test_the_house_is_drawn_as_it_stands() -> None:
+    picture = re.search(r"^```\n(core/.*?)^```", PAGES["docs/architecture.md"], re.DOTALL | re.MULTILINE)
+    assert picture
+    drawn: dict[str, set[str]] = {}
+    for line in picture[1].splitlines():
+        names = re.findall(r"[\w.]+(?:\.py|/)", re.split(r"(?<=\S)  +", line)[0])
+        if not line.startswith(" "):
+            drawn[floor := names[0]] = set()
+        elif re.match(r"  \S", line):
+            drawn[floor] |= set(names)
+    assert all((ROOT / floor / name).exists() for floor, names in drawn.items() for name in names)
+    rooms = {f"{path.parent.name}/" for path in (ROOT / "core").glob("*/__init__.py")}
+    assert drawn["core/"] == rooms | {path.name for path in (ROOT / "core").glob("*.py")} - {"__init__.py"}
+
+
+def test_each_claim_names_a_test() -> None:
+    rows = [line for line in PAGES["docs/claims.md"].splitlines() if line.startswith("| ")][1:]
+    assert len(rows) > 10
+    assert all("test_" in row for row in rows)
+
+
+@pytest.mark.parametrize(("test", "file"), NAMED)
+def test_a_test_that_a_claim_names_exists(test: str, file: str) -> None:
+    assert re.search(rf"^def {test}\(", (DOCS / file).read_text(encoding="utf-8"), re.MULTILINE)
+
+
+@pytest.mark.parametrize(("page", "link"), LINKS)
+def test_a_link_leads_to_a_file(page: str, link: str) -> None:
+    assert (ROOT / page).parent.joinpath(link).exists()
+
+
+def test_every_limit_of_the_service_stands_with_its_default() -> None:
+    told = "\n".join((PAGES["docs/http.md"], PAGES["docs/operations.md"]))
+    rows = re.findall(r"^\| `BENCH_DRAGON_(\w+)` \| (\d+|none) \|", told, re.MULTILINE)
+    stated = {name.lower(): None if value == "none" else int(value) for name, value in rows}
+    assert stated == {name: value or None for name, value in Settings().model_dump().items()}
+
+
+@pytest.mark.parametrize(("place", "source"), SNIPPETS, ids=[place for place, _ in SNIPPETS])
+def test_python_gives_what_is_printed_below_it(place: str, source: str) -> None:
+    told: list[str] = []
+    test = doctest.DocTestParser().get_doctest(source, {}, place, place, 0)
+    assert len(test.examples) == source.count(">>> ") > 0
+    doctest.DocTestRunner().run(test, out=told.append)
+    assert "".join(told) == ""
+
+
+@pytest.mark.parametrize(
+    ("place", "session"),
+    [pytest.param(*each, id=each[0], marks=[pytest.mark.curl] if "$ curl" in each[1] else []) for each in SESSIONS],
+)
+def test_a_command_gives_what_is_printed_below_it(place: str, session: str, server: str, tmp_path: Path) -> None:
+    (tmp_path / "examples").symlink_to(ROOT / "examples")
+    for turn in re.split(r"^\$ ", session, flags=re.MULTILINE)[1:]:
+        lines = turn.splitlines()
+        length = next(number for number, line in enumerate(lines, 1) if not line.endswith(("\\", "[")))
+        command, expected = "\n".join(lines[:length]), "\n".join(lines[length:])
+        done = run(command.replace("localhost:8000", urlsplit(server).netloc), tmp_path)
+        assert (done.returncode != 0) is expected.startswith("Error: "), done.stdout
+        assert_alike(done.stdout, expected)
+
+
+@pytest.mark.parametrize(("place", "dance"), DANCES, ids=[place for place, _ in DANCES])
+def test_a_dance_that_is_shown_passes_its_check(place: str, dance: str, tmp_path: Path) -> None:
+    (tmp_path / "dance.toml").write_text(dance, encoding="utf-8")
+    assert run("bench-dragon check dance.toml", tmp_path).stdout.startswith("Passes. ")
+
+
+@pytest.mark.parametrize(("values", "command"), RESULTS, ids=[command for _, command in RESULTS])
+def test_a_result_is_printed_by_the_command_beside_it(values: str, command: str, tmp_path: Path) -> None:
+    printed = run(command, tmp_path).stdout
+    for value in NUMBER.findall(values):
+        digits = len(value.partition(".")[2])
+        assert value in {f"{float(number):.{digits}f}" for number in NUMBER.findall(printed)}, printed
+
+
+def run(command: str, folder: Path) -> subprocess.CompletedProcess[str]:
+    """A command of a shell, with errors among its output, as a reader types it."""
+    path = os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]])
+    environment = {**os.environ, "PATH": path, "COLUMNS": WIDTH}
+    return subprocess.run(
+        ["bash", "-c", command],
+        cwd=folder,
+        env=environment,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+        timeout=PATIENCE,
+    )
+
+
+def assert_alike(output: str, expected: str) -> None:
+    """The same text and, but for rounding, the same numbers; `...` stands for anything, and spaces do not count."""
+    patterns, numbers = [], []
+    for part in re.split(r"(\.\.\.|\s+|-?\d+\.\d+(?:e-?\d+)?)", expected.strip()):
+        if NUMBER.fullmatch(part):
+            numbers.append(float(part))
+            patterns.append(f"({NUMBER.pattern})")
+        else:
+            patterns.append(".*?" if part == "..." else r"\s*" if part.isspace() else re.escape(part))
+    found = re.fullmatch("".join(patterns), output.strip(), re.DOTALL)
+    assert found, f"expected:\n{expected}\ngot:\n{output}"
+    assert list(map(float, found.groups())) == pytest.approx(numbers, rel=0, abs=ROUNDING)
