@@ -9,9 +9,9 @@ from typing import Any
 
 import orjson
 
-# Random bytes of a job's name, and the name.
+# Random bytes of a job's name, and the name: in hexadecimal, which no shell takes for an option.
 ID_BYTES = 24
-ID_PATTERN = r"[A-Za-z0-9_-]{32}"
+ID_PATTERN = r"[0-9a-f]{48}"
 
 
 class State(StrEnum):

@@ -127,7 +127,7 @@ class Store:
 
     def create(self, question: str, call: bytes, client: str, room: Room) -> Job:
         """A new job, safe on the disk. raises: Full where there is no room for it"""
-        now, job = time.time(), secrets.token_urlsafe(ID_BYTES)
+        now, job = time.time(), secrets.token_hex(ID_BYTES)
         with self._change() as run:
             kept = "SELECT count(*), coalesce(sum(size + length(call)), 0) FROM jobs WHERE NOT expired"
             jobs, used = run.execute(kept).fetchone()

@@ -19,8 +19,8 @@ from app.jobs.store import Store
 from tests.app.jobs.service import Service, direct, wait_for
 
 ROLES = ("child", "spare", "runner", "worker", "parent")
-# Between two kills [s].
-PAUSE = (0.1, 2.0)
+# Between two kills, at most [s].
+PAUSE = 2.0
 # Jobs that are not finished, at least, while there are kills to come.
 BUSY = 3
 PATIENCE = 120.0  # [s]
@@ -68,7 +68,7 @@ def kill_one(service: Service, chance: random.Random) -> str:
     return role
 
 
-def survive(folder: Path, kills: int, seed: int) -> dict[str, int]:
+def survive(folder: Path, kills: int, seed: int, pause: float = PAUSE, busy: int = BUSY) -> dict[str, int]:
     """Kills so many processes; then all jobs must be done, with the bytes of the direct calls.
 
     returns: how many processes of each role were killed
@@ -77,10 +77,10 @@ def survive(folder: Path, kills: int, seed: int) -> dict[str, int]:
     asked: dict[str, Any] = {}
     with Service(folder, workers=2, jobs_client_max=1000) as service:
         while sum(done.values()) < kills:
-            while sum(not job.is_finished for job in Store(folder).all()) < BUSY:
+            while sum(not job.is_finished for job in Store(folder).all()) < busy:
                 call = wanted(chance)
                 asked[post(service, call)] = call
-            time.sleep(chance.uniform(*PAUSE))
+            time.sleep(chance.uniform(0.0, pause))
             if role := kill_one(service, chance):
                 done[role] += 1
         wait_for(lambda: all(job.is_finished for job in Store(folder).all()), PATIENCE)

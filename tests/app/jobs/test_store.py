@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import sqlite3
 from collections.abc import Iterator
 from pathlib import Path
@@ -9,7 +10,7 @@ from pathlib import Path
 import orjson
 import pytest
 
-from app.jobs.job import Full, FullForClient, FullOfBytes, Room, State
+from app.jobs.job import ID_PATTERN, Full, FullForClient, FullOfBytes, Room, State
 from app.jobs.store import DEATHS_MAX, EVENTS_KEPT, Store
 
 ROOM = Room(jobs=10, of_client=10, bytes=1_000)
@@ -41,7 +42,7 @@ def test_jobs_run_in_the_order_in_which_they_were_asked_for(store: Store) -> Non
 def test_names_of_jobs_are_long_and_never_the_same(store: Store) -> None:
     names = {make(store) for _ in range(10)}
     assert len(names) == 10
-    assert all(len(name) >= 32 for name in names)
+    assert all(re.fullmatch(ID_PATTERN, name) for name in names)
 
 
 def test_another_process_sees_what_this_one_wrote(store: Store) -> None:
