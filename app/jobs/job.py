@@ -14,7 +14,7 @@ ID_BYTES = 24
 ID_PATTERN = r"[0-9a-f]{48}"
 
 
-class State(StrEnum):
+class JobState(StrEnum):
     """How far a job is, in the words of OGC API Processes."""
 
     ACCEPTED = "accepted"
@@ -24,7 +24,7 @@ class State(StrEnum):
     DISMISSED = "dismissed"
 
 
-UNFINISHED = (State.ACCEPTED, State.RUNNING)
+UNFINISHED = (JobState.ACCEPTED, JobState.RUNNING)
 
 
 @dataclass(frozen=True)
@@ -37,7 +37,7 @@ class Job:
 
     id: str
     question: str
-    state: State
+    state: JobState
     created: float
     started: float | None
     finished: float | None

@@ -10,7 +10,7 @@ from urllib.request import Request, urlopen
 
 import orjson
 
-from app.jobs.job import State
+from app.jobs.job import JobState
 from app.jobs.store import Store
 from app.settings import Settings
 from core import BenchDragonError, InvalidValue
@@ -60,14 +60,14 @@ class InFolder:
     def cancel(self, job: str) -> str:
         self.show(job)
         if self.store.dismiss(job):
-            return State.DISMISSED
+            return JobState.DISMISSED
         self.store.remove(job)
         return "removed"
 
     def result(self, job: str) -> bytes:
         known = self.show(job)
         file = self.store.result(job)
-        if known["status"] != State.SUCCESSFUL or not file.is_file():
+        if known["status"] != JobState.SUCCESSFUL or not file.is_file():
             raise NoJob("job", f"{NO_RESULT.format(job, known['status'])}: {known['message']}")
         return file.read_bytes()
 
@@ -104,7 +104,7 @@ class OfService:
         return found
 
     def cancel(self, job: str) -> str:
-        return State.DISMISSED if self._ask(f"/jobs/{job}", "DELETE") else "removed"
+        return JobState.DISMISSED if self._ask(f"/jobs/{job}", "DELETE") else "removed"
 
     def result(self, job: str) -> bytes:
         return self._ask(f"/jobs/{job}/result")

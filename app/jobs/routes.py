@@ -18,7 +18,7 @@ from pydantic import BaseModel, ValidationError
 from starlette.concurrency import run_in_threadpool
 from starlette.types import Receive, Scope, Send
 
-from app.jobs.job import ID_PATTERN, Full, FullForClient, FullOfBytes, Job, Room, State
+from app.jobs.job import ID_PATTERN, Full, FullForClient, FullOfBytes, Job, JobState, Room
 from app.jobs.keeper import Keeper
 from app.jobs.task import Task
 from app.jobs.wire import EVENTS_TYPE, JobList, JobRequest, JobStatus, status
@@ -234,8 +234,8 @@ def result(keeper: KeptKeeper, found: Found) -> Response:
         known = orjson.loads(found.problem)
         return Response(found.problem, known["status"], NOT_KEPT, PROBLEM_TYPE)
     file = keeper.store.result(found.id)
-    if found.state is State.DISMISSED or found.expired or not file.is_file():
-        why = "The job was dismissed" if found.state is State.DISMISSED else "The result has expired"
+    if found.state is JobState.DISMISSED or found.expired or not file.is_file():
+        why = "The job was dismissed" if found.state is JobState.DISMISSED else "The result has expired"
         raise Refused(410, f"{why}: there is no result, ask the question again.")
     return FileResponse(file, headers=NOT_KEPT, media_type=found.media_type)
 

@@ -22,7 +22,7 @@ from typing import Any
 
 import orjson
 
-from app.jobs.job import ID_BYTES, Full, FullForClient, FullOfBytes, Job, Room, State
+from app.jobs.job import ID_BYTES, Full, FullForClient, FullOfBytes, Job, JobState, Room
 
 # How long a change waits for that of another process [s].
 PATIENCE = 5.0
@@ -185,7 +185,7 @@ class Store:
                 run,
                 job,
                 "state IN ('accepted', 'running')",
-                state=State.DISMISSED,
+                state=JobState.DISMISSED,
                 finished=now,
                 message=words,
                 time_left=None,
@@ -212,7 +212,7 @@ class Store:
         with self._change() as run:
             words = "Its process was ended from outside; it goes on."
             for (job,) in run.execute("SELECT id FROM jobs WHERE state = 'running'").fetchall():
-                self._move(run, job, "1", state=State.ACCEPTED, message=words, rate=None, time_left=None)
+                self._move(run, job, "1", state=JobState.ACCEPTED, message=words, rate=None, time_left=None)
             kept = {row[0] for row in run.execute("SELECT id FROM jobs WHERE state = 'successful' AND NOT expired")}
             for file in self.results.iterdir():
                 if file.name not in kept:
@@ -224,7 +224,7 @@ class Store:
             row = run.execute("SELECT id FROM jobs WHERE state = 'accepted' ORDER BY created LIMIT 1").fetchone()
             if row is None:
                 return None
-            self._move(run, row[0], "1", state=State.RUNNING, started=time.time(), progress=0, message="It runs.")
+            self._move(run, row[0], "1", state=JobState.RUNNING, started=time.time(), progress=0, message="It runs.")
         job: str = row[0]
         return job
 
@@ -246,19 +246,25 @@ class Store:
             flush_folder(self.results)
         size = result.stat().st_size if result.exists() else 0
         words = "It is done."
-        done = {"state": State.SUCCESSFUL, "finished": time.time(), "message": words, "progress": 100, "time_left": 0.0}
+        done = {
+            "state": JobState.SUCCESSFUL,
+            "finished": time.time(),
+            "message": words,
+            "progress": 100,
+            "time_left": 0.0,
+        }
         with self._change() as run:
             moved = self._move(
                 run, job, "state = 'running'", media_type=media_type, size=size, client="", rate=None, **done
             )
         found = self.get(job)
-        if not moved and (found is None or found.state is not State.SUCCESSFUL):
+        if not moved and (found is None or found.state is not JobState.SUCCESSFUL):
             result.unlink(missing_ok=True)
 
     def fail(self, job: str, problem: bytes) -> None:
         """The job is done, and its answer is a problem."""
         words = orjson.loads(problem)["detail"]
-        done = {"state": State.FAILED, "finished": time.time(), "message": words, "rate": None, "time_left": None}
+        done = {"state": JobState.FAILED, "finished": time.time(), "message": words, "rate": None, "time_left": None}
         with self._change() as run:
             self._move(run, job, "state = 'running'", problem=problem, client="", **done)
 
@@ -272,7 +278,7 @@ class Store:
             return self.fail(job, problem)
         words = f"Its process ended without a word; it is tried again ({deaths} of {DEATHS_MAX - 1})."
         with self._change() as run:
-            self._move(run, job, "state = 'running'", state=State.ACCEPTED, deaths=deaths, message=words)
+            self._move(run, job, "state = 'running'", state=JobState.ACCEPTED, deaths=deaths, message=words)
         return None
 
     def expire(self, days: float) -> None:
@@ -289,7 +295,7 @@ class Store:
 
 def _job(row: tuple[Any, ...]) -> Job:
     found = dict(zip((field.name for field in fields(Job)), row, strict=True))
-    return Job(**found | {"state": State(found["state"])})
+    return Job(**found | {"state": JobState(found["state"])})
 
 
 def flush_folder(folder: Path) -> None:

@@ -7,8 +7,8 @@ from typing import Any
 import orjson
 from pydantic import BaseModel, ConfigDict, Field
 
-from app.jobs.job import Job, State
-from app.wire.models import JSON
+from app.jobs.job import Job, JobState
+from app.wire.models import JSON, measure
 from app.wire.problem import Problem
 
 EVENTS_TYPE = "text/event-stream"
@@ -38,15 +38,15 @@ class JobStatus(BaseModel):
     jobID: str = Field(description="Name of the job; whoever knows it may see and dismiss the job")  # noqa: N815
     type: str = Field(description="Always process")
     processID: str = Field(description="Operation id of the call that answers")  # noqa: N815
-    status: State = Field(description="How far it is")
+    status: JobState = Field(description="How far it is")
     message: str = Field(description="The same in words")
     created: str = Field(description="When it was asked for, in ISO 8601")
     started: str | None = Field(description="When it last began to run")
     finished: str | None = Field(description="When it ended, however it did")
     updated: str = Field(description="When any of this last changed")
-    progress: int = Field(description="Share of the work that is done, 0 to 100; 0 where a question cannot say [%]")
-    rate: float | None = Field(description="How fast it goes on average [%/s]")
-    time_left: float | None = Field(description="How long it will still run if it goes on like that [s]")
+    progress: int = measure("%", "Share of the work that is done, 0 to 100; 0 where a question cannot say")
+    rate: float | None = measure("%/s", "How fast it goes on average")
+    time_left: float | None = measure("s", "How long it will still run if it goes on like that")
     problem: Problem | None = Field(description="Why it failed, as the call itself would have answered")
     links: list[Link] = Field(description="Where its status, its events and its result are")
 
@@ -63,6 +63,6 @@ def status(job: Job, root: str) -> bytes:
     links = [Link(href=at, rel="self", type=JSON)]
     if not job.is_finished:
         links.append(Link(href=f"{at}/events", rel="monitor", type=EVENTS_TYPE))
-    if job.state is State.SUCCESSFUL and not job.expired:
+    if job.state is JobState.SUCCESSFUL and not job.expired:
         links.append(Link(href=f"{at}/result", rel="results", type=job.media_type or JSON))
     return orjson.dumps(job.status() | {"links": [link.model_dump() for link in links]})

@@ -148,7 +148,7 @@ def test_a_dismissed_job_ends_its_process_and_a_second_word_removes_it_wholly(se
     wait_for(lambda: not service.of("child"))
     address = service.post(LONG)
     service.until(address, "running")
-    assert len(service.of("child")) == 1
+    wait_for(lambda: len(service.of("child")) == 1)
     assert service.client.get(f"{address}/result").status_code == 409
     dismissed = service.client.delete(address)
     assert (dismissed.status_code, dismissed.json()["status"]) == (200, "dismissed")

@@ -10,7 +10,7 @@ from pathlib import Path
 import orjson
 import pytest
 
-from app.jobs.job import ID_PATTERN, Full, FullForClient, FullOfBytes, Room, State
+from app.jobs.job import ID_PATTERN, Full, FullForClient, FullOfBytes, JobState, Room
 from app.jobs.store import DEATHS_MAX, EVENTS_KEPT, Store
 
 ROOM = Room(jobs=10, of_client=10, bytes=1_000)
@@ -51,7 +51,7 @@ def test_another_process_sees_what_this_one_wrote(store: Store) -> None:
     assert other.known(job) == store.known(job)
     assert other.call(job) == b"call"
     assert other.take() == job
-    assert store.known(job).state is State.RUNNING
+    assert store.known(job).state is JobState.RUNNING
     other.close()
 
 
@@ -60,7 +60,7 @@ def test_what_was_running_waits_again_for_a_new_runner_and_half_results_go(store
     store.take()
     half = written(store, b"half")
     store.begin()
-    assert store.known(job).state is State.ACCEPTED
+    assert store.known(job).state is JobState.ACCEPTED
     assert not half.exists()
     assert store.take() == job
 
@@ -72,7 +72,7 @@ def test_a_result_stands_when_its_state_could_not_be_written_and_is_said_again(s
     store.succeed(job, file, "text/plain")
     store.succeed(job, file, "text/plain")
     assert store.result(job).read_bytes() == b"answer"
-    assert store.known(job).state is State.SUCCESSFUL
+    assert store.known(job).state is JobState.SUCCESSFUL
     assert len(store.events(job, 0)) == 3
 
 
@@ -82,7 +82,7 @@ def test_the_result_of_a_dismissed_job_is_not_kept(store: Store) -> None:
     assert store.dismiss(job)
     assert not store.dismiss(job)
     store.succeed(job, written(store, b"answer"), "text/plain")
-    assert store.known(job).state is State.DISMISSED
+    assert store.known(job).state is JobState.DISMISSED
     assert not store.result(job).exists()
 
 
@@ -91,7 +91,7 @@ def test_a_job_may_end_its_process_twice(store: Store) -> None:
     for death in range(1, DEATHS_MAX + 1):
         assert store.take() == job
         store.die(job, PROBLEM)
-        assert store.known(job).state is (State.FAILED if death == DEATHS_MAX else State.ACCEPTED)
+        assert store.known(job).state is (JobState.FAILED if death == DEATHS_MAX else JobState.ACCEPTED)
     assert store.known(job).message == "It does not work."
 
 
