@@ -1,5 +1,5 @@
-# The service alone: no compiler, no root, nothing written outside /tmp.
-#   docker build -t bench-dragon . && docker run --read-only --tmpfs /tmp -p 8000:8000 bench-dragon
+# The service alone: no compiler, no root, nothing written outside /tmp and the volume of the jobs.
+#   docker build -t bench-dragon . && docker run --read-only --tmpfs /tmp -v dragon:/data -p 8000:8000 bench-dragon
 ARG PYTHON_IMAGE=python:3.11-slim-bookworm
 
 FROM ${PYTHON_IMAGE} AS build
@@ -16,7 +16,10 @@ RUN /opt/bench-dragon/bin/pip install --no-cache-dir --disable-pip-version-check
 
 FROM ${PYTHON_IMAGE}
 COPY --from=build /opt/bench-dragon /opt/bench-dragon
+RUN install -d -o 10001 -g 10001 -m 700 /data
+VOLUME /data
 ENV PATH=/opt/bench-dragon/bin:$PATH \
+    BENCH_DRAGON_DATA=/data \
     HOME=/tmp \
     MPLCONFIGDIR=/tmp/matplotlib \
     PYTHONDONTWRITEBYTECODE=1 \

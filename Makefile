@@ -1,7 +1,7 @@
 # The first `make` in a fresh clone creates .venv, installs the locked versions and compiles core/kernels.
 SHELL := /bin/bash
 .DEFAULT_GOAL := help
-.PHONY: help setup serve test rounding lint sweep-pitch sweep-kills bench examples figures dist lock clean
+.PHONY: help setup serve test rounding lint sweep-pitch sweep-kills job-kills bench examples figures dist lock clean
 
 VENV := .venv
 BIN := $(VENV)/bin
@@ -18,6 +18,7 @@ help:
 	@echo 'make lint     ruff and mypy'
 	@echo 'make sweep-pitch  the minimum pitch of 2,000 random dragons against a slow scan, 10 minutes (DRAGONS=, FIRST=)'
 	@echo 'make sweep-kills  a sweep of 200,000 designs on a Dask cluster with 50 kills, half an hour (DESIGNS=, KILLS=, FIRST=)'
+	@echo 'make job-kills  50 processes of the service killed at random while it works on jobs, 5 minutes (KILLS=, SEED=)'
 	@echo 'make bench    benchmarks against a plain SciPy baseline, into docs/performance.md'
 	@echo 'make examples the answers that /docs shows, asked again'
 	@echo 'make figures  the figures of README.md and docs/'
@@ -43,7 +44,7 @@ $(VENV)/compiled: $(wildcard core/kernels/*.py core/kernels/*.pxd) setup.py pypr
 	@touch $@
 
 serve: setup
-	@$(BIN)/bench-dragon serve --host $(HOST) --port $(PORT)
+	@BENCH_DRAGON_DATA="$${BENCH_DRAGON_DATA:-data}" $(BIN)/bench-dragon serve --host $(HOST) --port $(PORT)
 
 test: setup
 	@$(BIN)/python tests/page/browser.py
@@ -62,6 +63,9 @@ sweep-pitch: setup
 
 sweep-kills: setup
 	@$(BIN)/python -m tests.app.sweeps.kills $(or $(DESIGNS),200000) $(or $(KILLS),50) $(or $(FIRST),0)
+
+job-kills: setup
+	@$(BIN)/python -m tests.app.jobs.kills $(or $(KILLS),50) $(or $(SEED),0)
 
 bench: setup
 	@$(BIN)/python -m benchmarks.report docs/performance.md

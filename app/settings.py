@@ -1,12 +1,16 @@
-"""Limits of the service, read from BENCH_DRAGON_* environment variables."""
+"""Limits of the service and its data folder, read from BENCH_DRAGON_* environment variables."""
 
 from __future__ import annotations
+
+from pathlib import Path
 
 from pydantic import Field
 from pydantic_settings import BaseSettings, SettingsConfigDict
 
 # Folder in which prometheus_client adds up the counts of several processes; app/service/workers.py sets it for them.
 SHARED_COUNTS = "PROMETHEUS_MULTIPROC_DIR"
+# Environment variable of Settings.data, the folder of jobs, which all processes of a service share.
+DATA = "BENCH_DRAGON_DATA"
 # Largest number of processes of one service; each takes about 100 MB.
 WORKERS_MAX = 64
 
@@ -34,4 +38,21 @@ class Settings(BaseSettings):
     pairs_max: int = Field(20_000, ge=1, description="Largest number of overlapping pairs in one /overlaps answer")
     concurrent_max: int = Field(8, ge=1, description="Computations at once in one process; further requests get 503")
     retry_after: int = Field(1, ge=1, description="Retry-After of a 503 [s]")
+    data: Path | None = Field(
+        None, description="Folder of the jobs; none: a temporary folder, removed when the service ends"
+    )
+    token: str = Field(
+        "", description="Token that requests for jobs must carry (Authorization: Bearer); empty: none needed"
+    )
+    jobs_max: int = Field(1_000, ge=1, description="Largest number of jobs kept; further requests get 503")
+    jobs_client_max: int = Field(20, ge=1, description="Unfinished jobs of one client; further requests get 429")
+    jobs_running_max: int = Field(2, ge=1, description="Jobs that run at once; the others wait")
+    jobs_bytes_max: int = Field(
+        10**10, ge=1, description="Size of the requests and results of all jobs; beyond it no job is accepted [bytes]"
+    )
+    jobs_listeners_max: int = Field(100, ge=1, description="Clients that follow a job, for each process")
+    job_result_bytes_max: int = Field(10**9, ge=1, description="Largest result of a job [bytes]")
+    job_memory_max: int = Field(4 * 2**30, ge=2**28, description="Memory of the process of a job [bytes]")
+    job_seconds_max: float = Field(3_600.0, gt=0, description="Longest run of a job [s]")
+    job_days_max: float = Field(7.0, gt=0, description="Time for which a finished job is kept [days]")
     cache_seconds: int = Field(86_400, ge=0, description="Cache-Control max-age of an answer [s]")

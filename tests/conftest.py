@@ -24,6 +24,7 @@ STOP_TIMEOUT = 30.0  # longest wait from the signal to the end [s]; uvicorn lets
 # Continuous integration sets this: every test must run there.
 STRICT = bool(os.environ.get("CI"))
 LEFT_OUT = pytest.StashKey[list[str]]()
+NO_DISK = "they mount a small disk and fill it: run them as root"
 UNCOMPILED = "they would take hours with uncompiled loops: apt install gcc python3-dev, then make clean test"
 NO_CURL = "they run the commands of the documentation as they stand: apt install curl"
 
@@ -41,6 +42,8 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
             groups.setdefault(UNCOMPILED, []).append(item)
         elif not has_browser and _needs_browser(item):
             groups.setdefault(browser.MISSING, []).append(item)
+        elif os.geteuid() != 0 and "small_disk" in getattr(item, "fixturenames", ()):
+            groups.setdefault(NO_DISK, []).append(item)
         elif item.get_closest_marker("curl") and not shutil.which("curl"):
             groups.setdefault(NO_CURL, []).append(item)
         else:

@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable
 from enum import StrEnum
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated
 
 import typer
 
@@ -66,13 +65,6 @@ def figures(
         checked_output("format", picture)
     for one, request in requests.items():
         with refusing(request), show.waiting(f"figure {one.value}") as progress:
-            data = _drawn(request, one, format, progress)
+            data = ASKED[one].told(request, Settings(), format.media_type, progress)
         write_whole(files[one], data)
         print(files[one], file=sys.stderr)
-
-
-def _drawn(request: Any, kind: Kind, format: Format, progress: Callable[[float], None]) -> bytes:
-    if kind is Kind.PITCH_SCAN:
-        return drawn.drawn_scan(request, Settings(), format, progress)
-    found: bytes = ASKED[kind].answer(request, Settings(), format)
-    return found

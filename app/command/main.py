@@ -17,7 +17,7 @@ from typer.core import TyperGroup
 
 import core
 from app import questions
-from app.command import figures, prove, show, sweep, trajectory
+from app.command import figures, jobs, prove, show, sweep, trajectory
 from app.command.options import Json, asks, unused
 from app.extras import require
 from app.files.disk import checked_output, read_dance, read_json, write_whole
@@ -189,7 +189,7 @@ def _drawn_check(asked: CheckRequest, answer: questions.check.Report, format: Fo
     # The time does not come from the file, so a refusal of it must name the option.
     picture = TrajectoryFigureRequest.model_construct(**shown, time=time)
     with refusing(picture):
-        return questions.figures.trajectory_figure(picture, Settings(), format)
+        return questions.figures.trajectory_figure(picture, Settings(), format.media_type)
 
 
 @app.command()
@@ -260,4 +260,5 @@ proofs.command()(asks(prove.ClearClaim)(prove.clear))
 proofs.command()(asks(prove.TurnClaim)(prove.turn))
 proofs.command()(prove.dance)
 app.add_typer(proofs, name="prove")
+app.add_typer(jobs.jobs, name="jobs")
 app.add_typer(sweep.app, name="sweep")

@@ -1,4 +1,7 @@
-"""The questions, each with its request and its answer. QUESTIONS holds all of them by name."""
+"""The questions, each with its request and its answer. QUESTIONS holds all of them by name.
+
+CALLS holds the service's calls that ask them, by operation id.
+"""
 
 from __future__ import annotations
 
@@ -16,7 +19,7 @@ from app.questions import (
     trajectory,
     turn,
 )
-from app.questions.question import Question
+from app.questions.question import Call, Question, calls_of
 
 # In the order in which they are documented.
 _ALL = (
@@ -36,5 +39,6 @@ _ALL = (
     figures.PITCH_SCAN,
 )
 QUESTIONS: dict[str, Question] = {question.name: question for question in _ALL}
+CALLS: dict[str, Call] = {call.name: call for question in _ALL for call in calls_of(question)}
 
-__all__ = ["QUESTIONS", "Question"]
+__all__ = ["CALLS", "QUESTIONS", "Call", "Question"]

@@ -23,7 +23,8 @@ class Format(StrEnum):
         return {"svg": "image/svg+xml", "png": "image/png"}[self.value]
 
 
-FORMS = tuple(one.media_type for one in Format)
+FORMATS = {one.media_type: one.value for one in Format}
+FORMS = tuple(FORMATS)
 
 
 class TrajectoryFigureQuery(DanceQuery):
@@ -60,50 +61,47 @@ class ContactFigureRequest(PlacedDance):
     stop: Instant | None = measure("s", "End time; null: the end of the run", None)
 
 
-def trajectory_figure(
-    asked: TrajectoryFigureQuery | TrajectoryFigureRequest, settings: Settings, format: Format
-) -> bytes:
+def trajectory_figure(asked: TrajectoryFigureQuery | TrajectoryFigureRequest, settings: Settings, form: str) -> bytes:
     """Every handle at one instant, coloured by its speed, on the given path and in the given venue."""
     from app.files import figures
 
     dance = asked.to_dance(settings.drawn_benches_max)
     venue = asked.to_place(dance.dragon).venue if isinstance(asked, PlacedDance) else None
     time = dance.default_start if asked.time is None else asked.time
-    return figures.trajectory_figure(dance, venue=venue, time=time, format=format.value)
+    return figures.trajectory_figure(dance, venue=venue, time=time, format=FORMATS[form])
 
 
-def contact_figure(asked: ContactQuery | ContactFigureRequest, settings: Settings, format: Format) -> bytes:
+def contact_figure(asked: ContactQuery | ContactFigureRequest, settings: Settings, form: str) -> bytes:
     """The dance at first contact, with the pair that touches or is too near marked and enlarged."""
     from app.files import figures
 
     if isinstance(asked, ContactQuery):
         dance = asked.to_dance(settings.drawn_benches_max)
-        return figures.contact_figure(dance, margin=asked.margin, format=format.value)
+        return figures.contact_figure(dance, margin=asked.margin, format=FORMATS[form])
     dance = asked.to_dance(settings.checked_benches_max)
     start = dance.default_start if asked.start is None else asked.start
     venue = asked.to_place(dance.dragon).venue
     return figures.contact_figure(
-        dance, venue=venue, margin=asked.margin, start=start, stop=asked.stop, format=format.value
+        dance, venue=venue, margin=asked.margin, start=start, stop=asked.stop, format=FORMATS[form]
     )
 
 
-def pitch_scan_figure(asked: PitchScanQuery | PitchScanRequest, settings: Settings, format: Format) -> bytes:
-    """Where the head stands at first contact, against the pitch: jumps as jumps, the minimum pitch marked."""
-    return drawn_scan(asked, settings, format, lambda share: None)
-
-
-def drawn_scan(
-    asked: PitchScanQuery | PitchScanRequest, settings: Settings, format: Format, progress: Callable[[float], None]
+def pitch_scan_figure(
+    asked: PitchScanQuery | PitchScanRequest,
+    settings: Settings,
+    form: str,
+    *,
+    progress: Callable[[float], None] = lambda share: None,
 ) -> bytes:
-    """The figure as bytes; progress(share done) is called while it is computed."""
+    """Where the head stands at first contact, against the pitch: jumps as jumps, the minimum pitch marked."""
     from app.files import figures
 
     dragon = asked.to_dragon(min(settings.drawn_benches_max, asked.most_benches(settings)))
     return figures.pitch_scan_figure(
-        dragon, samples=asked.samples, format=format.value, progress=progress, **asked.to_circle()
+        dragon, samples=asked.samples, format=FORMATS[form], progress=progress, **asked.to_circle()
     )
 
 
 TRAJECTORY = Question(trajectory_figure, None, flat=TrajectoryFigureQuery, body=TrajectoryFigureRequest, forms=FORMS)
 CONTACT = Question(contact_figure, None, flat=ContactQuery, body=ContactFigureRequest, forms=FORMS)
-PITCH_SCAN = Question(pitch_scan_figure, None, flat=PitchScanQuery, body=PitchScanRequest, forms=FORMS)
+PITCH_SCAN = Question(pitch_scan_figure, None, flat=PitchScanQuery, body=PitchScanRequest, forms=FORMS, tells=True)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 from pydantic import Field
 
 from app.questions.minimum_pitch import allowed
@@ -37,12 +39,17 @@ class PitchScanTable(Answer):
     minimum_pitch: float = measure("m", "Minimum pitch, around which the scanned pitches lie")
 
 
-def pitch_scan(asked: PitchScanQuery | PitchScanRequest, settings: Settings) -> Columns:
+def pitch_scan(
+    asked: PitchScanQuery | PitchScanRequest,
+    settings: Settings,
+    *,
+    progress: Callable[[float], None] = lambda share: None,
+) -> Columns:
     """Where the head stands at first contact, against the pitch, around the minimum pitch."""
     dragon = asked.to_dragon(min(settings.scanned_benches_max, asked.most_benches(settings)))
-    scan, least = scan_near_minimum(dragon, samples=asked.samples, **asked.to_circle())
+    scan, least = scan_near_minimum(dragon, samples=asked.samples, progress=progress, **asked.to_circle())
     table = {"pitch": scan.pitch, "radius": scan.radius, "pieces": scan.pieces}
     return Columns(table | {"minimum_pitch": allowed(least, asked, dragon).pitch})
 
 
-QUESTION = Question(pitch_scan, PitchScanTable, flat=PitchScanQuery, body=PitchScanRequest)
+QUESTION = Question(pitch_scan, PitchScanTable, flat=PitchScanQuery, body=PitchScanRequest, tells=True)

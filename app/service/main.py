@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import logging
 import os
+import sqlite3
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
 from pathlib import Path
@@ -22,12 +23,15 @@ from pydantic import Field
 from starlette.middleware import Middleware
 from starlette.staticfiles import StaticFiles
 
+from app.jobs import routes as jobs
+from app.jobs.keeper import kept
 from app.service import problems, routes
 from app.service.examples import EXAMPLES
 from app.service.middleware import BodyLimit, HeadAsGet, Metrics, Mistakes, SafetyHeaders
 from app.service.reply import VERSION, refuse_query
 from app.settings import SHARED_COUNTS, Settings
 from app.wire.models import Answer
+from app.wire.problem import Problem
 from core import Dragon, Spiral, first_contact, trajectory
 from core.dance import Dance
 
@@ -51,6 +55,7 @@ TAGS = [
         "description": "Answers in numbers. GET takes a query, POST a body with a dragon and a path.",
     },
     {"name": "Figures", "description": "Answers as pictures in SVG or PNG."},
+    {"name": "Jobs", "description": "Answers computed later; no kill of a process loses them."},
     {"name": "Service", "description": "Liveness and readiness."},
 ]
 # Swagger UI comes from a pip package; its start script is a separate file because the policy forbids inline scripts.
@@ -100,7 +105,8 @@ def _difference() -> str:
 @asynccontextmanager
 async def _lifespan(app: FastAPI) -> AsyncIterator[None]:
     app.state.fault = fault()
-    yield
+    with kept(app.state.settings) as app.state.jobs:
+        yield
 
 
 def create_app(settings: Settings | None = None) -> FastAPI:
@@ -128,6 +134,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     )
     app.state.settings = settings
     app.state.fault = "it has not run"
+    app.state.jobs, app.state.later = "it has not started", jobs.later
     app.state.free = BoundedSemaphore(settings.concurrent_max)
     app.state.busy = Gauge(
         "bench_dragon_computations", "Computations running", registry=registry, multiprocess_mode="livesum"
@@ -136,6 +143,8 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     app.openapi = lambda: _openapi(app)  # type: ignore[method-assign]
     problems.install(app)
     app.include_router(routes.router())
+    app.include_router(jobs.router)
+    app.add_exception_handler(sqlite3.Error, jobs.store_problem)
     _add_health(app)
     _add_pages(app)
     return app
@@ -144,12 +153,13 @@ def create_app(settings: Settings | None = None) -> FastAPI:
 def _openapi(app: FastAPI) -> dict[str, Any]:
     if app.openapi_schema is None:
         schema = FastAPI.openapi(app)
-        problem = problems.Problem.model_json_schema(ref_template="#/components/schemas/{model}")
+        problem = Problem.model_json_schema(ref_template="#/components/schemas/{model}")
         schema["components"]["schemas"] |= problem.pop("$defs") | {"Problem": problem}
         for name, example in EXAMPLES.items():  # FastAPI drops every null in an example.
             method, path = name.split()
             call = schema["paths"][path][method.lower()]
             call["responses"]["200"]["content"]["application/json"]["example"] = example.answer
+        schema["components"]["securitySchemes"] = jobs.TOKEN_SCHEME
         _state_benches(schema, app.state.settings.benches_max)
     return app.openapi_schema or {}
 

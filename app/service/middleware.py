@@ -10,7 +10,8 @@ from starlette.datastructures import Headers, MutableHeaders
 from starlette.requests import Request
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
-from app.service.problems import ErrorItem, Refused, http_problem, server_problem
+from app.service.problems import Refused, http_problem, server_problem
+from app.wire.problem import ErrorItem
 
 logger = logging.getLogger("uvicorn.error")
 

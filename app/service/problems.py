@@ -4,42 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from http import HTTPStatus
-from typing import Any, get_type_hints
+from typing import get_type_hints
 
 from fastapi import FastAPI, Request, Response
 from fastapi.exceptions import RequestValidationError
-from pydantic import BaseModel, Field
 from starlette.exceptions import HTTPException
 
-from app.wire.dances import SHAPES
-from app.wire.messages import message, shown
+from app.wire.faults import Placing, in_body, in_query, refused, unfit
+from app.wire.messages import shown
+from app.wire.problem import PROBLEM_TYPE, ErrorItem, Problem, problem_of, title
 from core import BenchDragonError
-
-PROBLEM_TYPE = "application/problem+json"
-# More errors than this in one request are counted, not listed.
-ERRORS_MAX = 20
-# Titles of RFC 9110; older Pythons have other names for them.
-TITLES = {413: "Content Too Large", 422: "Unprocessable Content"}
-# Errors that pydantic reports for a union although the field `kind` is wrong.
-UNION_ERRORS = frozenset({"union_tag_invalid", "union_tag_not_found"})
-
-
-class ErrorItem(BaseModel):
-    """One error in a request."""
-
-    pointer: str | None = Field(None, description="JSON pointer to the field in the body")
-    name: str | None = Field(None, description="Name of the query parameter or header")
-    detail: str = Field(description="What is wrong and what to change")
-
-
-class Problem(BaseModel):
-    """RFC 9457 problem details."""
-
-    type: str = Field(description="Stable identifier of the kind of problem")
-    title: str = Field(description="HTTP status in words")
-    status: int = Field(description="HTTP status code")
-    detail: str = Field(description="What is wrong and what to change")
-    errors: list[ErrorItem] = Field(description="Every error with its place")
 
 
 class Refused(HTTPException):
@@ -56,23 +30,12 @@ def problem(
     status: int, code: str, detail: str, errors: Iterable[ErrorItem] = (), headers: Mapping[str, str] | None = None
 ) -> Response:
     """The answer to a request that failed."""
-    body = Problem(
-        type=f"urn:problem-type:bench-dragon:{code}",
-        title=_title(status),
-        status=status,
-        detail=detail,
-        errors=list(errors),
-    )
-    return Response(
-        body.model_dump_json(exclude_none=True),
-        status,
-        {"Cache-Control": "no-store", **(headers or {})},
-        media_type=PROBLEM_TYPE,
-    )
+    return answer_of(problem_of(status, code, detail, errors), headers)
 
 
-def _title(status: int) -> str:
-    return TITLES.get(status) or HTTPStatus(status).phrase
+def answer_of(said: Problem, headers: Mapping[str, str] | None = None) -> Response:
+    kept = {"Cache-Control": "no-store", **(headers or {})}
+    return Response(said.to_json(), said.status, kept, media_type=PROBLEM_TYPE)
 
 
 def install(app: FastAPI) -> None:
@@ -84,8 +47,7 @@ def install(app: FastAPI) -> None:
 
 async def core_problem(request: Request, error: BenchDragonError) -> Response:
     """Answer to a value refused by core or by a limit of the service."""
-    place = tuple(int(part) if part.isdigit() else part for part in error.field.split("."))
-    return problem(422, error.code, error.message, [await _item(request, place, error.message)])
+    return answer_of(refused(error, await _placing(request)))
 
 
 async def validation_problem(request: Request, error: RequestValidationError) -> Response:
@@ -97,20 +59,21 @@ async def validation_problem(request: Request, error: RequestValidationError) ->
         return problem(400, "broken-json", detail, [ErrorItem(pointer="", detail=detail)])
     if found[0]["loc"][0] == "path":
         return await http_problem(request, HTTPException(404))
-    for one in found:
-        one["loc"] = (*one["loc"], "kind") if one["type"] in UNION_ERRORS else one["loc"]
-    asked = get_type_hints(request.scope["endpoint"]).get("wanted")
-    items = [await _item(request, one["loc"][1:], message(one, asked)) for one in found[:ERRORS_MAX]]
-    more = f" (and {len(found) - 1} more)" if len(found) > 1 else ""
-    return problem(422, "invalid-value", items[0].detail + more, items)
+    return answer_of(unfit(found, get_type_hints(request.scope["endpoint"]).get("wanted"), await _placing(request)))
+
+
+async def _placing(request: Request) -> Placing:
+    if request.method in ("GET", "HEAD"):
+        return in_query
+    return in_body(await request.json() if await request.body() else {})
 
 
 async def http_problem(request: Request, error: HTTPException) -> Response:
     """Answer to an error of HTTP itself: unknown path, method, media type and so on."""
     status, headers = error.status_code, dict(error.headers or {})
-    detail, code = str(error.detail), _title(status).lower().replace(" ", "-")
+    detail, code = str(error.detail), title(status).lower().replace(" ", "-")
     items: Sequence[ErrorItem] = getattr(error, "errors", ())
-    if status == 404:
+    if status == 404 and detail == HTTPStatus.NOT_FOUND.phrase:
         detail = f"There is nothing at {shown(request.url.path)}: see /docs for all calls."
     elif status == 405:
         allowed = {method.strip() for method in headers.get("Allow", "").split(",") if method.strip()}
@@ -128,29 +91,3 @@ async def http_problem(request: Request, error: HTTPException) -> Response:
 def server_problem() -> Response:
     """Answer to an internal error; only the log has the traceback."""
     return problem(500, "internal-error", "The service failed on this request; its log has the reason.")
-
-
-async def _item(request: Request, place: Sequence[Any], detail: str) -> ErrorItem:
-    if request.method in ("GET", "HEAD"):
-        name = next((part for part in reversed(place) if isinstance(part, str)), "")
-        return ErrorItem(name=name, detail=detail)
-    body = await request.json() if await request.body() else {}
-    return ErrorItem(pointer=pointer(place, body), detail=detail)
-
-
-def pointer(place: Sequence[Any], body: Any) -> str:
-    """JSON pointer to a place in a body, without names of shapes and without indices into anything but lists.
-
-    >>> pointer(("dragon", "uniform", "width"), {"dragon": {"width": -1}})
-    '/dragon/width'
-    """
-    steps = []
-    for step in place:
-        if isinstance(step, int) and not isinstance(body, list):
-            break
-        if step in SHAPES and not (isinstance(body, dict) and step in body):
-            continue
-        steps.append(str(step).replace("~", "~0").replace("/", "~1"))
-        inside = isinstance(body, list) or (isinstance(body, dict) and step in body)
-        body = body[step] if inside else None
-    return "".join(f"/{step}" for step in steps)

@@ -3,28 +3,31 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
 from importlib.metadata import version
 from threading import BoundedSemaphore
 from typing import Annotated
 
 from fastapi import Depends, Request, Response
 from prometheus_client import Gauge
-from pydantic import BaseModel
+from starlette.datastructures import Headers
 
-from app.questions import Question
+from app.jobs.task import Task
+from app.questions import Call
 from app.questions.figures import Format
-from app.service.problems import ErrorItem, Refused
+from app.service.problems import Refused
 from app.settings import Settings
-from app.wire.models import JSON
+from app.wire.models import JSON, Wire
+from app.wire.problem import ErrorItem
 from app.wire.refusals import reworded
 from core import BenchDragonError
 
 VERSION = version("bench-dragon")
+RESPOND_ASYNC = "respond-async"
 
 
 class Reply:
-    """Answers a request, unless the client already has the answer or the service is full."""
+    """Answers a request, unless the client already has the answer, prefers a job, or the service is full."""
 
     def __init__(self, request: Request) -> None:
         state = request.app.state
@@ -32,25 +35,15 @@ class Reply:
         self.settings: Settings = state.settings
         self._free: BoundedSemaphore = state.free
         self._busy: Gauge = state.busy
+        self._later: Callable[[Request, Task], Response] = state.later
 
-    def media_type(self, offers: Sequence[str]) -> str:
-        """The media type of the answer.
-
-        raises: Refused (406) when the client accepts none of the offers
-        """
-        header = self.request.headers.get("accept")
-        chosen = accepted(header, offers)
-        if chosen is None:
-            detail = f"This call answers {' or '.join(offers)}, but Accept asks for {header[:100] if header else ''}."
-            raise Refused(406, detail, [ErrorItem(name="Accept", detail=detail)])
-        return chosen
-
-    def __call__(self, question: Question, asked: BaseModel, *form: Format) -> Response:
+    def __call__(self, call: Call, asked: Wire, *form: Format) -> Response:
         """The answer to the request, in the best form that the client accepts; a figure has the form of its address.
 
         raises: Refused (503) when the largest number of computations is running
         """
-        media_type = self.media_type([one.media_type for one in form] or question.forms)
+        offers = [one.media_type for one in form] or call.question.forms
+        media_type = form_of(self.request.headers.get("accept"), offers, {"name": "Accept"})
         headers = {
             "ETag": self._tag(asked, media_type),
             "Cache-Control": f"public, max-age={self.settings.cache_seconds}",
@@ -58,21 +51,22 @@ class Reply:
         }
         if headers["ETag"] in _tags(self.request.headers.get("if-none-match", "")):
             return Response(status_code=304, headers=headers)
+        if prefers_later(self.request.headers):
+            given = asked.model_dump(mode="json", exclude_unset=True)
+            return self._later(self.request, Task(call.name, given, media_type))
         if not self._free.acquire(blocking=False):
             detail = f"{self.settings.concurrent_max} computations are running, which is the limit: try again later."
             raise Refused(503, detail, headers={"Retry-After": str(self.settings.retry_after)})
-        forms = form or (media_type,) * (len(question.forms) > 1)
         try:
             with self._busy.track_inprogress():
-                found = question.answer(asked, self.settings, *forms)
-                data = found if isinstance(found, bytes) else found.to_json()
+                data = call.question.told(asked, self.settings, media_type)
                 return Response(data, headers=headers, media_type=media_type)
         except BenchDragonError as error:
             raise reworded(error, asked) from error
         finally:
             self._free.release()
 
-    def _tag(self, asked: BaseModel, media_type: str) -> str:
+    def _tag(self, asked: Wire, media_type: str) -> str:
         """Strong ETag: an answer depends only on the call, its values with all defaults, the form and the version."""
         values = "\n".join((VERSION, self.request.url.path, media_type, asked.model_dump_json()))
         return f'"{hashlib.blake2b(values.encode(), digest_size=16).hexdigest()}"'
@@ -119,6 +113,25 @@ BodyReply = Annotated[Reply, Depends(reply_body)]
 
 def _tags(header: str) -> list[str]:
     return [tag.strip().removeprefix("W/") for tag in header.split(",")]
+
+
+def prefers_later(headers: Headers) -> bool:
+    """Does the client prefer a job to a wait (RFC 7240)?"""
+    wishes = ",".join(headers.getlist("prefer")).split(",")
+    return any(wish.partition(";")[0].strip().lower() == RESPOND_ASYNC for wish in wishes)
+
+
+def form_of(header: str | None, offers: Sequence[str], place: Mapping[str, str]) -> str:
+    """The form to answer in.
+
+    place: of the wish, for who must mend it
+    raises: Refused (406) when the client takes none of the offers
+    """
+    chosen = accepted(header, offers)
+    if chosen is None:
+        detail = f"This call answers {' or '.join(offers)}, but Accept asks for {header[:100] if header else ''}."
+        raise Refused(406, detail, [ErrorItem(**place, detail=detail)])
+    return chosen
 
 
 def accepted(header: str | None, offers: Sequence[str]) -> str | None:

@@ -12,12 +12,12 @@ from fastapi import APIRouter, Body, Query, Response
 from pydantic import ValidationError
 
 from app.files.tables import CSV_TYPE
-from app.questions import QUESTIONS, Question
+from app.questions import CALLS, Call
 from app.questions.figures import Format
 from app.service.examples import EXAMPLES
-from app.service.problems import PROBLEM_TYPE
 from app.service.reply import BodyReply, QueryReply, Reply
 from app.wire.models import JSON, Wire
+from app.wire.problem import PROBLEM_TYPE
 
 PROBLEM = {PROBLEM_TYPE: {"schema": {"$ref": "#/components/schemas/Problem"}}}
 FILE = {"schema": {"type": "string", "format": "binary"}}
@@ -37,18 +37,9 @@ BODY_STATUSES = (400, 406, 413, 415, 422, 500, 503)
 
 
 def router() -> APIRouter:
-    """A router with a call for every question and every way to ask it."""
     found = APIRouter()
-    for question in QUESTIONS.values():
-        wanted: Any
-        if question.flat:
-            wanted = Annotated[question.flat, Query()]
-            _add(found, question, "GET", question.name, QueryReply, wanted)
-        if question.body:
-            name = f"{question.name}_of" if question.flat else question.name
-            example = EXAMPLES.get(f"POST {question.path}")
-            wanted = Annotated[question.body, Body(examples=[example.body] if example else None)]
-            _add(found, question, "POST", name, BodyReply, wanted, *_default(question.body))
+    for call in CALLS.values():
+        _add(found, call)
     return found
 
 
@@ -60,9 +51,8 @@ def _default(body: type[Wire]) -> tuple[Wire, ...]:
         return ()
 
 
-def _add(
-    router: APIRouter, question: Question, method: str, name: str, replying: Any, wanted: Any, *default: Wire
-) -> None:
+def _add(router: APIRouter, call: Call) -> None:
+    question, method = call.question, call.method
     statuses = QUERY_STATUSES if method == "GET" else BODY_STATUSES
     if question.model is None:
         statuses = (404, *statuses)
@@ -74,12 +64,13 @@ def _add(
     if question.model is not None:
         content = {JSON: {"example": EXAMPLES[f"{method} {question.path}"].answer}, **content}
     answer = {"description": "The answer", "content": content, "model": question.model}
+    title = question.name.replace("_", " ").capitalize()
     router.add_api_route(
         question.path,
-        _endpoint(question, name, replying, wanted, default),
+        _endpoint(call),
         methods=[method],
-        operation_id=name,
-        summary=name.removesuffix("_of").replace("_", " ").capitalize() + (", in a body" if method == "POST" else ""),
+        operation_id=call.name,
+        summary=title + (", in a body" if method == "POST" else ""),
         description=question.summary,
         tags=["Figures" if question.model is None else "Questions"],
         response_class=Response,
@@ -88,18 +79,23 @@ def _add(
     )
 
 
-def _endpoint(
-    question: Question, name: str, replying: Any, wanted: Any, default: tuple[Wire, ...]
-) -> Callable[..., Response]:
+def _endpoint(call: Call) -> Callable[..., Response]:
     """The function that FastAPI calls; its annotations describe the parameters."""
 
     def answer(reply: Reply, wanted: Wire) -> Response:
-        return reply(question, wanted)
+        return reply(call, wanted)
 
     def figure(reply: Reply, format: Format, wanted: Wire) -> Response:
-        return reply(question, wanted, format)
+        return reply(call, wanted, format)
 
-    endpoint = answer if question.model else figure
-    endpoint.__name__, endpoint.__defaults__ = name, default
+    endpoint = answer if call.question.model else figure
+    wanted: Any
+    if call.method == "GET":
+        replying, wanted = QueryReply, Annotated[call.asked, Query()]
+    else:
+        example = EXAMPLES.get(f"POST {call.question.path}")
+        replying, wanted = BodyReply, Annotated[call.asked, Body(examples=[example.body] if example else None)]
+        endpoint.__defaults__ = _default(call.asked)
+    endpoint.__name__ = call.name
     endpoint.__annotations__ |= {"reply": replying, "wanted": wanted, "format": Format, "return": Response}
     return endpoint

@@ -15,6 +15,7 @@ import os
 import signal
 import socket
 import sys
+from contextlib import ExitStack
 from tempfile import TemporaryDirectory
 from threading import Thread
 from typing import Literal
@@ -24,7 +25,8 @@ from fastapi import FastAPI
 from prometheus_client.multiprocess import mark_process_dead
 from uvicorn.supervisors import Multiprocess
 
-from app.settings import SHARED_COUNTS, WORKERS_MAX
+from app.jobs.keeper import scratch
+from app.settings import DATA, SHARED_COUNTS, WORKERS_MAX, Settings
 from core import InvalidValue
 
 logger = logging.getLogger("uvicorn.error")
@@ -123,7 +125,9 @@ def serve(host: str, port: int, workers: int) -> None:
     config = uvicorn.Config(
         "app.service.workers:create_child_app", factory=True, host=host, port=port, http=PARSER, workers=workers
     )
-    with listen(host, port) as shared, TemporaryDirectory(prefix="bench-dragon-") as counts:
+    with listen(host, port) as shared, TemporaryDirectory(prefix="bench-dragon-") as counts, ExitStack() as stack:
+        if Settings().data is None:
+            os.environ[DATA] = stack.enter_context(scratch())
         # Folder in which the processes add up the counts of /metrics; prometheus_client reads the variable on import.
         os.environ[SHARED_COUNTS] = counts
         shown = f"[{host}]" if ":" in host else host

@@ -1,0 +1,87 @@
+"""bench-dragon jobs: the jobs of a data folder, or of a service at an address."""
+
+from __future__ import annotations
+
+import os
+from datetime import datetime
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import orjson
+import typer
+from rich.table import Table
+
+from app.command import show
+from app.files.disk import checked_output, write_whole
+
+if TYPE_CHECKING:
+    from app.jobs.places import Jobs
+
+jobs = typer.Typer(help="The jobs of a data folder, or of a service.", no_args_is_help=True)
+
+Name = Annotated[str, typer.Argument(metavar="JOB", help="The job's name, the last part of its address.")]
+Data = Annotated[Path | None, typer.Option(help="Data folder of the service; else BENCH_DRAGON_DATA.")]
+Url = Annotated[str, typer.Option(help="Address of a service, such as http://127.0.0.1:8000, in place of a folder.")]
+Token = Annotated[str, typer.Option(help="Token of that service.", envvar="BENCH_DRAGON_TOKEN")]
+Json = Annotated[bool, typer.Option("--json", help="The service's JSON instead of a table.")]
+
+
+def _at(data: Path | None, url: str, token: str) -> Jobs:
+    from app.jobs.places import place  # What it needs takes 60 ms to load, and no other command needs it.
+
+    return place(data, url, token)
+
+
+@jobs.command("list")
+def list_jobs(data: Data = None, url: Url = "", token: Token = "", json: Json = False) -> None:
+    """All jobs, the newest first."""
+    found = _at(data, url, token).list()
+    if json:
+        show.print_json(orjson.dumps({"jobs": found}))
+        return
+    table = Table(box=None, pad_edge=False)
+    for column in ("job", "question", "status", "progress", "asked"):
+        table.add_column(column, no_wrap=True)
+    for job in found:
+        asked = datetime.fromisoformat(job["created"]).astimezone().strftime("%Y-%m-%d %H:%M:%S")
+        table.add_row(job["jobID"], job["processID"], job["status"], f"{job['progress']} %", asked)
+    show.print_parts(table if found else "No jobs.")
+
+
+@jobs.command("show")
+def show_job(job: Name, data: Data = None, url: Url = "", token: Token = "", json: Json = False) -> None:
+    """How far one job is."""
+    found = _at(data, url, token).show(job)
+    if json:
+        show.print_json(orjson.dumps(found))
+        return
+    table = Table(box=None, show_header=False, pad_edge=False)
+    for name, value in found.items():
+        if value is not None and name not in ("links", "type", "problem"):
+            table.add_row(name.replace("_", " "), str(value))
+    show.print_parts(table)
+
+
+@jobs.command()
+def cancel(job: Name, data: Data = None, url: Url = "", token: Token = "") -> None:
+    """Dismiss a job that is not finished; of a finished one remove everything."""
+    print(f"{job}: {_at(data, url, token).cancel(job)}")
+
+
+@jobs.command()
+def result(
+    job: Name,
+    output: Annotated[Path | None, typer.Option(help="File for the result; else it goes to standard output.")] = None,
+    data: Data = None,
+    url: Url = "",
+    token: Token = "",
+) -> None:
+    """What a job has found, as the service would have answered."""
+    if output is not None:
+        checked_output("output", output)
+    found = _at(data, url, token).result(job)
+    if output is None:
+        with os.fdopen(os.dup(1), "wb") as out:
+            out.write(found)
+    else:
+        write_whole(output, found)

@@ -1,0 +1,102 @@
+"""One job as a value: how far it is, in memory and on the wire."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from datetime import UTC, datetime
+from enum import StrEnum
+from typing import Any
+
+import orjson
+
+# Random bytes of a job's name, and the name: in hexadecimal, which no shell takes for an option.
+ID_BYTES = 24
+ID_PATTERN = r"[0-9a-f]{48}"
+
+
+class JobState(StrEnum):
+    """How far a job is, in the words of OGC API Processes."""
+
+    ACCEPTED = "accepted"
+    RUNNING = "running"
+    SUCCESSFUL = "successful"
+    FAILED = "failed"
+    DISMISSED = "dismissed"
+
+
+UNFINISHED = (JobState.ACCEPTED, JobState.RUNNING)
+
+
+@dataclass(frozen=True)
+class Job:
+    """What is known of one job. Times in seconds since 1970.
+
+    progress: 0 to 100; rate: [percent/s]; time_left: [s]; deaths: processes that it ended; size: of its result [bytes]
+    problem: why it failed, as the service would have answered; expired: its call and result are removed
+    """
+
+    id: str
+    question: str
+    state: JobState
+    created: float
+    started: float | None
+    finished: float | None
+    updated: float
+    message: str
+    progress: int
+    rate: float | None
+    time_left: float | None
+    deaths: int
+    media_type: str | None
+    size: int
+    problem: bytes | None
+    expired: int
+
+    @property
+    def is_finished(self) -> bool:
+        return self.state not in UNFINISHED
+
+    def status(self) -> dict[str, Any]:
+        """The job on the wire, by the names of OGC API Processes."""
+        return {
+            "jobID": self.id,
+            "type": "process",
+            "processID": self.question,
+            "status": self.state,
+            "message": self.message,
+            "created": _instant(self.created),
+            "started": _instant(self.started),
+            "finished": _instant(self.finished),
+            "updated": _instant(self.updated),
+            "progress": self.progress,
+            "rate": self.rate,
+            "time_left": self.time_left,
+            "problem": None if self.problem is None else orjson.loads(self.problem),
+        }
+
+
+def _instant(seconds: float | None) -> str | None:
+    if seconds is None:
+        return None
+    return datetime.fromtimestamp(seconds, UTC).isoformat(timespec="milliseconds").replace("+00:00", "Z")
+
+
+@dataclass(frozen=True)
+class Room:
+    """How much a store takes: jobs in all, unfinished ones of one client, bytes of all calls and results."""
+
+    jobs: int
+    of_client: int
+    bytes: int
+
+
+class Full(Exception):
+    """No more jobs are taken."""
+
+
+class FullForClient(Full):
+    """This client has as many unfinished jobs as it may."""
+
+
+class FullOfBytes(Full):
+    """The calls and results take as many bytes as they may."""

@@ -1,0 +1,143 @@
+"""What a process of the service does for its jobs: it keeps the store, and sees that a runner runs when there is work.
+
+Every process of the service has a keeper. One of them holds the lock and starts a runner when there is work; the runner
+ends with the process that started it. When that one is killed, the keeper of another process gets the lock.
+"""
+
+from __future__ import annotations
+
+import logging
+import os
+import signal
+import sqlite3
+import subprocess
+import sys
+from collections.abc import Iterator
+from contextlib import ExitStack, contextmanager
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from threading import BoundedSemaphore, Event, Thread, current_thread, main_thread
+from types import FrameType
+
+from app.jobs.lock import FolderLock
+from app.jobs.store import Store
+from app.settings import SHARED_COUNTS, Settings
+
+logger = logging.getLogger("uvicorn.error")
+
+# How long work waits at most for a keeper of another process [s].
+KEEP_SECONDS = 1.0
+# How long a runner may take to end [s].
+END_SECONDS = 5.0
+
+
+class Keeper:
+    """The jobs of one process of the service.
+
+    free: listeners that may still come; leaving: set when the process is asked to end, so that listeners go
+    """
+
+    def __init__(self, store: Store, settings: Settings) -> None:
+        self.store, self.settings = store, settings
+        self.free = BoundedSemaphore(settings.jobs_listeners_max)
+        self.leaving = Event()
+        self._lock = FolderLock(store.folder, "keeper")
+        self._wake = Event()
+        self._runner: subprocess.Popen[bytes] | None = None
+        self._thread = Thread(target=self._keep, name="jobs", daemon=True)
+
+    def start(self) -> None:
+        self._thread.start()
+
+    def hurry(self) -> None:
+        """There is work: do not wait to find it."""
+        self._wake.set()
+
+    def stop(self) -> None:
+        """The runner and its jobs end; they go on when the service is started again."""
+        self.leaving.set()
+        self._wake.set()
+        self._thread.join()
+        if self._runner is not None:
+            assert self._runner.stdin is not None
+            self._runner.stdin.close()  # The runner ends with its input.
+            try:
+                self._runner.wait(END_SECONDS)
+            except subprocess.TimeoutExpired:
+                self._runner.kill()
+                self._runner.wait()
+        self._lock.give_back()
+
+    def _keep(self) -> None:
+        while not self.leaving.is_set():
+            try:
+                self._see_to_it()
+            except (OSError, sqlite3.Error):
+                logger.exception("No runner could be started for the jobs")
+            self._wake.wait(KEEP_SECONDS)
+            self._wake.clear()
+
+    def _see_to_it(self) -> None:
+        if self._runner is not None and self._runner.poll() is None:
+            return
+        if self._lock.take() and self.store.has_work(self.settings.job_days_max):
+            self._runner = start("app.jobs.runner", str(self.store.folder))
+
+
+def start(module: str, *arguments: str, stdout: int | None = None) -> subprocess.Popen[bytes]:
+    """A process of ours that ends when its input does, so with whoever started it, also when that one is killed.
+
+    It has a session of its own: what a terminal sends to the service is not for it.
+    """
+    environment = {name: value for name, value in os.environ.items() if name != SHARED_COUNTS}
+    command = [sys.executable, "-m", module, *arguments]
+    return subprocess.Popen(command, stdin=subprocess.PIPE, env=environment, start_new_session=True, stdout=stdout)
+
+
+@contextmanager
+def kept(settings: Settings) -> Iterator[Keeper | str]:
+    """The jobs of this process while it serves; why there are none where the data folder cannot be used."""
+    with ExitStack() as stack:
+        try:
+            store = Store(settings.data or Path(stack.enter_context(scratch())))
+        except (OSError, sqlite3.Error) as error:
+            logger.error("The data folder %s cannot be used, so there are no jobs: %s", settings.data, error)
+            yield f"its data folder cannot be used ({error})"
+            return
+        stack.callback(store.close)
+        keeper = Keeper(store, settings)
+        stack.enter_context(_told(keeper))
+        keeper.start()
+        stack.callback(keeper.stop)
+        yield keeper
+
+
+@contextmanager
+def scratch() -> Iterator[str]:
+    """A folder for jobs that nobody wants to keep."""
+    with TemporaryDirectory(prefix="bench-dragon-data-", ignore_cleanup_errors=True) as folder:
+        logger.warning("BENCH_DRAGON_DATA is not set: jobs are kept in %s, and only until the service ends", folder)
+        yield folder
+
+
+@contextmanager
+def _told(keeper: Keeper) -> Iterator[None]:
+    """Within it, listeners leave when the process is asked to end: the server waits for them before it says so."""
+    if current_thread() is not main_thread():
+        yield
+        return
+    before = {number: signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM)}
+
+    def leave(number: int, frame: FrameType | None) -> None:
+        keeper.leaving.set()
+        earlier = before[signal.Signals(number)]
+        if callable(earlier):
+            earlier(number, frame)
+
+    for number in before:
+        signal.signal(number, leave)
+    try:
+        yield
+    finally:
+        for number, earlier in before.items():
+            signal.signal(number, earlier)

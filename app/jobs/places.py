@@ -1,0 +1,124 @@
+"""Where the command finds jobs: in a data folder, or at the address of a service."""
+
+from __future__ import annotations
+
+from http import HTTPStatus
+from pathlib import Path
+from typing import Any, Protocol
+from urllib.error import HTTPError, URLError
+from urllib.request import Request, urlopen
+
+import orjson
+
+from app.jobs.job import JobState
+from app.jobs.store import Store
+from app.settings import Settings
+from core import BenchDragonError, InvalidValue
+
+# How long a service may take to answer [s].
+PATIENCE = 60.0
+NO_RESULT = "job {} is {}, so it has no result"
+
+
+class NoJob(BenchDragonError):
+    """A job, or its result, is not there, or the service refuses to say."""
+
+    code = "no-job"
+
+
+class Jobs(Protocol):
+    """Where jobs are. raises: NoJob where a job or a result is missing"""
+
+    def list(self) -> list[dict[str, Any]]: ...
+
+    def show(self, job: str) -> dict[str, Any]: ...
+
+    def cancel(self, job: str) -> str: ...
+
+    def result(self, job: str) -> bytes: ...
+
+
+class InFolder:
+    """The jobs of a data folder; the service may run or not."""
+
+    def __init__(self, folder: Path) -> None:
+        if not (folder / "jobs.sqlite").is_file():
+            raise InvalidValue(
+                "data", f"--data must be a data folder of the service, got {folder}, which holds no jobs"
+            )
+        self.store = Store(folder)
+
+    def list(self) -> list[dict[str, Any]]:
+        return [job.status() for job in self.store.all()]
+
+    def show(self, job: str) -> dict[str, Any]:
+        found = self.store.get(job)
+        if found is None:
+            raise NoJob("job", f"there is no job {job} in {self.store.folder}")
+        return found.status()
+
+    def cancel(self, job: str) -> str:
+        self.show(job)
+        if self.store.dismiss(job):
+            return JobState.DISMISSED
+        self.store.remove(job)
+        return "removed"
+
+    def result(self, job: str) -> bytes:
+        known = self.show(job)
+        file = self.store.result(job)
+        if known["status"] != JobState.SUCCESSFUL or not file.is_file():
+            raise NoJob("job", f"{NO_RESULT.format(job, known['status'])}: {known['message']}")
+        return file.read_bytes()
+
+
+class OfService:
+    """The jobs of a service at an address."""
+
+    def __init__(self, url: str, token: str) -> None:
+        if not url.startswith(("http://", "https://")):
+            raise InvalidValue("url", f"--url must begin with http:// or https://, got {url}")
+        self.url, self.token = url.rstrip("/"), token
+
+    def _ask(self, path: str, method: str = "GET") -> bytes:
+        headers = {"Authorization": f"Bearer {self.token}"} if self.token else {}
+        try:
+            with urlopen(Request(self.url + path, method=method, headers=headers), timeout=PATIENCE) as answer:
+                data: bytes = answer.read()
+                return data
+        except HTTPError as error:
+            try:
+                detail = orjson.loads(error.read())["detail"]
+            except (orjson.JSONDecodeError, KeyError, TypeError):
+                detail = f"{error.code} {HTTPStatus(error.code).phrase}"
+            raise NoJob("job", detail) from error
+        except URLError as error:
+            raise InvalidValue("url", f"--url {self.url} does not answer: {error.reason}") from error
+
+    def list(self) -> list[dict[str, Any]]:
+        found: list[dict[str, Any]] = orjson.loads(self._ask("/jobs"))["jobs"]
+        return found
+
+    def show(self, job: str) -> dict[str, Any]:
+        found: dict[str, Any] = orjson.loads(self._ask(f"/jobs/{job}"))
+        return found
+
+    def cancel(self, job: str) -> str:
+        return JobState.DISMISSED if self._ask(f"/jobs/{job}", "DELETE") else "removed"
+
+    def result(self, job: str) -> bytes:
+        return self._ask(f"/jobs/{job}/result")
+
+
+def place(data: Path | None, url: str, token: str) -> Jobs:
+    """Where to look, as the options say. raises: InvalidValue where they do not"""
+    if url and data is not None:
+        raise InvalidValue("url", "--url takes the place of --data: give one of the two")
+    if url:
+        return OfService(url, token)
+    folder = data or Settings().data
+    if folder is None:
+        raise InvalidValue(
+            "data", "--data or --url must say where the jobs are, or BENCH_DRAGON_DATA in the environment"
+        )
+    return InFolder(folder)

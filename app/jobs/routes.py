@@ -1,0 +1,292 @@
+"""The calls about jobs, and what a question does for who prefers a job (Prefer: respond-async)."""
+
+from __future__ import annotations
+
+import asyncio
+import difflib
+import logging
+import sqlite3
+from collections.abc import AsyncIterator
+from hmac import compare_digest
+from time import monotonic
+from typing import Annotated, Any
+
+import orjson
+from fastapi import APIRouter, Body, Depends, Header, Path, Request, Response
+from fastapi.responses import FileResponse, StreamingResponse
+from pydantic import BaseModel, ValidationError
+from starlette.concurrency import run_in_threadpool
+from starlette.types import Receive, Scope, Send
+
+from app.jobs.job import ID_PATTERN, Full, FullForClient, FullOfBytes, Job, JobState, Room
+from app.jobs.keeper import Keeper
+from app.jobs.task import Task
+from app.jobs.wire import EVENTS_TYPE, JobList, JobRequest, JobStatus, status
+from app.questions import CALLS
+from app.questions.figures import Format
+from app.service.problems import Refused, answer_of, problem
+from app.service.reply import RESPOND_ASYNC, form_of, refuse_query, reply_body
+from app.wire.faults import in_body, unfit
+from app.wire.messages import shown
+from app.wire.models import JSON
+from app.wire.problem import PROBLEM_TYPE, ErrorItem
+
+logger = logging.getLogger("uvicorn.error")
+
+# Between two looks for news, and between two signs of life while there are none [s].
+LOOK_SECONDS, BEAT_SECONDS = 0.25, 15.0
+# When to come again after a refusal for want of room [s].
+COME_AGAIN = {"Retry-After": "60"}
+NOT_KEPT = {"Cache-Control": "no-store"}
+PROBLEM_REF = {PROBLEM_TYPE: {"schema": {"$ref": "#/components/schemas/Problem"}}}
+PROBLEMS = {
+    400: "The body is not JSON",
+    401: "The token of this service is missing",
+    403: "This service lists no jobs",
+    404: "There is no such job, or no such format",
+    406: "The question has no answer in this form",
+    409: "The job is not finished",
+    410: "The result is gone, or there will be none",
+    413: "The body is too long",
+    415: "The body is not of type application/json",
+    422: "A value is outside its limits, or a name is unknown",
+    429: "This client has as many unfinished jobs as it may",
+    500: "The service failed",
+    503: "No more jobs are taken now",
+    507: "The data folder is full",
+}
+
+
+def keeper_of(request: Request) -> Keeper:
+    """raises: Refused (503) where there are no jobs"""
+    keeper: Keeper | str = request.app.state.jobs
+    if isinstance(keeper, str):
+        raise Refused(503, f"This service takes no jobs: {keeper}.", headers=COME_AGAIN)
+    return keeper
+
+
+def guard(request: Request) -> None:
+    """raises: Refused (401) without the token of this service, if it has one"""
+    token = request.app.state.settings.token
+    kind, _, given = request.headers.get("authorization", "").partition(" ")
+    if token and not (kind.lower() == "bearer" and compare_digest(given.strip().encode(), token.encode())):
+        detail = "Jobs need the token of this service: send the header Authorization: Bearer TOKEN."
+        challenge = {"WWW-Authenticate": 'Bearer realm="bench-dragon"'}
+        raise Refused(401, detail, [ErrorItem(name="Authorization", detail=detail)], challenge)
+
+
+def take(request: Request, task: Task) -> Response:
+    """A new job. raises: Refused where there is no room"""
+    keeper = keeper_of(request)
+    limits = keeper.settings
+    client = request.client.host if request.client else ""
+    try:
+        room = Room(limits.jobs_max, limits.jobs_client_max, limits.jobs_bytes_max)
+        job = keeper.store.create(task.call, task.to_bytes(), client, room)
+    except FullForClient as error:
+        detail = f"{limits.jobs_client_max} of your jobs are not finished, as many as may: wait for one or dismiss one."
+        raise Refused(429, detail, headers=COME_AGAIN) from error
+    except FullOfBytes as error:
+        detail = "The jobs that are kept take all the room that they may: remove those that you do not need."
+        raise Refused(507, detail) from error
+    except Full as error:
+        detail = f"{limits.jobs_max} jobs are kept, as many as may: remove those that you do not need, or come later."
+        raise Refused(503, detail, headers=COME_AGAIN) from error
+    keeper.hurry()
+    root = request.scope.get("root_path", "")
+    headers = {**NOT_KEPT, "Location": f"{root}/jobs/{job.id}", "Preference-Applied": RESPOND_ASYNC}
+    return Response(status(job, root), 202, headers, JSON)
+
+
+def later(request: Request, task: Task) -> Response:
+    """A job for a question that a client prefers to be answered later. raises: Refused"""
+    guard(request)
+    return take(request, task)
+
+
+async def store_problem(request: Request, error: Exception) -> Response:
+    """The answer where SQLite cannot write or read: the disk is full, or it fails."""
+    if getattr(error, "sqlite_errorcode", None) == sqlite3.SQLITE_FULL:
+        detail = "The disk of the data folder is full: remove jobs that you do not need, or make room."
+        return problem(507, "insufficient-storage", detail)
+    logger.error("The store of the jobs failed: %s", error)
+    detail = f"The store of the jobs failed ({error}): try again."
+    return problem(503, "service-unavailable", detail, headers=COME_AGAIN)
+
+
+router = APIRouter(prefix="/jobs", tags=["Jobs"])
+TOKEN_SCHEME = {"token": {"type": "http", "scheme": "bearer", "description": "The token of a service that has one"}}
+
+
+def told(name: str, *statuses: int, model: type[BaseModel] | None = None, content: Any = None) -> dict[str, Any]:
+    """What OpenAPI says of a call: its operation id, its problems, and what it answers in place of JSON."""
+    problems = {number: {"description": PROBLEMS[number], "content": PROBLEM_REF} for number in statuses}
+    answer = {200: {"description": "The answer", "content": content}} if content else {}
+    security: list[dict[str, list[str]]] = [{}, {"token": []}] if 401 in statuses else []
+    return {
+        "operation_id": name,
+        "response_class": Response,
+        "response_model": model,
+        "responses": {**answer, **problems},
+        "openapi_extra": {"security": security},
+    }
+
+
+JobId = Annotated[str, Path(description="Name of the job, the last part of its address", pattern=f"^{ID_PATTERN}$")]
+
+
+def found(request: Request, job_id: JobId) -> Job:
+    """raises: Refused (404) for a job that is not there"""
+    job = keeper_of(request).store.get(job_id)
+    if job is None:
+        detail = f"There is no job {shown(job_id)}: it was removed, or it is too old, or its name is another."
+        raise Refused(404, detail)
+    return job
+
+
+KeptKeeper = Annotated[Keeper, Depends(keeper_of)]
+Found = Annotated[Job, Depends(found)]
+no_query = Depends(refuse_query)
+
+
+@router.post(
+    "",
+    status_code=202,
+    dependencies=[Depends(guard), Depends(reply_body)],
+    **told("ask_later", 400, 401, 404, 406, 413, 415, 422, 429, 500, 503, 507, model=JobStatus),
+)
+def ask_later(
+    request: Request,
+    wanted: Annotated[JobRequest, Body(examples=[{"question": "collision_time", "request": {"pitch": 0.5}}])],
+) -> Response:
+    """Asks a question whose answer is worked out later; Location is the address of its job."""
+    if wanted.question not in CALLS:
+        near = difflib.get_close_matches(wanted.question, CALLS, n=1)
+        advice = f"did you mean {near[0]}?" if near else f"it must be one of {', '.join(sorted(CALLS))}"
+        detail = f"question {shown(wanted.question)} is unknown here: {advice}"
+        raise Refused(422, detail, [ErrorItem(pointer="/question", detail=detail)])
+    call, values = CALLS[wanted.question], dict(wanted.request)
+    accept = wanted.accept
+    if call.question.model is None and "format" in values:  # It stands in the path of the call.
+        accept = format_of(values.pop("format"))
+    form = form_of(accept, call.question.forms, {"pointer": "/accept"})
+    try:
+        call.asked.model_validate(values)
+    except ValidationError as error:
+        found = [{**one, "loc": ("body", *one["loc"])} for one in error.errors()]
+        return answer_of(unfit(found, call.asked, in_body(values, "/request")))
+    return take(request, Task(call.name, values, form))
+
+
+def format_of(value: Any) -> str:
+    """Media type of a figure. raises: Refused (422) for another value"""
+    try:
+        return Format(value).media_type
+    except ValueError as error:
+        detail = f"format must be {' or '.join(Format)}, got {shown(value)}"
+        raise Refused(422, detail, [ErrorItem(pointer="/request/format", detail=detail)]) from error
+
+
+@router.get(
+    "",
+    dependencies=[Depends(guard), no_query],
+    **told("list_jobs", 401, 403, 422, 500, 503, model=JobList),
+)
+def list_jobs(request: Request, keeper: KeptKeeper) -> Response:
+    """All jobs, for whoever has the token; a service without a token lists none."""
+    if not keeper.settings.token:
+        raise Refused(403, "This service has no token, so it lists no jobs: keep the address that Location gave you.")
+    root = request.scope.get("root_path", "")
+    listed = b",".join(status(job, root) for job in keeper.store.all())
+    return Response(b'{"jobs":[' + listed + b"]}", headers=NOT_KEPT, media_type=JSON)
+
+
+@router.get("/{job_id}", dependencies=[no_query], **told("job_status", 404, 422, 500, 503, model=JobStatus))
+def job(request: Request, found: Found) -> Response:
+    """How far a job is."""
+    return Response(status(found, request.scope.get("root_path", "")), headers=NOT_KEPT, media_type=JSON)
+
+
+@router.delete(
+    "/{job_id}",
+    dependencies=[no_query],
+    **told("dismiss_job", 404, 422, 500, 503, 507, model=JobStatus),
+)
+def dismiss(request: Request, keeper: KeptKeeper, found: Found) -> Response:
+    """Dismisses a job that is not finished; removes a finished one with all that is known of it (204)."""
+    if keeper.store.dismiss(found.id):
+        return job(request, keeper.store.get(found.id) or found)
+    keeper.store.remove(found.id)
+    return Response(status_code=204)
+
+
+@router.get(
+    "/{job_id}/result",
+    dependencies=[no_query],
+    **told("job_result", 404, 409, 410, 422, 500, 503, content={"*/*": {"schema": {}}}),
+)
+def result(keeper: KeptKeeper, found: Found) -> Response:
+    """What the call itself would have answered, to the byte; of a failed job its problem."""
+    if not found.is_finished:
+        detail = f"The job is {found.state}, so it has no result yet: ask again, or follow its events."
+        raise Refused(409, detail, headers={"Retry-After": "1"})
+    if found.problem is not None:
+        known = orjson.loads(found.problem)
+        return Response(found.problem, known["status"], NOT_KEPT, PROBLEM_TYPE)
+    file = keeper.store.result(found.id)
+    if found.state is JobState.DISMISSED or found.expired or not file.is_file():
+        why = "The job was dismissed" if found.state is JobState.DISMISSED else "The result has expired"
+        raise Refused(410, f"{why}: there is no result, ask the question again.")
+    return FileResponse(file, headers=NOT_KEPT, media_type=found.media_type)
+
+
+@router.get(
+    "/{job_id}/events",
+    dependencies=[no_query],
+    **told("job_events", 404, 422, 500, 503, content={EVENTS_TYPE: {"schema": {"type": "string"}}}),
+)
+async def events(
+    keeper: KeptKeeper,
+    found: Found,
+    last_event_id: Annotated[str, Header(description="Number of the last event that the client has")] = "0",
+) -> Response:
+    """The status of a job at every change, as server-sent events, until it is finished."""
+    after = int(last_event_id) if last_event_id.isascii() and last_event_id.isdigit() else 0
+    if found.is_finished and not await run_in_threadpool(keeper.store.events, found.id, after):
+        return Response(status_code=204)  # The word for a browser not to come again.
+    if not keeper.free.acquire(blocking=False):
+        detail = (
+            f"{keeper.settings.jobs_listeners_max} clients follow jobs, as many as may: ask for the status instead."
+        )
+        raise Refused(503, detail, headers=COME_AGAIN)
+    return News(keeper, found.id, after)
+
+
+class News(StreamingResponse):
+    """Events of a job after one of them as they happen, until it is finished, it is gone, or the service ends."""
+
+    def __init__(self, keeper: Keeper, job: str, after: int) -> None:
+        self.keeper, self.job, self.latest = keeper, job, after
+        super().__init__(self.told(), headers={**NOT_KEPT, "X-Accel-Buffering": "no"}, media_type=EVENTS_TYPE)
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        try:
+            await super().__call__(scope, receive, send)
+        finally:
+            self.keeper.free.release()
+
+    async def told(self) -> AsyncIterator[bytes]:
+        store, beat = self.keeper.store, monotonic()
+        yield b"retry: 1000\n\n"
+        while not self.keeper.leaving.is_set():
+            known = await run_in_threadpool(store.get, self.job)
+            # Asked for after the status, so that of a finished job none is missing.
+            for number, data in await run_in_threadpool(store.events, self.job, self.latest):
+                yield b"id: %d\ndata: %b\n\n" % (number, data)
+                self.latest, beat = number, monotonic()
+            if known is None or known.is_finished:
+                return
+            if monotonic() - beat >= BEAT_SECONDS:
+                yield b": it goes on\n\n"
+                beat = monotonic()
+            await asyncio.sleep(LOOK_SECONDS)

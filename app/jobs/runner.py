@@ -1,0 +1,223 @@
+"""The one process that runs the jobs of a data folder: python -m app.jobs.runner FOLDER
+
+Each job has a process of its own (app.jobs.work), which may be killed by a limit, by whoever dismisses the job, or by
+the system, and harms no other. What such a process has written counts from the moment at which this one gives it its
+name; before that it is begun anew, and as an answer depends on its call alone, with the same bytes.
+
+input   the end of standard input: whoever started this process has ended, and so does it
+state   the store, and the processes of the jobs that run
+output  the store
+"""
+
+from __future__ import annotations
+
+import contextlib
+import logging
+import os
+import queue
+import signal
+import sqlite3
+import subprocess
+import sys
+import time
+from collections import deque
+from dataclasses import dataclass
+from pathlib import Path
+from threading import Thread
+from typing import Any
+
+import orjson
+
+from app.jobs.keeper import start
+from app.jobs.lock import FolderLock
+from app.jobs.store import Store
+from app.settings import Settings
+from app.wire.problem import problem_of
+
+logger = logging.getLogger("app.jobs")
+
+# Between two looks at the store [s].
+LOOK_SECONDS = 0.1
+# A runner with nothing to do ends after this, and is started again for the next job [s].
+IDLE_SECONDS = 10.0
+# How long the last runner may take to end when its keeper was killed [s].
+LOCK_SECONDS = 5.0
+# Between two tries when the disk does not take what happened [s].
+RETRY_SECONDS = 1.0
+
+
+@dataclass
+class Work:
+    """A process that does a job.
+
+    begun: since when, on the clock that never jumps [s]; over: nobody waits for it
+    first: when it first said what share of the work is done [s], and the share
+    """
+
+    process: subprocess.Popen[bytes]
+    begun: float
+    over: bool = False
+    first: tuple[float, float] | None = None
+
+    def rate(self, share: float) -> float | None:
+        """How fast the work proceeds on average since something was first said of it [1/s]; None: nobody knows yet."""
+        now = time.monotonic()
+        if self.first is None:
+            self.first = now, share
+        since, before = self.first
+        return (share - before) / (now - since) if now > since and share > before else None
+
+    def end(self) -> None:
+        """The process and all that it started end at once."""
+        self.over = True
+        if self.process.returncode is not None:
+            return  # Its number may be another's by now.
+        with contextlib.suppress(ProcessLookupError):
+            if hasattr(os, "killpg"):
+                os.killpg(self.process.pid, signal.SIGKILL)
+            else:
+                self.process.kill()
+
+
+@dataclass(frozen=True)
+class Word:
+    """What a process said: a line, or None when it has ended."""
+
+    job: str
+    work: Work
+    said: dict[str, Any] | None
+
+
+class Runner:
+    """Runs what waits in the store, as many jobs at once as may."""
+
+    def __init__(self, store: Store, settings: Settings) -> None:
+        self.store, self.settings = store, settings
+        self.works: dict[str, Work] = {}
+        # A process that has loaded everything and waits for a job: a short one then takes no second to begin.
+        self._spare: subprocess.Popen[bytes] | None = None
+        self._words: queue.Queue[Word] = queue.Queue()
+        # What is not yet in the store: a full disk may need some time.
+        self._unheeded: deque[Word] = deque()
+
+    def run(self) -> None:
+        """Until there has been nothing to do for a while."""
+        self.store.begin()
+        idle_since = time.monotonic()
+        while self.works or time.monotonic() - idle_since < IDLE_SECONDS:
+            try:
+                self.step()
+            except (OSError, sqlite3.Error):
+                logger.exception("The store of the jobs failed; it is tried again")
+                time.sleep(RETRY_SECONDS)
+            if self.works:
+                idle_since = time.monotonic()
+
+    def step(self) -> None:
+        """Heed what was said, end what should not run any more, start what may."""
+        self._listen()
+        if self._spare is not None and self._spare.poll() is not None:
+            self._spare = None
+        while self._unheeded:
+            self._heed(self._unheeded[0])
+            self._unheeded.popleft()
+        wanted = self.store.running()
+        for job, work in self.works.items():
+            if work.over:
+                continue
+            if job not in wanted:
+                work.end()
+            elif time.monotonic() - work.begun > self.settings.job_seconds_max:
+                self.store.fail(job, too_long(self.settings.job_seconds_max))
+                work.end()
+        self.store.expire(self.settings.job_days_max)
+        while len(self.works) < self.settings.jobs_running_max and (taken := self.store.take()):
+            self._start(taken)
+
+    def _start(self, job: str) -> None:
+        process, self._spare = self._spare or self._new(), self._new()
+        work = Work(process, time.monotonic())
+        self.works[job] = work
+        Thread(target=self._hear, args=(job, work), daemon=True).start()
+        assert process.stdin is not None
+        with contextlib.suppress(BrokenPipeError):
+            # Not an argument: those are for everybody to see.
+            process.stdin.write(f"{job}\n".encode())
+            process.stdin.flush()
+
+    def _new(self) -> subprocess.Popen[bytes]:
+        return start("app.jobs.work", str(self.store.folder), stdout=subprocess.PIPE)
+
+    def _hear(self, job: str, work: Work) -> None:
+        assert work.process.stdout is not None
+        with work.process.stdout as lines:
+            for line in lines:
+                # A process that is killed may leave half a line.
+                with contextlib.suppress(orjson.JSONDecodeError):
+                    self._words.put(Word(job, work, orjson.loads(line)))
+        work.process.wait()
+        self._words.put(Word(job, work, None))
+
+    def _listen(self) -> None:
+        with contextlib.suppress(queue.Empty):
+            self._unheeded.append(self._words.get(timeout=LOOK_SECONDS))
+            while True:
+                self._unheeded.append(self._words.get_nowait())
+
+    def _heed(self, word: Word) -> None:
+        match word.said:
+            case {"share": float(share)}:
+                self.store.proceed(word.job, share, word.work.rate(share))
+            case {"written": str(name), "media_type": str(media_type)}:
+                self.store.succeed(word.job, Path(name), media_type)
+                word.work.end()
+            case {"problem": str(text)}:
+                self.store.fail(word.job, text.encode())
+                word.work.end()
+            case None:
+                if not word.work.over:
+                    self.store.die(word.job, died(word.work.process.returncode))
+                assert word.work.process.stdin is not None
+                with contextlib.suppress(BrokenPipeError):
+                    word.work.process.stdin.close()
+                del self.works[word.job]
+
+
+def too_long(seconds: float) -> bytes:
+    """The problem of a job that ran longer than it may."""
+    detail = f"The job took longer than {seconds:g} s, the most that one may take here: ask for less."
+    return problem_of(422, "too-much-work", detail).to_json()
+
+
+def died(code: int) -> bytes:
+    """The problem of a job whose process always ends without a word. code: of its last end, minus a signal"""
+    how = f"signal {-code}" if code < 0 else f"exit code {code}"
+    detail = f"The job ended its process each time it was tried, the last time by {how}: it may need too much memory."
+    return problem_of(500, "process-ended", detail).to_json()
+
+
+def follow_input() -> None:
+    """Read on, and end this process and all that it started when its input ends: whoever started it is gone."""
+
+    def follow() -> None:
+        while os.read(sys.stdin.fileno(), 1024):
+            pass
+        if hasattr(os, "killpg") and os.getpgid(0) == os.getpid():
+            os.killpg(0, signal.SIGKILL)
+        os._exit(1)
+
+    Thread(target=follow, daemon=True).start()
+
+
+def main() -> None:
+    logging.basicConfig(format="%(levelname)s:     %(message)s", level=logging.INFO)
+    folder = Path(sys.argv[1])
+    follow_input()
+    lock = FolderLock(folder, "runner")
+    if not lock.take(LOCK_SECONDS):
+        raise SystemExit(f"Another runner does not let go of {folder}")
+    Runner(Store(folder), Settings()).run()
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,309 @@
+"""What is known of every job, in one SQLite database of the data folder, and the results beside it as files.
+
+    FOLDER/jobs.sqlite   tables jobs and events; written ahead (WAL) and flushed at every change
+    FOLDER/results/ID    the bytes of an answer: there whole or not at all
+
+Every change of a job is one transaction and one event, so that whoever listens sees each once. Only the runner moves a
+job on from accepted; anyone may dismiss it.
+"""
+
+from __future__ import annotations
+
+import os
+import secrets
+import sqlite3
+import time
+from collections.abc import Iterator
+from contextlib import closing, contextmanager
+from dataclasses import fields
+from pathlib import Path
+from threading import Lock
+from typing import Any
+
+import orjson
+
+from app.jobs.job import ID_BYTES, Full, FullForClient, FullOfBytes, Job, JobState, Room
+
+# How long a change waits for that of another process [s].
+PATIENCE = 5.0
+# Latest events of a job that are kept; who comes back later than that misses only steps of progress.
+EVENTS_KEPT = 100
+# A job that ended its process so often is not tried again.
+DEATHS_MAX = 3
+DAY = 86_400.0  # [s]
+# Version of the tables below; a folder of another one is not touched.
+LAYOUT = 1
+TABLES = """
+CREATE TABLE IF NOT EXISTS jobs (
+    id TEXT PRIMARY KEY, question TEXT NOT NULL, call BLOB NOT NULL, client TEXT NOT NULL, state TEXT NOT NULL,
+    created REAL NOT NULL, started REAL, finished REAL, updated REAL NOT NULL, message TEXT NOT NULL,
+    progress INTEGER NOT NULL DEFAULT 0, rate REAL, time_left REAL, deaths INTEGER NOT NULL DEFAULT 0,
+    media_type TEXT, size INTEGER NOT NULL DEFAULT 0, problem BLOB, expired INTEGER NOT NULL DEFAULT 0
+);
+CREATE INDEX IF NOT EXISTS jobs_by_state ON jobs (state, created);
+CREATE TABLE IF NOT EXISTS events (
+    job TEXT NOT NULL REFERENCES jobs ON DELETE CASCADE, number INTEGER NOT NULL, data BLOB NOT NULL,
+    PRIMARY KEY (job, number)
+) WITHOUT ROWID;
+"""
+
+
+COLUMNS = ", ".join(field.name for field in fields(Job))
+
+
+class Store:
+    """The jobs of one data folder, for any number of threads and processes.
+
+    raises: OSError or sqlite3.Error when the folder cannot be used
+    """
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder.absolute()
+        self.results = self.folder / "results"
+        self.folder.mkdir(mode=0o700, parents=True, exist_ok=True)
+        self.results.mkdir(mode=0o700, exist_ok=True)
+        file = self.folder / "jobs.sqlite"
+        file.touch(mode=0o600)  # Whoever can read the names of jobs can read their results.
+        self._lock = Lock()
+        self._connection = sqlite3.connect(file, timeout=PATIENCE, isolation_level=None, check_same_thread=False)
+        try:
+            self._prepare()
+        except BaseException:
+            self._connection.close()
+            raise
+
+    def _prepare(self) -> None:
+        run = self._connection.execute
+        run("PRAGMA journal_mode = WAL")
+        run("PRAGMA synchronous = FULL")
+        run("PRAGMA foreign_keys = ON")
+        run("PRAGMA secure_delete = ON")  # A removed call is overwritten, not just forgotten.
+        with self._change():
+            layout = run("PRAGMA user_version").fetchone()[0]
+            if layout not in (0, LAYOUT):
+                raise OSError(f"the jobs of {self.folder} are of another version of this program (layout {layout})")
+            for table in filter(str.strip, TABLES.split(";")):
+                run(table)
+            run(f"PRAGMA user_version = {LAYOUT}")
+
+    def close(self) -> None:
+        with self._lock:
+            self._connection.close()
+
+    @contextmanager
+    def _change(self) -> Iterator[sqlite3.Connection]:
+        """One transaction, that nothing of another thread or process comes between."""
+        with self._lock:
+            self._connection.execute("BEGIN IMMEDIATE")
+            try:
+                yield self._connection
+                self._connection.execute("COMMIT")
+            except BaseException:
+                # SQLite has rolled back already where the disk is full.
+                if self._connection.in_transaction:
+                    self._connection.execute("ROLLBACK")
+                raise
+
+    def _read(self, question: str, *values: Any) -> list[Any]:
+        with self._lock, closing(self._connection.execute(question, values)) as rows:
+            return rows.fetchall()
+
+    def _move(self, run: sqlite3.Connection, job: str, where: str, /, **values: Any) -> bool:
+        """Was the job as `where` says, so that it now has these values? The event tells who listens."""
+        values["updated"] = time.time()
+        setting = ", ".join(f"{name} = :{name}" for name in values)
+        changed = run.execute(f"UPDATE jobs SET {setting} WHERE id = :id AND {where}", values | {"id": job}).rowcount
+        if changed:
+            self._tell(run, job)
+        return bool(changed)
+
+    def _tell(self, run: sqlite3.Connection, job: str) -> None:
+        found = _job(run.execute(f"SELECT {COLUMNS} FROM jobs WHERE id = ?", (job,)).fetchone())
+        last = run.execute("SELECT coalesce(max(number), 0) FROM events WHERE job = ?", (job,)).fetchone()[0]
+        run.execute("INSERT INTO events VALUES (?, ?, ?)", (job, last + 1, orjson.dumps(found.status())))
+        run.execute("DELETE FROM events WHERE job = ? AND number <= ?", (job, last + 1 - EVENTS_KEPT))
+
+    # What anyone may ask and do.
+
+    def create(self, question: str, call: bytes, client: str, room: Room) -> Job:
+        """A new job, safe on the disk. raises: Full where there is no room for it"""
+        now, job = time.time(), secrets.token_hex(ID_BYTES)
+        with self._change() as run:
+            kept = "SELECT count(*), coalesce(sum(size + length(call)), 0) FROM jobs WHERE NOT expired"
+            jobs, used = run.execute(kept).fetchone()
+            own = "SELECT count(*) FROM jobs WHERE client = ? AND state IN ('accepted', 'running')"
+            if run.execute(own, (client,)).fetchone()[0] >= room.of_client:
+                raise FullForClient
+            if jobs >= room.jobs:
+                raise Full
+            if used >= room.bytes:
+                raise FullOfBytes
+            run.execute(
+                "INSERT INTO jobs (id, question, call, client, state, created, updated, message)"
+                " VALUES (?, ?, ?, ?, 'accepted', ?, ?, 'It waits for its turn.')",
+                (job, question, call, client, now, now),
+            )
+            self._tell(run, job)
+        return self.known(job)
+
+    def get(self, job: str) -> Job | None:
+        rows = self._read(f"SELECT {COLUMNS} FROM jobs WHERE id = ?", job)
+        return _job(rows[0]) if rows else None
+
+    def known(self, job: str) -> Job:
+        """raises: KeyError for a job that is not there"""
+        found = self.get(job)
+        if found is None:
+            raise KeyError(job)
+        return found
+
+    def all(self) -> list[Job]:
+        """The newest first."""
+        return [_job(row) for row in self._read(f"SELECT {COLUMNS} FROM jobs ORDER BY created DESC, id")]
+
+    def call(self, job: str) -> bytes:
+        """raises: KeyError for a job that is not there"""
+        rows = self._read("SELECT call FROM jobs WHERE id = ?", job)
+        if not rows:
+            raise KeyError(job)
+        data: bytes = rows[0][0]
+        return data
+
+    def events(self, job: str, after: int) -> list[tuple[int, bytes]]:
+        """Number and status of everything that happened to a job after event number `after`."""
+        return self._read("SELECT number, data FROM events WHERE job = ? AND number > ? ORDER BY number", job, after)
+
+    def result(self, job: str) -> Path:
+        """Where the answer of a successful job is."""
+        return self.results / job
+
+    def dismiss(self, job: str) -> bool:
+        """Is the job dismissed by this, because it was not finished? The runner ends its process."""
+        now, words = time.time(), "It was dismissed before it was done."
+        with self._change() as run:
+            return self._move(
+                run,
+                job,
+                "state IN ('accepted', 'running')",
+                state=JobState.DISMISSED,
+                finished=now,
+                message=words,
+                time_left=None,
+                client="",
+            )
+
+    def remove(self, job: str) -> None:
+        """Nothing of a job is left: no row, no event, no result."""
+        self.result(job).unlink(missing_ok=True)  # First, because on a full disk this makes room for the rest.
+        with self._change() as run:
+            run.execute("DELETE FROM jobs WHERE id = ?", (job,))
+        self._read("PRAGMA wal_checkpoint(TRUNCATE)")  # What was written ahead still holds the call.
+
+    def has_work(self, days: float) -> bool:
+        """Is there something for a runner to do? days: how long finished jobs are kept"""
+        latest = time.time() - days * DAY
+        due = "SELECT 1 FROM jobs WHERE state IN ('accepted', 'running') OR finished < ? AND NOT expired"
+        return bool(self._read(f"{due} OR finished < ? LIMIT 1", latest, latest - days * DAY))
+
+    # What the runner alone does.
+
+    def begin(self) -> None:
+        """Ready for a runner: what the last one left running waits again, and what it left half written is gone."""
+        with self._change() as run:
+            words = "Its process was ended from outside; it goes on."
+            for (job,) in run.execute("SELECT id FROM jobs WHERE state = 'running'").fetchall():
+                self._move(run, job, "1", state=JobState.ACCEPTED, message=words, rate=None, time_left=None)
+            kept = {row[0] for row in run.execute("SELECT id FROM jobs WHERE state = 'successful' AND NOT expired")}
+            for file in self.results.iterdir():
+                if file.name not in kept:
+                    file.unlink(missing_ok=True)
+
+    def take(self) -> str | None:
+        """The job that has waited longest, now running; None when none waits."""
+        with self._change() as run:
+            row = run.execute("SELECT id FROM jobs WHERE state = 'accepted' ORDER BY created LIMIT 1").fetchone()
+            if row is None:
+                return None
+            self._move(run, row[0], "1", state=JobState.RUNNING, started=time.time(), progress=0, message="It runs.")
+        job: str = row[0]
+        return job
+
+    def running(self) -> set[str]:
+        return {row[0] for row in self._read("SELECT id FROM jobs WHERE state = 'running'")}
+
+    def proceed(self, job: str, share: float, rate: float | None) -> None:
+        """The job has done a share of its work, 0 to 1, and proceeds at a rate [1/s]."""
+        left = (1.0 - share) / rate if rate else None
+        percent = 100.0 * rate if rate else None
+        with self._change() as run:
+            self._move(run, job, "state = 'running'", progress=int(100.0 * share), rate=percent, time_left=left)
+
+    def succeed(self, job: str, written: Path, media_type: str) -> None:
+        """The job is done: its answer takes its place, for good before the state says so."""
+        result = self.result(job)
+        if written.exists():  # Else this is said again because the disk did not take the state.
+            os.replace(written, result)
+            flush_folder(self.results)
+        size = result.stat().st_size if result.exists() else 0
+        words = "It is done."
+        done = {
+            "state": JobState.SUCCESSFUL,
+            "finished": time.time(),
+            "message": words,
+            "progress": 100,
+            "time_left": 0.0,
+        }
+        with self._change() as run:
+            moved = self._move(
+                run, job, "state = 'running'", media_type=media_type, size=size, client="", rate=None, **done
+            )
+        found = self.get(job)
+        if not moved and (found is None or found.state is not JobState.SUCCESSFUL):
+            result.unlink(missing_ok=True)
+
+    def fail(self, job: str, problem: bytes) -> None:
+        """The job is done, and its answer is a problem."""
+        words = orjson.loads(problem)["detail"]
+        done = {"state": JobState.FAILED, "finished": time.time(), "message": words, "rate": None, "time_left": None}
+        with self._change() as run:
+            self._move(run, job, "state = 'running'", problem=problem, client="", **done)
+
+    def die(self, job: str, problem: bytes) -> None:
+        """The job's process ended without a word: it is tried again, but for the third time fails with this problem."""
+        found = self.get(job)
+        if found is None:
+            return None
+        deaths = found.deaths + 1
+        if deaths >= DEATHS_MAX:
+            return self.fail(job, problem)
+        words = f"Its process ended without a word; it is tried again ({deaths} of {DEATHS_MAX - 1})."
+        with self._change() as run:
+            self._move(run, job, "state = 'running'", state=JobState.ACCEPTED, deaths=deaths, message=words)
+        return None
+
+    def expire(self, days: float) -> None:
+        """Calls and results of jobs that finished so many days ago go, and after as many more all that is known."""
+        latest = time.time() - days * DAY
+        old = self._read("SELECT id FROM jobs WHERE finished < ? AND NOT expired", latest)
+        for (job,) in old:
+            self.result(job).unlink(missing_ok=True)
+            with self._change() as run:
+                self._move(run, job, "NOT expired", expired=1, call=b"", size=0, message="Its result has expired.")
+        for (job,) in self._read("SELECT id FROM jobs WHERE finished < ?", latest - days * DAY):
+            self.remove(job)
+
+
+def _job(row: tuple[Any, ...]) -> Job:
+    found = dict(zip((field.name for field in fields(Job)), row, strict=True))
+    return Job(**found | {"state": JobState(found["state"])})
+
+
+def flush_folder(folder: Path) -> None:
+    """The names in a folder are on the disk, where the system can say so."""
+    if os.name == "nt":
+        return
+    handle = os.open(folder, os.O_RDONLY)
+    try:
+        os.fsync(handle)
+    finally:
+        os.close(handle)

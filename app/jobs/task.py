@@ -1,0 +1,41 @@
+"""What a job does: one call of the service as a value, answered by the function that answers the call itself."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from dataclasses import asdict, dataclass
+from typing import Any, Self
+
+from app.questions import CALLS
+from app.settings import Settings
+from app.wire.faults import in_body, in_query, refused
+from app.wire.problem import Problem
+from app.wire.refusals import reworded
+from core import BenchDragonError
+
+
+@dataclass(frozen=True)
+class Task:
+    """call: operation id; request: what the call takes, as JSON that fits it; form: media type of the answer"""
+
+    call: str
+    request: Any
+    form: str
+
+    def to_bytes(self) -> bytes:
+        return json.dumps(asdict(self)).encode()
+
+    @classmethod
+    def from_bytes(cls, data: bytes) -> Self:
+        return cls(**json.loads(data))
+
+    def answer(self, settings: Settings, progress: Callable[[float], None]) -> bytes | Problem:
+        """What the service says to the call."""
+        call = CALLS[self.call]
+        asked = call.asked.model_validate(self.request)
+        try:
+            return call.question.told(asked, settings, self.form, progress)
+        except BenchDragonError as error:
+            item = in_query if call.method == "GET" else in_body(self.request)
+            return refused(reworded(error, asked), item)

@@ -1,0 +1,64 @@
+"""What is wrong with a request, as a problem: each fault with its place in the query or the body."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Any
+
+from app.wire.dances import SHAPES
+from app.wire.messages import message
+from app.wire.problem import ErrorItem, Problem, problem_of
+from core import BenchDragonError
+
+# More errors than this in one request are counted, not listed.
+ERRORS_MAX = 20
+# What pydantic says of a union, though it is the field `kind` that is wrong.
+UNION_ERRORS = frozenset({"union_tag_invalid", "union_tag_not_found"})
+# An error from the steps that lead to its place and its words.
+Placing = Callable[[Sequence[Any], str], ErrorItem]
+
+
+def refused(error: BenchDragonError, item: Placing) -> Problem:
+    """A value that core, or a limit of the service, refuses."""
+    place = tuple(int(part) if part.isdigit() else part for part in error.field.split("."))
+    return problem_of(422, error.code, error.message, [item(place, error.message)])
+
+
+def unfit(found: Sequence[Any], asked: Any, item: Placing) -> Problem:
+    """Values that do not fit a request.
+
+    found: pydantic's errors, the first step to each is query or body; asked: type of the request
+    """
+    for one in found:
+        one["loc"] = (*one["loc"], "kind") if one["type"] in UNION_ERRORS else one["loc"]
+    items = [item(one["loc"][1:], message(one, asked)) for one in found[:ERRORS_MAX]]
+    more = f" (and {len(found) - 1} more)" if len(found) > 1 else ""
+    return problem_of(422, "invalid-value", items[0].detail + more, items)
+
+
+def in_query(place: Sequence[Any], detail: str) -> ErrorItem:
+    name = next((part for part in reversed(place) if isinstance(part, str)), "")
+    return ErrorItem(name=name, detail=detail)
+
+
+def in_body(body: Any, before: str = "") -> Placing:
+    """body: JSON of the request; before: pointer to it in what holds it"""
+    return lambda place, detail: ErrorItem(pointer=before + pointer(place, body), detail=detail)
+
+
+def pointer(place: Sequence[Any], body: Any) -> str:
+    """JSON pointer to a place in a body, without names of shapes and indices into what is no list there.
+
+    >>> pointer(("dragon", "uniform", "width"), {"dragon": {"width": -1}})
+    '/dragon/width'
+    """
+    steps = []
+    for step in place:
+        if isinstance(step, int) and not isinstance(body, list):
+            break
+        if step in SHAPES and not (isinstance(body, dict) and step in body):
+            continue
+        steps.append(str(step).replace("~", "~0").replace("/", "~1"))
+        inside = isinstance(body, list) or (isinstance(body, dict) and step in body)
+        body = body[step] if inside else None
+    return "".join(f"/{step}" for step in steps)

@@ -1,0 +1,99 @@
+"""Kills processes of a service at random moments while it works on jobs, and compares what comes out.
+
+python -m tests.app.jobs.kills KILLS SEED
+"""
+
+from __future__ import annotations
+
+import random
+import sys
+import tempfile
+import time
+from pathlib import Path
+from typing import Any
+
+import httpx
+
+from app.files.tables import XLSX_TYPE
+from app.jobs.store import Store
+from tests.app.jobs.service import Service, direct, wait_for
+
+ROLES = ("child", "spare", "runner", "worker", "parent")
+# Between two kills, at most [s].
+PAUSE = 2.0
+# Jobs that are not finished, at least, while there are kills to come.
+BUSY = 3
+PATIENCE = 120.0  # [s]
+
+
+def wanted(chance: random.Random) -> Any:
+    """A call that takes a moment, one second, or some."""
+    benches = chance.randrange(50, 200)
+    return chance.choice(
+        [
+            {"question": "collision_time", "request": {"pitch": round(chance.uniform(0.4, 0.6), 3)}},
+            {"question": "pitch_scan", "request": {"samples": chance.randrange(100, 402)}},
+            {
+                "question": "trajectory",
+                "request": {"dragon": {"benches": benches}, "times": {"stop": 300, "step": 1.0}},
+                "accept": XLSX_TYPE,
+            },
+        ]
+    )
+
+
+def post(service: Service, asked: Any) -> str:
+    """Address of a new job, also where a process dies while it is asked for."""
+    while True:
+        try:
+            return service.post(asked)
+        except httpx.TransportError:
+            time.sleep(0.1)
+
+
+def kill_one(service: Service, chance: random.Random) -> str:
+    """Kills one process and says what it was; the parent is started again."""
+    role = chance.choice(ROLES)
+    if role == "child" and any(job.deaths for job in Store(service.folder).all() if not job.is_finished):
+        role = "runner"  # A job whose process dies three times has failed.
+    found = service.of(role)
+    if not found:
+        return ""
+    chance.choice(found).kill()
+    if role == "parent":
+        service.process.wait()
+        # Nobody outlives the parent, so the port is free again.
+        wait_for(lambda: not service.processes(), PATIENCE)
+        service.start()
+    return role
+
+
+def survive(folder: Path, kills: int, seed: int, pause: float = PAUSE, busy: int = BUSY) -> dict[str, int]:
+    """Kills so many processes; then all jobs must be done, with the bytes of the direct calls.
+
+    returns: how many processes of each role were killed
+    """
+    chance, done = random.Random(seed), dict.fromkeys(ROLES, 0)
+    asked: dict[str, Any] = {}
+    with Service(folder, workers=2, jobs_client_max=1000) as service:
+        while sum(done.values()) < kills:
+            while sum(not job.is_finished for job in Store(folder).all()) < busy:
+                call = wanted(chance)
+                asked[post(service, call)] = call
+            time.sleep(chance.uniform(0.0, pause))
+            if role := kill_one(service, chance):
+                done[role] += 1
+        wait_for(lambda: all(job.is_finished for job in Store(folder).all()), PATIENCE)
+        for address, call in asked.items():
+            status = service.status(address)
+            assert status["status"] == "successful", status
+            assert service.client.get(f"{address}/result").content == direct(service.client, call).content, call
+        kept = {file.name for file in (folder / "results").iterdir()}
+        assert kept == {job.id for job in Store(folder).all()}
+    print(f"{len(asked)} jobs, kills: {done}")
+    return done
+
+
+if __name__ == "__main__":
+    with tempfile.TemporaryDirectory() as name:
+        survive(Path(name) / "data", int(sys.argv[1]), int(sys.argv[2]))

@@ -1,0 +1,166 @@
+"""The real service with a data folder, and its processes, which a test may kill."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import signal
+import socket
+import subprocess
+import sys
+import tempfile
+import time
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Self
+
+import httpx
+
+from app.files.tables import XLSX_TYPE
+from tests.conftest import ROOT, STOP_TIMEOUT, wait_until_live
+
+PATIENCE = 60.0  # [s] for what is coming
+LINGER = 10.0  # [s] until whoever follows a process has ended after it, on a busy machine
+LOOK = 0.05  # [s] between two looks
+# Seconds of work, and within the limits.
+LONG = {"question": "trajectory", "request": {"times": {"stop": 400, "step": 1.0}}, "accept": XLSX_TYPE}
+SCAN = {"question": "pitch_scan", "request": {"samples": 401}}
+SHORT = {"question": "collision_time", "request": {"pitch": 0.5}}
+
+
+@dataclass
+class Process:
+    """One process of the service: what it is, and its number."""
+
+    role: str
+    pid: int
+
+    def kill(self) -> None:
+        with contextlib.suppress(ProcessLookupError):
+            os.kill(self.pid, signal.SIGKILL)
+
+
+class Service:
+    """`bench-dragon serve` on a free port, with this data folder and these settings."""
+
+    def __init__(self, folder: Path, workers: int = 1, **settings: object) -> None:
+        self.folder, self.workers = folder, workers
+        own = {f"BENCH_DRAGON_{name.upper()}": str(value) for name, value in settings.items()}
+        outer = {name: value for name, value in os.environ.items() if not name.startswith("BENCH_DRAGON_")}
+        self.mark = f"{os.getpid()}-{id(self)}"
+        self.environment = outer | own | {"BENCH_DRAGON_DATA": str(folder), "TEST_MARK": self.mark}
+        with socket.socket() as free:
+            free.bind(("127.0.0.1", 0))
+            self.port = free.getsockname()[1]
+        self.client = httpx.Client(base_url=f"http://127.0.0.1:{self.port}", timeout=PATIENCE)
+
+    def __enter__(self) -> Self:
+        self.start()
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.stop()
+        self.client.close()
+
+    def start(self) -> None:
+        options = ["--port", str(self.port), "--workers", str(self.workers)]
+        command = [str(Path(sys.executable).with_name("bench-dragon")), "serve", *options]
+        self.scratch = tempfile.TemporaryDirectory()
+        log = Path(self.scratch.name) / "service.log"
+        with log.open("wb") as output:
+            environment = self.environment | {"TMPDIR": self.scratch.name}
+            self.process = subprocess.Popen(command, cwd=ROOT, env=environment, stdout=output, stderr=output)
+        wait_until_live(self.process, self.port, log)
+
+    def stop(self) -> None:
+        """Asks the service to end; no process of it may stay."""
+        self.process.terminate()
+        try:
+            self.process.wait(STOP_TIMEOUT)
+            wait_for(lambda: not self.processes(), LINGER)
+        finally:
+            for process in self.processes():
+                process.kill()
+            self.process.wait()
+            self.scratch.cleanup()
+
+    def processes(self) -> list[Process]:
+        """All processes of this service that live, wherever they belong by now."""
+        found = []
+        for entry in Path("/proc").iterdir():
+            if entry.name.isdigit():
+                with contextlib.suppress(OSError):
+                    if f"TEST_MARK={self.mark}".encode() in (entry / "environ").read_bytes():
+                        words = (entry / "cmdline").read_bytes().decode()
+                        found.append(Process(self._role(int(entry.name), words), int(entry.name)))
+        return found
+
+    def _role(self, pid: int, words: str) -> str:
+        if pid == self.process.pid:
+            return "parent"
+        if "app.jobs.work" in words and not _has_job(pid):
+            return "spare"
+        marks = {"app.jobs.runner": "runner", "app.jobs.work": "child", "resource_tracker": "tracker"}
+        return next((role for mark, role in marks.items() if mark in words), "worker")
+
+    def of(self, role: str) -> list[Process]:
+        return [process for process in self.processes() if process.role == role]
+
+    def post(self, wanted: Any) -> str:
+        """Address of a new job."""
+        answer = self.client.post("/jobs", json=wanted)
+        assert answer.status_code == 202, answer.text
+        return answer.headers["location"]
+
+    def status(self, address: str) -> Any:
+        while True:
+            try:
+                return self.client.get(address).raise_for_status().json()
+            except httpx.TransportError:  # A process that held the connection was killed.
+                assert self.process.poll() is None
+
+    def until(self, address: str, *states: str) -> Any:
+        """The status of a job when it is in one of these states."""
+        end = time.monotonic() + PATIENCE
+        while (status := self.status(address))["status"] not in states:
+            assert time.monotonic() < end, status
+            time.sleep(LOOK)
+        return status
+
+    def finished(self, address: str) -> Any:
+        return self.until(address, "successful", "failed", "dismissed")
+
+
+def _has_job(pid: int) -> bool:
+    """Does a process for jobs have one? It opens the store only then."""
+    return any("jobs.sqlite" in os.readlink(file) for file in Path(f"/proc/{pid}/fd").iterdir())
+
+
+def direct(client: httpx.Client, wanted: Any) -> httpx.Response:
+    """The answer of the call itself, with nothing of jobs."""
+    call, values = CALLS[wanted["question"]], dict(wanted.get("request", {}))
+    method, path = call.split()
+    if "{format}" in path:
+        path = path.format(format=values.pop("format"))
+    headers = {"Accept": wanted.get("accept", "*/*")}
+    if method == "GET":
+        return client.get(path, params=values, headers=headers)
+    return client.post(path, json=values, headers=headers)
+
+
+CALLS = {
+    "trajectory": "POST /trajectory",
+    "collision_time": "GET /collision-time",
+    "pitch_scan": "GET /pitch-scan",
+    "overlaps": "POST /overlaps",
+    "check": "POST /check",
+    "trajectory_figure": "GET /figures/trajectory.{format}",
+}
+
+
+def wait_for(claim: Any, patience: float = PATIENCE) -> None:
+    """Return when the claim, a function, is true."""
+    end = time.monotonic() + patience
+    while not claim():
+        assert time.monotonic() < end
+        time.sleep(LOOK)

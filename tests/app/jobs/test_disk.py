@@ -1,0 +1,63 @@
+"""A full disk: every call about jobs says so, nothing is half there, and room that is made is used."""
+
+from __future__ import annotations
+
+import subprocess
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from tests.app.jobs.service import SHORT, Service
+
+DISK_BYTES = 1_000_000
+# About 1.3 MB of JSON, which the disk does not hold.
+BIG = {"question": "trajectory", "request": {"times": {"stop": 100, "step": 1}}}
+
+
+@pytest.fixture
+def small_disk(tmp_path: Path) -> Iterator[Path]:
+    """A disk of one megabyte, which only root may mount."""
+    folder = tmp_path / "disk"
+    folder.mkdir()
+    subprocess.run(["mount", "-t", "tmpfs", "-o", f"size={DISK_BYTES}", "tmpfs", folder], check=True)
+    try:
+        yield folder
+    finally:
+        subprocess.run(["umount", "--lazy", folder], check=True)
+
+
+def fill(folder: Path) -> Path:
+    """A file that takes the rest of the disk."""
+    file = folder / "filler"
+    with file.open("wb", buffering=0) as filler:
+        try:
+            while filler.write(b"0" * 4096):
+                pass
+        except OSError:
+            return file
+
+
+def test_a_full_disk_is_told_and_room_that_is_made_is_used(small_disk: Path) -> None:
+    with Service(small_disk / "data") as service:
+        first = service.post(SHORT)
+        assert service.finished(first)["status"] == "successful"
+        too_big = service.post(BIG)
+        assert service.finished(too_big)["status"] == "failed"
+        answer = service.client.get(f"{too_big}/result")
+        assert answer.status_code == 507
+        assert "No space left on device" in answer.json()["detail"]
+        filler = fill(small_disk)
+        refused = service.client.post("/jobs", json=SHORT)
+        while refused.status_code == 202:  # SQLite has some room of its own.
+            refused = service.client.post("/jobs", json=SHORT)
+        assert refused.status_code == 507
+        assert refused.headers["content-type"] == "application/problem+json"
+        assert "disk of the data folder is full" in refused.json()["detail"]
+        assert service.client.get("/collision-time").status_code == 200
+        assert service.client.get(f"{first}/result").status_code == 200
+        filler.unlink()
+        again = service.post(SHORT)
+        assert service.finished(again)["status"] == "successful"
+        assert service.client.delete(too_big).status_code == 204
+        assert service.client.get(f"{again}/result").content == service.client.get(f"{first}/result").content

@@ -1,0 +1,169 @@
+"""What bounds the jobs of a service: each limit is refused in plain words, and holds where others begin."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from app.jobs.store import DAY
+from tests.app.jobs.service import LONG, SHORT, Service, wait_for
+
+TOKEN = "correct horse"
+BEARER = {"Authorization": f"Bearer {TOKEN}"}
+RESULT_BYTES_MAX = 5_000
+AGE = 3.0  # [s] that a finished job is kept
+
+
+@pytest.fixture(scope="module")
+def strict(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Service]:
+    """A service with small limits, and a token that its client has."""
+    limits = {
+        "token": TOKEN,
+        "jobs_client_max": 2,
+        "jobs_max": 4,
+        "jobs_running_max": 1,
+        "jobs_listeners_max": 1,
+        "job_result_bytes_max": RESULT_BYTES_MAX,
+    }
+    with Service(tmp_path_factory.mktemp("strict"), **limits) as service:
+        service.client.headers.update(BEARER)
+        yield service
+
+
+def remove(service: Service, address: str) -> None:
+    while service.client.delete(address).status_code == 200:
+        pass
+
+
+@pytest.mark.parametrize("headers", [{}, {"Authorization": "Bearer wrong"}, {"Authorization": TOKEN}], ids=str)
+def test_without_the_token_no_job_is_made_and_none_is_listed(strict: Service, headers: dict[str, str]) -> None:
+    given = {"Authorization": "", **headers}
+    answers = [
+        strict.client.post("/jobs", json=SHORT, headers=given),
+        strict.client.get("/jobs", headers=given),
+        strict.client.get("/collision-time", headers={**given, "Prefer": "respond-async"}),
+    ]
+    for answer in answers:
+        assert answer.status_code == 401
+        assert answer.headers["www-authenticate"].startswith("Bearer")
+        assert answer.headers["content-type"] == "application/problem+json"
+    assert strict.client.get("/collision-time", headers=given).status_code == 200
+
+
+def test_who_has_the_token_sees_all_jobs_and_who_has_an_address_sees_that_job(strict: Service) -> None:
+    address = strict.post(SHORT)
+    listed = strict.client.get("/jobs").json()["jobs"]
+    assert [f"/jobs/{job['jobID']}" for job in listed] == [address]
+    assert listed[0]["links"][0]["href"] == address
+    assert strict.client.get(address, headers={"Authorization": ""}).status_code == 200
+    strict.finished(address)
+    remove(strict, address)
+
+
+def test_a_client_has_only_so_many_unfinished_jobs_and_the_service_only_so_many_jobs(strict: Service) -> None:
+    small = {"question": "trajectory", "request": {"dragon": {"benches": 2}, "times": [0]}}
+    addresses = [strict.post(small), strict.post(LONG)]
+    strict.finished(addresses[0])
+    addresses.append(strict.post(LONG))
+    refused = strict.client.post("/jobs", json=SHORT)
+    assert refused.status_code == 429
+    assert "2 of your jobs are not finished" in refused.json()["detail"]
+    assert int(refused.headers["retry-after"]) > 0
+    assert strict.status(addresses[2])["status"] == "accepted"  # one runs at once, the other waits
+    assert strict.client.delete(addresses[2]).json()["status"] == "dismissed"
+    addresses.append(strict.post(SHORT))
+    assert strict.client.delete(addresses[3]).json()["status"] == "dismissed"
+    refused = strict.client.post("/jobs", json=SHORT)
+    assert refused.status_code == 503
+    assert "4 jobs are kept" in refused.json()["detail"]
+    assert int(refused.headers["retry-after"]) > 0
+    for address in addresses:
+        remove(strict, address)
+    remove(strict, strict.post(small))
+
+
+def test_a_result_that_is_too_long_is_not_kept(strict: Service) -> None:
+    address = strict.post({"question": "trajectory", "request": {"times": [0]}})
+    assert strict.finished(address)["status"] == "failed"
+    answer = strict.client.get(f"{address}/result")
+    assert answer.status_code == 413
+    assert f"one that is kept may have {RESULT_BYTES_MAX}" in answer.json()["detail"]
+    assert list((strict.folder / "results").iterdir()) == []
+    remove(strict, address)
+
+
+def test_only_so_many_clients_may_listen(strict: Service) -> None:
+    address = strict.post(LONG)
+    with strict.client.stream("GET", f"{address}/events") as first:
+        lines = first.iter_lines()
+        assert next(lines)
+        refused = strict.client.get(f"{address}/events")
+        assert refused.status_code == 503
+        assert int(refused.headers["retry-after"]) > 0
+    remove(strict, address)
+    other = strict.post(SHORT)
+    # The place of a client that is gone is free again.
+    wait_for(lambda: strict.client.get(f"{other}/events").status_code in (200, 204), 10.0)
+    remove(strict, other)
+
+
+@pytest.fixture(scope="module")
+def brief(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Service]:
+    """A service whose jobs have little memory and are soon forgotten."""
+    limits = {
+        "job_memory_max": 2**31,
+        "job_days_max": AGE / DAY,
+        "jobs_bytes_max": 1_000,
+        "cells_max": 10**9,
+    }
+    with Service(tmp_path_factory.mktemp("brief"), **limits) as service:
+        yield service
+
+
+def test_results_expire_and_then_all_that_is_known_of_the_job(brief: Service) -> None:
+    address = brief.post(SHORT)
+    assert brief.finished(address)["status"] == "successful"
+    assert brief.client.get(f"{address}/result").status_code == 200
+    full = brief.client.post("/jobs", json=SHORT)
+    assert full.status_code == 507
+    assert "all the room that they may" in full.json()["detail"]
+    wait_for(lambda: brief.client.get(f"{address}/result").status_code == 410, 20 * AGE)
+    assert "expired" in brief.client.get(f"{address}/result").json()["detail"]
+    assert list((brief.folder / "results").iterdir()) == []
+    wait_for(lambda: brief.client.get(address).status_code == 404, 20 * AGE)
+
+
+def test_a_job_that_wants_too_much_memory_fails_in_words(brief: Service) -> None:
+    wanted = {"question": "trajectory", "request": {"times": {"stop": 400, "step": 1e-4}}}
+    address = brief.post(wanted)
+    assert brief.finished(address)["status"] == "failed"
+    answer = brief.client.get(f"{address}/result")
+    assert answer.status_code == 422
+    assert f"more memory than the {2**31} bytes" in answer.json()["detail"]
+
+
+def test_a_job_that_runs_too_long_is_ended(tmp_path: Path) -> None:
+    wanted = LONG | {"request": {"times": {"stop": 400, "step": 0.1}}}
+    with Service(tmp_path, job_seconds_max=1, workbook_cells_max=10**7) as service:
+        status = service.finished(service.post(wanted))
+        assert status["status"] == "failed"
+        assert "took longer than 1 s" in status["message"]
+        wait_for(lambda: not service.of("child"), 5.0)
+
+
+def test_a_data_folder_that_cannot_be_used_costs_the_jobs_alone(tmp_path: Path) -> None:
+    blocked = tmp_path / "file"
+    blocked.write_text("no folder")
+    with Service(blocked) as service:
+        refused = service.client.post("/jobs", json=SHORT)
+        assert refused.status_code == 503
+        assert "data folder cannot be used" in refused.json()["detail"]
+        assert service.client.get("/collision-time").status_code == 200
+
+
+def test_other_users_of_the_machine_cannot_read_the_data_folder(strict: Service) -> None:
+    assert (os.stat(strict.folder / "jobs.sqlite").st_mode & 0o077) == 0
+    assert (os.stat(strict.folder / "results").st_mode & 0o077) == 0

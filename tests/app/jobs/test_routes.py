@@ -1,0 +1,224 @@
+"""The calls about jobs, at the real service: the answer is that of the call itself, and whoever waits is told."""
+
+from __future__ import annotations
+
+import json
+import time
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import httpx
+import pytest
+
+from tests.app.jobs.service import LONG, PATIENCE, SCAN, SHORT, Service, direct, wait_for
+
+ANSWERED = [
+    SHORT,
+    {"question": "trajectory", "request": {"dragon": {"benches": 3}, "times": [0, 1]}},
+    {"question": "trajectory", "request": {"times": [0, 1]}, "accept": "text/csv"},
+    {"question": "check", "request": {"path": {"kind": "spiral", "pitch": 0.8}, "stop": 20}},
+    {"question": "trajectory_figure", "request": {"format": "svg", "time": 30, "benches": 20}},
+]
+
+
+@pytest.fixture(scope="module")
+def service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Service]:
+    with Service(tmp_path_factory.mktemp("jobs"), workers=2) as service:
+        yield service
+
+
+def events_of(service: Service, address: str, last: int | None = None) -> list[tuple[int, Any]]:
+    """Numbers and statuses, until the service ends the stream."""
+    headers = {} if last is None else {"Last-Event-ID": str(last)}
+    numbers, found = [], []
+    with service.client.stream("GET", f"{address}/events", headers=headers) as answer:
+        assert answer.status_code == 200
+        assert answer.headers["content-type"].startswith("text/event-stream")
+        for line in answer.iter_lines():
+            if line.startswith("id: "):
+                numbers.append(int(line[4:]))
+            elif line.startswith("data: "):
+                found.append(json.loads(line[6:]))
+    return list(zip(numbers, found, strict=True))
+
+
+def test_a_job_answers_what_its_call_answers_to_the_byte(service: Service) -> None:
+    addresses = [service.post(wanted) for wanted in ANSWERED]
+    for wanted, address in zip(ANSWERED, addresses, strict=True):
+        assert service.finished(address)["status"] == "successful"
+        kept, asked = service.client.get(f"{address}/result"), direct(service.client, wanted)
+        assert (kept.status_code, asked.status_code) == (200, 200)
+        assert kept.headers["content-type"] == asked.headers["content-type"]
+        assert kept.content == asked.content
+
+
+def test_any_question_is_answered_later_for_who_prefers_that(service: Service) -> None:
+    query = {"params": {"pitch": 0.51}}
+    later = service.client.get("/collision-time", headers={"Prefer": "wait=5, respond-async"}, **query)
+    assert later.status_code == 202
+    assert later.headers["preference-applied"] == "respond-async"
+    assert later.json()["processID"] == "collision_time"
+    address = later.headers["location"]
+    assert service.finished(address)["status"] == "successful"
+    assert service.client.get(f"{address}/result").content == service.client.get("/collision-time", **query).content
+
+
+@pytest.mark.parametrize("path", ["/healthz", "/metrics", "/docs", "/page/main.js"])
+def test_what_is_no_question_is_answered_at_once(service: Service, path: str) -> None:
+    assert service.client.get(path, headers={"Prefer": "respond-async"}).status_code == 200
+
+
+def test_what_the_client_has_already_needs_no_job(service: Service) -> None:
+    tag = service.client.get("/collision-time").headers["etag"]
+    headers = {"Prefer": "respond-async", "If-None-Match": tag}
+    assert service.client.get("/collision-time", headers=headers).status_code == 304
+
+
+@pytest.mark.parametrize(
+    ("wanted", "pointer"),
+    [
+        ({"question": "collision_time", "request": {"pitch": 55}}, "/request/pitch"),
+        ({"question": "collision_time", "request": {"pitsh": 0.5}}, "/request/pitsh"),
+        ({"question": "collision_time", "request": {"pitch": {"a": 1}}}, "/request/pitch"),
+        ({"question": "trajectory", "request": {"dragon": {"width": -1}}}, "/request/dragon/width"),
+        ({"question": "trajectory", "accept": "image/gif"}, "/accept"),
+        ({"question": "trajectory", "request": {"dragon": {"benches": 10**30}}}, "/request/dragon/benches"),
+        ({"question": "collision_tim"}, "/question"),
+        ({"request": {}}, "/question"),
+        ({"question": "collision_time", "requests": {}}, "/requests"),
+    ],
+    ids=lambda part: part if isinstance(part, str) else None,
+)
+def test_what_is_wrong_is_refused_at_once_by_its_place(service: Service, wanted: Any, pointer: str) -> None:
+    answer = service.client.post("/jobs", json=wanted)
+    assert answer.status_code in (406, 422)
+    assert answer.headers["content-type"] == "application/problem+json"
+    assert answer.json()["errors"][0]["pointer"] == pointer
+
+
+def test_a_job_that_fails_answers_the_problem_of_its_call(service: Service) -> None:
+    wanted = {"question": "trajectory", "request": {"times": {"stop": 100, "step": 1e-3}}}
+    address, asked = service.post(wanted), direct(service.client, wanted)
+    status, kept = service.finished(address), service.client.get(f"{address}/result")
+    assert status["status"] == "failed"
+    assert status["problem"] == asked.json()
+    assert status["message"] == asked.json()["detail"]
+    assert kept.status_code == asked.status_code == 422
+    assert kept.headers["content-type"] == "application/problem+json"
+    assert kept.content == asked.content
+
+
+def test_events_tell_every_change_and_go_on_after_the_last_one_seen(service: Service) -> None:
+    address = service.post(SCAN)
+    told = events_of(service, address)
+    numbers, statuses = [number for number, _ in told], [status for _, status in told]
+    assert numbers == list(range(1, len(told) + 1))
+    assert [status["status"] for status in statuses][:2] == ["accepted", "running"]
+    assert statuses[-1]["status"] == "successful"
+    assert [status["progress"] for status in statuses] == sorted(status["progress"] for status in statuses)
+    assert statuses[-1]["progress"] == 100
+    assert events_of(service, address, last=numbers[1]) == told[2:]
+    # The word for a browser not to come again.
+    after = service.client.get(f"{address}/events", headers={"Last-Event-ID": str(numbers[-1])})
+    assert (after.status_code, after.content) == (204, b"")
+
+
+def test_a_stream_that_breaks_is_taken_up_where_it_broke(service: Service) -> None:
+    address = service.post(SCAN)
+    with service.client.stream("GET", f"{address}/events") as answer:
+        first = next(line for line in answer.iter_lines() if line.startswith("id: "))
+    assert first == "id: 1"
+    rest = events_of(service, address, last=1)
+    assert rest[0][0] == 2
+    assert rest[-1][1]["status"] == "successful"
+
+
+def test_progress_comes_with_a_rate_and_the_time_left(service: Service) -> None:
+    told = [status for _, status in events_of(service, service.post(SCAN))]
+    between = [status for status in told if status["rate"] is not None]
+    assert between
+    for status in between:
+        left = (100 - status["progress"]) / status["rate"]
+        assert 0 < status["progress"] < 100
+        assert status["time_left"] == pytest.approx(left, abs=1.5 / status["rate"])
+
+
+def test_a_dismissed_job_ends_its_process_and_a_second_word_removes_it_wholly(service: Service) -> None:
+    wait_for(lambda: not service.of("child"))
+    address = service.post(LONG)
+    service.until(address, "running")
+    wait_for(lambda: len(service.of("child")) == 1)
+    assert service.client.get(f"{address}/result").status_code == 409
+    dismissed = service.client.delete(address)
+    assert (dismissed.status_code, dismissed.json()["status"]) == (200, "dismissed")
+    wait_for(lambda: not service.of("child"), 5.0)
+    assert service.client.get(f"{address}/result").status_code == 410
+    assert service.client.delete(address).status_code == 204
+    for left in (address, f"{address}/result", f"{address}/events"):
+        answer = service.client.get(left)
+        assert answer.status_code == 404
+        assert answer.headers["content-type"] == "application/problem+json"
+
+
+def test_a_removed_job_leaves_no_byte_of_its_call_and_result(service: Service) -> None:
+    wanted = {"question": "collision_time", "request": {"pitch": 0.512345678901}}
+    address = service.post(wanted)
+    assert service.finished(address)["status"] == "successful"
+    name = address.rpartition("/")[2].encode()
+
+    def kept() -> bool:
+        files = [file for file in service.folder.rglob("*") if file.is_file()]
+        return any(name in file.name.encode() + file.read_bytes() for file in files)
+
+    assert kept()
+    assert service.client.delete(address).status_code == 204
+    wait_for(lambda: not kept(), 5.0)
+
+
+def test_nobody_is_shown_the_jobs_of_others(service: Service) -> None:
+    assert service.client.get("/jobs").status_code == 403
+    assert service.client.get(f"/jobs/{'a' * 48}").status_code == 404
+
+
+def test_asking_for_a_job_later_makes_one_job(service: Service) -> None:
+    answer = service.client.post("/jobs", json=SHORT, headers={"Prefer": "respond-async"})
+    assert answer.status_code == 202
+    assert answer.json()["processID"] == "collision_time"
+    service.finished(answer.headers["location"])
+
+
+def test_other_calls_answer_while_jobs_run(service: Service) -> None:
+    addresses = [service.post(LONG), service.post(LONG)]
+    for address in addresses:
+        service.until(address, "running")
+    started = time.monotonic()
+    assert service.client.get("/healthz").status_code == 200
+    assert time.monotonic() - started < 1.0
+    for address in addresses:
+        service.client.delete(address)
+
+
+def test_a_service_that_ends_tells_its_listeners_so(tmp_path: Path) -> None:
+    with Service(tmp_path, workers=1) as service:
+        address = service.post(LONG)
+        with service.client.stream("GET", f"{address}/events", timeout=PATIENCE) as answer:
+            lines = answer.iter_lines()
+            assert next(lines)
+            started = time.monotonic()
+            service.process.terminate()
+            for _ in lines:
+                pass
+        service.process.wait(PATIENCE)
+        assert time.monotonic() - started < 10.0
+        assert service.processes() == []
+
+
+def test_a_service_without_a_data_folder_keeps_jobs_while_it_lives(server: str) -> None:
+    with httpx.Client(base_url=server, timeout=PATIENCE) as client:
+        answer = client.post("/jobs", json=SHORT)
+        assert answer.status_code == 202
+        address = answer.headers["location"]
+        wait_for(lambda: client.get(address).json()["status"] == "successful")
+        assert client.get(f"{address}/result").content == direct(client, SHORT).content
+        assert client.delete(address).status_code == 204

@@ -1,0 +1,88 @@
+"""Jobs outlive the death of any process that has to do with them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from tests.app.jobs.kills import survive
+from tests.app.jobs.service import LINGER, SCAN, SHORT, Service, direct, wait_for
+
+KILLS, SEED = 4, 1
+
+
+@pytest.fixture(scope="module")
+def service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Service]:
+    with Service(tmp_path_factory.mktemp("jobs"), workers=2) as service:
+        yield service
+
+
+def begun(service: Service) -> str:
+    """Address of a new job that has a process by now."""
+    address = service.post(SCAN)
+    service.until(address, "running")
+    wait_for(lambda: service.of("child"))
+    return address
+
+
+def is_answered(service: Service, address: str) -> bool:
+    status = service.finished(address)["status"]
+    answer = service.client.get(f"{address}/result").content
+    return bool(status == "successful" and answer == direct(service.client, SCAN).content)
+
+
+def test_processes_may_be_killed_at_any_moment(tmp_path: Path) -> None:
+    assert sum(survive(tmp_path / "data", KILLS, SEED, pause=0.5, busy=1).values()) == KILLS
+
+
+@pytest.mark.parametrize("role", ["child", "spare", "runner", "worker"])
+def test_a_job_goes_on_when_a_process_is_killed(service: Service, role: str) -> None:
+    address = begun(service)
+    wait_for(lambda: service.of(role))
+    for process in service.of(role):
+        process.kill()
+    assert is_answered(service, address)
+
+
+def test_a_job_that_ends_its_process_three_times_has_failed(service: Service) -> None:
+    address = begun(service)
+    for _ in range(3):
+        wait_for(lambda: service.of("child"))
+        for process in service.of("child"):
+            process.kill()
+            wait_for(lambda dead=process.pid: dead not in {process.pid for process in service.processes()})
+    status = service.finished(address)
+    assert status["status"] == "failed"
+    assert "signal 9" in status["message"]
+    assert service.client.get(f"{address}/result").status_code == 500
+    assert service.finished(service.post(SHORT))["status"] == "successful"
+
+
+def test_jobs_are_there_when_a_killed_service_is_started_again(service: Service) -> None:
+    done = service.post(SHORT)
+    service.finished(done)
+    result = service.client.get(f"{done}/result").content
+    unfinished, waits = begun(service), service.post(SHORT)
+    service.process.kill()
+    service.process.wait()
+    # Runner, children and processes that serve follow the parent.
+    wait_for(lambda: not service.processes(), LINGER)
+    service.start()
+    assert service.status(done)["status"] == "successful"
+    assert service.client.get(f"{done}/result").content == result
+    assert service.finished(waits)["status"] == "successful"
+    assert is_answered(service, unfinished)
+
+
+def test_two_services_with_one_folder_have_one_runner(tmp_path: Path) -> None:
+    with Service(tmp_path) as one, Service(tmp_path) as two:
+        addresses = [one.post(SHORT), two.post(SHORT | {"request": {"pitch": 0.51}})]
+        for address in addresses:
+            assert two.finished(address)["status"] == "successful"
+        assert len(one.of("runner") + two.of("runner")) == 1
+        one.process.kill()
+        one.process.wait()
+        assert two.finished(two.post(SHORT))["status"] == "successful"
+        assert len(two.of("runner")) == 1

@@ -1,0 +1,151 @@
+"""What the store keeps of jobs, and how they move from state to state."""
+
+from __future__ import annotations
+
+import re
+import sqlite3
+from collections.abc import Iterator
+from pathlib import Path
+
+import orjson
+import pytest
+
+from app.jobs.job import ID_PATTERN, Full, FullForClient, FullOfBytes, JobState, Room
+from app.jobs.store import DEATHS_MAX, EVENTS_KEPT, Store
+
+ROOM = Room(jobs=10, of_client=10, bytes=1_000)
+PROBLEM = orjson.dumps({"detail": "It does not work."})
+
+
+@pytest.fixture
+def store(tmp_path: Path) -> Iterator[Store]:
+    store = Store(tmp_path / "data")
+    yield store
+    store.close()
+
+
+def make(store: Store, question: str = "turn") -> str:
+    return store.create(question, b"call", "client", ROOM).id
+
+
+def written(store: Store, data: bytes) -> Path:
+    file = store.results / ".new"
+    file.write_bytes(data)
+    return file
+
+
+def test_jobs_run_in_the_order_in_which_they_were_asked_for(store: Store) -> None:
+    made = [make(store) for _ in range(3)]
+    assert [store.take() for _ in range(4)] == [*made, None]
+
+
+def test_names_of_jobs_are_long_and_never_the_same(store: Store) -> None:
+    names = {make(store) for _ in range(10)}
+    assert len(names) == 10
+    assert all(re.fullmatch(ID_PATTERN, name) for name in names)
+
+
+def test_another_process_sees_what_this_one_wrote(store: Store) -> None:
+    job = make(store)
+    other = Store(store.folder)
+    assert other.known(job) == store.known(job)
+    assert other.call(job) == b"call"
+    assert other.take() == job
+    assert store.known(job).state is JobState.RUNNING
+    other.close()
+
+
+def test_what_was_running_waits_again_for_a_new_runner_and_half_results_go(store: Store) -> None:
+    job = make(store)
+    store.take()
+    half = written(store, b"half")
+    store.begin()
+    assert store.known(job).state is JobState.ACCEPTED
+    assert not half.exists()
+    assert store.take() == job
+
+
+def test_a_result_stands_when_its_state_could_not_be_written_and_is_said_again(store: Store) -> None:
+    job = make(store)
+    store.take()
+    file = written(store, b"answer")
+    store.succeed(job, file, "text/plain")
+    store.succeed(job, file, "text/plain")
+    assert store.result(job).read_bytes() == b"answer"
+    assert store.known(job).state is JobState.SUCCESSFUL
+    assert len(store.events(job, 0)) == 3
+
+
+def test_the_result_of_a_dismissed_job_is_not_kept(store: Store) -> None:
+    job = make(store)
+    store.take()
+    assert store.dismiss(job)
+    assert not store.dismiss(job)
+    store.succeed(job, written(store, b"answer"), "text/plain")
+    assert store.known(job).state is JobState.DISMISSED
+    assert not store.result(job).exists()
+
+
+def test_a_job_may_end_its_process_twice(store: Store) -> None:
+    job = make(store)
+    for death in range(1, DEATHS_MAX + 1):
+        assert store.take() == job
+        store.die(job, PROBLEM)
+        assert store.known(job).state is (JobState.FAILED if death == DEATHS_MAX else JobState.ACCEPTED)
+    assert store.known(job).message == "It does not work."
+
+
+def test_a_finished_job_is_in_no_way_changed(store: Store) -> None:
+    job = make(store)
+    store.take()
+    store.fail(job, PROBLEM)
+    before = store.known(job), store.events(job, 0)
+    store.proceed(job, 0.5, 0.1)
+    store.die(job, PROBLEM)
+    store.fail(job, PROBLEM)
+    assert (store.known(job), store.events(job, 0)) == before
+
+
+def test_only_the_latest_events_are_kept_under_their_numbers(store: Store) -> None:
+    job = make(store)
+    store.take()
+    for k in range(2 * EVENTS_KEPT):
+        store.proceed(job, k / (2 * EVENTS_KEPT), 0.1)
+    numbers = [number for number, _ in store.events(job, 0)]
+    assert numbers == list(range(EVENTS_KEPT + 3, 2 * EVENTS_KEPT + 3))
+    assert [number for number, _ in store.events(job, numbers[-2])] == numbers[-1:]
+
+
+@pytest.mark.parametrize(
+    ("room", "error"),
+    [
+        (Room(jobs=1, of_client=10, bytes=1_000), Full),
+        (Room(jobs=10, of_client=1, bytes=1_000), FullForClient),
+        (Room(jobs=10, of_client=10, bytes=6), FullOfBytes),
+    ],
+    ids=["jobs", "of_client", "bytes"],
+)
+def test_no_job_is_taken_where_there_is_no_room(store: Store, room: Room, error: type[Full]) -> None:
+    job = make(store)
+    store.take()
+    if error is FullOfBytes:
+        store.succeed(job, written(store, b"answer"), "text/plain")
+    with pytest.raises(error):
+        store.create("turn", b"call", "client", room)
+    assert len(store.all()) == 1
+    store.remove(job)
+    store.create("turn", b"call", "client", room)
+
+
+def test_a_folder_of_another_layout_is_not_touched(store: Store) -> None:
+    with sqlite3.connect(store.folder / "jobs.sqlite") as connection:
+        connection.execute("PRAGMA user_version = 99")
+    connection.close()
+    with pytest.raises(OSError, match="of another version of this program"):
+        Store(store.folder)
+
+
+def test_a_broken_file_is_told(tmp_path: Path) -> None:
+    (tmp_path / "jobs.sqlite").write_bytes(b"no database" * 1000)
+    with pytest.raises(sqlite3.DatabaseError):
+        Store(tmp_path)
