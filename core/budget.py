@@ -32,6 +32,8 @@ class Budget:
     (10.0, True)
     """
 
+    __slots__ = ("halt", "work")
+
     def __init__(self, work: float = math.inf) -> None:
         self.work = float(work)
         self.halt = kernels.Halt(self.work)

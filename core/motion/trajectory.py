@@ -114,18 +114,21 @@ def trajectory(dance: Dance, times: Floats | Sequence[float] | float, *, budget:
     (224, 2)
     """
     checked_type("dance", dance, Dance)
-    dragon, asked, budget = dance.dragon, dance.times(times), budget or Budget()
+    dragon, asked = dance.dragon, dance.times(times)
     time, handles = asked.reshape(-1), dragon.benches + 1
-    columns = tuple(np.empty((time.size, handles, *axes)) for axes in ((2,), (2,), ()))
-    # whole blocks of instants, as the kernels solve them together
-    batch = kernels.LANES_PER_BLOCK * max(1, BATCH_WORK // (kernels.LANES_PER_BLOCK * handles))
+    shape = (time.size, handles)
+    columns = position, velocity, speed = np.empty((*shape, 2)), np.empty((*shape, 2)), np.empty(shape)
+    # on a spiral whole blocks of instants, as the kernels solve them together
+    block = 1 if isinstance(dance.path, Route) else kernels.LANES_PER_BLOCK
+    batch = block * max(1, BATCH_WORK // (block * handles))
     for first in range(0, time.size, batch):
         rows = slice(first, first + batch)
-        budget.afford(float(handles * time[rows].size))
-        folded = _fill(dance, time[rows], *(column[rows] for column in columns))
+        if budget is not None:
+            budget.afford(float(handles * time[rows].size))
+        folded = _fill(dance, time[rows], position[rows], velocity[rows], speed[rows])
         if folded >= 0:
             raise dance.after_the_end(asked, first + folded)
-    return Trajectory(asked, *(column.reshape(*asked.shape, *column.shape[1:]) for column in columns), dance=dance)
+    return Trajectory(asked, *(columns if asked.ndim else (column[0] for column in columns)), dance=dance)
 
 
 def _fill(dance: Dance, time: Floats, position: Floats, velocity: Floats, speed: Floats) -> int:
