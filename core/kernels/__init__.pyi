@@ -43,6 +43,7 @@ def spiral_trajectory(
     position: Floats,
     velocity: Floats,
     speed: Floats,
+    halt: Halt,
 ) -> int: ...
 
 # -- on a route --

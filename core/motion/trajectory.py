@@ -114,7 +114,7 @@ def trajectory(dance: Dance, times: Floats | Sequence[float] | float, *, budget:
     (224, 2)
     """
     checked_type("dance", dance, Dance)
-    dragon, asked = dance.dragon, dance.times(times)
+    dragon, asked, budget = dance.dragon, dance.times(times), budget or Budget()
     time, handles = asked.reshape(-1), dragon.benches + 1
     shape = (time.size, handles)
     columns = position, velocity, speed = np.empty((*shape, 2)), np.empty((*shape, 2)), np.empty(shape)
@@ -123,15 +123,15 @@ def trajectory(dance: Dance, times: Floats | Sequence[float] | float, *, budget:
     batch = block * max(1, BATCH_WORK // (block * handles))
     for first in range(0, time.size, batch):
         rows = slice(first, first + batch)
-        if budget is not None:
-            budget.afford(float(handles * time[rows].size))
-        folded = _fill(dance, time[rows], position[rows], velocity[rows], speed[rows])
+        budget.afford(float(handles * time[rows].size))
+        folded = _fill(dance, budget, time[rows], position[rows], velocity[rows], speed[rows])
+        budget.look()
         if folded >= 0:
             raise dance.after_the_end(asked, first + folded)
     return Trajectory(asked, *(columns if asked.ndim else (column[0] for column in columns)), dance=dance)
 
 
-def _fill(dance: Dance, time: Floats, position: Floats, velocity: Floats, speed: Floats) -> int:
+def _fill(dance: Dance, budget: Budget, time: Floats, position: Floats, velocity: Floats, speed: Floats) -> int:
     """Fills in a trajectory at so many times (T,) [s]; returns the first one after a fold, -1 without."""
     dragon, path, head_speed = dance.dragon, dance.path, dance.head_speed
     if isinstance(path, Route):
@@ -141,7 +141,8 @@ def _fill(dance: Dance, time: Floats, position: Floats, velocity: Floats, speed:
         kernels.route_trajectory(path.table, time * head_speed, head_speed, sizes, chain, position, velocity, speed)
         return -1
     head = np.maximum(path.theta(time * head_speed), dance.end.theta or 0.0)
-    return kernels.spiral_trajectory(path.growth, head, dragon.chords, head_speed, position, velocity, speed)
+    chords, halt = dragon.chords, budget.halt
+    return kernels.spiral_trajectory(path.growth, head, chords, head_speed, position, velocity, speed, halt)
 
 
 def bench_poses(handles: Floats) -> Floats:
