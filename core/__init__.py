@@ -2,6 +2,7 @@
 
 from typing import TYPE_CHECKING
 
+from core.budget import Budget
 from core.contact.clearance import ClearanceProfile, Graze, LeastClearance, clearance_profile, least_clearance
 from core.contact.cross_check import ContactCheck, contact_check, pitch_check
 from core.contact.first_contact import (
@@ -42,6 +43,7 @@ __all__ = [
     "Area",
     "AreaClearance",
     "BenchDragonError",
+    "Budget",
     "ClearanceProfile",
     "Coil",
     "ContactCheck",

@@ -118,9 +118,19 @@ class TooLarge(BenchDragonError):
 
 
 class TooMuchWork(BenchDragonError):
-    """An answer was not found within the work that one question may take."""
+    """An answer was not found within the work that one question may take, or before it was stopped.
+
+    stopped: was it stopped, from another thread?
+    """
 
     code = "too-much-work"
+    stopped = False
+
+    def named(self, field: str, got: float | None = None) -> Self:
+        """As of every error; it stays one that was stopped."""
+        error = super().named(field, got)
+        error.stopped = self.stopped
+        return error
 
 
 class OutsideRun(BenchDragonError):

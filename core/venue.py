@@ -11,6 +11,7 @@ from itertools import pairwise
 import numpy as np
 
 from core import kernels
+from core.budget import Budget, bounded
 from core.contact.clearance import Pair, least_over
 from core.contact.first_contact import Outcome
 from core.contact.fold import moved_until
@@ -202,15 +203,23 @@ class VenueClearance(Shown):
         return [("stray", stray), *((area.name, area._line()) for area in self.areas)]
 
 
+@bounded("how near the benches come to the venue was not found")
 def venue_clearance(
-    dance: Dance, venue: Venue, *, margin: float = 0.0, start: float = 0.0, stop: float | None = None
+    dance: Dance,
+    venue: Venue,
+    *,
+    margin: float = 0.0,
+    start: float = 0.0,
+    stop: float | None = None,
+    budget: Budget | None = None,
 ) -> VenueClearance:
     """Distance of the benches from the square's edges and from each obstacle, and the first time within the margin.
 
     An edge counts as a rectangle of no width at rest: benches and edges are marched like pairs of benches, with the
     same proof. The centre of a bench that touches no edge stays inside an area, or outside, as it started.
     margin: [m]; start, stop: [s], None for the end of the run
-    raises: InvalidValue, also for a path that bends too tightly for a chord by the stop; OutsideRun
+    raises: InvalidValue, also for a path that bends too tightly for a chord by the stop; OutsideRun;
+        TooMuchWork
     """
     checked_type("dance", dance, Dance)
     checked_type("venue", venue, Venue)
@@ -221,7 +230,11 @@ def venue_clearance(
     share = NEAR_WORK_BUDGET / len(venue.areas)
     areas = tuple(
         _area_clearance(
-            Search(dance.dragon, danced.path, margin, area.edges, work=share), area.name, begin, until, head_speed
+            Search(dance.dragon, danced.path, margin, area.edges, work=share, budget=budget),
+            area.name,
+            begin,
+            until,
+            head_speed,
         )
         for area in venue.areas
     )

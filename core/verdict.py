@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from enum import StrEnum
 
+from core.budget import Budget
 from core.contact.clearance import LeastClearance, least_clearance
 from core.contact.first_contact import FirstContact, Outcome, first_contact
 from core.dance import TIME_MAX, Dance, EndReason, RunEnd
@@ -115,6 +116,7 @@ def check(
     speed_limit: float | None = None,
     start: float | None = None,
     stop: float | None = None,
+    budget: Budget | None = None,
 ) -> Report:
     """Can the dragon dance this path: first contact, least clearance, venue, highest speed, sharpest bend.
 
@@ -122,7 +124,7 @@ def check(
     start, stop: [s]; by default from 0 (on a route: from when the whole dragon is on it) to the end of the run
     A dance fails if it folds before its stop, or before the end of its path if no stop is given. A dance that ends
     earlier, because benches touch, is not followed to its fold.
-    raises: InvalidValue; OutsideRun for times outside the run, but not for a stop after a fold
+    raises: InvalidValue; OutsideRun for times outside the run, but not for a stop after a fold; TooMuchWork
     """
     checked_type("dance", dance, Dance)
     limit = None if speed_limit is None else checked_limit(speed_limit)
@@ -133,18 +135,18 @@ def check(
         stop = checked_number("stop", stop, "s", -TIME_MAX, TIME_MAX)
         stop = None if stop >= end.time else stop
     begin, until = dance.span(dance.begin if start is None else start, stop)
-    contact = first_contact(dance, margin=margin, start=begin, stop=stop)
-    least = least_clearance(dance, start=begin, stop=until)
+    contact = first_contact(dance, margin=margin, start=begin, stop=stop, budget=budget)
+    least = least_clearance(dance, start=begin, stop=until, budget=budget)
     if least is not None and least.distance == 0.0:
         until = min(until, max(least.time, begin + MOMENT))
-    bend = sharpest_bend(dance, start=begin, stop=until)
-    square, seen = _in_venue(dance, venue, margin, begin, until)
+    bend = sharpest_bend(dance, start=begin, stop=until, budget=budget)
+    square, seen = _in_venue(dance, venue, margin, (begin, until), budget)
     folds = dance.ends_by(until)
     speed, excess = None, None
     if not folds:
-        speed = highest_speed(dance, start=begin, stop=until)
+        speed = highest_speed(dance, start=begin, stop=until, budget=budget)
     if limit is not None and not (speed and _keeps(speed, limit)):
-        excess = first_excess(dance, limit, start=begin, stop=until)
+        excess = first_excess(dance, limit, start=begin, stop=until, budget=budget)
     failures = _contact_failures(contact, margin) + _venue_failures(square, begin, margin)
     if limit is not None and excess:
         failures.append(_speed_failure(excess, speed, limit, end))
@@ -162,14 +164,17 @@ def check(
 
 
 def _in_venue(
-    dance: Dance, venue: Venue | None, margin: float, begin: float, until: float
+    dance: Dance, venue: Venue | None, margin: float, span: tuple[float, float], budget: Budget | None
 ) -> tuple[VenueClearance | None, float]:
     """Clearance of the benches in the venue, as far as they can be followed there, and the time of that end [s]."""
+    begin, until = span
     if venue is None:
         return None, until
     followed = venue_end(dance)
     seen = min(until, followed) if followed >= begin + MOMENT else begin
-    return venue_clearance(dance, venue, margin=margin, start=begin, stop=seen) if seen > begin else None, seen
+    if seen <= begin:
+        return None, seen
+    return venue_clearance(dance, venue, margin=margin, start=begin, stop=seen, budget=budget), seen
 
 
 def _judgement(failures: tuple[Failure, ...]) -> Judgement:

@@ -19,6 +19,7 @@ ROOT = Path(__file__).parent.parent
 ORDER = (
     "core.kernels.constants",
     "core.kernels.records",
+    "core.kernels.halt",
     "core.kernels.spiral",
     "core.kernels.fold",
     "core.kernels.rectangles",
@@ -36,6 +37,7 @@ ORDER = (
     "core.kernels.excess",
     "core.kernels",
     "core.errors",
+    "core.budget",
     "core.extras",
     "core.shown",
     "core.tables",

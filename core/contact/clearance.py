@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from core import plots
+from core.budget import Budget, bounded
 from core.contact.fold import least_to_fold
 from core.contact.search import NEAR_WORK_BUDGET, Search
 from core.dance import Dance, RunEnd
@@ -117,14 +118,17 @@ class LeastClearance(Shown):
     benches: Pair
 
 
-def clearance_profile(dance: Dance, times: Floats | Sequence[float] | float) -> ClearanceProfile:
+@bounded("the clearance over time was not found")
+def clearance_profile(
+    dance: Dance, times: Floats | Sequence[float] | float, *, budget: Budget | None = None
+) -> ClearanceProfile:
     """Exact clearance and its pair at every time, and its local minima refined.
 
     times: (T,) or one [s]
     grazes: looked for between the first and the last time in steps of PROFILE_STEP of the shortest chord (longer ones
         for thousands of benches on a long way), refined to rounding; a dip of a pair
         that is the nearest for less than a step may be missed here, never by first_contact()
-    raises: OutsideRun after the end of the run; InvalidValue for fewer than three benches
+    raises: OutsideRun after the end of the run; InvalidValue for fewer than three benches; TooMuchWork
     """
     checked_type("dance", dance, Dance)
     dragon, head_speed = dance.dragon, dance.head_speed
@@ -133,7 +137,7 @@ def clearance_profile(dance: Dance, times: Floats | Sequence[float] | float) -> 
             "dragon.benches", f"dragon.benches must be at least 3 for two to share no handle, got {dragon.benches}"
         )
     time = dance.times(times)
-    search = Search(dragon, dance.path, 0.0)
+    search = Search(dragon, dance.path, 0.0, budget=budget)
     search.resize(dragon.benches)
     clearance, benches = _at(search, time, head_speed)
     return ClearanceProfile(time, clearance, benches, _grazes(search, time, head_speed))
@@ -142,7 +146,7 @@ def clearance_profile(dance: Dance, times: Floats | Sequence[float] | float) -> 
 def _at(search: Search, time: Floats, head_speed: float) -> tuple[Floats, NDArray[np.int64]]:
     clearance, benches = np.empty(time.size), np.empty((time.size, 2), dtype=np.int64)
     for k, instant in enumerate(time.flat):
-        clearance[k], benches[k] = search.clearance(float(instant) * head_speed)
+        clearance[k], benches[k] = _affordable(search, float(instant) * head_speed)
     return clearance.reshape(time.shape), benches.reshape(*time.shape, 2)
 
 
@@ -153,6 +157,12 @@ def _grid(search: Search, begin: float, until: float) -> list[float]:
     return grid
 
 
+def _affordable(search: Search, travel: float, leaders: int | None = None) -> tuple[float, Pair]:
+    """Search.clearance() at the expense of the budget of the whole question."""
+    search.budget.afford(search.room)
+    return search.clearance(travel, leaders)
+
+
 # Where the clearance passes from one pair to another it has a kink that points up, so each of its local minima is one
 # of a single pair: of the nearest one at either end of a step, if that pair comes nearer at first and parts at last.
 def _grazes(search: Search, time: Floats, head_speed: float) -> tuple[Graze, ...]:
@@ -160,7 +170,7 @@ def _grazes(search: Search, time: Floats, head_speed: float) -> tuple[Graze, ...
         return ()
     first, last = float(time.min()) * head_speed, float(time.max()) * head_speed
     grid = _grid(search, first, last)
-    pairs = [search.clearance(travel)[1] for travel in grid]
+    pairs = [_affordable(search, travel)[1] for travel in grid]
     grazes = []
     for ends, nearest in zip(pairwise(grid), pairwise(pairs), strict=True):
         for pair in sorted(set(nearest)):
@@ -173,10 +183,13 @@ def _grazes(search: Search, time: Floats, head_speed: float) -> tuple[Graze, ...
     return tuple(sorted(grazes, key=lambda graze: graze.time))
 
 
-def least_clearance(dance: Dance, *, start: float = 0.0, stop: float | None = None) -> LeastClearance | None:
+@bounded("the least clearance was not found")
+def least_clearance(
+    dance: Dance, *, start: float = 0.0, stop: float | None = None, budget: Budget | None = None
+) -> LeastClearance | None:
     """The least clearance between start and stop [s], None for the end of the run; None with fewer than three benches.
 
-    raises: InvalidValue; OutsideRun for a stop after the end of the run
+    raises: InvalidValue; OutsideRun for a stop after the end of the run; TooMuchWork
     """
     checked_type("dance", dance, Dance)
     begin, until = dance.span(start, stop)
@@ -184,7 +197,7 @@ def least_clearance(dance: Dance, *, start: float = 0.0, stop: float | None = No
     if dance.dragon.benches < 3:
         return None
     to_fold = dance.nears_fold(until)
-    search = Search(dance.dragon, dance.path, 0.0, work=NEAR_WORK_BUDGET)
+    search = Search(dance.dragon, dance.path, 0.0, work=NEAR_WORK_BUDGET, budget=budget)
     last = search.last_travel(until * head_speed, to_fold)
     fold = end if to_fold else None
     (distance, travel, pair), at_least = least_over(search, begin * head_speed, last, head_speed, fold)
@@ -214,6 +227,7 @@ def least_over(
             search.use(search.path, max(best[0] - width, 0.0))
             margin = search.margin
             state, found = search.march(until, 0.0, start=proven_to, dips=True)
+            search.budget.afford()
             if found.graze is not None and found.graze.gap < best[0]:
                 best = found.graze
             if state in ("reached", "stuck"):
@@ -245,7 +259,7 @@ def _sampled(search: Search, begin: float, until: float) -> Dip:
     """The least clearance at the ends and in the dips that samples show."""
     grid = _grid(search, begin, until)
     leaders = min(search.dragon.uniform_from + 1, search.dragon.benches)
-    gaps = np.array([search.clearance(travel, leaders)[0] for travel in grid])
+    gaps = np.array([_affordable(search, travel, leaders)[0] for travel in grid])
     ends = [(gap, travel, pair) for travel in (begin, until) for gap, pair in (search.clearance(travel),)]
     return min(ends + [_refined(search, *grid[k - 1 : k + 2]) for k in dips(gaps, DIPS_REFINED).tolist()])
 

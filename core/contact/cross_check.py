@@ -11,6 +11,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from core.budget import Budget, bounded
 from core.contact.first_contact import FirstContact, Outcome
 from core.contact.search import MARGIN_MAX
 from core.dance import Dance
@@ -78,8 +79,14 @@ class ContactCheck(Shown):
         return [("agree", worded(self.agree)), ("judged", worded(self.judged)), *said, *rest]
 
 
+@bounded("the engines' word on the contact was not found")
 def contact_check(
-    contact: FirstContact, dance: Dance, *, margin: float = 0.0, whole: bool = True
+    contact: FirstContact,
+    dance: Dance,
+    *,
+    margin: float = 0.0,
+    whole: bool = True,
+    budget: Budget | None = None,
 ) -> ContactCheck | None:
     """The engines on the dance CHECK_TRAVEL of head travel before and after the bracket of a first contact.
 
@@ -106,12 +113,20 @@ def contact_check(
     travel = max(CHECK_TRAVEL, rounding) / head_speed
     times = [first if at_start else first - travel, last + travel]
     front = dragon if whole else dragon.leading(contact.benches[1] + 1)  # No bench moves one in front of it.
-    poses = _poses(replace(dance, dragon=front), times)
+    poses = _poses(replace(dance, dragon=front), times, budget)
     size = np.stack([dragon.lengths, dragon.widths], axis=-1)[: poses.shape[1]]
-    return judged_contact(poses, size, contact.benches, margin=margin, whole=whole, at_start=at_start)
+    return judged_contact(poses, size, contact.benches, margin=margin, whole=whole, at_start=at_start, budget=budget)
 
 
-def pitch_check(found: MinimumPitch, dragon: Dragon, *, margin: float = 0.0, whole: bool = True) -> ContactCheck | None:
+@bounded("the engines' word on the minimum pitch was not found")
+def pitch_check(
+    found: MinimumPitch,
+    dragon: Dragon,
+    *,
+    margin: float = 0.0,
+    whole: bool = True,
+    budget: Budget | None = None,
+) -> ContactCheck | None:
     """The engines on the dance at a pitch CHECK_PITCH larger and CHECK_PITCH smaller than the minimum.
 
     The head stands where the pair meets just below that pitch, or at the start if the start limits the pitch.
@@ -129,19 +144,26 @@ def pitch_check(found: MinimumPitch, dragon: Dragon, *, margin: float = 0.0, who
         # A spiral that starts at a radius has its head there at time 0.
         turns = found.head_radius / (found.pitch if found.limited_by is LimitedBy.START else pitch)
         front = dragon if whole else dragon.leading(found.benches[1] + 1)
-        poses.append(_poses(Dance(front, Spiral(pitch, turns)), [0.0])[0])
+        poses.append(_poses(Dance(front, Spiral(pitch, turns)), [0.0], budget)[0])
     size = np.stack([dragon.lengths, dragon.widths], axis=-1)[: len(poses[0])]
-    return judged_contact(np.array(poses), size, found.benches, margin=margin, whole=whole)
+    return judged_contact(np.array(poses), size, found.benches, margin=margin, whole=whole, budget=budget)
 
 
-def _poses(dance: Dance, times: list[float]) -> Floats:
+def _poses(dance: Dance, times: list[float], budget: Budget | None) -> Floats:
     """Poses (T, n, 3) of the dragon at instants, or at the nearest ones within its run."""
     held = [min(max(time, dance.earliest), dance.end.time) for time in times]
-    return bench_poses(trajectory(dance, held).position)
+    return bench_poses(trajectory(dance, held, budget=budget).position)
 
 
 def judged_contact(
-    poses: Floats, sizes: Floats, pair: Pair, *, margin: float = 0.0, whole: bool = True, at_start: bool = False
+    poses: Floats,
+    sizes: Floats,
+    pair: Pair,
+    *,
+    margin: float = 0.0,
+    whole: bool = True,
+    at_start: bool = False,
+    budget: Budget | None = None,
 ) -> ContactCheck:
     """The engines' verdicts on a pair that is reported to come within the margin between two instants.
 
@@ -158,7 +180,7 @@ def judged_contact(
     judged = judged_benches(poses[1], sizes, pair, margin)
     if len(judged) == len(pair):
         return judged_contact(poses, sizes, pair, margin=margin, whole=False, at_start=at_start)
-    found = {engine: _found(engine, poses[:, judged], sizes[judged], margin, judged) for engine in able(margin)}
+    found = {engine: _found(engine, poses[:, judged], sizes[judged], margin, judged, budget) for engine in able(margin)}
     together: set[Pair] = set()
     if not at_start:
         others = sorted(found[Engine.SEPARATING_AXIS][1] - {pair})
@@ -202,11 +224,13 @@ def _told(words: dict[Engine, Verdict], judged: Indices, together: tuple[Pair, .
 
 # Of the benches judged, only those that follow one another in the dragon are neighbours, so pairs are sought among all
 # of them and neighbours left out by their numbers.
-def _found(engine: Engine, poses: Floats, sizes: Floats, margin: float, judged: Indices) -> list[set[Pair]]:
+def _found(
+    engine: Engine, poses: Floats, sizes: Floats, margin: float, judged: Indices, budget: Budget | None
+) -> list[set[Pair]]:
     """Pairs that an engine finds at each instant, by their numbers in the dragon."""
     chained = len(judged) == int(judged[-1] - judged[0]) + 1
     found = []
-    for pairs in found_pairs(engine, poses, sizes, margin, chained=chained):
+    for pairs in found_pairs(engine, poses, sizes, margin, chained=chained, budget=budget):
         a, b = judged[pairs].reshape(-1, 2).T
         apart = b - a != 1
         found.append(set(zip(a[apart].tolist(), b[apart].tolist(), strict=True)))

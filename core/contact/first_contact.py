@@ -17,11 +17,12 @@ from enum import StrEnum
 from typing import TYPE_CHECKING
 
 from core import kernels, plots
+from core.budget import Budget, bounded
 from core.contact.claim import ENDS, UNDECIDED_THEN, claim, claim_at_start, claim_undecided, contact_then
 from core.contact.clearance import Graze
 from core.contact.fold import clear_to_fold
 from core.contact.near_graze import narrowed
-from core.contact.search import BRACKETS_GRAZING, MARGIN_MAX, Budget, Ended, Marched, Search
+from core.contact.search import BRACKETS_GRAZING, MARGIN_MAX, Ended, Marched, Search
 from core.dance import Dance, EndReason, RunEnd
 from core.errors import InvalidValue, said
 from core.kernels.constants import FRONT, MX, UY
@@ -176,7 +177,15 @@ CORNERS = (
 EDGES = (("front", "inner", "rear", "outer"), ("front", "outer", "rear", "inner"))
 
 
-def first_contact(dance: Dance, *, margin: float = 0.0, start: float = 0.0, stop: float | None = None) -> FirstContact:
+@bounded("the first contact was not decided")
+def first_contact(
+    dance: Dance,
+    *,
+    margin: float = 0.0,
+    start: float = 0.0,
+    stop: float | None = None,
+    budget: Budget | None = None,
+) -> FirstContact:
     """When two benches that share no handle first come within the margin, proven not to miss an earlier one.
 
     margin: [m], the clearance required; contact means separation <= margin
@@ -186,7 +195,7 @@ def first_contact(dance: Dance, *, margin: float = 0.0, start: float = 0.0, stop
         within about 5e-5 m of a graze along waypoints, behind bench 60, or where a second pair meets at once. Both
         ends hold in spite of rounding (core/kernels/spiral.py, route.py, pairs.py). Where rounding hides the answer it
         is undecided: benches whose clearance at the start equals the margin to about 1e-12 m
-    raises: InvalidValue; OutsideRun for a stop after the end of the run
+    raises: InvalidValue; OutsideRun for a stop after the end of the run; TooMuchWork
     source: the model of Yang et al., sections 2.4 and 2.5, whose times differ: see app/questions/paper.py
 
     >>> from core import Dragon
@@ -194,7 +203,11 @@ def first_contact(dance: Dance, *, margin: float = 0.0, start: float = 0.0, stop
     >>> contact.outcome.value, round(contact.time, 6), contact.benches
     ('contact', 412.473838, (0, 8))
     """
-    return contact_within(Budget(), dance, margin=margin, start=start, stop=stop)
+    budget = budget or Budget()
+    found = contact_within(budget, dance, margin=margin, start=start, stop=stop)
+    if found.outcome is Outcome.UNDECIDED:
+        budget.afford()  # it may be so for want of work
+    return found
 
 
 def contact_within(

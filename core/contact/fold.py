@@ -102,7 +102,8 @@ def least_left(search: Search, travel: float, theta: float) -> float:
             return -NO_BOUND
     least = gap - reached
     if least <= search.margin:
-        least = kernels.clearance_left(leaders, search.room, search.sizes, search.rows[0], moved)
+        least = kernels.clearance_left(search.scene, leaders, search.room, search.rows[0], moved)
+        search.budget.look()
     return float(least) - rounding
 
 
@@ -114,6 +115,7 @@ def moved_until(search: Search, theta: float) -> tuple[Floats, Floats]:
     low, high = theta * (1.0 - THETA_ROUNDING), float(search.rows[0, 0, THETA]) * (1.0 + THETA_ROUNDING)
     arcs, curvatures = np.empty(benches + 1), np.full(benches, NO_BOUND)
     for k in range(benches + 1):
+        search.budget.look()
         arcs[k] = growth * (high - low) * math.hypot(1.0, high)
         if k == benches:
             break

@@ -135,6 +135,7 @@ class ExactPair:
 
     def gap(self, travel: Decimal) -> Decimal:
         """Separation of the two less the margin [m]."""
+        self.search.budget.look()
         return separation(*self.benches(travel))[0] - Decimal(self.search.margin)
 
     def stays_apart(self, start: float, stop: float) -> bool:

@@ -12,6 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from core import kernels
+from core.budget import Budget
 from core.contact.coils import two_coils, way_out
 from core.dragon import Dragon
 from core.kernels.constants import (
@@ -67,17 +68,6 @@ NO_GAP = 1e150
 RING_ROUNDING = 1e-11
 
 
-class Budget:
-    """Work that all searches of one question may still do together.
-
-    left: work, see core/kernels/constants.py [1]; 1e7 take 1 to 4 s. Nothing is interrupted at 0: the next
-    step that asks for more raises TooMuchWork.
-    """
-
-    def __init__(self, work: float = math.inf) -> None:
-        self.left = work
-
-
 class Ended(StrEnum):
     """How a march ended, in the order of the kernels' states: see core/kernels/marching.py, strips.py for TURNED."""
 
@@ -129,7 +119,8 @@ class Search:
     clear_radius: on a spiral, no pair whose inner bench leads at this radius or further out comes within the margin [m]
     rings.clear_place, rings.end_place: on a route that begins (and ends) with a coil the same as places; where they are
         known there is room for the leading benches only, as on a spiral
-    work: work that its marches may still do, see WORK_BUDGET, within the budget of the whole question
+    work: work that its marches may still do, see WORK_BUDGET, within the budget of the whole question. Once that is
+        stopped, whatever examines benches raises Halted
     place: origin of the kernels' places, at time 0: arc length from the centre of a spiral, minus s on a route [m]
     """
 
@@ -182,6 +173,7 @@ class Search:
 
     def _set_scene(self) -> None:
         self.scene.curve, self.scene.place, self.scene.margin = self.curve, self.place, self.margin
+        self.scene.halt = self.budget.halt
 
     def clear_beyond(self, radius: float) -> None:
         """Set clear_radius to a radius from which another bound exceeds the margin on this spiral [m]."""
@@ -221,7 +213,7 @@ class Search:
     def spend(self, work: float) -> None:
         """Subtract work done from the work left [1]."""
         self.work -= work
-        self.budget.left -= work
+        self.budget.spend(work)
 
     @property
     def _step_work(self) -> float:
@@ -322,6 +314,7 @@ class Search:
             ended = ENDS[self._march.run(start, stop, leaders, opening, tolerance, grazes, rounding, budget)]
             march = self._march
             self.spend(float(march.work))
+            self.budget.look()
             if ended is not Ended.CAPACITY:
                 break
             self.resize(min(4 * self.room, self.dragon.benches))
@@ -384,6 +377,7 @@ class Search:
 
     def _clearance(self, travel: float, benches: int, leaders: int) -> tuple[float, tuple[int, int]]:
         gap, a, b = kernels.clearance_at(self.scene, self.place - travel, benches, leaders, self.rows[0], self.motion)
+        self.budget.look()
         return float(gap), (a, b)
 
     def _followed(self, travel: float, leaders: int) -> int:
@@ -402,11 +396,14 @@ class Search:
 
     def gap_rate(self, travel: float, pair: tuple[int, int]) -> float:
         """How fast a pair parts after a travel, per metre of head travel [1]."""
+        self.budget.look()
         return float(kernels.gap_rate_at(self.scene, self.place - travel, *pair, self.rows[1]))
 
     def bottom(self, low: float, high: float, pair: tuple[int, int], width: float) -> float:
         """Travel in [low, high] where a pair stops approaching [m]."""
-        return float(kernels.bottom_between(self.scene, low, high, *pair, width, self.rows[1]))
+        travel = float(kernels.bottom_between(self.scene, low, high, *pair, width, self.rows[1]))
+        self.budget.look()
+        return travel
 
     def gap_rounding(self, travel: float, within: float) -> float:
         """Largest error of gaps up to `within` [m] after a travel, see core/kernels/pairs.py [m]."""

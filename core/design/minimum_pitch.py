@@ -8,6 +8,7 @@ from enum import StrEnum
 
 import numpy as np
 
+from core.budget import Budget, Halted
 from core.contact.search import MARGIN_MAX
 from core.dance import end_theta
 from core.design.pitch_bands import BORDER_WIDTH
@@ -263,11 +264,17 @@ class _PitchSearch:
 
 
 def minimum_pitch(
-    dragon: Dragon, *, turning_radius: float = 4.5, start_turns: float = 16.0, margin: float = 0.0
+    dragon: Dragon,
+    *,
+    turning_radius: float = 4.5,
+    start_turns: float = 16.0,
+    margin: float = 0.0,
+    budget: Budget | None = None,
 ) -> MinimumPitch:
     """The smallest pitch such that every larger one lets the head reach the turning circle without contact.
 
     turning_radius: [m]; start_turns: turns from the centre to the start; margin: [m], clearance required
+    budget: of PITCH_WORK where none is given
     From some pitch on all are feasible, without end: the spiral is so wide there that the dragon stands nearly straight
     (`core/design/straight.py`). Downwards from there bands of pitches are proven clear, each for all its pitches at
     once (`core/design/pitch_bands.py`), to where a pair of benches grazes: no infeasible pitch is stepped over. Where
@@ -288,7 +295,15 @@ def minimum_pitch(
         raise InvalidValue.of("start_turns", rule, turns, "turns")
     margin = checked_number("margin", margin, "m", 0.0, MARGIN_MAX)
     _refuse_touching(dragon, Straight(dragon), margin)
-    search = _PitchSearch(Ways(dragon, radius, turns, margin))
+    ways = Ways(dragon, radius, turns, margin, budget)
+    try:
+        return _found(dragon, _PitchSearch(ways))
+    except Halted as halted:
+        raise ways.too_much() from halted
+
+
+def _found(dragon: Dragon, search: _PitchSearch) -> MinimumPitch:
+    """The minimum pitch that a search finds."""
     top, proven_up_to = search.top()
     infeasible = feasible = search.lowest
     justified_by = "bound"
@@ -300,7 +315,7 @@ def minimum_pitch(
     else:
         limited_by, pair, head_radius = search.limit(infeasible)
         islands = () if search.alone else search.islands(infeasible)
-    folding = end_theta(dragon, Spiral(infeasible, turns))[1] if limited_by is LimitedBy.FOLD else None
+    folding = end_theta(dragon, Spiral(infeasible, search.start_turns))[1] if limited_by is LimitedBy.FOLD else None
     return MinimumPitch(
         feasible,
         (infeasible, feasible),

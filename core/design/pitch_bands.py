@@ -110,6 +110,7 @@ class Bands:
             ended = ENDS[band.run(outer, self.radius, leaders, rounding, least_step, budget)]
             self.work += float(band.work)
             search.spend(float(band.work))
+            search.budget.look()
             if ended is not Ended.CAPACITY:
                 touching = None if band.touching >= NO_BOUND else float(band.touching)
                 return ended, Marched(float(band.proven), touching, (band.first, band.second), band.steps)
@@ -215,5 +216,6 @@ class Bands:
                 travel = search.bottom(min(travel, ahead), max(travel, ahead), pair, BOTTOM_WIDTH)
                 break
             travel, stride = ahead, 2.0 * stride
+        search.budget.look()
         gap = kernels.gap_at(search.scene, search.place - travel, *pair, search.rows[1])
         return float(gap), growth * search.theta_at(travel)

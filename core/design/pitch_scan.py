@@ -10,8 +10,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from core import plots
+from core.budget import Budget, Halted
 from core.contact.fold import clear_to_fold
-from core.contact.search import MARGIN_MAX, WORK_BUDGET, Budget, Ended, Search
+from core.contact.search import MARGIN_MAX, WORK_BUDGET, Ended, Search
 from core.dance import Dance, EndReason
 from core.design.minimum_pitch import MinimumPitch, minimum_pitch
 from core.dragon import Dragon
@@ -137,6 +138,7 @@ def pitch_scan(
     start_turns: float = 16.0,
     margin: float = 0.0,
     progress: Callable[[float], None] = lambda share: None,
+    budget: Budget | None = None,
 ) -> PitchScan:
     """First-contact radius at every pitch, and between samples wherever it falls by more than JUMP.
 
@@ -144,16 +146,19 @@ def pitch_scan(
     than JUMP_WIDTH, then it is a jump. A jump smaller than JUMP between two samples is not found.
 
     pitches: (N,) [m], ascending; progress: called with the share of the samples that is done
-    raises: TooMuchWork if SCAN_WORK is spent before the end; InvalidValue
+    budget: SCAN_WORK by default
+    raises: TooMuchWork if the budget ends before the scan does; InvalidValue
     """
     checked_type("dragon", dragon, Dragon)
     pitches = _checked_pitches(pitches)
-    stops = Stops(dragon, margin, Budget(SCAN_WORK))
+    stops = Stops(dragon, margin, budget or Budget(SCAN_WORK))
 
     def radius(pitch: float) -> float | None:
-        if stops.budget.left <= 0.0:
-            raise TooMuchWork.of("pitches", _too_much(dragon, pitch), len(pitches), "")
-        return stops.radius(Spiral(pitch, start_turns))
+        try:
+            stops.budget.afford()
+            return stops.radius(Spiral(pitch, start_turns))
+        except Halted as halted:
+            raise stops.budget.too_much("pitches", _too_much(dragon, pitch), len(pitches), "") from halted
 
     known: dict[float, float | None] = {}
     jumps: list[float] = []
@@ -176,10 +181,10 @@ def pitch_scan(
 
 
 def _too_much(dragon: Dragon, pitch: float) -> str:
-    """Advice when the work is spent before the scan ends; pitch: the next one [m]."""
+    """Advice when the budget ends before the scan does; pitch: the next one [m]."""
     return (
-        f"must be fewer, or benches: the first contacts up to a pitch of {pitch:g} m took {SCAN_WORK:g} steps of work, "
-        f"each a bench placed or a pair of benches tried; the {dragon.benches} chords are "
+        f"must be fewer, or benches: the first contact at a pitch of {pitch:g} m and what follows were not found "
+        f"{{then}}; the {dragon.benches} chords are "
         f"{float(dragon.chords.min()):g} to {float(dragon.chords.max()):g} m long"
     )
 
@@ -217,18 +222,21 @@ def scan_near_minimum(
     margin: float,
     samples: int,
     progress: Callable[[float], None] = lambda share: None,
+    budget: Budget | None = None,
 ) -> tuple[PitchScan, MinimumPitch]:
     """The scan at a number of samples from SCAN_FROM to SCAN_TO times the minimum pitch, and that minimum.
 
+    budget: of both together; of each its own where none is given
     raises: InvalidValue and TooMuchWork as minimum_pitch() and pitch_scan()
     """
-    least = minimum_pitch(dragon, turning_radius=turning_radius, start_turns=start_turns, margin=margin)
+    least = minimum_pitch(dragon, turning_radius=turning_radius, start_turns=start_turns, margin=margin, budget=budget)
     if SCAN_FROM * least.pitch < SIZE_MIN:
         rule = f"must allow pitches of {SIZE_MIN / SCAN_FROM:g} m and more"
         raise InvalidValue.of("turning_radius", rule, turning_radius, "m")
     pitches = np.linspace(SCAN_FROM * least.pitch, SCAN_TO * least.pitch, samples)
     pitches = np.sort(np.append(pitches, least.pitch_bracket))
     try:
-        return pitch_scan(dragon, pitches, start_turns=start_turns, margin=margin, progress=progress), least
+        scan = pitch_scan(dragon, pitches, start_turns=start_turns, margin=margin, progress=progress, budget=budget)
     except TooMuchWork as error:
         raise error.named("samples", samples) from error
+    return scan, least

@@ -20,9 +20,10 @@ from enum import StrEnum
 import numpy as np
 
 from core import kernels
+from core.budget import Budget, Halted
 from core.contact.coils import STRETCH, TwoCoils, beyond, way_out
 from core.contact.first_contact import FirstContact, Outcome, contact_within
-from core.contact.search import MARGIN_MAX, Budget
+from core.contact.search import MARGIN_MAX
 from core.dance import Dance, follows
 from core.dragon import Dragon
 from core.errors import InvalidValue, TooMuchWork, said
@@ -90,15 +91,16 @@ def shortest_turn(
     *,
     start_turns: float = 16.0,
     margin: float = 0.0,
+    budget: Budget | None = None,
 ) -> ShortestTurn:
     """The smallest entry radius, coming from the turning circle, at which nothing touches and every handle can follow.
 
     pitch, turning_radius, margin [m]; ratio: radius of the first arc over that of the second; start_turns: of the coils
     Each entry tried is proven; between them, ENTRY_STEP of the turning radius apart, this is a scan and may miss a
     narrower infeasible range.
-    entry_bracket is ENTRY_WIDTH wide at most, or what it is when TURN_WORK is done.
-    raises: TooMuchWork if that is spent before an infeasible entry was found; InvalidValue (turning_radius)
-        when even the turn at the circle cannot be danced
+    entry_bracket is ENTRY_WIDTH wide at most, or what it is when the budget is spent; budget: TURN_WORK by default
+    raises: TooMuchWork if it is spent before an infeasible entry was found, or stopped; InvalidValue
+        (turning_radius) when even the turn at the circle cannot be danced
 
     >>> round(shortest_turn(Dragon(), 1.7).turn.entry_radius, 6)
     4.285762
@@ -110,14 +112,18 @@ def shortest_turn(
     def turn_at(entry: float) -> Turn:
         return Turn(pitch, radius, ratio, start_turns=start_turns, entry_radius=entry)
 
-    def touching(entry: float, clear: float | None) -> Touch | None:
-        return _contact(budget, dragon, turn_at(entry), start_turns, margin, clear)
+    budget = budget or Budget(TURN_WORK)
 
-    budget = Budget(TURN_WORK)
+    def touching(entry: float, clear: float | None) -> Touch | None:
+        try:
+            return _contact(budget, dragon, turn_at(entry), start_turns, margin, clear)
+        except Halted as halted:
+            raise _too_much(budget, dragon, entry, radius) from halted
+
     border, floor = _follow_border(dragon, turn_at, radius)
     evaluations, limit = 1, touching(radius, None)
     if limit == UNDECIDED and budget.left <= 0.0:
-        raise TooMuchWork.of("turning_radius", _too_much(dragon, radius), radius, "m")
+        raise _too_much(budget, dragon, radius, radius)
     if limit is not None:
         raise InvalidValue.of("turning_radius", _refusal(limit, margin), radius, "m")
     feasible = infeasible = radius
@@ -125,7 +131,7 @@ def shortest_turn(
         feasible, infeasible = infeasible, max(infeasible - ENTRY_STEP * radius, floor)
         evaluations, limit = evaluations + 1, touching(infeasible, feasible)
         if limit == UNDECIDED and budget.left <= 0.0:
-            raise TooMuchWork.of("turning_radius", _too_much(dragon, infeasible), radius, "m")
+            raise _too_much(budget, dragon, infeasible, radius)
     if limit is None:
         limited_by = TurnLimit.CENTRE if border is None else TurnLimit.BEND
         bracket = (0.0 if border is None else border, floor)
@@ -215,13 +221,15 @@ def coils_of(danced: Turn) -> TwoCoils:
     return TwoCoils(danced.pitch / (2.0 * math.pi), math.pi, extent, danced.length, danced.entry_radius)
 
 
-def _too_much(dragon: Dragon, entry: float) -> str:
-    """Advice when the work is spent before the shortest turn is found; entry: the radius tried last [m]."""
+def _too_much(budget: Budget, dragon: Dragon, entry: float, radius: float) -> TooMuchWork:
+    """The error when the budget ends before the shortest turn is found; entry: the radius tried last [m]."""
     longest, shortest = float(dragon.chords.max()), float(dragon.chords.min())
-    return (
+    return budget.too_much(
+        "turning_radius",
         f"must be smaller, or benches fewer or more alike: turns down to an entry radius of {entry:g} m were not all "
-        f"decided within {TURN_WORK:g} steps of work, each a bench placed or a pair of benches tried; the "
-        f"{dragon.benches} chords are {shortest:g} to {longest:g} m long"
+        f"decided {{then}}; the {dragon.benches} chords are {shortest:g} to {longest:g} m long",
+        radius,
+        "m",
     )
 
 

@@ -5,8 +5,9 @@ from __future__ import annotations
 import math
 
 from core import kernels
+from core.budget import Budget
 from core.contact.fold import THETA_ROUNDING, clear_to_fold
-from core.contact.search import Budget, Ended, Marched, Search
+from core.contact.search import Ended, Marched, Search
 from core.dance import EndReason, RunEnd, end_theta
 from core.design.pitch_bands import Bands
 from core.dragon import Dragon
@@ -34,26 +35,28 @@ LOOKED_AT = 2
 class Ways:
     """The ways of one dragon from the start to the circle, one for each pitch.
 
-    lowest: the pitch whose way begins on the circle, or SIZE_MIN [m]; marched: how many ways were; bands: proofs for
-        whole intervals of pitches
+    lowest: the pitch whose way begins on the circle, or SIZE_MIN [m]; marched: how many ways were; tried: the last
+        pitch that was asked for one [m]; bands: proofs for whole intervals of pitches
     """
 
-    def __init__(self, dragon: Dragon, radius: float, start_turns: float, margin: float) -> None:
+    def __init__(
+        self, dragon: Dragon, radius: float, start_turns: float, margin: float, budget: Budget | None = None
+    ) -> None:
         self.radius, self.start_turns, self.margin = radius, start_turns, margin
         self.lowest = max(radius / start_turns, SIZE_MIN)
-        self.search = Search(dragon, Spiral(self.lowest, start_turns), margin, work=WAY_WORK, budget=Budget(PITCH_WORK))
+        path, budget = Spiral(self.lowest, start_turns), budget or Budget(PITCH_WORK)
+        self.search = Search(dragon, path, margin, work=WAY_WORK, budget=budget)
         self.bands = Bands(self.search, radius, start_turns, margin)
-        self.marched = 0
+        self.marched, self.tried = 0, self.lowest
 
     def march(self, pitch: float, width: float = 0.0, work: float = WAY_WORK) -> tuple[str, Marched]:
         """March from the start to the circle: 'reached' proves every clearance on the way larger than the margin.
 
         width: half width of the bracket around a contact, 0 if any instant of it will do [m of travel]; work: at most
-        raises: TooMuchWork when all ways and bands together have spent PITCH_WORK
+        raises: Halted when the budget of all ways and bands together is spent or stopped
         """
-        search = self.search
-        if search.budget.left <= 0.0:
-            raise self._too_much(pitch)
+        search, self.tried = self.search, pitch
+        search.budget.afford()
         path = Spiral(pitch, self.start_turns)
         search.use(path, self.margin)
         search.work = work
@@ -103,6 +106,7 @@ class Ways:
         False where that radius is not on the way.
         """
         growth, search = pitch / (2.0 * math.pi), self.search
+        search.budget.look()
         if radius > pitch * self.start_turns:
             return False
         place = growth * kernels.spiral_arc(radius / growth)
@@ -123,20 +127,19 @@ class Ways:
             radius *= NEARER
         search.clear_beyond(max(radius, self.radius))
 
-    def _too_much(self, pitch: float) -> TooMuchWork:
-        """The error when the work is spent before the pitch is found; pitch: the next one to try [m]."""
+    def too_much(self) -> TooMuchWork:
+        """The error when the budget ends before the pitch is found."""
         dragon = self.search.dragon
         k = int(dragon.chords[: dragon.uniform_from + 1].argmin())
         alike = all((column[1:] == column[1:2]).all() for column in (dragon.lengths, dragon.widths, dragon.overhangs))
         field = f"dragon.lengths.{k}"
         if alike:
             field = "dragon.head_length" if k == 0 and dragon.uniform_from else "dragon.body_length"
-        return TooMuchWork.of(
+        return self.search.budget.too_much(
             field,
-            f"must be larger, or benches fewer: their minimum pitch was not found by {PITCH_WORK:g} steps of work, "
-            f"each a bench placed or a pair of benches tried; the shortest of {dragon.benches} chords is "
-            f"{float(dragon.chords[k]):g} m long, the turning circle {2.0 * self.radius:g} m across, and the next "
-            f"pitch to be tried was {pitch:g} m",
+            "must be larger, or benches fewer: their minimum pitch was not found {then}; the shortest of "
+            f"{dragon.benches} chords is {float(dragon.chords[k]):g} m long, the turning circle "
+            f"{2.0 * self.radius:g} m across, and the last pitch tried was {self.tried:g} m",
             float(dragon.lengths[k]),
             "m",
         )

@@ -8,6 +8,7 @@ Angles are in radians, lengths on a spiral in units of its growth unless a name 
 -1.0 in here means "no such root" and never leaves core.
 
 constants    columns of the arrays, shared numbers       records     values with names that inner loops hand on
+halt         what ends a loop before it is done
 spiral       arc length, next handle, trajectory, chain        fold        where a run ends
 rectangles   signed separation of two                          boxes       which may touch
 route        points and chain on a table of pieces             chain       curves of either kind
@@ -32,6 +33,7 @@ from core.kernels.clearance import bottom_between, clearance_at, clearance_left,
 from core.kernels.constants import *
 from core.kernels.excess import Excess
 from core.kernels.fold import fold_theta, previous_theta
+from core.kernels.halt import Halt
 from core.kernels.marching import March
 from core.kernels.pairs import axis_bend, pair_bends, pair_least, pair_most, pair_rounding
 from core.kernels.rectangles import Witnesses, bench_separation, pair_gaps, pair_separations

@@ -14,6 +14,14 @@ COMPILED: Final[bool]
 LANES_PER_BLOCK: Final[int]
 BOXES_PER_LEAF: Final[int]
 
+# -- what ends a loop --
+
+class Halt:
+    left: float
+    stopped: bool
+    def __init__(self, left: float) -> None: ...
+    def spend(self, work: float) -> bool: ...
+
 # -- on a spiral, in units of its growth --
 
 def spiral_arc(theta: float) -> float: ...
@@ -35,6 +43,7 @@ def spiral_trajectory(
     position: Floats,
     velocity: Floats,
     speed: Floats,
+    halt: Halt,
 ) -> int: ...
 
 # -- on a route --
@@ -91,7 +100,7 @@ def grow_tree(boxes: Floats, tree: Floats) -> None: ...
 class Meetings:
     found: int
     met: int
-    def __init__(self, frames: Floats, boxes: Floats, tree: Floats, order: Ints) -> None: ...
+    def __init__(self, frames: Floats, boxes: Floats, tree: Floats, order: Ints, halt: Halt) -> None: ...
     def find(self, margin: float, exact: bool, chained: bool, most_found: int, most_met: int, pairs: Ints) -> None: ...
 
 # -- scenes --
@@ -123,6 +132,7 @@ class Scene:
     room: int
     edges: int
     against: int
+    halt: Halt
     margin: float
     left_out: int
     left_out_too: int
@@ -139,7 +149,7 @@ class Interval:
 def clearance_at(
     scene: Scene, place: float, benches: int, leaders: int, chain: Floats, boxes: Floats
 ) -> tuple[float, int, int]: ...
-def clearance_left(leaders: int, benches: int, sizes: Floats, chain: Floats, moved: Floats) -> float: ...
+def clearance_left(scene: Scene, leaders: int, benches: int, chain: Floats, moved: Floats) -> float: ...
 def gap_at(scene: Scene, place: float, a: int, b: int, chain: Floats) -> float: ...
 def gap_rate_at(scene: Scene, place: float, a: int, b: int, chain: Floats) -> float: ...
 def bottom_between(scene: Scene, low: float, high: float, a: int, b: int, width: float, chain: Floats) -> float: ...

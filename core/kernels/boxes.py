@@ -59,14 +59,16 @@ class Meetings:
 
     frames: (n, FRAME_COLUMNS), boxes: (n, BOX_COLUMNS), order: (n,), all in the tree's order, which `order` says by
         each row's own number; tree: as grow_tree() fills it
+    halt: what ends find() before it is done
     found, met: how many pairs were found and how many boxes met by find()
     """
 
-    def __init__(self, frames, boxes, tree, order):
+    def __init__(self, frames, boxes, tree, order, halt):
         self.frames = frames
         self.boxes = boxes
         self.tree = tree
         self.order = order
+        self.halt = halt
         self.found = self.met = 0
 
     def find(self, margin, exact, chained, most_found, most_met, pairs):
@@ -79,7 +81,7 @@ class Meetings:
         self.found = self.met = 0
         with cython.nogil:
             for i in range(boxes.shape[0]):
-                if self.found > most_found or self.met > most_met:
+                if self.found > most_found or self.met > most_met or self.halt.stopped:
                     break
                 k = leaves + i // LEAF
                 while True:

@@ -35,7 +35,7 @@ cdef Closest row_clearance(
 
 @cython.locals(i=cython.Py_ssize_t, j=cython.Py_ssize_t)
 cpdef double clearance_left(
-    Py_ssize_t leaders, Py_ssize_t benches, double[:, ::1] sizes, double[:, ::1] chain, double[::1] moved
+    Scene scene, Py_ssize_t leaders, Py_ssize_t benches, double[:, ::1] chain, double[::1] moved
 ) noexcept nogil
 
 @cython.locals(best=Closest)

@@ -70,6 +70,8 @@ def row_clearance(scene, active, handles, chain, boxes):
     growth = scene.curve.growth
     if scene.against == EDGES:  # after the last handle's row, which holds no bench
         for i in range(active):
+            if scene.halt.stopped:
+                break
             best = least_with(i, handles + 1, handles + 1 + scene.edges, best, scene.sizes, chain)
         return best
     if active > 0:  # a first value to compare with
@@ -79,6 +81,8 @@ def row_clearance(scene, active, handles, chain, boxes):
     for i in range(handles):
         widest = max(widest, scene.sizes[i, RADIUS])
     for a in range((active + BLOCK - 1) // BLOCK):
+        if scene.halt.stopped:
+            break
         reach = growth * chain[min(a * BLOCK + BLOCK, handles), THETA] + 3.0 * widest
         for b in range(a, blocks):
             if scene.curve.kind == ON_SPIRAL and growth * chain[b * BLOCK, THETA] > reach + max(best.gap, 0.0):
@@ -92,13 +96,16 @@ def row_clearance(scene, active, handles, chain, boxes):
     return best
 
 
-def clearance_left(leaders, benches, sizes, chain, moved):
+def clearance_left(scene, leaders, benches, chain, moved):
     """The least, over pairs led by the first `leaders` benches, of a separation less what both benches still move [m].
 
     moved: (benches,) [m]; FREE without pairs
     """
+    sizes: cython.double[:, ::1] = scene.sizes
     best = FREE
     for i in range(leaders):
+        if scene.halt.stopped:
+            break
         for j in range(i + 2, benches):
             dx = chain[j, MX] - chain[i, MX]
             dy = chain[j, MY] - chain[i, MY]
@@ -185,7 +192,7 @@ def crossing(scene, low, high, pair, width, of_rate, chain):
         above = gap_at(scene, scene.place - low, pair.first, pair.second, chain) - scene.margin
         below = gap_at(scene, scene.place - high, pair.first, pair.second, chain) - scene.margin
     for i in range(100):
-        if high - low <= width:
+        if high - low <= width or scene.halt.stopped:
             break
         middle = low + (high - low) * above / (above - below)
         if not (low < middle < high) or i % 4 == 3:

@@ -58,9 +58,9 @@ if not cython.compiled:  # for the compiler the same stands in the .pxd
 # suffices. An earlier crossing, of this pair or another, makes the step fail and is found instead. Without a bracket
 # (tolerance 0) touching is the far end itself, if it is certain.
 # TOUCHED_AT_START: the nearest pair is within the margin at the start, for certain. Where rounding hides that: STUCK.
-# STUCK: h is below what could help (LEAST_STEP of the bracket, or rounding), the budget is spent, or the chain folds at
-# the start. proven = travel still holds. touching is then a crossing that could not be bracketed this narrowly, a
-# pair that closes slowly: a wider bracket may do. FREE: none was found.
+# STUCK: h is below what could help (LEAST_STEP of the bracket, or rounding), the budget is spent, the scene's halt is
+# stopped, or the chain folds at the start. proven = travel still holds. touching is then a crossing that could not be
+# bracketed this narrowly, a pair that closes slowly: a wider bracket may do. FREE: none was found.
 # CAPACITY: more handles matter than there are rows; nothing is claimed.
 # graze_...: what was seen on the way, refined but not proven to be the least.
 
@@ -267,7 +267,9 @@ class March:
                 return state
             while self.travel < stop and (self.at_start or self.repeats_ahead(self.interval.scene)):
                 self.proven = self.travel
-                if self.work >= budget or self.h < rounding or self.h < self.least_step():
+                if self.work >= budget or self.interval.scene.halt.stopped:
+                    return STUCK
+                if self.h < rounding or self.h < self.least_step():
                     return STUCK
                 self.steps += 1
                 self.work += STEP_WORK

@@ -294,6 +294,8 @@ def interval_least(scene, interval, active):
     if not stays_beyond(scene, interval, active, rounding.point):
         return Nearest(-FREE, 0.0, 0, 0, 0.0, 0.0, 0)
     for i in range(active):
+        if scene.halt.stopped:
+            return Nearest(-FREE, 0.0, 0, 0, 0.0, 0.0, 0)
         far = reach_of(scene, interval, i, rounding.point)
         first = i + 2
         end = interval.handles
@@ -524,6 +526,8 @@ def band_least(scene, band, leaders):
     if error > CLEAR_SPARE * growth * band.low.after[leaders, THETA]:  # what a strip lays the chains out further by
         return Nearest(-FREE, 0.0, 0, 0, 0.0, 0.0, 0)
     for i in range(leaders):
+        if scene.halt.stopped:
+            return Nearest(-FREE, 0.0, 0, 0, 0.0, 0.0, 0)
         beyond = growth_high * band.high.before[i + 1, THETA]
         beyond = leaders_reach(growth_high, growth * band.low.after[i, THETA], beyond, scene.rings)
         beyond = radius_beyond(growth_high, beyond + 2.0 * error + scene.margin, scene.rings) + error

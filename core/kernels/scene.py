@@ -6,6 +6,7 @@ if not cython.compiled:  # for the compiler the same stands in the .pxd
     from core.kernels.bounds import motion_bounds, route_bounds
     from core.kernels.chain import chain_rounding, place_chain
     from core.kernels.constants import *
+    from core.kernels.halt import Halt
     from core.kernels.rectangles import Witnesses
 
 
@@ -21,6 +22,7 @@ class Scene:
         rest; chains have the same rows
     benches: of the dragon; room: how many of them have a row
     against: BENCHES, each other, or EDGES, the edges at rest alone, on a route only
+    halt: what ends the loops before they are done
     margin: the clearance required [m]; left_out, left_out_too: a pair of benches not asked for, -1 for none
     """
 
@@ -35,6 +37,7 @@ class Scene:
         self.room = min(benches, sizes.shape[0] - 1 - edges)
         self.margin = 0.0
         self.left_out = self.left_out_too = -1
+        self.halt = Halt(NO_LIMIT)
         self.met = Witnesses()
 
 

@@ -310,6 +310,8 @@ class Peak:
                 if travel >= self.stop:
                     break
                 last = travel
+                if scene.halt.stopped or scene.halt.left <= 0.0:
+                    break
                 left = self.stop - travel
                 if scene.curve.kind == ON_SPIRAL and h > APPROACH * left and left > LAST_SAMPLE * step:
                     h = APPROACH * left
@@ -336,6 +338,9 @@ class Peak:
                 scene.curve, scene.place - travel, scene.benches, self.calm, scene.sizes, self.interval.before
             )
             while travel < end:
+                if scene.halt.spend(max(self.interval.handles, 0) + INTERVAL_LINKS):
+                    self.upper = FREE
+                    break
                 self.intervals += 1
                 h = min(h, end - travel)
                 placed = lay_ahead(scene, self.interval, self.calm, placed, scene.place - travel - h)
@@ -371,6 +376,7 @@ class Peak:
     def top_rate(self, scene, travel):
         """The largest |rate| after a travel, 0 if the chain folds; the first handle that has it is self.at."""
         last = lively_chain(scene.curve, scene.place - travel, scene.benches, self.calm, scene.sizes, self.spare)
+        scene.halt.spend(max(last, 0))
         self.at = fastest(last, self.spare)
         return fabs(self.spare[self.at, RATE]) if last >= 0 else 0.0
 
@@ -379,7 +385,7 @@ class Peak:
 
         Bisected on whether the fastest handle still gains, which it stops to do at a kink too.
         """
-        while high - low > PEAK_WIDTH:
+        while high - low > PEAK_WIDTH and not scene.halt.stopped:
             middle = 0.5 * (low + high)
             if middle <= low or middle >= high:
                 break

@@ -319,10 +319,11 @@ def write_handles(block, row, k, position, velocity, speed):
 # Output: position, velocity and speed of every handle, up to the first instant that folds.
 
 
-def spiral_trajectory(growth, thetas, chords, head_speed, position, velocity, speed):
+def spiral_trajectory(growth, thetas, chords, head_speed, position, velocity, speed, halt):
     """Position, velocity and speed of every handle for every head angle; returns the first row that folds, or -1.
 
     thetas: (T,) head angles; chords: (n,) [m]; position, velocity: (T, n + 1, 2); speed: (T, n + 1)
+    halt: what ends it before it is done, with -1
     """
     row = 0
     block = Block(growth)
@@ -331,6 +332,8 @@ def spiral_trajectory(growth, thetas, chords, head_speed, position, velocity, sp
             lanes = block.start(row, thetas, head_speed)
             alike = 0
             for k in range(chords.shape[0]):
+                if halt.stopped:
+                    return -1
                 write_handles(block, row, k, position, velocity, speed)
                 alike = alike + 1 if k > 0 and chords[k] == chords[k - 1] else 0
                 chord2 = (chords[k] / growth) * (chords[k] / growth)

@@ -205,7 +205,7 @@ class Strip:
                 self.proven = self.radius
                 if not self.bounded and self.h < TURNED_WITHIN * self.radius:
                     return TURNED
-                if self.h < least_step or self.work >= budget:
+                if self.h < least_step or self.work >= budget or self.band.low.scene.halt.stopped:
                     return STUCK
                 self.steps += 1
                 state = self.try_step(self.band, inner)

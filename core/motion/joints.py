@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from core.budget import Budget, bounded
 from core.contact.clearance import PROFILE_STEP
 from core.contact.search import SAMPLES
 from core.dance import Dance
@@ -37,12 +38,15 @@ class SharpestBend(Shown):
 
 # Alike benches follow each other's way: the angle between benches (i, i + 1) is that between (m, m + 1) when handle m
 # stood where handle i stands. So m + 2 benches are enough once each handle has passed where the one before it began.
-def sharpest_bend(dance: Dance, *, start: float = 0.0, stop: float | None = None) -> SharpestBend | None:
+@bounded("the sharpest bend was not found")
+def sharpest_bend(
+    dance: Dance, *, start: float = 0.0, stop: float | None = None, budget: Budget | None = None
+) -> SharpestBend | None:
     """The sharpest bend between start and stop [s], None for the end of the run; None for a single bench.
 
     Sampled in steps of PROFILE_STEP of the shortest chord (SAMPLES of them at most), then refined; a peak
     narrower than a step may be missed.
-    raises: InvalidValue; OutsideRun for a stop after the end of the run
+    raises: InvalidValue; OutsideRun for a stop after the end of the run; TooMuchWork
     """
     checked_type("dance", dance, Dance)
     begin, until = dance.span(start, stop)
@@ -54,49 +58,49 @@ def sharpest_bend(dance: Dance, *, start: float = 0.0, stop: float | None = None
     leading = dragon.uniform_from + 2
     front = replace(dance, dragon=dragon.leading(leading))
     found = [
-        _sharpest(dance, grid[: _opened(dance, grid)]),
-        _sharpest(front, grid),
+        _sharpest(dance, grid[: _opened(dance, grid, budget)], budget),
+        _sharpest(front, grid, budget),
     ]
     largest = max(bend.angle for bend in found)
     return min((bend for bend in found if bend.angle >= largest - 2.0 * SAME_ANGLE), key=lambda bend: bend.time)
 
 
-def _opened(dance: Dance, grid: Floats) -> int:
+def _opened(dance: Dance, grid: Floats, budget: Budget | None) -> int:
     """Number of instants until every handle has passed the start of the one before it."""
     ahead = 0.5 * math.pi * dance.dragon.chords.max()  # no arc under a chord is longer
     moved, step = np.zeros(dance.dragon.benches + 1), grid[1] - grid[0]
     for k, time in enumerate(grid):
         if moved.min() > ahead:
             return k + 1
-        moved += step * trajectory(dance, [float(time)]).speed[0]
+        moved += step * trajectory(dance, [float(time)], budget=budget).speed[0]
     return grid.size
 
 
-def _sharpest(dance: Dance, grid: Floats) -> SharpestBend:
+def _sharpest(dance: Dance, grid: Floats, budget: Budget | None) -> SharpestBend:
     step = grid[1] - grid[0]
-    batches = [_angles(dance, grid[k : k + BATCH]) for k in range(0, grid.size, BATCH)]
+    batches = [_angles(dance, grid[k : k + BATCH], budget) for k in range(0, grid.size, BATCH)]
     angle = np.concatenate([batch.max(axis=1) for batch in batches])
     joint = np.concatenate([batch.argmax(axis=1) for batch in batches])
     highest = (dips(np.pad(-angle, 1, constant_values=math.inf), PEAKS_REFINED) - 1).tolist()  # both ends too
     first = int(np.argmax(angle >= angle.max() - SAME_ANGLE))  # where it stays as sharp, as on an arc
-    refined = [_refined(dance, grid[k], step, int(joint[k]), grid) for k in {first, *highest}]
+    refined = [_refined(dance, grid[k], step, int(joint[k]), grid, budget) for k in {first, *highest}]
     largest = max(bend.angle for bend in refined)
     return min((bend for bend in refined if bend.angle >= largest - 2.0 * SAME_ANGLE), key=lambda bend: bend.time)
 
 
-def _refined(dance: Dance, time: float, step: float, joint: int, grid: Floats) -> SharpestBend:
+def _refined(dance: Dance, time: float, step: float, joint: int, grid: Floats, budget: Budget | None) -> SharpestBend:
     low, high = float(grid[0]), float(grid[-1])
     for _ in range(ZOOM_ROUNDS):
         times = np.clip(time + step * ZOOM, low, high)
-        angles = _angles(dance, times)[:, joint]
+        angles = _angles(dance, times, budget)[:, joint]
         best = int(np.argmax(angles >= angles.max() - SAME_ANGLE))
         time, step = float(times[best]), step / 16.0
     return SharpestBend(float(angles[best]), time, (joint, joint + 1))
 
 
-def _angles(dance: Dance, times: Floats) -> Floats:
+def _angles(dance: Dance, times: Floats, budget: Budget | None) -> Floats:
     """Angle at every inner handle [rad]. times: (T,) [s]; returns (T, n - 1) in [0, pi]"""
-    handles = trajectory(dance, times).position
+    handles = trajectory(dance, times, budget=budget).position
     along = handles[:, :-1] - handles[:, 1:]
     front, rear = along[:, :-1], along[:, 1:]
     cross = front[..., 0] * rear[..., 1] - front[..., 1] * rear[..., 0]

@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from core import kernels
+from core.budget import Budget, bounded
 from core.contact.search import Search
 from core.dance import HEAD_SPEED_MAX, HEAD_SPEED_MIN, TIME_MAX, Dance
 from core.errors import InvalidValue, said
@@ -87,7 +88,10 @@ class FirstExcess(Shown):
     handle: int | None
 
 
-def highest_speed(dance: Dance, *, start: float | None = None, stop: float | None = None) -> HighestSpeed:
+@bounded("the highest speed was not found")
+def highest_speed(
+    dance: Dance, *, start: float | None = None, stop: float | None = None, budget: Budget | None = None
+) -> HighestSpeed:
     """The highest speed of any handle over continuous time, with the handles that reach it.
 
     start, stop: [s]; the defaults are 0 (on a route: when it begins, or the whole dragon is on it) and the end of
@@ -95,7 +99,7 @@ def highest_speed(dance: Dance, *, start: float | None = None, stop: float | Non
     Sampled, then every interval of time is proven not to exceed the highest rate by more than RATE_TOLERANCE, and
     every peak met on the way is refined on the exact derivative. At a joint the speed is continuous and its
     derivative jumps, so a peak may be a kink. See core/kernels/speed.py.
-    raises: InvalidValue (stop) for a spiral danced to its fold, where speeds grow without bound
+    raises: InvalidValue (stop) for a spiral danced to its fold, where speeds grow without bound; TooMuchWork
     """
     checked_type("dance", dance, Dance)
     dragon, head_speed, end = dance.dragon, dance.head_speed, dance.end
@@ -105,7 +109,7 @@ def highest_speed(dance: Dance, *, start: float | None = None, stop: float | Non
             "stop", f"stop must be before {end.time:.9f} s, when bench {end.bench} folds and speeds grow without bound"
         )
     begin, until = dance.span(dance.begin if start is None else start, stop)
-    search = Search(dragon, dance.path, 0.0)
+    search = Search(dragon, dance.path, 0.0, budget=budget)
     search.resize(dragon.benches)
     peak = peak_over(search, begin * head_speed, until * head_speed)
     rate, upper, travel = float(peak.rate), float(peak.upper), float(peak.travel)
@@ -122,7 +126,9 @@ def peak_over(search: Search, begin: float, until: float) -> kernels.Peak:
     step = max(SAMPLE_STEP * float(search.extremes[0]), (until - begin) / samples)
     peak = kernels.Peak(search.interval, search.rows[2], _calm(search), begin, until, rounding)
     peak.sample(step)
+    search.budget.afford()
     peak.prove(step, RATE_TOLERANCE, LOOSEST_TOLERANCE, LINKS_BUDGET)
+    search.budget.afford()
     return peak
 
 
@@ -132,38 +138,49 @@ def _calm(search: Search) -> float:
 
 
 def maximum_head_speed(
-    dance: Dance, speed_limit: float, *, start: float | None = None, stop: float | None = None
+    dance: Dance,
+    speed_limit: float,
+    *,
+    start: float | None = None,
+    stop: float | None = None,
+    budget: Budget | None = None,
 ) -> MaximumHeadSpeed:
     """The largest constant head speed at which no handle ever exceeds the limit.
 
     speed_limit: [m/s]; start, stop: [s at a head speed of 1 m/s], as in highest_speed()
     Speeds are proportional to the head's, whatever that of the dance, so this is the limit over the highest rate.
-    raises: InvalidValue
+    raises: InvalidValue; TooMuchWork
     """
     limit = checked_limit(speed_limit)
     checked_type("dance", dance, Dance)
-    found = highest_speed(replace(dance, head_speed=1.0), start=start, stop=stop)
+    found = highest_speed(replace(dance, head_speed=1.0), start=start, stop=stop, budget=budget)
     speed = limit / found.speed
     highest = found.speed_bracket[1]
     bracket = (None if highest is None else limit / highest, speed)
     return MaximumHeadSpeed(speed, bracket, found.speed, found.handles, found.time / speed, found.time)
 
 
+@bounded("when a handle is first too fast was not found")
 def first_excess(
-    dance: Dance, speed_limit: float, *, start: float | None = None, stop: float | None = None
+    dance: Dance,
+    speed_limit: float,
+    *,
+    start: float | None = None,
+    stop: float | None = None,
+    budget: Budget | None = None,
 ) -> FirstExcess | None:
     """When a handle is first faster than the limit; None if that is proven never to happen.
 
     speed_limit: [m/s], exceeded by more than SPEED_ROUNDING of it
     start, stop: as in highest_speed(), but stop may be a fold, towards which speeds grow without bound
     The proof that no handle was faster before is that of core/kernels/excess.py.
-    raises: InvalidValue; OutsideRun
+    raises: InvalidValue; OutsideRun; TooMuchWork
     """
     checked_type("dance", dance, Dance)
     limit = checked_limit(speed_limit)
     dragon, head_speed = dance.dragon, dance.head_speed
     begin, until = dance.span(dance.begin if start is None else start, stop)
-    search = Search(dragon, dance.path, 0.0)
+    search = Search(dragon, dance.path, 0.0, budget=budget)
     search.resize(dragon.benches)
     ratio = limit / head_speed
     outcome, excess = _excess(search, begin * head_speed, until * head_speed, head_speed, ratio)
@@ -180,7 +197,9 @@ def _excess(search: Search, first: float, last: float, head_speed: float, ratio:
     limit, kept = ratio * (1.0 + SPEED_ROUNDING), ratio * (1.0 + SPEED_PROVEN)
     width = max(EXCESS_WIDTH * min(1.0, head_speed), TRAVEL_WIDTH * way, 4.0 * rounding)
     excess = kernels.Excess(search.interval, _calm(search))
-    return excess.run(first, last, step, limit, kept, width, rounding, EXCESS_LINKS), excess
+    outcome = excess.run(first, last, step, limit, kept, width, rounding, EXCESS_LINKS)
+    search.budget.afford()
+    return outcome, excess
 
 
 def _late_excess(search: Search, ratio: float, head_speed: float, proven: float, until: float) -> FirstExcess:

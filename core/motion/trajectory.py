@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from core import kernels, plots
+from core.budget import BATCH_WORK, Budget, bounded
 from core.dance import Dance
 from core.dragon import Dragon
 from core.errors import InvalidValue
@@ -94,13 +95,15 @@ class Trajectory(Shown):
         return axes
 
 
-def trajectory(dance: Dance, times: Floats | Sequence[float] | float) -> Trajectory:
+@bounded("the trajectory was not computed")
+def trajectory(dance: Dance, times: Floats | Sequence[float] | float, *, budget: Budget | None = None) -> Trajectory:
     """Position and velocity of every handle at every time.
 
     times: (T,) or one [s], 0 at the start; at negative times the head is on the outward extension of the spiral, or on
         the part of a route before its s = 0
     returns: see Trajectory; positions good to 1e-12 m, speeds from the rigid links, never from differences
-    raises: OutsideRun (times) after the end of the run, or where the tail would stand before the beginning of a route
+    raises: OutsideRun (times) after the end of the run, or where the tail would stand before the beginning of a route;
+        TooMuchWork
     source: Yang et al., section 2.3, whose eqs. 6-7 divide a sum of speeds by 2 dt where a distance is meant
 
     >>> from core import Spiral
@@ -111,22 +114,35 @@ def trajectory(dance: Dance, times: Floats | Sequence[float] | float) -> Traject
     (224, 2)
     """
     checked_type("dance", dance, Dance)
-    dragon, path, head_speed = dance.dragon, dance.path, dance.head_speed
-    asked = dance.times(times)
-    time = asked.reshape(-1)
-    shape = (time.size, dragon.benches + 1)
+    dragon, asked, budget = dance.dragon, dance.times(times), budget or Budget()
+    time, handles = asked.reshape(-1), dragon.benches + 1
+    shape = (time.size, handles)
     columns = position, velocity, speed = np.empty((*shape, 2)), np.empty((*shape, 2)), np.empty(shape)
+    # on a spiral whole blocks of instants, as the kernels solve them together
+    block = 1 if isinstance(dance.path, Route) else kernels.LANES_PER_BLOCK
+    batch = block * max(1, BATCH_WORK // (block * handles))
+    for first in range(0, time.size, batch):
+        rows = slice(first, first + batch)
+        budget.afford(float(handles * time[rows].size))
+        folded = _fill(dance, budget, time[rows], position[rows], velocity[rows], speed[rows])
+        budget.look()
+        if folded >= 0:
+            raise dance.after_the_end(asked, first + folded)
+    return Trajectory(asked, *(columns if asked.ndim else (column[0] for column in columns)), dance=dance)
+
+
+def _fill(dance: Dance, budget: Budget, time: Floats, position: Floats, velocity: Floats, speed: Floats) -> int:
+    """Fills in a trajectory at so many times (T,) [s]; returns the first one after a fold, -1 without."""
+    dragon, path, head_speed = dance.dragon, dance.path, dance.head_speed
     if isinstance(path, Route):
         sizes = np.zeros((dragon.benches, kernels.SIZE_COLUMNS))
         sizes[:, kernels.CHORD] = dragon.chords
         chain = np.empty((dragon.benches + 1, kernels.CHAIN_COLUMNS))
         kernels.route_trajectory(path.table, time * head_speed, head_speed, sizes, chain, position, velocity, speed)
-        return Trajectory(asked, *(column.reshape(*asked.shape, *column.shape[1:]) for column in columns), dance=dance)
+        return -1
     head = np.maximum(path.theta(time * head_speed), dance.end.theta or 0.0)
-    folded = kernels.spiral_trajectory(path.growth, head, dragon.chords, head_speed, position, velocity, speed)
-    if folded >= 0:
-        raise dance.after_the_end(asked, folded)
-    return Trajectory(asked, *(column.reshape(*asked.shape, *column.shape[1:]) for column in columns), dance=dance)
+    chords, halt = dragon.chords, budget.halt
+    return kernels.spiral_trajectory(path.growth, head, chords, head_speed, position, velocity, speed, halt)
 
 
 def bench_poses(handles: Floats) -> Floats:

@@ -16,6 +16,7 @@ from math import comb
 import numpy as np
 
 from core import kernels
+from core.budget import Budget
 from core.errors import InvalidValue
 from core.values import Floats
 
@@ -36,17 +37,18 @@ CUBICS_MAX = 100_000
 CUBIC, CREST = (float(kernels.PIECE_KINDS.index(kind)) for kind in ("cubic", "crest"))
 
 
-def cut(name: str, coefficients: Floats, ends: Floats) -> Floats:
+def cut(name: str, coefficients: Floats, ends: Floats, budget: Budget) -> Floats:
     """Rows of the kernels' table for cubics r(t) = sum c_k t^k on [0, end], in order, each cut into as many as needed.
 
     coefficients: (N, 4, 2), ends: (N,); returns (rows, PIECE_COLUMNS), each from S_START 0 to S_END, its length
-    raises: InvalidValue (name) if a curve comes to rest or needs more than CUBICS_MAX
+    raises: InvalidValue (name) if a curve comes to rest or needs more than CUBICS_MAX; Halted
     """
     piece, place = np.arange(len(ends)), np.zeros(len(ends))
     lengths = _arcs(coefficients, ends)
     done: list[Floats] = []
     order: list[tuple[Floats, Floats]] = []
     while len(ends):
+        budget.afford(float(len(ends)))
         half = 0.5 * ends
         halves = np.stack([coefficients, _shifted(coefficients, half)], axis=1)
         arcs = _arcs(halves.reshape(-1, 4, 2), np.repeat(half, 2)).reshape(-1, 2)

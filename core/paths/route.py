@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from core import kernels
+from core.budget import Budget, Halted
 from core.errors import InvalidValue, said
 from core.paths.cubics import cut
 from core.paths.path import HeadState
@@ -94,7 +95,7 @@ class Line(Shown):
     def __post_init__(self) -> None:
         _settle(self, start=checked_point("line.start", self.start), end=checked_point("line.end", self.end))
 
-    def rows(self, name: str, s: float) -> Floats:
+    def rows(self, name: str, s: float, budget: Budget) -> Floats:
         """Rows of the kernels' table from arc length s on."""
         (x, y), end = self.start, self.end
         length = math.hypot(end[0] - x, end[1] - y)
@@ -120,7 +121,7 @@ class Arc(Shown):
         _settle(self, start_angle=_checked_angle("arc.start_angle", self.start_angle))
         _settle(self, sweep=_checked_angle("arc.sweep", self.sweep))
 
-    def rows(self, name: str, s: float) -> Floats:
+    def rows(self, name: str, s: float, budget: Budget) -> Floats:
         """Rows of the kernels' table from arc length s on."""
         (x, y), radius, angle, sweep = self.centre, self.radius, self.start_angle, self.sweep
         _refuse_short(name, radius * abs(sweep))
@@ -149,7 +150,7 @@ class Coil(Shown):
         _settle(self, end_turns=checked_number("coil.end_turns", self.end_turns, "turns", 0.0, 1e5))
         _settle(self, rotation=_checked_angle("coil.rotation", self.rotation))
 
-    def rows(self, name: str, s: float) -> Floats:
+    def rows(self, name: str, s: float, budget: Budget) -> Floats:
         """Rows of the kernels' table from arc length s on."""
         growth = self.pitch / (2.0 * math.pi)
         start, end = 2.0 * math.pi * self.start_turns, 2.0 * math.pi * self.end_turns
@@ -189,7 +190,7 @@ class Waypoints(Shown):
     def _line(self) -> str:
         return f"{len(self.points)} points from {self.points[0]!r} to {self.points[-1]!r} m"
 
-    def rows(self, name: str, s: float) -> Floats:
+    def rows(self, name: str, s: float, budget: Budget) -> Floats:
         """Rows of the kernels' table from arc length s on: as many cubics as exact arc lengths need."""
         from scipy.interpolate import CubicSpline  # type: ignore[import-untyped]
 
@@ -206,7 +207,7 @@ class Waypoints(Shown):
             )
         knots = np.concatenate([[0.0], np.cumsum(steps)])
         spline = CubicSpline(knots, points, bc_type=headings)
-        rows = cut(f"{name}.points", np.moveaxis(spline.c[::-1], 1, 0), np.diff(knots))
+        rows = cut(f"{name}.points", np.moveaxis(spline.c[::-1], 1, 0), np.diff(knots), budget)
         ends = np.cumsum([s, *rows[:, 2]])
         rows[:, 1], rows[:, 2] = ends[:-1], ends[1:]
         return rows
@@ -234,13 +235,14 @@ class Route(Shown):
     tail_begin: least s of a handle [m]; None if the first piece coils inwards: it continues outwards for the tail
     calm_beginning: the curvature does not fall along the first piece, so no handle there is faster than its leader
     slide: largest distance along the path of the head's point from its s, by rounding and at joints [m]
-    raises: InvalidValue naming the piece or the joint and its gap
+    raises: InvalidValue naming the piece or the joint and its gap; TooMuchWork
     """
 
     # For the kernels: places are minus s, and a search may look a little past the end.
     growth, place, limit = 1.0, 0.0, math.inf
 
-    def __init__(self, pieces: Sequence[Piece], start: float = 0.0) -> None:
+    def __init__(self, pieces: Sequence[Piece], start: float = 0.0, *, budget: Budget | None = None) -> None:
+        budget = budget or Budget()
         self.pieces: tuple[Piece, ...] = tuple(listed("path.pieces", pieces, "a list of pieces"))
         if not self.pieces:
             raise InvalidValue("path.pieces", "path.pieces must hold at least one piece")
@@ -248,11 +250,16 @@ class Route(Shown):
         rows: list[Floats] = []
         joints, count, s = [], 0, -self.start
         for k, piece in enumerate(self.pieces):
+            name = f"path.pieces.{k}"
             if not isinstance(piece, Piece):
-                name = f"path.pieces.{k}"
                 raise InvalidValue(name, f"{name} must be a Line, Arc, Coil or Waypoints, got {piece!r}")
             joints.append((s, count))
-            rows.append(piece.rows(f"path.pieces.{k}", s))
+            try:
+                budget.look()
+                rows.append(piece.rows(name, s, budget))
+            except Halted as halted:
+                rule = "must come before fewer pieces, or have fewer points: the route was not laid out {then}"
+                raise budget.too_much(name, rule, k, "") from halted
             rows[-1][:, kernels.PART] = k
             count, s = count + len(rows[-1]), float(rows[-1][-1, 2])
         self.table = np.concatenate(rows)

@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from core import kernels
+from core.budget import Budget
 from core.errors import InvalidValue, TooLarge
 from core.shapes.rectangles import POSE, SIZE, checked_array, checked_columns
 from core.values import SIZE_MAX, Floats, checked_number
@@ -45,7 +46,7 @@ def checked_benches(
 
 # If two rectangles lie within the margin, so do their upright boxes along x and along y; grown by half the margin on
 # every side, these boxes meet.
-def meeting_pairs(frame: Floats, margin: float, chained: bool, *, exact: bool) -> Pairs:
+def meeting_pairs(frame: Floats, margin: float, chained: bool, *, exact: bool, budget: Budget | None = None) -> Pairs:
     """Pairs (P, 2), a < b, whose upright boxes meet; if exact, only those within the margin, rounded up.
 
     frame: rows of rectangles.frames()
@@ -62,10 +63,12 @@ def meeting_pairs(frame: Floats, margin: float, chained: bool, *, exact: bool) -
     kernels.grow_tree(boxes, tree)
     most = (PAIRS_MAX, CANDIDATES_MAX) if exact else (CROSS_CANDIDATES_MAX, CROSS_CANDIDATES_MAX)
     words = "within the margin" if exact else "close by", "close by"
-    meetings = kernels.Meetings(frame, boxes, tree, order)
+    budget = budget or Budget()
+    meetings = kernels.Meetings(frame, boxes, tree, order, budget.halt)
     pairs = np.empty((2 * len(frame), 2), dtype=np.int64)
     while True:
         meetings.find(margin, exact, chained, *most, pairs)
+        budget.afford(float(meetings.met))
         counts = (meetings.found, meetings.met)
         for count, limit, what in zip(counts, most, words, strict=True):
             if count > limit:

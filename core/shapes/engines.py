@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from core import kernels
+from core.budget import Budget
 from core.errors import InvalidValue, said
 from core.shapes.angle_sum import ANGLE_TOLERANCE, angle_sum_overlap, angle_sums, paper_corners
 from core.shapes.broad_phase import CROSS_CANDIDATES_MAX, ROUNDING, Pairs, meeting_pairs
@@ -43,14 +44,17 @@ def able(margin: float) -> list[Engine]:
     return [engine for engine in Engine if margin == 0.0 or engine is not Engine.ANGLE_SUM]
 
 
-def found_pairs(engine: Engine, poses: Floats, sizes: Floats, margin: float, *, chained: bool) -> list[Pairs]:
+def found_pairs(
+    engine: Engine, poses: Floats, sizes: Floats, margin: float, *, chained: bool, budget: Budget | None = None
+) -> list[Pairs]:
     """The pairs (P, 2) within the margin that an engine finds at each instant: a < b, sorted.
 
     poses: (T, n, 3); sizes: (n, 2); margin: [m]; chained: leave out neighbours
     raises: InvalidValue for the angle-sum rule with a margin; TooLarge as meeting_pairs()
     """
-    found = []
-    for pairs in FINDERS[engine](poses, sizes, margin, chained):
+    found, budget = [], budget or Budget()
+    for pairs in FINDERS[engine](poses, sizes, margin, chained, budget):
+        budget.afford()
         kept = pairs[pairs[:, 1] - pairs[:, 0] != 1] if chained else pairs
         found.append(kept[np.lexsort((kept[:, 1], kept[:, 0]))])
     return found
@@ -59,17 +63,17 @@ def found_pairs(engine: Engine, poses: Floats, sizes: Floats, margin: float, *, 
 # -- separating axis ------------------------------------------------------------------------------------------
 
 
-def _separating_axis(poses: Floats, sizes: Floats, margin: float, chained: bool) -> Iterator[Pairs]:
+def _separating_axis(poses: Floats, sizes: Floats, margin: float, chained: bool, budget: Budget) -> Iterator[Pairs]:
     reach = margin + ROUNDING * (margin + 2.0 * sizes.sum(axis=1).max(initial=0.0))
     for frame in frames(poses, sizes):
-        pairs = meeting_pairs(frame, reach, chained, exact=True)
+        pairs = meeting_pairs(frame, reach, chained, exact=True, budget=budget)
         yield pairs[frames_separation(frame[pairs[:, 0]], frame[pairs[:, 1]]).separation <= margin]
 
 
-def _refuse_hopeless(frame: Floats, margin: float, chained: bool) -> None:
+def _refuse_hopeless(frame: Floats, margin: float, chained: bool, budget: Budget) -> None:
     """raises: TooLarge if too many boxes meet for FCL and shapely, which search for pairs themselves"""
     if len(frame) ** 2 > 2 * CROSS_CANDIDATES_MAX:
-        meeting_pairs(frame, margin, chained, exact=False)
+        meeting_pairs(frame, margin, chained, exact=False, budget=budget)
 
 
 # -- FCL ------------------------------------------------------------------------------------------------------
@@ -79,16 +83,16 @@ def _refuse_hopeless(frame: Floats, margin: float, chained: bool) -> None:
 # of a rectangle are the rectangle made longer by the margin at both ends, the same made wider, and four discs
 # around the corners, so b is within the margin of a exactly if its box meets one of two boxes or four spheres. The
 # manager searches boxes grown by half the margin on every side; they contain all points within half the margin.
-def _fcl(poses: Floats, sizes: Floats, margin: float, chained: bool) -> Iterator[Pairs]:
+def _fcl(poses: Floats, sizes: Floats, margin: float, chained: bool, budget: Budget) -> Iterator[Pairs]:
     frame = frames(poses, sizes)
     with _KEPT.boxes(sizes + margin) as boxes:
         for rows, pose in zip(frame, poses, strict=True):
-            _refuse_hopeless(rows, margin, chained)
-            pairs = boxes.meeting(pose)
+            _refuse_hopeless(rows, margin, chained, budget)
+            pairs = boxes.meeting(pose, budget)
             if margin > 0.0:
                 if chained:  # Neighbours are all among them, and testing a pair takes six more bodies.
                     pairs = pairs[pairs[:, 1] - pairs[:, 0] != 1]
-                near = [_fcl_within(pose[pair], sizes[pair], margin) for pair in pairs]
+                near = [_fcl_within(pose[pair], sizes[pair], margin, budget) for pair in pairs]
                 pairs = pairs[np.array(near, dtype=bool)]
             yield pairs
 
@@ -111,10 +115,11 @@ class _FclBoxes:
     # only 661 pairs of upright boxes. An exception in the callback would vanish. The bodies that it gets are new
     # wrappers, so only the geometries of a contact identify the benches. fcl.collide() makes a result of its own each
     # time and only appends the contact to ours, so one result can gather all contacts.
-    def meeting(self, poses: Floats) -> Pairs:
+    def meeting(self, poses: Floats, budget: Budget) -> Pairs:
         """Pairs (P, 2), a < b, that overlap, neighbours among them. poses: (n, 3) x [m], y [m], heading [rad]"""
         import fcl
 
+        halt = budget.halt
         turns, places = np.zeros((len(poses), 4)), np.zeros((len(poses), 3))
         turns[:, 0], turns[:, 3] = np.cos(0.5 * poses[:, 2]), np.sin(0.5 * poses[:, 2])
         places[:, :2] = poses[:, :2]
@@ -128,9 +133,10 @@ class _FclBoxes:
 
         def keep(first: object, second: object, _: object) -> bool:
             collide(first, second, request, result)
-            return False
+            return halt.stopped
 
         manager.collide(None, keep)
+        budget.look()
         number = {id(box): k for k, box in enumerate(self.boxes)}
         pairs = np.array([(number[id(c.o1)], number[id(c.o2)]) for c in result.contacts], dtype=np.int64)
         return np.sort(pairs.reshape(-1, 2), axis=1)
@@ -182,9 +188,10 @@ def _fcl_body(shape: object, x: float, y: float, heading: float) -> object:
     return fcl.CollisionObject(shape, fcl.Transform(turn, np.array([x, y, 0.0])))
 
 
-def _fcl_within(poses: Floats, sizes: Floats, margin: float) -> bool:
+def _fcl_within(poses: Floats, sizes: Floats, margin: float, budget: Budget) -> bool:
     import fcl
 
+    budget.look()
     (length, width), other = sizes[0].tolist(), _fcl_body(_fcl_box(*sizes[1].tolist()), *poses[1].tolist())
     grown = [(length + 2.0 * margin, width), (length, width + 2.0 * margin)] if margin > 0.0 else [(length, width)]
     round_corners = corners(poses[0], sizes[0]).tolist() if margin > 0.0 else []
@@ -199,12 +206,12 @@ def _fcl_within(poses: Floats, sizes: Floats, margin: float) -> bool:
 
 
 # Prepared geometries crash the process when threads share them; these live and die in this call.
-def _shapely(poses: Floats, sizes: Floats, margin: float, chained: bool) -> Iterator[Pairs]:
+def _shapely(poses: Floats, sizes: Floats, margin: float, chained: bool, budget: Budget) -> Iterator[Pairs]:
     import shapely
 
     frame = frames(poses, sizes)
     for rows, polygons in zip(frame, shapely.polygons(corners(poses, sizes)), strict=True):
-        _refuse_hopeless(rows, margin, chained)
+        _refuse_hopeless(rows, margin, chained, budget)
         asking = polygons
         if margin > 0.0:
             reach = margin + ROUNDING * (margin + np.abs(rows).max(initial=0.0))
@@ -244,20 +251,23 @@ def inside(rings: Sequence[ArrayLike], points: Floats) -> NDArray[np.bool_]:
 # -- the paper's angle-sum rule -------------------------------------------------------------------------------
 
 
-def _angle_sum(poses: Floats, sizes: Floats, margin: float, chained: bool) -> Iterator[Pairs]:
+def _angle_sum(poses: Floats, sizes: Floats, margin: float, chained: bool, budget: Budget) -> Iterator[Pairs]:
     if margin != 0.0:
         raise InvalidValue(
             "margin",
             f"margin must be 0 m for the angle-sum rule, which knows only inside and outside, got {said(margin)} m",
         )
     for frame, corner in zip(frames(poses, sizes), paper_corners(poses, sizes), strict=True):
-        pairs = meeting_pairs(frame, margin, chained, exact=False)
+        pairs = meeting_pairs(frame, margin, chained, exact=False, budget=budget)
         batches = [pairs[k : k + ANGLE_BATCH] for k in range(0, len(pairs), ANGLE_BATCH)]
-        seen = [angle_sum_overlap(corner[batch[:, 0]], corner[batch[:, 1]]) for batch in batches]
+        seen = []
+        for batch in batches:
+            budget.look()
+            seen.append(angle_sum_overlap(corner[batch[:, 0]], corner[batch[:, 1]]))
         yield pairs[np.concatenate(seen)] if seen else pairs
 
 
-FINDERS: dict[Engine, Callable[[Floats, Floats, float, bool], Iterator[Pairs]]] = {
+FINDERS: dict[Engine, Callable[[Floats, Floats, float, bool, Budget], Iterator[Pairs]]] = {
     Engine.SEPARATING_AXIS: _separating_axis,
     Engine.FCL: _fcl,
     Engine.SHAPELY: _shapely,
@@ -278,7 +288,7 @@ def _judged_by_separating_axis(poses: Floats, sizes: Floats, margin: float) -> l
 
 
 def _judged_by_fcl(poses: Floats, sizes: Floats, margin: float) -> list[bool]:
-    return [_fcl_within(pair, sizes, margin) for pair in poses]
+    return [_fcl_within(pair, sizes, margin, Budget()) for pair in poses]
 
 
 def _judged_by_shapely(poses: Floats, sizes: Floats, margin: float) -> list[bool]:

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
+from core.budget import Budget, bounded
 from core.errors import InvalidValue
 from core.shapes.broad_phase import Pairs, checked_benches
 from core.shapes.engines import JUDGES, Engine, able, found_pairs
@@ -58,6 +59,7 @@ class Verdict(Shown):
     after: bool
 
 
+@bounded("which of them overlap was not found")
 def overlaps(
     poses: ArrayLike,
     lengths: ArrayLike,
@@ -66,6 +68,7 @@ def overlaps(
     engine: Engine = Engine.SEPARATING_AXIS,
     margin: float = 0.0,
     chained: bool = True,
+    budget: Budget | None = None,
 ) -> Overlaps:
     """All pairs with separation <= margin; if chained, without neighbours in the chain.
 
@@ -74,7 +77,7 @@ def overlaps(
 
     poses: (n, 3) x [m], y [m], heading [rad]; lengths, widths: (n,) [m]
     raises: InvalidValue with the field benches.K.x, y, heading, length or width, margin or engine; TooLarge with the
-        field benches if the overlapping pairs exceed PAIRS_MAX or the work exceeds CANDIDATES_MAX
+        field benches if the overlapping pairs exceed PAIRS_MAX or the work exceeds CANDIDATES_MAX; TooMuchWork
 
     >>> overlaps([[0, 0, 0], [3, 0, 0], [1, 0, 1.57]], [2.2] * 3, [0.3] * 3).pairs
     array([[0, 2]])
@@ -83,20 +86,30 @@ def overlaps(
     if not isinstance(engine, str) or engine not in list(Engine):
         words = ", ".join(Engine)
         raise InvalidValue("engine", f"engine must be one of {words}, got {engine!r:.60}")
-    (pairs,) = found_pairs(engine, pose[None], size, margin, chained=chained)
+    (pairs,) = found_pairs(engine, pose[None], size, margin, chained=chained, budget=budget)
     frame = frames(pose, size)
     return Overlaps(pairs, frames_separation(frame[pairs[:, 0]], frame[pairs[:, 1]]))
 
 
+@bounded("which of them overlap was not found by all engines")
 def cross_check(
-    poses: ArrayLike, lengths: ArrayLike, widths: ArrayLike, *, margin: float = 0.0, chained: bool = True
+    poses: ArrayLike,
+    lengths: ArrayLike,
+    widths: ArrayLike,
+    *,
+    margin: float = 0.0,
+    chained: bool = True,
+    budget: Budget | None = None,
 ) -> CrossCheck:
     """The verdicts of the four engines at one instant (three if the margin is not 0).
 
     poses, lengths, widths, raises: as overlaps(), with CROSS_CANDIDATES_MAX
     """
     pose, size, margin = checked_benches(poses, lengths, widths, margin)
-    found = {engine: found_pairs(engine, pose[None], size, margin, chained=chained)[0] for engine in able(margin)}
+    found = {
+        engine: found_pairs(engine, pose[None], size, margin, chained=chained, budget=budget)[0]
+        for engine in able(margin)
+    }
     codes = {engine: pairs[:, 0] * len(pose) + pairs[:, 1] for engine, pairs in found.items()}
     some = np.unique(np.concatenate(list(codes.values())))
     every = some[np.all([np.isin(some, code) for code in codes.values()], axis=0)]

@@ -219,7 +219,7 @@ def test_a_wrong_path_or_method_is_a_problem(
 @pytest.mark.parametrize(
     ("query", "name", "words"),
     [
-        ("body_length=0.001&overhang=0", "body_length", "their minimum pitch was not found by 4e+07 steps of work"),
+        ("body_length=0.001&overhang=0", "body_length", "their minimum pitch was not found within 4e+07 steps of work"),
         ("body_length=0.001&overhang=0&turning_diameter=6", "body_length", "the turning circle 6 m across"),
     ],
 )

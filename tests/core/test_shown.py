@@ -86,9 +86,10 @@ GIVEN = {f"{type(value).__name__} {k}": value for k, value in enumerate(INPUTS)}
 
 
 def public() -> list[type]:
-    """The public classes but enumerations, errors and names of kinds."""
+    """The public classes but enumerations, errors, names of kinds and the budget, which is no result."""
     every = (getattr(core, name) for name in core.__all__)
-    return [one for one in every if isinstance(one, type) and not issubclass(one, (Enum, BenchDragonError))]
+    others = (Enum, BenchDragonError, core.Budget)
+    return [one for one in every if isinstance(one, type) and not issubclass(one, others)]
 
 
 def inside(hint: Any) -> Iterator[Any]:

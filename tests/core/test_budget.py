@@ -1,0 +1,178 @@
+"""One budget through every question: spent or stopped from another thread, it ends any of them."""
+
+from __future__ import annotations
+
+import math
+import threading
+import time
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+
+import core
+from core import (
+    Area,
+    Budget,
+    Dance,
+    Dragon,
+    Line,
+    Route,
+    Spiral,
+    TooMuchWork,
+    Turn,
+    Venue,
+    Waypoints,
+    bench_poses,
+    check,
+    clearance_profile,
+    contact_check,
+    cross_check,
+    first_contact,
+    first_excess,
+    highest_speed,
+    kernels,
+    least_clearance,
+    maximum_head_speed,
+    minimum_pitch,
+    overlaps,
+    pitch_check,
+    pitch_scan,
+    sharpest_bend,
+    shortest_turn,
+    trajectory,
+    venue_clearance,
+)
+from core.errors import spoken
+from tests.core.every_digit import every_digit
+
+# A question ends this soon after it was stopped, however busy the machine is [s].
+ENDS_WITHIN = 1.0
+
+SPIRAL = Dance(Dragon(30), Spiral(0.7, 8.0))
+TURN = Dance(Dragon(30), Turn(1.7))
+SQUARE = Venue(Area("square", (((-30.0, -30.0), (30.0, -30.0), (30.0, 30.0), (-30.0, 30.0), (-30.0, -30.0)),)))
+POSES = bench_poses(trajectory(SPIRAL, 100.0).position)
+SIZES = (SPIRAL.dragon.lengths, SPIRAL.dragon.widths)
+PITCHES = np.linspace(0.5, 0.6, 3)
+LANE = Waypoints(((0, 0), (6, 1), (11, 6), (9, 13)))
+CONTACT = first_contact(Dance(Dragon(), Spiral()))
+
+Question = Callable[[Budget | None], Any]
+# Every question that takes a budget.
+QUESTIONS: dict[str, Question] = {
+    "trajectory": lambda budget: trajectory(SPIRAL, [0.0, 9.0], budget=budget),
+    "trajectory on a route": lambda budget: trajectory(TURN, [0.0, 9.0], budget=budget),
+    "first_contact": lambda budget: first_contact(SPIRAL, budget=budget),
+    "clearance_profile": lambda budget: clearance_profile(SPIRAL, [0.0, 9.0, 100.0], budget=budget),
+    "least_clearance": lambda budget: least_clearance(SPIRAL, budget=budget),
+    "minimum_pitch": lambda budget: minimum_pitch(Dragon(30), budget=budget),
+    "pitch_scan": lambda budget: pitch_scan(Dragon(30), PITCHES, budget=budget),
+    "shortest_turn": lambda budget: shortest_turn(Dragon(12), 1.7, budget=budget),
+    "highest_speed": lambda budget: highest_speed(TURN, budget=budget),
+    "maximum_head_speed": lambda budget: maximum_head_speed(TURN, 2.0, budget=budget),
+    "first_excess": lambda budget: first_excess(TURN, 1.5, budget=budget),
+    "sharpest_bend": lambda budget: sharpest_bend(TURN, budget=budget),
+    "check": lambda budget: check(SPIRAL, venue=SQUARE, budget=budget),
+    "venue_clearance": lambda budget: venue_clearance(SPIRAL, SQUARE, stop=50.0, budget=budget),
+    "overlaps": lambda budget: overlaps(POSES, *SIZES, budget=budget),
+    "cross_check": lambda budget: cross_check(POSES, *SIZES, budget=budget),
+    "contact_check": lambda budget: contact_check(CONTACT, Dance(Dragon(), Spiral()), budget=budget),
+    "pitch_check": lambda budget: pitch_check(minimum_pitch(Dragon()), Dragon(), budget=budget),
+    "Route": lambda budget: Route([LANE], budget=budget).table,
+}
+ALL = pytest.mark.parametrize("name", QUESTIONS)
+
+
+@ALL
+def test_a_stopped_question_ends_and_says_what_was_too_much(name: str) -> None:
+    budget = Budget()
+    budget.stop()
+    with pytest.raises(TooMuchWork, match=r" before it was stopped") as caught:
+        QUESTIONS[name](budget)
+    error = caught.value
+    assert error.stopped
+    assert error.message.startswith(f"{spoken(error.field)} must ")
+    assert error.named("renamed").stopped
+
+
+@ALL
+def test_a_question_whose_work_is_spent_ends_and_says_how_much_that_was(name: str) -> None:
+    budget = Budget(1.0)
+    budget.spend(1.0)
+    with pytest.raises(TooMuchWork, match=r" within 1 steps of work, each a bench placed or a pair of ben") as caught:
+        QUESTIONS[name](budget)
+    assert not caught.value.stopped
+    assert not caught.value.named("renamed").stopped
+
+
+@ALL
+def test_a_budget_that_is_large_enough_changes_no_digit_and_is_spent(name: str) -> None:
+    budget = Budget(1e12)
+    assert repr(every_digit(QUESTIONS[name](budget))) == repr(every_digit(QUESTIONS[name](None)))
+    assert 0.0 < 1e12 - budget.left < 1e9
+
+
+def test_every_public_question_about_a_dance_or_a_dragon_takes_a_budget() -> None:
+    asked = {name.split()[0] for name in QUESTIONS}
+    taking = {
+        name
+        for name in core.__all__
+        if "budget" in getattr(getattr(core, name), "__annotations__", {})
+        or (name == "Route" and "budget" in Route.__init__.__annotations__)
+    }
+    assert taking == asked
+
+
+def stopped_after(seconds: float, question: Callable[[Budget], Any]) -> tuple[TooMuchWork, float]:
+    """The error of a question that another thread stops after so long, and how long after that it came [s]."""
+    budget, stopped = Budget(), [math.inf]
+
+    def stop() -> None:
+        stopped[0] = time.perf_counter()
+        budget.stop()
+
+    timer = threading.Timer(seconds, stop)
+    timer.start()
+    try:
+        with pytest.raises(TooMuchWork) as caught:
+            question(budget)
+        return caught.value, time.perf_counter() - stopped[0]
+    finally:
+        timer.join()
+
+
+TINY = Dragon(6308, head_length=0.001, body_length=0.001, overhang=0.0)
+WIDE_TURN = Dance(Dragon(2000), Turn(10.0, 100.0, start_turns=200))
+LONG = Dance(Dragon(20_000), Route([Line((0.0, 0.0), (1e5, 0.0))], start=0.0))
+# Questions that take long, and when they are stopped [s].
+LONG_QUESTIONS: dict[str, tuple[float, Question]] = {
+    "head speed in a turn of 200 m": (0.1, lambda budget: maximum_head_speed(WIDE_TURN, 2.0, budget=budget)),
+    "pitch of benches of a millimetre, soon": (0.1, lambda budget: minimum_pitch(TINY, budget=budget)),
+    "pitch of benches of a millimetre": (1.0, lambda budget: minimum_pitch(TINY, budget=budget)),
+    "shortest turn of a short head": (
+        0.1,
+        lambda budget: shortest_turn(Dragon(head_length=1.001), 1.7, ratio=1.0, budget=budget),
+    ),
+    "trajectory of 20,000 benches": (0.1, lambda budget: trajectory(LONG, np.arange(6e4, 6.1e4), budget=budget)),
+    "profile of 20,000 benches": (0.1, lambda budget: clearance_profile(LONG, np.arange(6e4, 7e4), budget=budget)),
+}
+
+
+@pytest.mark.skipif(not kernels.COMPILED, reason="the kernels run uncompiled")
+@pytest.mark.parametrize("name", LONG_QUESTIONS)
+def test_a_long_question_ends_soon_after_another_thread_stopped_it(name: str) -> None:
+    error, late = stopped_after(*LONG_QUESTIONS[name])
+    assert error.stopped
+    assert late < ENDS_WITHIN
+
+
+def test_a_budget_may_be_larger_or_smaller_than_a_question_has_by_itself(monkeypatch: pytest.MonkeyPatch) -> None:
+    budget = Budget(1e12)
+    found = minimum_pitch(Dragon(20), budget=budget)
+    spent = 1e12 - budget.left
+    monkeypatch.setattr(core.design.ways, "PITCH_WORK", 0.5 * spent)
+    with pytest.raises(TooMuchWork, match=rf"within {0.5 * spent:g} steps"):
+        minimum_pitch(Dragon(20))
+    assert every_digit(minimum_pitch(Dragon(20), budget=Budget(2.0 * spent))) == every_digit(found)
