@@ -39,4 +39,4 @@ def test_a_field_that_speaks_of_a_touch_speaks_of_the_margin_too(model: str, nam
 
 def test_when_nothing_is_proven_clear_is_said() -> None:
     words = Certificate.model_fields["clear_until"].description or ""
-    assert "null where no time is proven clear" in words
+    assert "null if no time is proven clear" in words
