@@ -50,4 +50,5 @@ def _unfit(parameter: Any, quoted: str) -> str:
     if " range" in kind.name and re.fullmatch(r"[-+]?\d+", value):
         return f"{option} must be from {kind.min} to {kind.max}, got {value}"
     wrong = {"type": "int_parsing" if "int" in kind.name else "float_parsing", "input": value}
-    return option + message({**wrong, "loc": ("query", parameter.name)}, None).removeprefix(parameter.name)
+    words = message({**wrong, "loc": ("query", parameter.name)}, None)
+    return f"{option}{words.removeprefix(parameter.name)}"
