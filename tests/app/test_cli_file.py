@@ -121,13 +121,21 @@ def test_a_name_that_no_question_knows_is_refused(tmp_path: Path) -> None:
         ("list.json", "[1]", "list.json must hold a JSON object, got [1]"),
         ("dance.toml", "dragon = 5", "dragon must be a table, got 5"),
         ("dance.json", '{"dragon": 5}', "dragon must be a JSON object, got 5"),
-        ("dance.json", '{"dragon": {"widths": 0.3}}', "dragon.widths must be a list of numbers [m], got 0.3"),
+        (
+            "dance.json",
+            '{"dragon": {"lengths": [2], "widths": 0.3, "overhangs": [0.2]}}',
+            "dragon.widths must be a list of numbers [m], got 0.3",
+        ),
         ("dance.json", '{"path": {"pitch": -1}}', "path.pitch must be at least 0.001 m, got -1 m"),
         ("dance.toml", 'venue = "yard.geojson"', "venue of dance.toml: yard.geojson: No such file or directory"),
         ("dance.txt", "", "dance.txt must end in .toml or .json, got .txt"),
-        ("dance.json", '{"path": {"kind": "route", "pieces": [{"kind": "arc", "radius": 3}]}}', "path.pieces[0].centre is missing"),
+        (
+            "dance.json",
+            '{"path": {"kind": "route", "pieces": [{"kind": "arc", "radius": 3}]}}',
+            "path.pieces[0].centre is missing",
+        ),
     ],
-)  # fmt: skip
+)
 def test_a_message_about_a_file_speaks_of_the_file(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, name: str, text: str, words: str
 ) -> None:
