@@ -30,7 +30,7 @@ def told(error: Any) -> str:
     if parameter is not None and said:
         return _unfit(parameter, said[1])
     words = re.sub(r"\s+", " ", error.format_message().removeprefix("Invalid value: ")).rstrip(".")
-    if command := re.match(r"No such command '(.*)'", words):
+    if command := re.match(r"No such command '([^']*)'", words):
         return unknown(command[1], error.ctx.command.list_commands(error.ctx))
     return f"{words[:1].lower()}{words[1:]}"
 
