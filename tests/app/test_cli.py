@@ -530,7 +530,7 @@ def test_completion_is_offered_once_and_not_by_each_command() -> None:
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
-        (["check", "dance.json", "--time", "3"], "--time says when --figure draws the dance: give --figure"),
+        (["check", "dance.json", "--time", "3"], "--time is the time that --figure draws: give --figure"),
         (["check", "dance.json", "--cross-check", ""], "cross_check must be 'dragon', 'pair' or 'none', got \"\""),
         (["overlaps", "--pitch", "1", "benches.json"], "--pitch describes a dance, and FILE gives the benches"),
         (["overlaps", "--margin=0", "benches.json"], "--margin describes a dance, and FILE gives the benches"),
@@ -545,7 +545,7 @@ def test_completion_is_offered_once_and_not_by_each_command() -> None:
     ids=lambda value: " ".join(value) if isinstance(value, list) else None,
 )  # fmt: skip
 def test_an_option_that_nothing_uses_is_refused_by_name(arguments: list[str], words: str, tmp_path: Path) -> None:
-    (tmp_path / "dance.json").write_text("{}")
+    (tmp_path / "dance.json").write_text('{"head_speed": 1}')
     (tmp_path / "benches.json").write_text('{"benches": [{"x": 0, "y": 0, "heading": 0, "length": 1, "width": 1}]}')
     files = {"dance.json", "benches.json", "out", "a.csv"}
     done = run(*(str(tmp_path / one) if one in files else one for one in arguments))
