@@ -44,8 +44,11 @@ def checked_number(name: str, value: object, unit: str, low: float, high: float,
 def checked_type(name: str, value: object, kinds: type | tuple[type, ...]) -> None:
     """raises: InvalidValue naming the parameter if the value is of none of the kinds"""
     if not isinstance(value, kinds):
-        words = " or ".join(kind.__name__ for kind in (kinds if isinstance(kinds, tuple) else (kinds,)))
-        given = f"the class {value.__name__}" if isinstance(value, type) else f"{value!r:.60}"
+        words = " or a ".join(kind.__name__ for kind in (kinds if isinstance(kinds, tuple) else (kinds,)))
+        plain = value is None or isinstance(value, (str, bytes, Real, list, tuple, dict))
+        given = f"{value!r:.60}" if plain else f"a {type(value).__name__}"
+        if isinstance(value, type):
+            given = f"the class {value.__name__}"
         raise InvalidValue(name, f"{name} must be a {words}, got {given}")
 
 

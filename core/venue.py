@@ -15,7 +15,7 @@ from core.budget import Budget, bounded
 from core.contact.clearance import Pair, least_over
 from core.contact.first_contact import Outcome
 from core.contact.fold import moved_until
-from core.contact.search import MARGIN_MAX, NEAR_WORK_BUDGET, Search
+from core.contact.search import MARGIN_MAX, NEAR_WORK_BUDGET, Ended, Search
 from core.dance import Dance
 from core.errors import InvalidValue
 from core.motion.trajectory import bench_poses, trajectory
@@ -293,10 +293,10 @@ def is_clear_beyond(dance: Dance, venue: Venue, *, margin: float, start: float, 
 def _area_clearance(search: Search, name: str, begin: float, until: float, head_speed: float) -> AreaClearance:
     state, found, tolerance = search.approach(begin * head_speed, until * head_speed, head_speed)
     outcome, time, bracket, bench, point, gap = Outcome.CLEAR, None, None, None, None, None
-    if state == "stuck":
+    if state is Ended.STUCK:
         outcome, bracket = Outcome.UNDECIDED, (found.proven / head_speed, until)
-    elif state != "reached":
-        at_start = state == "touched_at_start"
+    elif state is not Ended.REACHED:
+        at_start = state is Ended.TOUCHED_AT_START
         assert found.touching is not None
         travel = found.touching - (0.0 if at_start else tolerance)
         outcome, time = Outcome.CONTACT_AT_START if at_start else Outcome.CONTACT, travel / head_speed

@@ -9,6 +9,8 @@ check fails, and 2 for wrong usage.
 from __future__ import annotations
 
 import sys
+from collections.abc import Iterator
+from contextlib import contextmanager, nullcontext
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -19,8 +21,9 @@ import core
 from app import questions
 from app.command import figures, jobs, prove, show, sweep, trajectory
 from app.command.options import Json, asks, unused
+from app.command.usage import Misuse, told
 from app.extras import require
-from app.files.disk import checked_output, read_dance, read_json, write_whole
+from app.files.disk import checked_output, object_words, read_dance, read_json, write_whole
 from app.questions.check import CheckRequest
 from app.questions.clearance import ClearanceQuery, ClearanceRequest
 from app.questions.collision_time import CollisionQuery, CollisionRequest
@@ -38,20 +41,37 @@ from core import BenchDragonError, InvalidValue
 from core.errors import said
 
 
+@contextmanager
+def _one_line() -> Iterator[None]:
+    """Context that turns errors that a user can correct into one line on standard error and exit code 2."""
+    try:
+        yield
+        return
+    except BenchDragonError as error:
+        message = error.message
+    except Misuse as error:
+        message = told(error)
+    except BrokenPipeError:
+        raise
+    except OSError as error:
+        message = f"{error.filename or 'standard output'}: {error.strerror or error}"
+    print(f"Error: {message}", file=sys.stderr)
+    raise typer.Exit(2)
+
+
 class _Commands(TyperGroup):
-    """Turns errors that a user can correct into one line on standard error and exit code 2."""
+    """The commands; every mistake in their use is one line."""
+
+    def make_context(self, info_name: Any, args: list[str], *further: Any, **extra: Any) -> Any:
+        # Without any argument the parser prints the help, which it treats as a mistake too.
+        with _one_line() if args else nullcontext():
+            return super().make_context(info_name, args, *further, **extra)
 
     def invoke(self, ctx: Any) -> Any:
-        try:
-            return super().invoke(ctx)
-        except BenchDragonError as error:
-            message = error.message
-        except BrokenPipeError:
-            raise
-        except OSError as error:
-            message = f"{error.filename}: {error.strerror}" if error.filename else str(error)
-        print(f"Error: {message}", file=sys.stderr)
-        raise typer.Exit(2)
+        with _one_line():
+            result = super().invoke(ctx)
+            sys.stdout.flush()
+            return result
 
 
 app = typer.Typer(
@@ -165,10 +185,10 @@ def check(
     if figure:
         require("figures", "figure", "--figure")
     ending = checked_output("figure", figure, (".svg", ".png")) if figure else ""
-    told = read_dance(file)
-    if cross_check is not None and isinstance(told, dict):
-        told["cross_check"] = cross_check
-    asked = checked(CheckRequest, told)
+    dance = read_dance(file)
+    if cross_check is not None:
+        dance["cross_check"] = cross_check
+    asked = checked(CheckRequest, dance, object_words(file))
     with refusing(asked), show.waiting("check"):
         answer = questions.check.check(asked, Settings())
         drawn = _drawn_check(asked, answer, Format(ending[1:]), time) if figure else b""

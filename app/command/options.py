@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import inspect
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from types import UnionType
 from typing import Annotated, Any, TypeVar, Union, get_args, get_origin
@@ -12,12 +13,12 @@ import typer
 from pydantic import BaseModel
 from rich.markup import escape
 
-from app.files.disk import read_dance
+from app.files.disk import object_words, read_dance
 from app.questions import QUESTIONS
 from app.wire.dances import DanceQuery, TimeRange
 from app.wire.messages import checked
 from app.wire.refusals import refusing
-from core import InvalidValue
+from core import BenchDragonError, InvalidValue
 
 Model = TypeVar("Model", bound=BaseModel)
 Number = TypeVar("Number", int, float)
@@ -65,20 +66,31 @@ def of_file(file: Path, body: type[Model], context: typer.Context) -> Model:
     Fields of other questions in the file, such as a venue, are ignored.
     raises: InvalidValue, OSError
     """
-    unused(context, DanceQuery.model_fields, "describes a dance, and FILE gives the dance: give one of the two")
+    unused(context, DanceQuery.model_fields, "cannot be combined with FILE, which describes the dance")
     told, own = read_dance(file), body.model_fields.keys()
-    if isinstance(told, dict):
-        told = {name: value for name, value in told.items() if name in own or name not in _asked_of_a_dance()}
-        told |= {name: context.params[name] for name in given(context, *own)}
-        if (
-            steps := {name: context.params[name] for name in given(context, *TimeRange.model_fields)}
-            if "times" in own
-            else {}
-        ):
-            told["times"] = steps
-        if isinstance(told.get("times"), str):
-            told["times"] = numbers("times", told["times"], float)
-    return checked(body, told)
+    told = {name: value for name, value in told.items() if name in own or name not in _asked_of_a_dance()}
+    told |= {name: context.params[name] for name in given(context, *own)}
+    if steps := _steps(body, context):
+        told["times"] = {name: context.params[name] for name in steps}
+    if isinstance(told.get("times"), str):
+        told["times"] = numbers("times", told["times"], float)
+    return checked(body, told, object_words(file))
+
+
+def _steps(body: type[BaseModel], context: typer.Context) -> list[str]:
+    """The options that give a range of instants in place of the times in the FILE."""
+    return given(context, *TimeRange.model_fields) if "times" in body.model_fields else []
+
+
+@contextmanager
+def _in_options(body: type[BaseModel] | None, context: typer.Context) -> Iterator[None]:
+    """Context in which refusals of instants name --start, --stop and --step without times., if they were given."""
+    try:
+        yield
+    except BenchDragonError as error:
+        if body is None or not _steps(body, context):
+            raise
+        raise error.renamed(lambda name: name.removeprefix("times.")) from error
 
 
 def _asked_of_a_dance() -> set[str]:
@@ -111,9 +123,10 @@ def asks(
             context = values["context"] if "context" in own else values.pop("context", None)
             file = values.pop("file", None) if body else None
             flat = {name: values.pop(name) for name in model.model_fields}
-            request = of_file(file, body, context) if body and file else checked(model, flat)
-            with refusing(request):
-                command(request, **values)
+            with _in_options(body if file else None, context):
+                request = of_file(file, body, context) if body and file else checked(model, flat)
+                with refusing(request):
+                    command(request, **values)
 
         parameters = [p.replace(kind=inspect.Parameter.KEYWORD_ONLY) for p in own.values()]
         parameters += [p for p in added if p.name not in own] + fields

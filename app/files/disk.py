@@ -10,16 +10,20 @@ import tempfile
 import tomllib
 from collections.abc import Callable, Sequence
 from pathlib import Path
+from typing import Any
 
 import orjson
 
 from app.files import tables
+from app.wire.messages import OBJECT, shown
 from core import InvalidValue, Trajectory
 
 # Permissions of a new file, before the user's mask.
 NEW_FILE = 0o666
 # Endings that trajectory_writer() supports.
 TABLE_ENDINGS = (".csv", ".xlsx", ".arrow", ".json")
+# Endings of a file that describes a dance.
+DANCE_ENDINGS = (".toml", ".json")
 
 
 def checked_output(option: str, file: Path, endings: Sequence[str] = ()) -> str:
@@ -86,25 +90,46 @@ def _refused(number: int | None, file: Path) -> OSError:
     return OSError(number, os.strerror(number or errno.EIO), str(file))
 
 
-def read_json(file: Path) -> object:
+def read_json(file: Path) -> dict[str, Any]:
+    """The JSON object in a file, or on standard input for -. raises: InvalidValue, OSError"""
     try:
-        return orjson.loads(sys.stdin.buffer.read() if str(file) == "-" else file.read_bytes())
+        found = orjson.loads(sys.stdin.buffer.read() if str(file) == "-" else file.read_bytes())
     except orjson.JSONDecodeError as error:
         raise InvalidValue("file", f"{file} is not JSON: {error}") from error
+    if not isinstance(found, dict):
+        raise InvalidValue("file", f"{file} must hold a JSON object, got {shown(found)}")
+    return found
 
 
-def read_dance(file: Path) -> object:
-    """Content of a file that describes a dance; a venue given as text is the name of a GeoJSON file beside it."""
-    if file.suffix.lower() != ".toml":
+def read_dance(file: Path) -> dict[str, Any]:
+    """Content of a file that describes a dance; a venue given as text is the name of a GeoJSON file beside it.
+
+    raises: InvalidValue, OSError
+    """
+    ending = file.suffix.lower()
+    if ending not in DANCE_ENDINGS and file.is_file():
+        raise InvalidValue("file", f"{file} must end in {' or '.join(DANCE_ENDINGS)}, got {ending or 'no ending'}")
+    if ending != ".toml":
         asked = read_json(file)
     else:
         try:
             asked = tomllib.loads(file.read_text(encoding="utf-8"))
         except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
             raise InvalidValue("file", f"{file} is not TOML: {error}") from error
-    if isinstance(asked, dict) and isinstance(asked.get("venue"), str):
-        asked["venue"] = read_json(file.parent / asked["venue"])
+    if not asked:
+        print(f"{file} gives nothing: this is about the contest's dance.", file=sys.stderr)
+    if isinstance(asked.get("venue"), str):
+        place = file.parent / asked["venue"]
+        try:
+            asked["venue"] = read_json(place)
+        except OSError as error:
+            raise InvalidValue("venue", f"venue of {file}: {place}: {error.strerror}") from error
     return asked
+
+
+def object_words(file: Path) -> str:
+    """What the format of a file calls an object."""
+    return "a table" if file.suffix.lower() == ".toml" else OBJECT
 
 
 def trajectory_writer(suffix: str, decimals: int | None, language: tables.Language) -> Callable[[Trajectory], bytes]:

@@ -70,7 +70,9 @@ function contactLine(answer, { benches, margin }) {
   if (state === "folds") return sayNear("foldsUntil", margin, { name: benchName(end.bench, benches) });
   if (state === "clear") return end ? sayNear("clearUntil", margin, { time: end.time.toFixed(6) }) : sayNear("clearAll", margin);
   const [x, y, radius] = [...point, head.radius].map((one) => one.toFixed(6));
-  return sayNear("pairMeets", margin, { ...pair(both, benches), x, y, radius, gap: millimetres(gap) });
+  const values = { ...pair(both, benches), x, y, radius };
+  if (margin > 0 && gap < 0) return say("pairOverlaps", { ...values, depth: millimetres(-gap) });
+  return sayNear("pairMeets", margin, { ...values, gap: millimetres(gap) });
 }
 
 /** The time until which nothing is proven to touch; none for a contact at the start, or if nothing is decided. */

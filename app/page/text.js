@@ -71,6 +71,7 @@ const WORDS = {
   undecided: ["Undecided", "无法判定"],
   undecidedNear: ["Undecided", "无法判定"],
   pairMeets: ["{a} and {b} meet at ({x}, {y}) m; the head is {radius} m from the centre.", "{a}与{b}在 ({x}, {y}) m 处相碰，此时龙头距中心 {radius} m。"],
+  pairOverlaps: ["{a} and {b} overlap by {depth} mm at ({x}, {y}) m; the head is {radius} m from the centre.", "{a}与{b}在 ({x}, {y}) m 处重叠 {depth} mm，此时龙头距中心 {radius} m。"],
   pairMeetsNear: ["{a} and {b} are nearer than {margin} m, with a gap of {gap} mm, at ({x}, {y}) m; the head is {radius} m from the centre.", "{a}与{b}在 ({x}, {y}) m 处间距为 {gap} mm，小于 {margin} m，此时龙头距中心 {radius} m。"],
   clearUntil: ["Not one pair of benches touches before the run ends at {time} s.", "直到 {time} s 运动结束，没有任何两节板凳相碰。"],
   clearUntilNear: ["Not one pair of benches comes nearer than {margin} m before the run ends at {time} s.", "直到 {time} s 运动结束，没有任何两节板凳间距小于 {margin} m。"],

@@ -62,7 +62,7 @@ class CollisionTime(Answer):
         "s", "First time nearer than the margin, or touching if it is 0; null when clear or undecided"
     )
     time_bracket: Point | None = measure(
-        "s", "Proven clear until; nearer than the margin, or overlapping if it is 0, at"
+        "s", "Two times: no contact is proven up to the first, and a contact is certain at the second"
     )
     head: Head | None = Field(description="The head at that time")
     benches: Pair | None = Field(description="The pair in contact")

@@ -61,7 +61,7 @@ def place_of(geometry: Mapping[str, object], coordinates: Coordinates | None, dr
         _refuse_systems_inside(f"venue.{member}", geometry.get(member))
     geographic = named is not None and GEOGRAPHIC.search(named) is not None
     if coordinates is None and named is not None and not geographic:
-        words = "give longitude and latitude without crs, or true metres with coordinates: metres beside the venue"
+        words = "give longitude and latitude without crs, or true metres with coordinates 'metres' beside the venue"
         raise InvalidValue("venue.crs", f"venue.crs must be left out or name CRS84, got {named!r}: {words}")
     if named is not None and coordinates == ("metres" if geographic else "degrees"):
         meant = "longitude and latitude" if geographic else "something else"
@@ -129,7 +129,7 @@ def _refuse_degrees(polygons: list[Polygon], longest: float) -> None:
         return
     size = f"{right - left:.6g} by {high - low:.6g}, narrower than a bench of {longest:g} m"
     looks = "longitude and latitude" if in_order else "latitude and longitude in that order"
-    change = "say coordinates: degrees beside the venue to have it laid out in metres"
+    change = 'give "coordinates": "degrees" beside the venue (in TOML: coordinates = "degrees") to have it in metres'
     if not in_order:
         change = f"{SWAPPED}; put them in order, and {change}"
     raise InvalidValue("venue", f"venue must be in metres, got what looks like {looks}, a square of {size}: {change}")

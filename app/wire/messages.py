@@ -5,6 +5,7 @@ from __future__ import annotations
 import difflib
 import json
 import math
+import re
 from collections.abc import Mapping, Sequence
 from functools import cache
 from itertools import takewhile
@@ -19,6 +20,8 @@ from core import InvalidValue
 from core.errors import said, spoken
 
 Model = TypeVar("Model", bound=BaseModel)
+# What JSON calls an object.
+OBJECT = "a JSON object"
 # Longer values are shortened [characters].
 SHOWN_MAX = 60
 # Similarity above which an unknown name counts as a slip [1] (difflib); higher for a name that other calls know, such
@@ -27,17 +30,25 @@ ALIKE_SLIP, ALIKE = 0.6, 0.8
 IN_WORDS = {"m": "lengths are in metres", "m/s": "speeds are in metres per second", "rad": "angles are in radians"}
 
 
-def checked(model: type[Model], values: object) -> Model:
-    """The values as the service's own request; a wrong one is refused in the service's words."""
+def checked(model: type[Model], values: object, thing: str = OBJECT) -> Model:
+    """The values as the service's own request; a wrong one is refused in the service's words.
+
+    thing: what the author of the values calls an object
+    """
     try:
         return model.model_validate(values)
     except ValidationError as error:
         first = error.errors()[0]
         field = ".".join(str(part) for part in first["loc"] if part not in SHAPES)
-        words = message({**first, "loc": ("", *first["loc"])}, model)
+        words = message({**first, "loc": ("", *first["loc"])}, model, thing)
         # Words such as `times[1] must be ...` name the place in a list already.
         outer = field.rstrip("0123456789").rstrip(".") if "[" in words.partition(" ")[0] else field
-        raise InvalidValue(field, f"{spoken(outer)}: {words}" if "." in outer else words) from error
+        if "." in outer:
+            before, _, last = outer.rpartition(".")
+            own = words.removeprefix(f'"{last}"')
+            own = last + own if own != words else words
+            words = f"{spoken(before)}.{own}" if own.startswith(last) else f"{spoken(outer)}: {words}"
+        raise InvalidValue(field, words) from error
 
 
 def shown(value: Any) -> str:
@@ -49,10 +60,10 @@ def shown(value: Any) -> str:
     return text if len(text) <= SHOWN_MAX else f"{text[:SHOWN_MAX]}... ({len(text)} characters)"
 
 
-def message(error: Mapping[str, Any], asked: Any) -> str:
+def message(error: Mapping[str, Any], asked: Any, thing: str = OBJECT) -> str:
     """Message for one wrong field: its name, the value, the unit, the limit, and what to change.
 
-    asked: type of the request
+    asked: type of the request; thing: what its author calls an object
     """
     units = known_units()
     names = [part for part in error["loc"][1:] if isinstance(part, str)]
@@ -76,18 +87,22 @@ def message(error: Mapping[str, Any], asked: Any) -> str:
         case "finite_number":
             return f"{name} must be a finite number{of_unit}, {got}"
         case "float_type" | "float_parsing":
-            return f"{name} must be a number{of_unit}, {got}"
+            return f"{name} must be a number{of_unit}, {got}{_centimetres(value) if unit == 'm' else ''}"
         case "int_type" | "int_parsing" | "int_from_float" | "int_parsing_size":
             return f"{name} must be a whole number, {got}"
         case "missing":
             return f"{names[-1] if names else name} is missing"
         case "extra_forbidden":
             alike = ALIKE if names[-1] in units else ALIKE_SLIP
+            if homes := _homes(names[-1], asked, error["loc"][1:-1]):
+                return f"{shown(names[-1])} is unknown here: it belongs into {' or '.join(homes)}"
             near = difflib.get_close_matches(names[-1], names_at(asked, error["loc"][1:-1]), n=1, cutoff=alike)
             return f"{shown(names[-1])} is unknown here: " + (f"did you mean {near[0]}?" if near else "leave it out")
         case "model_type" | "model_attributes_type" | "dict_type":
             other = ", or a list of instants [s]" if name == "times" else ""
-            return f"{name} must be a JSON object{other}, {got}"
+            return f"{name} must be {thing}{other}, {got}"
+        case "list_type":
+            return f"{name} must be a list{f' of numbers [{unit}]' if unit else ''}, got {words}"
         case "too_short":
             least, given = limits["min_length"], limits["actual_length"]
             return f"{name} must have at least {least} {'entry' if least == 1 else 'entries'}, got {given or 'none'}"
@@ -145,6 +160,16 @@ def names_at(kind: Any, place: Sequence[Any]) -> list[str]:
     return names_at(kind, place[1:]) if told_apart else []
 
 
+def _homes(name: str, asked: Any, place: Sequence[Any]) -> list[str]:
+    """Objects at a place in a request that may have a name inside."""
+    inner = ((), *((shape,) for shape in SHAPES))
+    return [
+        home
+        for home in names_at(asked, place)
+        if any(name in names_at(asked, (*place, home, *shape)) for shape in inner)
+    ]
+
+
 def _last_indices(place: Sequence[Any]) -> list[int]:
     """List indices at the end of a place."""
     indices = list(takewhile(lambda part: isinstance(part, int), reversed(place)))
@@ -162,7 +187,17 @@ def _number(value: Any, *, text: bool) -> float | None:
     return number if math.isfinite(number) else None
 
 
+def _centimetres(value: Any) -> str:
+    """Hint for text such as 55cm in place of a length."""
+    found = re.fullmatch(r"\s*(\d+(?:\.\d*)?)\s*cm\s*", value) if isinstance(value, str) else None
+    return _in_metres(float(found[1])) if found else ""
+
+
+def _in_metres(centimetres: float) -> str:
+    return f": lengths are in metres, and {centimetres:g} cm is {centimetres / 100:g} m"
+
+
 def _unit_hint(value: float | None, limit: float, unit: str) -> str:
     if unit == "m" and value is not None and value / 100 <= limit:
-        return f": lengths are in metres, and {value:g} cm is {value / 100:g} m"
+        return _in_metres(value)
     return f": {IN_WORDS[unit]}" if unit in IN_WORDS else ""

@@ -65,4 +65,5 @@ def _dragon(dragon: Dragon) -> str:
     if dragon.uniform_from > 1 or widths[0] != widths[-1] or overhangs[0] != overhangs[-1]:
         return f"{count} given one by one"
     head, body, width, overhang = map(said, (dragon.lengths[0], dragon.lengths[-1], widths[0], overhangs[0]))
-    return f"{count} (head {head} m, body {body} m, width {width} m, overhang {overhang} m)"
+    lengths = f"head {head} m" + (f", body {body} m" if dragon.benches > 1 else "")
+    return f"{count} ({lengths}, width {width} m, overhang {overhang} m)"

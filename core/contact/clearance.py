@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from core import plots
 from core.budget import Budget, bounded
 from core.contact.fold import least_to_fold
-from core.contact.search import NEAR_WORK_BUDGET, Search
+from core.contact.search import NEAR_WORK_BUDGET, TOUCHES, Ended, Search
 from core.dance import Dance, RunEnd
 from core.errors import InvalidValue
 from core.motion.trajectory import instants
@@ -230,8 +230,8 @@ def least_over(
             search.budget.afford()
             if found.graze is not None and found.graze.gap < best[0]:
                 best = found.graze
-            if state in ("reached", "stuck"):
-                left = margin if state == "reached" else None
+            if state in (Ended.REACHED, Ended.STUCK):
+                left = margin if state is Ended.REACHED else None
                 if fold is not None:
                     left = least_to_fold(search, min(found.proven, until), fold)
                 if left is not None and left >= margin:
@@ -250,9 +250,9 @@ def _first_touch(search: Search, begin: float, until: float, head_speed: float, 
     """The first touch if benches certainly touch; if the search gives up, the touch that is already known."""
     search.use(search.path, 0.0)
     state, found, tolerance = search.approach(begin, until, head_speed)
-    if not state.startswith("touched") or found.touching is None:
+    if state not in TOUCHES or found.touching is None:
         return (0.0, *touching[1:]), 0.0
-    return (0.0, found.touching - (tolerance if state == "touched" else 0.0), found.benches), 0.0
+    return (0.0, found.touching - (tolerance if state is Ended.TOUCHED else 0.0), found.benches), 0.0
 
 
 def _sampled(search: Search, begin: float, until: float) -> Dip:

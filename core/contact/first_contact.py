@@ -223,15 +223,15 @@ def contact_within(
     last = search.last_travel(until * head_speed, to_fold)
     state, found, tolerance = search.approach(begin * head_speed, last, head_speed)
     narrow = BRACKETS_GRAZING[0] * min(1.0, head_speed)
-    if state == "touched" and tolerance > narrow >= 2.0 * search.travel_rounding(found.touching or 0.0):
+    if state is Ended.TOUCHED and tolerance > narrow >= 2.0 * search.travel_rounding(found.touching or 0.0):
         narrower = narrowed(search, found, narrow, head_speed)
         if narrower is not None:
             found, tolerance = narrower, narrow
-    if to_fold and (state == "reached" or (state == "stuck" and found.touching is None)):
+    if to_fold and (state is Ended.REACHED or (state is Ended.STUCK and found.touching is None)):
         state = Ended.REACHED if clear_to_fold(search, min(found.proven, last), end) else Ended.STUCK
-    if state == "stuck":
+    if state is Ended.STUCK:
         until = _known_overlap(search, found.proven, last, head_speed, until)
-    if stop is not None and state == "reached":
+    if stop is not None and state is Ended.REACHED:
         end = RunEnd(EndReason.STOP, until, None, None)
     return _result(dance, search, state, found, end, (begin, until), tolerance)
 
@@ -239,13 +239,13 @@ def contact_within(
 def _known_overlap(search: Search, proven: float, last: float, head_speed: float, until: float) -> float:
     """Time at which benches are certainly within the margin after a search gave up [s]; `until` if not known."""
     state, found, _ = search.approach(min(proven + BEYOND, last), last, head_speed)
-    return until if state == "stuck" or found.touching is None else found.touching / head_speed
+    return until if state is Ended.STUCK or found.touching is None else found.touching / head_speed
 
 
 def _result(
     dance: Dance,
     search: Search,
-    state: str,
+    state: Ended,
     found: Marched,
     end: RunEnd,
     span: tuple[float, float],
@@ -254,8 +254,8 @@ def _result(
     graze, head_speed = None, dance.head_speed
     if found.graze is not None:
         graze = Graze(found.graze.travel / head_speed, found.graze.gap, found.graze.benches)
-    proven = end.time if state == "reached" else found.proven / head_speed
-    outcome = {"reached": Outcome.CLEAR, "stuck": Outcome.UNDECIDED, "touched": Outcome.CONTACT}.get(
+    proven = end.time if state is Ended.REACHED else found.proven / head_speed
+    outcome = {Ended.REACHED: Outcome.CLEAR, Ended.STUCK: Outcome.UNDECIDED, Ended.TOUCHED: Outcome.CONTACT}.get(
         state, Outcome.CONTACT_AT_START
     )
     method = _method(dance, search.margin, outcome, found, end, (span[0], proven))

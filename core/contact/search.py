@@ -69,7 +69,10 @@ RING_ROUNDING = 1e-11
 
 
 class Ended(StrEnum):
-    """How a march ended, in the order of the kernels' states: see core/kernels/marching.py, strips.py for TURNED."""
+    """How a march ended, in the order of the kernels' states: see core/kernels/marching.py, strips.py for TURNED.
+
+    No kernel ends with the last two: a bench folds on the way, or no bound holds for a band of pitches.
+    """
 
     REACHED = "reached"
     TOUCHED = "touched"
@@ -77,9 +80,12 @@ class Ended(StrEnum):
     STUCK = "stuck"
     CAPACITY = "capacity"
     TURNED = "turned"
+    FOLDED = "folded"
+    UNBOUNDED = "unbounded"
 
 
 ENDS = tuple(Ended)
+TOUCHES = (Ended.TOUCHED, Ended.TOUCHED_AT_START)
 
 
 class Dip(NamedTuple):
@@ -320,7 +326,7 @@ class Search:
             self.resize(min(4 * self.room, self.dragon.benches))
         proven = asked[1] if ended is Ended.REACHED else max(float(march.proven) - rounding, asked[0])
         touching = None if march.touching >= NO_GAP else float(march.touching)
-        if touching is not None and touching < 0.0 and not ended.startswith("touched"):
+        if touching is not None and touching < 0.0 and ended not in TOUCHES:
             touching = None  # before time 0 a crossing that could not be bracketed does not count
         if ended is Ended.TOUCHED_AT_START:
             touching = asked[0]
@@ -334,7 +340,7 @@ class Search:
         self.scene.left_out, self.scene.left_out_too = pair
         state, _ = self.march(stop, 0.0, start=start)
         self.scene.left_out = self.scene.left_out_too = -1
-        return state == "reached"
+        return state is Ended.REACHED
 
     @staticmethod
     def last_travel(until: float, to_fold: bool) -> float:
@@ -348,7 +354,7 @@ class Search:
         proven = found.proven
         slowed = [wider * min(1.0, head_speed) for wider in BRACKETS_GRAZING]
         for wider in sorted({*slowed, *BRACKETS_GRAZING}):
-            if state != "stuck" or found.touching is None:
+            if state is not Ended.STUCK or found.touching is None:
                 break
             if wider > tolerance:
                 tolerance = wider

@@ -9,7 +9,7 @@ from enum import StrEnum
 import numpy as np
 
 from core.budget import Budget, Halted
-from core.contact.search import MARGIN_MAX
+from core.contact.search import MARGIN_MAX, TOUCHES, Ended
 from core.dance import end_theta
 from core.design.pitch_bands import BORDER_WIDTH
 from core.design.straight import Straight
@@ -69,7 +69,7 @@ class MinimumPitch(Shown):
     justified_by: how every larger pitch is known to be feasible: 'bound': proven for all; 'scan': below proven_from
         single ones are proven, scan_step [m] apart at most: a narrower range of infeasible ones is not excluded there
     proven_from, proven_up_to: every pitch in between is proven feasible [m]; the first is pitch itself without a scan,
-        the second None for every larger pitch, without end
+        the second None for every larger pitch
     scan_step: None without a scan
     evaluations: number of ways from the start to the circle that were marched, and of bands of pitches, see
     `core/design/pitch_bands.py`
@@ -94,7 +94,7 @@ class MinimumPitch(Shown):
             whose = f" of bench {self.bench}"
         limit = f"{worded(self.pitch, 'm')}, limited by {self.limited_by.value}{whose}"
         scan = f"scanned every {worded(self.scan_step, 'm')} up to {worded(self.proven_from, 'm')}, then "
-        most = "without end" if self.proven_up_to is None else f"up to {worded(self.proven_up_to, 'm')}"
+        most = "for every larger pitch" if self.proven_up_to is None else f"up to {worded(self.proven_up_to, 'm')}"
         return f"{limit}; {scan if self.scan_step else ''}proven {most}"
 
 
@@ -134,7 +134,7 @@ class _PitchSearch:
         if not clears(growth, self.radius, self.margin):
             if not self.is_clear(SIZE_MAX):
                 state, found = self.ways.march(SIZE_MAX)
-                if state.startswith("touched") and found.benches[1] - found.benches[0] == 2:
+                if state in TOUCHES and found.benches[1] - found.benches[0] == 2:
                     raise _too_near(self.search.dragon, found.benches[0], self.margin)
                 rule = f"must be larger for this dragon, which gets to such a circle at no pitch up to {SIZE_MAX:g} m"
                 raise InvalidValue.of("turning_radius", rule, self.radius, "m")
@@ -217,9 +217,9 @@ class _PitchSearch:
             feasible = False
             if touching is None or not self.ways.still_touches(sample, *touching):
                 state, result = self.ways.march(sample)
-                feasible = state == "reached"
+                feasible = state is Ended.REACHED
                 touching = None
-                if state not in ("reached", "folded") and result.touching is not None:
+                if state not in (Ended.REACHED, Ended.FOLDED) and result.touching is not None:
                     radius = self.search.theta_at(result.touching) * self.search.growth
                     touching = (radius, *result.benches)
             if feasible and not end:
@@ -239,18 +239,18 @@ class _PitchSearch:
         below = BELOW
         state, found = self.ways.march(infeasible - below, width=CONTACT_WIDTH)
         # on a wide spiral rounding hides what meets so little below
-        while state == "stuck" and found.touching is None and below < PASSED_OVER_WIDE * infeasible:
+        while state is Ended.STUCK and found.touching is None and below < PASSED_OVER_WIDE * infeasible:
             below *= 10.0
             state, found = self.ways.march(infeasible - below, width=CONTACT_WIDTH)
-        if state == "reached":
+        if state is Ended.REACHED:
             state, found = self.ways.march(infeasible, width=CONTACT_WIDTH)
         pair = found.benches
-        if state == "touched_at_start":
+        if state is Ended.TOUCHED_AT_START:
             return LimitedBy.START, pair, self.search.growth * 2.0 * math.pi * self.start_turns
-        if state == "folded":
+        if state is Ended.FOLDED:
             return LimitedBy.FOLD, None, self.radius
         assert found.touching is not None
-        travel = found.touching - (CONTACT_WIDTH if state == "touched" else 0.0)
+        travel = found.touching - (CONTACT_WIDTH if state is Ended.TOUCHED else 0.0)
         return self._met(travel, travel + BOTTOM_WITHIN, pair)
 
     def _met(self, travel: float, end: float, pair: tuple[int, int]) -> tuple[LimitedBy, tuple[int, int], float]:

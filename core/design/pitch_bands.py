@@ -87,7 +87,7 @@ class Bands:
         high_interval = kernels.Interval(high, before_high, after_high, self.motions[1])
         return kernels.Strip(low_interval, high_interval, self.shifts)
 
-    def prove(self, low: float, high: float, outer: float) -> tuple[str, Marched]:
+    def prove(self, low: float, high: float, outer: float) -> tuple[Ended, Marched]:
         """Are all pitches in [low, high] clear while the head's radius falls from outer to the circle [m]?
 
         'reached': yes; 'touched': not the lowest one; 'stuck': not provable in one band; 'turned', 'unbounded': nor,
@@ -98,7 +98,7 @@ class Bands:
         search.use(Spiral(low, self.start_turns), self.margin)
         clear = self._clear_radius(low / math.tau, high / math.tau)
         if clear >= NO_BOUND:
-            return "unbounded", Marched(outer)
+            return Ended.UNBOUNDED, Marched(outer)
         outer = min(outer, max(clear, self.radius))
         self.marches += 1
         leaders = min(search.dragon.uniform_from + 1, search.dragon.benches)
@@ -142,7 +142,7 @@ class Bands:
         while bands:
             low, high, outer = bands.pop()
             state, found = self.prove(low, high, outer)
-            if state == "reached":
+            if state is Ended.REACHED:
                 proven = low
                 continue
             outer = found.proven
@@ -152,10 +152,10 @@ class Bands:
             if high - low < BAND_MIN:
                 self.graze = None
                 return proven, "stuck"
-            if state in ("unbounded", "turned") and high - low < UNBOUNDED_WITHIN * high:
+            if state in (Ended.UNBOUNDED, Ended.TURNED) and high - low < UNBOUNDED_WITHIN * high:
                 return proven, "unbounded"
             border = None
-            if state == "touched":
+            if state is Ended.TOUCHED:
                 bands, stopped, self.graze = [], "border", None
                 if high - low <= WIDTH_FOLLOWED * high:
                     border = self.border(low, high, found)

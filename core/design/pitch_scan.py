@@ -108,13 +108,13 @@ class Stops:
         last = search.last_travel(end.time, to_fold)
         tolerance = max(RADIUS_WIDTH, 2.0 * search.travel_rounding(last))
         state, found = search.march(last, tolerance)
-        if state == "stuck" and found.touching is not None:
+        if state is Ended.STUCK and found.touching is not None:
             state, found, tolerance = search.approach(0.0, last, 1.0)
-        if state in ("reached", "stuck") and found.touching is None and to_fold:
+        if state in (Ended.REACHED, Ended.STUCK) and found.touching is None and to_fold:
             state = Ended.REACHED if clear_to_fold(search, min(found.proven, last), end) else Ended.STUCK
-        if state == "reached":
+        if state is Ended.REACHED:
             return None
-        travel = {"touched": (found.touching or 0.0) - tolerance, "stuck": found.proven}.get(state, 0.0)
+        travel = {Ended.TOUCHED: (found.touching or 0.0) - tolerance, Ended.STUCK: found.proven}.get(state, 0.0)
         return search.growth * search.theta_at(travel)
 
     def _search(self, path: Spiral) -> Search:

@@ -49,8 +49,8 @@ class Ways:
         self.bands = Bands(self.search, radius, start_turns, margin)
         self.marched, self.tried = 0, self.lowest
 
-    def march(self, pitch: float, width: float = 0.0, work: float = WAY_WORK) -> tuple[str, Marched]:
-        """March from the start to the circle: 'reached' proves every clearance on the way larger than the margin.
+    def march(self, pitch: float, width: float = 0.0, work: float = WAY_WORK) -> tuple[Ended, Marched]:
+        """March from the start to the circle: REACHED proves every clearance on the way larger than the margin.
 
         width: half width of the bracket around a contact, 0 if any instant of it will do [m of travel]; work: at most
         raises: Halted when the budget of all ways and bands together is spent or stopped
@@ -67,8 +67,8 @@ class Ways:
         width = width and max(width, 2.0 * search.travel_rounding(0.0, stop))
         fold, bench = (0.0, None) if self.bands.bent_little else end_theta(search.dragon, path)
         if fold > circle * (1.0 - THETA_ROUNDING):
-            return "folded" if fold > circle * (1.0 + THETA_ROUNDING) else "stuck", Marched(0.0)
-        for state, travel in () if width else (("touched_at_start", 0.0), ("touched", stop)):
+            return Ended.FOLDED if fold > circle * (1.0 + THETA_ROUNDING) else Ended.STUCK, Marched(0.0)
+        for state, travel in () if width else ((Ended.TOUCHED_AT_START, 0.0), (Ended.TOUCHED, stop)):
             # Both ends alone decide most ways that are not clear, without laying out a long dragon.
             gap, pair = search.clearance(travel, min(LOOKED_AT, search.room))
             if gap <= self.margin and search.surely_within(travel, pair):
@@ -78,7 +78,7 @@ class Ways:
         end = RunEnd(EndReason.FOLD, search.travel_at(fold), fold, bench)
         last = min(stop, search.last_travel(end.time, True))
         state, found = search.march(last, width or CONTACT_WIDTH)
-        if (state == "stuck" and found.touching is None) or (state == "reached" and last < stop):
+        if (state is Ended.STUCK and found.touching is None) or (state is Ended.REACHED and last < stop):
             state = Ended.REACHED if clear_to_fold(search, min(found.proven, last), end) else Ended.STUCK
         return state, found
 
@@ -86,8 +86,8 @@ class Ways:
         """Is the whole way free of contact? None if neither is known, within rounding of a graze."""
         for width, work in ((0.0, WAY_WORK), (CONTACT_WIDTH, FINER_WORK)):
             state, found = self.march(pitch, width, work)
-            if state != "stuck" or found.touching is not None:
-                return state == "reached"
+            if state is not Ended.STUCK or found.touching is not None:
+                return state is Ended.REACHED
         return None
 
     def grazes(self, pitch: float) -> bool:

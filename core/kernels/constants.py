@@ -63,9 +63,8 @@ RATE_JERK = 14  # |s'''| on a route, where no handle up to it crosses into anoth
 CURVATURE_LOW = 15  # on a spiral, times its growth
 CURVATURE_HIGH = 16
 CROSSED = 17  # how many joints between the parts of a route the handles up to it cross, all told
-RATE_ERROR = (
-    18  # rounding of RATE [1] and of CLIMB [1/m] at either end of the interval, on a route where climbs() was asked
-)
+# Rounding of RATE [1] and of CLIMB [1/m] at either end of the interval, on a route where climbs() was asked.
+RATE_ERROR = 18
 CLIMB_ERROR = 19
 MOTION_COLUMNS = 20
 

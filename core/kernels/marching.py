@@ -38,11 +38,11 @@ if not cython.compiled:  # for the compiler the same stands in the .pxd
 # that did when handle i - 1 stood there, in the same benches (family lemma, core/contact/first_contact.py). passed()
 # says that every handle i has come to where handle i - 1 began; so that was after the start, and clear by the invariant
 # for i - 1, down to m. From there on it stays so, as no handle turns back before the one ahead does. A handle that
-# began beyond `opened` is led by benches that 2 clears, until it is where a predecessor has been. 4. Consecutive steps
-# share a chain to the last bit, so the intervals tile the way of the true head without a gap. What is not the same to
-# the last bit is the travel: the head of the chain at `travel` has truly travelled within `rounding` of it. So h, which
-# the bounds take for its true way, is widened by twice that, and the caller begins and ends the march beyond what it
-# says of it by as much.
+# began beyond `opened` is led by benches that 2 clears, until it is where a predecessor has been.
+# 4. Consecutive steps share a chain to the last bit, so the intervals tile the way of the true head without a gap. What
+# is not the same to the last bit is the travel: the head of the chain at `travel` has truly travelled within `rounding`
+# of it. So h, which the bounds take for its true way, is widened by twice that, and the caller begins and ends the
+# march beyond what it says of it by as much.
 #
 # How h is chosen only decides how soon a proof succeeds: at most twice the last step, and at most 0.95 of the width at
 # which the same bounds would just have proven the pairs of the last interval (`room`), both after a step taken and,

@@ -10,7 +10,7 @@ from core import kernels
 from core.budget import Budget, bounded
 from core.contact.search import Search
 from core.dance import HEAD_SPEED_MAX, HEAD_SPEED_MIN, TIME_MAX, Dance
-from core.errors import InvalidValue, said
+from core.errors import InvalidValue, said, said_bound
 from core.kernels.constants import EXCEEDED, KEPT
 from core.sampling import bisected
 from core.shown import Shown
@@ -105,9 +105,11 @@ def highest_speed(
     dragon, head_speed, end = dance.dragon, dance.head_speed, dance.end
     stop = None if stop is None else checked_number("stop", stop, "s", -TIME_MAX, TIME_MAX)
     if dance.ends_by(end.time if stop is None else stop):
-        raise InvalidValue(
-            "stop", f"stop must be before {end.time:.9f} s, when bench {end.bench} folds and speeds grow without bound"
-        )
+        when = f"before {said_bound(end.time, 9, -1)} s, when bench {end.bench} folds"
+        if stop is None:
+            why = f"the run ends at a fold, towards which speeds grow without bound; it must be {when}"
+            raise InvalidValue("stop", f"stop must be given: {why}")
+        raise InvalidValue("stop", f"stop must be {when} and speeds grow without bound")
     begin, until = dance.span(dance.begin if start is None else start, stop)
     search = Search(dragon, dance.path, 0.0, budget=budget)
     search.resize(dragon.benches)

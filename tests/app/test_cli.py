@@ -159,11 +159,40 @@ def test_tables_for_people_hold_the_numbers_with_their_units(arguments: list[str
         ("trajectory --output dance.doc", "--output must end in .csv, .xlsx, .arrow or .json, got .doc"),
         ("trajectory --output /no/such/dance.csv", "--output must be in a folder that exists, got /no/such/dance.csv"),
         ("overlaps /no/such/file", "/no/such/file: No such file or directory"),
+        (
+            "collision-time --pitch 55cm",
+            '--pitch must be a number [m], got "55cm": lengths are in metres, and 55 cm is 0.55 m',
+        ),
+        ("collision-time --pich 0.5", "--pich is unknown here: did you mean --pitch?"),
+        ("collision-time --benches 1e3", "--benches must be a whole number, got 1e3"),
+        ("collision-time --cross-check all", "--cross-check must be dragon, pair or none, got all"),
+        ("check", "FILE is missing"),
+        ("check dance.toml --margin 1.3", "--margin is unknown here: --help lists what is known"),
+        ("foo", "foo is unknown here: --help lists what is known"),
+        ("overlap", "overlap is unknown here: did you mean overlaps?"),
+        ("sweep rum", "rum is unknown here: did you mean run?"),
+        ("--versoin", "--versoin is unknown here: did you mean --version?"),
+        ("serve --port 99999", "--port must be from 0 to 65535, got 99999"),
+        ("prove", "give either a claim to prove or --check FILE"),
     ],
 )
 def test_wrong_values_get_one_line_on_standard_error_and_exit_code_2(line: str, message: str) -> None:
     done = run(*line.split())
     assert (done.returncode, done.stdout, done.stderr) == (2, "", f"Error: {message}\n")
+
+
+@pytest.mark.parametrize("form", [[], ["--json"]], ids=["table", "json"])
+def test_a_full_disk_behind_standard_output_is_one_line_and_exit_code_2(form: list[str]) -> None:
+    with Path("/dev/full").open("w") as full:
+        done = subprocess.run(
+            [COMMAND, "collision-time", *form],
+            stdout=full,
+            stderr=subprocess.PIPE,
+            text=True,
+            timeout=PATIENCE,
+            env=ENVIRONMENT,
+        )
+    assert (done.returncode, done.stderr) == (2, "Error: standard output: No space left on device\n")
 
 
 def test_too_much_work_is_refused_before_it_starts() -> None:
@@ -501,7 +530,7 @@ def test_completion_is_offered_once_and_not_by_each_command() -> None:
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
-        (["check", "dance.json", "--time", "3"], "--time says when --figure draws the dance: give --figure"),
+        (["check", "dance.json", "--time", "3"], "--time is the time that --figure draws: give --figure"),
         (["check", "dance.json", "--cross-check", ""], "cross_check must be 'dragon', 'pair' or 'none', got \"\""),
         (["overlaps", "--pitch", "1", "benches.json"], "--pitch describes a dance, and FILE gives the benches"),
         (["overlaps", "--margin=0", "benches.json"], "--margin describes a dance, and FILE gives the benches"),
@@ -516,7 +545,7 @@ def test_completion_is_offered_once_and_not_by_each_command() -> None:
     ids=lambda value: " ".join(value) if isinstance(value, list) else None,
 )  # fmt: skip
 def test_an_option_that_nothing_uses_is_refused_by_name(arguments: list[str], words: str, tmp_path: Path) -> None:
-    (tmp_path / "dance.json").write_text("{}")
+    (tmp_path / "dance.json").write_text('{"head_speed": 1}')
     (tmp_path / "benches.json").write_text('{"benches": [{"x": 0, "y": 0, "heading": 0, "length": 1, "width": 1}]}')
     files = {"dance.json", "benches.json", "out", "a.csv"}
     done = run(*(str(tmp_path / one) if one in files else one for one in arguments))

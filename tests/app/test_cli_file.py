@@ -86,10 +86,10 @@ def test_figures_of_a_file_are_those_of_its_dance_in_its_venue(client: httpx.Cli
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
-        (["collision-time", "FILE", "--pitch", "1"], "--pitch describes a dance, and FILE gives the dance"),
-        (["trajectory", "FILE", "--head-speed", "1"], "--head-speed describes a dance, and FILE gives the dance"),
+        (["collision-time", "FILE", "--pitch", "1"], "--pitch cannot be combined with FILE, which describes the dance"),
+        (["trajectory", "FILE", "--head-speed", "1"], "--head-speed cannot be combined with FILE, which describes"),
         (["trajectory", "FILE", "--times", "10", "--stop", "12"], "--times replaces --stop"),
-        (["clearance", "FILE", "--stop", "1e5"], "times.stop must be at most"),
+        (["clearance", "FILE", "--stop", "1e5"], "stop must be at most"),
         (["figures", "FILE"], "FOLDER must be a folder, got the file"),
         (
             ["figures", "FOLDER", "FILE", "--samples", "3"],
@@ -113,6 +113,44 @@ def test_a_name_that_no_question_knows_is_refused(tmp_path: Path) -> None:
     file.write_text(json.dumps(BODY | {"margn": 1}))
     done = run("collision-time", str(file))
     assert (done.returncode, done.stderr) == (2, 'Error: "margn" is unknown here: did you mean margin?\n')
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "words"),
+    [
+        ("list.json", "[1]", "list.json must hold a JSON object, got [1]"),
+        ("dance.toml", "dragon = 5", "dragon must be a table, got 5"),
+        ("dance.json", '{"dragon": 5}', "dragon must be a JSON object, got 5"),
+        (
+            "dance.json",
+            '{"dragon": {"lengths": [2], "widths": 0.3, "overhangs": [0.2]}}',
+            "dragon.widths must be a list of numbers [m], got 0.3",
+        ),
+        ("dance.json", '{"path": {"pitch": -1}}', "path.pitch must be at least 0.001 m, got -1 m"),
+        ("dance.toml", 'venue = "yard.geojson"', "venue of dance.toml: yard.geojson: No such file or directory"),
+        ("dance.txt", "", "dance.txt must end in .toml or .json, got .txt"),
+        (
+            "dance.json",
+            '{"path": {"kind": "route", "pieces": [{"kind": "arc", "radius": 3}]}}',
+            "path.pieces[0].centre is missing",
+        ),
+    ],
+)
+def test_a_message_about_a_file_speaks_of_the_file(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, name: str, text: str, words: str
+) -> None:
+    (tmp_path / name).write_text(text)
+    monkeypatch.chdir(tmp_path)
+    done = run("check", name)
+    assert (done.returncode, done.stdout, done.stderr) == (2, "", f"Error: {words}\n")
+
+
+def test_an_empty_file_is_the_contests_dance_and_says_so(tmp_path: Path, client: httpx.Client) -> None:
+    file = tmp_path / "empty.toml"
+    file.write_text("")
+    done = run("collision-time", str(file), "--json")
+    assert (done.returncode, done.stderr) == (0, f"{file} gives nothing: this is about the contest's dance.\n")
+    assert json.loads(done.stdout) == client.post("/collision-time", json={}).raise_for_status().json()
 
 
 def test_a_clearance_is_a_table(file: str) -> None:

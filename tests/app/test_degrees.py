@@ -63,7 +63,11 @@ def test_degrees_are_never_read_as_metres(client: httpx.Client, call: str, coord
     assert answer.status_code == 422
     (item,) = answer.json()["errors"]
     assert item["pointer"] == "/venue"
-    for words in ("longitude and latitude", "narrower than a bench of 3.41 m", "coordinates: degrees"):
+    for words in (
+        "longitude and latitude",
+        "narrower than a bench of 3.41 m",
+        'give "coordinates": "degrees" beside the venue (in TOML: coordinates = "degrees")',
+    ):
         assert words in item["detail"]
 
 

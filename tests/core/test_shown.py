@@ -171,7 +171,7 @@ def test_a_short_route_prints_the_call_that_makes_it(path: Route) -> None:
         (core.trajectory(DANCE, []), "<Trajectory: 0 instants; 224 handles>"),
         (
             core.minimum_pitch(Dragon()),
-            "<MinimumPitch: 0.450337393 m, limited by graze of benches 0 and 19; proven without end>",
+            "<MinimumPitch: 0.450337393 m, limited by graze of benches 0 and 19; proven for every larger pitch>",
         ),
         (core.check(DANCE, stop=10.0), "<Report: passes from 0 to 10 s>"),
         (CURVE, "<Waypoints: 1000 points from (0.0, 0.0) to (999.0, 9980.01) m>"),

@@ -141,3 +141,10 @@ def test_an_engine_that_is_none_is_refused(engine: Any) -> None:
 def test_times_are_numbers_and_never_read_from_something_else(times: Any) -> None:
     with pytest.raises(InvalidValue, match=r"^times must be "):
         core.trajectory(core.Dance(DRAGON, SPIRAL), times)
+
+
+def test_a_message_names_the_type_of_a_wrong_object_and_shows_a_plain_value() -> None:
+    with pytest.raises(InvalidValue, match=r"^dragon must be a Dragon, got a Dance$"):
+        core.minimum_pitch(DANCE)  # type: ignore[arg-type]
+    with pytest.raises(InvalidValue, match=r"^path must be a Spiral or a Route, got 0\.55$"):
+        core.Dance(DRAGON, 0.55)  # type: ignore[arg-type]

@@ -195,3 +195,8 @@ def test_a_proof_that_takes_too_long_is_given_up_and_said_so(monkeypatch: pytest
     monkeypatch.setattr(core.motion.speed, "EXCESS_LINKS", 20)
     report = check(Dance(Dragon(), TURN), speed_limit=2.0, **span)
     assert [failure.kind for failure in report.failures] == [FailureKind.UNDECIDED]
+
+
+def test_a_run_to_a_fold_without_a_stop_asks_for_one() -> None:
+    with pytest.raises(InvalidValue, match=r"^stop must be given: the run ends at a fold, .* before 432\.91792422"):
+        highest_speed(Dance(Dragon(), Spiral()))

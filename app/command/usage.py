@@ -1,0 +1,54 @@
+"""Mistakes that the parser of options finds, told on one line in the service's words."""
+
+from __future__ import annotations
+
+import ast
+import difflib
+import re
+from typing import Any
+
+import typer
+
+from app.wire.messages import ALIKE_SLIP, message
+
+# Every mistake of the parser; typer has the class under no public name of its own.
+Misuse: Any = typer.BadParameter.__base__
+# The value that the parser quotes at the beginning of its words.
+QUOTED = re.compile(r"""('.*'|".*"|\S+) is not """, re.DOTALL)
+
+
+def told(error: Any) -> str:
+    """One line for a Misuse: what is wrong, where, and what to change.
+
+    A mistake without words of its own here keeps those of the parser.
+    """
+    parameter, said = getattr(error, "param", None), QUOTED.match(error.message or "")
+    if hasattr(error, "possibilities"):
+        return unknown(error.option_name, [option for one in error.ctx.command.params for option in one.opts])
+    if parameter is not None and parameter.param_type_name == "argument" and not error.message:
+        return f"{parameter.name.upper()} is missing"
+    if parameter is not None and said:
+        return _unfit(parameter, said[1])
+    words = re.sub(r"\s+", " ", error.format_message().removeprefix("Invalid value: ")).rstrip(".")
+    if command := re.match(r"No such command '([^']*)'", words):
+        return unknown(command[1], error.ctx.command.list_commands(error.ctx))
+    return f"{words[:1].lower()}{words[1:]}"
+
+
+def unknown(word: str, known: list[str]) -> str:
+    near = difflib.get_close_matches(word, known, n=1, cutoff=ALIKE_SLIP)
+    return f"{word} is unknown here: " + (f"did you mean {near[0]}?" if near else "--help lists what is known")
+
+
+def _unfit(parameter: Any, quoted: str) -> str:
+    """A value that an option cannot take. quoted: the value as the parser quotes it"""
+    value = ast.literal_eval(quoted) if quoted[0] in "'\"" else quoted
+    option, kind = parameter.opts[0], parameter.type
+    if getattr(kind, "choices", None):
+        *most, last = [str(getattr(choice, "value", choice)) for choice in kind.choices]
+        return f"{option} must be {', '.join(most)} or {last}, got {value}"
+    if " range" in kind.name and re.fullmatch(r"[-+]?\d+", value):
+        return f"{option} must be from {kind.min} to {kind.max}, got {value}"
+    wrong = {"type": "int_parsing" if "int" in kind.name else "float_parsing", "input": value}
+    words = message({**wrong, "loc": ("query", parameter.name)}, None)
+    return f"{option}{words.removeprefix(parameter.name)}"
