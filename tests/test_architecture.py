@@ -147,6 +147,7 @@ ORDER = (
     "app.jobs.routes",
     "app.service.main",
     "app.service.workers",
+    "app.command.usage",
     "app.command.show",
     "app.command.options",
     "app.command.prove",
