@@ -78,7 +78,7 @@ def test_a_size_beyond_its_limits_is_refused(value: float, said: str) -> None:
 
 def test_a_value_of_another_type_is_refused_by_what_it_must_be() -> None:
     checked_type("path", Spiral(), Spiral)
-    with pytest.raises(InvalidValue, match=r"^path must be a Spiral or dict, got 'spiral'$"):
+    with pytest.raises(InvalidValue, match=r"^path must be a Spiral or a dict, got 'spiral'$"):
         checked_type("path", "spiral", (Spiral, dict))
     with pytest.raises(InvalidValue, match=r"^path must be a Spiral, got the class Spiral$"):
         checked_type("path", Spiral, Spiral)

@@ -127,7 +127,7 @@ def test_a_wrong_type_is_refused_by_name(call: Callable[..., Any], name: str, ki
 
 @pytest.mark.parametrize("path", [0.55, None, Spiral, "spiral", DRAGON])
 def test_a_path_that_is_none_says_what_it_must_be(path: Any) -> None:
-    with pytest.raises(InvalidValue, match=r"^path must be a Spiral or Route, got "):
+    with pytest.raises(InvalidValue, match=r"^path must be a Spiral or a Route, got "):
         core.first_contact(core.Dance(DRAGON, path))
 
 
