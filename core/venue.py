@@ -7,6 +7,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import pairwise
+from unicodedata import category
 
 import numpy as np
 
@@ -28,6 +29,10 @@ Ring = tuple[Point, ...]
 
 # Edges of one venue: each is followed like a bench, but it stands. Those between repeated points count too.
 EDGES_MAX = 2_000
+# Longest name of an area [characters].
+NAME_MAX = 200
+# Unicode's categories of control characters, half characters, and ends of lines and paragraphs.
+NOT_PLAIN = ("Cc", "Cs", "Zl", "Zp")
 # What the rings of an area must be.
 WORDS = "a list of rings of points [x, y] in metres"
 # A spiral is laid out this far beyond the last instant, so that rounding cannot put that instant outside it [m].
@@ -55,6 +60,20 @@ def refuse_many_edges(rings: Iterable[Sequence[object]]) -> None:
         raise InvalidValue("venue", f"venue must have at most {EDGES_MAX} edges, got {edges}")
 
 
+def checked_name(what: str, name: object, field: str = "venue") -> None:
+    """Refuse a name that is no line of plain text: it stands in sentences and figures.
+
+    what: the beginning of the message; field: where the name stands
+    raises: InvalidValue
+    """
+    if not isinstance(name, str):
+        raise InvalidValue(field, f"{what} must be a text, got {name!r:.60}")
+    if len(name) > NAME_MAX:
+        raise InvalidValue(field, f"{what} must have at most {NAME_MAX} characters, got {len(name)}")
+    if any(category(character) in NOT_PLAIN for character in name):
+        raise InvalidValue(field, f"{what} must be one line of plain text, got {name!a:.60}")
+
+
 @dataclass(frozen=True, repr=False)
 class Area(Shown):
     """A polygon: the square, or an obstacle in it.
@@ -68,8 +87,7 @@ class Area(Shown):
     rings: tuple[Ring, ...]
 
     def __post_init__(self) -> None:
-        if not isinstance(self.name, str):
-            raise InvalidValue("venue", f"venue: the name of a polygon must be a text, got {self.name!r:.60}")
+        checked_name("venue: the name of a polygon", self.name)
         rings = [listed(f"venue.{k}", ring, WORDS) for k, ring in enumerate(listed("venue", self.rings, WORDS))]
         if not rings:
             raise InvalidValue("venue", f"venue: {self.name!r} must have at least one ring")

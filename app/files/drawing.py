@@ -89,7 +89,7 @@ def _draw_venue(axes: Axes, venue: Venue | None) -> None:
             )
         )
         x, y = max(area.rings[0], key=lambda point: point[0] + point[1])
-        axes.text(x, y, f" {area.name}", fontsize=8, zorder=6, ha="left", va="bottom", clip_on=True)
+        axes.text(x, y, f" {area.name}", fontsize=8, zorder=6, ha="left", va="bottom", clip_on=True, parse_math=False)
     axes.autoscale_view()
 
 

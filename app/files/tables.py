@@ -6,6 +6,7 @@ The same trajectory gives the same bytes, so an answer may carry a strong ETag.
 from __future__ import annotations
 
 import io
+from collections.abc import Iterator
 from datetime import datetime
 from enum import StrEnum
 from typing import TYPE_CHECKING
@@ -23,6 +24,8 @@ if TYPE_CHECKING:
 
 COLUMNS = ("time", "handle", "x", "y", "speed")
 CSV_TYPE = "text/csv"
+# Cells that are turned into lines of CSV at once: 2 MB of text, and 10 MB while it is made.
+CSV_BLOCK = 20_000
 XLSX_TYPE = "application/vnd.openxmlformats-officedocument.spreadsheetml.sheet"
 ARROW_TYPE = "application/vnd.apache.arrow.file"
 
@@ -61,15 +64,16 @@ def _rounded(column: Floats, decimals: int | None) -> Floats:
     return column if decimals is None else np.round(column, decimals) + 0.0
 
 
-def _columns(result: Trajectory, decimals: int | None) -> dict[str, np.ndarray]:
-    """time, handle, x, y, speed, each (T * H,): instants in order, handles in order within each."""
-    instants, handles = result.speed.shape
+def _columns(result: Trajectory, rows: slice, decimals: int | None) -> dict[str, np.ndarray]:
+    """time, handle, x, y, speed of some instants, each (T * H,): instants in order, handles in order within each."""
+    position, speed = result.position[rows], result.speed[rows]
+    instants, handles = speed.shape
     values = (
-        np.repeat(result.time, handles),
+        np.repeat(result.time[rows], handles),
         np.tile(np.arange(handles, dtype=np.int32), instants),
-        _rounded(result.position[..., 0].ravel(), decimals),
-        _rounded(result.position[..., 1].ravel(), decimals),
-        _rounded(result.speed.ravel(), decimals),
+        _rounded(position[..., 0].ravel(), decimals),
+        _rounded(position[..., 1].ravel(), decimals),
+        _rounded(speed.ravel(), decimals),
     )
     return dict(zip(COLUMNS, values, strict=True))
 
@@ -85,14 +89,20 @@ def trajectory_csv(result: Trajectory, decimals: int | None = None) -> bytes:
 
     decimals: of x, y and speed; None writes the shortest text that reads back as the same double
     """
-    columns = [
-        orjson.dumps(np.ascontiguousarray(column), option=orjson.OPT_SERIALIZE_NUMPY)[1:-1].split(b",")
-        for column in _columns(result, decimals).values()
-    ]
-    rows = [",".join(COLUMNS).encode()]
-    if result.speed.size:
-        rows.extend(map(b",".join, zip(*columns, strict=True)))
-    return b"\n".join(rows) + b"\n"
+    return b"".join(csv_blocks(result, decimals))
+
+
+def csv_blocks(result: Trajectory, decimals: int | None = None) -> Iterator[bytes]:
+    """The same CSV in blocks of lines, each made when it is asked for."""
+    yield ",".join(COLUMNS).encode() + b"\n"
+    instants, handles = result.speed.shape
+    rows = max(CSV_BLOCK // handles, 1)
+    for first in range(0, instants, rows):
+        columns = [
+            orjson.dumps(np.ascontiguousarray(column), option=orjson.OPT_SERIALIZE_NUMPY)[1:-1].split(b",")
+            for column in _columns(result, slice(first, first + rows), decimals).values()
+        ]
+        yield b"\n".join(map(b",".join, zip(*columns, strict=True))) + b"\n"
 
 
 def trajectory_arrow(result: Trajectory, decimals: int | None = None) -> bytes:
@@ -103,7 +113,7 @@ def trajectory_arrow(result: Trajectory, decimals: int | None = None) -> bytes:
     require("arrow", "format", "Arrow")
     import pyarrow
 
-    table = pyarrow.table(_columns(result, decimals))
+    table = pyarrow.table(_columns(result, slice(None), decimals))
     sink = io.BytesIO()
     with pyarrow.ipc.new_file(sink, table.schema) as writer:
         writer.write_table(table)

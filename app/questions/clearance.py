@@ -8,8 +8,11 @@ import core
 from app.questions.question import Question
 from app.settings import Settings
 from app.wire.answers import Columns, Graze, Pair
-from app.wire.dances import DanceQuery, TimedDance, TimeRange
+from app.wire.dances import DanceQuery, TimedDance, TimeRange, TimeSteps
 from app.wire.models import Answer, measure
+
+# Time that one bench at one instant takes, measured 2026-11-22 [s].
+SECONDS_PER_CELL = 3e-6
 
 
 class ClearanceQuery(TimeRange, DanceQuery):
@@ -38,4 +41,10 @@ def clearance(asked: ClearanceQuery | ClearanceRequest, settings: Settings) -> C
     return Columns(columns | {"grazes": found.grazes})
 
 
-QUESTION = Question(clearance, ClearanceTable, flat=ClearanceQuery, body=ClearanceRequest)
+def _cost(asked: ClearanceQuery | ClearanceRequest) -> float:
+    times = (asked if isinstance(asked, ClearanceQuery) else asked.times) or TimeSteps()
+    instants = len(times) if isinstance(times, list) else times.instants()
+    return instants * asked.benches * SECONDS_PER_CELL
+
+
+QUESTION = Question(clearance, ClearanceTable, flat=ClearanceQuery, body=ClearanceRequest, cost=_cost)

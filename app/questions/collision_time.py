@@ -7,12 +7,16 @@ from typing import Self
 from pydantic import Field
 
 import core
-from app.questions.question import Question
+from app.questions.question import UNKNOWN_COST, Question
 from app.settings import Settings
 from app.wire.answers import End, Feature, Graze, Head, Pair, PairCheck, Point
-from app.wire.dances import DanceFields, DanceQuery
+from app.wire.dances import DanceFields, DanceQuery, UniformDragon
 from app.wire.models import Answer, CrossCheck, Instant, Margin, Wire, measure
+from app.wire.paths import SpiralPath
 from core import Dance, Outcome
+
+# Of longer dragons only the benches near the contact are judged.
+JUDGED_MOST = 2_000
 
 
 class Contact(Wire):
@@ -95,4 +99,14 @@ def collision_time(asked: CollisionQuery | CollisionRequest, settings: Settings)
     return CollisionTime.of(found, dance, asked)
 
 
-QUESTION = Question(collision_time, CollisionTime, flat=CollisionQuery, body=CollisionRequest)
+def _cost(asked: CollisionQuery | CollisionRequest) -> float:
+    """A search on a spiral does not grow with the benches; a judgement of the whole dragon does."""
+    if isinstance(asked, CollisionRequest):
+        repeats = isinstance(asked.path, SpiralPath) and isinstance(asked.dragon, UniformDragon)
+        if not repeats:
+            return UNKNOWN_COST
+    judged = min(asked.benches, JUDGED_MOST) if asked.cross_check == "dragon" else 0
+    return 0.005 + 5e-5 * judged + 2e-6 * asked.benches
+
+
+QUESTION = Question(collision_time, CollisionTime, flat=CollisionQuery, body=CollisionRequest, cost=_cost)

@@ -7,13 +7,16 @@ from typing import Self
 from pydantic import Field
 
 import core
-from app.questions.question import Question
+from app.questions.question import UNKNOWN_COST, Question
 from app.settings import Settings
 from app.wire.answers import Pair, PairCheck, Point
 from app.wire.dances import BenchByBench, Circle, DragonFields, UniformDragon
 from app.wire.models import PITCH_MAX, Answer, CrossCheck, measure
 from core import Dragon, InvalidValue, LimitedBy
 from core.errors import said
+
+# A search with chords of at least this and circles of at most this takes 20 ms [m].
+CHORD_ORDINARY, CIRCLE_ORDINARY = 0.5, 30.0
 
 
 class PitchFields(Circle):
@@ -99,4 +102,15 @@ def minimum_pitch(asked: MinimumPitchQuery | MinimumPitchRequest, settings: Sett
     return MinimumPitch.of(found, dragon, asked)
 
 
-QUESTION = Question(minimum_pitch, MinimumPitch, flat=MinimumPitchQuery, body=MinimumPitchRequest)
+def _cost(asked: MinimumPitchQuery | MinimumPitchRequest) -> float:
+    """Benches shorter than their way around the circle is long take thousands of times as long as ordinary ones."""
+    dragon = asked if isinstance(asked, MinimumPitchQuery) else asked.dragon
+    if not isinstance(dragon, UniformDragon):
+        return UNKNOWN_COST
+    chord = min(dragon.head_length, dragon.body_length) - 2 * dragon.overhang
+    if chord < CHORD_ORDINARY or asked.turning_diameter > CIRCLE_ORDINARY:
+        return UNKNOWN_COST
+    return 0.02 + 1e-4 * dragon.benches
+
+
+QUESTION = Question(minimum_pitch, MinimumPitch, flat=MinimumPitchQuery, body=MinimumPitchRequest, cost=_cost)

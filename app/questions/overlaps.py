@@ -105,4 +105,9 @@ def _judged(
     return OverlapsAnswer.of(found, check)
 
 
-QUESTION = Question(overlaps, OverlapsAnswer, body=OverlapsRequest)
+def _cost(asked: OverlapsRequest) -> float:
+    benches = len(asked.benches)
+    return 4e-5 * benches + 5e-6 * min(benches * benches / 2, 20_000)
+
+
+QUESTION = Question(overlaps, OverlapsAnswer, body=OverlapsRequest, cost=_cost)

@@ -8,6 +8,13 @@ from typing import Any
 
 from app.wire.models import JSON, Answer, Wire
 
+# What a question costs that says nothing else: more than a call that answers at once [s].
+UNKNOWN_COST = 1.0
+
+
+def unknown_cost(asked: Wire, *form: str) -> float:
+    return UNKNOWN_COST
+
 
 @dataclass(frozen=True)
 class Question:
@@ -17,6 +24,7 @@ class Question:
         question, and its first line says what is answered
     model: what the JSON of the answer holds; None for a picture
     flat, body: the request as parameters of a query, and as a JSON object with a dragon and a path
+    cost: about how long the answer takes [s], from a request and a form, known before anything is computed
     forms: media types that the answer is given in, the first where nobody asks for one
     """
 
@@ -25,6 +33,7 @@ class Question:
     flat: type[Wire] | None = None
     body: type[Wire] | None = None
     forms: tuple[str, ...] = (JSON,)
+    cost: Callable[..., float] = unknown_cost
 
     @property
     def name(self) -> str:

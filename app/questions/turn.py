@@ -49,4 +49,4 @@ def turn(asked: TurnQuery | TurnRequest, settings: Settings) -> Turn:
     return Turn.of(asked.to_turn() if isinstance(asked, TurnQuery) else asked.path.to_path())
 
 
-QUESTION = Question(turn, Turn, flat=TurnQuery, body=TurnRequest)
+QUESTION = Question(turn, Turn, flat=TurnQuery, body=TurnRequest, cost=lambda asked: 1e-3)

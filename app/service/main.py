@@ -10,12 +10,11 @@ import os
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
 from pathlib import Path
-from threading import BoundedSemaphore
 from typing import Any
 
 from fastapi import Depends, FastAPI, Request, Response
 from fastapi.responses import FileResponse, HTMLResponse
-from prometheus_client import CollectorRegistry, Gauge, generate_latest
+from prometheus_client import CollectorRegistry, generate_latest
 from prometheus_client.exposition import CONTENT_TYPE_LATEST
 from prometheus_client.multiprocess import MultiProcessCollector
 from pydantic import Field
@@ -24,8 +23,9 @@ from starlette.staticfiles import StaticFiles
 
 from app.service import problems, routes
 from app.service.examples import EXAMPLES
-from app.service.middleware import BodyLimit, HeadAsGet, Metrics, Mistakes, SafetyHeaders
-from app.service.reply import VERSION, refuse_query
+from app.service.lanes import Lanes
+from app.service.middleware import HeadAsGet, Metrics, Mistakes, RequestId, RequestLimits, SafetyHeaders
+from app.service.reply import VERSION, build, refuse_query
 from app.settings import SHARED_COUNTS, Settings
 from app.wire.models import Answer
 from core import Dragon, Spiral, first_contact, trajectory
@@ -97,6 +97,7 @@ def _difference() -> str:
 @asynccontextmanager
 async def _lifespan(app: FastAPI) -> AsyncIterator[None]:
     app.state.fault = fault()
+    build()
     yield
 
 
@@ -116,19 +117,17 @@ def create_app(settings: Settings | None = None) -> FastAPI:
         redirect_slashes=False,
         lifespan=_lifespan,
         middleware=[
+            Middleware(RequestId),
             Middleware(SafetyHeaders),
             Middleware(HeadAsGet),
             Middleware(Metrics, registry=registry),
             Middleware(Mistakes),
-            Middleware(BodyLimit, bytes_max=settings.body_bytes_max),
+            Middleware(RequestLimits, settings=settings),
         ],
     )
     app.state.settings = settings
     app.state.fault = "it has not run"
-    app.state.free = BoundedSemaphore(settings.concurrent_max)
-    app.state.busy = Gauge(
-        "bench_dragon_computations", "Computations running", registry=registry, multiprocess_mode="livesum"
-    )
+    app.state.lanes = Lanes(settings, registry)
     app.state.registry = registry
     app.openapi = lambda: _openapi(app)  # type: ignore[method-assign]
     problems.install(app)
@@ -198,6 +197,13 @@ def _add_health(app: FastAPI) -> None:
         return Response(generate_latest(registry), media_type=CONTENT_TYPE_LATEST)
 
 
+class _Files(StaticFiles):
+    """Files of a page; not the Python beside them that makes their folder a package."""
+
+    def lookup_path(self, path: str) -> tuple[str, os.stat_result | None]:
+        return ("", None) if path.endswith((".py", ".pyc")) else super().lookup_path(path)
+
+
 def _add_pages(app: FastAPI) -> None:
     @app.get("/docs", include_in_schema=False)
     async def docs() -> Response:
@@ -211,6 +217,6 @@ def _add_pages(app: FastAPI) -> None:
     async def index() -> Response:
         return FileResponse(PAGE / "index.html")
 
-    app.mount("/docs/assets", StaticFiles(packages=[("fastapi_swagger", "resources")]))
-    app.mount("/page/uplot", StaticFiles(packages=[("uplot", "static")]))
-    app.mount("/page", StaticFiles(directory=PAGE))
+    app.mount("/docs/assets", _Files(packages=[("fastapi_swagger", "resources")]))
+    app.mount("/page/uplot", _Files(packages=[("uplot", "static")]))
+    app.mount("/page", _Files(directory=PAGE))

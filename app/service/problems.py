@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from http import HTTPStatus
+from itertools import islice
 from typing import Any, get_type_hints
 
 from fastapi import FastAPI, Request, Response
 from fastapi.exceptions import RequestValidationError
 from pydantic import BaseModel, Field
 from starlette.exceptions import HTTPException
+from starlette.routing import Match, Mount
 
 from app.wire.dances import SHAPES
 from app.wire.messages import message, shown
@@ -18,8 +20,11 @@ from core import BenchDragonError
 PROBLEM_TYPE = "application/problem+json"
 # More errors than this in one request are counted, not listed.
 ERRORS_MAX = 20
+# Longer details and places are cut [characters], so that a problem has less than 20 kB.
+DETAIL_MAX, PLACE_MAX = 300, 200
 # Titles by RFC 9110, which newer Pythons know by these names and older ones do not.
-TITLES = {413: "Content Too Large", 422: "Unprocessable Content"}
+TITLES = {413: "Content Too Large", 414: "URI Too Long", 422: "Unprocessable Content"}
+METHODS = ("DELETE", "GET", "PATCH", "POST", "PUT")
 # What pydantic says of a union, though it is the field `kind` that is wrong.
 UNION_ERRORS = frozenset({"union_tag_invalid", "union_tag_not_found"})
 
@@ -60,8 +65,11 @@ def problem(
         type=f"urn:problem-type:bench-dragon:{code}",
         title=_title(status),
         status=status,
-        detail=detail,
-        errors=list(errors),
+        detail=_plain(detail, 2 * DETAIL_MAX),
+        errors=[
+            ErrorItem(pointer=one.pointer, name=one.name and _plain(one.name, PLACE_MAX), detail=_plain(one.detail))
+            for one in islice(errors, ERRORS_MAX)
+        ],
     )
     return Response(
         body.model_dump_json(exclude_none=True),
@@ -69,6 +77,12 @@ def problem(
         {"Cache-Control": "no-store", **(headers or {})},
         media_type=PROBLEM_TYPE,
     )
+
+
+def _plain(text: str, most: int = DETAIL_MAX) -> str:
+    """Text that may be sent: cut where it is long, without half characters."""
+    text = text if len(text) <= most else f"{text[:most]}... ({len(text)} characters)"
+    return text.encode(errors="replace").decode()
 
 
 def _title(status: int) -> str:
@@ -113,9 +127,7 @@ async def http_problem(request: Request, error: HTTPException) -> Response:
     if status == 404:
         detail = f"There is nothing at {shown(request.url.path)}: see /docs for all calls."
     elif status == 405:
-        allowed = {method.strip() for method in headers.get("Allow", "").split(",") if method.strip()}
-        allowed |= {"OPTIONS"} | ({"HEAD"} if "GET" in allowed else set())
-        headers["Allow"] = ", ".join(sorted(allowed))
+        headers["Allow"] = ", ".join(sorted(_allowed(request)))
         if request.method == "OPTIONS":
             return Response(status_code=204, headers=headers)
         detail = f"{request.url.path} does not know {request.method}: use {headers['Allow']}."
@@ -123,6 +135,17 @@ async def http_problem(request: Request, error: HTTPException) -> Response:
         detail, code = "The body is not JSON in UTF-8. Send an object such as {}.", "broken-json"
         items = [ErrorItem(pointer="", detail=detail)]
     return problem(status, code, detail, items, headers)
+
+
+def _allowed(request: Request) -> set[str]:
+    """Every method that some call at this path knows."""
+    found = {
+        "GET" if isinstance(route, Mount) else method
+        for method in METHODS
+        for route in request.app.routes
+        if route.matches({**request.scope, "method": method})[0] is Match.FULL
+    }
+    return found | {"OPTIONS"} | ({"HEAD"} if "GET" in found else set())
 
 
 def server_problem() -> Response:
@@ -150,7 +173,9 @@ def pointer(place: Sequence[Any], body: Any) -> str:
             break
         if step in SHAPES and not (isinstance(body, dict) and step in body):
             continue
+        if len(str(step)) > PLACE_MAX:
+            break
         steps.append(str(step).replace("~", "~0").replace("/", "~1"))
         inside = isinstance(body, list) or (isinstance(body, dict) and step in body)
         body = body[step] if inside else None
-    return "".join(f"/{step}" for step in steps)
+    return _plain("".join(f"/{step}" for step in steps), ERRORS_MAX * PLACE_MAX)

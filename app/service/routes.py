@@ -14,6 +14,7 @@ from pydantic import ValidationError
 from app.files.tables import CSV_TYPE
 from app.questions import QUESTIONS, Question
 from app.questions.figures import Format
+from app.service.bodies import BodyRoute
 from app.service.examples import EXAMPLES
 from app.service.problems import PROBLEM_TYPE
 from app.service.reply import BodyReply, QueryReply, Reply
@@ -27,12 +28,13 @@ PROBLEMS = {
     404: "There is no such format",
     406: "Accept asks for a form that this call does not answer in",
     413: "The body is too long",
+    414: "The query is too long",
     415: "The body is not of type application/json",
     422: "A value is outside its limits, a name is unknown, or an instant lies after the end of the run",
     500: "The service failed",
     503: "As many computations run as may run at once",
 }
-QUERY_STATUSES = (406, 422, 500, 503)
+QUERY_STATUSES = (406, 414, 422, 500, 503)
 BODY_STATUSES = (400, 406, 413, 415, 422, 500, 503)
 
 
@@ -85,6 +87,7 @@ def _add(
         response_class=Response,
         responses={200: answer, 304: unchanged, **problems},
         openapi_extra={"security": []},
+        route_class_override=BodyRoute if method == "POST" else None,
     )
 
 

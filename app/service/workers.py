@@ -9,29 +9,36 @@ sys.setswitchinterval from 0.05 to 100 ms, 2, 3 or 40 threads, asyncio's loop or
 
 from __future__ import annotations
 
+import errno
 import logging
 import multiprocessing
 import os
 import signal
 import socket
 import sys
-from tempfile import TemporaryDirectory
+from collections.abc import Iterator
+from contextlib import ExitStack, contextmanager
+from tempfile import TemporaryDirectory, TemporaryFile
 from threading import Thread
-from typing import Literal
+from typing import Any
 
 import uvicorn
 from fastapi import FastAPI
 from prometheus_client.multiprocess import mark_process_dead
 from uvicorn.supervisors import Multiprocess
 
-from app.settings import SHARED_COUNTS, WORKERS_MAX
+from app.service.logs import log_config
+from app.service.protocol import Protocol
+from app.settings import SHARED_COUNTS, WORKERS_MAX, Settings
 from core import InvalidValue
 
 logger = logging.getLogger("uvicorn.error")
 
 # Not httptools, though it saves a fifteenth of the time: it answers an unknown method before the service can, with 400
 # and no problem details.
-PARSER: Literal["h11"] = "h11"
+PARSER = Protocol
+# Room for the counts of one process: three kinds of metrics, a file of 1 MiB each.
+COUNTS_BYTES = 4 << 20
 BACKLOG = 2048  # connections that wait to be taken, uvicorn's own number
 
 
@@ -77,7 +84,7 @@ def listen(host: str, port: int) -> socket.socket:
 class _Supervisor(Multiprocess):
     """uvicorn's, whose processes start without a word on Ctrl-C and leave no gauge behind when they die."""
 
-    def __init__(self, config: uvicorn.Config, shared: socket.socket, counts: str) -> None:
+    def __init__(self, config: uvicorn.Config, shared: socket.socket, counts: str | None) -> None:
         super().__init__(config, [shared])
         self.counts = counts
         self.counted: set[int | None] = set()
@@ -92,9 +99,35 @@ class _Supervisor(Multiprocess):
     def keep_subprocess_alive(self) -> None:
         super().keep_subprocess_alive()
         alive = {process.pid for process in self.processes}
-        for gone in self.counted - alive:
+        for gone in self.counted - alive if self.counts else ():
             mark_process_dead(gone, self.counts)  # type: ignore[no-untyped-call]
         self.counted = alive
+
+
+@contextmanager
+def _counts_folder(workers: int) -> Iterator[str | None]:
+    """A folder in which the processes count; None, and a word in the log, where the system has no room for it.
+
+    Their files are mapped into memory: on a full disk a process would die of its first count.
+    """
+    with ExitStack() as kept:
+        try:
+            folder = kept.enter_context(TemporaryDirectory(prefix="bench-dragon-"))
+            with TemporaryFile(dir=folder, buffering=0) as room:
+                for _ in range(workers):
+                    if room.write(bytes(COUNTS_BYTES)) < COUNTS_BYTES:
+                        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+        except OSError as error:
+            why = error.strerror or str(error)
+            logger.warning(
+                "The folder for temporary files cannot be used (%s): /metrics shows one process alone. "
+                "Free some space there, or set TMPDIR to another folder.",
+                why,
+            )
+            kept.close()
+            yield None
+            return
+        yield folder
 
 
 def create_child_app() -> FastAPI:
@@ -117,15 +150,22 @@ def serve(host: str, port: int, workers: int) -> None:
 
     raises: OSError when the port is taken or the address is not ours; with one process uvicorn says so and exits
     """
+    settings = Settings()
+    given: dict[str, Any] = {
+        "factory": True,
+        "host": host,
+        "port": port,
+        "http": PARSER,
+        "log_config": log_config(settings.log_json),
+        "timeout_graceful_shutdown": settings.grace_seconds,
+    }
     if workers == 1:
-        uvicorn.run("app.service.main:create_app", factory=True, host=host, port=port, http=PARSER)
+        uvicorn.run("app.service.main:create_app", **given)
         return
-    config = uvicorn.Config(
-        "app.service.workers:create_child_app", factory=True, host=host, port=port, http=PARSER, workers=workers
-    )
-    with listen(host, port) as shared, TemporaryDirectory(prefix="bench-dragon-") as counts:
-        # Where the processes add up what /metrics shows; prometheus_client reads it when they import it.
-        os.environ[SHARED_COUNTS] = counts
+    config = uvicorn.Config("app.service.workers:create_child_app", workers=workers, **given)
+    with listen(host, port) as shared, _counts_folder(workers) as counts:
+        if counts:  # Where the processes add up what /metrics shows; prometheus_client reads it when they import it.
+            os.environ[SHARED_COUNTS] = counts
         shown = f"[{host}]" if ":" in host else host
         at = f"http://{shown}:{shared.getsockname()[1]}"
         logger.info("Uvicorn running on %s in %d processes (Press CTRL+C to quit)", at, workers)
