@@ -1,7 +1,7 @@
 # The first `make` in a fresh clone creates .venv, installs the locked versions and compiles core/kernels.
 SHELL := /bin/bash
 .DEFAULT_GOAL := help
-.PHONY: help setup serve test rounding lint sweep-pitch bench examples figures dist lock clean
+.PHONY: help setup serve test rounding lint sweep-pitch soak bench examples figures dist lock clean
 
 VENV := .venv
 BIN := $(VENV)/bin
@@ -17,6 +17,7 @@ help:
 	@echo 'make rounding 10,000 computed gaps against 50-digit arithmetic and the bounds on rounding (ARGS="GAPS SEED")'
 	@echo 'make lint     ruff and mypy'
 	@echo 'make sweep-pitch  the minimum pitch of 2,000 random dragons against a slow scan, 10 minutes (DRAGONS=, FIRST=)'
+	@echo 'make soak     all attacks and 64 clients at once (SECONDS=, 300)'
 	@echo 'make bench    benchmarks against a plain SciPy baseline, into docs/performance.md'
 	@echo 'make examples the answers that /docs shows, asked again'
 	@echo 'make figures  the figures of README.md and docs/'
@@ -58,6 +59,9 @@ lint: setup
 
 sweep-pitch: setup
 	@$(BIN)/python -m tests.core.sweep_pitch $(or $(DRAGONS),2000) $(or $(FIRST),0)
+
+soak: setup
+	@$(BIN)/python -m tests.app.attacks $(or $(SECONDS),300)
 
 bench: setup
 	@$(BIN)/python -m benchmarks.report docs/performance.md

@@ -144,7 +144,7 @@ def test_a_problem_is_short(held: Service) -> None:
             client.post("/trajectory", json={f"{'n' * 1000}{k}": 1 for k in range(90)}),
             client.post("/trajectory", json={"x" * 1_000_000: 1}),
             client.post("/check", json={"venue": {"type": "x" * 1_000_000}}),
-            client.get("/turn?" + "&".join(f"n{k}=1&n{k}=1" for k in range(600))),
+            client.get("/turn?" + "&".join(f"n{k}=1&n{k}=1" for k in range(400))),
         ]
     assert [answer.status_code for answer in answers] == [422] * 4
     assert max(len(answer.content) for answer in answers) < 20_000
@@ -192,9 +192,9 @@ def test_any_tag_at_all_is_unchanged_and_what_is_refused_is_not(held: Service) -
 
 
 def test_a_request_keeps_its_name_and_the_log_has_it(held: Service) -> None:
-    answers = [httpx.get(f"{held.url}/turn", headers={"X-Request-ID": name}) for name in ("dance-7", "no name\t")]
+    answers = [httpx.get(f"{held.url}/turn", headers={"X-Request-ID": name}) for name in ("dance-7", "no name!")]
     assert answers[0].headers["x-request-id"] == "dance-7"
-    assert answers[1].headers["x-request-id"] != "no name\t"
+    assert answers[1].headers["x-request-id"] != "no name!"
     lines = [json.loads(line) for line in held.log.read_text().splitlines()]
     assert [line["message"] for line in lines if line["request_id"] == "dance-7"]
 
