@@ -48,5 +48,6 @@ def log_config(in_json: bool) -> dict[str, Any]:
     for formatter in config["formatters"].values():
         formatter["fmt"] += "%(of_request)s"
     if in_json:
+        config["loggers"]["py.warnings"] = {"handlers": ["default"], "level": "WARNING"}
         config["formatters"] = {name: {"()": JsonLines} for name in config["formatters"]}
     return config

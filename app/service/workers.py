@@ -134,6 +134,7 @@ def create_child_app() -> FastAPI:
     """create_app() in a process that ends when its parent has, also when that was killed and could not say so."""
     from app.service.main import create_app
 
+    logging.captureWarnings(Settings().log_json)
     parent = multiprocessing.parent_process()
     assert parent is not None
 
@@ -151,6 +152,7 @@ def serve(host: str, port: int, workers: int) -> None:
     raises: OSError when the port is taken or the address is not ours; with one process uvicorn says so and exits
     """
     settings = Settings()
+    logging.captureWarnings(settings.log_json)
     given: dict[str, Any] = {
         "factory": True,
         "host": host,
