@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 
 from pydantic import Field
@@ -13,6 +14,11 @@ SHARED_COUNTS = "PROMETHEUS_MULTIPROC_DIR"
 DATA = "BENCH_DRAGON_DATA"
 # Largest number of processes of one service; each takes about 100 MB.
 WORKERS_MAX = 64
+
+
+def usable_cores() -> int:
+    """Number of cores that this process may use; all cores of the machine if the system has no such limit."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
 class Settings(BaseSettings):

@@ -17,8 +17,8 @@ from packaging.requirements import Requirement
 from packaging.utils import canonicalize_name
 
 import core
-from app.service.workers import process_count, usable_cores
-from app.settings import WORKERS_MAX
+from app.service.workers import process_count
+from app.settings import WORKERS_MAX, usable_cores
 from core import InvalidValue
 
 ROOT = Path(__file__).parent.parent
@@ -150,7 +150,7 @@ def test_windows_is_told_that_it_has_one_process() -> None:
 
 
 def test_cores_are_counted_where_the_system_has_no_affinity() -> None:
-    code = "import os; del os.sched_getaffinity; from app.service.workers import usable_cores; print(usable_cores())"
+    code = "import os; del os.sched_getaffinity; from app.settings import usable_cores; print(usable_cores())"
     assert int(subprocess.check_output([sys.executable, "-c", code], cwd=ROOT)) >= 1
 
 

@@ -26,7 +26,7 @@ from prometheus_client.multiprocess import mark_process_dead
 from uvicorn.supervisors import Multiprocess
 
 from app.jobs.keeper import scratch
-from app.settings import DATA, SHARED_COUNTS, WORKERS_MAX, Settings
+from app.settings import DATA, SHARED_COUNTS, WORKERS_MAX, Settings, usable_cores
 from core import InvalidValue
 
 logger = logging.getLogger("uvicorn.error")
@@ -35,11 +35,6 @@ logger = logging.getLogger("uvicorn.error")
 # problem details.
 PARSER: Literal["h11"] = "h11"
 BACKLOG = 2048  # Connections that may wait to be accepted; uvicorn's default.
-
-
-def usable_cores() -> int:
-    """Number of cores that this process may use; all cores of the machine if the system has no such limit."""
-    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
 def process_count(asked: int | None, platform: str = sys.platform) -> int:

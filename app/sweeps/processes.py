@@ -12,6 +12,7 @@ import threading
 from collections import deque
 from typing import Any, cast
 
+from app.settings import usable_cores
 from app.sweeps.engines import Done, arrived
 from app.sweeps.shards import Piece
 from app.sweeps.worker import receive, send
@@ -23,11 +24,6 @@ GONE = object()
 STARTS = 5
 # A process that was told to leave is given so long [s].
 PATIENCE = 5.0
-
-
-def usable_cores() -> int:
-    """Number of cores that this process may run on; those of the machine where the system has no such limit."""
-    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
 class CannotStart(BenchDragonError):
