@@ -1,0 +1,88 @@
+"""How far may people stray before benches touch?"""
+
+from __future__ import annotations
+
+from typing import Self
+
+from pydantic import Field
+
+import core
+from app.questions.question import Question, Terms
+from app.wire.answers import Point
+from app.wire.dances import DanceFields, DanceQuery, PlacedDance
+from app.wire.models import Answer, Instant, TurningDiameter, measure
+from core import Exhibit, Limit
+from core.tolerance.curve import time_on_circle
+
+
+class ToleranceQuery(DanceQuery):
+    """How far may people stray on the way to a turning circle?"""
+
+    turning_diameter: TurningDiameter = measure("m", "Diameter of the circle at which the head stops", 9.0)
+
+
+class ToleranceRequest(PlacedDance, DanceFields, strict=True):
+    """How far may people stray in any dance, between each other and to a venue?"""
+
+    start: Instant | None = measure(
+        "s", "Start time; null: the start of the dance, or when the whole dragon is on the path", None
+    )
+    stop: Instant | None = measure("s", "End time; null: the end of the run", None)
+
+
+class Shown(Answer):
+    """A pose of the whole dragon, every chord kept, in which those that limit the stray overlap."""
+
+    handles: list[Point] = measure("m", "Places of the handles, x and y, head first")
+    depth: float = measure("m", "How deep the two overlap")
+    stray: float = measure("m", "Largest distance of a handle from its place")
+
+    @classmethod
+    def of(cls, found: Exhibit | None) -> Self | None:
+        return None if found is None else cls.known(found, handles=found.handles.tolist())
+
+
+class StrayProof(Answer):
+    """How the safe stray is known."""
+
+    method: str = Field(description="The claim and its proof, in sentences")
+    steps: int = Field(description="Number of steps taken")
+
+
+class Tolerance(Answer):
+    """How far every hole may be from its place at any time without any contact."""
+
+    stray: float = measure("m", "Proven safe: while no hole is further from its place, nothing touches")
+    stray_bracket: tuple[float, float | None] = measure(
+        "m", "Proven safe; shown to touch, null where no such pose was found"
+    )
+    limited_by: Limit = Field(
+        description="What a larger stray breaks. benches: two benches touch; venue: a bench and an edge of the venue; "
+        "chord: nothing, up to half of the shortest chord"
+    )
+    time: float | None = measure("s", "Time at which these are nearest to touching; null if nothing limits the stray")
+    benches: tuple[int, int | None] | None = Field(
+        description="The pair, the second null for an edge of the venue; null if nothing limits the stray"
+    )
+    area: str | None = Field(description="Name of the square or of the obstacle; null if none limits the stray")
+    exhibit: Shown | None = Field(description="A pose in which they overlap; null where none was found")
+    start: float = measure("s", "Start of the time asked about")
+    stop: float = measure("s", "End of the time asked about")
+    certificate: StrayProof = Field(description="How the safe stray is known")
+
+    @classmethod
+    def of(cls, found: core.Tolerance) -> Self:
+        return cls.known(found, exhibit=Shown.of(found.exhibit))
+
+
+def tolerance(asked: ToleranceQuery | ToleranceRequest, terms: Terms) -> Tolerance:
+    """How far people may stray at any time before benches touch, and a pose that shows where they do."""
+    dance, budget = asked.to_dance(terms.settings.checked_benches_max), terms.budget
+    if isinstance(asked, ToleranceRequest):
+        venue = asked.to_place(dance.dragon).venue
+        return Tolerance.of(core.tolerance(dance, venue, start=asked.start, stop=asked.stop, budget=budget))
+    stop = time_on_circle(dance, asked.turning_diameter / 2)
+    return Tolerance.of(core.tolerance(dance, stop=stop, budget=budget))
+
+
+QUESTION = Question(tolerance, Tolerance, flat=ToleranceQuery, body=ToleranceRequest)

@@ -1,0 +1,110 @@
+"""How far people may stray against the pitch of the spiral. The inverse is minimum_pitch(dragon, stray=...)."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from core import plots
+from core.budget import Budget
+from core.dance import Dance
+from core.dragon import Dragon
+from core.errors import InvalidValue, said
+from core.paths.spiral import Spiral
+from core.shown import Shown, extent
+from core.tables import data_frame
+from core.tolerance.tolerance import Tolerance, tolerance
+from core.values import Floats, asked_of, checked_size
+
+if TYPE_CHECKING:
+    import pandas
+    from matplotlib.axes import Axes
+
+# Pitches of a curve are asked one by one; so many at most [1].
+CURVE_MOST = 10_000
+
+
+@dataclass(frozen=True, slots=True, repr=False)
+class ToleranceCurve(Shown):
+    """How far people may stray against the pitch of a spiral, on the way to a turning circle.
+
+    pitch: (N,) [m], as given; stray: (N,) [m], proven safe; tolerances: the whole answers
+    """
+
+    pitch: Floats
+    stray: Floats
+    tolerances: tuple[Tolerance, ...]
+
+    def _line(self) -> str:
+        return f"strays of {extent(self.stray, 'm')} at pitches of {extent(self.pitch, 'm')}"
+
+    def to_dataframe(self) -> pandas.DataFrame:
+        """One row for each pitch: pitch, stray [m], limited_by.
+
+        raises: ImportError without pandas, naming the extra
+        """
+        limits = np.array([one.limited_by.value for one in self.tolerances])
+        columns = {"pitch": self.pitch, "stray": self.stray, "limited_by": limits}
+        return data_frame("ToleranceCurve.to_dataframe()", columns, {})
+
+    def plot(self, ax: Axes | None = None) -> Axes:
+        """Plot the stray against the pitch.
+
+        returns: the axes given, or those of a new figure, in metres
+        raises: ImportError without matplotlib, naming the extra
+        """
+        axes = plots.wanted_axes(ax, "ToleranceCurve.plot()")
+        axes.plot(self.pitch, self.stray, linewidth=1.2)
+        axes.set(xlabel="pitch [m]", ylabel="how far people may stray [m]")
+        axes.set_ylim(bottom=0.0)
+        axes.grid(alpha=0.3)
+        return axes
+
+
+@asked_of("dragon", Dragon)
+def tolerance_curve(
+    dragon: Dragon,
+    pitches: Floats | Sequence[float],
+    *,
+    turning_radius: float = 4.5,
+    start_turns: float = 16.0,
+    budget: Budget | None = None,
+) -> ToleranceCurve:
+    """How far people may stray at each of some pitches, from the start until the head is on the turning circle.
+
+    pitches: (N,) [m]; turning_radius: [m]; start_turns: turns from the centre to the start
+    The inverse, the smallest pitch for a stray, is minimum_pitch(dragon, stray=...).
+    raises: InvalidValue, also for a pitch at which the dance begins inside the circle or folds before it; TooMuchWork
+    """
+    radius = checked_size("turning_radius", turning_radius)
+    rule = f"pitches must be a list of 1 to {CURVE_MOST} numbers in metres"
+    try:
+        column = np.asarray(pitches, dtype=np.float64)
+    except (TypeError, ValueError) as error:
+        raise InvalidValue("pitches", f"{rule}, got {pitches!r:.60}") from error
+    if column.ndim != 1 or not 1 <= column.size <= CURVE_MOST:
+        raise InvalidValue("pitches", f"{rule}, got an array of shape {column.shape}")
+    answers = []
+    for pitch in column.tolist():
+        dance = Dance(dragon, Spiral(pitch, start_turns))
+        answers.append(tolerance(dance, stop=time_on_circle(dance, radius), budget=budget))
+    return ToleranceCurve(column, np.array([one.stray for one in answers]), tuple(answers))
+
+
+def time_on_circle(dance: Dance, radius: float) -> float:
+    """When the head of a dance on a spiral is on a circle around the centre [s].
+
+    raises: InvalidValue (turning_radius) for a circle outside the start, or one that the dance does not come to
+    """
+    assert isinstance(dance.path, Spiral)
+    if radius > dance.path.pitch * dance.path.start_turns:
+        rule = f"must be smaller: at a pitch of {said(dance.path.pitch)} m the dance starts inside that circle"
+        raise InvalidValue.of("turning_radius", rule, radius, "m")
+    time = dance.path.travel_to(radius) / dance.head_speed
+    if time > dance.end.time:
+        rule = f"must be larger: {dance.end.why} at {dance.end.time:.6f} s, before the head is on that circle"
+        raise InvalidValue.of("turning_radius", rule, radius, "m")
+    return max(time, 0.0)

@@ -1,0 +1,237 @@
+"""Poses in which people stray as little as can be and two benches overlap all the same: the other end of a bracket.
+
+One bench turned by phi with its middle anywhere in its lens (core/tolerance/reach.py) covers the sum of the lens and
+the turned rectangle: a convex region with support lens(theta) + rectangle(theta) in each direction theta. Two benches
+turned by phi_a and phi_b can therefore overlap exactly if the largest gap
+    g(phi_a, phi_b) = max over theta of  n . (M_b - M_a) - support_a(n) - support_b(-n)
+is at most 0, and both are in the lens's corner for that n when they begin to. The least of g over both turns falls with
+the stray; where it reaches 0, that stray exhibits a contact. Grids that narrow around their best find it: what they
+might miss costs some of the bracket, never the truth, as the overlap is then verified in the pose itself.
+
+The rest of the chain forbids nothing. In front of the pair and behind it each handle takes the place on its circle that
+is nearest to its own: its nominal place, moved along with the handle before it, is on that circle, so it strays no
+further than that one. Between the two benches both ends are given; there the chords are restored with the smallest
+strays (Newton steps of least length). What all people stray at most, measured in the pose, is reported.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from core.dragon import Dragon
+from core.motion.trajectory import bench_poses
+from core.shapes.rectangles import frames, frames_separation
+from core.shown import Shown, worded
+from core.values import Floats
+
+# Points of a grid over each turn and over the direction [1], the range of directions around the nominal normal [rad],
+# how much narrower the next grid is [1], and how many there are: the turns are then known to 1e-7 of their range.
+TURNS, BEARINGS = 11, 11
+BEARING_RANGE = 0.7
+NARROWER, ROUNDS = 0.35, 16
+# Depth of the overlap that is exhibited, far above the rounding of places up to 1e4 m [m].
+DEPTH = 1e-7
+# Chords are restored to this [m] in at most so many steps.
+CHORD_WITHIN, CHORD_STEPS = 1e-13, 40
+# Strays are tried up to this factor of the one at which two benches alone would overlap, in steps of this much [1].
+TRIED_TO, TRIED_STEP = 1.5, 0.01
+
+
+@dataclass(frozen=True, slots=True, repr=False)
+class Exhibit(Shown):
+    """A pose of the whole dragon in which two benches overlap.
+
+    time: [s]; handles: (n + 1, 2) [m], every chord as long as it should be to rounding; benches: the pair, the second
+        None for an edge of the venue; depth: of the overlap [m]; stray: the largest distance of a hole from its place
+    """
+
+    time: float
+    handles: Floats
+    benches: tuple[int, int | None]
+    depth: float
+    stray: float
+
+    def _line(self) -> str:
+        a, b = self.benches
+        other = "the venue" if b is None else f"bench {b}"
+        return f"bench {a} and {other} overlap by {worded(self.depth, 'm')} with strays up to {worded(self.stray, 'm')}"
+
+
+@dataclass(frozen=True, slots=True)
+class Body:
+    """A bench in its nominal place, or an edge at rest (chord 0): centre, heading, chord, half length and width [m]."""
+
+    x: float
+    y: float
+    heading: float
+    chord: float
+    half_length: float
+    half_width: float
+
+    def turns(self, stray: float) -> float:
+        """The largest turn that a stray allows [rad]."""
+        return 2.0 * math.asin(min(1.0, stray / self.chord)) if self.chord else 0.0
+
+    def faces(self, turn: Floats, bearing: float) -> Floats:
+        """Direction of the turned body's normal that is nearest to a bearing [rad]."""
+        square = 0.5 * math.pi
+        normal: Floats = self.heading + turn + square * np.round((bearing - self.heading - turn) / square)
+        return normal
+
+    def support(self, bearing: Floats, turn: Floats, stray: float) -> Floats:
+        """Support of all places at a turn [rad] in a direction of the world [rad], from the nominal centre [m]."""
+        facing = bearing - self.heading - turn
+        reached: Floats = self.half_length * np.abs(np.cos(facing)) + self.half_width * np.abs(np.sin(facing))
+        if not self.chord:
+            return reached
+        q = np.minimum(np.abs(self.chord * np.sin(0.5 * turn)), stray)
+        leaning = bearing - self.heading - 0.5 * turn
+        sine, cosine = np.abs(np.sin(leaning)), np.abs(np.cos(leaning))
+        tip = cosine * np.sqrt(np.maximum(stray * stray - q * q, 0.0))
+        return reached + np.where(q <= stray * sine, stray - q * sine, tip)
+
+    def strays(self, bearing: float, turn: float, stray: float) -> Floats:
+        """Strays (2, 2) of the front and the rear hole that take a bench as far as can be in a direction [m]."""
+        q = min(max(self.chord * math.sin(0.5 * turn), -stray), stray)
+        axis = self.heading + 0.5 * turn
+        along, across = np.array([math.cos(axis), math.sin(axis)]), np.array([-math.sin(axis), math.cos(axis)])
+        way = np.array([math.cos(bearing), math.sin(bearing)])
+        sideways, forward = float(across @ way), float(along @ way)
+        if abs(q) <= stray * abs(sideways):  # one disc alone: its furthest point
+            middle = stray * way - math.copysign(abs(q), sideways) * across
+        else:
+            middle = math.copysign(math.sqrt(stray * stray - q * q), forward) * along
+        return np.stack([middle + q * across, middle - q * across])
+
+
+def nearest_turns(a: Body, b: Body, bearing: float, stray: float) -> tuple[float, float, float, float]:
+    """Least gap of two bodies over all their turns [m], the two turns, and the direction that keeps them apart [rad].
+
+    bearing: of the normal from a to b in their nominal places [rad]
+    """
+    centres = [0.0, 0.0, bearing]
+    spans = [a.turns(stray), b.turns(stray), BEARING_RANGE]
+    limits, gap = spans[:2], 0.0
+    for _ in range(ROUNDS):
+        grid = [
+            np.linspace(centre - span, centre + span, count if span else 1)
+            for centre, span, count in zip(centres, spans, (TURNS, TURNS, BEARINGS), strict=True)
+        ]
+        turn_a = np.clip(grid[0], -limits[0], limits[0])[:, None, None]
+        turn_b = np.clip(grid[1], -limits[1], limits[1])[None, :, None]
+        ways = np.broadcast_to(grid[2], (turn_a.size, turn_b.size, grid[2].size))
+        faces = [a.faces(turn_a, bearing), b.faces(turn_b, bearing)]
+        way = np.concatenate([ways, *(np.broadcast_to(face, (*ways.shape[:2], 1)) for face in faces)], axis=2)
+        apart = (b.x - a.x) * np.cos(way) + (b.y - a.y) * np.sin(way)
+        gaps = apart - a.support(way, turn_a, stray) - b.support(way + math.pi, turn_b, stray)
+        most = gaps.max(axis=2)
+        i, j = np.unravel_index(int(most.argmin()), most.shape)
+        gap = float(most[i, j])
+        centres = [float(turn_a[i, 0, 0]), float(turn_b[0, j, 0]), float(way[i, j, gaps[i, j].argmax()])]
+        spans = [NARROWER * span for span in spans]
+    return gap, centres[0], centres[1], centres[2]
+
+
+def body(dragon: Dragon, handles: Floats, k: int) -> Body:
+    """Bench k of a dragon in a place."""
+    x, y, heading = bench_poses(handles[k : k + 2])[0].tolist()
+    half_length, half_width = 0.5 * float(dragon.lengths[k]), 0.5 * float(dragon.widths[k])
+    return Body(x, y, heading, float(dragon.chords[k]), half_length, half_width)
+
+
+def exhibit(
+    dragon: Dragon,
+    handles: Floats,
+    pair: tuple[int, int | None],
+    edge: Body | None,
+    bearing: float,
+    safe: float,
+    time: float,
+) -> Exhibit | None:
+    """A pose of the whole dragon in which a pair overlaps, with strays little above those proven safe; None if lost.
+
+    handles: (n + 1, 2) where they should be [m]; edge: in place of a second bench; bearing: of the normal [rad]
+    """
+    first, second = pair
+    a = body(dragon, handles, first)
+    other = edge if second is None else body(dragon, handles, second)
+    assert other is not None
+    high = min(TRIED_TO * safe + 2.0 * DEPTH, 0.5 * float(dragon.chords.min()))
+    # With a stray larger by x the middle of each bench can go x further in any direction, so the gap closes by that.
+    stray = safe + max(0.0, nearest_turns(a, other, bearing, safe)[0] + DEPTH) / (1 if second is None else 2)
+    while stray <= high:
+        _, turn_a, turn_b, way = nearest_turns(a, other, bearing, stray)
+        wanted = {first: a.strays(way, turn_a, stray)}
+        if second is not None:
+            wanted[second] = other.strays(way + math.pi, turn_b, stray)
+        moved = extended(dragon.chords, handles, wanted)
+        if moved is not None:
+            gap = _overlap(dragon, moved, pair, edge)
+            if gap < 0.0:
+                furthest = float(np.hypot(*(moved - handles).T).max())
+                return Exhibit(time, moved, pair, -gap, furthest)
+        stray += TRIED_STEP * safe + DEPTH
+    return None
+
+
+def _overlap(dragon: Dragon, handles: Floats, pair: tuple[int, int | None], edge: Body | None) -> float:
+    """Separation of a pair in a pose [m]."""
+    poses, sizes = [], []
+    for k in pair:
+        if k is None:
+            assert edge is not None
+            poses.append([edge.x, edge.y, edge.heading])
+            sizes.append([2.0 * edge.half_length, 0.0])
+        else:
+            poses.append(bench_poses(handles[k : k + 2])[0].tolist())
+            sizes.append([dragon.lengths[k], dragon.widths[k]])
+    both = frames(np.array(poses), np.array(sizes))
+    return float(frames_separation(both[:1], both[1:]).separation[0])
+
+
+def extended(chords: Floats, handles: Floats, wanted: dict[int, Floats]) -> Floats | None:
+    """All handles (n + 1, 2), the holes of some benches displaced as wanted, every chord kept; None if that fails.
+
+    wanted: bench -> strays (2, 2) of its two holes, whose chord they keep [m]; of two benches that are next but one to
+    each other, both give way a little, as the bench between shares a hole with either
+    """
+    moved = handles.copy()
+    for k, strays in wanted.items():
+        moved[k : k + 2] = handles[k : k + 2] + strays
+    first, last = min(wanted), max(wanted)
+    between = slice(first + 2, last) if last > first + 2 else slice(first, last + 2)
+    if last > first and not _restored(chords[first : last + 1], moved[first : last + 2], between, first):
+        return None
+    for k in range(first - 1, -1, -1):
+        moved[k] = _nearest(handles[k], moved[k + 1], float(chords[k]))
+    for k in range(last + 2, len(handles)):
+        moved[k] = _nearest(handles[k], moved[k - 1], float(chords[k - 1]))
+    return moved
+
+
+def _restored(chords: Floats, places: Floats, free: slice, first: int) -> bool:
+    """Give these chords their lengths, by moving handles `free` (numbered from `first`) as little as can be."""
+    start, stop = free.start - first, free.stop - first
+    for _ in range(CHORD_STEPS):
+        link = places[:-1] - places[1:]
+        length = np.hypot(*link.T)
+        wrong = chords - length
+        if np.abs(wrong).max() <= CHORD_WITHIN:
+            return True
+        slope = np.zeros((len(chords), len(places), 2))
+        rows = np.arange(len(chords))
+        slope[rows, rows] = link / length[:, None]
+        slope[rows, rows + 1] = -slope[rows, rows]
+        moving = slope[:, start:stop].reshape(len(chords), -1)
+        places[start:stop] += np.linalg.lstsq(moving, wrong, rcond=None)[0].reshape(-1, 2)
+    return False
+
+
+def _nearest(place: Floats, joined: Floats, chord: float) -> Floats:
+    """The point at a chord's distance from a handle that is nearest to a place [m]."""
+    way = place - joined
+    point: Floats = joined + way * (chord / math.hypot(*way.tolist()))
+    return point

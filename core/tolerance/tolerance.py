@@ -1,0 +1,275 @@
+"""How far may people stray: the largest stray that no motion within it can break, proven, and one little larger that
+is shown to break it.
+
+The least stray at which two benches can meet, over the dance, is found as the least clearance is
+(core/contact/clearance.py): an upper bound first, from samples; then a march of the ground that benches may cover
+(core/tolerance/reach.py) with a stray a little smaller. It either reaches the end, which proves that no dance within
+that stray touches; or two grounds meet. Then the stray at which these two just graze is found, and the march goes on
+from there with it: what it has passed is clear with the larger stray, and so with the smaller one.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from enum import StrEnum
+
+import numpy as np
+
+from core.budget import Budget, bounded
+from core.contact.clearance import PROFILE_STEP, Dip, refined_dip, sampled_least
+from core.contact.fold import clear_to_fold
+from core.contact.search import NEAR_WORK_BUDGET, TOUCHES, Ended, Search
+from core.dance import Dance, RunEnd
+from core.errors import said
+from core.kernels.constants import HALF_LENGTH, MX, MY, UX, UY
+from core.motion.trajectory import bench_poses, trajectory
+from core.shapes.rectangles import frames, frames_separation
+from core.shown import Shown, worded
+from core.tolerance.exhibit import Body, Exhibit, exhibit
+from core.values import Floats, asked_of, checked_type
+from core.venue import Venue, venue_route
+
+# How far below the least stray at which benches can meet the proof is tried [1 of that stray]; the second one where the
+# first takes too many steps.
+BELOW = (2e-4, 2e-3)
+# Largest number of times that a march may find a smaller stray.
+ROUNDS = 100
+# The stray at which two benches graze is found to this part of it [1], in at most so many steps.
+GRAZE_WITHIN, GRAZE_STEPS = 2e-5, 20
+# Strays below this are taken for none [m]: rounding hides what they do.
+STRAY_MIN = 1e-9
+
+
+class Limit(StrEnum):
+    """What a larger stray would break: two benches meet, a bench and the venue; or nothing does, up to half the
+    shortest chord, beyond which no stray is asked about."""
+
+    BENCHES = "benches"
+    VENUE = "venue"
+    CHORD = "chord"
+
+
+@dataclass(frozen=True, slots=True, repr=False)
+class StrayProof(Shown):
+    """How the proven end is known: the claim in sentences, and the steps that the march took."""
+
+    method: str
+    steps: int
+
+
+@dataclass(frozen=True, slots=True, repr=False)
+class Tolerance(Shown):
+    """How far people may stray.
+
+    stray: [m], proven safe: while no hole is further from its place at any instant, nothing touches
+    stray_bracket: (proven safe, shown to touch) [m]; the second None where nothing was shown
+    limited_by: see Limit; time: when those that limit it are nearest to meeting [s]; benches: they, the second None for
+        the venue; area: its name. All None where nothing limits it
+    exhibit: a pose of the whole dragon in which they overlap, with strays up to the second end
+    start, stop: of the stretch asked about [s]
+    """
+
+    stray: float
+    stray_bracket: tuple[float, float | None]
+    limited_by: Limit
+    time: float | None
+    benches: tuple[int, int | None] | None
+    area: str | None
+    exhibit: Exhibit | None
+    start: float
+    stop: float
+    certificate: StrayProof
+
+    def _line(self) -> str:
+        safe = f"strays up to {worded(self.stray, 'm')} are safe"
+        shown = self.stray_bracket[1]
+        if shown is None or self.benches is None:
+            return safe
+        other = self.area if self.benches[1] is None else f"bench {self.benches[1]}"
+        return (
+            f"{safe}; with {worded(shown, 'm')} bench {self.benches[0]} and {other} touch at {worded(self.time, 's')}"
+        )
+
+
+@dataclass(frozen=True, slots=True)
+class _Field:
+    """What may be met: the dance's other benches, or the edges of one area.
+
+    dance: on the path as it is searched; work: of all its searches together; span: of head travel [m]
+    """
+
+    dance: Dance
+    edges: Floats | None
+    area: str | None
+    span: tuple[float, float]
+    fold: RunEnd | None
+    work: float
+    budget: Budget
+
+    def search(self, stray: float) -> Search:
+        """The ground that benches may cover."""
+        return Search(
+            self.dance.dragon, self.dance.path, 0.0, self.edges, work=self.work, budget=self.budget, stray=stray
+        )
+
+
+@dataclass(frozen=True, slots=True)
+class _Found:
+    """A stray that is safe in one field, and the dip that limits it."""
+
+    stray: float
+    dip: Dip | None
+    steps: int
+
+
+@asked_of("dance", Dance)
+@bounded("how far people may stray was not found")
+def tolerance(
+    dance: Dance,
+    venue: Venue | None = None,
+    *,
+    start: float | None = None,
+    stop: float | None = None,
+    budget: Budget | None = None,
+) -> Tolerance:
+    """The largest stray of all holes that no motion within it can break, and one that is shown to.
+
+    A stray is the distance of a hole from its place at the same instant, by people and by the play of its pin. Any way
+    to move is allowed that keeps every chord; speeds do not matter. Neighbours, which share a hole, are never a pair.
+    venue: its edges count too; start, stop: [s], by default from 0 (on a route: from when the whole dragon is on it) to
+        the end of the run
+    returns: see Tolerance. Where benches touch, or are in the venue's edges, as it is, the stray is 0; so it is,
+        without a second end, where the search gave up before it proved any
+    raises: InvalidValue; OutsideRun; TooMuchWork
+
+    >>> from core import Dragon, Spiral
+    >>> found = tolerance(Dance(Dragon(), Spiral()), stop=300.0)
+    >>> round(found.stray, 4), found.benches
+    (0.0529, (0, 21))
+    """
+    if venue is not None:
+        checked_type("venue", venue, Venue)
+    budget = budget or Budget()
+    begin, until = dance.span(dance.begin if start is None else start, stop)
+    most = 0.5 * float(dance.dragon.chords.min())
+    found, limit = _Found(most, None, 0), None
+    steps = 0
+    for field in _fields(dance, venue, (begin, until), budget):
+        safe = _safe_stray(field, found.stray)
+        steps += safe.steps
+        if safe.dip is not None:
+            found, limit = safe, field
+    proof = StrayProof(_method(dance, found.stray, (begin, until), venue), steps)
+    if found.dip is None or limit is None:
+        return Tolerance(most, (most, None), Limit.CHORD, None, None, None, None, begin, until, proof)
+    _, travel, (a, b) = found.dip
+    time = min(max(travel / dance.head_speed, begin), until)
+    second = b if limit.edges is None else None
+    shown = _exhibit(limit, found, time)
+    bracket = (found.stray, None if shown is None else shown.stray)
+    by = Limit.BENCHES if limit.edges is None else Limit.VENUE
+    return Tolerance(found.stray, bracket, by, time, (a, second), limit.area, shown, begin, until, proof)
+
+
+def _fields(dance: Dance, venue: Venue | None, span: tuple[float, float], budget: Budget) -> list[_Field]:
+    speed = dance.head_speed
+    fields = []
+    if dance.dragon.benches > 2:
+        to_fold = dance.nears_fold(span[1])
+        last = Search.last_travel(span[1] * speed, to_fold)
+        fold = dance.end if to_fold else None
+        fields.append(_Field(dance, None, None, (span[0] * speed, last), fold, NEAR_WORK_BUDGET, budget))
+    if venue is not None:
+        danced = replace(dance, path=venue_route(dance.path, span[1] * speed))
+        share = NEAR_WORK_BUDGET / len(venue.areas)
+        travels = (span[0] * speed, span[1] * speed)
+        fields += [_Field(danced, area.edges, area.name, travels, None, share, budget) for area in venue.areas]
+    return fields
+
+
+def _safe_stray(field: _Field, most: float) -> _Found:
+    """The largest stray up to `most` that is safe in a field, a little less than what its samples and marches show."""
+    begin, until = field.span
+    nominal = sampled_least(field.search(0.0), begin, until)
+    if nominal[0] <= 0.0:
+        state, touch, _ = field.search(0.0).approach(begin, until, field.dance.head_speed)
+        at_first = (0.0, touch.touching, touch.benches) if touch.touching is not None and state in TOUCHES else nominal
+        return _Found(0.0, at_first, touch.steps)
+    # Two benches that approach each other by the stray each, in parallel, meet where it is half their clearance.
+    first = min(most, nominal[0] * (1.0 if field.edges is not None else 0.5))
+    dip = sampled_least(field.search(first), begin, until)
+    stray, limiting = (first, None) if dip[0] > 0.0 else _grazing(field, first, dip)
+    steps, proven_to = 0, begin
+    for below in BELOW:
+        for _ in range(ROUNDS):
+            tried = stray * (1.0 - below) if limiting is not None else stray
+            if tried < STRAY_MIN:
+                return _Found(0.0, limiting, steps)
+            search = field.search(tried)
+            state, met = search.march(until, 0.0, start=proven_to)
+            search.budget.afford()
+            steps += met.steps
+            if state is Ended.REACHED or (state is Ended.STUCK and met.touching is None):
+                if field.fold is not None and not clear_to_fold(search, min(met.proven, until), field.fold):
+                    break
+                if state is Ended.REACHED or field.fold is not None:
+                    return _Found(tried, limiting, steps)
+                break
+            if met.touching is None:
+                break
+            proven_to = max(proven_to, met.proven)
+            reach = PROFILE_STEP * search.extremes[1]
+            around = (max(begin, met.touching - reach), met.touching, min(until, met.touching + reach))
+            found, limiting = _grazing(field, tried, refined_dip(search, *around))
+            stray = min(found, tried)
+    return _Found(0.0, limiting or nominal, steps)  # nothing was proven of any stray
+
+
+def _grazing(field: _Field, stray: float, dip: Dip) -> tuple[float, Dip]:
+    """The stray near this one at which the grounds that meet in a dip only graze, to GRAZE_WITHIN of it [m]; that dip.
+
+    Where the stray is larger by x, the ground of each bench reaches at least x further in every direction: so the gap
+    falls at least by that much for each bench, and as evenly as the slope of the last two strays says.
+    """
+    slope = 1.0 if field.edges is not None else 2.0
+    for _ in range(GRAZE_STEPS):
+        if abs(dip[0]) <= slope * GRAZE_WITHIN * stray:
+            break
+        last, stray = (stray, dip[0]), max(stray + dip[0] / slope, 0.0)
+        search = field.search(stray)
+        reach, travel = PROFILE_STEP * search.extremes[1], dip[1]
+        dip = refined_dip(search, max(field.span[0], travel - reach), travel, min(field.span[1], travel + reach))
+        if stray != last[0]:
+            slope = max(slope, (dip[0] - last[1]) / (last[0] - stray))
+    return stray, dip
+
+
+def _exhibit(field: _Field, found: _Found, time: float) -> Exhibit | None:
+    """A pose of the whole dragon in which the pair of a dip overlaps."""
+    assert found.dip is not None
+    dragon, (a, b) = field.dance.dragon, found.dip[2]
+    handles = trajectory(field.dance, time, budget=field.budget).position
+    pose, size = bench_poses(handles), np.stack([dragon.lengths, dragon.widths], axis=-1)
+    edge = None
+    if field.edges is None:
+        other = frames(pose[b : b + 1], size[b : b + 1])
+    else:
+        search = field.search(0.0)
+        search.place_leaders(time * field.dance.head_speed, a + 1)
+        x, y, ux, uy = (float(search.rows[0, b, column]) for column in (MX, MY, UX, UY))
+        edge = Body(x, y, math.atan2(uy, ux), 0.0, float(search.sizes[b, HALF_LENGTH]), 0.0)
+        other = frames(np.array([[x, y, edge.heading]]), np.array([[2.0 * edge.half_length, 0.0]]))
+    normal = frames_separation(frames(pose[a : a + 1], size[a : a + 1]), other).normal[0]
+    pair = (a, b if field.edges is None else None)
+    return exhibit(dragon, handles, pair, edge, math.atan2(normal[1], normal[0]), found.stray, time)
+
+
+def _method(dance: Dance, stray: float, span: tuple[float, float], venue: Venue | None) -> str:
+    square = " or an edge of the venue" if venue is not None else ""
+    return (
+        f"{dance.dragon._line()} on {dance.path.words()}: from {said(span[0])} s to {said(span[1])} s, while every "
+        f"hole is within {said(stray)} m of its place and every chord keeps its length, no bench touches another that "
+        f"it shares no handle with{square}. Proven in steps for the hulls of all places that benches can have then, as "
+        "first contacts are for benches; computed in doubles, with allowances for their rounding."
+    )

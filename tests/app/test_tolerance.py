@@ -1,0 +1,85 @@
+"""How far people may stray, over HTTP and from a terminal: the answers of core, and what is refused."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import httpx
+import numpy as np
+import pytest
+
+from core import Dance, Dragon, Spiral, bench_poses, first_contact, minimum_pitch, overlaps, tolerance
+from core.tolerance.curve import time_on_circle
+
+ROOT = Path(__file__).parent.parent.parent
+SMALL = {"benches": 40, "start_turns": 9}
+
+
+def test_the_way_to_the_circle_has_the_tolerance_of_core_and_a_pose_that_overlaps(client: httpx.Client) -> None:
+    got = client.get("/tolerance", params=SMALL | {"pitch": 0.6}).raise_for_status().json()
+    dance = Dance(Dragon(40), Spiral(0.6, 9.0))
+    found = tolerance(dance, stop=time_on_circle(dance, 4.5))
+    assert (got["stray"], tuple(got["stray_bracket"])) == (found.stray, found.stray_bracket)
+    assert (got["time"], tuple(got["benches"]), got["limited_by"]) == (found.time, found.benches, "benches")
+    handles = np.array(got["exhibit"]["handles"])
+    touching = overlaps(bench_poses(handles), dance.dragon.lengths, dance.dragon.widths)
+    assert found.benches in {tuple(pair) for pair in touching.pairs.tolist()}
+
+
+def test_any_dance_in_any_venue_has_one(client: httpx.Client) -> None:
+    square = [[-9, -9], [9, -9], [9, 9], [-9, 9], [-9, -9]]
+    venue = {"type": "Polygon", "coordinates": [square]}
+    path = {"kind": "spiral", "pitch": 0.9, "start_turns": 9.0}
+    body = {"dragon": {"benches": 12}, "path": path, "stop": 20.0, "venue": venue}
+    got = client.post("/tolerance", json=body).raise_for_status().json()
+    alone = client.post("/tolerance", json={**body, "venue": None}).raise_for_status().json()
+    assert got["limited_by"] == "venue"
+    assert got["benches"][1] is None
+    assert 0.0 < got["stray"] < alone["stray"]
+
+
+def test_a_stray_on_other_calls_is_that_of_core(client: httpx.Client) -> None:
+    first = client.get("/collision-time", params={"stray": 0.02}).raise_for_status().json()
+    assert first["time"] == first_contact(Dance(Dragon(), Spiral()), stray=0.02).time
+    assert first["cross_check"]["agree"]
+    assert first["cross_check"]["judged"] == first["benches"]
+    play = client.get("/collision-time", params={"stray": 0.01, "hole": 0.05, "pin": 0.03}).raise_for_status().json()
+    assert play["time"] == pytest.approx(first["time"], abs=1e-8)
+    pitch = client.get("/minimum-pitch", params={"stray": 0.02}).raise_for_status().json()["pitch"]
+    assert pitch == minimum_pitch(Dragon(), stray=0.02).pitch
+
+
+@pytest.mark.parametrize("call", ["/collision-time", "/minimum-pitch"])
+def test_a_stray_of_0_gives_the_same_bytes(client: httpx.Client, call: str) -> None:
+    assert client.get(call, params={"stray": 0, "hole": 0, "pin": 0}).content == client.get(call).content
+
+
+@pytest.mark.parametrize(
+    ("call", "given", "field", "words"),
+    [
+        ("/collision-time", {"stray": 1}, "stray", "at most half the chord of bench 1"),
+        ("/collision-time", {"stray": -0.1}, "stray", "-0.1"),
+        ("/minimum-pitch", {"hole": 0.05, "pin": 0.06}, "pin", "no wider than its hole (0.05 m), got 0.06 m"),
+        ("/tolerance", {"turning_diameter": 40}, "turning_diameter", "must be smaller, got 40 m: at a pitch of 0.55 m"),
+        ("/tolerance", {"turning_diameter": 1}, "turning_diameter", "before the head is on that circle"),
+    ],
+)
+def test_what_cannot_be_is_refused_with_its_limit(
+    client: httpx.Client, call: str, given: dict[str, Any], field: str, words: str
+) -> None:
+    answer = client.get(call, params=given)
+    assert answer.status_code == 422
+    error = answer.json()["errors"][0]
+    assert error["name"] == field
+    assert words in error["detail"]
+
+
+def test_the_command_prints_the_json_of_the_service(client: httpx.Client) -> None:
+    options = ["--benches", "40", "--start-turns", "9", "--pitch", "0.6"]
+    run = [str(Path(sys.executable).parent / "bench-dragon"), "tolerance", *options, "--json"]
+    told = subprocess.run(run, capture_output=True, text=True, cwd=ROOT, check=True).stdout
+    assert json.loads(told) == client.get("/tolerance", params=SMALL | {"pitch": 0.6}).json()

@@ -1,0 +1,54 @@
+"""The curve of tolerance against pitch: each of its points, its rise, and what is refused."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from core import Dance, Dragon, InvalidValue, Spiral, minimum_pitch, tolerance, tolerance_curve
+from core.tolerance.curve import time_on_circle
+
+DRAGON = Dragon(benches=60)
+
+
+def test_a_curve_holds_the_tolerance_of_each_pitch() -> None:
+    curve = tolerance_curve(DRAGON, [0.55, 0.8], start_turns=10.0)
+    for pitch, stray in zip(curve.pitch.tolist(), curve.stray.tolist(), strict=True):
+        dance = Dance(DRAGON, Spiral(pitch, 10.0))
+        assert tolerance(dance, stop=time_on_circle(dance, 4.5)).stray == stray
+    frame = curve.to_dataframe()
+    assert list(frame.columns) == ["pitch", "stray", "limited_by"]
+    assert set(frame["limited_by"]) == {"benches"}
+
+
+def test_a_wider_spiral_allows_more_and_the_least_pitch_for_a_stray_is_its_inverse() -> None:
+    strays = [0.01, 0.03, 0.06]
+    pitches = [minimum_pitch(DRAGON, start_turns=10.0, stray=stray).pitch for stray in strays]
+    curve = tolerance_curve(DRAGON, pitches, start_turns=10.0)
+    assert (np.diff(curve.stray) > 0.0).all()
+    assert curve.stray == pytest.approx(strays, rel=1e-3)
+
+
+def test_the_head_is_on_the_circle_then() -> None:
+    dance = Dance(DRAGON, Spiral(0.6, 10.0), head_speed=2.0)
+    assert dance.path.head(2.0 * time_on_circle(dance, 4.0)).radius == pytest.approx(4.0, abs=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("pitches", "given", "message"),
+    [
+        ([], {}, "pitches must be a list of 1 to 10000 numbers in metres"),
+        ([[0.5]], {}, r"got an array of shape \(1, 1\)"),
+        (
+            [0.5],
+            {"start_turns": 5.0},
+            "turning_radius must be smaller, got 4.5 m: at a pitch of 0.5 m the dance starts inside that circle",
+        ),
+        ([0.5], {"turning_radius": 0.3}, "turning_radius must be larger, got 0.3 m: bench 0 folds at"),
+        ([-0.5], {}, "pitch must be positive, got -0.5 m"),
+    ],
+    ids=["none", "a table", "a start inside the circle", "a fold before the circle", "a negative pitch"],
+)
+def test_curves_that_cannot_be_are_refused(pitches: list[float], given: dict[str, float], message: str) -> None:
+    with pytest.raises(InvalidValue, match=message):
+        tolerance_curve(DRAGON, pitches, **given)  # type: ignore[arg-type]

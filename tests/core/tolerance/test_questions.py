@@ -1,0 +1,103 @@
+"""Every question with a stray: its known answers, what it says, and nothing changed by a stray of 0."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+from core import (
+    Dance,
+    Dragon,
+    InvalidValue,
+    Outcome,
+    Spiral,
+    Stray,
+    Turn,
+    check,
+    first_contact,
+    least_clearance,
+    minimum_pitch,
+    shortest_turn,
+    tolerance,
+    venue_clearance,
+)
+from tests.core.test_venue import DRAGON as LAPPING
+from tests.core.test_venue import LAP, VENUE
+
+DANCE = Dance(Dragon(), Spiral())
+# stray [m]; minimum pitch [m] and first contact [s] by a bound that is a little less sharp.
+KNOWN = [(0.01, 0.47173, 401.565), (0.02, 0.49313, 389.513), (0.05, 0.55741, 311.432)]
+
+
+@pytest.mark.parametrize(("stray", "pitch", "time"), KNOWN)
+def test_known_answers_with_a_stray(stray: float, pitch: float, time: float) -> None:
+    assert pitch - 4e-4 < minimum_pitch(Dragon(), stray=stray).pitch < pitch + 1e-5
+    found = first_contact(DANCE, stray=stray)
+    assert found.time is not None
+    assert found.time_bracket is not None
+    assert time - 1e-3 < found.time < time + 0.4
+    assert found.time_bracket[1] - found.time_bracket[0] < 1e-8
+    assert found.gap is not None
+    assert 2.0 * stray < found.gap < 2.2 * stray
+
+
+def test_first_contact_with_the_tolerance_up_to_some_time_is_at_that_time() -> None:
+    known = tolerance(DANCE, stop=300.0)
+    safe, shown = known.stray_bracket
+    assert shown is not None
+    assert known.time is not None
+    assert first_contact(DANCE, stray=safe, stop=300.0).outcome is Outcome.CLEAR
+    found = first_contact(DANCE, stray=1.001 * shown)
+    assert found.time is not None
+    assert known.time - 2.0 < found.time < known.time
+
+
+def test_the_minimum_pitch_for_a_stray_has_that_tolerance() -> None:
+    pitch = minimum_pitch(Dragon(), stray=0.03).pitch
+    spiral = Spiral(pitch)
+    theta = 4.5 / spiral.growth
+    stop = spiral.length - 0.5 * spiral.growth * (theta * np.hypot(1.0, theta) + np.arcsinh(theta))
+    safe, shown = tolerance(Dance(Dragon(), spiral), stop=float(stop)).stray_bracket
+    assert shown is not None
+    assert safe == pytest.approx(0.03, rel=1e-3)
+    assert shown == pytest.approx(0.03, rel=2e-3)
+
+
+QUESTIONS: dict[str, Any] = {
+    "first contact": lambda **given: first_contact(DANCE, **given),
+    "within a margin": lambda **given: first_contact(DANCE, margin=0.05, **given),
+    "through the turn": lambda **given: first_contact(Dance(Dragon(30), Turn(0.9)), **given),
+    "least clearance": lambda **given: least_clearance(DANCE, stop=300.0, **given),
+    "minimum pitch": lambda **given: minimum_pitch(Dragon(), **given),
+    "shortest turn": lambda **given: shortest_turn(Dragon(3), 1.7, **given).turn.entry_radius,
+    "venue": lambda **given: venue_clearance(Dance(LAPPING, LAP), VENUE, **given),
+    "check": lambda **given: check(DANCE, **given),
+}
+
+
+@pytest.mark.parametrize("name", QUESTIONS)
+def test_a_stray_of_0_changes_no_bit(name: str) -> None:
+    assert QUESTIONS[name](stray=0.0) == QUESTIONS[name]()
+    assert QUESTIONS[name](stray=Stray(0.0, 0.05, 0.05)) == QUESTIONS[name]()
+
+
+@pytest.mark.parametrize("name", QUESTIONS)
+def test_a_stray_that_cannot_be_is_refused_by_every_question(name: str) -> None:
+    with pytest.raises(InvalidValue, match=r"stray must be zero or more, got -0\.1 m"):
+        QUESTIONS[name](stray=-0.1)
+
+
+def test_a_bench_may_come_as_much_nearer_to_a_wall_as_its_ground_reaches() -> None:
+    still = venue_clearance(Dance(LAPPING, LAP), VENUE, stop=10.0)
+    strayed = venue_clearance(Dance(LAPPING, LAP), VENUE, stray=0.02, stop=10.0)
+    for before, after in zip(still.areas, strayed.areas, strict=True):
+        nearer = before.nearest.distance - after.nearest.distance
+        assert 0.02 - 1e-9 < nearer < 0.03
+
+
+def test_a_check_says_that_benches_may_touch() -> None:
+    report = check(DANCE, stray=0.02)
+    assert report.failures[0].message == "Benches 0 and 11 may touch with strays up to 0.02 m at 389.518137 s."
+    assert "while every hole is within 0.02 m of its place" in report.first_contact.certificate.method

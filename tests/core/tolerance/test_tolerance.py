@@ -1,0 +1,230 @@
+"""How far people may stray: brackets around what is known, a shown contact above, none of a million poses below."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+import shapely
+
+from core import (
+    Area,
+    Budget,
+    Dance,
+    Dragon,
+    Line,
+    Route,
+    Spiral,
+    TooMuchWork,
+    Turn,
+    Venue,
+    bench_outlines,
+    bench_poses,
+    first_contact,
+    tolerance,
+    trajectory,
+)
+from core.sampling import bisected
+from core.shapes.rectangles import frames, frames_separation
+from core.tolerance.tolerance import Limit, Tolerance
+from tests.core.tolerance.places import random_strays
+
+CIRCLE = 4.5  # radius of the turning circle [m]
+# Largest width of a bracket, as a part of its proven end [1].
+BRACKET = 2e-3
+CHORD_ERROR = 1e-12  # [m]
+# pitch [m], a bound by hand and a contact found by hand [m], both sampled in time and rounded to 1e-5.
+KNOWN = [(0.5, 0.02321, 0.02325), (0.55, 0.04654, 0.04668), (0.7, 0.11662, 0.11749), (1.0, 0.24298, 0.26305)]
+ROUNDED = 2e-5
+
+
+def to_circle(pitch: float) -> tuple[Dance, float]:
+    """The default dragon on a spiral, and when its head is on the circle [s]."""
+    spiral = Spiral(pitch)
+    theta = CIRCLE / spiral.growth
+    length = 0.5 * spiral.growth * (theta * math.hypot(1.0, theta) + math.asinh(theta))
+    return Dance(Dragon(), spiral), spiral.length - length
+
+
+@pytest.fixture(scope="module")
+def default() -> Tolerance:
+    dance, stop = to_circle(0.55)
+    return tolerance(dance, stop=stop)
+
+
+@pytest.mark.parametrize(("pitch", "bound", "contact"), KNOWN, ids=[f"{known[0]} m" for known in KNOWN])
+def test_brackets_lie_between_the_bounds_and_the_contacts_known(pitch: float, bound: float, contact: float) -> None:
+    dance, stop = to_circle(pitch)
+    found = tolerance(dance, stop=stop)
+    safe, shown = found.stray_bracket
+    assert shown is not None
+    assert bound - ROUNDED < safe < shown < contact + ROUNDED
+    assert shown < safe * (1.0 + BRACKET)
+    assert found.limited_by is Limit.BENCHES
+
+
+def test_the_shown_contact_is_one(default: Tolerance) -> None:
+    dance, _ = to_circle(0.55)
+    shown = default.exhibit
+    assert shown is not None
+    assert shown.benches == default.benches == (0, 19)
+    nominal = trajectory(dance, shown.time).position
+    assert np.hypot(*(shown.handles - nominal).T).max() == shown.stray == default.stray_bracket[1]
+    chords = np.hypot(*np.diff(shown.handles, axis=0).T)
+    assert np.abs(chords - dance.dragon.chords).max() < CHORD_ERROR
+    a, b = (shapely.Polygon(bench_outlines(dance.dragon, shown.handles)[k]) for k in shown.benches)
+    assert a.intersection(b).area > 0.0
+
+
+def strayed_gaps(dance: Dance, time: float, pair: tuple[int, int], strays: np.ndarray) -> np.ndarray:
+    """Gaps of two benches with their holes displaced in their own frames: strays (N, bench, hole, 2) [m]."""
+    handles, dragon = trajectory(dance, time).position, dance.dragon
+    both = []
+    for k, own in zip(pair, strays.swapaxes(0, 1), strict=True):
+        _x, _y, heading = bench_poses(handles[k : k + 2])[0]
+        turn = np.array([[math.cos(heading), -math.sin(heading)], [math.sin(heading), math.cos(heading)]])
+        poses = bench_poses(handles[k : k + 2] + own @ turn.T)[:, 0]
+        both.append(frames(poses, np.broadcast_to([dragon.lengths[k], dragon.widths[k]], (len(poses), 2))))
+    return frames_separation(*both).separation
+
+
+def test_none_of_a_million_poses_that_seek_contact_find_it(default: Tolerance) -> None:
+    """Rounds of a search: the nearest poses of each round are varied in the next one, by less and less."""
+    dance, stop = to_circle(0.55)
+    stray, rng = 0.999 * default.stray, np.random.default_rng(7)
+    assert default.time is not None
+    tried, nearest = 0, math.inf
+    places = [
+        (default.time, (0, 19)),
+        (default.time - 1.0, (0, 19)),
+        (stop, (0, 18)),
+        (322.9, (0, 17)),
+        (320.0, (1, 20)),
+    ]
+    for time, pair in places:
+        draws = [random_strays(rng, dance.dragon.chords[k], stray, 100_000) for k in pair]
+        strays = np.stack(draws, axis=1)
+        for spread in (0.3, 0.1, 0.03, 0.01):
+            gaps = strayed_gaps(dance, time, pair, strays)
+            tried, nearest = tried + len(gaps), min(nearest, gaps.min())
+            best = np.repeat(strays[np.argsort(gaps)[:250]], 100, axis=0)
+            strays = varied(rng, best, dance.dragon.chords[list(pair)], spread * stray, stray)
+        for _ in range(2):
+            gaps = strayed_gaps(dance, time, pair, strays)
+            tried, nearest = tried + len(gaps), min(nearest, gaps.min())
+    for time in rng.uniform(0.0, stop, 30).tolist():
+        strays = np.stack([random_strays(rng, dance.dragon.chords[k], stray, 2000) for k in (0, 19)], axis=1)
+        tried, nearest = tried + 2000, min(nearest, strayed_gaps(dance, time, (0, 19), strays).min())
+    assert tried >= 1_000_000
+    assert 0.0 < nearest < 0.01 * stray  # of twice the stray and more in the nominal places: the search does come near
+
+
+def varied(rng: np.random.Generator, strays: np.ndarray, chords: np.ndarray, by: float, most: float) -> np.ndarray:
+    """Strays near given ones that keep the chords and the limit: the front holes move, the rear ones follow."""
+    new = strays + rng.normal(0.0, by, strays.shape)
+    long = np.hypot(new[..., 0], new[..., 1])
+    new *= np.minimum(1.0, most / np.maximum(long, most * 1e-9))[..., None]
+    chord = np.stack([chords, np.zeros(2)], axis=-1)
+    link = chord + new[:, :, 0] - new[:, :, 1]
+    link *= (chords / np.hypot(link[..., 0], link[..., 1]))[..., None]
+    new[:, :, 1] = chord + new[:, :, 0] - link
+    kept = np.hypot(new[..., 0], new[..., 1]).max(axis=(1, 2)) <= most
+    return np.where(kept[:, None, None, None], new, strays)
+
+
+def test_all_lengths_times_k_make_the_answer_k_times_as_large(default: Tolerance) -> None:
+    _dance, stop = to_circle(0.55)
+    dragon = Dragon(223, 6.82, 4.40, 0.60, 0.55)
+    found = tolerance(Dance(dragon, Spiral(1.1), 2.0), stop=stop)
+    assert found.stray == pytest.approx(2.0 * default.stray, rel=1e-5)
+
+
+def test_speed_changes_when_but_not_how_far(default: Tolerance) -> None:
+    dance, stop = to_circle(0.55)
+    assert default.time is not None
+    faster = tolerance(Dance(dance.dragon, dance.path, 4.0), stop=stop / 4.0)
+    assert faster.stray == pytest.approx(default.stray, rel=1e-6)
+    assert faster.time == pytest.approx(default.time / 4.0, rel=1e-6)
+
+
+def test_a_dance_that_touches_as_it_is_allows_none() -> None:
+    dance = Dance(Dragon(), Spiral())
+    found = tolerance(dance)
+    assert found.stray == 0.0
+    assert found.stray_bracket[1] is not None
+    assert found.stray_bracket[1] < 1e-6
+    assert found.time == pytest.approx(first_contact(dance).time, abs=1e-8)
+    assert found.benches == (0, 8)
+
+
+def test_a_run_to_its_fold_has_its_tolerance_too() -> None:
+    found = tolerance(Dance(Dragon(benches=60), Spiral(0.9)))
+    safe, shown = found.stray_bracket
+    assert shown is not None
+    assert 0.05 < safe < shown < safe * (1.0 + BRACKET)
+
+
+def test_benches_of_many_sizes_on_a_route() -> None:
+    dragon = Dragon.of([2.6, 1.9, 2.2, 2.0, 2.4] * 8, [0.3, 0.5] * 20, [0.2] * 40)
+    found = tolerance(Dance(dragon, Turn(1.7)), stop=60.0)
+    safe, shown = found.stray_bracket
+    assert shown is not None
+    assert 0.01 < safe < shown < safe * (1.0 + BRACKET)
+
+
+def test_of_benches_next_but_one_to_each_other_a_safe_stray_is_known_but_no_contact() -> None:
+    """The bench between them holds them apart; the bound does not count on it."""
+    dance = Dance(Dragon(20), Route([Line((0.0, 0.0), (80.0, 0.0))]))
+    found = tolerance(dance)
+    assert found.benches in {(k, k + 2) for k in range(18)}
+    assert found.stray == pytest.approx(0.5 * (1.65 - 2.0 * 0.275), rel=0.05)
+    assert found.stray_bracket[1] is None
+
+
+def test_two_benches_on_a_line_have_nothing_to_touch() -> None:
+    found = tolerance(Dance(Dragon(benches=2), Route([Line((0.0, 0.0), (30.0, 0.0))])), start=5.0)
+    assert found.limited_by is Limit.CHORD
+    assert found.stray == pytest.approx(0.825, abs=1e-12)
+    assert found.stray_bracket == (found.stray, None)
+    assert found.benches is found.time is found.exhibit is None
+
+
+def test_a_bench_that_passes_a_wall_may_stray_to_it() -> None:
+    """Between its holes a side moves by the stray, its corner by A: towards a long wall the corner counts."""
+    dragon = Dragon(benches=1)
+    wall = Area("wall", [[(0.0, 0.5), (40.0, 0.5), (40.0, 1.0), (0.0, 1.0), (0.0, 0.5)]])
+    square = Area("square", [[(-20.0, -20.0), (60.0, -20.0), (60.0, 20.0), (-20.0, 20.0), (-20.0, -20.0)]])
+    line = Route([Line((0.0, 0.0), (30.0, 0.0))])
+    found = tolerance(Dance(dragon, line), Venue(square, [wall]), start=5.0, stop=25.0)
+    stray = bisected(lambda stray: corner_reach(stray) >= 0.5, 0.0, 1.0, width=1e-9)[1]
+    assert found.limited_by is Limit.VENUE
+    assert found.area == "wall"
+    safe, shown = found.stray_bracket
+    assert shown is not None
+    assert safe <= stray <= shown + 1e-6
+    assert shown < safe * (1.0 + BRACKET)
+
+
+def corner_reach(stray: float) -> float:
+    """How far to the left the front left corner of a default head can come, by the places of its holes [m].
+
+    Where the bench is turned by phi the rear hole strays by w more than the front one, so the front hole is in two
+    discs; its furthest place to the left is the top of one of them, or where they cross.
+    """
+    chord, phi = 2.86, np.linspace(0.0, 2.0 * math.asin(stray / 2.86), 200_001)
+    w = chord * (1.0 - np.exp(1j * phi))
+    top, other = 1j * stray, 1j * stray - w
+    half = np.sqrt(np.maximum(stray**2 - 0.25 * np.abs(w) ** 2, 0.0))
+    crossing = -0.5 * w + half * 1j * np.exp(1j * np.angle(w))
+    mirrored = -0.5 * w - (crossing + 0.5 * w)
+    left = np.maximum(crossing.imag, mirrored.imag)
+    left = np.where(np.abs(top + w) <= stray, stray, left)
+    left = np.where(np.abs(other) <= stray, np.maximum(left, other.imag), left)
+    return float((left + (np.exp(1j * phi) * (0.275 + 0.15j)).imag).max())
+
+
+def test_a_budget_that_is_spent_ends_the_question() -> None:
+    dance, stop = to_circle(0.55)
+    with pytest.raises(TooMuchWork, match="how far people may stray was not found"):
+        tolerance(dance, stop=stop, budget=Budget(1000.0))
