@@ -5,20 +5,24 @@ their integer locals, and of names from other modules. The compiler infers the t
 refuses Python objects inside loops. `setup.py` compiles all modules or none.
 
 Angles are in radians, lengths on a spiral in units of its growth unless a name says otherwise; no function allocates.
--1.0 in here means "no such root" and never leaves core.
 
 constants    columns of the arrays, shared numbers       records     values with names that inner loops hand on
 halt         what ends a loop before it is done
 spiral       arc length, next handle, trajectory, chain        fold        where a run ends
 rectangles   signed separation of two                          boxes       which may touch
 route        points and chain on a table of pieces             chain       curves of either kind
-bounds       how fast handles and benches move at most         pairs       how near two come at most
-rings        benches too far out to touch                      clearance   at one instant
-scene        who dances where, intervals of head travel
+rounding     how far all of these may be from the truth
+scene        who dances where, intervals of head travel        bounds      how fast handles and benches move at most
+hulls        benches as unions of hulls                        bends       how a gap of two curves at most
+faces        how near two unions of hulls come                 pairs       how near two benches come at most
+nearest      how near any two come                             rings       benches too far out to touch
+repeats      benches that repeat what others met               clearance   at one instant
 marching     to first contact                                  strips      all pitches between two at once
-speed        the highest speed                                 excess       when a limit is first exceeded
+rates        how fast handles are at most                      speed       the highest speed
+excess       when a limit is first exceeded
 """
 
+from core.kernels.bends import axis_bend, pair_bends
 from core.kernels.boxes import BOXES_PER_LEAF, Meetings, grow_tree
 from core.kernels.chain import (
     Curve,
@@ -29,18 +33,21 @@ from core.kernels.chain import (
     route_trajectory,
     spiral_curve,
 )
-from core.kernels.clearance import bottom_between, clearance_at, clearance_left, gap_at, gap_rate_at
+from core.kernels.clearance import bottom_between, clearance_at, clearance_left, gap_at, gap_rate_at, meet
 from core.kernels.constants import *
 from core.kernels.excess import Excess
 from core.kernels.fold import fold_theta, previous_theta
 from core.kernels.halt import Halt
+from core.kernels.hulls import Kinds
 from core.kernels.marching import March
-from core.kernels.pairs import axis_bend, pair_bends, pair_least, pair_most, pair_rounding
+from core.kernels.pairs import pair_least, pair_most, pair_rounding
+from core.kernels.rates import climbs, spiral_errors
 from core.kernels.rectangles import Witnesses, bench_separation, pair_gaps, pair_separations
 from core.kernels.rings import Rings, leaders_reach, radius_beyond, ring_least
-from core.kernels.route import cubic_arcs, joint_misses, piece_slides, route_points
-from core.kernels.scene import Interval, Scene
-from core.kernels.speed import Peak, climbs, spiral_errors
+from core.kernels.rounding import joint_misses, piece_slides
+from core.kernels.route import cubic_arcs, route_points
+from core.kernels.scene import Found, Interval, Scene
+from core.kernels.speed import Peak
 from core.kernels.spiral import (
     COMPILED,
     LANES_PER_BLOCK,

@@ -124,6 +124,10 @@ def radius_beyond(growth: float, radius: float, rings: Rings) -> float: ...
 def leaders_reach(growth: float, lead: float, rear: float, rings: Rings) -> float: ...
 def ring_least(growth_low: float, growth: float, radius: float, rings: Rings, total: float = ...) -> float: ...
 
+class Kinds:
+    some: bool
+    def lay(self, hulls: Floats, of: Ints, directions: Floats) -> None: ...
+
 class Scene:
     curve: Curve
     place: float
@@ -136,6 +140,8 @@ class Scene:
     margin: float
     left_out: int
     left_out_too: int
+    kinds: Kinds
+    met: Witnesses
     def __init__(self, curve: Curve, place: float, rings: Rings, sizes: Floats, benches: int, edges: int) -> None: ...
 
 class Interval:
@@ -151,6 +157,7 @@ def clearance_at(
 ) -> tuple[float, int, int]: ...
 def clearance_left(scene: Scene, leaders: int, benches: int, chain: Floats, moved: Floats) -> float: ...
 def gap_at(scene: Scene, place: float, a: int, b: int, chain: Floats) -> float: ...
+def meet(scene: Scene, i: int, j: int, chain: Floats) -> None: ...
 def gap_rate_at(scene: Scene, place: float, a: int, b: int, chain: Floats) -> float: ...
 def bottom_between(scene: Scene, low: float, high: float, a: int, b: int, width: float, chain: Floats) -> float: ...
 def axis_bend(growth: float, i: int, j: int, distance: float, sizes: Floats, motion: Floats) -> float: ...
@@ -163,14 +170,18 @@ def pair_most(scene: Scene, interval: Interval, place: float, h: float, a: int, 
 
 # -- searches --
 
-class March:
+class Found:
     proven: float
+    meets: bool
     touching: float
     first: int
     second: int
     steps: int
     work: float
+
+class March(Found):
     bend: float
+    grazed: bool
     graze_gap: float
     graze_travel: float
     graze_first: int
@@ -188,13 +199,7 @@ class March:
         budget: float,
     ) -> int: ...
 
-class Strip:
-    proven: float
-    touching: float
-    first: int
-    second: int
-    steps: int
-    work: float
+class Strip(Found):
     def __init__(self, low: Interval, high: Interval, shifts: Floats) -> None: ...
     def run(
         self, outer: float, inner: float, leaders: int, rounding: float, least_step: float, budget: float
@@ -206,7 +211,7 @@ class Peak:
     travel: float
     intervals: int
     def __init__(
-        self, interval: Interval, spare: Floats, calm: float, start: float, stop: float, rounding: float
+        self, interval: Interval, spare: Floats, calm: float, alike: int, start: float, stop: float, rounding: float
     ) -> None: ...
     def sample(self, step: float) -> None: ...
     def prove(self, step: float, tolerance: float, loosest: float, budget: int) -> None: ...

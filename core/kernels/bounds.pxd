@@ -1,7 +1,8 @@
 cimport cython
 from core.kernels.constants cimport *
 from core.kernels.records cimport Cosines, Link, Stretch
-from core.kernels.spiral cimport spiral_curvature, spiral_rounding, steepest_bend
+from core.kernels.spiral cimport spiral_curvature, steepest_bend
+from core.kernels.rounding cimport spiral_rounding
 
 cdef double TRIAL
 cdef double RATIO_FOLLOWED

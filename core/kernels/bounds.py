@@ -6,7 +6,8 @@ from cython.cimports.libc.math import fabs, sqrt
 if not cython.compiled:  # for the compiler the same stands in the .pxd
     from core.kernels.constants import *
     from core.kernels.records import Cosines, Link, Stretch
-    from core.kernels.spiral import spiral_curvature, spiral_rounding, steepest_bend
+    from core.kernels.rounding import spiral_rounding
+    from core.kernels.spiral import spiral_curvature, steepest_bend
 
 # The head's travel sigma [m] is the variable; ' is d / d sigma. On [L, R] of width h every quantity below is an
 # upper (or _low lower) bound over the whole interval, from the curvature range [k_low, k_high] of the stretch
@@ -65,7 +66,7 @@ TRIAL = 1.5
 # a ratio of more than this [1]: what it leaves multiplies from link to link.
 RATIO_FOLLOWED = 1.001
 
-# Rounding. The chains at both ends are those of heads that stand where their doubles say (spiral.py, route.py), and h
+# Rounding. The chains at both ends are those of heads that stand where their doubles say (rounding.py), and h
 # is at least what these travel (marching.py). What enters the bounds is widened by what it may lack, so that what comes
 # out bounds the truth, for any number of links:
 #   curvature    of a handle that is SLIP along the path from its true place: on a spiral |d k / d s| <= 2 k / growth,
@@ -75,8 +76,8 @@ RATIO_FOLLOWED = 1.001
 #                also make up for the few u of sin_high, cos_low, cos_high and of differences like swing, wherever these
 #                are small against what they are differences of: d (1 - sin^2) = 2 sin^2 widened is more than its
 #                rounding, 3 u, unless sin^2 < 1 / 170, where cos is good to 3 u of itself.
-#   cosines      followed from the ends: u of a link is off by SWAY or less, T by up to 13 SLIP / chord (spiral.py), on
-#                a route, whose curvature is below 2 / chord, by 2.2 SLIP / chord, and by the rotation of the frame,
+#   cosines      followed from the ends: u of a link is off by SWAY or less, T by up to 13 SLIP / chord (rounding.py),
+#                on a route, whose curvature is below 2 / chord, by 2.2 SLIP / chord, and by the rotation of the frame,
 #                which SWAY has in it too: `blur` = 2 SWAY + 13 (2.2) SLIP / chord + 16 u.
 #   recurrences  from link to link sums, products and quotients of terms >= 0, each good to u: fewer than 30 a link, so
 #                a factor LOOSEN (for lower bounds TIGHTEN) a link keeps them above (below) the truth.
@@ -363,7 +364,7 @@ def route_bounds(pieces, h, benches, sizes, before, after, climbing, motion):
     <= sin alpha |alpha'|, and half an interval is the most that lies between an instant and the nearer end.
     climbing: the chains hold s'' too, which with |s'''| bounds it from both ends, until a handle crosses into another
     part, and with it the rate: so no bound grows from link to link. With angles good to `blur` the rounding e of a rate
-    obeys e_b cos alpha_b <= e_a cos alpha_a + 2 blur b', and that of s'', by speed.climbs(), d_b cos alpha_b <= d_a +
+    obeys e_b cos alpha_b <= e_a cos alpha_a + 2 blur b', and that of s'', by rates.climbs(), d_b cos alpha_b <= d_a +
     2 blur (|a''| + |b''|) + widened (a'^2 + b'^2) + 8 (a' + b') (e_a + e_b + blur (a' + b')) / c
     """
     rate_low = 1.0

@@ -1,7 +1,8 @@
 cimport cython
 from core.kernels.constants cimport *
-from core.kernels.spiral cimport extend_chain, spiral_rounding, spiral_theta, start_chain
-from core.kernels.route cimport extend_route, route_rounding, start_route
+from core.kernels.spiral cimport extend_chain, spiral_theta, start_chain
+from core.kernels.route cimport extend_route, start_route
+from core.kernels.rounding cimport route_rounding, spiral_rounding
 
 @cython.final
 cdef class Curve:

@@ -8,8 +8,9 @@ from cython.cimports.libc.math import fabs
 
 if not cython.compiled:  # for the compiler the same stands in the .pxd
     from core.kernels.constants import *
-    from core.kernels.route import extend_route, route_rounding, start_route
-    from core.kernels.spiral import extend_chain, spiral_rounding, spiral_theta, start_chain
+    from core.kernels.rounding import route_rounding, spiral_rounding
+    from core.kernels.route import extend_route, start_route
+    from core.kernels.spiral import extend_chain, spiral_theta, start_chain
 
 
 class Curve:
@@ -32,7 +33,7 @@ def route_curve(pieces):
 
 
 def extend(curve, first, last, sizes, chain):
-    """Handles after `first` to the `last`; returns last, -1 at a fold."""
+    """Handles after `first` to the `last`; returns last, FOLDED at a fold."""
     if curve.kind == ON_SPIRAL:
         return extend_chain(curve.growth, first, last, FREE, sizes, chain)
     return extend_route(curve.pieces, first, last, FREE, sizes, chain)
@@ -47,7 +48,7 @@ def start(curve, place, chain):
 
 
 def place_chain(curve, place, last, sizes, chain):
-    """The chain with its head at a place, up to handle `last`; returns last, -1 at a fold."""
+    """The chain with its head at a place, up to handle `last`; returns last, FOLDED at a fold."""
     start(curve, place, chain)
     return extend(curve, 0, last, sizes, chain)
 

@@ -2,12 +2,19 @@ cimport cython
 from core.kernels.constants cimport *
 from core.kernels.records cimport Closest, Pair
 from core.kernels.rectangles cimport bench_of, pair_gap, row_separation
+from core.kernels.hulls cimport hulls_gap
 from core.kernels.chain cimport place_chain
 from core.kernels.scene cimport Scene
 
 cdef Py_ssize_t BLOCK
 
-cdef double row_gap(Py_ssize_t i, Py_ssize_t j, double[:, ::1] sizes, double[:, ::1] chain) noexcept nogil
+cdef double row_gap(Scene scene, Py_ssize_t i, Py_ssize_t j, double[:, ::1] chain) noexcept nogil
+
+cdef double row_gap_within(
+    Scene scene, Py_ssize_t i, Py_ssize_t j, double limit, double[:, ::1] chain
+) noexcept nogil
+
+cpdef void meet(Scene scene, Py_ssize_t i, Py_ssize_t j, double[:, ::1] chain) noexcept nogil
 
 @cython.locals(block=cython.Py_ssize_t, k=cython.Py_ssize_t, blocks=cython.Py_ssize_t)
 cdef Py_ssize_t block_boxes(
@@ -22,7 +29,7 @@ cdef bint beyond_box(
 
 @cython.locals(j=cython.Py_ssize_t)
 cdef Closest least_with(
-    Py_ssize_t i, Py_ssize_t first, Py_ssize_t end, Closest best, double[:, ::1] sizes, double[:, ::1] chain
+    Scene scene, Py_ssize_t i, Py_ssize_t first, Py_ssize_t end, Closest best, double[:, ::1] chain
 ) noexcept nogil
 
 @cython.locals(

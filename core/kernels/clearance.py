@@ -5,13 +5,30 @@ import cython
 if not cython.compiled:  # for the compiler the same stands in the .pxd
     from core.kernels.chain import place_chain
     from core.kernels.constants import *
+    from core.kernels.hulls import hulls_gap
     from core.kernels.records import Closest, Pair
     from core.kernels.rectangles import bench_of, pair_gap, row_separation
 
 
-def row_gap(i, j, sizes, chain):
-    """Separation of benches i and j of a chain [m]."""
-    return pair_gap(bench_of(i, sizes, chain), bench_of(j, sizes, chain))
+def row_gap(scene, i, j, chain):
+    """Separation of benches i and j of a chain, or of a bench and an edge at rest [m]."""
+    return row_gap_within(scene, i, j, NO_LIMIT, chain)
+
+
+def row_gap_within(scene, i, j, limit, chain):
+    """row_gap() where it is at most limit, else some value of limit or more, and not above row_gap() [m]."""
+    gap = pair_gap(bench_of(i, scene.sizes, chain), bench_of(j, scene.sizes, chain))
+    if scene.kinds.some and gap < limit:
+        return hulls_gap(scene.kinds, i, j, j > scene.room, scene.sizes, chain, scene.met)
+    return gap
+
+
+def meet(scene, i, j, chain):
+    """Fill the witnesses of a scene for benches i and j of a chain."""
+    if scene.kinds.some:
+        hulls_gap(scene.kinds, i, j, j > scene.room, scene.sizes, chain, scene.met)
+    else:
+        row_separation(i, j, scene.sizes, chain, scene.met)
 
 
 # Benches this many in a row share one upright box, so that most of what is far apart is passed over together.
@@ -46,14 +63,15 @@ def beyond_box(i, b, within, boxes, chain):
     return dx * dx + dy * dy > within * within
 
 
-def least_with(i, first, end, best, sizes, chain):
+def least_with(scene, i, first, end, best, chain):
     """The closer of `best` and the closest of rows first to end - 1 to row i."""
+    sizes: cython.double[:, ::1] = scene.sizes
     for j in range(first, end):
         dx = chain[j, MX] - chain[i, MX]
         dy = chain[j, MY] - chain[i, MY]
         far = sizes[i, RADIUS] + sizes[j, RADIUS] + max(best.gap, 0.0)
         if dx * dx + dy * dy <= far * far:
-            far = row_gap(i, j, sizes, chain)
+            far = row_gap_within(scene, i, j, best.gap, chain)
             if far < best.gap:
                 best = Closest(far, i, j)
     return best
@@ -72,10 +90,10 @@ def row_clearance(scene, active, handles, chain, boxes):
         for i in range(active):
             if scene.halt.stopped:
                 break
-            best = least_with(i, handles + 1, handles + 1 + scene.edges, best, scene.sizes, chain)
+            best = least_with(scene, i, handles + 1, handles + 1 + scene.edges, best, chain)
         return best
     if active > 0:  # a first value to compare with
-        best = least_with(0, 2, handles, best, scene.sizes, chain)
+        best = least_with(scene, 0, 2, handles, best, chain)
     blocks = block_boxes(handles, scene.sizes, chain, boxes)
     widest = 0.0
     for i in range(handles):
@@ -92,7 +110,7 @@ def row_clearance(scene, active, handles, chain, boxes):
             for i in range(a * BLOCK, min(a * BLOCK + BLOCK, active)):
                 if not beyond_box(i, b, scene.sizes[i, RADIUS] + max(best.gap, 0.0), boxes, chain):
                     first = max(i + 2, b * BLOCK)
-                    best = least_with(i, first, min(b * BLOCK + BLOCK, handles), best, scene.sizes, chain)
+                    best = least_with(scene, i, first, min(b * BLOCK + BLOCK, handles), best, chain)
     return best
 
 
@@ -111,7 +129,7 @@ def clearance_left(scene, leaders, benches, chain, moved):
             dy = chain[j, MY] - chain[i, MY]
             far = sizes[i, RADIUS] + sizes[j, RADIUS] + moved[i] + moved[j] + best
             if far > 0.0 and dx * dx + dy * dy <= far * far:
-                best = min(best, row_gap(i, j, sizes, chain) - moved[i] - moved[j])
+                best = min(best, row_gap(scene, i, j, chain) - moved[i] - moved[j])
     return best
 
 
@@ -121,7 +139,7 @@ def clearance_at(scene, place, benches, leaders, chain, boxes):
 
     benches: how many are laid out; chain, boxes: scratch
     """
-    if place_chain(scene.curve, place, benches, scene.sizes, chain) < 0:
+    if place_chain(scene.curve, place, benches, scene.sizes, chain) == FOLDED:
         return FREE, 0, 0
     best = row_clearance(scene, leaders, benches, chain, boxes)
     return best.gap, best.first, best.second
@@ -134,9 +152,9 @@ def last_handle(scene, a, b):
 
 def gap_at(scene, place, a, b, chain):
     """Separation of bench a and bench, or edge at rest, b with the head at a place [m]; FREE if the chain folds."""
-    if place_chain(scene.curve, place, last_handle(scene, a, b), scene.sizes, chain) < 0:
+    if place_chain(scene.curve, place, last_handle(scene, a, b), scene.sizes, chain) == FOLDED:
         return FREE
-    return row_gap(a, b, scene.sizes, chain)
+    return row_gap(scene, a, b, chain)
 
 
 def gap_rate_at(scene, place, a, b, chain):
@@ -146,7 +164,7 @@ def gap_rate_at(scene, place, a, b, chain):
     """
     if gap_at(scene, place, a, b, chain) >= FREE:
         return 0.0
-    row_separation(a, b, scene.sizes, chain, scene.met)
+    meet(scene, a, b, chain)
     rate = -speed_along(scene, a, scene.met.ax, scene.met.ay, chain)
     if b < scene.room:
         rate += speed_along(scene, b, scene.met.bx, scene.met.by, chain)

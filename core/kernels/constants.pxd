@@ -9,6 +9,9 @@ cdef extern from *:
     const double BEND_LIMIT "0.97"
     const double ROUTE_BEND_LIMIT "0.999"
     const double FREE "1e150"
+    const double NO_ROOT "-1.0"
+    const Py_ssize_t FOLDED "-1"
+    const Py_ssize_t NO_BENCH "-1"
     const double BLEND "1.0"
     const double CLEAR_SPARE "1e-09"
     const double PLACE_SPARE "1e-06"
@@ -28,6 +31,7 @@ cdef enum:
     FRAME_X = 0, FRAME_Y = 1, FRAME_UX = 2, FRAME_UY = 3, FRAME_HALF_LENGTH = 4, FRAME_HALF_WIDTH = 5
     SEPARATION = 0, WITNESS_AX = 1, WITNESS_AY = 2, WITNESS_BX = 3, WITNESS_BY = 4, NORMAL_X = 5, NORMAL_Y = 6
     FEATURE_A = 7, FEATURE_B = 8
+    DIRECTIONS = 64, HULLS = 3, HULL_X = 0, HULL_Y = 1
     FRONT_LEFT = 0, FRONT_RIGHT = 1, REAR_RIGHT = 2, REAR_LEFT = 3, FRONT = 4, RIGHT = 5, REAR = 6, LEFT = 7
     X_LOW = 0, Y_LOW = 1, X_HIGH = 2, Y_HIGH = 3
     PIECE_KIND = 0, S_START = 1, S_END = 2, K_START = 3, K_END = 4, K_SLOPE = 14, PART = 15, LOOSE = 16, BENT = 17

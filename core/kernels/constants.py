@@ -8,7 +8,8 @@ TWO_PI = 6.283185307179586
 
 # Unit of rounding of a double: the error of one operation is at most this part of its result [1].
 ULP = 1.1102230246251565e-16
-# Rounding of so many links, times their number, in parts of the shortest chord, is small in the sense of spiral.py [1].
+# The rounding of so many links, times their number, is small in the sense of rounding.py if it is at most this part of
+# the shortest chord [1].
 SMALL = 1e-4
 
 # Beyond every distance: the squares of two coordinates would overflow [m].
@@ -96,6 +97,12 @@ FEATURE_A = 7
 FEATURE_B = 8
 SEPARATION_COLUMNS = 9
 
+# Even directions of the half planes of a hull, the hulls of a bench, and the columns of their corners [m].
+DIRECTIONS = 64
+HULLS = 3
+HULL_X = 0
+HULL_Y = 1
+
 # Features of a rectangle: its corners, then its edges.
 FRONT_LEFT = 0
 FRONT_RIGHT = 1
@@ -119,8 +126,15 @@ BEND_LIMIT = 0.97
 # its rear handle can be infinitely faster than its front one, here 22 times.
 ROUTE_BEND_LIMIT = 0.999
 
-# Larger than any step or distance, with a square that does not overflow [m].
+# Larger than any step or distance, with a square that does not overflow [m]. As a radius or a place, nothing is beyond
+# it; as a lower bound of a gap it means that there is no pair, and -FREE that nothing is known.
 FREE = 1e150
+
+# In place of a root: there is none. In place of the last handle of a chain: a bench before it folds. In place of a
+# bench: none.
+NO_ROOT = -1.0
+FOLDED = -1
+NO_BENCH = -1
 
 # A route is a table of pieces joined by arc length s. One row a piece, curvature counter-clockwise positive.
 # The first piece also serves before S_START and the last one after S_END.
@@ -202,8 +216,8 @@ KEPT = 0
 EXCEEDED = 1
 GIVEN_UP = 2
 
-# A bound that holds from a radius or a place on is used only beyond it, by this part of the radius [1] or by this
-# along a route [m]: more than handles are off by, which is checked where it is used.
+# A bound that holds from a radius or a place outwards is used only this much further out, relative to the radius [1] or
+# along a route [m]. That is more than the error of a handle, which is checked at each use.
 CLEAR_SPARE = 1e-9
 PLACE_SPARE = 1e-6
 

@@ -1,6 +1,6 @@
 cimport cython
 from core.kernels.constants cimport *
-from core.kernels.speed cimport certain_rate, lay_ahead, lively_chain, rate_bound
+from core.kernels.rates cimport certain_rate, lay_ahead, lively_chain, rate_bound
 from core.kernels.scene cimport Interval, Scene
 
 @cython.final

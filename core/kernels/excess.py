@@ -4,14 +4,14 @@ import cython
 
 if not cython.compiled:  # for the compiler the same stands in the .pxd
     from core.kernels.constants import *
-    from core.kernels.speed import certain_rate, lay_ahead, lively_chain, rate_bound
+    from core.kernels.rates import certain_rate, lay_ahead, lively_chain, rate_bound
 
 
 # Input:  a run from start to stop, and the limit of every |rate|.
 # State:  travel, up to which no |rate| exceeded `kept`; h, the step that is tried; both chains at its ends.
 # Output: kept, all the way; exceeded, between `proven` and `found`, at most `width` apart; stuck, proven so far.
 #
-# No |rate| between the ends of a step exceeds rate_bound() (speed.py), so a step with a bound below the limit is
+# No |rate| between the ends of a step exceeds rate_bound() (rates.py), so a step with a bound below the limit is
 # passed, and any other halved. At `width` it is one of three. Its end exceeds the limit: then the first excess lies
 # in this step or at its end, as no step before had one. Or its bound is below `kept`, a limit only so little higher
 # that it counts as the same: then it is passed, a peak that just reaches the limit. Or neither: the search gives up.
@@ -24,7 +24,7 @@ if not cython.compiled:  # for the compiler the same stands in the .pxd
 class Excess:
     """The first travel in a run at which a |rate| exceeds a limit.
 
-    interval: of a scene with room for all benches; calm: as in speed.lively_chain()
+    interval: of a scene with room for all benches; calm: as in rates.lively_chain()
     proven: no |rate| exceeds the limit that counts as the same before this travel [m]; found: one does there [m], or
         the end of the run; handle, rate: that handle and its rate
     """
@@ -62,9 +62,9 @@ class Excess:
                 rate = 1.0
                 k = 0
                 placed = lay_ahead(scene, self.interval, self.calm, placed, scene.place - travel - h)
-                if self.interval.handles >= 0:
+                if self.interval.handles != FOLDED:
                     links += self.interval.handles
-                    if placed >= 0:
+                    if placed != FOLDED:
                         self.interval.widen(h, rounding)
                         upper = rate_bound(scene, self.interval, self.calm)
                         if upper < FREE:

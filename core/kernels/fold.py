@@ -62,7 +62,7 @@ def fold_theta(chord2):
 
 
 def previous_theta(theta, chord2):
-    """theta of the handle one chord further in whose follower stands at theta; -1.0 if none got that far.
+    """theta of the handle one chord further in whose follower stands at theta; NO_ROOT if none got that far.
 
     The follower falls with its leader until T . u = 0 and rises after it, so the first arrival is the largest
     leader angle: the border of "a root exists, the follower still falls, and stands outside theta".
@@ -84,4 +84,4 @@ def previous_theta(theta, chord2):
     delta = first_root(high, chord2)
     if high < theta and delta > 0.0 and fabs(high + delta - theta) <= ARRIVAL * (1.0 + theta):
         return high
-    return -1.0
+    return NO_ROOT

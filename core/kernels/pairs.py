@@ -4,27 +4,11 @@ import cython
 from cython.cimports.libc.math import fabs, sqrt
 
 if not cython.compiled:  # for the compiler the same stands in the .pxd
-    from core.kernels.clearance import last_handle
+    from core.kernels.bends import band_bends, band_between, bend_along, centres_apart, least_between
+    from core.kernels.clearance import last_handle, meet
     from core.kernels.constants import *
-    from core.kernels.records import Bends, Nearest, Rounding
-    from core.kernels.rectangles import row_separation
-    from core.kernels.rings import RING_ROUNDING, coil_radius, drift, leaders_reach, radius_beyond
-    from core.kernels.route import stands_first
-    from core.kernels.spiral import spiral_error
+    from core.kernels.faces import band_hulls, hulls_least
 
-# Gap of bench i along an axis e fixed in bench j: g = min over corners X of i of e . (X - M_j) - support of j, and
-#   |(e . p)''| <= |X''| + |M_j''| + 2 omega_j |X' - M_j'| + (omega_j^2 + omega_j') |p|,  p = X - M_j:  call it K.
-# The same in a frame that turns with bench j about the spiral's centre, where neighbouring rings hardly move: with
-# Omega = omega_j (clockwise), xi = X' less the velocity Omega |X| of that rotation,
-#   |(e . p)''| <= |X'' + Omega^2 X| + |M_j'' + Omega^2 M_j| + 2 Omega (|xi_X| + |xi_M|) + omega_j' |p|,
-#   handle at radius r, b = growth:  |P'' + Omega^2 P| <= |s''| + |k s'^2 - Omega^2 r| + Omega^2 b,
-#                                    |xi_P| <= |s' - Omega r| + Omega b   (the tangent leans by at most b / r),
-#   corner of bench i:  |X'' + Omega^2 X| <= mean of its handles + (|Omega^2 - omega_i^2| + omega_i') rho,
-#                       |xi_X| <= mean of its handles + |Omega - omega_i| rho.
-# The smaller of the two bounds is used.
-# A function with |g''| <= K stays above its chord minus K x (h - x) / 2, so its least value follows from both ends:
-# two benches do not touch on [L, R] if that exceeds the margin for one axis. No step size is guessed.
-#
 # Rounding. The centre of bench i is the mean of two handles, each good to E_i = ERROR; its direction is good to W_i =
 # SWAY. So a gap along an axis fixed in bench i, and the separation of two benches, is good to
 #     G = E_i + E_j + u (|M_i| + |M_j| + D) + (W_i + W_j + 40 u) (D + rho_i + rho_j),  D = |M_j - M_i|,
@@ -58,95 +42,6 @@ def best_axis(i, j, sizes, chain):
     if sideways >= lengthwise:
         return sideways, 0.0, left
     return lengthwise, along, 0.0
-
-
-def least_between(start, end, bend, h):
-    """Least value on an interval of width h of a function with the given end values and |second derivative| <= bend."""
-    rise = end - start
-    sag = bend * h * h
-    if 2.0 * fabs(rise) >= sag:
-        return start if start < end else end
-    return 0.5 * (start + end) - 0.125 * sag - 0.5 * rise * rise / sag
-
-
-def apart(a_low, a_high, b_low, b_high):
-    """The largest difference between a number in [a_low, a_high] and one in [b_low, b_high]."""
-    return a_high - b_low if a_high - b_low > b_high - a_low else b_high - a_low
-
-
-def against_rotation(growth, k, turn_low, turn_high, motion):
-    """Bounds on |xi| and |P'' + Omega^2 P| of handle k against a rotation Omega in [turn_low, turn_high]."""
-    high = motion[k, RATE_HIGH]
-    low = motion[k, RATE_LOW]
-    r_low = growth * motion[k, THETA_LOW]
-    r_high = growth * motion[k, THETA_HIGH]
-    slip = apart(low, high, turn_low * r_low, turn_high * r_high) + turn_high * growth
-    pull = apart(
-        low * low * motion[k, CURVATURE_LOW] / growth,
-        high * high * motion[k, CURVATURE_HIGH] / growth,
-        turn_low * turn_low * r_low,
-        turn_high * turn_high * r_high,
-    )
-    return slip, pull + motion[k, RATE_RATE] + turn_high * turn_high * growth
-
-
-def axis_bend(growth, i, j, distance, sizes, motion):
-    """Bound K on the second derivative of a gap along an axis fixed in bench i to the corners of bench j [1/m]."""
-    low = motion[i, TURN_LOW]
-    high = motion[i, TURN]
-    plain = plain_bend(i, j, distance, sizes, motion)
-    slips = 0.0
-    pulls = 0.0
-    if motion[j, RATE_LOW] <= 0.0 or motion[i, RATE_LOW] <= 0.0 or low <= 0.0 or motion[j, TURN_LOW] <= 0.0:
-        return plain
-    for side in range(2):
-        slip, pull = against_rotation(growth, i + side, low, high, motion)
-        slips += 0.5 * slip
-        pulls += 0.5 * pull
-        slip, pull = against_rotation(growth, j + side, low, high, motion)
-        slips += 0.5 * slip
-        pulls += 0.5 * pull
-    slips += apart(low, high, motion[j, TURN_LOW], motion[j, TURN]) * sizes[j, RADIUS]
-    pulls += motion[j, TURN_RATE] * sizes[j, RADIUS]
-    pulls += sizes[j, RADIUS] * apart(
-        low * low, high * high, motion[j, TURN_LOW] * motion[j, TURN_LOW], motion[j, TURN] * motion[j, TURN]
-    )
-    pulls += 2.0 * high * slips + motion[i, TURN_RATE] * (distance + sizes[j, RADIUS])
-    return pulls if pulls < plain else plain
-
-
-def plain_bend(i, j, distance, sizes, motion):
-    """axis_bend() in the resting frame [1/m]."""
-    return (
-        motion[j, CORNER_PULL]
-        + motion[i, CENTRE_PULL]
-        + 2.0 * motion[i, TURN] * (motion[j, CORNER_SPEED] + motion[i, CENTRE_SPEED])
-        + motion[i, TURN_PULL] * (distance + sizes[j, RADIUS])
-    )
-
-
-def centres_apart(interval, a, b):
-    """Upper bound of the distance between the centres of benches a and b during an interval [m]."""
-    dx = interval.before[b, MX] - interval.before[a, MX]
-    dy = interval.before[b, MY] - interval.before[a, MY]
-    moved = (interval.motion[a, CENTRE_SPEED] + interval.motion[b, CENTRE_SPEED]) * interval.h
-    return sqrt(dx * dx + dy * dy) + moved
-
-
-def bend_along(scene, interval, i, j, distance):
-    """axis_bend() over an interval [1/m]."""
-    return axis_bend(scene.curve.growth, i, j, distance, scene.sizes, interval.motion)
-
-
-def pair_bends(scene, interval, place, h, a, b):
-    """Bounds on the second derivative of gaps of two benches while the head travels h from a place [1/m].
-
-    returns: along axes fixed in bench a, and in bench b; FREE where no bound is known
-    """
-    if not interval.lay_out(place, h, b + 1):
-        return FREE, FREE
-    distance = centres_apart(interval, a, b)
-    return bend_along(scene, interval, a, b, distance), bend_along(scene, interval, b, a, distance)
 
 
 # Within the margin for certain. Over an interval too short to matter, so that both benches hardly move:
@@ -189,10 +84,15 @@ def pair_most(scene, interval, place, h, a, b):
     if not interval.lay_out(place, h, last_handle(scene, a, b)):
         return FREE
     distance = centres_apart(interval, a, b)
-    row_separation(a, b, scene.sizes, interval.before, scene.met)
-    most = scene.met.separation + (interval.motion[a, CORNER_SPEED] + interval.motion[b, CORNER_SPEED]) * h
-    row_separation(a, b, scene.sizes, interval.after, scene.met)
+    meet(scene, a, b, interval.before)
+    most = interval.motion[a, CORNER_SPEED] + interval.motion[b, CORNER_SPEED]
+    if scene.kinds.some:  # the largest gap along an axis, which also turns with its bench
+        most += (interval.motion[a, TURN] + interval.motion[b, TURN]) * distance
+    most = scene.met.separation + most * h
+    meet(scene, a, b, interval.after)
     most = 0.5 * (most + scene.met.separation)
+    if scene.kinds.some:
+        return most + pair_rounding(a, b, distance, scene.sizes, interval.before, interval.after)
     bend = bend_along(scene, interval, a, b, distance)
     most = min(most, corner_most(a, b, bend, h, scene.sizes, interval.before, interval.after))
     bend = bend_along(scene, interval, b, a, distance)
@@ -248,6 +148,8 @@ def pair_least(scene, interval, i, j, enough, distance):
     if best > enough:
         return best, bend
     best = max(best, axis_least(scene, interval, i, j, False, bend))
+    if best <= enough and scene.kinds.some:
+        return max(best, hulls_least(scene, interval, i, j, enough, distance)), bend
     if best > enough or scene.margin <= 0.0:
         return best, bend
     along, left = corner_axis(scene, i, j, interval.after)
@@ -258,86 +160,11 @@ def pair_least(scene, interval, i, j, enough, distance):
 
 def corner_axis(scene, i, j, chain):
     """Where two corners are nearest each other, the direction between them, in the frame of bench i."""
-    row_separation(i, j, scene.sizes, chain, scene.met)
+    meet(scene, i, j, chain)
     return (
         scene.met.nx * chain[i, UX] + scene.met.ny * chain[i, UY],
         scene.met.ny * chain[i, UX] - scene.met.nx * chain[i, UY],
     )
-
-
-# Input:  an interval whose chains are laid out, and how many benches lead pairs (`active`).
-# State:  the least bound so far with its K and its pair; `room`, the widest interval that the pairs so far would allow.
-# Output: the record Nearest.
-#
-# Each pair that is near enough gets a bound of its own from pair_least(), less what its gaps may be off by: roughly for
-# all, where no handle had to be followed, or pair by pair (proven_gap()). Those too far apart at the beginning to come
-# within the margin are passed over, and on a spiral all further ones once one is out of reach of bench i, as handles
-# stand in order.
-
-
-def interval_least(scene, interval, active):
-    """Proven least separation over an interval of all pairs led by the first `active` benches; -FREE: too wide."""
-    before: cython.double[:, ::1] = interval.before
-    motion: cython.double[:, ::1] = interval.motion
-    sizes: cython.double[:, ::1] = scene.sizes
-    best = FREE
-    bend = 0.0
-    room = FREE
-    tried = 0
-    a = 0
-    b = 0
-    if not interval.bound(False):
-        return Nearest(-FREE, 0.0, 0, 0, 0.0, 0.0, 0)
-    rounding = interval_rounding(scene, interval)
-    # of centres; an edge at rest that is near has coordinates hardly larger than the bench, whose rounding ERROR covers
-    reach = scene.margin * (1.0 + 1e-12) + 16.0 * rounding.point
-    if not stays_beyond(scene, interval, active, rounding.point):
-        return Nearest(-FREE, 0.0, 0, 0, 0.0, 0.0, 0)
-    for i in range(active):
-        if scene.halt.stopped:
-            return Nearest(-FREE, 0.0, 0, 0, 0.0, 0.0, 0)
-        far = reach_of(scene, interval, i, rounding.point)
-        first = i + 2
-        end = interval.handles
-        if scene.against == EDGES:  # after the last handle's row, which holds no bench
-            first = interval.handles + 1
-            end = first + scene.edges
-        for j in range(first, end):
-            if far < FREE and innermost(scene, interval, j, motion[j, HANDLE_SPEED]) - rounding.point > far:
-                break
-            dx = before[j, MX] - before[i, MX]
-            dy = before[j, MY] - before[i, MY]
-            distance = (motion[i, CENTRE_SPEED] + motion[j, CENTRE_SPEED]) * interval.h
-            square = dx * dx + dy * dy
-            width = sizes[i, RADIUS] + sizes[j, RADIUS] + reach + distance
-            if square > width * width or (i == scene.left_out and j == scene.left_out_too):
-                continue
-            tried += 1
-            least, k = proven_gap(scene, interval, i, j, distance + sqrt(square), rounding.gap)
-            if least != least:  # no number is no bound
-                return Nearest(-FREE, 0.0, 0, 0, 0.0, 0.0, 0)
-            width = 8.0 * (least - scene.margin) / k + interval.h * interval.h
-            room = min(room, sqrt(width) if width > 0.0 else 0.0)
-            if least < best:
-                best = least
-                bend = k
-                a = i
-                b = j
-    return Nearest(best, bend, a, b, room, rounding.point, tried)
-
-
-def interval_rounding(scene, interval):
-    """Largest errors of points and gaps of a bounded interval."""
-    if scene.curve.kind == ON_SPIRAL and interval.motion[interval.handles, RATE_LOW] > 0.0:
-        error = spiral_error(scene.curve.growth, interval.handles, scene.rings.all_chord, interval.before)
-        end = spiral_error(scene.curve.growth, interval.handles, scene.rings.all_chord, interval.after)
-        error = max(error, end)
-        gap = any_rounding(error, interval.handles, interval.h, scene.margin, scene.rings)
-        if gap > 0.0:
-            return Rounding(error, gap)
-    interval.round()
-    error = max(interval.before[interval.handles - 1, ERROR], interval.after[interval.handles - 1, ERROR])
-    return Rounding(error, 0.0)
 
 
 def proven_gap(scene, interval, i, j, distance, rounding):
@@ -354,64 +181,6 @@ def proven_gap(scene, interval, i, j, distance, rounding):
     return least - allowed, bend
 
 
-def innermost(scene, interval, k, rate):
-    """Lower bound of the radius of handle k of a spiral, no faster than the rate, during an interval [m]."""
-    inner = scene.curve.growth * min(interval.before[k, THETA], interval.after[k, THETA])
-    return inner - drift(rate, interval.h, scene.curve.growth, inner)
-
-
-def reach_of(scene, interval, i, error):
-    """Benches led from beyond this radius of a spiral stay clear of bench i during an interval [m]; FREE on a route."""
-    if scene.curve.kind == ON_ROUTE:
-        return FREE
-    growth = scene.curve.growth
-    rate = interval.motion[i, HANDLE_SPEED]
-    far = growth * max(interval.before[i + 1, THETA], interval.after[i + 1, THETA])
-    far = far + drift(rate, interval.h, growth, far) + error
-    low = innermost(scene, interval, i, rate)
-    return radius_beyond(growth, leaders_reach(growth, low, far, scene.rings) + scene.margin, scene.rings)
-
-
-def stays_beyond(scene, interval, leaders, error):
-    """Do the benches that were not laid out stay beyond the reach of those that lead pairs, during an interval?"""
-    if interval.handles == scene.benches:
-        return True
-    if scene.curve.kind == ON_ROUTE:
-        return coil_stays_beyond(scene, interval, leaders, error)
-    growth = scene.curve.growth
-    high = growth * max(interval.before[leaders, THETA], interval.after[leaders, THETA])
-    high += drift(interval.motion[leaders - 1, HANDLE_SPEED], interval.h, growth, high) + error
-    low = growth * min(interval.before[0, THETA], interval.after[0, THETA])
-    high = leaders_reach(growth, low, high, scene.rings)
-    low = growth * min(interval.before[interval.handles, THETA], interval.after[interval.handles, THETA]) - error
-    low -= drift(interval.motion[interval.handles - 1, HANDLE_SPEED], interval.h, growth, low)
-    return low >= radius_beyond(growth, high + scene.margin, scene.rings)
-
-
-def coil_stays_beyond(scene, interval, leaders, error):
-    """stays_beyond() on a route that begins with a coil.
-
-    A leader's centre is at most h / 2 of travel from where it stands at one of the ends. The last handle goes inwards,
-    so it is nearest to the centre at the far end. error: of points of the chains [m], which has u (|x| + |y|) and more
-    in it (route.py), so that 8 times that covers the roundings of radii too
-    """
-    reach = 0.0
-    for i in range(leaders):
-        far = coil_radius(scene.curve.pieces, interval.before[i, MX], interval.before[i, MY])
-        far = max(far, coil_radius(scene.curve.pieces, interval.after[i, MX], interval.after[i, MY]))
-        far += scene.sizes[i, RADIUS] + 0.5 * interval.h * interval.motion[i, CENTRE_SPEED]
-        if far > reach:
-            reach = far
-    reach = (reach + scene.margin) * (1.0 + RING_ROUNDING) + 8.0 * error
-    reach = radius_beyond(scene.curve.pieces[0, COIL_GROWTH], reach, scene.rings) + 8.0 * error
-    x = interval.after[interval.handles, PX]
-    y = interval.after[interval.handles, PY]
-    return (
-        stands_first(scene.curve.pieces, interval.handles, interval.after)
-        and coil_radius(scene.curve.pieces, x, y) >= reach
-    )
-
-
 # What a strip of pitches needs of its pairs, see strips.py: shift_bounds() adds up terms >= 0, at most 60 roundings a
 # bench, which this part of the strip's width makes up for [1].
 STRIP_ROUNDING = 1e-9
@@ -421,26 +190,9 @@ def band_along(scene, band, i, j, along, left, bends):
     """Proven least gap along an axis of bench i over a band [m]."""
     start = gap_along(i, j, along, left, scene.sizes, band.low.before)
     end = gap_along(i, j, along, left, scene.sizes, band.low.after)
-    low = least_between(start, end, bends.low, band.low.h)
-    low -= band.slack * (fabs(end - start) / band.low.h + bends.low * band.low.h)
-    start = gap_along(i, j, along, left, scene.sizes, band.high.before)
-    end = gap_along(i, j, along, left, scene.sizes, band.high.after)
-    high = least_between(start, end, bends.high, band.high.h)
-    high -= band.slack * (fabs(end - start) / band.high.h + bends.high * band.high.h)
-    return least_between(low, high, bends.across, band.width)
-
-
-def band_bends(scene, band, i, j, distance):
-    """Bounds on the second derivatives of a gap along an axis of bench i over a band."""
-    turn = band.shifts[i, SHIFT_TURN]
-    return Bends(
-        axis_bend(scene.curve.growth, i, j, distance, scene.sizes, band.low.motion),
-        axis_bend(band.high.scene.curve.growth, i, j, distance, scene.sizes, band.high.motion),
-        band.shifts[i, SHIFT_PULL]
-        + band.shifts[j, SHIFT_PULL]
-        + 2.0 * turn * (band.shifts[i, SHIFT_CORNER] + band.shifts[j, SHIFT_CORNER])
-        + turn * turn * (distance + scene.sizes[i, RADIUS] + scene.sizes[j, RADIUS]),
-    )
+    high_start = gap_along(i, j, along, left, scene.sizes, band.high.before)
+    high_end = gap_along(i, j, along, left, scene.sizes, band.high.after)
+    return band_between(band, start, end, high_start, high_end, bends)
 
 
 def band_pair(scene, band, i, j, enough, distance):
@@ -464,30 +216,13 @@ def band_pair(scene, band, i, j, enough, distance):
             best = least
         if best > enough:
             return best, bends.low
+    if scene.kinds.some:
+        return max(best, band_hulls(scene, band, i, j, enough, distance)), bends.low
     if scene.margin <= 0.0:
         return best, bends.low
     along, left = corner_axis(scene, i, j, band.low.after)
     least = band_along(scene, band, i, j, along, left, bends)
     return (least if least > best else best), bends.low
-
-
-def band_rounding(scene, band):
-    """interval_rounding() of a band."""
-    growth = scene.curve.growth
-    growth_high = band.high.scene.curve.growth
-    handles = band.low.handles
-    if band.low.motion[handles, RATE_LOW] > 0.0 and band.high.motion[handles, RATE_LOW] > 0.0:
-        error = spiral_error(growth, handles, scene.rings.all_chord, band.low.after)
-        error = max(error, spiral_error(growth_high, handles, scene.rings.all_chord, band.high.after))
-        error = max(error, spiral_error(growth_high, handles, scene.rings.all_chord, band.high.before))
-        gap = any_rounding(error, handles, max(band.low.h, band.high.h), scene.margin, scene.rings)
-        if gap > 0.0:
-            return Rounding(error, gap)
-    band.low.round()
-    band.high.round()
-    error = max(band.low.before[handles - 1, ERROR], band.low.after[handles - 1, ERROR])
-    error = max(error, max(band.high.before[handles - 1, ERROR], band.high.after[handles - 1, ERROR]))
-    return Rounding(error, 0.0)
 
 
 def band_pair_rounding(scene, band, i, j, distance):
@@ -509,52 +244,3 @@ def proven_band_gap(scene, band, i, j, distance, rounding):
         band.high.round()
         allowed = band_pair_rounding(scene, band, i, j, distance)
     return least - allowed, bend
-
-
-def band_least(scene, band, leaders):
-    """interval_least() over a band, of pairs led by the first `leaders` benches."""
-    best = FREE
-    bend = 0.0
-    room = FREE
-    tried = 0
-    a = 0
-    b = 0
-    growth = scene.curve.growth
-    growth_high = band.high.scene.curve.growth
-    rounding = band_rounding(scene, band)
-    error = rounding.point
-    if error > CLEAR_SPARE * growth * band.low.after[leaders, THETA]:  # what a strip lays the chains out further by
-        return Nearest(-FREE, 0.0, 0, 0, 0.0, 0.0, 0)
-    for i in range(leaders):
-        if scene.halt.stopped:
-            return Nearest(-FREE, 0.0, 0, 0, 0.0, 0.0, 0)
-        beyond = growth_high * band.high.before[i + 1, THETA]
-        beyond = leaders_reach(growth_high, growth * band.low.after[i, THETA], beyond, scene.rings)
-        beyond = radius_beyond(growth_high, beyond + 2.0 * error + scene.margin, scene.rings) + error
-        for j in range(i + 2, band.low.handles):
-            if growth * band.low.after[j, THETA] > beyond:
-                break  # handles stand in order, so all further ones lie outside too
-            dx = band.low.after[j, MX] - band.low.after[i, MX]
-            dy = band.low.after[j, MY] - band.low.after[i, MY]
-            distance = sqrt(dx * dx + dy * dy)
-            slack = (band.low.motion[i, CENTRE_SPEED] + band.low.motion[j, CENTRE_SPEED]) * band.low.h
-            slack += (
-                (band.shifts[i, SHIFT_CENTRE] + band.shifts[j, SHIFT_CENTRE])
-                * (growth_high - growth)
-                * (1.0 + STRIP_ROUNDING)
-            )
-            slack += 16.0 * error
-            if distance - slack > (scene.sizes[i, RADIUS] + scene.sizes[j, RADIUS] + scene.margin) * (1.0 + 1e-12):
-                continue  # far apart
-            tried += 1
-            least, k = proven_band_gap(scene, band, i, j, distance + slack, rounding.gap)
-            if least != least:
-                return Nearest(-FREE, 0.0, 0, 0, 0.0, 0.0, 0)
-            if least < best:
-                best = least
-                bend = k
-                a = i
-                b = j
-            width = 8.0 * (least - scene.margin) / k + band.low.h * band.low.h
-            room = min(room, sqrt(width) if width > 0.0 else 0.0)
-    return Nearest(best, bend, a, b, room, error, tried)

@@ -74,3 +74,20 @@ cdef struct Bends:
     double low
     double high
     double across
+
+cdef struct Corner:
+    double x
+    double y
+
+cdef struct Axis:
+    Py_ssize_t k
+    Py_ssize_t own
+    Py_ssize_t other
+    Py_ssize_t edge
+    double gap
+
+cdef struct Turned:
+    Py_ssize_t own
+    Py_ssize_t other
+    Py_ssize_t edge
+    double bend

@@ -83,7 +83,7 @@ class Closest(NamedTuple):
 class Laid(NamedTuple):
     """Extent of a chain that was laid out."""
 
-    last: int  # its last handle, -1 at a fold
+    last: int  # its last handle, FOLDED at a fold
     leading: int  # how many benches can be the inner one of a touching pair
 
 
@@ -113,3 +113,29 @@ class Bends(NamedTuple):
     low: float
     high: float
     across: float
+
+
+class Corner(NamedTuple):
+    """A point [m]."""
+
+    x: float
+    y: float
+
+
+class Axis(NamedTuple):
+    """A direction fixed in one bench: that of half plane k of its hull `own`, against the hull `other` of another."""
+
+    k: int
+    own: int
+    other: int
+    edge: int  # 1: the first is an edge at rest, 2: the second is, 0: neither
+    gap: float  # along it, at the instant when it was found [m]
+
+
+class Turned(NamedTuple):
+    """Two hulls, the first of the bench in which axes are fixed."""
+
+    own: int
+    other: int
+    edge: int  # as in Axis
+    bend: float  # K of gaps along these axes [1/m]

@@ -1,6 +1,6 @@
 cimport cython
 from core.kernels.constants cimport *
-from core.kernels.spiral cimport next_arc, slipped, spiral_arc, spiral_curvature, spiral_theta, swayed
+from core.kernels.spiral cimport next_arc, spiral_arc, spiral_curvature, spiral_theta
 
 cdef double cubic_speed(const double[:, ::1] pieces, Py_ssize_t p, double t) noexcept nogil
 cdef double cubic_arc(const double[:, ::1] pieces, Py_ssize_t p, double t) noexcept nogil
@@ -29,25 +29,6 @@ cdef (double, double, double, double, double) cubic_point(
     const double[:, ::1] pieces, Py_ssize_t p, double a
 ) noexcept nogil
 cdef double theta_at(const double[:, ::1] pieces, Py_ssize_t p, double s) noexcept nogil
-cdef double cubic_size(const double[:, ::1] pieces, Py_ssize_t p) noexcept nogil
-
-@cython.locals(kind=cython.int)
-cdef double spot_error(
-    const double[:, ::1] pieces, Py_ssize_t p, double s, double theta, double x, double y
-) noexcept nogil
-
-@cython.locals(kind=cython.int)
-cdef double slide_error(const double[:, ::1] pieces, Py_ssize_t p, double s) noexcept nogil
-
-cdef (double, double, double, double, double) piece_end(
-    const double[:, ::1] pieces, Py_ssize_t p, double s
-) noexcept nogil
-
-@cython.locals(p=cython.Py_ssize_t, q=cython.Py_ssize_t)
-cpdef void joint_misses(const double[:, ::1] pieces, double[:, ::1] out) noexcept
-
-@cython.locals(p=cython.Py_ssize_t)
-cpdef void piece_slides(const double[:, ::1] pieces, double[::1] out) noexcept
 
 cdef double first_place(const double[:, ::1] pieces) noexcept nogil
 cdef bint stands_first(const double[:, ::1] pieces, Py_ssize_t k, double[:, ::1] chain) noexcept nogil
@@ -71,11 +52,3 @@ cdef void seek_rear(
 ) noexcept nogil
 
 cdef void finish_link(Py_ssize_t k, double chord, double[:, ::1] chain) noexcept nogil
-
-@cython.locals(k=cython.Py_ssize_t, first=cython.Py_ssize_t)
-cpdef void route_rounding(
-    const double[:, ::1] pieces, Py_ssize_t last, double[:, ::1] sizes, double[:, ::1] chain
-) noexcept nogil
-
-@cython.locals(p=cython.Py_ssize_t)
-cdef double chain_spot(const double[:, ::1] pieces, Py_ssize_t k, double[:, ::1] chain) noexcept nogil

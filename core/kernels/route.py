@@ -5,7 +5,7 @@ from cython.cimports.libc.math import asin, cos, fabs, sin, sqrt
 
 if not cython.compiled:  # for the compiler the same stands in the .pxd
     from core.kernels.constants import *
-    from core.kernels.spiral import next_arc, slipped, spiral_arc, spiral_curvature, spiral_theta, swayed
+    from core.kernels.spiral import next_arc, spiral_arc, spiral_curvature, spiral_theta
 
 
 def cubic_speed(pieces, p, t):
@@ -161,119 +161,6 @@ def start_route(pieces, s, chain):
     set_piece_theta(pieces, p, 0, chain)
 
 
-# Rounding, as in spiral.py, whose assumptions, SLIP, E and second order serve here too. The table is exact, and the
-# path danced is the smooth one that its pieces nearly are: they may miss each other at a joint by up to 1e-9 m and
-# rad, so it runs within LOOSE of them, and within BLEND of a joint only (see Route). Where a handle stands is
-# said by the double of its piece, s - S_START on a line, the angle on an arc, theta on a spiral, t on a cubic: its s is
-# only where the search for it began. E - SLIP is what the computed point lacks to the piece's there:
-#   line     one product and the sum:                                             u (|x| + |y| + |s - S_START|)
-#   arc      cos and sin 2 u each, a product, the sum:                            u (|x| + |y| + 5 radius)
-#   spiral   the same, growth theta, and theta + rotation to u unless that is 0:  u (|x| + |y| + r (6 + |angle|))
-#   cubic    the sum of |c_k| end^k, k >= 1, of both coordinates =: C:            u (|x| + |y| + 12 C)
-# From link to link the distance of the computed points misses the chord by what is seen, however the search for it
-# ended, and by the points' own errors:
-#     local = (|distance - chord| + (E - SLIP)[a] + (E - SLIP)[b] + 8 u chord) / cos alpha_b.
-# A place that is rounded beyond a joint stands on the piece before it, produced by as little: its point is off by the
-# square of that.
-# The head's double is not quite that of its s: slide_error() below, an error of the travel, not of the shape.
-#   line     s - S_START:                                                         u |s - S_START|
-#   arc      that, the division, the angle:                                       u (3 |s - S_START| + radius |angle|)
-#   spiral   that, the division by growth, the inverse of the arc length A:       10 u A
-#   cubic    |r'| end and the length are at most 3 C; the quadrature, a sum of 8, is good to 57 u C, and the Newton
-#            steps that invert it end within 30 u C:                              100 u C
-# What the quadrature lacks to the true arc length of a cubic, 1e-13 of it (core/paths/cubics.py), is left out: s on a
-# cubic is what the quadrature says.
-
-
-def cubic_size(pieces, p):
-    """C: sum of |c_k| end^k of both coordinates, k >= 1 [m]."""
-    t = pieces[p, T_END]
-    return t * (
-        fabs(pieces[p, X1])
-        + fabs(pieces[p, Y1])
-        + t * (fabs(pieces[p, X2]) + fabs(pieces[p, Y2]) + t * (fabs(pieces[p, X3]) + fabs(pieces[p, Y3])))
-    )
-
-
-def spot_error(pieces, p, s, theta, x, y):
-    """Largest distance between a computed point of piece p and the path's point [m]; theta: on a spiral."""
-    kind = cython.cast(cython.int, pieces[p, PIECE_KIND])
-    error = fabs(x) + fabs(y)
-    if kind == LINE:
-        error += fabs(s - pieces[p, S_START])
-    elif kind == ARC:
-        error += 5.0 * pieces[p, ARC_RADIUS]
-    elif kind == SPIRAL:
-        error += (
-            pieces[p, COIL_GROWTH]
-            * theta
-            * (6.0 if pieces[p, COIL_ROTATION] == 0.0 else 6.0 + fabs(theta + pieces[p, COIL_ROTATION]))
-        )
-    else:
-        error += 12.0 * cubic_size(pieces, p)
-    if s < pieces[p, S_START] + BLEND or s > pieces[p, S_END] - BLEND:
-        return ULP * error + pieces[p, LOOSE]
-    return ULP * error
-
-
-def slide_error(pieces, p, s):
-    """Largest distance along the path between a computed point of piece p and the point at s [m]."""
-    kind = cython.cast(cython.int, pieces[p, PIECE_KIND])
-    away = fabs(s - pieces[p, S_START])
-    if kind == LINE:
-        return ULP * away
-    if kind == ARC:
-        return ULP * (4.0 * away + pieces[p, ARC_RADIUS] * fabs(pieces[p, ARC_ANGLE]))
-    if kind == SPIRAL:
-        return 10.0 * ULP * (fabs(pieces[p, COIL_ARC]) + away)
-    return 100.0 * ULP * cubic_size(pieces, p)
-
-
-def piece_end(pieces, p, s):
-    """route_point() at either end of a piece, on a cubic without a search for t."""
-    if pieces[p, PIECE_KIND] <= SPIRAL:
-        return route_point(pieces, p, s)
-    return cubic_point(pieces, p, 0.0 if s == pieces[p, S_START] else pieces[p, T_END])
-
-
-def joint_misses(pieces, out):
-    """By how much every piece misses the one before it at most: across and along the path [m], direction [rad],
-    curvature [1/m]. out: (rows, MISS_COLUMNS), of which the first row is left alone
-
-    A tangent is good to 10 u, and to u |angle| more on a turned spiral; on a cubic to 15 u C / (|r'| end), where
-    curvature is good to 72 u (C / (|r'| end))^2 / C.
-    """
-    for p in range(1, pieces.shape[0]):
-        s = pieces[p, S_START]
-        x, y, tx, ty, bend = piece_end(pieces, p - 1, s)
-        x_on, y_on, tx_on, ty_on, bend_on = piece_end(pieces, p, s)
-        across = fabs(tx * (y_on - y) - ty * (x_on - x))
-        along = fabs(tx * (x_on - x) + ty * (y_on - y))
-        kink = sqrt((tx_on - tx) * (tx_on - tx) + (ty_on - ty) * (ty_on - ty)) + 20.0 * ULP
-        step = fabs(bend_on - bend) + 10.0 * ULP * (fabs(bend_on) + fabs(bend))
-        for q in range(p - 1, p + 1):
-            theta = theta_at(pieces, q, s) if pieces[q, PIECE_KIND] == SPIRAL else 0.0
-            across += spot_error(pieces, q, s, theta, x, y)
-            along += slide_error(pieces, q, s)
-            if pieces[q, PIECE_KIND] == SPIRAL and pieces[q, COIL_ROTATION] != 0.0:
-                kink += ULP * fabs(theta + pieces[q, COIL_ROTATION])
-            if pieces[q, PIECE_KIND] > SPIRAL:
-                theta = cubic_size(pieces, q)
-                bend = theta / (pieces[q, T_END] * cubic_speed(pieces, q, 0.0 if q == p else pieces[q, T_END]))
-                kink += 15.0 * ULP * bend
-                step += 72.0 * ULP * bend * bend / theta
-        out[p, MISS_ACROSS] = across
-        out[p, MISS_ALONG] = along
-        out[p, MISS_KINK] = kink
-        out[p, MISS_STEP] = step
-
-
-def piece_slides(pieces, out):
-    """The largest slide_error() on every piece [m]. out: (rows,)"""
-    for p in range(pieces.shape[0]):
-        out[p] = slide_error(pieces, p, pieces[p, S_END])
-
-
 # Next handle. Let |curvature| <= k with k chord < 2 (routes are refused otherwise). As long as k l <= pi the distance
 # to the point l behind grows with l: its rate is the cosine of an angle <= k l / 2 (chord lemma, bounds.py). It reaches
 # the chord before l = pi chord / 2 <= pi / k, so in [chord, pi chord / 2] there is one root, it is the first along the
@@ -316,7 +203,7 @@ def extend_route(pieces, first, last, until, sizes, chain):
             else:
                 delta = step / (pieces[p, COIL_GROWTH] * sqrt(1.0 + theta * theta))
             delta, rear = next_arc(theta, distance * distance, delta)
-            arc = (rear - begin) * pieces[p, COIL_GROWTH] if delta > 0.0 else -1.0
+            arc = (rear - begin) * pieces[p, COIL_GROWTH] if delta > 0.0 else NO_ROOT
             if chord <= arc <= 0.5 * PI * chord:
                 step = arc
                 if p == 0 or s - arc >= pieces[p, S_START]:
@@ -387,32 +274,3 @@ def finish_link(k, chord, chain):
     chain[k + 1, RATE] = (
         chain[k, RATE] * (chain[k, TX] * ux + chain[k, TY] * uy) / (chain[k + 1, TX] * ux + chain[k + 1, TY] * uy)
     )
-
-
-def route_rounding(pieces, last, sizes, chain):
-    """Fills in SLIP, ERROR and SWAY of a chain up to handle `last`."""
-    first = cython.cast(cython.Py_ssize_t, chain[0, FILLED])
-    spot = chain_spot(pieces, first, chain)
-    for k in range(first, last):
-        chord = sizes[k, CHORD]
-        inverse = 1.0 / chord
-        spots = spot
-        spot = chain_spot(pieces, k + 1, chain)
-        spots += spot
-        slope = 1.0 / (chain[k + 1, TX] * chain[k, UX] + chain[k + 1, TY] * chain[k, UY])
-        ratio = (chain[k, TX] * chain[k, UX] + chain[k, TY] * chain[k, UY]) * slope
-        # u is the difference of the points over the chord; | |u| - 1 | <= 0.6 | |u|^2 - 1 | unless all is lost anyway
-        local = chain[k, UX] * chain[k, UX] + chain[k, UY] * chain[k, UY]
-        local = (chord * (0.6 * fabs(local - 1.0) + 8.0 * ULP) + spots) * slope
-        chain[k + 1, SLIP] = slipped(chain[k, SLIP], ratio, slope, local, spots, inverse)
-        chain[k, ERROR] = chain[k + 1, SLIP] + spots
-        if k > 0:
-            chain[k, ERROR] = max(chain[k, ERROR], chain[k - 1, ERROR])
-        chain[k, SWAY] = swayed(k, chain, ratio, local, spots, inverse)
-    chain[0, FILLED] = max(first, last)
-
-
-def chain_spot(pieces, k, chain):
-    """spot_error() of handle k."""
-    p = cython.cast(cython.Py_ssize_t, chain[k, PIECE])
-    return spot_error(pieces, p, -chain[k, PLACE], chain[k, PIECE_THETA], chain[k, PX], chain[k, PY])

@@ -5,6 +5,7 @@ from core.kernels.halt cimport Halt
 from core.kernels.chain cimport Curve, chain_rounding, place_chain
 from core.kernels.rectangles cimport Witnesses
 from core.kernels.rings cimport Rings
+from core.kernels.hulls cimport Kinds
 
 cdef double WIDTH_ROUNDING
 
@@ -18,11 +19,12 @@ cdef class Scene:
     cdef readonly Py_ssize_t room
     cdef readonly Py_ssize_t edges
     cdef readonly int against
+    cdef public Kinds kinds
     cdef public double margin
     cdef public Halt halt
     cdef public Py_ssize_t left_out
     cdef public Py_ssize_t left_out_too
-    cdef Witnesses met
+    cdef readonly Witnesses met
 
 @cython.final
 cdef class Interval:
@@ -38,6 +40,18 @@ cdef class Interval:
     cdef void round(self) noexcept nogil
     cpdef bint bound(self, bint climbing) noexcept nogil
     cpdef bint lay_out(self, double place, double h, Py_ssize_t last) noexcept nogil
+
+cdef class Found:
+    cdef readonly double proven
+    cdef readonly bint meets
+    cdef readonly double touching
+    cdef readonly Py_ssize_t first
+    cdef readonly Py_ssize_t second
+    cdef readonly Py_ssize_t steps
+    cdef readonly double work
+
+    cdef void begin(self, double start) noexcept nogil
+    cdef void meet(self, double touching) noexcept nogil
 
 @cython.final
 cdef class Band:

@@ -1,4 +1,4 @@
-"""A scene, which is a dragon on a path, and an interval of head travel in it with its two chains."""
+"""A scene, which is a dragon on a path; an interval of head travel in it; and what is found on the way."""
 
 import cython
 
@@ -7,6 +7,7 @@ if not cython.compiled:  # for the compiler the same stands in the .pxd
     from core.kernels.chain import chain_rounding, place_chain
     from core.kernels.constants import *
     from core.kernels.halt import Halt
+    from core.kernels.hulls import Kinds
     from core.kernels.rectangles import Witnesses
 
 
@@ -23,11 +24,13 @@ class Scene:
     benches: of the dragon; room: how many of them have a row
     against: BENCHES, each other, or EDGES, the edges at rest alone, on a route only
     halt: what ends the loops before they are done
-    margin: the clearance required [m]; left_out, left_out_too: a pair of benches not asked for, -1 for none
+    kinds: the hulls of benches that are no rectangles; sizes then hold the rectangles around them
+    margin: the clearance required [m]; left_out, left_out_too: a pair of benches not asked for, or NO_BENCH
     """
 
     def __init__(self, curve, place, rings, sizes, benches, edges):
         self.curve = curve
+        self.kinds = Kinds()
         self.place = place
         self.rings = rings
         self.sizes = sizes
@@ -36,7 +39,7 @@ class Scene:
         self.against = EDGES if edges > 0 else BENCHES
         self.room = min(benches, sizes.shape[0] - 1 - edges)
         self.margin = 0.0
-        self.left_out = self.left_out_too = -1
+        self.left_out = self.left_out_too = NO_BENCH
         self.halt = Halt(NO_LIMIT)
         self.met = Witnesses()
 
@@ -88,12 +91,38 @@ class Interval:
         """
         self.h = h
         self.handles = last
-        if place_chain(self.scene.curve, place, last, self.scene.sizes, self.before) < 0:
+        if place_chain(self.scene.curve, place, last, self.scene.sizes, self.before) == FOLDED:
             return False
-        if place_chain(self.scene.curve, place - h, last, self.scene.sizes, self.after) < 0:
+        if place_chain(self.scene.curve, place - h, last, self.scene.sizes, self.after) == FOLDED:
             return False
         self.round()
         return self.bound(False)
+
+
+class Found:
+    """What is found while the head goes its way by proven steps.
+
+    proven: nothing touches up to here [m]; a march counts the travel of the head, a strip its radius
+    meets: a pair of benches comes within the margin; touching: here [m]; first, second: that pair
+    steps, work: what was done
+    """
+
+    def __init__(self):
+        self.proven = self.touching = self.work = 0.0
+        self.meets = False
+        self.first = self.second = self.steps = 0
+
+    def begin(self, start):
+        """Forget what was found before; the way begins here [m]."""
+        self.proven = start
+        self.meets = False
+        self.steps = 0
+        self.work = 0.0
+
+    def meet(self, touching):
+        """The pair `first`, `second` is within the margin here [m]."""
+        self.meets = True
+        self.touching = touching
 
 
 class Band:

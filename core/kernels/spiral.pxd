@@ -77,20 +77,7 @@ cpdef double spiral_curvature(double theta) noexcept nogil
 cpdef double steepest_bend(double theta) noexcept nogil
 cpdef void start_chain(double theta, double[:, ::1] chain) noexcept nogil
 
-cdef double slipped(
-    double slip, double ratio, double slope, double local, double spots, double inverse
-) noexcept nogil
-
-cdef double swayed(
-    Py_ssize_t k, double[:, ::1] chain, double ratio, double local, double spread, double inverse
-) noexcept nogil
-
 @cython.locals(k=cython.Py_ssize_t, alike=cython.Py_ssize_t)
 cpdef Py_ssize_t extend_chain(
     double growth, Py_ssize_t first, Py_ssize_t last, double radius, double[:, ::1] sizes, double[:, ::1] chain
 ) noexcept nogil
-
-@cython.locals(k=cython.Py_ssize_t, first=cython.Py_ssize_t)
-cpdef void spiral_rounding(double growth, Py_ssize_t last, double[:, ::1] sizes, double[:, ::1] chain) noexcept nogil
-
-cdef double spiral_error(double growth, Py_ssize_t last, double longest, double[:, ::1] chain) noexcept nogil

@@ -13,7 +13,7 @@ if not cython.compiled:  # for the compiler the same stands in the .pxd
 COMPILED = cython.compiled
 
 # Halley's iteration ends with a step of at most this part of delta and of f_delta / |f_delta_delta|: what it leaves is
-# below 0.32 ULP of delta, see "Rounding" [1].
+# below 0.32 ULP of delta, see rounding.py [1].
 HALLEY_STEP = 2e-6
 # Up to this half angle the Taylor sums of half_sine() and half_cosine() leave out less than 5e-17 of themselves [rad].
 SERIES_LIMIT = 0.5
@@ -110,7 +110,7 @@ def first_crest(theta):
 
 
 def first_root(theta, chord2):
-    """First root delta of f = chord2 in (0, 2 pi], by safe bisection; -1.0 when the chain folds."""
+    """First root delta of f = chord2 in (0, 2 pi], by safe bisection; NO_ROOT when the chain folds."""
     low = 0.0
     high = PI
     if PI * PI + 4.0 * theta * (theta + PI) < chord2:
@@ -118,7 +118,7 @@ def first_root(theta, chord2):
         high = first_crest(theta)
         value = sin(0.5 * high)
         if high * high + 4.0 * theta * (theta + high) * value * value < chord2:
-            return -1.0
+            return NO_ROOT
     for i in range(60):
         delta = 0.5 * (low + high)
         value = sin(0.5 * delta)
@@ -139,7 +139,7 @@ def halley_step(theta, chord2, delta, s, c):
 
 
 def next_handle(theta, chord2, guess):
-    """delta, sin(delta / 2), cos(delta / 2) of the next handle; delta -1.0 when the chain folds.
+    """delta, sin(delta / 2), cos(delta / 2) of the next handle; delta is NO_ROOT when the chain folds.
 
     Halley's iteration from the guess; whatever leaves (0, pi] goes to the safe root.
     """
@@ -164,11 +164,11 @@ def next_handle(theta, chord2, guess):
 
 
 def next_arc(theta, chord2, guess):
-    """delta of the next handle and spiral_arc() there; delta -1.0 when the chain folds or turns at the centre."""
+    """delta of the next handle and spiral_arc() there; delta is NO_ROOT when the chain folds or turns at the centre."""
     delta, _, _ = next_handle(theta, chord2, guess)
     if delta > 0.0 and theta * (theta + delta) > 0.0:
         return delta, spiral_arc(theta + delta)
-    return -1.0, 0.0
+    return NO_ROOT, 0.0
 
 
 def theta_ratio(theta, delta, s, c):
@@ -263,17 +263,17 @@ class Block:
                 & (reached <= PI)
                 & (fabs(step) <= HALLEY_STEP * reached)
                 & (fabs(step * curve) <= HALLEY_STEP * slope)
-                else -1.0
+                else NO_ROOT
             )
             step *= -0.5
             self.sine[lane] = s + step * (c - 0.5 * step * s)
             self.cosine[lane] = c - step * (s + 0.5 * step * c)
         for lane in range(self.standing):
-            if self.delta[lane] < 0.0:
+            if self.delta[lane] == NO_ROOT:
                 self.delta[lane], self.sine[lane], self.cosine[lane] = next_handle(
                     self.theta[lane], chord2, self.guess[lane]
                 )
-                if self.delta[lane] < 0.0:
+                if self.delta[lane] == NO_ROOT:
                     self.standing = lane
                     break
 
@@ -320,10 +320,10 @@ def write_handles(block, row, k, position, velocity, speed):
 
 
 def spiral_trajectory(growth, thetas, chords, head_speed, position, velocity, speed, halt):
-    """Position, velocity and speed of every handle for every head angle; returns the first row that folds, or -1.
+    """Position, velocity and speed of every handle for every head angle; returns how many rows come before a fold.
 
     thetas: (T,) head angles; chords: (n,) [m]; position, velocity: (T, n + 1, 2); speed: (T, n + 1)
-    halt: what ends it before it is done, with -1
+    halt: what ends it before it is done, as if no row folded
     """
     row = 0
     block = Block(growth)
@@ -333,7 +333,7 @@ def spiral_trajectory(growth, thetas, chords, head_speed, position, velocity, sp
             alike = 0
             for k in range(chords.shape[0]):
                 if halt.stopped:
-                    return -1
+                    return thetas.shape[0]
                 write_handles(block, row, k, position, velocity, speed)
                 alike = alike + 1 if k > 0 and chords[k] == chords[k - 1] else 0
                 chord2 = (chords[k] / growth) * (chords[k] / growth)
@@ -344,7 +344,7 @@ def spiral_trajectory(growth, thetas, chords, head_speed, position, velocity, sp
             if block.standing < lanes:
                 return row + block.standing
             row += lanes
-    return -1
+    return thetas.shape[0]
 
 
 def spiral_curvature(theta):
@@ -375,74 +375,8 @@ def start_chain(theta, chain):
     chain[0, FILLED] = chain[0, SLIP] = 0.0
 
 
-# Rounding. u = ULP is the unit of rounding: each operation and square root errs by a factor within 1 +- u, each sin and
-# cos of the C library by 2 u of itself (one unit in the last place, as glibc and its peers promise). The doubles
-# growth, chords and the head's theta are exact. The frame turns with the head, so the truth is: handle k stands at
-# theta[k], angle theta[k] - theta[0]. Computed are Theta[k] = THETA + REST and a vector e[k] = (COS, SIN).
-#
-# 1. Displacement. Let the computed handle, put on the spiral at Theta[k], be at most SLIP[k] along the path away from
-# the true one. f is computed to 9 u f (its first term to 2 u; the second has theta + delta, two products, s twice with
-# s to 2 u, a sum), chord^2 to 3 u, and REST (at most u theta) is not in it: f_theta u theta <= 2 u chord^2, as
-# theta f_theta <= 2 f. In all f misses chord^2 by 14 u chord^2, and delta by 14 u chord^2 / f_delta. As the chord grows
-# by T_b . u = cos alpha_b for each metre that b falls back, f_delta = 2 (chord / growth) length cos alpha_b with length
-# = sqrt(1 + theta_b^2): b is displaced by growth length 14 u chord^2 / (growth^2 f_delta) = 7 u chord / cos alpha_b.
-# Halley: with w = f f_delta_delta / f_delta^2 the residual after a step is f_delta step w^2 / 4 (1 +- w) and
-# f_delta_delta_delta step^3 / 6. |w| <= HALLEY_STEP =: q, |step| <= q delta. From h'' above |f_delta_delta_delta|
-# delta^2 / (6 f_delta) <= (3 theta + theta (theta + delta) sin delta) delta^2 / (6 h) <= pi^2 / 4 + pi^2 / 6, for h >=
-# delta + theta (1 - cos delta) >= theta delta^2 2 / pi^2: so delta is off by at most q^3 delta (1/4 + 4.2) = 3.6e-17
-# delta. The bisection of first_root() ends in a bracket of 2 pi / 2^60 = 0.05 u. Rounding of delta itself, of its steps
-# and of the sum with REST: 2.1 u delta.
-#     local = 7 u chord / cos alpha_b + growth length u (2.5 delta + 0.05).
-# 2. From link to link a displacement is multiplied by the rate ratio cos alpha_a / cos alpha_b: at most 1 out on the
-# spiral, more towards the fold. The larger of it and 1 is taken, so that SLIP never falls from handle to handle.
-# 3. Second order. Both cosines are those of the computed handles, and change by no more than nu on the way to the true
-# ones: u turns by 1 / chord per metre of either handle; T_b by at most 2.2 / chord (curvature <= 1.0887 / r_b and chord
-# <= 2 r_b), T_a by 13 / chord (chord <= growth (2 theta_a + 2 pi), which times the curvature at theta_a is below 13);
-# and both are computed from points that are off by E, see 4, so
-#     nu = (14 SLIP[a] + 3.2 SLIP[b] + E[a] + E[b]) / chord + 8 u.
-# While nu <= cos alpha_b / 6 a factor 1 + 3 nu / cos alpha_b covers that, as (|cos alpha_a| + nu) / (cos alpha_b - nu)
-# <= max(1, |ratio|) (1 + 1.2 * 2 nu / cos alpha_b); SLIP[b] without it is at most 1.5 times less. Beyond: FREE.
-# 4. Turning. e[k] turns by delta with s, c to 3.75 u s, 1.75 u (4 u s, 4 u where the library serves). For m = 2 s the
-# matrix (rise, turn) is then good to 7.7 u m (12.2 u m), the four products and sums add 2.83 u m + u: per link e is off
-# by at most u (1 + 12 delta). A point growth THETA e has two more products and no REST, 3 u:
-#     E[k] = SLIP[k] + r[k] u (k + 4 + 12 (theta[k] - theta[0])).
-# Row k holds it for both handles of bench k: ERROR = E[k + 1] >= E[k].
-# 5. The direction (P_a - P_b) / chord of a bench is better than 2 E / chord, for most of E is common to both handles:
-# with its leader displaced by x <= SLIP[a] along the path the whole link moves on and turns at omega = (|sin alpha_a| +
-# |ratio sin alpha_b|) / chord =: lean / chord, then its rear handle is off by `local` (2 and 3 included), the frame by
-# that of e[a], and what is left are the rotation of one link and the points' own 3 u each:
-#     SWAY[k] = u (k + 12 (theta[k] - theta[0])) + 4 u + (lean SLIP[a] + 2 local + (what 3 added) + r_b u (7 + 12
-#     delta)) / chord
-
-
-def slipped(slip, ratio, slope, local, spots, inverse):
-    """Displacement of a rear handle from that of its leader [m], by 2 and 3 above; FREE where no bound is known.
-
-    ratio: of their rates; slope: 1 / cos alpha_b; local: what the link itself adds; spots: E - SLIP of both together;
-    inverse: of the chord
-    """
-    slip = slip * max(1.0, fabs(ratio)) + local
-    ratio = ((64.0 * slip + 3.0 * spots) * inverse + 24.0 * ULP) * slope
-    return slip + slip * ratio if 0.0 < ratio < 0.5 else FREE
-
-
-def swayed(k, chain, ratio, local, spread, inverse):
-    """How far the direction of bench k may be from the true one but for its frame, by 5 above [1].
-
-    spread: what lies between its computed points beyond common errors [m]; others as for slipped(), which has filled in
-    SLIP of both
-    """
-    ux = chain[k, UX]
-    uy = chain[k, UY]
-    slip = chain[k, SLIP]
-    ratio = fabs(ratio)
-    lean = fabs(chain[k, TX] * uy - chain[k, TY] * ux) + ratio * fabs(chain[k + 1, TX] * uy - chain[k + 1, TY] * ux)
-    spread += chain[k + 1, SLIP] - slip * max(1.0, ratio) + local
-    return (lean * slip + spread) * inverse + 4.0 * ULP
-
-
 def extend_chain(growth, first, last, radius, sizes, chain):
-    """Handles after `first` until one stands at `radius` [m] or is the `last`; returns its index, -1 at a fold."""
+    """Handles after `first` until one stands at `radius` [m] or is the `last`; returns its index, FOLDED at a fold."""
     delta = 0.0
     k = first
     alike = 0
@@ -465,8 +399,8 @@ def extend_chain(growth, first, last, radius, sizes, chain):
         else:
             delta = first_guess(theta, reach)
         delta, s, c = next_handle(theta, reach, delta)
-        if delta < 0.0:
-            return -1
+        if delta == NO_ROOT:
+            return FOLDED
         turn = 2.0 * s * c
         rise = 2.0 * s * s
         x = chain[k, COS]
@@ -499,39 +433,3 @@ def extend_chain(growth, first, last, radius, sizes, chain):
         )
         k += 1
     return k
-
-
-def spiral_rounding(growth, last, sizes, chain):
-    """Fills in SLIP, ERROR and SWAY of a chain up to handle `last`."""
-    first = cython.cast(cython.Py_ssize_t, chain[0, FILLED])
-    for k in range(first, last):
-        chord = sizes[k, CHORD]
-        inverse = 1.0 / chord
-        theta = chain[k + 1, THETA]
-        delta = theta - chain[k, THETA]
-        slope = 1.0 / (chain[k + 1, TX] * chain[k, UX] + chain[k + 1, TY] * chain[k, UY])
-        ratio = (chain[k, TX] * chain[k, UX] + chain[k, TY] * chain[k, UY]) * slope
-        turned = ULP * (k + 5.0 + 12.0 * (theta - chain[0, THETA]))
-        local = ULP * (7.0 * chord * slope + growth * sqrt(1.0 + theta * theta) * (2.5 * delta + 0.05))
-        theta *= growth
-        chain[k + 1, SLIP] = slipped(chain[k, SLIP], ratio, slope, local, 2.0 * theta * turned, inverse)
-        chain[k, ERROR] = chain[k + 1, SLIP] + theta * turned
-        chain[k, SWAY] = turned + swayed(k, chain, ratio, local, theta * ULP * (7.0 + 12.0 * delta), inverse)
-    chain[0, FILLED] = max(first, last)
-
-
-# Where no angle between a tangent and a chord exceeds asin(BEND_LIMIT), out from near the centre, cos alpha_b >= 0.243
-# and the ratios are at most 1 (bounds.py), so after n links with chords up to c, at r = r[n], with growth length <= r +
-# growth, the sums above are at most
-#     E = u (32 n c + (r + growth) (16 (theta[n] - theta[0]) + 1.1 n + 5)),  SWAY <= 2 E / shortest + 8 u,
-# without a look at the chain: enough for all but the few pairs that come near the margin. 7 / 0.243 = 28.8, 2.5 + 12 =
-# 14.5 and 1.05 leave a tenth for the factors of 3, which together stay below exp(n 64 E / (0.243 shortest)) < 1.03
-# while n E <= SMALL shortest.
-
-
-def spiral_error(growth, last, longest, chain):
-    """E above, for the handles up to `last` [m]."""
-    theta = chain[last, THETA]
-    return ULP * (
-        32.0 * last * longest + growth * (theta + 1.0) * (16.0 * (theta - chain[0, THETA]) + 1.1 * last + 5.0)
-    )

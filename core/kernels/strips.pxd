@@ -2,10 +2,11 @@ cimport cython
 from core.kernels.constants cimport *
 from core.kernels.spiral cimport extend_chain, spiral_arc, spiral_theta, start_chain
 from core.kernels.rings cimport leaders_reach, radius_beyond
-from core.kernels.pairs cimport STRIP_ROUNDING, band_least
+from core.kernels.pairs cimport STRIP_ROUNDING
+from core.kernels.nearest cimport band_least
 from core.kernels.clearance cimport row_gap
 from core.kernels.records cimport Nearest
-from core.kernels.scene cimport Band
+from core.kernels.scene cimport Band, Found
 
 cdef double TURNED_WITHIN
 cdef double CHAIN_WORK
@@ -19,7 +20,7 @@ cdef bint shift_bounds(
 ) noexcept nogil
 
 @cython.final
-cdef class Strip:
+cdef class Strip(Found):
     cdef Band band
     cdef Py_ssize_t leaders
     cdef Py_ssize_t placed
@@ -28,12 +29,6 @@ cdef class Strip:
     cdef double h
     cdef double rounding
     cdef bint bounded
-    cdef readonly double proven
-    cdef readonly double touching
-    cdef readonly Py_ssize_t first
-    cdef readonly Py_ssize_t second
-    cdef readonly Py_ssize_t steps
-    cdef readonly double work
 
     @cython.locals(state=cython.int)
     cpdef int run(

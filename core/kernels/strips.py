@@ -6,9 +6,10 @@ from cython.cimports.libc.math import cos, sin, sqrt
 if not cython.compiled:  # for the compiler the same stands in the .pxd
     from core.kernels.clearance import row_gap
     from core.kernels.constants import *
-    from core.kernels.pairs import STRIP_ROUNDING, band_least
+    from core.kernels.nearest import band_least
+    from core.kernels.pairs import STRIP_ROUNDING
     from core.kernels.rings import leaders_reach, radius_beyond
-    from core.kernels.scene import Band
+    from core.kernels.scene import Band, Found
     from core.kernels.spiral import extend_chain, spiral_arc, spiral_theta, start_chain
 
 # A strip is given up where handles may turn back in steps shorter than this part of the head's radius [1].
@@ -66,7 +67,7 @@ CHAIN_WORK = 5.0
 # rate kappa <= |u_m'| then. For corners X of i and Y of j, p = Y - X,
 #     |(e . p)''| <= |X''| + |Y''| + 2 kappa (|X'| + |Y'|) + kappa^2 |p|  =: K,
 # so the gap is at least what least_between() makes of its least values on b = b_L and on b = b_R, K and b_R - b_L;
-# these come from both ends of the step in r_0 by pairs.py. Four gaps prove a whole rectangle of (r_0, b).
+# these come from both ends of the step in r_0 by bends.py. Four gaps prove a whole rectangle of (r_0, b).
 
 
 # Rounding. Gaps are as good as pairs.py says, and widths widened by what a travel may be off by and by WIDTH_ROUNDING
@@ -75,7 +76,7 @@ CHAIN_WORK = 5.0
 # gaps can change over 4 theta u r beyond both ends, no faster than their mean slope and the bend over the step.
 WIDTH_ROUNDING = 1e-9  # [1]
 # shift_bounds() is good to STRIP_ROUNDING (pairs.py) of what it says. It adds up products of terms >= 0, fewer than 60
-# roundings a bench, of angles between handles that are off by 2 SLIP / r, at most 1e-12 of them (spiral.py) where
+# roundings a bench, of angles between handles that are off by 2 SLIP / r, at most 1e-12 of them (rounding.py) where
 # anything is claimed, and of sines and tangents of half of them, which that is at most 1e3 times worse for: delta stays
 # ACROSS below pi. The one difference is `front`, A above, whose sign alone matters: it must exceed STRIP_ROUNDING of
 # its terms. sqrt(1 - c^2) has 4e-5 c^2 to spare under the root, as 2 / 1.5^(3/2) is that much less than
@@ -155,22 +156,20 @@ def shift_bounds(low, high, benches, sizes, inner, outer, shifts):
 #         lead pairs (leaders).
 # State.  `radius` and `place`, where the head is at the lowest growth; h, the travel to try there; `placed`, the last
 #         handle that the chains at the beginning have; `bounded`, whether bounds were known in the last step.
-# Output. How it ended, and what is known then: see Strip.
+# Output. How it ended, and what is known then: see Found.
 
 
-class Strip:
+class Strip(Found):
     """All growths between two at once, proven clear while the head goes inwards.
 
-    proven: nothing touches down to this head radius [m]; touching: a pair is within the margin at this one, for the
-        lowest growth [m], FREE for none; first, second: that pair
-    steps, work: what was done
+    A pair that meets does so at the lowest growth.
     """
 
     def __init__(self, low, high, shifts):
+        super().__init__()
         self.band = Band(low, high, shifts)
-        self.leaders = self.placed = self.first = self.second = self.steps = 0
-        self.radius = self.place = self.h = self.rounding = self.proven = self.work = 0.0
-        self.touching = FREE
+        self.leaders = self.placed = 0
+        self.radius = self.place = self.h = self.rounding = 0.0
         self.bounded = True
 
     def run(self, outer, inner, leaders, rounding, least_step, budget):
@@ -183,10 +182,8 @@ class Strip:
         """
         low = self.band.low.scene.curve.growth
         high = self.band.high.scene.curve.growth
-        self.steps = 0
-        self.work = 0.0
-        self.touching = FREE
-        self.proven = self.radius = outer
+        self.begin(outer)
+        self.radius = outer
         self.place = low * spiral_arc(outer / low)
         self.h = self.band.low.scene.rings.shortest
         self.leaders = self.placed = leaders
@@ -197,9 +194,9 @@ class Strip:
         with cython.nogil:
             start_chain(outer / low, self.band.low.before)
             start_chain(outer / high, self.band.high.before)
-            if extend_chain(low, 0, leaders, FREE, self.band.low.scene.sizes, self.band.low.before) < 0:
+            if extend_chain(low, 0, leaders, FREE, self.band.low.scene.sizes, self.band.low.before) == FOLDED:
                 return TURNED
-            if extend_chain(high, 0, leaders, FREE, self.band.low.scene.sizes, self.band.high.before) < 0:
+            if extend_chain(high, 0, leaders, FREE, self.band.low.scene.sizes, self.band.high.before) == FOLDED:
                 return TURNED
             while self.radius > inner:
                 self.proven = self.radius
@@ -243,10 +240,10 @@ class Strip:
         room = 0.95 * nearest.room
         self.work += nearest.tried
         if nearest.least <= band.low.scene.margin:
-            if row_gap(nearest.first, nearest.second, band.low.scene.sizes, band.low.after) <= band.low.scene.margin:
-                self.touching = next_radius
+            if row_gap(band.low.scene, nearest.first, nearest.second, band.low.after) <= band.low.scene.margin:
                 self.first = nearest.first
                 self.second = nearest.second
+                self.meet(next_radius)
                 return TOUCHED
             self.h *= 0.5 if room < 0.5 * self.h or room >= self.h else room / self.h
             return REFUSED
@@ -264,7 +261,7 @@ class Strip:
         high = band.high.scene.curve.growth
         start_chain(next_radius / low, band.low.after)
         start_chain(next_radius / high, band.high.after)
-        if extend_chain(low, 0, self.leaders, FREE, band.low.scene.sizes, band.low.after) < 0:
+        if extend_chain(low, 0, self.leaders, FREE, band.low.scene.sizes, band.low.after) == FOLDED:
             return TURNED
         rear = high * band.high.before[self.leaders, THETA]
         slack = CLEAR_SPARE * high * band.high.before[self.leaders, THETA]
@@ -272,16 +269,16 @@ class Strip:
         beyond = radius_beyond(high, beyond, band.low.scene.rings) + slack
         room = band.low.scene.room
         handles = extend_chain(low, self.leaders, room, beyond, band.low.scene.sizes, band.low.after)
-        if handles < 0:
+        if handles == FOLDED:
             return TURNED
         if handles == room and room < band.low.scene.benches:
             return CAPACITY
-        if extend_chain(high, 0, handles, FREE, band.low.scene.sizes, band.high.after) < 0:
+        if extend_chain(high, 0, handles, FREE, band.low.scene.sizes, band.high.after) == FOLDED:
             return TURNED
         if self.placed < handles:
-            if extend_chain(low, self.placed, handles, FREE, band.low.scene.sizes, band.low.before) < 0:
+            if extend_chain(low, self.placed, handles, FREE, band.low.scene.sizes, band.low.before) == FOLDED:
                 return TURNED
-            if extend_chain(high, self.placed, handles, FREE, band.low.scene.sizes, band.high.before) < 0:
+            if extend_chain(high, self.placed, handles, FREE, band.low.scene.sizes, band.high.before) == FOLDED:
                 return TURNED
             self.placed = handles
         band.low.handles = band.high.handles = handles

@@ -25,7 +25,8 @@ def test_a_way_that_is_proven_is_clear_at_every_sample() -> None:
     search = Search(DRAGON, SPIRAL, 0.05)
     march = march_of(search)
     assert ended(march, 300.0, 380.0) == "reached"
-    assert (march.proven, march.touching) == (380.0, kernels.FREE)
+    assert march.proven == 380.0
+    assert not march.meets
     assert all(search.clearance(travel)[0] > 0.05 for travel in np.linspace(300.0, 380.0, 500))
 
 
@@ -54,7 +55,7 @@ def test_without_work_a_march_is_stuck_and_keeps_what_it_has_proven() -> None:
     march = march_of(Search(DRAGON, SPIRAL, 0.0))
     assert ended(march, 380.0, 420.0, budget=200.0) == "stuck"
     assert 380.0 < march.proven < CONTACT
-    assert march.touching == kernels.FREE
+    assert not march.meets
 
 
 def test_a_dragon_with_too_few_rows_ends_at_capacity() -> None:

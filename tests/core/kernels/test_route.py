@@ -29,13 +29,3 @@ def test_tangent_and_curvature_are_the_derivatives_of_the_points(name: str) -> N
     heading = np.unwrap(np.arctan2(points[..., kernels.TY], points[..., kernels.TX]), axis=0)
     curvature = points[1, :, kernels.POINT_CURVATURE]
     assert (heading[2] - heading[0]) / (2 * STEP) == pytest.approx(curvature, abs=BEND_QUOTIENT)
-
-
-def test_misses_of_a_joint_are_those_that_were_made() -> None:
-    route = Route([Line((0.0, 0.0), (30.0, 0.0)), Line((30.0, 9e-10), (60.0, 9e-10))])
-    table, misses = route.table.copy(), np.zeros((2, kernels.MISS_COLUMNS))
-    table[:, kernels.LOOSE] = 0.0  # which holds these misses already
-    kernels.joint_misses(table, misses)
-    assert misses[1, kernels.MISS_ACROSS] == pytest.approx(9e-10, rel=1e-3)
-    assert misses[1, kernels.MISS_ALONG] < 1e-13
-    assert misses[1, kernels.MISS_KINK] < 1e-13

@@ -8,16 +8,21 @@ import pytest
 from core import Dragon, Route, Spiral, Turn, kernels
 from core.contact.search import Search
 
-RUNS = {"spiral": (Spiral(1.2, 3.0), 0.0, 30.0), "turn": (Turn(1.7), 0.0, 25.0)}
+RUNS = {
+    "spiral": (Spiral(1.2, 3.0), 0.0, 30.0),
+    "turn": (Turn(1.7), 0.0, 25.0),
+    "turn and a long way out": (Turn(1.7), 0.0, 300.0),
+    "way out alone": (Turn(1.7), 30.0, 300.0),
+}
 CALM = 0.0  # no handle is left out
 ROUNDING = 1e-11
 
 
-def peak_of(path: Spiral | Route, start: float, stop: float) -> tuple[Search, kernels.Peak]:
-    search = Search(Dragon(6), path, 0.0)
-    return search, kernels.Peak(
-        search.interval, search.rows[2], CALM if isinstance(path, Route) else 1e9, start, stop, 1e-12
-    )
+def peak_of(
+    path: Spiral | Route, start: float, stop: float, alike: int = 1, benches: int = 6
+) -> tuple[Search, kernels.Peak]:
+    search, calm = Search(Dragon(benches), path, 0.0), CALM if isinstance(path, Route) else 1e9
+    return search, kernels.Peak(search.interval, search.rows[2], calm, alike, start, stop, 1e-12)
 
 
 @pytest.mark.parametrize("name", RUNS)
@@ -32,17 +37,34 @@ def test_the_highest_rate_is_met_and_no_sample_exceeds_its_bound(name: str) -> N
     assert seen <= peak.upper <= peak.rate + 1e-8
 
 
+@pytest.mark.parametrize(
+    "radius", [pytest.param(4.5, id="tight"), pytest.param(5.2, id="wide"), pytest.param(6.5, id="wider")]
+)
+@pytest.mark.parametrize("start", [pytest.param(-30.0, id="from before"), pytest.param(18.0, id="from within")])
+def test_what_is_proven_of_the_way_out_is_what_following_all_of_it_proves(radius: float, start: float) -> None:
+    path = Turn(1.7, turning_radius=radius)
+    stop = 200.0
+    _, short = peak_of(path, start, stop, benches=12)
+    search, whole = peak_of(path, start, stop, alike=11, benches=12)  # the last bench alone is alike: none repeats
+    for peak in (short, whole):
+        peak.sample(0.5)
+        peak.prove(0.5, 1e-9, 1e-3, 10**6)
+        assert peak.rate <= peak.upper <= peak.rate + 2e-9
+    assert short.rate == pytest.approx(whole.rate, abs=1e-9)
+    assert np.abs(search.rates(short.travel)).max() == pytest.approx(short.rate, abs=ROUNDING)
+
+
+def test_the_way_out_of_the_turn_is_not_followed_to_its_end() -> None:
+    _, near = peak_of(Turn(1.7), -30.0, 60.0, benches=100)
+    _, far = peak_of(Turn(1.7), -30.0, 1e4, benches=100)
+    for peak in (near, far):
+        peak.sample(0.5)
+        peak.prove(0.5, 1e-9, 1e-3, 10**6)
+    assert (near.rate, near.upper, near.travel, near.intervals) == (far.rate, far.upper, far.travel, far.intervals)
+
+
 def test_a_proof_without_links_is_given_up() -> None:
     _, peak = peak_of(*RUNS["turn"])
     peak.sample(0.5)
     peak.prove(0.5, 1e-9, 1e-9, 0)
     assert peak.upper == kernels.FREE
-
-
-def test_slopes_of_rates_are_their_difference_quotients() -> None:
-    search, step = Search(Dragon(6), Turn(1.7), 0.0), 1e-5
-    travel = 12.0
-    kernels.place_chain(search.curve, search.place - travel, 6, search.sizes, search.rows[1])
-    kernels.climbs(search.curve, 6, search.sizes, search.rows[1])
-    quotient = (search.rates(travel + step) - search.rates(travel - step)) / (2.0 * step)
-    assert search.rows[1, :7, kernels.CLIMB] == pytest.approx(quotient, abs=1e-6)

@@ -1,0 +1,212 @@
+"""How near any two benches come at most over an interval of head travel, or over a band of pitches too."""
+
+import cython
+from cython.cimports.libc.math import sqrt
+
+if not cython.compiled:  # for the compiler the same stands in the .pxd
+    from core.kernels.constants import *
+    from core.kernels.pairs import STRIP_ROUNDING, any_rounding, proven_band_gap, proven_gap
+    from core.kernels.records import Nearest, Rounding
+    from core.kernels.rings import RING_ROUNDING, coil_radius, drift, leaders_reach, radius_beyond
+    from core.kernels.rounding import spiral_error
+    from core.kernels.route import stands_first
+
+# Input:  an interval whose chains are laid out, and how many benches lead pairs (`active`).
+# State:  the least bound so far with its K and its pair; `room`, the widest interval that the pairs so far would allow.
+# Output: the record Nearest.
+#
+# Each pair that is near enough gets a bound of its own from pair_least(), less what its gaps may be off by: roughly for
+# all, where no handle had to be followed, or pair by pair (proven_gap()). Those too far apart at the beginning to come
+# within the margin are passed over, and on a spiral all further ones once one is out of reach of bench i, as handles
+# stand in order.
+
+
+def interval_least(scene, interval, active):
+    """Proven least separation over an interval of all pairs led by the first `active` benches; -FREE: too wide."""
+    before: cython.double[:, ::1] = interval.before
+    motion: cython.double[:, ::1] = interval.motion
+    sizes: cython.double[:, ::1] = scene.sizes
+    best = FREE
+    bend = 0.0
+    room = FREE
+    tried = 0
+    a = 0
+    b = 0
+    if not interval.bound(False):
+        return Nearest(-FREE, 0.0, 0, 0, 0.0, 0.0, 0)
+    rounding = interval_rounding(scene, interval)
+    # of centres; an edge at rest that is near has coordinates hardly larger than the bench, whose rounding ERROR covers
+    reach = scene.margin * (1.0 + 1e-12) + 16.0 * rounding.point
+    if not stays_beyond(scene, interval, active, rounding.point):
+        return Nearest(-FREE, 0.0, 0, 0, 0.0, 0.0, 0)
+    for i in range(active):
+        if scene.halt.stopped:
+            return Nearest(-FREE, 0.0, 0, 0, 0.0, 0.0, 0)
+        far = reach_of(scene, interval, i, rounding.point)
+        first = i + 2
+        end = interval.handles
+        if scene.against == EDGES:  # after the last handle's row, which holds no bench
+            first = interval.handles + 1
+            end = first + scene.edges
+        for j in range(first, end):
+            if far < FREE and innermost(scene, interval, j, motion[j, HANDLE_SPEED]) - rounding.point > far:
+                break
+            dx = before[j, MX] - before[i, MX]
+            dy = before[j, MY] - before[i, MY]
+            distance = (motion[i, CENTRE_SPEED] + motion[j, CENTRE_SPEED]) * interval.h
+            square = dx * dx + dy * dy
+            width = sizes[i, RADIUS] + sizes[j, RADIUS] + reach + distance
+            if square > width * width or (i == scene.left_out and j == scene.left_out_too):
+                continue
+            tried += 1
+            least, k = proven_gap(scene, interval, i, j, distance + sqrt(square), rounding.gap)
+            if least != least:  # no number is no bound
+                return Nearest(-FREE, 0.0, 0, 0, 0.0, 0.0, 0)
+            width = 8.0 * (least - scene.margin) / k + interval.h * interval.h
+            room = min(room, sqrt(width) if width > 0.0 else 0.0)
+            if least < best:
+                best = least
+                bend = k
+                a = i
+                b = j
+    return Nearest(best, bend, a, b, room, rounding.point, tried)
+
+
+def interval_rounding(scene, interval):
+    """Largest errors of points and gaps of a bounded interval."""
+    if scene.curve.kind == ON_SPIRAL and interval.motion[interval.handles, RATE_LOW] > 0.0:
+        error = spiral_error(scene.curve.growth, interval.handles, scene.rings.all_chord, interval.before)
+        end = spiral_error(scene.curve.growth, interval.handles, scene.rings.all_chord, interval.after)
+        error = max(error, end)
+        gap = any_rounding(error, interval.handles, interval.h, scene.margin, scene.rings)
+        if gap > 0.0:
+            return Rounding(error, gap)
+    interval.round()
+    error = max(interval.before[interval.handles - 1, ERROR], interval.after[interval.handles - 1, ERROR])
+    return Rounding(error, 0.0)
+
+
+def innermost(scene, interval, k, rate):
+    """Lower bound of the radius of handle k of a spiral, no faster than the rate, during an interval [m]."""
+    inner = scene.curve.growth * min(interval.before[k, THETA], interval.after[k, THETA])
+    return inner - drift(rate, interval.h, scene.curve.growth, inner)
+
+
+def reach_of(scene, interval, i, error):
+    """Benches led from beyond this radius of a spiral stay clear of bench i during an interval [m]; FREE on a route."""
+    if scene.curve.kind == ON_ROUTE:
+        return FREE
+    growth = scene.curve.growth
+    rate = interval.motion[i, HANDLE_SPEED]
+    far = growth * max(interval.before[i + 1, THETA], interval.after[i + 1, THETA])
+    far = far + drift(rate, interval.h, growth, far) + error
+    low = innermost(scene, interval, i, rate)
+    return radius_beyond(growth, leaders_reach(growth, low, far, scene.rings) + scene.margin, scene.rings)
+
+
+def stays_beyond(scene, interval, leaders, error):
+    """Do the benches that were not laid out stay beyond the reach of those that lead pairs, during an interval?"""
+    if interval.handles == scene.benches:
+        return True
+    if scene.curve.kind == ON_ROUTE:
+        return coil_stays_beyond(scene, interval, leaders, error)
+    growth = scene.curve.growth
+    high = growth * max(interval.before[leaders, THETA], interval.after[leaders, THETA])
+    high += drift(interval.motion[leaders - 1, HANDLE_SPEED], interval.h, growth, high) + error
+    low = growth * min(interval.before[0, THETA], interval.after[0, THETA])
+    high = leaders_reach(growth, low, high, scene.rings)
+    low = growth * min(interval.before[interval.handles, THETA], interval.after[interval.handles, THETA]) - error
+    low -= drift(interval.motion[interval.handles - 1, HANDLE_SPEED], interval.h, growth, low)
+    return low >= radius_beyond(growth, high + scene.margin, scene.rings)
+
+
+def coil_stays_beyond(scene, interval, leaders, error):
+    """stays_beyond() on a route that begins with a coil.
+
+    A leader's centre is at most h / 2 of travel from where it stands at one of the ends. The last handle goes inwards,
+    so it is nearest to the centre at the far end. error: of points of the chains [m], which has u (|x| + |y|) and more
+    in it (rounding.py), so that 8 times that covers the roundings of radii too
+    """
+    reach = 0.0
+    for i in range(leaders):
+        far = coil_radius(scene.curve.pieces, interval.before[i, MX], interval.before[i, MY])
+        far = max(far, coil_radius(scene.curve.pieces, interval.after[i, MX], interval.after[i, MY]))
+        far += scene.sizes[i, RADIUS] + 0.5 * interval.h * interval.motion[i, CENTRE_SPEED]
+        if far > reach:
+            reach = far
+    reach = (reach + scene.margin) * (1.0 + RING_ROUNDING) + 8.0 * error
+    reach = radius_beyond(scene.curve.pieces[0, COIL_GROWTH], reach, scene.rings) + 8.0 * error
+    x = interval.after[interval.handles, PX]
+    y = interval.after[interval.handles, PY]
+    return (
+        stands_first(scene.curve.pieces, interval.handles, interval.after)
+        and coil_radius(scene.curve.pieces, x, y) >= reach
+    )
+
+
+def band_rounding(scene, band):
+    """interval_rounding() of a band."""
+    growth = scene.curve.growth
+    growth_high = band.high.scene.curve.growth
+    handles = band.low.handles
+    if band.low.motion[handles, RATE_LOW] > 0.0 and band.high.motion[handles, RATE_LOW] > 0.0:
+        error = spiral_error(growth, handles, scene.rings.all_chord, band.low.after)
+        error = max(error, spiral_error(growth_high, handles, scene.rings.all_chord, band.high.after))
+        error = max(error, spiral_error(growth_high, handles, scene.rings.all_chord, band.high.before))
+        gap = any_rounding(error, handles, max(band.low.h, band.high.h), scene.margin, scene.rings)
+        if gap > 0.0:
+            return Rounding(error, gap)
+    band.low.round()
+    band.high.round()
+    error = max(band.low.before[handles - 1, ERROR], band.low.after[handles - 1, ERROR])
+    error = max(error, max(band.high.before[handles - 1, ERROR], band.high.after[handles - 1, ERROR]))
+    return Rounding(error, 0.0)
+
+
+def band_least(scene, band, leaders):
+    """interval_least() over a band, of pairs led by the first `leaders` benches."""
+    best = FREE
+    bend = 0.0
+    room = FREE
+    tried = 0
+    a = 0
+    b = 0
+    growth = scene.curve.growth
+    growth_high = band.high.scene.curve.growth
+    rounding = band_rounding(scene, band)
+    error = rounding.point
+    if error > CLEAR_SPARE * growth * band.low.after[leaders, THETA]:  # what a strip lays the chains out further by
+        return Nearest(-FREE, 0.0, 0, 0, 0.0, 0.0, 0)
+    for i in range(leaders):
+        if scene.halt.stopped:
+            return Nearest(-FREE, 0.0, 0, 0, 0.0, 0.0, 0)
+        beyond = growth_high * band.high.before[i + 1, THETA]
+        beyond = leaders_reach(growth_high, growth * band.low.after[i, THETA], beyond, scene.rings)
+        beyond = radius_beyond(growth_high, beyond + 2.0 * error + scene.margin, scene.rings) + error
+        for j in range(i + 2, band.low.handles):
+            if growth * band.low.after[j, THETA] > beyond:
+                break  # handles stand in order, so all further ones lie outside too
+            dx = band.low.after[j, MX] - band.low.after[i, MX]
+            dy = band.low.after[j, MY] - band.low.after[i, MY]
+            distance = sqrt(dx * dx + dy * dy)
+            slack = (band.low.motion[i, CENTRE_SPEED] + band.low.motion[j, CENTRE_SPEED]) * band.low.h
+            slack += (
+                (band.shifts[i, SHIFT_CENTRE] + band.shifts[j, SHIFT_CENTRE])
+                * (growth_high - growth)
+                * (1.0 + STRIP_ROUNDING)
+            )
+            slack += 16.0 * error
+            if distance - slack > (scene.sizes[i, RADIUS] + scene.sizes[j, RADIUS] + scene.margin) * (1.0 + 1e-12):
+                continue  # far apart
+            tried += 1
+            least, k = proven_band_gap(scene, band, i, j, distance + slack, rounding.gap)
+            if least != least:
+                return Nearest(-FREE, 0.0, 0, 0, 0.0, 0.0, 0)
+            if least < best:
+                best = least
+                bend = k
+                a = i
+                b = j
+            width = 8.0 * (least - scene.margin) / k + band.low.h * band.low.h
+            room = min(room, sqrt(width) if width > 0.0 else 0.0)
+    return Nearest(best, bend, a, b, room, error, tried)

@@ -1,0 +1,40 @@
+cimport cython
+from core.kernels.constants cimport *
+from core.kernels.records cimport Laid
+from core.kernels.spiral cimport extend_chain, spiral_curvature, spiral_theta, start_chain
+from core.kernels.route cimport extend_route, stands_first, start_route
+from core.kernels.chain cimport chain_rounding
+from core.kernels.bounds cimport followed_error
+from core.kernels.rings cimport coil_place, coil_radius, coil_reach, drift, leaders_reach, radius_beyond
+from core.kernels.scene cimport Interval, Scene
+
+cdef double PASSED_BY
+
+@cython.locals(k=cython.Py_ssize_t)
+cdef Laid chain_between(
+    Scene scene, double place, Py_ssize_t leaders, double allowance, bint turning, double[:, ::1] chain
+) noexcept nogil
+
+@cython.locals(k=cython.Py_ssize_t, leading=cython.Py_ssize_t)
+cdef Laid route_between(
+    Scene scene, double place, Py_ssize_t leaders, double allowance, double[:, ::1] chain
+) noexcept nogil
+
+@cython.locals(i=cython.Py_ssize_t)
+cdef bint passed(
+    Scene scene, Py_ssize_t first, Py_ssize_t last, Py_ssize_t placed, double[:, ::1] opening, double[:, ::1] chain
+) noexcept nogil
+
+cdef bint turns_back(
+    Py_ssize_t k, double h, double error, double[:, ::1] before, double[:, ::1] after, double[:, ::1] motion
+) noexcept nogil
+
+@cython.locals(i=cython.Py_ssize_t)
+cdef bint may_turn(
+    Py_ssize_t k, double h, double[:, ::1] sizes, double[:, ::1] before, double[:, ::1] after, double[:, ::1] motion
+) noexcept nogil
+
+@cython.locals(k=cython.Py_ssize_t, placed=cython.Py_ssize_t, followed=cython.bint)
+cdef bint slid_back(
+    Scene scene, Interval interval, Py_ssize_t first, Py_ssize_t last, double[:, ::1] opening
+) noexcept nogil

@@ -1,0 +1,154 @@
+"""Which benches repeat, at the same places, what benches before them met, and the chain of the others."""
+
+import cython
+from cython.cimports.libc.math import fabs
+
+if not cython.compiled:  # for the compiler the same stands in the .pxd
+    from core.kernels.bounds import followed_error
+    from core.kernels.chain import chain_rounding
+    from core.kernels.constants import *
+    from core.kernels.records import Laid
+    from core.kernels.rings import coil_place, coil_radius, coil_reach, drift, leaders_reach, radius_beyond
+    from core.kernels.route import extend_route, stands_first, start_route
+    from core.kernels.spiral import extend_chain, spiral_curvature, spiral_theta, start_chain
+
+# Handles have passed a place when they are this much beyond it, of 1 + |theta| or 1 + |s| [1], and beyond what both may
+# be off by. On a spiral where no handle is followed it is more than SLIP alone: u (32 n c + 16 r (theta - theta_0) +
+# 2 r n) at most (spiral_error()), with n c <= r theta, which is an angle below u (48 theta + 2 n), n < 1e6.
+PASSED_BY = 1e-9
+
+
+def chain_between(scene, place, leaders, allowance, turning, chain):
+    """The chain for a head at a place as far as its leading benches can touch, and how many of them can.
+
+    allowance: extra radius for what moves during an interval [m], for those that lead too if they are `turning`
+    """
+    if scene.curve.kind == ON_ROUTE:
+        return route_between(scene, place, leaders, allowance, chain)
+    growth = scene.curve.growth
+    theta = spiral_theta(place / growth)
+    start_chain(theta, chain)
+    clear = scene.rings.clear_radius + (allowance if turning else 0.0)
+    k = extend_chain(growth, 0, leaders, clear, scene.sizes, chain)
+    if k <= 0:
+        return Laid(k, k)
+    radius = leaders_reach(growth, growth * theta, growth * chain[k, THETA] + allowance, scene.rings)
+    radius = radius_beyond(growth, radius + scene.margin, scene.rings) + allowance
+    return Laid(extend_chain(growth, k, scene.room, radius, scene.sizes, chain), k)
+
+
+def route_between(scene, place, leaders, allowance, chain):
+    """chain_between() on a route: as far as rings.py says where it begins with a coil inwards, else all benches."""
+    start_route(scene.curve.pieces, -place, chain)
+    if scene.rings.clear_place >= FREE:
+        return Laid(extend_route(scene.curve.pieces, 0, scene.room, FREE, scene.sizes, chain), leaders)
+    leading = extend_route(scene.curve.pieces, 0, leaders, scene.rings.clear_place, scene.sizes, chain)
+    if leading == 0:
+        return Laid(0, 0)
+    radius = coil_reach(scene.curve.pieces, leading, scene.sizes, chain) + scene.margin + allowance
+    radius = radius_beyond(scene.curve.pieces[0, COIL_GROWTH], radius, scene.rings) + allowance
+    until = coil_place(scene.curve.pieces, radius)
+    k = extend_route(scene.curve.pieces, leading, scene.room, until, scene.sizes, chain)
+    while k < scene.room and (  # a handle within rounding of that place
+        not stands_first(scene.curve.pieces, k, chain)
+        or coil_radius(scene.curve.pieces, chain[k, PX], chain[k, PY]) < radius
+    ):
+        k = extend_route(scene.curve.pieces, k, k + 1, FREE, scene.sizes, chain)
+    return Laid(k, leading)
+
+
+# The family lemma. Let m be the first of the benches that are alike to the tail (`leaders` = m + 1), and let place_i(t)
+# be where handle i stands with the head at travel t. The handle behind one at place p is the first point behind p at
+# its chord (spiral.py, route.py): a function N_i of p alone, and N_i = N for all i >= m. So all handles from i on, and
+# with them the benches i and j > i, stand at N_i, N_(i+1) N_i, ... of place_i: the separation of (i, j) is a function
+# of place_i alone, and for i >= m one of place_i and j - i alone, g_(j - i)(place_i). (m, m + j - i) is a pair too, as
+# m + j - i <= j.
+#
+# Places fall in the direction of travel, and are continuous in t. Let all pairs led by every bench that may touch be
+# followed from `start` to T, and only those led by benches 0 to m from then on to t; nothing came within the margin.
+# Pairs led by 0 to m were followed throughout. For a pair (i, j), i > m, at t, and x = place_i(t), it suffices that
+# g_(j - i) was followed at x: in a pair led by some bench i' in [m, i], which has an outer bench i' + j - i <= j, at an
+# instant with place_i' = x. Bench m was followed over all places between place_m(start) and the least of place_m until
+# t, every other such i' over those between place_i'(start) and place_i'(T). If
+#     passed():   place_i'(T) <= place_(i'-1)(start)   for all i' in (m, i],
+# these stretches overlap, each with the one of the bench before it, and cover all from the least of place_m to
+# place_i(start); and x >= place_m(t), as no handle overtakes. So x is covered if
+#     place_i(t) <= place_i(start),
+# bench i not being further back than where it started. On a route that is always so: handles only go forward
+# (route.py). On a spiral a handle turns back where the link before it stands across the path, near the fold: while one
+# may stand behind its start (slid_back()), all pairs are followed again.
+#
+# Bench i leads no pair that may touch while place_i >= clear, which is clear_place on a route and clear_radius / growth
+# on a spiral. So with `opened` the first bench that started there, benches behind it need neither of the two: x < clear
+# lies before place_opened(start), and the benches m to `opened` cover that by passed() alone. (With m >= opened bench m
+# itself covers all from clear on.) chain_between() leaves out those benches at the far end of every step. Where handles
+# only go forward they have been out there all along it; one that may turn back is kept among the leaders while it is
+# within a drift of clear_radius (`turning`).
+#
+# With edges at rest in place of the second bench the same holds of g(place_i), the separation of a bench and an edge.
+
+
+def passed(scene, first, last, placed, opening, chain):
+    """Has every handle from `first` to `last` passed where its predecessor began, by more than rounding?
+
+    A handle that is SLIP from its true place along a spiral is off by SLIP / growth in theta at most.
+    """
+    for i in range(first, last + 1):
+        if i > placed or chain[i, THETA] + PASSED_BY * (1.0 + fabs(chain[i, THETA])) > opening[i - 1, THETA]:
+            return False
+    chain_rounding(scene.curve, last, scene.sizes, opening)
+    if first <= last:
+        chain_rounding(scene.curve, last, scene.sizes, chain)
+    for i in range(first, last + 1):
+        slip = (chain[i, SLIP] + opening[i - 1, SLIP]) / scene.curve.growth
+        if chain[i, THETA] + slip > opening[i - 1, THETA]:
+            return False
+    return True
+
+
+# A rate is never below the mean of those at both ends by more than |s''| h / 2, and these are good to followed_error().
+# Where no handle is followed none turns back (RATE_LOW > 0).
+
+
+def turns_back(k, h, error, before, after, motion):
+    """May handle k of a spiral go backwards during an interval? error: of its rates at both ends [1]"""
+    return motion[k, RATE_LOW] <= 0.0 and before[k, RATE] + after[k, RATE] <= motion[k, RATE_RATE] * h + 2.0 * error
+
+
+def may_turn(k, h, sizes, before, after, motion):
+    """turns_back() without the error of the rates, which follows from link to link."""
+    error = 0.0
+    if motion[k, RATE_LOW] > 0.0:
+        return False
+    for i in range(1, k + 1):
+        error = followed_error(i, error, sizes, before, after)
+    return turns_back(k, h, error, before, after, motion)
+
+
+def slid_back(scene, interval, first, last, opening):
+    """May a handle of a spiral from `first` to before `last` have stood behind its own start during an interval?
+
+    Behind the last handle placed every other moves in the direction of its leader, where links bend no more than the
+    chord lemma asks (bounds.py): then what holds of that one holds of them. Radii are off by less than SLIP, and by
+    less than PASSED_BY of 1 + theta where no handle is followed.
+    """
+    growth = scene.curve.growth
+    placed = interval.handles
+    error = 0.0
+    for k in range(min(last, placed + 1)):
+        followed = interval.motion[k, RATE_LOW] <= 0.0
+        if k > 0 and followed:
+            error = followed_error(k, error, scene.sizes, interval.before, interval.after)
+        if k < first and k < placed:
+            continue
+        low = growth * max(interval.before[k, THETA], interval.after[k, THETA])
+        low += PASSED_BY * (growth + low) + opening[k, SLIP]
+        if followed:
+            low += max(interval.before[k, SLIP], interval.after[k, SLIP])
+        if k > 0 and turns_back(k, interval.h, error, interval.before, interval.after, interval.motion):
+            low += drift(interval.motion[k - 1, HANDLE_SPEED], interval.h, growth, low)
+        if low > growth * opening[k, THETA]:
+            return True
+    low = min(interval.before[placed, THETA], interval.after[placed, THETA])
+    low -= drift(interval.motion[placed - 1, HANDLE_SPEED], interval.h, growth, growth * low) / growth
+    return placed + 1 < last and 0.5 * spiral_curvature(low) * scene.rings.all_chord > BEND_LIMIT * growth
