@@ -29,13 +29,18 @@ from core.motion.speed import (
 )
 from core.motion.trajectory import Trajectory, bench_outlines, bench_poses, trajectory
 from core.paths.path import HeadState
-from core.paths.route import Arc, Coil, Line, Piece, Route, Waypoints
+from core.paths.pieces import Arc, Coil, Line, Piece, Waypoints
+from core.paths.route import Route
 from core.paths.spiral import Spiral
 from core.paths.turn import Turn
 from core.shapes.engines import Engine
 from core.shapes.overlaps import CrossCheck, Overlaps, Verdict, cross_check, overlaps, verdicts
 from core.shapes.rectangles import Separation, separation
-from core.venue import Area, AreaClearance, Nearest, Stray, Venue, VenueClearance, venue_clearance
+from core.tolerance.curve import ToleranceCurve, tolerance_curve
+from core.tolerance.exhibit import Exhibit
+from core.tolerance.stray import Stray
+from core.tolerance.tolerance import Limit, StrayProof, Tolerance, tolerance
+from core.venue import Area, AreaClearance, Misplaced, Nearest, Venue, VenueClearance, venue_clearance
 from core.verdict import Failure, FailureKind, Judgement, Report, check
 
 __all__ = [
@@ -53,6 +58,7 @@ __all__ = [
     "EndReason",
     "Engine",
     "Evidence",
+    "Exhibit",
     "Failure",
     "FailureKind",
     "Feature",
@@ -64,10 +70,12 @@ __all__ = [
     "InvalidValue",
     "Judgement",
     "LeastClearance",
+    "Limit",
     "LimitedBy",
     "Line",
     "MaximumHeadSpeed",
     "MinimumPitch",
+    "Misplaced",
     "Nearest",
     "Outcome",
     "OutsideRun",
@@ -83,6 +91,9 @@ __all__ = [
     "ShortestTurn",
     "Spiral",
     "Stray",
+    "StrayProof",
+    "Tolerance",
+    "ToleranceCurve",
     "TooLarge",
     "TooMuchWork",
     "Trajectory",
@@ -110,6 +121,8 @@ __all__ = [
     "separation",
     "sharpest_bend",
     "shortest_turn",
+    "tolerance",
+    "tolerance_curve",
     "trajectory",
     "venue_clearance",
     "verdicts",

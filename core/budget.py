@@ -21,7 +21,8 @@ BATCH_WORK = 100_000
 class Budget:
     """What all searches of one question may still do together; another thread may stop them at any time.
 
-    work: how much, see core/kernels/constants.py [1]; 1e7 take 1 to 4 s
+    work: how much, see core/kernels/constants.py [1]; 1e7 take 1 to 4 s. None: each question takes its own default,
+        which its docstring names; math.inf: none takes any
     halt: what is left of it, and the flag, as the compiled loops read them
     A question whose budget is spent or stopped ends with TooMuchWork. A spent budget interrupts no step: whoever asks
     for more then is refused. A stopped one is seen by every loop within milliseconds.
@@ -32,11 +33,14 @@ class Budget:
     (10.0, True)
     """
 
-    __slots__ = ("halt", "work")
+    __slots__ = ("halt", "limited", "part", "then", "work")
 
-    def __init__(self, work: float = math.inf) -> None:
-        self.work = float(work)
+    def __init__(self, work: float | None = None) -> None:
+        self.limited = work is not None
+        self.work = math.inf if work is None else float(work)
         self.halt = kernels.Halt(self.work)
+        self.part: Budget | None = None
+        self.then = f"within {self.work:g} steps of work, each a bench placed or a pair of benches tried"
 
     @property
     def left(self) -> float:
@@ -48,9 +52,15 @@ class Budget:
         """Has anybody stopped it?"""
         return bool(self.halt.stopped)
 
-    def stop(self) -> None:
-        """End the question that has this budget, and all that are asked with it from now on. Any thread may call it."""
+    def stop(self, then: str = "before it was stopped") -> None:
+        """End the question that has this budget, and all that are asked with it from now on. Any thread may call it.
+
+        then: until when the answer was not found, for the error
+        """
+        self.then = then
         self.halt.stopped = True
+        if self.part:
+            self.part.stop(then)
 
     def spend(self, work: float) -> None:
         """Take work that was done from what is left [1]."""
@@ -72,10 +82,24 @@ class Budget:
 
     def too_much(self, field: str, rule: str, got: float, unit: str) -> TooMuchWork:
         """The error of a question that ended early; the rule ends with what was not found, and {then} says when."""
-        then = f"within {self.work:g} steps of work, each a bench placed or a pair of benches tried"
-        error = TooMuchWork.of(field, rule.format(then="before it was stopped" if self.stopped else then), got, unit)
+        error = TooMuchWork.of(field, rule.format(then=self.then), got, unit)
         error.stopped = self.stopped
         return error
+
+
+def within(budget: Budget | None, work: float) -> Budget:
+    """The budget of a question that takes this much work unless its budget says how much.
+
+    budget: as the question was given it; the result is stopped with it
+    """
+    if budget is None:
+        return Budget(work)
+    if budget.limited:
+        return budget
+    budget.part = Budget(work)
+    if budget.stopped:  # perhaps by another thread, before it could see this part
+        budget.part.stop(budget.then)
+    return budget.part
 
 
 class Halted(Exception):

@@ -218,7 +218,7 @@ def end_theta(dragon: Dragon, path: Spiral) -> tuple[float, int | None]:
     limit, bench = 0.0, None
     for k in range(dragon.uniform_from, -1, -1):
         chord2 = chords2[k]
-        inherited = kernels.previous_theta(limit, chord2) if limit > fold[chord2] else -1.0
+        inherited = kernels.previous_theta(limit, chord2) if limit > fold[chord2] else kernels.NO_ROOT
         if fold[chord2] >= inherited:
             limit, bench = fold[chord2], k
         else:

@@ -126,6 +126,14 @@ class Dragon(Shown):
         dragon._freeze(self.lengths[:benches], self.widths[:benches], self.overhangs[:benches])
         return dragon
 
+    def outlined(self, overhangs: Floats, widths: Floats) -> Dragon:
+        """The same chords, to the last bit, in benches of other overhangs and widths (n,) [m]."""
+        dragon = Dragon.__new__(Dragon)
+        dragon._freeze(self.chords + 2.0 * overhangs, widths, overhangs)
+        object.__setattr__(dragon, "chords", self.chords)
+        object.__setattr__(dragon, "uniform_from", self.uniform_from)
+        return dragon
+
     @property
     def benches(self) -> int:
         """Number of benches; there is one handle more."""

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from functools import wraps
 from numbers import Real
+from typing import ParamSpec, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,6 +13,8 @@ from numpy.typing import NDArray
 from core.errors import InvalidValue, said
 
 Floats = NDArray[np.float64]
+P = ParamSpec("P")
+R = TypeVar("R")
 
 # Sizes outside these lose digits in c^2 / b^2 without describing any dance [m].
 SIZE_MIN = 1e-3
@@ -50,6 +55,25 @@ def checked_type(name: str, value: object, kinds: type | tuple[type, ...]) -> No
         if isinstance(value, type):
             given = f"the class {value.__name__}"
         raise InvalidValue(name, f"{name} must be a {words}, got {given}")
+
+
+def asked_of(name: str, kind: type) -> Callable[[Callable[P, R]], Callable[P, R]]:
+    """Makes a question refuse its first parameter by this name if it is of another kind, whatever stands behind it.
+
+    A question that took a spiral as its second argument would else be refused by Python's own words about its number
+    of arguments, which do not say that a dragon stands where a dance belongs.
+    """
+
+    def checking(question: Callable[P, R]) -> Callable[P, R]:
+        @wraps(question)
+        def asked(*args: P.args, **kwargs: P.kwargs) -> R:
+            if args or name in kwargs:
+                checked_type(name, args[0] if args else kwargs[name], kind)
+            return question(*args, **kwargs)
+
+        return asked
+
+    return checking
 
 
 def checked_size(name: str, value: object) -> float:

@@ -7,6 +7,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import pairwise
+from unicodedata import category
 
 import numpy as np
 
@@ -19,16 +20,22 @@ from core.contact.search import MARGIN_MAX, NEAR_WORK_BUDGET, Ended, Search
 from core.dance import Dance
 from core.errors import InvalidValue
 from core.motion.trajectory import bench_poses, trajectory
-from core.paths.route import Coil, Point, Route, checked_point, listed
+from core.paths.pieces import Coil, Point, checked_point, listed
+from core.paths.route import Route
 from core.paths.spiral import Spiral
 from core.shapes.engines import inside, polygon_fault
 from core.shown import Shown, extent, worded
-from core.values import Floats, checked_number, checked_type
+from core.tolerance.stray import Stray, checked_stray
+from core.values import Floats, asked_of, checked_number, checked_type
 
 Ring = tuple[Point, ...]
 
 # Largest number of edges in a venue: each is followed like a bench at rest. Edges between repeated points count too.
 EDGES_MAX = 2_000
+# Longest name of an area [characters].
+NAME_MAX = 200
+# Unicode's categories of control characters, half characters, and ends of lines and paragraphs.
+NOT_PLAIN = ("Cc", "Cs", "Zl", "Zp")
 # Form of the rings of an area, for messages.
 WORDS = "a list of rings of points [x, y] in metres"
 # A spiral is laid out this far beyond the last instant, so that rounding cannot put that instant outside it [m].
@@ -56,6 +63,20 @@ def refuse_many_edges(rings: Iterable[Sequence[object]]) -> None:
         raise InvalidValue("venue", f"venue must have at most {EDGES_MAX} edges, got {edges}")
 
 
+def checked_name(what: str, name: object, field: str = "venue") -> None:
+    """Refuse a name that is no line of plain text: it stands in sentences and figures.
+
+    what: the beginning of the message; field: where the name stands
+    raises: InvalidValue
+    """
+    if not isinstance(name, str):
+        raise InvalidValue(field, f"{what} must be a text, got {name!r:.60}")
+    if len(name) > NAME_MAX:
+        raise InvalidValue(field, f"{what} must have at most {NAME_MAX} characters, got {len(name)}")
+    if any(category(character) in NOT_PLAIN for character in name):
+        raise InvalidValue(field, f"{what} must be one line of plain text, got {name!a:.60}")
+
+
 @dataclass(frozen=True, repr=False)
 class Area(Shown):
     """A polygon: the square, or an obstacle in it.
@@ -69,8 +90,7 @@ class Area(Shown):
     rings: tuple[Ring, ...]
 
     def __post_init__(self) -> None:
-        if not isinstance(self.name, str):
-            raise InvalidValue("venue", f"venue: the name of a polygon must be a text, got {self.name!r:.60}")
+        checked_name("venue: the name of a polygon", self.name)
         rings = [listed(f"venue.{k}", ring, WORDS) for k, ring in enumerate(listed("venue", self.rings, WORDS))]
         if not rings:
             raise InvalidValue("venue", f"venue: {self.name!r} must have at least one ring")
@@ -177,7 +197,7 @@ class AreaClearance(Shown):
 
 
 @dataclass(frozen=True, slots=True, repr=False)
-class Stray(Shown):
+class Misplaced(Shown):
     """A bench that starts outside the square or in an obstacle: the area's name, the bench, its centre (x, y) [m]."""
 
     name: str
@@ -187,28 +207,30 @@ class Stray(Shown):
 
 @dataclass(frozen=True, slots=True, repr=False)
 class VenueClearance(Shown):
-    """stray: first bench that starts outside the square or in an obstacle, or None; areas: square, then obstacles."""
+    """misplaced: first bench that starts outside the square or in an obstacle; areas: square, then obstacles."""
 
-    stray: Stray | None
+    misplaced: Misplaced | None
     areas: tuple[AreaClearance, ...]
 
     def _line(self) -> str:
-        stray = f"{self.stray!r}; " if self.stray else ""
+        misplaced = f"{self.misplaced!r}; " if self.misplaced else ""
         near = min(self.areas, key=lambda area: area.nearest.distance)
         distance, time = worded(near.nearest.distance, "m"), worded(near.nearest.time, "s")
-        return f"{stray}nearest to {near.name!r}: bench {near.nearest.bench}, {distance} at {time}"
+        return f"{misplaced}nearest to {near.name!r}: bench {near.nearest.bench}, {distance} at {time}"
 
     def _rows(self) -> list[tuple[str, str]]:
-        stray = self.stray._line() if self.stray else "none"
-        return [("stray", stray), *((area.name, area._line()) for area in self.areas)]
+        misplaced = self.misplaced._line() if self.misplaced else "none"
+        return [("misplaced", misplaced), *((area.name, area._line()) for area in self.areas)]
 
 
+@asked_of("dance", Dance)
 @bounded("how near the benches come to the venue was not found")
 def venue_clearance(
     dance: Dance,
     venue: Venue,
     *,
     margin: float = 0.0,
+    stray: float | Stray = 0.0,
     start: float = 0.0,
     stop: float | None = None,
     budget: Budget | None = None,
@@ -217,20 +239,21 @@ def venue_clearance(
 
     An edge counts as a rectangle of no width at rest: benches and edges are marched like pairs of benches, with the
     same proof. The centre of a bench that touches no edge stays inside an area, or outside, as it started.
-    margin: [m]; start, stop: [s], None for the end of the run
+    margin: [m]; stray: how far every hole may be from its place [m], where benches may come then counts; start, stop:
+        [s], None for the end of the run
     raises: InvalidValue, also for a path that bends too tightly for a chord by the stop; OutsideRun;
         TooMuchWork
     """
-    checked_type("dance", dance, Dance)
     checked_type("venue", venue, Venue)
     margin = checked_number("margin", margin, "m", 0.0, MARGIN_MAX)
     begin, until = dance.span(start, stop)
     head_speed = dance.head_speed
-    danced = replace(dance, path=_route(dance.path, until * head_speed))
+    danced = replace(dance, path=venue_route(dance.path, until * head_speed))
+    strayed = checked_stray(stray, dance.dragon)
     share = NEAR_WORK_BUDGET / len(venue.areas)
     areas = tuple(
         _area_clearance(
-            Search(dance.dragon, danced.path, margin, area.edges, work=share, budget=budget),
+            Search(dance.dragon, danced.path, margin, area.edges, work=share, budget=budget, stray=strayed),
             area.name,
             begin,
             until,
@@ -238,10 +261,10 @@ def venue_clearance(
         )
         for area in venue.areas
     )
-    return VenueClearance(_stray(danced, venue, begin), areas)
+    return VenueClearance(_misplaced(danced, venue, begin), areas)
 
 
-def _route(path: Spiral | Route, stop: float) -> Route:
+def venue_route(path: Spiral | Route, stop: float) -> Route:
     """The path in the world frame up to a head travel [m]: a spiral as a coil."""
     if isinstance(path, Route):
         return path
@@ -259,20 +282,22 @@ def venue_end(dance: Dance) -> float:
     return min(end, travel / dance.head_speed)
 
 
-def is_clear_beyond(dance: Dance, venue: Venue, *, margin: float, start: float, seen: float) -> bool:
+def is_clear_beyond(
+    dance: Dance, venue: Venue, *, margin: float, stray: float = 0.0, start: float, seen: float
+) -> bool:
     """Is a spiral dance proven to stay clear of the venue to its end, if it was clear from start to `seen` [s]?
 
     The head goes inwards, so neither it nor a bench before the first of the equal ones leaves the disc around the
     centre that the chords from the head to that bench span. Every other bench, once it has passed where the bench
     before it began, stands where that one stood since the start, unless it slides back behind its own start (family
-    lemma, core/kernels/marching.py). So nothing new is met if all edges lie outside the disc by more than the margin.
+    lemma, core/kernels/repeats.py). So nothing new is met if all edges lie outside the disc by more than the margin.
     """
-    dragon = dance.dragon
+    search = Search(dance.dragon, dance.path, margin, stray=stray)
+    dragon = search.dragon
     ends = np.linalg.norm(trajectory(dance, [start, seen]).position, axis=-1)
     if (ends[1, 1:] + SURELY > ends[0, :-1]).any():
         return False
     alike = dragon.uniform_from + 1
-    search = Search(dragon, dance.path, margin)
     search.resize(dragon.benches)
     search.place_leaders(seen * dance.head_speed, dragon.benches)
     arcs, _ = moved_until(search, dance.end.theta or 0.0)
@@ -311,15 +336,16 @@ def _area_clearance(search: Search, name: str, begin: float, until: float, head_
 def _witnesses(search: Search, travel: float, pair: Pair) -> tuple[Point, Point, float]:
     """The points of a bench and an edge that are nearest to each other, and their separation [m]."""
     search.clearance(travel)
-    met = kernels.bench_separation(*pair, search.sizes, search.rows[0])
+    kernels.meet(search.scene, *pair, search.rows[0])
+    met = search.scene.met
     return (float(met.ax), float(met.ay)), (float(met.bx), float(met.by)), float(met.separation)
 
 
-def _stray(dance: Dance, venue: Venue, begin: float) -> Stray | None:
+def _misplaced(dance: Dance, venue: Venue, begin: float) -> Misplaced | None:
     centres = bench_poses(trajectory(dance, [begin]).position[0])[:, :2]
     for area in venue.areas:
         wrong = np.flatnonzero(inside(area.rings, centres) != (area is venue.square))
         if wrong.size:
             x, y = centres[wrong[0]].tolist()
-            return Stray(area.name, int(wrong[0]), (x, y))
+            return Misplaced(area.name, int(wrong[0]), (x, y))
     return None

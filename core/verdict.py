@@ -22,7 +22,8 @@ from core.motion.speed import (
 )
 from core.paths.path import HeadState
 from core.shown import Shown, worded
-from core.values import checked_number, checked_type
+from core.tolerance.stray import Stray, checked_stray
+from core.values import asked_of, checked_number, checked_type
 from core.venue import AreaClearance, Venue, VenueClearance, is_clear_beyond, venue_clearance, venue_end
 
 # A first excess over a speed limit in a wider bracket than this is reported as the latest possible one [s].
@@ -108,11 +109,13 @@ class Report(Shown):
         return f"{span}: {self.failures[0].message}{more}" if self.failures else span
 
 
+@asked_of("dance", Dance)
 def check(
     dance: Dance,
     *,
     venue: Venue | None = None,
     margin: float = 0.0,
+    stray: float | Stray = 0.0,
     speed_limit: float | None = None,
     start: float | None = None,
     stop: float | None = None,
@@ -120,14 +123,15 @@ def check(
 ) -> Report:
     """Can the dragon dance this path: first contact, least clearance, venue, highest speed, sharpest bend.
 
-    margin: required between benches and to the venue [m]; speed_limit: of every handle [m/s]
+    margin: required between benches and to the venue [m]; stray: how far every hole may be from its place [m], what
+        benches can meet then fails too; speed_limit: of every handle [m/s]
     start, stop: [s]; by default from 0 (on a route: from when the whole dragon is on it) to the end of the run
     A dance fails if it folds before its stop, or before the end of its path if no stop is given. A dance that ends
     earlier, because benches touch, is not followed to its fold.
     raises: InvalidValue; OutsideRun for times outside the run, but not for a stop after a fold; TooMuchWork
     """
-    checked_type("dance", dance, Dance)
     limit = None if speed_limit is None else checked_limit(speed_limit)
+    strayed = checked_stray(stray, dance.dragon)
     if venue is not None:
         checked_type("venue", venue, Venue)
     end = dance.end
@@ -135,25 +139,29 @@ def check(
         stop = checked_number("stop", stop, "s", -TIME_MAX, TIME_MAX)
         stop = None if stop >= end.time else stop
     begin, until = dance.span(dance.begin if start is None else start, stop)
-    contact = first_contact(dance, margin=margin, start=begin, stop=stop, budget=budget)
-    least = least_clearance(dance, start=begin, stop=until, budget=budget)
-    if least is not None and least.distance == 0.0:
+    contact = first_contact(dance, margin=margin, stray=strayed, start=begin, stop=stop, budget=budget)
+    least = least_clearance(dance, stray=strayed, start=begin, stop=until, budget=budget)
+    if least is not None and least.distance <= 0.0:
         until = min(until, max(least.time, begin + MOMENT))
     bend = sharpest_bend(dance, start=begin, stop=until, budget=budget)
-    square, seen = _in_venue(dance, venue, margin, (begin, until), budget)
+    square, seen = _in_venue(dance, venue, (margin, strayed), (begin, until), budget)
     folds = dance.ends_by(until)
     speed, excess = None, None
     if not folds:
         speed = highest_speed(dance, start=begin, stop=until, budget=budget)
     if limit is not None and not (speed and _keeps(speed, limit)):
         excess = first_excess(dance, limit, start=begin, stop=until, budget=budget)
-    failures = _contact_failures(contact, margin) + _venue_failures(square, begin, margin)
+    failures = _contact_failures(contact, margin) + _venue_failures(square, begin, margin, strayed)
     if limit is not None and excess:
         failures.append(_speed_failure(excess, speed, limit, end))
     failures += _touch_failures(contact, least, margin)
     if folds:
         failures.append(_fold_failure(end, dance.path.head(end.time * dance.head_speed)))
-    if venue and seen < until and not is_clear_beyond(dance, venue, margin=margin, start=begin, seen=seen):
+    if (
+        venue
+        and seen < until
+        and not is_clear_beyond(dance, venue, margin=margin, stray=strayed, start=begin, seen=seen)
+    ):
         message = f"From {seen:.6f} s on the spiral is too tight to follow the benches against the venue."
         failures.append(Failure(FailureKind.UNDECIDED, seen, (), None, message))
     failures.sort(key=lambda failure: failure.time)
@@ -164,9 +172,12 @@ def check(
 
 
 def _in_venue(
-    dance: Dance, venue: Venue | None, margin: float, span: tuple[float, float], budget: Budget | None
+    dance: Dance, venue: Venue | None, kept: tuple[float, float], span: tuple[float, float], budget: Budget | None
 ) -> tuple[VenueClearance | None, float]:
-    """Clearance of the benches in the venue, as far as they can be followed there, and the time of that end [s]."""
+    """Clearance of the benches in the venue, as far as they can be followed there, and the time of that end [s].
+
+    kept: margin and stray [m]
+    """
     begin, until = span
     if venue is None:
         return None, until
@@ -174,7 +185,8 @@ def _in_venue(
     seen = min(until, followed) if followed >= begin + MOMENT else begin
     if seen <= begin:
         return None, seen
-    return venue_clearance(dance, venue, margin=margin, start=begin, stop=seen, budget=budget), seen
+    margin, stray = kept
+    return venue_clearance(dance, venue, margin=margin, stray=stray, start=begin, stop=seen, budget=budget), seen
 
 
 def _judgement(failures: tuple[Failure, ...]) -> Judgement:
@@ -190,7 +202,8 @@ def _touch_failures(contact: FirstContact, least: LeastClearance | None, margin:
     if told or least is None or least.distance > 0.0:
         return []
     a, b = least.benches
-    message = f"Benches {a} and {b} have no gap left at {least.time:.6f} s, where the dance stops."
+    have = "may have" if contact.stray else "have"
+    message = f"Benches {a} and {b} {have} no gap left at {least.time:.6f} s, where the dance stops."
     return [Failure(FailureKind.CONTACT, least.time, least.benches, None, message)]
 
 
@@ -198,17 +211,20 @@ def _contact_failures(contact: FirstContact, margin: float) -> list[Failure]:
     if contact.outcome is Outcome.UNDECIDED:
         assert contact.time_bracket is not None
         time = contact.time_bracket[0]
-        message = f"Whether benches {_meeting(margin, 'come', '')} is not decided from {time:.6f} s on."
+        message = f"Whether benches {_meeting(margin, 'come', '', contact.stray)} is not decided from {time:.6f} s on."
         return [Failure(FailureKind.UNDECIDED, time, (), None, message)]
     if contact.time is None or contact.benches is None:
         return []
     a, b = contact.benches
-    message = f"Benches {a} and {b} {_meeting(margin, 'come', '')} at {contact.time:.6f} s{_gap(contact.gap, margin)}."
+    meet = _meeting(margin, "come", "", contact.stray)
+    message = f"Benches {a} and {b} {meet} at {contact.time:.6f} s{_gap(contact.gap, margin)}."
     return [Failure(FailureKind.CONTACT, contact.time, contact.benches, None, message, contact.time_bracket)]
 
 
-def _meeting(margin: float, come: str, near: str) -> str:
+def _meeting(margin: float, come: str, near: str, stray: float = 0.0) -> str:
     """Words for coming nearer than the margin. come: the verb; near: to what, if not to one another."""
+    if stray:
+        return f"may {_meeting(margin, 'come', near)} with strays up to {said(stray)} m"
     if margin > 0.0:
         return f"{come} nearer than {said(margin)} m{near and ' to '}{near}"
     return f"{'touches' if come == 'comes' else 'touch'}{near and ' '}{near}"
@@ -221,27 +237,28 @@ def _gap(gap: float | None, margin: float) -> str:
     return f", with a gap of {gap:.6f} m" if gap > 0.0 else f", and overlap by {-gap:.6f} m"
 
 
-def _venue_failures(venue: VenueClearance | None, begin: float, margin: float) -> list[Failure]:
+def _venue_failures(venue: VenueClearance | None, begin: float, margin: float, stray: float) -> list[Failure]:
     if venue is None:
         return []
-    failures = [failure for area in venue.areas for failure in _area_failures(area, margin)]
-    if stray := venue.stray:
-        where = "outside" if stray.name == venue.areas[0].name else "inside"
-        message = f"Bench {stray.bench} starts {where} {stray.name!r}, at ({stray.point[0]:g}, {stray.point[1]:g}) m."
-        failures.insert(0, Failure(FailureKind.OUTSIDE, begin, (stray.bench,), stray.name, message))
+    failures = [failure for area in venue.areas for failure in _area_failures(area, margin, stray)]
+    if misplaced := venue.misplaced:
+        where = "outside" if misplaced.name == venue.areas[0].name else "inside"
+        at = f"({misplaced.point[0]:g}, {misplaced.point[1]:g})"
+        message = f"Bench {misplaced.bench} starts {where} {misplaced.name!r}, at {at} m."
+        failures.insert(0, Failure(FailureKind.OUTSIDE, begin, (misplaced.bench,), misplaced.name, message))
     return failures
 
 
-def _area_failures(area: AreaClearance, margin: float) -> list[Failure]:
+def _area_failures(area: AreaClearance, margin: float, stray: float) -> list[Failure]:
     if area.outcome is Outcome.UNDECIDED:
         assert area.time_bracket is not None
         time = area.time_bracket[0]
-        words = _meeting(margin, "comes", repr(area.name))
+        words = _meeting(margin, "comes", repr(area.name), stray)
         message = f"Whether a bench {words} is not decided from {time:.6f} s on."
         return [Failure(FailureKind.UNDECIDED, time, (), area.name, message)]
     if area.time is None or area.bench is None:
         return []
-    words = _meeting(margin, "comes", repr(area.name))
+    words = _meeting(margin, "comes", repr(area.name), stray)
     message = f"Bench {area.bench} {words} at {area.time:.6f} s{_gap(area.gap, margin)}."
     return [Failure(FailureKind.VENUE, area.time, (area.bench,), area.name, message, area.time_bracket)]
 

@@ -13,6 +13,7 @@ PROOF = (
     "Proven in steps, each by a bound on the second derivative of the gap along an axis fixed in a bench, and further "
     "out by ring bounds in closed form; computed in doubles, with allowances for their rounding."
 )
+NO_PAIR = "Fewer than three benches have no two that share no handle."
 TRIED = "Computed in doubles, with allowances for their rounding."
 MEASURED = "Measured at that instant, in doubles."
 ENDS = {
@@ -23,36 +24,46 @@ ENDS = {
 }
 
 
-def claim(dance: Dance, margin: float, span: tuple[float, float], then: str) -> str:
-    """Dragon, path, head speed, margin, and in which span of time [s] no two benches come within it; then: what follows
-    that, to the end of the sentence."""
+def claim(dance: Dance, margin: float, stray: float, span: tuple[float, float], then: str) -> str:
+    """Dragon, path, head speed, margin, stray, and in which span of time [s] no two benches come within it; then: what
+    follows that, to the end of the sentence."""
     start, stop = map(said, span)
     near = f"are nearer to each other than {said(margin)} m" if margin else "touch"
     never = f"from {start} s to {stop} s no two benches that share no handle {near}"
-    return f"{_dance(dance)}: {never}{then} {PROOF}"
+    return f"{_dance(dance)}: {_strayed(stray)}{never}{then} {PROOF if dance.dragon.benches > 2 else NO_PAIR}"
 
 
-def claim_at_start(dance: Dance, margin: float, start: float, pair: tuple[int, int]) -> str:
+def claim_at_start(dance: Dance, margin: float, stray: float, start: float, pair: tuple[int, int]) -> str:
     """claim() for two benches within the margin at the start [s]."""
-    near = f"are nearer to each other than {said(margin)} m" if margin else "touch"
+    near = f"{_be(stray)} nearer to each other than {said(margin)} m" if margin else f"{'may ' if stray else ''}touch"
     touching = f"at {said(start)} s benches {pair[0]} and {pair[1]} {near}."
-    return f"{_dance(dance)}: {touching} {MEASURED}"
+    return f"{_dance(dance)}: {_strayed(stray)}{touching} {MEASURED}"
 
 
-def claim_undecided(dance: Dance, margin: float, start: float) -> str:
+def claim_undecided(dance: Dance, margin: float, stray: float, start: float) -> str:
     """claim() for a search that gave up at the start [s]."""
     near = f"are nearer to each other than {said(margin)} m" if margin else "touch"
     never = f"from {said(start)} s on it is not decided whether two benches that share no handle {near}."
-    return f"{_dance(dance)}: {never} {TRIED}"
+    return f"{_dance(dance)}: {_strayed(stray)}{never} {TRIED}"
 
 
-def contact_then(pair: tuple[int, int], margin: float, time: float) -> str:
+def contact_then(pair: tuple[int, int], margin: float, stray: float, time: float) -> str:
     """The end of a claim's sentence for a contact that is certain at a time [s]."""
-    near = f"are nearer than {said(margin)} m" if margin else "overlap"
+    near = f"{_be(stray)} nearer than {said(margin)} m" if margin else f"{'may ' if stray else ''}overlap"
     return f", and at {said(time)} s benches {pair[0]} and {pair[1]} {near}."
 
 
 UNDECIDED_THEN = "; whether any do after that is not decided."
+
+
+def _strayed(stray: float) -> str:
+    return (
+        f"while every hole is within {said(stray)} m of its place, and every chord keeps its length, " if stray else ""
+    )
+
+
+def _be(stray: float) -> str:
+    return "may be" if stray else "are"
 
 
 def _dance(dance: Dance) -> str:

@@ -20,7 +20,8 @@ from core.motion.trajectory import instants
 from core.sampling import dips
 from core.shown import Shown, counted, worded
 from core.tables import data_frame, data_set
-from core.values import Floats, checked_type
+from core.tolerance.stray import Stray, checked_stray
+from core.values import Floats, asked_of
 
 if TYPE_CHECKING:
     import pandas
@@ -107,9 +108,10 @@ class ClearanceProfile(Shown):
 class LeastClearance(Shown):
     """The least clearance over a stretch of the dance.
 
-    distance: the least found [m], reached at `time` [s] by `benches`; 0 at the first touch if benches touch
+    distance: the least found [m], reached at `time` [s] by `benches`. Where benches touch, it is 0 at the first touch,
+        and nothing is said of later times; where they overlap at the start, it is negative, their separation there
     at_least: proven lower bound [m], PROOF_WIDTHS[0] below the distance or, if that takes too many steps,
-        PROOF_WIDTHS[1]; None if the search gave up first
+        PROOF_WIDTHS[1]; None if the search gave up first, or benches overlap at the start
     """
 
     distance: float
@@ -118,6 +120,7 @@ class LeastClearance(Shown):
     benches: Pair
 
 
+@asked_of("dance", Dance)
 @bounded("the clearance over time was not found")
 def clearance_profile(
     dance: Dance, times: Floats | Sequence[float] | float, *, budget: Budget | None = None
@@ -130,7 +133,6 @@ def clearance_profile(
         that is the nearest for less than a step may be missed here, never by first_contact()
     raises: OutsideRun after the end of the run; InvalidValue for fewer than three benches; TooMuchWork
     """
-    checked_type("dance", dance, Dance)
     dragon, head_speed = dance.dragon, dance.head_speed
     if dragon.benches < 3:
         raise InvalidValue(
@@ -183,24 +185,36 @@ def _grazes(search: Search, time: Floats, head_speed: float) -> tuple[Graze, ...
     return tuple(sorted(grazes, key=lambda graze: graze.time))
 
 
+@asked_of("dance", Dance)
 @bounded("the least clearance was not found")
 def least_clearance(
-    dance: Dance, *, start: float = 0.0, stop: float | None = None, budget: Budget | None = None
+    dance: Dance,
+    *,
+    stray: float | Stray = 0.0,
+    start: float = 0.0,
+    stop: float | None = None,
+    budget: Budget | None = None,
 ) -> LeastClearance | None:
     """The least clearance between start and stop [s], None for the end of the run; None with fewer than three benches.
 
+    stray: how far every hole may be from its place [m]: the clearance is then the least that benches may have left, as
+        proven for the hulls of the ground that they may cover (core/tolerance/reach.py)
     raises: InvalidValue; OutsideRun for a stop after the end of the run; TooMuchWork
     """
-    checked_type("dance", dance, Dance)
     begin, until = dance.span(start, stop)
     head_speed, end = dance.head_speed, dance.end
     if dance.dragon.benches < 3:
         return None
     to_fold = dance.nears_fold(until)
-    search = Search(dance.dragon, dance.path, 0.0, work=NEAR_WORK_BUDGET, budget=budget)
+    strayed = checked_stray(stray, dance.dragon)
+    search = Search(dance.dragon, dance.path, 0.0, work=NEAR_WORK_BUDGET, budget=budget, stray=strayed)
     last = search.last_travel(until * head_speed, to_fold)
     fold = end if to_fold else None
     (distance, travel, pair), at_least = least_over(search, begin * head_speed, last, head_speed, fold)
+    if distance == 0.0:
+        gap, overlapping = search.clearance(begin * head_speed)
+        if gap < 0.0:
+            return LeastClearance(gap, None, begin, overlapping)
     return LeastClearance(distance, at_least, travel / head_speed, pair)
 
 
@@ -218,7 +232,7 @@ def least_over(
     fold: where the run ends, if right after `until` and at a fold. Steps shrink to nothing before it, where handles
         are fast without bound, so a bound on the motion left takes the place of the last ones: least_to_fold()
     """
-    best = _sampled(search, begin, until)
+    best = sampled_least(search, begin, until)
     proven_to, proven = begin, None
     for width in PROOF_WIDTHS:
         for _ in range(ROUNDS):
@@ -242,7 +256,7 @@ def least_over(
             reach = PROFILE_STEP * search.extremes[1]
             touching = found.touching
             assert touching is not None
-            best = min(best, _refined(search, max(begin, touching - reach), touching, min(until, touching + reach)))
+            best = min(best, refined_dip(search, max(begin, touching - reach), touching, min(until, touching + reach)))
     return best, proven
 
 
@@ -255,16 +269,16 @@ def _first_touch(search: Search, begin: float, until: float, head_speed: float, 
     return (0.0, found.touching - (tolerance if state is Ended.TOUCHED else 0.0), found.benches), 0.0
 
 
-def _sampled(search: Search, begin: float, until: float) -> Dip:
+def sampled_least(search: Search, begin: float, until: float) -> Dip:
     """The least clearance at the ends and in the dips that samples show."""
     grid = _grid(search, begin, until)
     leaders = min(search.dragon.uniform_from + 1, search.dragon.benches)
     gaps = np.array([_affordable(search, travel, leaders)[0] for travel in grid])
     ends = [(gap, travel, pair) for travel in (begin, until) for gap, pair in (search.clearance(travel),)]
-    return min(ends + [_refined(search, *grid[k - 1 : k + 2]) for k in dips(gaps, DIPS_REFINED).tolist()])
+    return min(ends + [refined_dip(search, *grid[k - 1 : k + 2]) for k in dips(gaps, DIPS_REFINED).tolist()])
 
 
-def _refined(search: Search, low: float, middle: float, high: float) -> Dip:
+def refined_dip(search: Search, low: float, middle: float, high: float) -> Dip:
     """The bottom of the dip around the middle travel; searched again if another pair is nearer there."""
     gap, pair = search.clearance(middle)
     best = (gap, middle, pair)

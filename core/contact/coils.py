@@ -100,7 +100,7 @@ def _extent(path: Route, row: Floats, centre: Floats) -> float:
 # longer than that arc, no bench stands on both. From radius_beyond() of that radius and the margin outwards nothing
 # comes near a bench on a coil. So once all handles of the leading benches, up to the first of the equal ones, are
 # there, on the coil outwards, these meet nothing any more; and every bench behind repeats in place what one of them met
-# (core/kernels/marching.py), or is there too: nothing touches, however long the coils.
+# (core/kernels/repeats.py), or is there too: nothing touches, however long the coils.
 
 
 def rings_clear(dragon: Dragon, coils: TwoCoils, margin: float) -> float | None:

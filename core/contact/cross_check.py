@@ -24,7 +24,7 @@ from core.shapes.engines import JUDGES, Engine, able, found_pairs
 from core.shapes.overlaps import Verdict
 from core.shapes.rectangles import corners, frames, frames_separation
 from core.shown import Shown, worded
-from core.values import Floats, checked_number, checked_type
+from core.values import Floats, asked_of, checked_number, checked_type
 
 Pair = tuple[int, int]
 Indices = NDArray[np.int64]
@@ -79,6 +79,7 @@ class ContactCheck(Shown):
         return [("agree", worded(self.agree)), ("judged", worded(self.judged)), *said, *rest]
 
 
+@asked_of("contact", FirstContact)
 @bounded("the engines' word on the contact was not found")
 def contact_check(
     contact: FirstContact,
@@ -91,7 +92,7 @@ def contact_check(
     """The engines on the dance CHECK_TRAVEL of head travel before and after the bracket of a first contact.
 
     A contact at the start is judged at the start and CHECK_TRAVEL after it, and counts if it is found at either.
-    whole: judge the whole dragon, else only the reported pair
+    whole: judge the whole dragon, else only the reported pair; with a stray only that, within the gap that it has then
     returns: None if nothing touches or nothing is decided
     raises: InvalidValue
 
@@ -101,12 +102,13 @@ def contact_check(
     >>> check.agree, len(check.judged)
     (True, 223)
     """
-    checked_type("contact", contact, FirstContact)
     checked_type("dance", dance, Dance)
     margin = checked_number("margin", margin, "m", 0.0, MARGIN_MAX)
     dragon, path, head_speed = dance.dragon, dance.path, dance.head_speed
     if contact.time is None or contact.benches is None:
         return None
+    if contact.stray and contact.gap is not None:  # each pair would have a distance of its own: so this one alone
+        margin, whole = contact.gap, False
     at_start = contact.outcome is Outcome.CONTACT_AT_START
     first, last = contact.time_bracket or (contact.time, contact.time)
     rounding = CHECK_DIGITS * float(np.spacing(path.place + abs(contact.time) * head_speed))
@@ -118,6 +120,7 @@ def contact_check(
     return judged_contact(poses, size, contact.benches, margin=margin, whole=whole, at_start=at_start, budget=budget)
 
 
+@asked_of("found", MinimumPitch)
 @bounded("the engines' word on the minimum pitch was not found")
 def pitch_check(
     found: MinimumPitch,
@@ -134,7 +137,6 @@ def pitch_check(
     returns: None if no pair limits the pitch
     raises: InvalidValue
     """
-    checked_type("found", found, MinimumPitch)
     checked_type("dragon", dragon, Dragon)
     margin = checked_number("margin", margin, "m", 0.0, MARGIN_MAX)
     if found.benches is None or found.head_radius is None:

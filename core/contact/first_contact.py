@@ -1,12 +1,12 @@
 """First contact, with a certificate.
 
-The proof is written above the loops that carry it out: `core/kernels/bounds.py`, `pairs.py`, `rings.py` and
-`marching.py`. In short: the head advances from L to R only if, for every pair that can be near, one axis fixed in one
-of the two benches separates them by more than the margin over all of [L, R], because the gap along that axis is known
-at both ends and its second derivative is bounded in between. What lies further out than a radius known in closed form
-cannot touch. In a dragon whose body benches are alike, pair (i, j) repeats, in place, what pair (m, m + j - i) met when
-handle m stood where handle i stands (m the first of the equal benches), so once every bench has passed the start of the
-one before it, only the pairs of the first m + 1 benches are followed.
+The proof is written above the loops that carry it out: `core/kernels/bounds.py`, `bends.py`, `pairs.py`, `rings.py`,
+`repeats.py` and `marching.py`. In short: the head advances from L to R only if, for every pair that can be near, one
+axis fixed in one of the two benches separates them by more than the margin over all of [L, R], because the gap along
+that axis is known at both ends and its second derivative is bounded in between. What lies further out than a radius
+known in closed form cannot touch. In a dragon whose body benches are alike, pair (i, j) repeats, in place, what pair
+(m, m + j - i) met when handle m stood where handle i stands (m the first of the equal benches), so once every bench has
+passed the start of the one before it, only the pairs of the first m + 1 benches are followed.
 """
 
 from __future__ import annotations
@@ -14,13 +14,13 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, field
 from enum import StrEnum
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from core import kernels, plots
 from core.budget import Budget, bounded
 from core.contact.claim import ENDS, UNDECIDED_THEN, claim, claim_at_start, claim_undecided, contact_then
 from core.contact.clearance import Graze
-from core.contact.fold import clear_to_fold
+from core.contact.fold import approach_fold
 from core.contact.near_graze import narrowed
 from core.contact.search import BRACKETS_GRAZING, MARGIN_MAX, Ended, Marched, Search
 from core.dance import Dance, EndReason, RunEnd
@@ -30,7 +30,8 @@ from core.motion.trajectory import bench_outlines, trajectory
 from core.paths.path import HeadState
 from core.paths.spiral import Spiral
 from core.shown import Shown, worded
-from core.values import checked_number, checked_type
+from core.tolerance.stray import Stray, checked_stray
+from core.values import asked_of, checked_number
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -87,8 +88,9 @@ class FirstContact(Shown):
         same, or up to the end of the run if no overlap is certain; None when clear or at the start
     head: the head at that time; benches: the pair (a, b), a < b; corner, edge: the features that meet;
     point: (x, y) [m] of the corner; end: where the run ends when clear
-    gap: separation of the pair at that time [m]: the margin, or what it is at the start; None without a pair
-    margin: [m], as asked; dance: the one asked about
+    gap: separation of the pair in its places at that time [m]: the margin, or what it is at the start or with a stray;
+        None without a pair
+    margin, stray: [m], as asked; dance: the one asked about
     """
 
     outcome: Outcome
@@ -103,12 +105,14 @@ class FirstContact(Shown):
     certificate: Evidence
     gap: float | None = None
     margin: float = field(kw_only=True)
+    stray: float = field(kw_only=True, default=0.0)
     dance: Dance = field(kw_only=True, repr=False, compare=False)
 
     def _line(self) -> str:
         if self.time_bracket is not None and self.outcome is Outcome.UNDECIDED:
             return f"undecided from {worded(self.time_bracket[0], 's')} on"
         near = "touch" if not self.margin else f"come within {worded(self.margin, 'm')}"
+        near = f"may {near} with strays up to {worded(self.stray, 'm')}" if self.stray else near
         if self.benches is None or self.time is None:
             assert self.end is not None
             why = "" if self.end.reason is EndReason.STOP else f", where {self.end.why}"
@@ -177,11 +181,13 @@ CORNERS = (
 EDGES = (("front", "inner", "rear", "outer"), ("front", "outer", "rear", "inner"))
 
 
+@asked_of("dance", Dance)
 @bounded("the first contact was not decided")
 def first_contact(
     dance: Dance,
     *,
     margin: float = 0.0,
+    stray: float | Stray = 0.0,
     start: float = 0.0,
     stop: float | None = None,
     budget: Budget | None = None,
@@ -189,11 +195,14 @@ def first_contact(
     """When two benches that share no handle first come within the margin, proven not to miss an earlier one.
 
     margin: [m], the clearance required; contact means separation <= margin
+    stray: how far every hole may be from its place [m], see core/tolerance/reach.py: then what is found is the first
+        time at which two benches may come within the margin, because the grounds that they may cover do
     start, stop: the times between which to look [s]; None for the end of the run
     returns: see FirstContact. Times are good to 1e-10 s at 1 m/s. The bracket [proven clear up to, overlapping at] is
-        at most 1e-9 s wide, except where arc lengths or times are less exact (beyond 1e5 m, below 1e-3 m/s), and
+        at most 1e-9 s wide (1e-8 s with a stray), except where arc lengths or times are less exact (beyond 1e5 m, below
+        1e-3 m/s), and
         within about 5e-5 m of a graze along waypoints, behind bench 60, or where a second pair meets at once. Both
-        ends hold in spite of rounding (core/kernels/spiral.py, route.py, pairs.py). Where rounding hides the answer it
+        ends hold in spite of rounding (core/kernels/rounding.py, pairs.py). Where rounding hides the answer it
         is undecided: benches whose clearance at the start equals the margin to about 1e-12 m
     raises: InvalidValue; OutsideRun for a stop after the end of the run; TooMuchWork
     source: the model of Yang et al., sections 2.4 and 2.5, whose times differ: see app/questions/paper.py
@@ -204,31 +213,42 @@ def first_contact(
     ('contact', 412.473838, (0, 8))
     """
     budget = budget or Budget()
-    found = contact_within(budget, dance, margin=margin, start=start, stop=stop)
+    found = contact_within(budget, dance, margin=margin, stray=stray, start=start, stop=stop)
     if found.outcome is Outcome.UNDECIDED:
         budget.afford()  # it may be so for want of work
     return found
 
 
 def contact_within(
-    budget: Budget, dance: Dance, *, margin: float = 0.0, start: float = 0.0, stop: float | None = None
+    budget: Budget,
+    dance: Dance,
+    *,
+    margin: float = 0.0,
+    stray: float | Stray = 0.0,
+    start: float = 0.0,
+    stop: float | None = None,
 ) -> FirstContact:
     """first_contact() as a part of a larger question: it is also undecided when that question's budget is spent."""
-    checked_type("dance", dance, Dance)
     margin = checked_number("margin", margin, "m", 0.0, MARGIN_MAX)
+    strayed = checked_stray(stray, dance.dragon)
     begin, until = dance.span(start, stop)
     head_speed, end = dance.head_speed, dance.end
-    search = Search(dance.dragon, dance.path, margin, budget=budget)
+    search = Search(dance.dragon, dance.path, margin, budget=budget, stray=strayed)
     to_fold = dance.nears_fold(until)
     last = search.last_travel(until * head_speed, to_fold)
-    state, found, tolerance = search.approach(begin * head_speed, last, head_speed)
+    if to_fold:
+        state, found, tolerance = approach_fold(search, begin * head_speed, last, head_speed, end)
+    else:
+        state, found, tolerance = search.approach(begin * head_speed, last, head_speed)
     narrow = BRACKETS_GRAZING[0] * min(1.0, head_speed)
-    if state is Ended.TOUCHED and tolerance > narrow >= 2.0 * search.travel_rounding(found.touching or 0.0):
+    if (
+        not strayed
+        and state is Ended.TOUCHED
+        and tolerance > narrow >= 2.0 * search.travel_rounding(found.touching or 0.0)
+    ):
         narrower = narrowed(search, found, narrow, head_speed)
         if narrower is not None:
             found, tolerance = narrower, narrow
-    if to_fold and (state is Ended.REACHED or (state is Ended.STUCK and found.touching is None)):
-        state = Ended.REACHED if clear_to_fold(search, min(found.proven, last), end) else Ended.STUCK
     if state is Ended.STUCK:
         until = _known_overlap(search, found.proven, last, head_speed, until)
     if stop is not None and state is Ended.REACHED:
@@ -258,19 +278,15 @@ def _result(
     outcome = {Ended.REACHED: Outcome.CLEAR, Ended.STUCK: Outcome.UNDECIDED, Ended.TOUCHED: Outcome.CONTACT}.get(
         state, Outcome.CONTACT_AT_START
     )
-    method = _method(dance, search.margin, outcome, found, end, (span[0], proven))
+    method = _method(dance, search, outcome, found, end, (span[0], proven))
     clear_until = proven if proven > span[0] and outcome is not Outcome.CONTACT_AT_START else None
     certificate = Evidence(method, found.steps, clear_until, found.bend, graze)
-    margin = search.margin
+    asked: dict[str, Any] = {"margin": search.margin, "stray": search.stray, "dance": dance}
     if outcome is Outcome.CLEAR:
-        return FirstContact(
-            outcome, None, None, None, None, None, None, None, end, certificate, margin=margin, dance=dance
-        )
+        return FirstContact(outcome, None, None, None, None, None, None, None, end, certificate, **asked)
     if outcome is Outcome.UNDECIDED:
         bracket = (proven, span[1])
-        return FirstContact(
-            outcome, None, bracket, None, None, None, None, None, None, certificate, margin=margin, dance=dance
-        )
+        return FirstContact(outcome, None, bracket, None, None, None, None, None, None, certificate, **asked)
     at_start = outcome is Outcome.CONTACT_AT_START
     assert found.touching is not None
     travel = found.touching if at_start else found.touching - tolerance
@@ -287,16 +303,16 @@ def _result(
         point,
         None,
         certificate,
-        gap if at_start else search.margin,
-        margin=margin,
-        dance=dance,
+        gap if at_start or search.stray else search.margin,
+        **asked,
     )
 
 
 def _method(
-    dance: Dance, margin: float, outcome: Outcome, found: Marched, end: RunEnd, span: tuple[float, float]
+    dance: Dance, search: Search, outcome: Outcome, found: Marched, end: RunEnd, span: tuple[float, float]
 ) -> str:
-    asked = (dance, margin)
+    margin = search.margin
+    asked = (dance, margin, search.stray)
     if outcome is Outcome.CLEAR:
         return claim(*asked, span, ENDS[end.reason])
     if outcome is Outcome.UNDECIDED:
@@ -308,7 +324,7 @@ def _method(
     touching = found.touching / dance.head_speed
     if not span[1] > span[0]:
         return claim_at_start(*asked, touching, pair)
-    return claim(*asked, span, contact_then(pair, margin, touching))
+    return claim(*asked, span, contact_then(pair, margin, search.stray, touching))
 
 
 def _touching_features(
@@ -316,7 +332,7 @@ def _touching_features(
 ) -> tuple[Feature | None, Feature | None, tuple[float, float], float]:
     """The corner and the edge that meet, the corner's place in the world frame [m], and the separation [m]."""
     search.place_leaders(travel, pair[1] + 1)
-    met = kernels.bench_separation(*pair, search.sizes, search.rows[0])
+    met = kernels.bench_separation(*pair, search.own_sizes, search.rows[0])
     corner, edge = None, None
     for bench, feature in zip(pair, (met.feature_a, met.feature_b), strict=True):
         x, y, ux, uy = search.rows[0, bench, MX : UY + 1]

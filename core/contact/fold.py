@@ -1,6 +1,7 @@
 """The last stretch before a fold: a bound on the remaining motion of benches, and so on how near they may come.
 
-Steps of the march shrink to nothing before a fold, where handle speeds grow without bound; this bound replaces them.
+Steps of the march shrink to nothing before a fold, where handle speeds grow without bound, about forty of them for each
+tenth of what is left; this bound replaces them.
 """
 
 from __future__ import annotations
@@ -11,11 +12,16 @@ import math
 import numpy as np
 
 from core import kernels
-from core.contact.search import NO_BOUND, NO_GAP, Search
+from core.contact.search import TOUCHES, Ended, Marched, Search
 from core.dance import RunEnd
-from core.kernels.constants import CHORD, ERROR, HALF_LENGTH, HALF_WIDTH, THETA
+from core.kernels.constants import CHORD, ERROR, FREE, HALF_LENGTH, HALF_WIDTH, NO_ROOT, THETA
 from core.values import Floats
 
+# The march is left where so much of the chord of the bench that folds is left to go [1]: first where the bound suffices
+# at pitches from 0.75 to 2 m, after a third of the steps, then where it suffices with a fifth of that clearance.
+# A graze on that way is looked for at so many instants.
+FOLD_WAYS = (1e-3, 3e-5)
+WAY_SAMPLES = 12
 # Largest number of stretches into which the way to a fold is cut; each takes 0.1 to 0.3 ms.
 FOLD_STRETCHES = 200
 # Angles at which dragons fold, and those of handles from leader to follower, are good to far less than this part [1]:
@@ -23,6 +29,63 @@ FOLD_STRETCHES = 200
 THETA_ROUNDING = 1e-12
 # Work of one stretch, and of each bench in it [1].
 STRETCH_WORK, FOLD_WORK = 1000.0, 20.0
+
+
+# A march that goes on begins at twice that way before the fold, so that it sees a graze at the seam too. It need not
+# open again if the run begins where the ring bound clears all pairs (`rings_reach`): all before it is clear.
+def approach_fold(
+    search: Search, begin: float, last: float, head_speed: float, end: RunEnd
+) -> tuple[Ended, Marched, float]:
+    """Search.approach() from a travel to a fold, `last` a little short of it [m]; REACHED means clear up to the fold.
+
+    The march is left FOLD_WAYS before the fold. It goes on where the bound does not suffice there, or where a narrower
+    graze than those before may lie ahead.
+    """
+    assert end.theta is not None
+    assert end.bench is not None
+    start, opening, passed = begin, True, Marched(begin)
+    rings_reach = search.travel_at(search.clear_radius / search.growth) > begin
+    for part in FOLD_WAYS:
+        way = part * float(search.dragon.chords[end.bench])
+        early = min(last, search.travel_at(end.theta) - way)
+        if start < early - way:
+            state, found, tolerance = search.approach(start, early, head_speed, opening=opening)
+            found = _joined(passed, found)
+            if state in TOUCHES or (state is Ended.REACHED and _leaves(search, early, last, found, end.theta)):
+                return state, found, tolerance
+            if state is not Ended.REACHED or not rings_reach:
+                break
+            start, opening, passed = early - way, False, found
+    state, found, tolerance = search.approach(start, last, head_speed, opening=opening)
+    found = _joined(passed, found)
+    if state is Ended.REACHED or (state is Ended.STUCK and found.touching is None):
+        state = Ended.REACHED if clear_to_fold(search, min(found.proven, last), end) else Ended.STUCK
+    return state, found, tolerance
+
+
+def _joined(passed: Marched, found: Marched) -> Marched:
+    """A march with what was seen in the one before it."""
+    graze = min((dip for dip in (passed.graze, found.graze) if dip is not None), default=None)
+    return found._replace(steps=passed.steps + found.steps, bend=max(passed.bend, found.bend), graze=graze)
+
+
+def _leaves(search: Search, early: float, last: float, found: Marched, theta: float) -> bool:
+    """May a march be left at a travel [m]: is the way to the fold clear, without a narrower graze that samples show?"""
+    if search.dragon.benches >= 3:
+        least = least_left(search, early - search.travel_rounding(early), theta)
+        return least > search.margin and not _dips_ahead(search, early, last, found)
+    return True
+
+
+def _dips_ahead(search: Search, early: float, last: float, found: Marched) -> bool:
+    """Do samples between two travels [m] show a graze, narrower than the one found before?"""
+    leaders = min(search.dragon.uniform_from + 1, search.dragon.benches)
+    left = (last - early) * np.linspace(1.0, 0.0, WAY_SAMPLES) ** 2  # evenly spaced for what moves as its root
+    gaps = [search.clearance(travel, leaders)[0] for travel in (last - left).tolist()]
+    known = found.graze.gap if found.graze is not None else FREE
+    return any(
+        before > gap <= after and gap < known for before, gap, after in zip(gaps, gaps[1:], gaps[2:], strict=False)
+    )
 
 
 def clear_to_fold(search: Search, travel: float, end: RunEnd) -> bool:
@@ -40,7 +103,7 @@ def least_to_fold(search: Search, travel: float, end: RunEnd) -> float | None:
     """
     assert end.theta is not None
     if search.dragon.benches < 3:
-        return NO_GAP
+        return FREE
     travel, last = travel - search.travel_rounding(travel), search.travel_at(end.theta)
     stretches = [(least_left(search, travel, end.theta), travel, last)]
     while stretches[0][0] <= search.margin and len(stretches) < FOLD_STRETCHES:
@@ -53,7 +116,7 @@ def least_to_fold(search: Search, travel: float, end: RunEnd) -> float | None:
         for begin, until, theta in ends:
             heapq.heappush(stretches, (max(least, least_left(search, begin, theta)), begin, until))
     least = stretches[0][0]
-    return least if least > -NO_BOUND else None
+    return least if least > -FREE else None
 
 
 # From a travel to a later one handle 0 stands in [low_0, high_0] = [theta then, theta now]. Follower and leader
@@ -72,7 +135,7 @@ def least_to_fold(search: Search, travel: float, end: RunEnd) -> float | None:
 #
 # Rounding. Stretches meet at the same computed theta, so that they leave no gap; the first one begins before its
 # travel by what that may be off by, and every interval is wider at both ends by w = THETA_ROUNDING of theta. That
-# covers delta, near the fold too. A computed delta is the root for a chord^2 = f that is off by 14 u f (spiral.py).
+# covers delta, near the fold too. A computed delta is the root for a chord^2 = f that is off by 14 u f (rounding.py).
 # Where theta f_theta >= 0.03 f, that is a theta off by less than 500 u, far less than w. Else 4 theta (theta +
 # delta) s^2 < 0.03 f, s = sin(delta / 2), and delta^2 > 0.97 f; up to delta = pi f_delta / 2 >= delta, and from
 # there to the crest s >= 0.64 and theta (theta + delta) |sin delta| <= 2 theta (theta + delta) s <= 0.12 delta, so
@@ -83,14 +146,14 @@ def least_to_fold(search: Search, travel: float, end: RunEnd) -> float | None:
 def least_left(search: Search, travel: float, theta: float) -> float:
     """No two benches come nearer than this, or than the margin, from a travel until the head is at theta [m].
 
-    Every pair's gap after that travel, less what both can still move, each bench by its own sizes; -NO_BOUND where
+    Every pair's gap after that travel, less what both can still move, each bench by its own sizes; -FREE where
     a bench that has no place in rows[0] could come near one that leads a pair.
     """
     search.spend(STRETCH_WORK + FOLD_WORK * search.room)
     gap, _ = search.clearance(travel)
     arcs, moved = moved_until(search, theta)
     reached = 2.0 * float(moved.max())
-    rounding = search.gap_rounding(travel, min(gap, NO_BOUND) + reached)
+    rounding = search.gap_rounding(travel, min(gap, FREE) + reached)
     arcs += search.rows[0, search.room - 1, ERROR]
     radii = search.growth * search.rows[0, : search.room + 1, THETA]
     outside = np.flatnonzero(radii[:-1] - arcs[:-1] >= search.clear_radius)
@@ -99,7 +162,7 @@ def least_left(search: Search, travel: float, theta: float) -> float:
         lead, rear = search.growth * theta * (1.0 - THETA_ROUNDING), float(radii[leaders] + arcs[leaders])
         reach = kernels.leaders_reach(search.growth, lead, rear, search.rings) + search.margin
         if radii[-1] - arcs[-1] < kernels.radius_beyond(search.growth, reach, search.rings):
-            return -NO_BOUND
+            return -FREE
     least = gap - reached
     if least <= search.margin:
         least = kernels.clearance_left(search.scene, leaders, search.room, search.rows[0], moved)
@@ -113,7 +176,7 @@ def moved_until(search: Search, theta: float) -> tuple[Floats, Floats]:
     chords = search.sizes[:benches, CHORD]
     longest_behind = np.maximum.accumulate(chords[::-1])[::-1].tolist()
     low, high = theta * (1.0 - THETA_ROUNDING), float(search.rows[0, 0, THETA]) * (1.0 + THETA_ROUNDING)
-    arcs, curvatures = np.empty(benches + 1), np.full(benches, NO_BOUND)
+    arcs, curvatures = np.empty(benches + 1), np.full(benches, FREE)
     for k in range(benches + 1):
         search.budget.look()
         arcs[k] = growth * (high - low) * math.hypot(1.0, high)
@@ -137,7 +200,7 @@ def _deltas(growth: float, low: float, high: float, chord: float) -> tuple[float
     """delta of a follower whose leader stands at high, and at low [rad]; where there is none, that of the fold."""
     chord2 = (chord / growth) ** 2
     inner, outer = (float(kernels.first_root(theta, chord2)) for theta in (high, low))
-    if min(inner, outer) < 0.0:
+    if NO_ROOT in (inner, outer):
         fold = float(kernels.first_crest(kernels.fold_theta(chord2)))
-        inner, outer = (fold if delta < 0.0 else delta for delta in (inner, outer))
+        inner, outer = (fold if delta == NO_ROOT else delta for delta in (inner, outer))
     return inner, outer

@@ -1,6 +1,7 @@
 """Search: one dragon on one path, as the certified march of the kernels needs them.
 
-The proof of a march is written above the loops that carry it out: `core/kernels/bounds.py`, `pairs.py` and `rings.py`.
+The proof of a march is written above the loops that carry it out: `core/kernels/bounds.py`, `bends.py`,
+`pairs.py` and `rings.py`.
 """
 
 from __future__ import annotations
@@ -19,6 +20,7 @@ from core.kernels.constants import (
     COIL_ARC,
     COIL_GROWTH,
     EDGES_PER_WORK,
+    FREE,
     HALF_LENGTH,
     MX,
     MY,
@@ -32,6 +34,7 @@ from core.kernels.constants import (
 from core.paths.route import Route
 from core.paths.spiral import Spiral
 from core.sampling import bisected
+from core.tolerance.reach import Reach, directions, reach
 from core.values import Floats
 
 MARGIN_MAX = 1e4  # [m]
@@ -59,10 +62,6 @@ TRAVEL_ROUNDING = 2e-15
 FOLD_SLIVER = 1e-9
 # Width to which the clear radius is bisected, relative [1].
 CLEAR_WIDTH = 1e-3
-# Value of a radius or place that is not known [m].
-NO_BOUND = 1e150
-# Value of the gap when there is no pair [m].
-NO_GAP = 1e150
 # Largest error of the ring bound, relative to the lengths in it [1]: at most 64 sums, products and roots, with d^2 =
 # radius^2 - foot^2 at least a thousandth of radius^2 (core/kernels/rings.py), so that d is good to 2,000 u.
 RING_ROUNDING = 1e-11
@@ -116,11 +115,14 @@ class Marched(NamedTuple):
 class Search:
     """The kernels' arrays for one dragon, with the current path and margin.
 
+    dragon: the one searched: with a stray each bench is as large as the ground that it may cover; nominal: as given
+    stray: [m]; kinds: the hulls of that ground, none without a stray
     extremes: longest and shortest chord, longest overhang, half width of all benches, chord and half width of those
         that can be the outer of a pair [m]; rings: the same and more for the kernels, with the bounds that hold of the
         path and the margin used
-    sizes: (rows, SIZE_COLUMNS) of the leading benches; edges: (E, 4) x, y, x, y of edges at rest [m], on routes only;
-        with edges, the pairs are bench and edge alone: edge e is bench number room + 1 + e of a pair
+    sizes: (rows, SIZE_COLUMNS) of the leading benches; own_sizes: the same without the stray; edges: (E, 4) x, y, x, y
+        of edges at rest [m], on routes only; with edges, the pairs are bench and edge alone: edge e is bench number
+        room + 1 + e of a pair
     scene: the same benches on the path used; probe: an interval of it to look at single pairs
     clear_radius: on a spiral, no pair whose inner bench leads at this radius or further out comes within the margin [m]
     rings.clear_place, rings.end_place: on a route that begins (and ends) with a coil the same as places; where they are
@@ -142,8 +144,13 @@ class Search:
         *,
         work: float = WORK_BUDGET,
         budget: Budget | None = None,
+        stray: float = 0.0,
     ) -> None:
-        self.dragon, self.work, self.budget = dragon, work, budget or Budget()
+        self.work, self.budget, self.nominal, self.stray = work, budget or Budget(), dragon, stray
+        self.kinds = kernels.Kinds()
+        if stray > 0.0:
+            dragon = self._spread(reach(dragon, stray))
+        self.dragon = dragon
         self.edges = np.empty((0, 4)) if edges is None else edges
         alike = dragon.uniform_from
         # The constructor's share of a first contact: a few reductions of all columns, not many of one each.
@@ -164,12 +171,17 @@ class Search:
         self.use(path, margin)
         self.resize(dragon.benches if self.follows_all else min(dragon.benches, 255))
 
+    def _spread(self, ground: Reach) -> Dragon:
+        """Take the ground that benches may cover in their place."""
+        self.kinds.lay(ground.hulls.reshape(-1, 2), ground.kinds, directions())
+        return ground.bounds
+
     def use(self, path: Spiral | Route, margin: float) -> None:
         """Search another path, or with another margin."""
         self.path, self.margin = path, margin
         self.growth, self.place, self.curve = path.growth, path.place, path.curve
         if isinstance(path, Route):
-            self.clear_radius = NO_BOUND
+            self.clear_radius = FREE
             self.rings.clear_place, self.rings.end_place = self._clear_places(path)
         else:
             self.clear_radius = self._clear_radius(path.growth)
@@ -179,7 +191,7 @@ class Search:
 
     def _set_scene(self) -> None:
         self.scene.curve, self.scene.place, self.scene.margin = self.curve, self.place, self.margin
-        self.scene.halt = self.budget.halt
+        self.scene.halt, self.scene.kinds = self.budget.halt, self.kinds
 
     def clear_beyond(self, radius: float) -> None:
         """Set clear_radius to a radius from which another bound exceeds the margin on this spiral [m]."""
@@ -192,11 +204,9 @@ class Search:
 
     def resize(self, benches: int) -> None:
         """Make room for a number of leading benches, and for the edges at rest after the row of the last handle."""
-        dragon, edges = self.dragon, self.edges
-        lengths, widths = dragon.lengths[:benches], dragon.widths[:benches]
-        columns = [dragon.chords[:benches], 0.5 * lengths, 0.5 * widths, 0.5 * np.hypot(lengths, widths)]
-        self.sizes = np.zeros((benches + 1 + len(edges), kernels.SIZE_COLUMNS))
-        self.sizes[:benches] = np.stack(columns, axis=1)
+        edges = self.edges
+        self.sizes = self._sizes(self.dragon, benches)
+        self.own_sizes = self._sizes(self.nominal, benches) if self.kinds.some else self.sizes
         # A chain writes every entry before it is read, except the speed of handle 1, which march() reads first.
         self.rows = np.empty((5, benches + 1 + len(edges), kernels.CHAIN_COLUMNS))
         self.rows[:, :2] = 0.0
@@ -209,12 +219,20 @@ class Search:
             self.rows[:, benches + 1 :, MX : MY + 1] = 0.5 * (edges[:, 0:2] + edges[:, 2:4])
             self.rows[:, benches + 1 :, UX : UY + 1] = along / (2.0 * half)[:, None]
         self.room = benches
-        self.scene = kernels.Scene(self.curve, self.place, self.rings, self.sizes, dragon.benches, len(edges))
+        self.scene = kernels.Scene(self.curve, self.place, self.rings, self.sizes, self.dragon.benches, len(edges))
         self._set_scene()
         before, after, probe_before, probe_after, opening = self.rows
         self.interval = kernels.Interval(self.scene, before, after, self.motion)
         self.probe = kernels.Interval(self.scene, probe_before, probe_after, self.motion)
         self._march = kernels.March(self.interval, self.probe, opening)
+
+    def _sizes(self, dragon: Dragon, benches: int) -> Floats:
+        """Rows of so many leading benches of a dragon, and empty ones for the edges at rest."""
+        lengths, widths = dragon.lengths[:benches], dragon.widths[:benches]
+        columns = [dragon.chords[:benches], 0.5 * lengths, 0.5 * widths, 0.5 * np.hypot(lengths, widths)]
+        sizes = np.zeros((benches + 1 + len(self.edges), kernels.SIZE_COLUMNS))
+        sizes[:benches] = np.stack(columns, axis=1)
+        return sizes
 
     def spend(self, work: float) -> None:
         """Subtract work done from the work left [1]."""
@@ -242,11 +260,11 @@ class Search:
     @property
     def follows_all(self) -> bool:
         """Must a march follow all benches? Yes on a route for which no benches are known to be out of reach."""
-        return isinstance(self.path, Route) and self.rings.clear_place >= NO_BOUND
+        return isinstance(self.path, Route) and self.rings.clear_place >= FREE
 
     def _clear_radius(self, growth: float) -> float:
         """The least radius, within CLEAR_WIDTH, from which the ring bound exceeds the margin, and CLEAR_SPARE more, so
-        that a handle which is computed to be there is; NO_BOUND if none."""
+        that a handle which is computed to be there is; FREE if none."""
 
         def clear(radius: float) -> bool:
             least = float(kernels.ring_least(growth, growth, radius, self.rings))
@@ -256,31 +274,31 @@ class Search:
         while not clear(high):
             high *= 4.0
             if high > 1e9:
-                return NO_BOUND
+                return FREE
         return bisected(clear, 0.0, high, relative=CLEAR_WIDTH)[1] * (1.0 + float(kernels.CLEAR_SPARE))
 
     def _clear_places(self, path: Route) -> tuple[float, float]:
-        """Rings.clear_place and Rings.end_place [m]: 1e150 and -1e150 if not known, or where edges at rest may lie
-        anywhere.
+        """Rings.clear_place and Rings.end_place [m]: FREE and -FREE of the kernels if not known, or where edges at rest
+        may lie anywhere.
 
         Both are PLACE_SPARE further than their bounds ask, for the rounding of handles, and the latter beyond what
         travels may be off by; the former is BLEND behind where the coil ends, which is where it may be led to the next
         piece.
         """
         if path.tail_begin is not None or len(self.edges) or self.dragon.benches < 3:
-            return NO_BOUND, -NO_BOUND
+            return FREE, -FREE
         first = path.table[0].tolist()
         growth = first[COIL_GROWTH]
         radius = self._clear_radius(growth)
-        if radius >= NO_BOUND:
-            return NO_BOUND, -NO_BOUND
+        if radius >= FREE:
+            return FREE, -FREE
         arc = growth * float(kernels.spiral_arc(radius / growth)) * (1.0 + TRAVEL_ROUNDING)
         clear = min(first[S_END] - kernels.BLEND, first[S_START] + first[COIL_ARC] - arc) - kernels.PLACE_SPARE
         clear -= self.travel_rounding(clear)
         coils = two_coils(path)
         out = None if coils is None else way_out(self.dragon, coils, self.margin)
         if out is None:
-            return -clear, -NO_BOUND
+            return -clear, -FREE
         end = float(path.table[-1, S_START]) + out + kernels.PLACE_SPARE
         return -clear, -end - self.travel_rounding(end)
 
@@ -306,7 +324,7 @@ class Search:
         rounding, asked = self.travel_rounding(start, stop), (start, stop)
         start -= rounding
         stop = min(stop + rounding, max(stop, self.path.limit))
-        clear_until = self.travel_at(self.clear_radius / self.growth) if self.clear_radius < NO_BOUND else start
+        clear_until = self.travel_at(self.clear_radius / self.growth) if self.clear_radius < FREE else start
         if clear_until > start:
             opening = False
             start = max(start, clear_until - rounding)
@@ -325,13 +343,13 @@ class Search:
                 break
             self.resize(min(4 * self.room, self.dragon.benches))
         proven = asked[1] if ended is Ended.REACHED else max(float(march.proven) - rounding, asked[0])
-        touching = None if march.touching >= NO_GAP else float(march.touching)
+        touching = float(march.touching) if march.meets else None
         if touching is not None and touching < 0.0 and ended not in TOUCHES:
             touching = None  # before time 0 a crossing that could not be bracketed does not count
         if ended is Ended.TOUCHED_AT_START:
             touching = asked[0]
         graze = None
-        if march.graze_gap < NO_GAP:
+        if march.grazed:
             graze = Dip(float(march.graze_gap), float(march.graze_travel), (march.graze_first, march.graze_second))
         return ended, Marched(proven, touching, (march.first, march.second), march.steps, float(march.bend), graze)
 
@@ -339,7 +357,7 @@ class Search:
         """Are all pairs but one proven to be clear between two travels [m]?"""
         self.scene.left_out, self.scene.left_out_too = pair
         state, _ = self.march(stop, 0.0, start=start)
-        self.scene.left_out = self.scene.left_out_too = -1
+        self.scene.left_out = self.scene.left_out_too = kernels.NO_BENCH
         return state is Ended.REACHED
 
     @staticmethod
@@ -347,10 +365,12 @@ class Search:
         """Travel to march to for a run until a travel [m]: a little short of a fold, see core/contact/fold.py."""
         return until - (FOLD_SLIVER + 5e2 * TRAVEL_ROUNDING * until if to_fold else 0.0)
 
-    def approach(self, begin: float, until: float, head_speed: float) -> tuple[Ended, Marched, float]:
+    def approach(
+        self, begin: float, until: float, head_speed: float, *, opening: bool = True
+    ) -> tuple[Ended, Marched, float]:
         """march() between two travels [m] with the bracket of a contact: also its half width [m]."""
         tolerance = max(BRACKET * min(1.0, head_speed), BRACKET_MIN, 2.0 * self.travel_rounding(begin, until))
-        state, found = self.march(until, tolerance, start=begin)
+        state, found = self.march(until, tolerance, start=begin, opening=opening)
         proven = found.proven
         slowed = [wider * min(1.0, head_speed) for wider in BRACKETS_GRAZING]
         for wider in sorted({*slowed, *BRACKETS_GRAZING}):
@@ -358,7 +378,7 @@ class Search:
                 break
             if wider > tolerance:
                 tolerance = wider
-                state, found = self.march(until, tolerance, start=begin)
+                state, found = self.march(until, tolerance, start=begin, opening=opening)
                 proven = max(proven, found.proven)
         return state, found._replace(proven=proven), tolerance
 

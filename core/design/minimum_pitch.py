@@ -12,14 +12,15 @@ from core.budget import Budget, Halted
 from core.contact.search import MARGIN_MAX, TOUCHES, Ended
 from core.dance import end_theta
 from core.design.pitch_bands import BORDER_WIDTH
-from core.design.straight import Straight
+from core.design.straight import refuse_touching, too_near
 from core.design.ways import CONTACT_WIDTH, Ways
 from core.dragon import Dragon
-from core.errors import InvalidValue, said
+from core.errors import InvalidValue
 from core.paths.spiral import START_TURNS_MAX, Spiral
 from core.sampling import bisected
 from core.shown import Shown, worded
-from core.values import SIZE_MAX, checked_number, checked_size, checked_type
+from core.tolerance.stray import Stray, checked_stray
+from core.values import SIZE_MAX, asked_of, checked_number, checked_size
 
 # Distance below the proven bands at which an infeasible pitch is sought: the error that this may leave [m of pitch].
 PASSED_OVER = 1e-9
@@ -135,7 +136,7 @@ class _PitchSearch:
             if not self.is_clear(SIZE_MAX):
                 state, found = self.ways.march(SIZE_MAX)
                 if state in TOUCHES and found.benches[1] - found.benches[0] == 2:
-                    raise _too_near(self.search.dragon, found.benches[0], self.margin)
+                    raise too_near(self.search.dragon, found.benches[0], self.margin)
                 rule = f"must be larger for this dragon, which gets to such a circle at no pitch up to {SIZE_MAX:g} m"
                 raise InvalidValue.of("turning_radius", rule, self.radius, "m")
             return SIZE_MAX, SIZE_MAX
@@ -263,17 +264,20 @@ class _PitchSearch:
         return LimitedBy.GRAZE, pair, growth * search.theta_at(search.bottom(travel, end, pair, 1e-12))
 
 
+@asked_of("dragon", Dragon)
 def minimum_pitch(
     dragon: Dragon,
     *,
     turning_radius: float = 4.5,
     start_turns: float = 16.0,
     margin: float = 0.0,
+    stray: float | Stray = 0.0,
     budget: Budget | None = None,
 ) -> MinimumPitch:
     """The smallest pitch such that every larger one lets the head reach the turning circle without contact.
 
     turning_radius: [m]; start_turns: turns from the centre to the start; margin: [m], clearance required
+    stray: how far every hole may be from its place [m]: the pitch is then one at which none of that can touch
     budget: of PITCH_WORK where none is given
     From some pitch on all are feasible, without end: the spiral is so wide there that the dragon stands nearly straight
     (`core/design/straight.py`). Downwards from there bands of pitches are proven clear, each for all its pitches at
@@ -287,15 +291,14 @@ def minimum_pitch(
     >>> round(minimum_pitch(Dragon()).pitch, 9)
     0.450337393
     """
-    checked_type("dragon", dragon, Dragon)
     radius = checked_size("turning_radius", turning_radius)
     turns = checked_number("start_turns", start_turns, "turns", 0.0, START_TURNS_MAX, open_low=True)
     if radius > SIZE_MAX * turns:
         rule = f"must be at least {radius / SIZE_MAX:g} turns to start outside the circle at a pitch of {SIZE_MAX:g} m"
         raise InvalidValue.of("start_turns", rule, turns, "turns")
     margin = checked_number("margin", margin, "m", 0.0, MARGIN_MAX)
-    _refuse_touching(dragon, Straight(dragon), margin)
-    ways = Ways(dragon, radius, turns, margin, budget)
+    ways = Ways(dragon, radius, turns, margin, checked_stray(stray, dragon), budget)
+    refuse_touching(ways.search.dragon, margin)
     try:
         return _found(dragon, _PitchSearch(ways))
     except Halted as halted:
@@ -330,39 +333,3 @@ def _found(dragon: Dragon, search: _PitchSearch) -> MinimumPitch:
         search.scan_step,
         search.ways.marched + search.bands.marches,
     )
-
-
-def _refuse_touching(dragon: Dragon, straight: Straight, margin: float) -> None:
-    """Refuse a dragon whose benches come within the margin on a straight line, and so on every wide spiral.
-
-    raises: InvalidValue (margin or the overhang)
-    """
-    if straight.gap <= margin:
-        raise _too_near(dragon, straight.at, margin)
-
-
-def _too_near(dragon: Dragon, a: int, margin: float) -> InvalidValue:
-    """The error for benches a and a + 2 within the margin on a straight line, or on the widest spiral."""
-    b = a + 2
-    chord, front, rear = (float(size) for size in (dragon.chords[a + 1], dragon.overhangs[a], dragon.overhangs[b]))
-    gap = chord - front - rear
-    hardly, pair = gap > margin, f"benches {a} and {b}"
-    if hardly:
-        near = "are nearer than that" if margin else "touch"
-        why = f"at a pitch of {SIZE_MAX:g} m {pair} {near}, and on a straight line they are {gap:.9g} m apart"
-    else:
-        apart = f"are {gap:.9g} m apart" if gap > 0.0 else "touch"
-        why = f"on a straight line, and so on every wide enough spiral, {pair} {apart}"
-    overhangs = f"their overhangs {said(front)} m and {said(rear)} m"
-    why += f": the chord of bench {a + 1} between them is {chord:.9g} m, {overhangs}"
-    if gap > 0.0 and margin:
-        rule = "smaller" if hardly else f"less than {gap:.9g} m"
-        return InvalidValue("margin", f"margin must be {rule}, got {said(margin)} m: {why}")
-    if all((column[1:] == column[1]).all() for column in (dragon.lengths, dragon.widths)) and front == rear:
-        body = float(dragon.lengths[a + 1])
-        quarter = f"less than a quarter of {{body}} ({said(body)} m / 4 = {said(0.25 * body)} m)"
-        rule = f"must be {'smaller' if hardly else quarter}, got {said(front)} m: {why}"
-        return InvalidValue("dragon.overhang", f"{{field}} {rule}", body="dragon.body_length")
-    field, other = f"dragon.overhangs.{a}", f"dragon.overhangs[{b}]"
-    rule = "must be smaller" if hardly else f"must be less than the chord of bench {a + 1} ({chord:.9g} m)"
-    return InvalidValue(field, f"{field} + {other} {rule}, got {said(front)} m + {said(rear)} m: {why}")

@@ -10,7 +10,7 @@ import math
 import numpy as np
 
 from core import kernels
-from core.contact.search import ENDS, NO_BOUND, TRAVEL_ROUNDING, Ended, Marched, Search
+from core.contact.search import ENDS, TRAVEL_ROUNDING, Ended, Marched, Search
 from core.design.straight import Straight
 from core.paths.spiral import Spiral
 
@@ -82,6 +82,7 @@ class Bands:
         """The band from the growth of the search to a higher one [m/rad]."""
         search, curve = self.search, kernels.spiral_curve(growth_high)
         high = kernels.Scene(curve, search.place, search.rings, search.sizes, search.dragon.benches, 0)
+        high.kinds = search.kinds
         (before, after), (before_high, after_high) = self.rows
         low_interval = kernels.Interval(search.scene, before, after, self.motions[0])
         high_interval = kernels.Interval(high, before_high, after_high, self.motions[1])
@@ -97,7 +98,7 @@ class Bands:
         search = self.search
         search.use(Spiral(low, self.start_turns), self.margin)
         clear = self._clear_radius(low / math.tau, high / math.tau)
-        if clear >= NO_BOUND:
+        if clear >= kernels.FREE:
             return Ended.UNBOUNDED, Marched(outer)
         outer = min(outer, max(clear, self.radius))
         self.marches += 1
@@ -112,18 +113,18 @@ class Bands:
             search.spend(float(band.work))
             search.budget.look()
             if ended is not Ended.CAPACITY:
-                touching = None if band.touching >= NO_BOUND else float(band.touching)
+                touching = float(band.touching) if band.meets else None
                 return ended, Marched(float(band.proven), touching, (band.first, band.second), band.steps)
             search.resize(min(4 * search.room, search.dragon.benches))
             self._make_room(search.room)
 
     def _clear_radius(self, low: float, high: float) -> float:
-        """A radius from which a bound exceeds the margin for all growths in [low, high]; 1e150 if too far."""
+        """A radius from which a bound exceeds the margin for all growths in [low, high]; FREE if too far."""
         clear, far = self.radius, FAR * max(self.radius, 2.0 * math.pi * high * max(self.start_turns, 1.0))
         while not self.clears(low, high, clear):
             clear *= 1.05
             if clear > far:
-                return NO_BOUND
+                return kernels.FREE
         return clear
 
     def descend(self, top: float, lowest: float) -> tuple[float, str]:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from core import plots
-from core.budget import Budget, Halted
+from core.budget import Budget, Halted, within
 from core.contact.fold import clear_to_fold
 from core.contact.search import MARGIN_MAX, WORK_BUDGET, Ended, Search
 from core.dance import Dance, EndReason
@@ -20,7 +20,7 @@ from core.errors import InvalidValue, TooMuchWork
 from core.paths.spiral import Spiral
 from core.shown import Shown, counted, extent
 from core.tables import data_frame
-from core.values import SIZE_MIN, Floats, checked_number, checked_size, checked_type
+from core.values import SIZE_MIN, Floats, asked_of, checked_number, checked_size
 
 if TYPE_CHECKING:
     import pandas
@@ -131,6 +131,7 @@ def stop_radius(dragon: Dragon, path: Spiral, *, margin: float = 0.0) -> float |
     return Stops(dragon, margin).radius(path)
 
 
+@asked_of("dragon", Dragon)
 def pitch_scan(
     dragon: Dragon,
     pitches: Floats | Sequence[float],
@@ -149,9 +150,8 @@ def pitch_scan(
     budget: SCAN_WORK by default
     raises: TooMuchWork if the budget ends before the scan does; InvalidValue
     """
-    checked_type("dragon", dragon, Dragon)
     pitches = _checked_pitches(pitches)
-    stops = Stops(dragon, margin, budget or Budget(SCAN_WORK))
+    stops = Stops(dragon, margin, within(budget, SCAN_WORK))
 
     def radius(pitch: float) -> float | None:
         try:

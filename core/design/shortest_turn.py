@@ -20,7 +20,7 @@ from enum import StrEnum
 import numpy as np
 
 from core import kernels
-from core.budget import Budget, Halted
+from core.budget import Budget, Halted, within
 from core.contact.coils import STRETCH, TwoCoils, beyond, way_out
 from core.contact.first_contact import FirstContact, Outcome, contact_within
 from core.contact.search import MARGIN_MAX
@@ -31,7 +31,9 @@ from core.paths.spiral import Spiral
 from core.paths.turn import Turn
 from core.sampling import bisected
 from core.shown import Shown, worded
-from core.values import checked_number, checked_size, checked_type
+from core.tolerance.reach import reach
+from core.tolerance.stray import Stray, checked_stray
+from core.values import asked_of, checked_number, checked_size
 
 # Entry radii are tried in steps of this part of the turning radius [1], down to one step from the centre ...
 ENTRY_STEP = 0.01
@@ -83,6 +85,7 @@ class ShortestTurn(Shown):
         return f"{entry}, limited by {self.limited_by.value}{pair}"
 
 
+@asked_of("dragon", Dragon)
 def shortest_turn(
     dragon: Dragon,
     pitch: float,
@@ -91,11 +94,13 @@ def shortest_turn(
     *,
     start_turns: float = 16.0,
     margin: float = 0.0,
+    stray: float | Stray = 0.0,
     budget: Budget | None = None,
 ) -> ShortestTurn:
     """The smallest entry radius, coming from the turning circle, at which nothing touches and every handle can follow.
 
-    pitch, turning_radius, margin [m]; ratio: radius of the first arc over that of the second; start_turns: of the coils
+    pitch, turning_radius, margin [m]; stray: how far every hole may be from its place [m]; ratio: radius of the first
+    arc over that of the second; start_turns: of the coils
     Each entry tried is proven; between them, ENTRY_STEP of the turning radius apart, this is a scan and may miss a
     narrower infeasible range.
     entry_bracket is ENTRY_WIDTH wide at most, or what it is when the budget is spent; budget: TURN_WORK by default
@@ -105,18 +110,17 @@ def shortest_turn(
     >>> round(shortest_turn(Dragon(), 1.7).turn.entry_radius, 6)
     4.285762
     """
-    checked_type("dragon", dragon, Dragon)
     radius = checked_size("turning_radius", turning_radius)
-    margin = checked_number("margin", margin, "m", 0.0, MARGIN_MAX)
+    kept = checked_number("margin", margin, "m", 0.0, MARGIN_MAX), checked_stray(stray, dragon)
 
     def turn_at(entry: float) -> Turn:
         return Turn(pitch, radius, ratio, start_turns=start_turns, entry_radius=entry)
 
-    budget = budget or Budget(TURN_WORK)
+    budget = within(budget, TURN_WORK)
 
     def touching(entry: float, clear: float | None) -> Touch | None:
         try:
-            return _contact(budget, dragon, turn_at(entry), start_turns, margin, clear)
+            return _contact(budget, dragon, turn_at(entry), start_turns, kept, clear)
         except Halted as halted:
             raise _too_much(budget, dragon, entry, radius) from halted
 
@@ -125,7 +129,7 @@ def shortest_turn(
     if limit == UNDECIDED and budget.left <= 0.0:
         raise _too_much(budget, dragon, radius, radius)
     if limit is not None:
-        raise InvalidValue.of("turning_radius", _refusal(limit, margin), radius, "m")
+        raise InvalidValue.of("turning_radius", _refusal(limit, *kept), radius, "m")
     feasible = infeasible = radius
     while limit is None and infeasible > floor:
         feasible, infeasible = infeasible, max(infeasible - ENTRY_STEP * radius, floor)
@@ -173,27 +177,28 @@ def _follow_border(dragon: Dragon, turn_at: Callable[[float], Turn], radius: flo
 
 
 def _contact(
-    budget: Budget, dragon: Dragon, danced: Turn, start_turns: float, margin: float, clear: float | None
+    budget: Budget, dragon: Dragon, danced: Turn, start_turns: float, kept: tuple[float, float], clear: float | None
 ) -> Touch | None:
     """The first contact of a dance through the turn, time 0 at its entry; None when proven clear.
 
-    clear: a larger radius [m] down to which the coil is known to be
+    kept: margin and stray [m]; clear: a larger radius [m] down to which the coil is known to be
     """
+    margin, stray = kept
     coil = Spiral(danced.pitch, start_turns)
     before, start = (
         coil.length - coil.growth * float(kernels.spiral_arc(r / coil.growth)) if r else 0.0
         for r in (danced.entry_radius, clear)
     )
     if before > start:
-        found = contact_within(budget, Dance(dragon, coil), margin=margin, start=start, stop=before)
+        found = contact_within(budget, Dance(dragon, coil), margin=margin, stray=stray, start=start, stop=before)
         if found.outcome is not Outcome.CLEAR:
             return _touch(found, before)
-    stop, front = way_followed(dragon, danced, margin)
+    stop, followed = way_followed(reach(dragon, stray).bounds if stray else dragon, danced, margin)
     arc = stop - danced.length - coils_of(danced).arc(0.0)
     turns = max(start_turns, (1.0 + SPARE_TURNS) * kernels.spiral_theta(arc / coil.growth) / (2.0 * math.pi))
     entry, radius = danced.entry_radius, danced.turning_radius
     path = Turn(danced.pitch, radius, danced.ratio, start_turns=turns, entry_radius=entry)
-    found = contact_within(budget, Dance(front, path), margin=margin, stop=stop)
+    found = contact_within(budget, Dance(dragon.leading(followed.benches), path), margin=margin, stray=stray, stop=stop)
     return None if found.outcome is Outcome.CLEAR else _touch(found, 0.0)
 
 
@@ -233,13 +238,14 @@ def _too_much(budget: Budget, dragon: Dragon, entry: float, radius: float) -> To
     )
 
 
-def _refusal(touch: Touch, margin: float) -> str:
+def _refusal(touch: Touch, margin: float, stray: float) -> str:
     """Why no turn can begin on the circle, in words."""
     benches, time = touch
     if benches is None or time is None:
         what = f"benches come so near to the margin of {said(margin)} m that it is not decided whether they keep it"
     else:
         near = f"come nearer than {said(margin)} m" if margin else "touch"
+        near = f"may {near} with strays up to {said(stray)} m" if stray else near
         side = f"{time:.6f} s after" if time >= 0.0 else f"{-time:.6f} s before"
         what = f"benches {benches[0]} and {benches[1]} {near} {side} the entry at 1 m/s"
     return f"must be larger, or the pitch: in a turn that begins on the circle {what}"

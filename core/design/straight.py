@@ -8,10 +8,10 @@ import numpy as np
 
 from core import kernels
 from core.dragon import Dragon
-from core.values import Floats
+from core.errors import InvalidValue, said
+from core.kernels.constants import FREE
+from core.values import SIZE_MAX, Floats
 
-# Value if a dragon has no such pair; its negative if there is no bound [m].
-NONE = 1e150
 # Rounding of the bound, in units of the lengths that it adds up, u = 2^-53 [1]. k is good to 8 u of itself, angles to
 # 14 u, 1 - cos phi to 12 u + 14 u phi sin phi; so what is multiplied by a length is good to fewer than 60 u, and the
 # lengths of one sum are, all together, at most 4 times those named in least(). Where `across` is longer than these it
@@ -70,7 +70,7 @@ class Straight:
     """Lengths of a dragon that the bound needs.
 
     gap: least separation of benches `at` and `at` + 2 on a straight line [m]; between: least sum of two consecutive
-        chords between others [m]; both 1e150 where there are none; chord, overhang, half_width: the largest [m]; total:
+        chords between others [m]; both FREE where there are none; chord, overhang, half_width: the largest [m]; total:
         of all chords [m]
     """
 
@@ -80,7 +80,7 @@ class Straight:
         half_widths = 0.5 * dragon.widths[:distinct]
         self.chord, self.overhang = float(chords.max()), float(overhangs.max())
         self.half_width, self.total = float(half_widths.max()), float(dragon.chords.sum())
-        self.gap, self.at, self.between = NONE, 0, NONE
+        self.gap, self.at, self.between = FREE, 0, FREE
         if distinct > 2:
             gaps = chords[1:-1] - overhangs[:-2] - overhangs[2:]
             self.at = int(gaps.argmin())
@@ -96,27 +96,27 @@ class Straight:
 
     def least(self, growth: float, radius: float) -> float:
         """Lower bound of the separation of any two benches that share no handle [m], the inner one leading at the
-        radius [m] or further out, on the spiral of this growth [m/rad] and on every wider one; -1e150 where it says
+        radius [m] or further out, on the spiral of this growth [m/rad] and on every wider one; -FREE where it says
         nothing.
         """
         further = self._further(growth, radius)
-        if further == -NONE or self.gap >= NONE:
+        if further == -FREE or self.gap >= FREE:
             return further
         rounding = STRAIGHT_ROUNDING * (abs(self.gap) + self.chord + self.overhang + 2.0 * self.half_width)
         return min(further, self._next_but_one(curvature_most(growth, radius))) - rounding
 
     def _further(self, growth: float, radius: float) -> float:
-        """The same for benches with two others or more between them, rounding aside [m]; NONE without such benches."""
+        """The same for benches with two others or more between them, rounding aside [m]; FREE without such benches."""
         width, diagonals = 2.0 * self.half_width, 2.0 * math.hypot(self.overhang, self.half_width)
         half_around = (1.0 - STRAIGHT_ROUNDING) * math.pi * radius
         if 2.0 * math.pi * growth <= diagonals and self.total >= half_around:  # a ring may lie on the next
-            return -NONE
+            return -FREE
         curvature = curvature_most(growth, radius)
         sine = 0.5 * curvature * self.chord
         if sine >= math.sqrt(0.5):  # 2 beta would pass pi / 2
-            return -NONE
-        if self.between >= NONE:
-            return NONE
+            return -FREE
+        if self.between >= FREE:
+            return FREE
         beta = math.asin(sine)
         bridged = max(diagonals, width + self.chord * math.tan(beta))
         least = self._along(curvature, beta, bridged)
@@ -158,3 +158,40 @@ class Straight:
             return apart
         nearer = 2.0 * self.gap - 2.0 * half_turn / curvature * (1.0 - math.cos(phi))
         return max(apart, min(nearer - 2.0 * self.half_width * math.sin(phi), spare))
+
+
+def refuse_touching(dragon: Dragon, margin: float) -> None:
+    """Refuse a dragon whose benches come within the margin on a straight line, and so on every wide spiral.
+
+    raises: InvalidValue (margin or the overhang)
+    """
+    straight = Straight(dragon)
+    if straight.gap <= margin:
+        raise too_near(dragon, straight.at, margin)
+
+
+def too_near(dragon: Dragon, a: int, margin: float) -> InvalidValue:
+    """The error for benches a and a + 2 within the margin on a straight line, or on the widest spiral."""
+    b = a + 2
+    chord, front, rear = (float(size) for size in (dragon.chords[a + 1], dragon.overhangs[a], dragon.overhangs[b]))
+    gap = chord - front - rear
+    hardly, pair = gap > margin, f"benches {a} and {b}"
+    if hardly:
+        near = "are nearer than that" if margin else "touch"
+        why = f"at a pitch of {SIZE_MAX:g} m {pair} {near}, and on a straight line they are {gap:.9g} m apart"
+    else:
+        apart = f"are {gap:.9g} m apart" if gap > 0.0 else "touch"
+        why = f"on a straight line, and so on every wide enough spiral, {pair} {apart}"
+    overhangs = f"their overhangs {said(front)} m and {said(rear)} m"
+    why += f": the chord of bench {a + 1} between them is {chord:.9g} m, {overhangs}"
+    if gap > 0.0 and margin:
+        rule = "smaller" if hardly else f"less than {gap:.9g} m"
+        return InvalidValue("margin", f"margin must be {rule}, got {said(margin)} m: {why}")
+    if all((column[1:] == column[1]).all() for column in (dragon.lengths, dragon.widths)) and front == rear:
+        body = float(dragon.lengths[a + 1])
+        quarter = f"less than a quarter of {{body}} ({said(body)} m / 4 = {said(0.25 * body)} m)"
+        rule = f"must be {'smaller' if hardly else quarter}, got {said(front)} m: {why}"
+        return InvalidValue("dragon.overhang", f"{{field}} {rule}", body="dragon.body_length")
+    field, other = f"dragon.overhangs.{a}", f"dragon.overhangs[{b}]"
+    rule = "must be smaller" if hardly else f"must be less than the chord of bench {a + 1} ({chord:.9g} m)"
+    return InvalidValue(field, f"{field} + {other} {rule}, got {said(front)} m + {said(rear)} m: {why}")

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from core import kernels
-from core.budget import Budget
+from core.budget import Budget, within
 from core.contact.fold import THETA_ROUNDING, clear_to_fold
 from core.contact.search import Ended, Marched, Search
 from core.dance import EndReason, RunEnd, end_theta
@@ -40,12 +40,18 @@ class Ways:
     """
 
     def __init__(
-        self, dragon: Dragon, radius: float, start_turns: float, margin: float, budget: Budget | None = None
+        self,
+        dragon: Dragon,
+        radius: float,
+        start_turns: float,
+        margin: float,
+        stray: float = 0.0,
+        budget: Budget | None = None,
     ) -> None:
         self.radius, self.start_turns, self.margin = radius, start_turns, margin
         self.lowest = max(radius / start_turns, SIZE_MIN)
-        path, budget = Spiral(self.lowest, start_turns), budget or Budget(PITCH_WORK)
-        self.search = Search(dragon, path, margin, work=WAY_WORK, budget=budget)
+        path, budget = Spiral(self.lowest, start_turns), within(budget, PITCH_WORK)
+        self.search = Search(dragon, path, margin, work=WAY_WORK, budget=budget, stray=stray)
         self.bands = Bands(self.search, radius, start_turns, margin)
         self.marched, self.tried = 0, self.lowest
 
@@ -112,6 +118,7 @@ class Ways:
         place = growth * kernels.spiral_arc(radius / growth)
         curve = kernels.spiral_curve(growth)
         scene = kernels.Scene(curve, place, search.rings, search.sizes, search.dragon.benches, 0)
+        scene.kinds = search.kinds
         return float(kernels.gap_at(scene, place, a, b, search.rows[0])) <= self.margin
 
     def _start_nearer(self, path: Spiral) -> None:

@@ -14,7 +14,7 @@ from core.dance import Dance
 from core.motion.trajectory import trajectory
 from core.sampling import dips
 from core.shown import Shown
-from core.values import Floats, checked_type
+from core.values import Floats, asked_of
 
 # A peak is refined to 1e-9 of a step: the instants of a round, in steps around it; the number of rounds; and how many
 # of the highest peaks are refined.
@@ -36,8 +36,10 @@ class SharpestBend(Shown):
     benches: tuple[int, int]
 
 
-# Alike benches follow each other's way: the angle between benches (i, i + 1) is that between (m, m + 1) when handle m
-# stood where handle i stands. So m + 2 benches are enough once each handle has passed where the one before it began.
+# The benches from m on are equal and follow the same way: benches (i, i + 1) make the angle that (m, m + 1) made when
+# handle m stood where handle i stands. So m + 2 benches are enough once each handle has passed the start of the one
+# before it.
+@asked_of("dance", Dance)
 @bounded("the sharpest bend was not found")
 def sharpest_bend(
     dance: Dance, *, start: float = 0.0, stop: float | None = None, budget: Budget | None = None
@@ -48,7 +50,6 @@ def sharpest_bend(
     narrower than a step may be missed.
     raises: InvalidValue; OutsideRun for a stop after the end of the run; TooMuchWork
     """
-    checked_type("dance", dance, Dance)
     begin, until = dance.span(start, stop)
     dragon = dance.dragon
     if dragon.benches < 2:

@@ -14,18 +14,19 @@ from core.errors import InvalidValue, said, said_bound
 from core.kernels.constants import EXCEEDED, KEPT
 from core.sampling import bisected
 from core.shown import Shown
-from core.values import checked_number, checked_type
+from core.values import asked_of, checked_number
 
 # Every handle is proven to stay below this much above the highest rate found [1]; the rate itself is good to 1e-12.
 RATE_TOLERANCE = 1e-9
 # Rates are first sampled in steps of this part of the longest chord [1] ...
 SAMPLE_STEP = 0.5
-# ... or, on ways of many kilometres, in as many steps as take so many links of chains [1].
+# ... or, on ways of many kilometres, in fewer steps, which follow this many links of chains together [1].
 SAMPLED_LINKS = 1_000_000
 SAMPLES_MIN = 16
-# The tolerance grows fourfold after so many links of chains, 15 to 250 ms, so that nearly equal peaks of many handles
-# end in a wider bracket instead of a long search; the turn of the contest takes about 30,000 over 200 s. An interval
-# counts as twenty links at least (core/kernels/speed.py), and twelve times the tolerance may grow: no search is longer.
+# Number of links of chains after which the tolerance grows fourfold [1]; they take 15 to 250 ms. So nearly equal peaks
+# of many handles give a wider bracket instead of a long search; the turn of the contest takes about 30,000 over 200 s.
+# An interval counts as at least twenty links (core/kernels/speed.py), and the tolerance grows at most twelve times, so
+# every search is bounded.
 LINKS_BUDGET = 250_000
 # With a tolerance of more than this the proof is given up [1]: hundreds of benches on kilometres of winding curve.
 LOOSEST_TOLERANCE = 1e-2
@@ -76,11 +77,10 @@ class MaximumHeadSpeed(Shown):
 class FirstExcess(Shown):
     """First time at which a handle is faster than a limit.
 
-    time_bracket: (proven to keep the limit up to, found faster at) [s], no wider than EXCESS_WIDTH but where the proof
-        was given up: near a fold, or after EXCESS_LINKS. Kept means to within SPEED_PROVEN of the limit.
-    time: its second end, the latest that the first excess can be; None where the proof was given up and no excess was
-        found, then the bracket ends with the stretch
-    handle: the fastest then, None likewise
+    time_bracket: (time until which the limit is proven to be kept, to within SPEED_PROVEN of it; time at which a handle
+        is faster) [s], no wider than EXCESS_WIDTH unless the proof was given up: near a fold, or after EXCESS_LINKS
+    time: the second of these, the latest that the first excess can be [s]; handle: the fastest then. Both are None
+        where the proof was given up and no excess was found; the bracket then ends with the stretch.
     """
 
     time: float | None
@@ -88,6 +88,7 @@ class FirstExcess(Shown):
     handle: int | None
 
 
+@asked_of("dance", Dance)
 @bounded("the highest speed was not found")
 def highest_speed(
     dance: Dance, *, start: float | None = None, stop: float | None = None, budget: Budget | None = None
@@ -101,7 +102,6 @@ def highest_speed(
     derivative jumps, so a peak may be a kink. See core/kernels/speed.py.
     raises: InvalidValue (stop) for a spiral danced to its fold, where speeds grow without bound; TooMuchWork
     """
-    checked_type("dance", dance, Dance)
     dragon, head_speed, end = dance.dragon, dance.head_speed, dance.end
     stop = None if stop is None else checked_number("stop", stop, "s", -TIME_MAX, TIME_MAX)
     if dance.ends_by(end.time if stop is None else stop):
@@ -123,10 +123,11 @@ def highest_speed(
 
 def peak_over(search: Search, begin: float, until: float) -> kernels.Peak:
     """The highest rate between two travels of the head [m], sampled and proven: see core/kernels/speed.py."""
-    benches, rounding = search.dragon.benches, search.travel_rounding(begin, until)
+    benches, alike = search.dragon.benches, search.dragon.uniform_from
+    rounding = search.travel_rounding(begin, until)
     samples = max(SAMPLES_MIN, SAMPLED_LINKS // (benches + 1))
     step = max(SAMPLE_STEP * float(search.extremes[0]), (until - begin) / samples)
-    peak = kernels.Peak(search.interval, search.rows[2], _calm(search), begin, until, rounding)
+    peak = kernels.Peak(search.interval, search.rows[2], _calm(search), alike, begin, until, rounding)
     peak.sample(step)
     search.budget.afford()
     peak.prove(step, RATE_TOLERANCE, LOOSEST_TOLERANCE, LINKS_BUDGET)
@@ -139,6 +140,7 @@ def _calm(search: Search) -> float:
     return search.path.calm(2.0 * kernels.BEND_LIMIT / search.extremes[0])
 
 
+@asked_of("dance", Dance)
 def maximum_head_speed(
     dance: Dance,
     speed_limit: float,
@@ -154,7 +156,6 @@ def maximum_head_speed(
     raises: InvalidValue; TooMuchWork
     """
     limit = checked_limit(speed_limit)
-    checked_type("dance", dance, Dance)
     found = highest_speed(replace(dance, head_speed=1.0), start=start, stop=stop, budget=budget)
     speed = limit / found.speed
     highest = found.speed_bracket[1]
@@ -162,6 +163,7 @@ def maximum_head_speed(
     return MaximumHeadSpeed(speed, bracket, found.speed, found.handles, found.time / speed, found.time)
 
 
+@asked_of("dance", Dance)
 @bounded("when a handle is first too fast was not found")
 def first_excess(
     dance: Dance,
@@ -178,7 +180,6 @@ def first_excess(
     The proof that no handle was faster before is that of core/kernels/excess.py.
     raises: InvalidValue; OutsideRun; TooMuchWork
     """
-    checked_type("dance", dance, Dance)
     limit = checked_limit(speed_limit)
     dragon, head_speed = dance.dragon, dance.head_speed
     begin, until = dance.span(dance.begin if start is None else start, stop)
@@ -205,10 +206,10 @@ def _excess(search: Search, first: float, last: float, head_speed: float, ratio:
 
 
 def _late_excess(search: Search, ratio: float, head_speed: float, proven: float, until: float) -> FirstExcess:
-    """An excess between the time at which a proof was given up and the end [s], sought ever nearer to the end."""
+    """An excess after the time at which a proof was given up [s], looked for ever nearer to the end."""
 
     def faster(time: float) -> int | None:
-        """A handle that is faster than the limit at an instant for certain."""
+        """A handle that is certainly faster than the limit at an instant."""
         outcome, excess = _excess(search, time * head_speed, time * head_speed, head_speed, ratio)
         return excess.handle if outcome == EXCEEDED else None
 

@@ -17,7 +17,7 @@ from core.paths.route import Route
 from core.shapes.rectangles import corners
 from core.shown import Shown, extent, worded
 from core.tables import data_frame, data_set
-from core.values import Floats, checked_type
+from core.values import Floats, asked_of
 
 if TYPE_CHECKING:
     import pandas
@@ -95,6 +95,7 @@ class Trajectory(Shown):
         return axes
 
 
+@asked_of("dance", Dance)
 @bounded("the trajectory was not computed")
 def trajectory(dance: Dance, times: Floats | Sequence[float] | float, *, budget: Budget | None = None) -> Trajectory:
     """Position and velocity of every handle at every time.
@@ -113,7 +114,6 @@ def trajectory(dance: Dance, times: Floats | Sequence[float] | float, *, budget:
     >>> trajectory(dance, 0.0).position.shape
     (224, 2)
     """
-    checked_type("dance", dance, Dance)
     dragon, asked, budget = dance.dragon, dance.times(times), budget or Budget()
     time, handles = asked.reshape(-1), dragon.benches + 1
     shape = (time.size, handles)
@@ -124,22 +124,22 @@ def trajectory(dance: Dance, times: Floats | Sequence[float] | float, *, budget:
     for first in range(0, time.size, batch):
         rows = slice(first, first + batch)
         budget.afford(float(handles * time[rows].size))
-        folded = _fill(dance, budget, time[rows], position[rows], velocity[rows], speed[rows])
+        before_fold = _fill(dance, budget, time[rows], position[rows], velocity[rows], speed[rows])
         budget.look()
-        if folded >= 0:
-            raise dance.after_the_end(asked, first + folded)
+        if before_fold < time[rows].size:
+            raise dance.after_the_end(asked, first + before_fold)
     return Trajectory(asked, *(columns if asked.ndim else (column[0] for column in columns)), dance=dance)
 
 
 def _fill(dance: Dance, budget: Budget, time: Floats, position: Floats, velocity: Floats, speed: Floats) -> int:
-    """Fills in a trajectory at so many times (T,) [s]; returns the first one after a fold, -1 without."""
+    """Fill in a trajectory at times (T,) [s]; returns the number of times before a fold."""
     dragon, path, head_speed = dance.dragon, dance.path, dance.head_speed
     if isinstance(path, Route):
         sizes = np.zeros((dragon.benches, kernels.SIZE_COLUMNS))
         sizes[:, kernels.CHORD] = dragon.chords
         chain = np.empty((dragon.benches + 1, kernels.CHAIN_COLUMNS))
         kernels.route_trajectory(path.table, time * head_speed, head_speed, sizes, chain, position, velocity, speed)
-        return -1
+        return time.size
     head = np.maximum(path.theta(time * head_speed), dance.end.theta or 0.0)
     chords, halt = dragon.chords, budget.halt
     return kernels.spiral_trajectory(path.growth, head, chords, head_speed, position, velocity, speed, halt)
@@ -164,6 +164,7 @@ def bench_poses(handles: Floats) -> Floats:
     return np.concatenate([middle, heading[..., None]], axis=-1)
 
 
+@asked_of("dragon", Dragon)
 def bench_outlines(dragon: Dragon, handles: Floats) -> Floats:
     """Corners of every bench: front-left, front-right, rear-right, rear-left.
 
@@ -174,7 +175,6 @@ def bench_outlines(dragon: Dragon, handles: Floats) -> Floats:
     >>> bench_outlines(Dragon(1), np.array([[2.86, 0.0], [0.0, 0.0]])).round(3).tolist()
     [[[3.135, 0.15], [3.135, -0.15], [-0.275, -0.15], [-0.275, 0.15]]]
     """
-    checked_type("dragon", dragon, Dragon)
     poses = bench_poses(handles)
     if poses.shape[-2] != dragon.benches:
         count = poses.shape[-2] + 1

@@ -25,10 +25,10 @@ class Path(Protocol):
 
     begin, end: s between which the head may be [m]; tail_begin: s of the first place for the last handle [m], None
         where the path goes on without end behind its begin
-    limit: no s of the head lies beyond this [m], infinity where a search may look a little past the end
+    limit: largest s of the head [m], infinity where a search may look a little past the end
     growth: radial advance [m/rad], 1 on a route
-    curve, place: the path as the kernels take it, and what they count places from at s = 0: the arc length from the
-        centre of a spiral, 0 on a route [m]
+    curve, place: the path as the kernels take it, and the place that they give to s = 0: the arc length from the centre
+        of a spiral, 0 on a route [m]
     slide: how far a point may be from its s along the path, besides the rounding of s [m]
     """
 
@@ -62,7 +62,7 @@ class Path(Protocol):
         """The head at arc length s [m]."""
 
     def calm(self, curvature: float) -> float:
-        """Where handles are no faster than their leaders, as kernels.peak_rate() takes it.
+        """Where handles are no faster than their leaders, in the form that kernels.Peak takes.
 
         curvature: handles follow without turning back where the path bends no more than this [1/m]
         """

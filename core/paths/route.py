@@ -3,228 +3,27 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Sequence
 from functools import cached_property
-from typing import Any
 
 import numpy as np
 
 from core import kernels
 from core.budget import Budget, Halted
 from core.errors import InvalidValue, said
-from core.paths.cubics import cut
 from core.paths.path import HeadState
+from core.paths.pieces import Arc, Coil, Line, Piece, listed
 from core.shown import REPR_MOST, TABLE_DIGITS, Shown, counted, worded
-from core.values import Floats, checked_number, checked_size
+from core.values import Floats, checked_number
 
-# Coordinates beyond this lose the digits that the chords need [m].
-COORDINATE_MAX = 1e5
 # Largest distance from its start to which a route is drawn [m], and the number of points.
 DRAWN = 2_000.0
 DRAWN_POINTS = 20_000
 # Largest gap [m] and kink [rad] of two joined pieces: rounding of coordinates up to 1 km.
 JOINT_GAP = 1e-9
 JOINT_KINK = 1e-9
-# Least distance of two consecutive waypoints [m]: nearer ones are a slip of the hand.
-WAYPOINT_GAP = 1e-3
-# Least length of a piece [m]: the direction of a shorter one is lost in rounding.
-LENGTH_MIN = 1e-6
-# Angles beyond this lose the digits that the joints need [rad].
-ANGLE_MAX = 1e6
-
-# Kinds of pieces are listed one by one up to so many [1].
+# Largest number of pieces whose kinds are listed one by one [1].
 PIECES_LISTED = 6
-
-Point = tuple[float, float]
-_KINDS = {name: float(code) for code, name in enumerate(kernels.PIECE_KINDS)}
-
-
-def checked_point(name: str, value: Any) -> Point:
-    """The value as a point with both coordinates within COORDINATE_MAX.
-
-    raises: InvalidValue
-    """
-    try:
-        x, y = value
-    except (TypeError, ValueError) as error:
-        raise InvalidValue(name, f"{name} must be a point [x, y] in metres, got {value!r}") from error
-    limits = (-COORDINATE_MAX, COORDINATE_MAX)
-    return (checked_number(f"{name}.0", x, "m", *limits), checked_number(f"{name}.1", y, "m", *limits))
-
-
-def _checked_angle(name: str, value: Any) -> float:
-    return checked_number(name, value, "rad", -ANGLE_MAX, ANGLE_MAX)
-
-
-def listed(name: str, value: Any, what: str) -> list[Any]:
-    """The entries of a value that is a sequence and not a text.
-
-    raises: InvalidValue naming the field and what it must be
-    """
-    try:
-        if not isinstance(value, str | bytes | Mapping):
-            return list(value)
-    except TypeError:
-        pass
-    raise InvalidValue(name, f"{name} must be {what}, got {value!r}")
-
-
-def _settle(piece: object, **checked: float | Point | tuple[Point, ...]) -> None:
-    """Put checked values into a frozen piece."""
-    for name, value in checked.items():
-        object.__setattr__(piece, name, value)
-
-
-def _row(kind: str, start: float, end: float, curvature: Point, *parameters: float, slope: float = 0.0) -> Floats:
-    row = np.zeros((1, kernels.PIECE_COLUMNS))
-    known = (_KINDS[kind], start, end, *curvature, *parameters)
-    row[0, : len(known)], row[0, kernels.K_SLOPE] = known, slope
-    return row
-
-
-@dataclass(frozen=True)
-class Line(Shown):
-    """A straight piece from start to end, (x, y) [m]."""
-
-    _units = {"start": "m", "end": "m"}  # noqa: RUF012
-
-    start: Point
-    end: Point
-
-    def __post_init__(self) -> None:
-        _settle(self, start=checked_point("line.start", self.start), end=checked_point("line.end", self.end))
-
-    def rows(self, name: str, s: float, budget: Budget) -> Floats:
-        """Rows of the kernels' table from arc length s on."""
-        (x, y), end = self.start, self.end
-        length = math.hypot(end[0] - x, end[1] - y)
-        _refuse_short(name, length)
-        dx, dy = (end[0] - x) / length, (end[1] - y) / length
-        return _row("line", s, s + length, (0.0, 0.0), x, y, dx, dy)
-
-
-@dataclass(frozen=True)
-class Arc(Shown):
-    """Part of a circle: centre (x, y) [m], radius [m], start_angle [rad], sweep [rad].
-
-    A positive sweep goes counter-clockwise.
-    """
-
-    centre: Point
-    radius: float
-    start_angle: float
-    sweep: float
-
-    def __post_init__(self) -> None:
-        _settle(self, centre=checked_point("arc.centre", self.centre), radius=checked_size("arc.radius", self.radius))
-        _settle(self, start_angle=_checked_angle("arc.start_angle", self.start_angle))
-        _settle(self, sweep=_checked_angle("arc.sweep", self.sweep))
-
-    def rows(self, name: str, s: float, budget: Budget) -> Floats:
-        """Rows of the kernels' table from arc length s on."""
-        (x, y), radius, angle, sweep = self.centre, self.radius, self.start_angle, self.sweep
-        _refuse_short(name, radius * abs(sweep))
-        sign = math.copysign(1.0, sweep)
-        curvature = sign / radius
-        return _row("arc", s, s + radius * abs(sweep), (curvature, curvature), x, y, radius, angle, sign)
-
-
-@dataclass(frozen=True)
-class Coil(Shown):
-    """Part of an Archimedean spiral between two turns: inwards (clockwise) or outwards (counter-clockwise).
-
-    pitch: [m]; start_turns, end_turns: turns from its centre, danced from the first to the second
-    centre: (x, y) [m]; rotation: of the whole spiral [rad]
-    """
-
-    pitch: float
-    start_turns: float
-    end_turns: float
-    centre: Point = (0.0, 0.0)
-    rotation: float = 0.0
-
-    def __post_init__(self) -> None:
-        _settle(self, pitch=checked_size("coil.pitch", self.pitch), centre=checked_point("coil.centre", self.centre))
-        _settle(self, start_turns=checked_number("coil.start_turns", self.start_turns, "turns", 0.0, 1e5))
-        _settle(self, end_turns=checked_number("coil.end_turns", self.end_turns, "turns", 0.0, 1e5))
-        _settle(self, rotation=_checked_angle("coil.rotation", self.rotation))
-
-    def rows(self, name: str, s: float, budget: Budget) -> Floats:
-        """Rows of the kernels' table from arc length s on."""
-        growth = self.pitch / (2.0 * math.pi)
-        start, end = 2.0 * math.pi * self.start_turns, 2.0 * math.pi * self.end_turns
-        (x, y), rotation = self.centre, self.rotation
-        arc, end_arc = growth * kernels.spiral_arc(start), growth * kernels.spiral_arc(end)
-        _refuse_short(name, abs(end_arc - arc))
-        sign = 1.0 if end > start else -1.0
-        curvatures = (sign * kernels.spiral_curvature(start) / growth, sign * kernels.spiral_curvature(end) / growth)
-        slope = kernels.steepest_bend(min(start, end)) / growth**2
-        return _row("spiral", s, s + abs(end_arc - arc), curvatures, x, y, growth, rotation, sign, arc, slope=slope)
-
-
-@dataclass(frozen=True, repr=False)
-class Waypoints(Shown):
-    """A smooth curve through points (x, y) [m]: the cubic spline over the length of its polygon, curvature-continuous.
-
-    start_heading, end_heading: direction at its ends [rad]; None: no curvature at that end
-    """
-
-    points: tuple[Point, ...]
-    start_heading: float | None = None
-    end_heading: float | None = None
-
-    def __post_init__(self) -> None:
-        given = listed("waypoints.points", self.points, "a list of points [x, y] in metres")
-        if len(given) < 2:
-            raise InvalidValue("waypoints.points", f"waypoints.points must be at least 2 points, got {len(given)}")
-        _settle(self, points=tuple(checked_point(f"waypoints.points.{k}", point) for k, point in enumerate(given)))
-        for name in ("start_heading", "end_heading"):
-            if (heading := getattr(self, name)) is not None:
-                _settle(self, **{name: _checked_angle(f"waypoints.{name}", heading)})
-
-    def __repr__(self) -> str:
-        listed = f"Waypoints({self.points!r}, {self.start_heading!r}, {self.end_heading!r})"
-        return listed if len(listed) <= REPR_MOST else super().__repr__()
-
-    def _line(self) -> str:
-        return f"{len(self.points)} points from {self.points[0]!r} to {self.points[-1]!r} m"
-
-    def rows(self, name: str, s: float, budget: Budget) -> Floats:
-        """Rows of the kernels' table from arc length s on: as many cubics as exact arc lengths need."""
-        from scipy.interpolate import CubicSpline  # type: ignore[import-untyped]
-
-        points = np.array(self.points)
-        headings = (self._end(self.start_heading), self._end(self.end_heading))
-        steps = np.hypot(*np.diff(points, axis=0).T)
-        short = np.flatnonzero(steps < WAYPOINT_GAP)
-        if short.size:
-            k = int(short[0])
-            raise InvalidValue(
-                f"{name}.points.{k + 1}",
-                f"{name}.points.{k + 1} must be at least {WAYPOINT_GAP:g} m from the point before it, "
-                f"got {steps[k]:g} m",
-            )
-        knots = np.concatenate([[0.0], np.cumsum(steps)])
-        spline = CubicSpline(knots, points, bc_type=headings)
-        rows = cut(f"{name}.points", np.moveaxis(spline.c[::-1], 1, 0), np.diff(knots), budget)
-        ends = np.cumsum([s, *rows[:, 2]])
-        rows[:, 1], rows[:, 2] = ends[:-1], ends[1:]
-        return rows
-
-    @staticmethod
-    def _end(heading: float | None) -> tuple[int, Floats]:
-        if heading is None:
-            return 2, np.zeros(2)
-        return 1, np.array([math.cos(heading), math.sin(heading)])
-
-
-Piece = Line | Arc | Coil | Waypoints
-
-
-def _refuse_short(name: str, length: float) -> None:
-    if length < LENGTH_MIN:
-        raise InvalidValue(name, f"{name} must be at least {LENGTH_MIN:g} m long, got {length:g} m")
 
 
 class Route(Shown):
@@ -350,7 +149,7 @@ class Route(Shown):
         return HeadState(None, math.hypot(x, y), x, y)
 
     def calm(self, curvature: float) -> float:
-        """1 if no handle on the first piece is faster than its leader, else 0, as kernels.peak_rate() takes it."""
+        """1 if no handle on the first piece is faster than its leader, else 0: the form that kernels.Peak takes."""
         return 1.0 if self.calm_beginning else 0.0
 
     def words(self) -> str:

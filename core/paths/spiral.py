@@ -88,6 +88,10 @@ class Spiral(Shown):
         kernels.spiral_thetas(from_centre.reshape(-1), theta)
         return theta.reshape(from_centre.shape)
 
+    def travel_to(self, radius: float) -> float:
+        """Arc length from the start to a radius [m]."""
+        return self.length - self.growth * float(kernels.spiral_arc(radius / self.growth))
+
     def gentle_theta(self, curvature: float) -> float:
         """Polar angle beyond which the |curvature| stays below this [1/m]; rounded up [rad].
 
@@ -118,7 +122,7 @@ class Spiral(Shown):
         return HeadState(theta, radius, radius * math.cos(theta), radius * math.sin(theta))
 
     def calm(self, curvature: float) -> float:
-        """Radius from which outwards the spiral bends no more than this [1/m], as kernels.peak_rate() takes it [m]."""
+        """Radius outside which the |curvature| is at most this [1/m], in the form that kernels.Peak takes [m]."""
         return self.growth * self.gentle_theta(curvature)
 
     def words(self) -> str:

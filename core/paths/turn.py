@@ -8,7 +8,8 @@ import numpy as np
 
 from core import kernels
 from core.errors import InvalidValue
-from core.paths.route import LENGTH_MIN, Arc, Coil, Point, Route
+from core.paths.pieces import LENGTH_MIN, Arc, Coil, Point
+from core.paths.route import Route
 from core.shown import TABLE_DIGITS, worded
 from core.values import SIZE_MAX, SIZE_MIN, Floats, checked_number, checked_size
 

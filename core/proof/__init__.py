@@ -64,7 +64,7 @@ Routes. Along a route the place of a handle is z = -s, so that it falls as theta
 handle, the first point behind at the chord c. Let the curvature be between k1 and k2 from there to here, K the larger
 of |k1| and |k2|, k0 the least |curvature| (0 where the sign may change), and l the length between. With the direction
 of travel phi and the direction psi of the chord, alpha = phi - psi at the front and beta = phi - psi at the rear.
-  8. If K l <= pi, then alpha and -beta lie in [k1 l / 2, k2 l / 2]. For put the rear at 0 with phi(0) = 0: the chord
+  8. If K l <= pi, then alpha and -beta lie in [k1 l / 2, k2 l / 2]. Put the rear at 0 with phi(0) = 0: the chord
      is V = integral of exp(i phi) over [0, l]. With h = k2 l / 2, Im(V exp(-i h)) is the integral over [0, l / 2] of
      sin(phi(t) - h) + sin(phi(l - t) - h) = 2 sin(M) cos(N), |N| = |phi(t) - phi(l - t)| / 2 <= K l / 2 <= pi / 2,
      M = (phi(t) + phi(l - t)) / 2 - h between -K l / 2 - h >= -pi and k2 l / 2 - h = 0: it is 0 or less. Likewise

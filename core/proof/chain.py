@@ -58,11 +58,11 @@ class Chain(Follower):
         return f"theta = {said(theta)} rad"
 
     def pose_at(self, bench: int, theta: arb) -> Pose:
-        """The benches from one on when its front handle is there [rad]."""
+        """A bench and those behind it when its front handle is at theta [rad]."""
         return Pose(self, bench, theta)
 
     def pose(self, bench: int, theta: float) -> Pose:
-        """The benches from one on when its front handle is there [rad]; neighbouring stretches share one."""
+        """The pose of pose_at(), remembered: neighbouring stretches share one."""
         if (bench, theta) not in self._poses:
             if len(self._poses) >= POSES_KEPT:
                 self._poses.clear()
@@ -85,7 +85,7 @@ class Chain(Follower):
         return newton(theta, around, self.arc(theta) - left, self.growth * (1 + around**2).sqrt())
 
     def far(self, bench: int, rear: arb, theta: arb) -> bool:
-        """Whether every bench from a handle at theta on is apart from this one, its rear handle at rear (5.) [rad]."""
+        """Whether all benches behind a handle at theta are apart from this one, its rear handle at rear (5.) [rad]."""
         inner = (self.growth * theta.lower()) ** 2 - arb(self.longest) ** 2 / 4
         outer = self.growth * rear.upper() + self.sizes[bench].reach
         return bool(inner > 0 and inner.sqrt() - self.reach > outer + self.margin)
@@ -175,7 +175,7 @@ def _curving(theta: arb, d: arb) -> arb:
 
 
 class Pose(Benches):
-    """The benches from one on when its front handle is at theta, in the frame that turns with that handle.
+    """A bench and those behind it when its front handle is at theta, in the frame that turns with that handle.
 
     thetas, turns [rad], points [m]: of the handles; deltas: of the benches, grown one by one
     """
@@ -214,7 +214,7 @@ class Pose(Benches):
 
 
 class Stretch:
-    """The benches from one on while its front handle goes through [low, high] rad: at both ends, and all between.
+    """A bench and those behind it while its front handle goes through [low, high] rad: at both ends and between.
 
     thetas, rates: of the handles, and their derivatives by the front handle's theta, enclosed over the stretch
     placed: of the benches, grown one by one: centre, direction, and their derivatives, enclosed over the stretch

@@ -1,4 +1,4 @@
-"""The claims about the spiral, collision time and minimum pitch: statement, way and overlap of each."""
+"""Claims about a spiral: a collision time and a minimum pitch. Each has a statement, a way and an overlap."""
 
 from __future__ import annotations
 
@@ -193,9 +193,9 @@ def settle(claim: object, **checked: float) -> None:
 
 
 def near_pair(chain: AnyChain, head: arb, when: str) -> list[int]:
-    """Two benches a < b, no neighbours, that strictly overlap, or are nearer than the margin, at a place of the head.
+    """Two benches a < b that strictly overlap, or are nearer than the margin, and are not neighbours.
 
-    head: the place [rad], [m]; raises: ProofRefused if there are none
+    head: its place [rad], [m]; raises: ProofRefused if there are none
     """
     place = head
     for bench in range(chain.count - 2):
@@ -213,9 +213,9 @@ def near_pair(chain: AnyChain, head: arb, when: str) -> list[int]:
 
 
 def check_near(chain: AnyChain, head: arb, a: int, b: int, when: str) -> None:
-    """Check that benches a < b, no neighbours, strictly overlap, or are nearer than the margin, at a place of the head.
+    """Check that benches a < b strictly overlap, or are nearer than the margin, and are not neighbours.
 
-    head: the place [rad], [m]; raises: Unproven
+    head: its place [rad], [m]; raises: Unproven
     """
     if not 0 <= a < b - 1 < chain.count - 1:
         raise Unproven(f"benches {a} and {b} are no pair")

@@ -1,4 +1,4 @@
-"""The claims about any path, clear and contact: statement, way and end of each."""
+"""Claims about any path: a clear run and a contact. Each has a statement, a way and an end."""
 
 from __future__ import annotations
 
@@ -133,7 +133,7 @@ class Contact:
 def last_stop(dragon: Dragon, path: Mapping[str, Any], head_speed: float) -> tuple[float, str]:
     """Stop of a clear run whose claim includes the end [s], and the kind of end."""
     end = Dance(dragon, core_path(path), head_speed).end
-    at_once = end.reason is EndReason.END  # every place up to the end of a route has a chain
+    at_once = end.reason is EndReason.END  # the chain exists at every place up to the end of a route
     return end.time - (0.0 if at_once else float(END_BRACKET) / 2), end.reason.value
 
 

@@ -1,4 +1,4 @@
-"""Two benches in balls: distances beyond a line of the other, nearness, and the line that keeps them apart."""
+"""Two benches in balls: how far one lies beyond a line of the other, how near they are, which line separates them."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from flint import acb, arb
 
 
 class Unproven(Exception):
-    """Balls do not decide the question here; over a shorter stretch they may."""
+    """The balls are too wide to decide; over a shorter stretch they may be narrow enough."""
 
 
 # Turns that bring the faces +x, +y, -x, -y of a bench's own frame to +x.
@@ -81,9 +81,9 @@ def stays_positive(first: arb, last: arb, slope: arb, width: arb) -> bool:
 
 
 class Benches:
-    """Benches placed at one instant, one after the other: centres and directions along, in any common frame.
+    """Benches at one instant, placed one after the other: their centres and directions, in any common frame.
 
-    sizes: of the benches from the first one here on
+    sizes: of these benches, in order
     """
 
     def __init__(self, sizes: Sequence[Size]) -> None:

@@ -15,21 +15,22 @@ from flint import acb, arb
 
 from core.dragon import Dragon
 from core.errors import InvalidValue, said
-from core.paths import route
+from core.paths import pieces
+from core.paths.route import Route
 from core.paths.spiral import Spiral
 from core.paths.turn import Turn
 from core.proof.chain import Chain
 from core.proof.route import Coil, Path, Piece, RouteChain
 
-AnyPath = Spiral | route.Route
+AnyPath = Spiral | Route
 Record = Mapping[str, Any]
 
 # The members of each kind of path and of piece, in words that InvalidValue and the check of members share.
 TURN = ("pitch", "turning_radius", "ratio", "start_turns", "entry_radius")
-PIECES: dict[str, tuple[type[route.Line | route.Arc | route.Coil], tuple[str, ...]]] = {
-    "line": (route.Line, ("start", "end")),
-    "arc": (route.Arc, ("centre", "radius", "start_angle", "sweep")),
-    "coil": (route.Coil, ("pitch", "start_turns", "end_turns", "centre", "rotation")),
+PIECES: dict[str, tuple[type[pieces.Line | pieces.Arc | pieces.Coil], tuple[str, ...]]] = {
+    "line": (pieces.Line, ("start", "end")),
+    "arc": (pieces.Arc, ("centre", "radius", "start_angle", "sweep")),
+    "coil": (pieces.Coil, ("pitch", "start_turns", "end_turns", "centre", "rotation")),
 }
 # Members that are points, [x, y].
 POINTS = frozenset({"start", "end", "centre"})
@@ -44,12 +45,12 @@ def recorded_path(path: AnyPath) -> dict[str, Any]:
         return {"kind": "spiral", "pitch": path.pitch, "start_turns": path.start_turns}
     if isinstance(path, Turn):
         first = path.pieces[0]
-        assert isinstance(first, route.Coil)
+        assert isinstance(first, pieces.Coil)
         values = {name: getattr(path, name) for name in TURN if name != "start_turns"}
         return {"kind": "turn"} | values | {"start_turns": first.start_turns}
-    pieces = []
+    recorded = []
     for k, piece in enumerate(path.pieces):
-        if isinstance(piece, route.Waypoints):
+        if isinstance(piece, pieces.Waypoints):
             must = "path must be a spiral, a turn or a route of lines, arcs and coils"
             if len(path.pieces) > 1:
                 must = f"path.pieces[{k}] must be a line, an arc or a coil"
@@ -58,11 +59,11 @@ def recorded_path(path: AnyPath) -> dict[str, Any]:
                 "checked in double precision, with bounds on its rounding, not proven"
             )
             raise InvalidValue(f"path.pieces.{k}", words)
-        pieces.append(_recorded_piece(piece))
-    return {"kind": "route", "start": path.start, "pieces": pieces}
+        recorded.append(_recorded_piece(piece))
+    return {"kind": "route", "start": path.start, "pieces": recorded}
 
 
-def _recorded_piece(piece: route.Line | route.Arc | route.Coil) -> dict[str, Any]:
+def _recorded_piece(piece: pieces.Line | pieces.Arc | pieces.Coil) -> dict[str, Any]:
     kind, names = next((kind, names) for kind, (made, names) in PIECES.items() if isinstance(piece, made))
     values = {name: getattr(piece, name) for name in names}
     return {"kind": kind} | {
@@ -70,7 +71,7 @@ def _recorded_piece(piece: route.Line | route.Arc | route.Coil) -> dict[str, Any
     }
 
 
-def core_path(record: Record) -> Spiral | route.Route:
+def core_path(record: Record) -> Spiral | Route:
     """The path as an object of core.
 
     raises: InvalidValue
@@ -82,13 +83,13 @@ def core_path(record: Record) -> Spiral | route.Route:
             return _turn(record)
         except InvalidValue as error:  # Turn does not name the path around its fields
             raise InvalidValue(f"path.{error.field}", f"path.{error.message}") from error
-    pieces = []
+    given = []
     for k, piece in enumerate(record["pieces"]):
         try:
-            pieces.append(PIECES[piece["kind"]][0](**_arguments(piece)))
+            given.append(PIECES[piece["kind"]][0](**_arguments(piece)))
         except InvalidValue as error:  # a piece does not name the route around its fields
             raise error.named(error.field.replace(piece["kind"], f"path.pieces.{k}", 1)) from error
-    return route.Route(pieces, record["start"])
+    return Route(given, record["start"])
 
 
 def _arguments(piece: Record) -> dict[str, Any]:

@@ -218,7 +218,7 @@ class Path:
         raise Unproven("no next handle is found across a joint")
 
     def _meeting(self, piece: Piece, point: acb, chord: arb, t: arb) -> arb:
-        """The place near a guess at which |piece - point| rises through chord: one interval Newton step."""
+        """The place near a guess at which |piece - point| grows beyond the chord: one interval Newton step."""
         for _ in range(GUESS_STEPS):
             to = piece.point(t) - point
             slope = -2 * (to.conjugate() * piece.tangent(t)).real * piece.slope(t)
@@ -254,11 +254,11 @@ class RouteChain(Follower):
         return -way
 
     def pose_at(self, bench: int, place: arb) -> RoutePose:
-        """The benches from one on when its front handle is there [m]."""
+        """A bench and those behind it when its front handle is at a place [m]."""
         return RoutePose(self, bench, place)
 
     def pose(self, bench: int, place: float) -> RoutePose:
-        """The benches from one on when its front handle is there [m]; neighbouring stretches share one."""
+        """The pose of pose_at(), remembered: neighbouring stretches share one."""
         if (bench, place) not in self._poses:
             if len(self._poses) >= POSES_KEPT:
                 self._poses.clear()
@@ -295,7 +295,7 @@ class RouteChain(Follower):
 
 
 class RoutePose(Benches):
-    """The benches from one on when its front handle is at a place z [m], in the world frame.
+    """A bench and those behind it when its front handle is at a place z [m], in the world frame.
 
     handles: piece and parameter of each; points [m], places [m]; grown one by one
     """
@@ -323,7 +323,7 @@ class RoutePose(Benches):
             self.along.append((self.points[k] - self.points[k + 1]) / self.sizes[k].chord)
 
     def far_from(self, count: int) -> bool:
-        """Whether all benches behind this number are apart from the first one: pair by pair, which is quick (10.)."""
+        """Never known for all benches at once: they are compared pair by pair, which is quick (10.)."""
         return False
 
     def angles(self, k: int) -> tuple[arb, arb]:

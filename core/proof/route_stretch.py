@@ -14,7 +14,7 @@ TO_LEFT = acb(0, 1)
 
 
 class RouteStretch:
-    """The benches from one on while its front handle goes from the place high to low [m]: at both ends, and between.
+    """A bench and those behind it while its front handle goes from the place high to low [m]: at both ends and between.
 
     speeds: of the handles, relative to the front handle; placed: of the benches, grown one by one: velocity of the
     centre in the bench's own frame, and turning rate [rad/m]; all enclosed over the stretch (8.)

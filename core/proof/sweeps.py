@@ -1,4 +1,4 @@
-"""Sweeps: all places that one bench passes, in stretches over which every later bench is apart from it."""
+"""Sweeps: all places that one bench passes, cut into stretches over which no later bench touches it."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ class Overlap(Exception):
 
 
 def stretch_of(chain: AnyChain, bench: int, low: float, high: float, last: int) -> AnyStretch:
-    """The benches from one on over all the places of its front handle from low to high [rad], [m]."""
+    """A bench and those behind it over all places of its front handle from low to high [rad], [m]."""
     if isinstance(chain, RouteChain):
         return RouteStretch(chain, bench, low, high, last)
     return Stretch(chain, bench, low, high, last)

@@ -25,7 +25,7 @@ def dragon_words(dragon: Dragon) -> str:
     sizes = "; ".join(
         f"{n} of {said(length)} m by {said(width)} m, overhang {said(over)} m" for n, length, width, over in rows
     )
-    return f"A dragon of {dragon.benches} benches ({sizes})"
+    return f"A dragon of {dragon.benches} bench{'es' if dragon.benches > 1 else ''} ({sizes})"
 
 
 def apart_words(margin: float) -> str:

@@ -41,9 +41,12 @@ from core import (
     pitch_scan,
     sharpest_bend,
     shortest_turn,
+    tolerance,
+    tolerance_curve,
     trajectory,
     venue_clearance,
 )
+from core.budget import within
 from core.errors import spoken
 from tests.core.every_digit import every_digit
 
@@ -76,6 +79,9 @@ QUESTIONS: dict[str, Question] = {
     "sharpest_bend": lambda budget: sharpest_bend(TURN, budget=budget),
     "check": lambda budget: check(SPIRAL, venue=SQUARE, budget=budget),
     "venue_clearance": lambda budget: venue_clearance(SPIRAL, SQUARE, stop=50.0, budget=budget),
+    "tolerance": lambda budget: tolerance(SPIRAL, SQUARE, stop=50.0, budget=budget),
+    "tolerance_curve": lambda budget: tolerance_curve(Dragon(30), PITCHES, budget=budget),
+    "first_contact with a stray": lambda budget: first_contact(SPIRAL, stray=0.02, budget=budget),
     "overlaps": lambda budget: overlaps(POSES, *SIZES, budget=budget),
     "cross_check": lambda budget: cross_check(POSES, *SIZES, budget=budget),
     "contact_check": lambda budget: contact_check(CONTACT, Dance(Dragon(), Spiral()), budget=budget),
@@ -114,6 +120,21 @@ def test_a_budget_that_is_large_enough_changes_no_digit_and_is_spent(name: str) 
     assert 0.0 < 1e12 - budget.left < 1e9
 
 
+def test_a_budget_without_work_of_its_own_takes_the_default_of_the_question_and_stops_it() -> None:
+    budget = Budget()
+    assert within(budget, 5.0).left == 5.0
+    spent = within(budget, 1.0)
+    spent.spend(1.0)
+    assert within(budget, 3.0).left == 3.0  # each question its own
+    part = within(budget, 3.0)
+    budget.stop("before dinner")
+    assert (part.stopped, part.then, within(budget, 1.0).stopped) == (True, "before dinner", True)
+    assert within(Budget(7.0), 3.0).left == 7.0
+    assert within(None, 3.0).left == 3.0
+    with pytest.raises(TooMuchWork, match="before dinner"):
+        minimum_pitch(Dragon(20), budget=budget)
+
+
 def test_every_public_question_about_a_dance_or_a_dragon_takes_a_budget() -> None:
     asked = {name.split()[0] for name in QUESTIONS}
     taking = {
@@ -144,7 +165,9 @@ def stopped_after(seconds: float, question: Callable[[Budget], Any]) -> tuple[To
 
 
 TINY = Dragon(6308, head_length=0.001, body_length=0.001, overhang=0.0)
-WIDE_TURN = Dance(Dragon(2000), Turn(10.0, 100.0, start_turns=200))
+# Its last bench is longer than the others, so that the whole way out is followed.
+LONG = Dragon.of([2.2] * 1999 + [2.3], [0.3] * 2000, [0.275] * 2000)
+WIDE_TURN = Dance(LONG, Turn(10.0, 100.0, start_turns=200))
 LONG = Dance(Dragon(20_000), Route([Line((0.0, 0.0), (1e5, 0.0))], start=0.0))
 # Questions that take long, and when they are stopped [s].
 LONG_QUESTIONS: dict[str, tuple[float, Question]] = {

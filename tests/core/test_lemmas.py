@@ -7,16 +7,14 @@ import math
 import numpy as np
 import pytest
 
-from core import Dance, Dragon, EndReason, Outcome, Route, Spiral, Turn, first_contact
-from core.contact.search import BRACKET, NO_BOUND, Search
-from core.motion.trajectory import trajectory
+from core import Dance, Dragon, Outcome, Turn, first_contact
+from core.contact.search import BRACKET, Search
+from core.kernels import FREE
 from tests.core.contact.test_first_contact import ACCURACY
 
 # Points of a random curve; its angles and chords are sums of that many terms, good to this [rad], relative [1].
 POINTS = 20_001
 SUMMED = 2e-4
-# Two poses of one bench at one place of a path, found by two ways of the head [m].
-SAME = 1e-9
 # Rounding of a distance beside its lower bound, relative [1].
 ROUNDING = 1e-12
 
@@ -83,57 +81,6 @@ def test_points_of_two_rings_are_apart_as_said_wherever_they_stand_to_each_other
     assert (distance >= least * (1.0 - ROUNDING)).all()
 
 
-@pytest.mark.parametrize("path", [Spiral(0.8, 8.0), Turn(1.7)], ids=["spiral", "turn"])
-@pytest.mark.parametrize("first", [0, 1, 3])
-def test_a_pair_of_equal_benches_repeats_in_place_what_the_first_of_them_met(path: Spiral | Route, first: int) -> None:
-    """The family lemma: core/kernels/marching.py."""
-    lengths = np.full(40, 2.2)
-    lengths[:first] = np.linspace(3.0, 2.5, first)
-    dragon = Dragon.of(lengths, np.full(40, 0.3), np.full(40, 0.275))
-    assert dragon.uniform_from == first
-    rng = np.random.default_rng(first)
-    search = Search(dragon, path, 0.0)
-
-    def place(handle: int, time: float) -> float:
-        search.place_leaders(time, 40)
-        return float(search.rows[0, handle, 4])
-
-    for time in rng.uniform(20.0, 100.0, 8):
-        i = int(rng.integers(first + 1, 30))
-        here, low, high = place(i, time), time - 2.0 * float(dragon.chords[:i].sum()), time
-        while high - low > SAME * 1e-3:
-            middle = 0.5 * (low + high)
-            low, high = (middle, high) if place(first, middle) > here else (low, middle)
-        now, then = trajectory(Dance(dragon, path), [high, time]).position[::-1]
-        np.testing.assert_allclose(then[first : first + 41 - i], now[i:], rtol=0, atol=SAME)
-
-
-@pytest.mark.parametrize("seed", range(12))
-def test_a_body_that_slides_back_behind_its_start_has_the_contacts_of_the_general_way(seed: int) -> None:
-    """A head chord far longer than the body's: near its fold the body goes back by many links. The last bench is longer
-    by a nanometre in the second dragon, so that all pairs are followed there."""
-    rng = np.random.default_rng(seed)
-    while True:
-        chord, head = 10 ** rng.uniform(-1.0, -0.3), 10 ** rng.uniform(0.6, 1.0)
-        dragon = Dragon(int(rng.integers(6, 30)), head, chord, 0.3 * chord, 0.0)
-        spiral = Spiral(10 ** rng.uniform(0.5, 1.0), rng.uniform(2.0, 4.0))
-        end = Dance(dragon, spiral).end
-        if end.reason is not EndReason.FOLD:
-            continue
-        start = end.time - 10 ** rng.uniform(-0.5, 0.5)
-        times = end.time - (end.time - start) * np.linspace(1.0, 0.0, 200) ** 2
-        radii = np.linalg.norm(trajectory(Dance(dragon, spiral), times).position, axis=-1)[:, 3]
-        if start > 0.0 and radii[-1] > radii[0] > radii.min() + chord:
-            break
-    lengths = np.array(dragon.lengths)
-    lengths[-1] += 1e-9
-    general = Dragon.of(lengths, dragon.widths, dragon.overhangs)
-    family, every = (first_contact(Dance(each, spiral), start=start) for each in (dragon, general))
-    assert family.outcome is every.outcome
-    if family.outcome is Outcome.CONTACT:
-        assert family.time == pytest.approx(every.time, rel=0, abs=ACCURACY)
-
-
 # -- what is dismissed on coils: core/kernels/rings.py, core/contact/coils.py --
 
 
@@ -151,8 +98,8 @@ def test_on_a_turn_the_search_finds_what_it_finds_when_all_benches_are_followed(
     margin, start = rng.choice([0.0, 0.1]), rng.choice([-60.0, 0.0, rng.uniform(0.0, 120.0)])
     found = Search(dragon, path, margin).approach(start, path.end, 1.0)
     every = Search(dragon, path, margin)
-    assert every.rings.clear_place < NO_BOUND
-    every.rings.clear_place, every.rings.end_place = NO_BOUND, -NO_BOUND
+    assert every.rings.clear_place < FREE
+    every.rings.clear_place, every.rings.end_place = FREE, -FREE
     every.resize(benches)
     slow = every.approach(start, path.end, 1.0)
     assert found[0] == slow[0]

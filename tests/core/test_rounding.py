@@ -28,7 +28,7 @@ from core import (
 from core.contact.search import Search
 from core.design.ways import Ways
 from core.kernels.constants import CLIMB, CLIMB_ERROR, ERROR, RATE, RATE_ERROR
-from core.motion.speed import EXCEEDED, SPEED_ROUNDING, _excess
+from core.motion.speed import SPEED_ROUNDING, first_excess
 from tests.core.exact_chain import BITS, middle, next_delta, separation, spiral_place
 from tests.core.rounding_sweep import Errors, compare, sweep
 
@@ -246,18 +246,18 @@ def test_rates_and_slopes_near_the_centre_are_good_to_what_is_said_of_them(seed:
 def test_a_speed_that_is_said_to_exceed_a_limit_does(seed: int) -> None:
     """Limits around the speed at an instant, down to its rounding: what is said to exceed them does to 50 digits."""
     dragon, spiral = Dragon(5, 3.0, np.random.default_rng(seed).uniform(2.0, 2.6)), Spiral(1.2, 3.0)
-    search, end = Search(dragon, spiral, 0.0), Dance(dragon, spiral).end
+    end = Dance(dragon, spiral).end
     for left in (1e-1, 1e-3, 1e-5):
-        time, outcomes = end.time - left, set()
+        time, said = end.time - left, set()
         speed = float(trajectory(Dance(dragon, spiral), time).speed.max())
         for above in (-1e-3, -1e-9, *(units * kernels.ULP for units in range(-6, 7, 2)), 1e-9):
             limit = speed * (1.0 + above) / (1.0 + SPEED_ROUNDING)
-            outcome, excess = _excess(search, time, time, 1.0, limit)
-            outcomes.add(outcome)
-            if outcome == EXCEEDED:
-                rates, _ = exact_climbs(spiral.growth, exact_theta(spiral, excess.found), dragon.chords)
-                assert abs(float(rates[excess.handle])) > limit
-        assert outcomes > {EXCEEDED}
+            found = first_excess(Dance(dragon, spiral), limit, start=math.nextafter(time, 0.0), stop=time)
+            said.add(found is not None and found.handle is not None)
+            if found is not None and found.time is not None:
+                rates, _ = exact_climbs(spiral.growth, exact_theta(spiral, found.time), dragon.chords)
+                assert abs(float(rates[found.handle])) > limit
+        assert said == {True, False}
 
 
 def test_a_pitch_at_which_rounding_hides_whether_benches_graze_is_not_called_infeasible() -> None:

@@ -56,7 +56,10 @@ def results() -> Iterator[Any]:
     yield from (report, *report.failures, report.venue)
     square = core.venue_clearance(DANCE, SQUARE, stop=5.0)
     yield from (square, *square.areas, square.areas[0].nearest)
-    yield core.Stray("well", 3, (1.0, 2.0))
+    strays = core.tolerance(DANCE, stop=10.0)
+    yield from (strays, strays.exhibit, strays.certificate)
+    yield core.tolerance_curve(Dragon(30), [0.6], start_turns=9.0)
+    yield core.Misplaced("well", 3, (1.0, 2.0))
     overlaps = core.overlaps(*THREE)
     checked = core.cross_check(*THREE)
     yield from (overlaps, overlaps.contact, checked)
@@ -68,6 +71,7 @@ INPUTS = [
     Dragon(benches=1, overhang=0.0),
     Dragon.of([3.0, 2.0, 4.0], [0.3, 0.2, 0.3], [0.2, 0.1, 0.2]),
     Spiral(pitch=0.8),
+    core.Stray(0.02, 0.055, 0.05),
     Line((0.0, 1.0), (2.0, 3.0)),
     Arc((0.0, 0.0), 4.5, 0.25, -1.5),
     Coil(0.55, 3.0, 2.0),

@@ -252,7 +252,7 @@ def test_a_spiral_keeps_its_place_in_the_world() -> None:
     known = shapely_distances(Dragon(), Spiral(), VENUE_ROUND.square, np.linspace(0.0, 400.0, 1_500))
     found = venue_clearance(Dance(Dragon(), Spiral()), VENUE_ROUND, stop=400.0)
     nearest = found.areas[0].nearest
-    assert found.stray is None
+    assert found.misplaced is None
     assert nearest.distance <= known.min() + SAME_DISTANCE
     assert nearest.distance == pytest.approx(known.min(), abs=1e-3)  # the samples are 0.27 s apart
 
@@ -273,15 +273,15 @@ def test_a_spiral_too_tight_for_the_head_by_the_stop_is_refused() -> None:
 # -- the start -----------------------------------------------------------------------------------------------
 
 
-def test_a_dragon_inside_the_square_has_no_stray() -> None:
-    assert venue_clearance(Dance(DRAGON, LAP), VENUE).stray is None
+def test_a_dragon_inside_the_square_is_not_misplaced() -> None:
+    assert venue_clearance(Dance(DRAGON, LAP), VENUE).misplaced is None
 
 
 def test_a_dragon_wholly_outside_is_told_though_it_touches_nothing() -> None:
     far = Venue(boxed("square", 100, 100, 120, 120))
     found = venue_clearance(Dance(DRAGON, LAP), far)
-    assert found.stray is not None
-    assert (found.stray.name, found.stray.bench) == ("square", 0)
+    assert found.misplaced is not None
+    assert (found.misplaced.name, found.misplaced.bench) == ("square", 0)
     assert found.areas[0].outcome is Outcome.CLEAR
 
 
@@ -289,9 +289,9 @@ def test_the_first_bench_outside_is_named_with_its_place() -> None:
     small = Venue(boxed("square", -8, -5, 20, 20))
     found = venue_clearance(Dance(DRAGON, LAP), small)
     centres = bench_poses(trajectory(Dance(DRAGON, LAP), [0.0]).position[0])[:, 0]
-    assert found.stray is not None
-    assert found.stray.bench == int(np.argmax(centres < -8.0))
-    assert found.stray.point == pytest.approx((centres[found.stray.bench], 0.0), abs=SAME_DISTANCE)
+    assert found.misplaced is not None
+    assert found.misplaced.bench == int(np.argmax(centres < -8.0))
+    assert found.misplaced.point == pytest.approx((centres[found.misplaced.bench], 0.0), abs=SAME_DISTANCE)
 
 
 @pytest.mark.parametrize("hole", [True, False], ids=["hole", "obstacle"])
@@ -299,8 +299,8 @@ def test_a_bench_inside_a_hole_or_an_obstacle_is_told(hole: bool) -> None:
     lake = box(-32, -1, 3, 1)
     square = Area("square", (SQUARE, lake) if hole else (SQUARE,))
     found = venue_clearance(Dance(DRAGON, LAP), Venue(square, () if hole else (Area("lake", (lake,)),)))
-    assert found.stray is not None
-    assert (found.stray.name, found.stray.bench) == ("square" if hole else "lake", 0)
+    assert found.misplaced is not None
+    assert (found.misplaced.name, found.misplaced.bench) == ("square" if hole else "lake", 0)
 
 
 def test_head_speed_scales_times_and_nothing_else() -> None:

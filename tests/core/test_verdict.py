@@ -314,8 +314,8 @@ def test_a_proof_that_runs_short_of_work_leaves_a_kept_limit_undecided_and_a_bro
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     span = {"start": -100.0, "stop": 100.0}
-    monkeypatch.setattr(core.motion.speed, "LINKS_BUDGET", 1_000)
-    monkeypatch.setattr(core.motion.speed, "EXCESS_LINKS", 1_000)
+    monkeypatch.setattr(core.motion.speed, "LINKS_BUDGET", 10)
+    monkeypatch.setattr(core.motion.speed, "EXCESS_LINKS", 10)
     peak = highest_speed(Dance(Dragon(), TURN), **span).speed
     kept = check(Dance(Dragon(), TURN), speed_limit=peak * (1.0 + 1e-9), **span)
     assert [failure.kind for failure in kept.failures] == [FailureKind.UNDECIDED]
@@ -345,6 +345,14 @@ def test_with_a_margin_every_sentence_says_nearer_than_it_and_the_gap() -> None:
 def test_with_a_margin_benches_that_overlap_from_the_start_say_how_deep() -> None:
     (contact,) = check(Dance(Dragon(), Spiral(0.3)), margin=0.2).failures
     assert contact.message == "Benches 8 and 28 come nearer than 0.2 m at 0.000000 s, and overlap by 0.114627 m."
+
+
+def test_no_clearance_is_proven_for_benches_that_overlap_from_the_start() -> None:
+    report = check(Dance(Dragon(), Spiral(0.3)))
+    assert report.least_clearance is not None
+    assert report.least_clearance.distance == pytest.approx(-0.114627, abs=1e-6)
+    assert report.least_clearance.at_least is None
+    assert report.stop < 0.01
 
 
 @pytest.mark.parametrize("benches", [1, 2])

@@ -24,7 +24,7 @@ CALLS: dict[Callable[..., Any], dict[str, Any]] = {
     core.clearance_profile: {"dance": DANCE, "times": [0.0]},
     core.contact_check: {"contact": CONTACT, "dance": DANCE, "margin": 0.0},
     core.cross_check: {"poses": POSES, "lengths": COLUMN, "widths": COLUMN, "margin": 0.0},
-    core.first_contact: {"dance": DANCE, "margin": 0.0, "start": 0.0, "stop": 9.0},
+    core.first_contact: {"dance": DANCE, "margin": 0.0, "stray": 0.0, "start": 0.0, "stop": 9.0},
     core.first_excess: {"dance": DANCE, "speed_limit": 2.0, "start": 0.0, "stop": 9.0},
     core.highest_speed: {"dance": DANCE, "start": 0.0, "stop": 9.0},
     core.least_clearance: {"dance": DANCE, "start": 0.0, "stop": 9.0},
@@ -42,6 +42,8 @@ CALLS: dict[Callable[..., Any], dict[str, Any]] = {
     core.separation: {"poses_a": POSES, "sizes_a": [2.0, 1.0], "poses_b": POSES, "sizes_b": [2.0, 1.0]},
     core.sharpest_bend: {"dance": DANCE, "start": 0.0, "stop": 9.0},
     core.shortest_turn: {"dragon": DRAGON, "pitch": 1.7, "turning_radius": 4.5, "ratio": 2.0, "margin": 0.0},
+    core.tolerance: {"dance": DANCE, "start": 0.0, "stop": 9.0},
+    core.tolerance_curve: {"dragon": DRAGON, "pitches": [0.9], "turning_radius": 4.5, "start_turns": 6.0},
     core.trajectory: {"dance": DANCE, "times": [0.0]},
     core.Turn: {"pitch": 1.7, "turning_radius": 4.5, "ratio": 2.0, "start_turns": 16.0, "entry_radius": 4.0},
     core.venue_clearance: {"dance": DANCE, "venue": SQUARE, "margin": 0.0, "stop": 9.0},
@@ -73,6 +75,7 @@ SPOKEN = {
     core.cross_check: {"poses": "benches"},
     core.overlaps: {"poses": "benches"},
     core.pitch_scan: {"start_turns": "path.start_turns"},
+    core.tolerance_curve: {"start_turns": "path.start_turns"},
     core.verdicts: {"before": "benches", "after": "benches"},
 }
 WRONG = {
@@ -123,6 +126,32 @@ def test_a_wrong_type_is_refused_by_name(call: Callable[..., Any], name: str, ki
     expected = SPOKEN.get(call, {}).get(name, name)
     assert refused.value.field.startswith(expected)
     assert expected in refused.value.message
+
+
+SUBJECTS = {"dance": "Dance", "dragon": "Dragon", "contact": "FirstContact", "found": "MinimumPitch"}
+QUESTIONS = [call for call, good in CALLS.items() if next(iter(good)) in SUBJECTS and not isinstance(call, type)]
+
+
+@pytest.mark.parametrize("behind", [(), (0.55,), (SPIRAL, 300.0), (None, None, None, None)], ids=len)
+@pytest.mark.parametrize("call", QUESTIONS, ids=spoken)
+def test_what_a_question_is_asked_of_is_refused_by_name_whatever_stands_behind_it(
+    call: Callable[..., Any], behind: tuple[Any, ...]
+) -> None:
+    name = next(iter(CALLS[call]))
+    for wrong, given in ((None, "None"), (0.55, "0.55"), (SPIRAL, "a Spiral"), (Dragon, "the class Dragon")):
+        with pytest.raises(InvalidValue) as refused:
+            call(wrong, *behind)
+        assert refused.value.message == f"{name} must be a {SUBJECTS[name]}, got {given}"
+        assert refused.value.field == name
+
+
+def test_a_dragon_is_not_taken_for_a_dance_and_a_right_dance_keeps_the_words_of_python() -> None:
+    with pytest.raises(InvalidValue, match=r"^dance must be a Dance, got a Dragon$"):
+        core.first_contact(DRAGON, 0.55)  # type: ignore[arg-type, call-arg]
+    with pytest.raises(TypeError, match="takes 1 positional argument but 2 were given"):
+        core.first_contact(DANCE, 0.55)  # type: ignore[call-arg]
+    with pytest.raises(TypeError, match="missing 1 required positional argument: 'dance'"):
+        core.first_contact()  # type: ignore[call-arg]
 
 
 @pytest.mark.parametrize("path", [0.55, None, Spiral, "spiral", DRAGON])

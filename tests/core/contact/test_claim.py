@@ -18,6 +18,7 @@ from core import (
 )
 
 PROVEN = " Proven in steps,"
+NO_PAIR = "Fewer than three benches have no two that share no handle."
 TOUCHING = (
     "30 benches (head 3.41 m, body 2.2 m, width 0.3 m, overhang 0.275 m) on a spiral of 0.6 m pitch from 8 turns, the "
     "head at 1 m/s: from 0 s to {clear} s no two benches that share no handle touch, and at {within} s benches 0 and "
@@ -57,6 +58,20 @@ def test_the_certificate_names_the_whole_claim_in_a_few_sentences(
     assert claim.endswith(words)
     assert "doubles" in proof
     assert proof.count(".") == 1
+
+
+def test_one_or_two_benches_have_no_pair_and_no_proof_in_steps() -> None:
+    one = first_contact(Dance(Dragon(1), Spiral(0.9, 4.0))).certificate.method
+    two = first_contact(Dance(Dragon(2), Spiral(0.9, 4.0)), margin=0.1).certificate.method
+    three = first_contact(Dance(Dragon(3), Spiral(0.9, 4.0))).certificate.method
+    assert one.startswith(
+        "1 bench (head 3.41 m, width 0.3 m, overhang 0.275 m) on a spiral of 0.9 m pitch from 4 turns,"
+    )
+    assert two.startswith("2 benches (head 3.41 m, body 2.2 m, width 0.3 m, overhang 0.275 m) on a spiral")
+    for method in (one, two):
+        assert method.endswith("where a bench folds and the run ends. " + NO_PAIR)
+        assert PROVEN not in method
+    assert PROVEN in three
 
 
 def test_a_claim_says_what_is_seen_at_the_start_and_what_is_not_decided() -> None:

@@ -52,6 +52,19 @@ def test_the_least_clearance_is_below_dense_samples_and_proven(
     assert tuple(there.benches[0]) == least.benches
 
 
+@pytest.mark.parametrize(("pitch", "depth"), [(0.3, 0.1), (0.5, 0.0)])
+def test_nothing_is_said_to_be_at_least_zero_where_benches_overlap_at_the_start(pitch: float, depth: float) -> None:
+    dance = Dance(Dragon(), Spiral(pitch))
+    least, there = least_clearance(dance), clearance_profile(dance, [0.0])
+    assert least is not None
+    if depth:
+        assert least.distance == there.clearance[0] < -depth
+        assert (least.at_least, least.time, least.benches) == (None, 0.0, tuple(there.benches[0]))
+    else:
+        assert (least.distance, least.at_least) == (0.0, 0.0)
+        assert least.time == pytest.approx(first_contact(dance).time, abs=1e-9)
+
+
 # Beyond the width of the proof: its own rounding [m].
 PROOF_ROUNDING = 1e-9
 

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from core import Dance, clearance_profile
+from core import Arc, Dance, Line, Route, clearance_profile
 from core.contact.cross_check import (
     CHECK_TRAVEL,
     CLOSE_MAX,
@@ -24,7 +24,6 @@ from core.contact.first_contact import FirstContact, Outcome, first_contact
 from core.design.minimum_pitch import LimitedBy, minimum_pitch
 from core.dragon import Dragon
 from core.motion.trajectory import bench_poses, trajectory
-from core.paths.route import Arc, Line, Route
 from core.paths.spiral import Spiral
 from core.shapes.engines import Engine
 from core.shapes.overlaps import Verdict

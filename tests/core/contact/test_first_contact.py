@@ -18,13 +18,11 @@ from core import (
     InvalidValue,
     Outcome,
     Spiral,
-    Turn,
     clearance_profile,
     first_contact,
     minimum_pitch,
 )
-from core.contact.fold import least_left, least_to_fold
-from core.contact.search import BRACKET, MARGIN_MAX, Search
+from core.contact.search import BRACKET, MARGIN_MAX
 from core.design.pitch_bands import BORDER_WIDTH
 from tests.core.slow_search import SlowDance
 
@@ -188,52 +186,11 @@ def test_a_wide_spiral_is_clear_to_its_centre() -> None:
     assert found.end.reason is EndReason.CENTRE
 
 
-# Dances apart to their fold, whose last 1e-9 s were left open: the motion left was that of the longest overhang on the
-# shortest chord, whichever benches they belong to.
-TO_THE_FOLD = {
-    "long overhang in the body": (
-        Dragon.of([0.37, 8.61, 0.19, 0.09, 8.71, 0.86, 13.09], [0.1, 0.04, 0.06, 0.09, 0.08, 0.06, 0.3],
-                  [0.0, 0.09, 0.0, 0.02, 0.0, 0.0, 2.65]),
-        Spiral(5.8, 0.9),
-    ),
-    "long overhang on the head": (
-        Dragon.of([13.41, 2.11, 2.04, 0.82, 0.07, 0.19, 7.61, 0.24], [0.2, 0.2, 0.02, 0.02, 0.07, 0.05, 0.01, 0.13],
-                  [3.14, 0.0, 0.04, 0.0, 0.0, 0.04, 0.0, 0.09]),
-        Spiral(6.18, 1.58),
-    ),
-    "three benches": (Dragon.of([8.33, 2.04, 3.45], [0.03, 0.16, 0.17], [0.03, 1.0, 0.0]), Spiral(8.87, 2.95)),
-    "30 micrometres apart": (
-        Dragon.of([0.042, 0.044, 6.737], [0.083, 0.145, 0.019], [0.0, 0.0, 0.0]), Spiral(4.391, 1.607)
-    ),
-}  # fmt: skip
-
-
-@pytest.mark.parametrize(("dragon", "spiral"), TO_THE_FOLD.values(), ids=TO_THE_FOLD)
-def test_the_last_instants_before_a_fold_are_decided(dragon: Dragon, spiral: Spiral) -> None:
-    found = first_contact(Dance(dragon, spiral))
-    assert (found.outcome, found.end) == (Outcome.CLEAR, Dance(dragon, spiral).end)
-    left = found.end.time * 1e-9 * np.linspace(1.0, 0.0, 40) ** 2
-    assert SlowDance.of(dragon, spiral).clearance(found.end.time - left[:-1])[0].min() > 0.0
-
-
-# So much of the travel may be left where the bound is tried [1].
-LEFT = (1e-3, 1e-5, 1e-7)
-
-
-@pytest.mark.parametrize("seed", sorted({*range(500, 520)} - {506, 510}))  # those two reach the centre
-def test_no_instant_before_a_fold_has_benches_nearer_than_the_bound_on_the_motion_left(seed: int) -> None:
-    dragon, spiral = random_dance(seed, True)
-    end = Dance(dragon, spiral).end
-    assert end.reason is EndReason.FOLD
-    search = Search(dragon, spiral, 0.0)
-    for left in LEFT:
-        travel = (1.0 - left) * end.time
-        least = least_to_fold(search, travel, end)
-        assert least is not None
-        gaps, _ = SlowDance.of(dragon, spiral).clearance(end.time - left * end.time * np.linspace(1.0, 1e-3, 60) ** 2)
-        assert least <= gaps.min() + TIED
-        one = least_left(search, travel - search.travel_rounding(travel), end.theta)
-        assert one <= least
+@pytest.mark.parametrize("pitch", [0.8, 1.2, 1.5])
+def test_a_clear_dance_takes_hardly_more_steps_than_a_colliding_one(pitch: float) -> None:
+    colliding, clear = (first_contact(Dance(Dragon(), Spiral(each))) for each in (0.55, pitch))
+    assert (colliding.outcome, clear.outcome) == (Outcome.CONTACT, Outcome.CLEAR)
+    assert clear.certificate.steps < 1.6 * colliding.certificate.steps
 
 
 # -- grazes: pitches at which a dip of the clearance just reaches the margin, so that the time of contact jumps --
@@ -315,13 +272,6 @@ def test_a_margin_between_a_graze_and_zero_is_met_at_the_graze() -> None:
         found = first_contact(Dance(Dragon(), Spiral(0.4504)), margin=graze.clearance * factor)
         assert found.outcome is Outcome.CONTACT
         assert (abs(found.time - graze.time) < AROUND) is near
-
-
-def test_a_search_whose_work_is_done_gives_up() -> None:
-    search = Search(Dragon(), Turn(1.7), 0.0, work=2e4)
-    state, found, _ = search.approach(-50.0, 100.0, 1.0)
-    assert state == "stuck"
-    assert -50.0 < found.proven < 100.0
 
 
 # -- margin ------------------------------------------------------------------------------------------

@@ -12,7 +12,6 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.optimize import brentq
 
-import core.design.ways
 from core import (
     Dance,
     Dragon,
@@ -376,23 +375,6 @@ def test_work_that_ends_before_the_minimum_pitch_is_found_is_an_error() -> None:
     assert "4e+07 steps of work" in caught.value.message
     assert "the shortest of 223 chords is 0.001 m long" in caught.value.message
     assert "must be larger, or benches fewer, got 0.001 m: " in caught.value.message
-
-
-@pytest.mark.parametrize(
-    ("dragon", "field"),
-    [
-        (Dragon(head_length=1.0), "dragon.head_length"),
-        (Dragon.of([2.2, 2.1, 2.0] * 20, [0.3] * 60, [0.2] * 60), "dragon.lengths.2"),
-    ],
-    ids=["a short head", "bench by bench"],
-)
-def test_the_shortest_bench_is_named_where_the_work_ends(
-    dragon: Dragon, field: str, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr(core.design.ways, "PITCH_WORK", 1e2)
-    with pytest.raises(TooMuchWork) as caught:
-        minimum_pitch(dragon)
-    assert caught.value.field == field
 
 
 @pytest.mark.parametrize("seed", [27, 62])

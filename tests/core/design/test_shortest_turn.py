@@ -55,9 +55,8 @@ def slow_clearance(dragon: Dragon, found: ShortestTurn, entry: float, start: flo
     danced = Turn(found.turn.pitch, found.turn.turning_radius, found.turn.ratio, entry_radius=entry)
     sizes = np.stack([dragon.lengths, dragon.widths], axis=-1)
     least = NEAR
-    for time in np.arange(start, stop, step):
-        handles = trajectory(Dance(dragon, danced), [time]).position[0]
-        benches = shapely.polygons(corners(bench_poses(handles), sizes))
+    poses = bench_poses(trajectory(Dance(dragon, danced), np.arange(start, stop, step)).position)
+    for benches in shapely.polygons(corners(poses, np.broadcast_to(sizes, (*poses.shape[:2], 2)))):
         a, b = shapely.STRtree(benches).query(benches, predicate="dwithin", distance=least)
         apart = b > a + 1
         least = min(least, shapely.distance(benches[a[apart]], benches[b[apart]]).min(initial=least))

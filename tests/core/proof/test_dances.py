@@ -11,13 +11,12 @@ from typing import Any
 import numpy as np
 import pytest
 import shapely
-from flint import acb, arb
+from flint import arb
 
 from core import Arc, Coil, Dance, Dragon, Line, Route, Spiral, Turn, Waypoints, bench_poses, first_contact, trajectory
 from core.contact.clearance import least_clearance
 from core.errors import InvalidValue, OutsideRun, ProofRefused
 from core.proof import Certificate, check, prove_clear, prove_collision_time, prove_contact, prove_minimum_pitch
-from core.proof.pairs import Benches, Size
 from core.proof.paths import chain_on, recorded_path
 from core.shapes.rectangles import corners
 from tests.core.forgeries import edit, places, refusal, stretches, through_json
@@ -239,24 +238,6 @@ def test_every_pair_in_its_own_right_proves_the_same_on_the_turn() -> None:
     )
     assert (len(once["sweeps"]), len(each["sweeps"])) == (2, 12)
     assert check(once).statement == check(each).statement
-
-
-@pytest.mark.parametrize("seed", range(6))
-def test_benches_are_within_a_margin_exactly_when_shapely_says_so(seed: int) -> None:
-    random = np.random.default_rng(seed)
-    for _ in range(60):
-        sizes = [Size(*random.uniform([0.5, 0.1, 0.0], [3.0, 0.6, 0.2])) for _ in range(2)]
-        benches, shapes = Benches(sizes), []
-        for size in sizes:
-            angle, place = random.uniform(0.0, 7.0), complex(*random.uniform(-1.6, 1.6, 2))
-            benches.centres.append(acb(place.real, place.imag))
-            benches.along.append((acb(0, 1) * arb(angle)).exp())
-            shapes.append([complex(benches.centres[-1] + benches.along[-1] * corner) for corner in size.corners])
-        polygons = [shapely.Polygon([(z.real, z.imag) for z in shape]) for shape in shapes]
-        distance = polygons[0].distance(polygons[1])
-        assert benches.nearest(1)[0] == pytest.approx(distance, abs=DOUBLES) or distance == 0.0
-        assert benches.within(1, arb(distance + MARGIN_OFF))
-        assert distance < MARGIN_OFF or not benches.within(1, arb(distance - MARGIN_OFF))
 
 
 def test_at_every_instant_each_letter_of_the_turn_s_certificate_keeps_its_pair_apart(turning: Certificate) -> None:

@@ -1,0 +1,69 @@
+"""Ways to the circle: what is said of a pitch against dense samples of its way."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import core.design.ways
+from core import Dragon, Spiral, TooMuchWork, minimum_pitch
+from core.contact.search import TOUCHES, Ended
+from core.design.ways import CONTACT_WIDTH, Ways
+from tests.core.design.test_minimum_pitch import FOLDING
+from tests.core.slow_pitch import SlowWay
+from tests.core.slow_search import SlowDance
+
+RADIUS, TURNS = 3.0, 9.0
+# The head of FOLDING folds on a circle of 0.85 m at this pitch, by 40 digits [m].
+FOLDS_AT = 0.525552677857343
+# A pair at a computed place of the head is within this of its gap there [m].
+GAP = 1e-9
+
+
+@pytest.mark.parametrize("margin", [0.0, 0.07])
+def test_a_way_is_clear_exactly_if_its_dense_samples_are(margin: float) -> None:
+    dragon = Dragon(14)
+    ways, said = Ways(dragon, RADIUS, TURNS, margin), []
+    for pitch in np.linspace(0.4, 0.7, 6).tolist():
+        said.append(ways.is_clear(pitch))
+        assert said[-1] == (SlowWay.of(dragon, pitch, TURNS, RADIUS).least() > margin), pitch
+    assert set(said) == {True, False}
+
+
+def test_where_a_way_ends_the_pair_touches_and_with_a_wider_pitch_it_does_not() -> None:
+    ways, pitch = Ways(Dragon(14), RADIUS, TURNS, 0.0), 0.44
+    state, found = ways.march(pitch, CONTACT_WIDTH)
+    assert state is Ended.TOUCHED
+    assert found.touching is not None
+    dance = SlowDance.of(Dragon(14), Spiral(pitch, TURNS))
+    assert dance.pair_gap(found.touching, found.benches) == pytest.approx(0.0, abs=GAP)
+    radius = dance.head(found.touching) * dance.growth
+    assert ways.still_touches(pitch, radius - 1e-6, *found.benches)
+    assert not ways.still_touches(1.1 * pitch, radius, *found.benches)
+    later = Ways(Dragon(14), RADIUS, 0.999 * radius / pitch, 0.0)
+    assert not later.still_touches(pitch, radius - 1e-6, *found.benches)  # its way begins further in
+    assert ways.march(pitch)[0] in TOUCHES
+
+
+@pytest.mark.parametrize(("more", "ended"), [(-1e-6, Ended.FOLDED), (1e-6, Ended.REACHED)])
+def test_a_way_folds_below_the_pitch_at_which_the_head_folds_on_the_circle(more: float, ended: Ended) -> None:
+    ways = Ways(FOLDING, 0.85, 5.0, 0.0)
+    assert ways.march(FOLDS_AT + more)[0] is ended
+    assert ways.is_clear(FOLDS_AT + more) is (more > 0.0)
+
+
+@pytest.mark.parametrize(
+    ("dragon", "field"),
+    [
+        (Dragon(head_length=1.0), "dragon.head_length"),
+        (Dragon.of([2.2, 2.1, 2.0] * 20, [0.3] * 60, [0.2] * 60), "dragon.lengths.2"),
+    ],
+    ids=["a short head", "bench by bench"],
+)
+def test_the_shortest_bench_is_named_where_the_work_ends(
+    dragon: Dragon, field: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(core.design.ways, "PITCH_WORK", 1e2)
+    with pytest.raises(TooMuchWork) as caught:
+        minimum_pitch(dragon)
+    assert caught.value.field == field

@@ -1,0 +1,65 @@
+"""Path: a spiral, a turn and a route answer every question about a path alike."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from core import Arc, Coil, Line, Route, Spiral, Turn, Waypoints
+from core.paths.path import Path
+
+PATHS: dict[str, Path] = {
+    "spiral": Spiral(0.55, 16.0),
+    "turn": Turn(1.7),
+    "line and arc": Route([Line((0.0, 0.0), (30.0, 0.0)), Arc((30.0, 3.0), 3.0, -math.pi / 2, 2.0)], 12.0),
+    "coil": Route([Coil(0.9, 3.0, 9.0)]),
+    "waypoints": Route([Waypoints(((0.0, 0.0), (6.0, 1.0), (11.0, 6.0), (9.0, 13.0)))]),
+}
+# Half of the distance of the points of a difference quotient [m], and what it is off by, far from joints [1], [1/m].
+STEP = 1e-5
+QUOTIENT_ERROR = 1e-6
+# Handles lie on the path to this [m].
+ON_PATH = 1e-9
+
+
+def places(path: Path) -> np.ndarray:
+    """Arc lengths of the head at random, none so near to a joint of the pieces above that a quotient spans it [m]."""
+    return np.random.default_rng(3).uniform(max(path.begin, -30.0) + 0.1, min(path.end, 60.0) - 0.1, 200)
+
+
+@pytest.mark.parametrize("path", PATHS.values(), ids=PATHS)
+def test_the_tangent_is_the_change_of_the_position_with_arc_length(path: Path) -> None:
+    s = places(path)
+    tangent = path.tangent(s)
+    quotient = (path.position(s + STEP) - path.position(s - STEP)) / (2.0 * STEP)
+    np.testing.assert_allclose(np.linalg.norm(tangent, axis=-1), 1.0, rtol=0, atol=1e-14)
+    np.testing.assert_allclose(quotient, tangent, rtol=0, atol=QUOTIENT_ERROR)
+
+
+@pytest.mark.parametrize("path", PATHS.values(), ids=PATHS)
+def test_the_curvature_is_the_change_of_the_tangent_to_the_left(path: Path) -> None:
+    s = places(path)
+    tangent = path.tangent(s)
+    left = np.stack([-tangent[..., 1], tangent[..., 0]], axis=-1)
+    change = (path.tangent(s + STEP) - path.tangent(s - STEP)) / (2.0 * STEP)
+    np.testing.assert_allclose((change * left).sum(axis=-1), path.curvature(s), rtol=0, atol=QUOTIENT_ERROR)
+
+
+@pytest.mark.parametrize("path", PATHS.values(), ids=PATHS)
+def test_one_place_has_the_answer_that_it_has_among_many(path: Path) -> None:
+    s = places(path)[:20].reshape(4, 5)
+    for ask in (path.position, path.tangent, path.curvature):
+        many = ask(s)
+        assert many.shape[:2] == (4, 5)
+        assert many[2, 3].tolist() == np.asarray(ask(float(s[2, 3]))).tolist()
+
+
+@pytest.mark.parametrize("path", PATHS.values(), ids=PATHS)
+def test_the_head_stands_at_its_place_and_angles_belong_to_spirals(path: Path) -> None:
+    for s in places(path)[:20].tolist():
+        head = path.head(s)
+        np.testing.assert_allclose((head.x, head.y), path.position(s), rtol=0, atol=ON_PATH)
+        assert head.radius == pytest.approx(math.hypot(head.x, head.y), rel=0, abs=ON_PATH)
+        assert (head.theta is None) is not isinstance(path, Spiral)

@@ -1,0 +1,109 @@
+"""Claims: those that do not hold are refused, and a pair that is near is found where shapely finds it."""
+
+from __future__ import annotations
+
+import math
+from contextlib import nullcontext
+from typing import Any
+
+import numpy as np
+import pytest
+import shapely
+from flint import arb, ctx
+
+from core import Dance, Dragon, Spiral, bench_poses, trajectory
+from core.errors import InvalidValue, ProofRefused
+from core.proof import check, prove_collision_time, prove_minimum_pitch
+from core.proof.chain import Chain
+from core.proof.claims import check_near, head_theta, near_pair
+from core.proof.pairs import Unproven
+from core.shapes.rectangles import corners
+from tests.core.forgeries import edit, through_json
+from tests.core.proof.test_certificate import PITCH_ROUNDING, PITCHES, SMALL, proof_of
+
+# Distances by shapely [m], and places by bisection in doubles [rad], are this near to the true ones.
+SHAPELY, PLACE = 1e-11, 1e-9
+
+
+@pytest.mark.parametrize("later", [-1.0, -2.1e-10, 2.1e-10, 1e-6, 1.0])
+def test_a_bracket_moved_off_the_contact_is_refused(later: float) -> None:
+    with pytest.raises(ProofRefused, match="no two benches overlap" if later < 0 else "benches 0 and 4 overlap"):
+        proof_of(SMALL, later=later)
+
+
+def test_a_contact_that_is_not_the_first_is_refused() -> None:
+    # At pitch 0.55 the benches part again from 415.02 to 415.375 s: a contact there, but not the first.
+    with pytest.raises(ProofRefused, match="benches 0 and 8 overlap"):
+        prove_collision_time(Dance(Dragon(), Spiral()), 415.5)
+
+
+@pytest.mark.parametrize(("more", "reason"), [(-1e-9, "overlap when handle 0"), (1.1e-6, "free of contact too")])
+def test_a_pitch_off_the_smallest_is_refused(more: float, reason: str) -> None:
+    with pytest.raises(ProofRefused, match=reason):
+        prove_minimum_pitch(Dragon(), PITCHES["default R=6.36"]["pitch"] + more, turning_radius=6.36)
+
+
+@pytest.mark.parametrize(
+    ("benches", "reason"), [(1, "no two benches overlap"), (2, "no two benches overlap"), (223, "folds")]
+)
+def test_a_time_after_which_nothing_touches_is_refused(benches: int, reason: str) -> None:
+    with pytest.raises(ProofRefused, match=reason):
+        prove_collision_time(Dance(Dragon(benches), Spiral()), 433.0 if benches == 223 else 100.0)
+
+
+@pytest.mark.parametrize("time", [-1.0, math.nan, math.inf, 1e9, "412"])
+def test_a_time_that_is_no_time_of_the_dance_is_an_invalid_value(time: Any) -> None:
+    with pytest.raises(InvalidValue, match="time must be"):
+        prove_collision_time(Dance(Dragon(), Spiral()), time)
+
+
+@pytest.mark.parametrize(
+    ("overlap", "reason"),
+    [
+        ({"benches": [0, 26], "head_theta": 97.0}, "not shown to overlap on the way"),  # within the circle
+        ({"benches": [0, 26], "head_theta": 100.0}, "not shown to overlap on the way"),
+        ({"start_within_circle": True}, "not shown to lie within the circle"),
+    ],
+)
+def test_a_forged_overlap_on_the_way_to_the_circle_is_refused(overlap: dict[str, Any], reason: str) -> None:
+    pitch = PITCHES["default R=6.36"]["pitch"] + PITCH_ROUNDING
+    certificate = through_json(prove_minimum_pitch(Dragon(27), pitch, turning_radius=6.36))
+    check(certificate)
+    with pytest.raises(ProofRefused, match=reason):
+        check(edit(lambda content: content.__setitem__("overlap", overlap))(certificate))
+
+
+# -- pairs that are near --
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_a_near_pair_is_found_where_shapely_finds_one_and_only_it_is_shown(seed: int) -> None:
+    random = np.random.default_rng(seed)
+    dragon, spiral = Dragon(14, 2.4, 1.8, random.uniform(0.2, 0.5), 0.2), Spiral(0.5, 6.0)
+    margin = float(random.choice([0.0, random.uniform(0.01, 0.1)]))
+    time = float(random.uniform(0.2, 0.85) * spiral.length)
+    poses = bench_poses(trajectory(Dance(dragon, spiral), time).position)
+    shapes = shapely.polygons(corners(poses, np.stack([dragon.lengths, dragon.widths], axis=-1)))
+    pairs = [(a, b) for a in range(14) for b in range(a + 2, 14)]
+    near = [pair for pair in pairs if shapely.distance(*shapes[list(pair)]) < max(margin, SHAPELY)]
+    with ctx.workprec(128):
+        chain = Chain(dragon, arb(spiral.pitch), spiral.start_turns, margin)
+        head = chain.place_after(arb(time))
+        if near:
+            assert tuple(near_pair(chain, head, "then")) in near
+        else:
+            with pytest.raises(ProofRefused, match=r"no two benches .* then"):
+                near_pair(chain, head, "then")
+        for pair in pairs:
+            with nullcontext() if pair in near else pytest.raises(Unproven, match="are not shown to"):
+                check_near(chain, head, *pair, "then")
+
+
+@pytest.mark.parametrize("handle", [0, 1, 5])
+def test_the_head_is_found_from_where_a_handle_stands(handle: int) -> None:
+    with ctx.workprec(128):
+        chain = Chain(Dragon(14), arb(0.55), 16.0)
+        pose = chain.pose_at(0, arb(40.0))
+        pose.grow_to(handle + 1)
+        there = float(pose.places[handle])
+        assert head_theta(chain, handle, there, 20.0, 90.0) == pytest.approx(40.0, abs=PLACE)
