@@ -1,14 +1,11 @@
-"""Parts of a figure: canvas, path, venue, benches, marks, and the bytes of its file.
+"""Parts of a figure besides those of core/plots.py: canvas, venue, and the bytes of its file.
 
 It uses matplotlib's objects and not pyplot: nothing is global except the constant set below, so threads may draw.
-Colours are safe for colour-blind readers (cividis; Okabe and Ito's set) and differ in brightness, hatch or line style
-for print.
 """
 
 from __future__ import annotations
 
 import io
-from typing import Any
 
 import matplotlib
 import numpy as np
@@ -17,26 +14,13 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.collections import PolyCollection
 from matplotlib.figure import Figure
 
-from core import Dragon, FirstContact, Route, Spiral, Venue, bench_poses
-from core.errors import said
-from core.shapes.rectangles import corners
+from core import Venue
+from core.plots import PALE
 from core.values import Floats
 
 matplotlib.rcParams["svg.hashsalt"] = "bench-dragon"
 
-VERMILION, BLUE, GREY, PALE = "#D55E00", "#0072B2", "#7F7F7F", "#DDDDDD"
 PNG_DPI = 120
-# With more benches than this, an SVG holds them as one image instead of as shapes.
-SHAPES_MAX = 3_000
-# Length of the arrow ahead of the head, and distance of its name inwards [m].
-HEAD_ARROW, HEAD_LABEL = 1.2, 1.0
-# Half the side of the enlarged view, in widths of the wider bench.
-ENLARGED_WIDTHS = 1.5
-# Smallest half side of the enlarged view, in margins.
-ENLARGED_MARGINS = 1.5
-# Distance to which a route is drawn on both sides of its start [m], and number of points of that line.
-ROUTE_DRAWN = 2_000.0
-PATH_POINTS = 20_000
 # Width of the part of a venue drawn around the dragon, as a fraction of the dragon's extent [1].
 AROUND = 0.6
 
@@ -56,26 +40,7 @@ def file_bytes(figure: Figure, format: str) -> bytes:
     return sink.getvalue()
 
 
-def _plan(axes: Axes) -> None:
-    axes.set_aspect("equal")
-    axes.set_xlabel("x [m]")
-    axes.set_ylabel("y [m]")
-    axes.tick_params(labelsize=9)
-
-
-def _draw_path(axes: Axes, path: Spiral | Route, handles: Floats) -> None:
-    """Draw the path faintly: a spiral from the centre to the outermost handle or start, a route around its start."""
-    if isinstance(path, Route):
-        s = np.linspace(max(path.begin, -ROUTE_DRAWN), min(path.end, ROUTE_DRAWN), PATH_POINTS)
-        axes.plot(*path.position(s).T, color=PALE, linewidth=0.6, zorder=1)
-        return
-    radius = max(float(np.hypot(*handles.T).max()), path.growth * path.start_theta)
-    theta = np.linspace(0.0, radius / path.growth, 120 * int(radius / path.pitch + 2))
-    line = path.growth * theta * np.stack([np.cos(theta), np.sin(theta)])
-    axes.plot(*line, color=PALE, linewidth=0.6, zorder=1)
-
-
-def _draw_venue(axes: Axes, venue: Venue | None) -> None:
+def draw_venue(axes: Axes, venue: Venue | None) -> None:
     """Draw the square as an outline and the obstacles hatched, each with its name."""
     for area in venue.areas if venue else ():
         obstacle = area is not venue.square if venue else False
@@ -90,7 +55,7 @@ def _draw_venue(axes: Axes, venue: Venue | None) -> None:
             )
         )
         x, y = max(area.rings[0], key=lambda point: point[0] + point[1])
-        axes.text(x, y, f" {area.name}", fontsize=8, zorder=6, ha="left", va="bottom", clip_on=True)
+        axes.text(x, y, f" {area.name}", fontsize=8, zorder=6, ha="left", va="bottom", clip_on=True, parse_math=False)
     axes.autoscale_view()
 
 
@@ -102,87 +67,3 @@ def look_around(figure: Figure, axes: Axes, handles: Floats) -> None:
     axes.set(xlim=(left, right), ylim=(low, high))
     width = figure.get_figwidth()
     figure.set_figheight(float(np.clip(0.75 * width * (high - low) / (right - left) + 1.0, 0.4 * width, 1.2 * width)))
-
-
-def bench_outlines(dragon: Dragon, handles: Floats) -> Floats:
-    """Corners (n, 4, 2) [m] of the benches. handles: (n + 1, 2) [m]"""
-    return corners(bench_poses(handles), np.stack([dragon.lengths, dragon.widths], axis=-1))
-
-
-def draw_dance(
-    axes: Axes, path: Spiral | Route, venue: Venue | None, handles: Floats, outlines: Floats, linewidth: float
-) -> None:
-    """Draw the path, the venue and every bench faintly, in metres."""
-    _plan(axes)
-    _draw_path(axes, path, handles)
-    _draw_venue(axes, venue)
-    _draw_benches(axes, outlines, facecolor="none", edgecolor=GREY, linewidth=linewidth, zorder=2)
-
-
-def _draw_benches(axes: Axes, outlines: Floats, **style: Any) -> None:
-    axes.add_collection(PolyCollection(list(outlines), rasterized=len(outlines) > SHAPES_MAX, **style))
-
-
-def mark_head(axes: Axes, head: Floats, velocity: Floats) -> None:
-    """Mark the head with a ring, an arrow in its direction, and its name on the inner side."""
-    ahead = head + HEAD_ARROW * velocity / np.hypot(*velocity)
-    inwards = head - HEAD_LABEL * head / max(float(np.hypot(*head)), HEAD_LABEL)
-    arrow = {"arrowstyle": "->", "color": VERMILION, "shrinkA": 5, "linewidth": 1.5}
-    axes.plot(*head, marker="o", markersize=9, markerfacecolor="none", markeredgecolor=VERMILION, zorder=4)
-    axes.annotate("", (ahead[0], ahead[1]), xytext=(head[0], head[1]), arrowprops=arrow, zorder=5)
-    axes.text(inwards[0], inwards[1], "head", color=VERMILION, fontsize=10, ha="center", va="center", zorder=5)
-
-
-def mark_pair(axes: Axes, outlines: Floats, found: FirstContact, *, legend: bool = False) -> None:
-    """Fill the two benches that meet: one plain, one hatched."""
-    for k, (bench, colour, hatch) in enumerate(zip(found.benches or (), (VERMILION, BLUE), ("", "////"), strict=False)):
-        label = f"bench {bench}" + (" (head)" if bench == 0 else "")
-        axes.add_patch(
-            matplotlib.patches.Polygon(
-                outlines[bench],
-                facecolor=colour,
-                edgecolor="black",
-                alpha=0.85,
-                hatch=hatch,
-                linewidth=0.6,
-                label=label,
-                zorder=3 + k,
-            )
-        )
-    if legend and found.benches:
-        axes.legend(loc="upper right", fontsize=9, framealpha=0.95)
-
-
-def draw_enlarged(axes: Axes, outlines: Floats, found: FirstContact, width: float, margin: float) -> None:
-    """Draw the neighbourhood of the contact: corner, edge and point; two corners or two parallel edges may meet.
-
-    width: of the wider bench [m]; margin: clearance required [m]; if positive, the two need not touch
-    """
-    assert found.point is not None
-    _plan(axes)
-    _draw_benches(axes, outlines, facecolor="white", edgecolor=GREY, linewidth=0.8, zorder=2)
-    mark_pair(axes, outlines, found)
-    corner, edge = found.corner, found.edge
-    if edge:
-        axes.plot(
-            *_edge(outlines[edge.bench], edge.name).T, color="black", linewidth=2.5, zorder=6,
-            label=f"{edge.name} edge of bench {edge.bench}",
-        )  # fmt: skip
-    nearest = f"{corner.name} corner of bench {corner.bench}" if corner else "nearest point"
-    axes.plot(
-        *found.point, marker="o", linestyle="none", markersize=11, markerfacecolor="white", markeredgecolor="black",
-        markeredgewidth=2, zorder=7, label=nearest,
-    )  # fmt: skip
-    x, y = found.point
-    half = max(ENLARGED_WIDTHS * width, ENLARGED_MARGINS * margin)
-    axes.set(xlim=(x - half, x + half), ylim=(y - half, y + half))
-    axes.legend(loc="upper right", fontsize=9, framealpha=0.95)
-    place = f"({x:.6f} m, {y:.6f} m)"
-    near = f"Nearer than {said(margin)} m: a gap of {found.gap:.6f} m at {place}"
-    axes.set_title(near if margin else f"They meet at {place}", fontsize=11)
-
-
-def _edge(outline: Floats, name: str) -> Floats:
-    """The two ends of a named edge of one bench; outline: (4, 2) front-left, front-right, rear-right, rear-left."""
-    sides = sorted((outline[[0, 3]], outline[[1, 2]]), key=lambda side: float(np.hypot(*side.mean(axis=0))))
-    return {"front": outline[[0, 1]], "rear": outline[[2, 3]], "inner": sides[0], "outer": sides[1]}[name]

@@ -6,44 +6,17 @@ The same numbers give the same bytes, so an answer may carry a strong ETag.
 from __future__ import annotations
 
 import threading
-from collections.abc import Callable
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.collections import LineCollection
 
-from app.files.drawing import (
-    BLUE,
-    GREY,
-    SHAPES_MAX,
-    VERMILION,
-    bench_outlines,
-    canvas,
-    draw_dance,
-    draw_enlarged,
-    file_bytes,
-    look_around,
-    mark_head,
-    mark_pair,
-)
-from core import (
-    Dragon,
-    EndReason,
-    FirstContact,
-    MinimumPitch,
-    Outcome,
-    Route,
-    Spiral,
-    Venue,
-    first_contact,
-    trajectory,
-)
+from app.files.drawing import canvas, draw_venue, file_bytes, look_around
+from core import Budget, MinimumPitch, Route, Spiral, Venue, first_contact, trajectory
 from core.dance import Dance
-from core.design.pitch_scan import JUMP_WIDTH, SCAN_FROM, SCAN_TO, PitchScan, scan_near_minimum
+from core.design.pitch_scan import JUMP_WIDTH, SCAN_FROM, SCAN_TO, PitchScan
 from core.errors import said
+from core.plots import GREY, VERMILION, draw_scan
 
-# Without a contact the figure shows the dance this long before its end [s], when the chain still exists.
-BEFORE_END = 1e-6
 # One drawing at a time: matplotlib does not guarantee that its font caches are safe for threads.
 _DRAWING = threading.Lock()
 
@@ -60,26 +33,12 @@ def trajectory_figure(
     time: [s]; raises: OutsideRun after the end of the run
     """
     result = trajectory(dance, [time])
-    handles, speed = result.position[0], result.speed[0]
     with _DRAWING:
         figure = canvas(7.2, 6.2)
-        axes = figure.add_subplot()
-        draw_dance(axes, dance.path, venue, handles, bench_outlines(dance.dragon, handles), linewidth=0.4)
-        dots = axes.scatter(
-            handles[:, 0],
-            handles[:, 1],
-            c=speed,
-            s=16,
-            cmap="cividis",
-            zorder=3,
-            linewidths=0,
-            rasterized=len(handles) > SHAPES_MAX,
-        )
-        mark_head(axes, handles[0], result.velocity[0, 0])
-        bar = figure.colorbar(dots, ax=axes, label="speed of the handle [m/s]", shrink=0.85)
-        bar.ax.ticklabel_format(useOffset=False)
+        axes = result.plot(figure.add_subplot())
         if venue:
-            look_around(figure, axes, handles)
+            draw_venue(axes, venue)
+            look_around(figure, axes, result.position[0])
         axes.set_title(f"Handles and their speeds at {time:g} s{_pitch_words(dance.path)}", fontsize=11)
         return file_bytes(figure, format)
 
@@ -96,79 +55,36 @@ def contact_figure(
     start: float = 0.0,
     stop: float | None = None,
     format: str = "svg",
+    budget: Budget | None = None,
 ) -> bytes:
     """Figure 7: the dance at first contact with the two benches marked, and corner, edge and point enlarged.
 
     Without a contact it shows the dance just before the run ends, and its title states this.
     """
-    found = first_contact(dance, margin=margin, start=start, stop=stop)
-    time = _shown_time(dance, found)
-    handles = trajectory(dance, [time]).position[0]
-    outlines = bench_outlines(dance.dragon, handles)
+    found = first_contact(dance, margin=margin, start=start, stop=stop, budget=budget)
     with _DRAWING:
         figure = canvas(11.0 if found.benches else 7.2, 6.0)
-        axes = figure.add_subplot(1, 2, 1) if found.benches else figure.add_subplot()
-        draw_dance(axes, dance.path, venue, handles, outlines, linewidth=0.5)
-        mark_pair(axes, outlines, found, legend=True)
-        axes.autoscale_view()
-        axes.set_title(_contact_title(found, margin), fontsize=11)
+        axes = found.plot(figure.add_subplot(1, 2, 1) if found.benches else figure.add_subplot())
+        draw_venue(axes, venue)
         if found.benches:
-            enlarged = figure.add_subplot(1, 2, 2)
-            draw_enlarged(enlarged, outlines, found, float(dance.dragon.widths[list(found.benches)].max()), margin)
+            enlarged = found.plot(figure.add_subplot(1, 2, 2), enlarged=True)
             axes.indicate_inset_zoom(enlarged, edgecolor="black", linewidth=0.8)
         return file_bytes(figure, format)
 
 
-def _shown_time(dance: Dance, found: FirstContact) -> float:
-    if found.time is not None:
-        return found.time
-    if found.time_bracket is not None:
-        return found.time_bracket[0]
-    end = found.end or dance.end
-    return end.time - BEFORE_END
-
-
-def _contact_title(found: FirstContact, margin: float) -> str:
-    what = f"First nearer than {said(margin)} m" if margin else "First contact"
-    if found.outcome is Outcome.CONTACT:
-        assert found.head is not None
-        return f"{what}: {found.time:.6f} s, head at radius {found.head.radius:.6f} m"
-    if found.outcome is Outcome.CONTACT_AT_START:
-        return f"Nearer than {said(margin)} m from the start on" if margin else f"{what}: already at the start"
-    if found.outcome is Outcome.CLEAR and found.end is not None:
-        none = f"Never nearer than {said(margin)} m" if margin else "No contact"
-        if found.end.reason is EndReason.FOLD:
-            return f"{none}, but bench {found.end.bench} folds at {found.end.time:.6f} s"
-        return f"{none}: the run ends clear at the {found.end.reason.value}, {found.end.time:.6f} s"
-    return f"Undecided: clear up to {_shown_bracket(found)} s"
-
-
-def _shown_bracket(found: FirstContact) -> str:
-    return f"{found.time_bracket[0]:.6f}" if found.time_bracket else "an unknown time"
-
-
 def pitch_scan_figure(
-    dragon: Dragon,
+    scan: PitchScan,
+    least: MinimumPitch,
     *,
     turning_radius: float = 4.5,
     start_turns: float = 16.0,
     margin: float = 0.0,
-    samples: int = 101,
     format: str = "svg",
-    progress: Callable[[float], None] = lambda share: None,
 ) -> bytes:
     """Figure 8: radius of the head at first contact against the pitch, with jumps as gaps and the minimum pitch marked.
 
-    samples: number of pitches from SCAN_FROM to SCAN_TO times the minimum pitch; jumps between them are located
+    scan, least: as scan_near_minimum() gives them; the rest as it was given
     """
-    scan, least = scan_near_minimum(
-        dragon,
-        turning_radius=turning_radius,
-        start_turns=start_turns,
-        margin=margin,
-        samples=samples,
-        progress=progress,
-    )
     pitches = np.array([SCAN_FROM, SCAN_TO]) * least.pitch
     with _DRAWING:
         figure = canvas(9.0, 5.6)
@@ -193,10 +109,7 @@ def pitch_scan_figure(
 
 
 def _draw_scan(axes: Axes, scan: PitchScan, least: MinimumPitch, turning_radius: float, near: str) -> None:
-    points = np.stack([scan.pitch, scan.radius], axis=-1)
-    axes.add_collection(LineCollection([points[a:b] for a, b in scan.pieces], colors=BLUE, linewidths=1.8, label=near))
-    falls = [points[a - 1 : a + 1] for a, _ in scan.pieces[1:] if scan.pitch[a] - scan.pitch[a - 1] <= JUMP_WIDTH]
-    axes.add_collection(LineCollection(falls, colors=GREY, linewidths=0.8, linestyles="dotted", label="jump"))
+    draw_scan(axes, np.stack([scan.pitch, scan.radius], axis=-1), scan.pieces, JUMP_WIDTH, near)
     circle = f"turning circle, {said(turning_radius)} m"
     axes.axhline(turning_radius, color="black", linewidth=0.9, linestyle="dashed", label=circle)
     axes.axvline(

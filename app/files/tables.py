@@ -6,33 +6,31 @@ The same trajectory gives the same bytes, so an answer may carry a strong ETag.
 from __future__ import annotations
 
 import io
-from datetime import datetime
+from collections.abc import Iterator, Sequence
 from enum import StrEnum
-from typing import TYPE_CHECKING
 
 import numpy as np
 import orjson
 
 from app.extras import require
+from app.files.workbooks import Sheet, workbook
 from app.wire.answers import Columns
 from core import TooLarge, Trajectory
 from core.values import Floats
 
-if TYPE_CHECKING:
-    from xlsxwriter.worksheet import Worksheet
-
 COLUMNS = ("time", "handle", "x", "y", "speed")
 CSV_TYPE = "text/csv"
+# Cells that are turned into lines of CSV at once: 2 MB of text, and 10 MB while it is made.
+CSV_BLOCK = 20_000
 XLSX_TYPE = "application/vnd.openxmlformats-officedocument.spreadsheetml.sheet"
 ARROW_TYPE = "application/vnd.apache.arrow.file"
+PARQUET_TYPE = "application/vnd.apache.parquet"
 
 # Decimals that the contest asks for.
 XLSX_DECIMALS = 6
 # Limits of the format; the first row and column hold names.
 XLSX_ROWS_MAX = 1_048_576
 XLSX_COLUMNS_MAX = 16_384
-# Date written into every workbook instead of the present, so that equal tables have equal bytes.
-XLSX_CREATED = datetime(2024, 9, 5)
 
 
 class Language(StrEnum):
@@ -61,15 +59,16 @@ def _rounded(column: Floats, decimals: int | None) -> Floats:
     return column if decimals is None else np.round(column, decimals) + 0.0
 
 
-def _columns(result: Trajectory, decimals: int | None) -> dict[str, np.ndarray]:
-    """time, handle, x, y, speed, each (T * H,): instants in order, handles in order within each."""
-    instants, handles = result.speed.shape
+def _columns(result: Trajectory, rows: slice, decimals: int | None) -> dict[str, np.ndarray]:
+    """time, handle, x, y, speed of some instants, each (T * H,): instants in order, handles in order within each."""
+    position, speed = result.position[rows], result.speed[rows]
+    instants, handles = speed.shape
     values = (
-        np.repeat(result.time, handles),
+        np.repeat(result.time[rows], handles),
         np.tile(np.arange(handles, dtype=np.int32), instants),
-        _rounded(result.position[..., 0].ravel(), decimals),
-        _rounded(result.position[..., 1].ravel(), decimals),
-        _rounded(result.speed.ravel(), decimals),
+        _rounded(position[..., 0].ravel(), decimals),
+        _rounded(position[..., 1].ravel(), decimals),
+        _rounded(speed.ravel(), decimals),
     )
     return dict(zip(COLUMNS, values, strict=True))
 
@@ -85,14 +84,20 @@ def trajectory_csv(result: Trajectory, decimals: int | None = None) -> bytes:
 
     decimals: of x, y and speed; None writes the shortest text that reads back as the same double
     """
-    columns = [
-        orjson.dumps(np.ascontiguousarray(column), option=orjson.OPT_SERIALIZE_NUMPY)[1:-1].split(b",")
-        for column in _columns(result, decimals).values()
-    ]
-    rows = [",".join(COLUMNS).encode()]
-    if result.speed.size:
-        rows.extend(map(b",".join, zip(*columns, strict=True)))
-    return b"\n".join(rows) + b"\n"
+    return b"".join(csv_blocks(result, decimals))
+
+
+def csv_blocks(result: Trajectory, decimals: int | None = None) -> Iterator[bytes]:
+    """The same CSV in blocks of lines, each made when it is asked for."""
+    yield ",".join(COLUMNS).encode() + b"\n"
+    instants, handles = result.speed.shape
+    rows = max(CSV_BLOCK // handles, 1)
+    for first in range(0, instants, rows):
+        columns = [
+            orjson.dumps(np.ascontiguousarray(column), option=orjson.OPT_SERIALIZE_NUMPY)[1:-1].split(b",")
+            for column in _columns(result, slice(first, first + rows), decimals).values()
+        ]
+        yield b"\n".join(map(b",".join, zip(*columns, strict=True))) + b"\n"
 
 
 def trajectory_arrow(result: Trajectory, decimals: int | None = None) -> bytes:
@@ -103,7 +108,7 @@ def trajectory_arrow(result: Trajectory, decimals: int | None = None) -> bytes:
     require("arrow", "format", "Arrow")
     import pyarrow
 
-    table = pyarrow.table(_columns(result, decimals))
+    table = pyarrow.table(_columns(result, slice(None), decimals))
     sink = io.BytesIO()
     with pyarrow.ipc.new_file(sink, table.schema) as writer:
         writer.write_table(table)
@@ -117,9 +122,6 @@ def trajectory_xlsx(result: Trajectory, decimals: int | None = None, language: L
     decimals: None gives XLSX_DECIMALS
     raises: MissingPackage without xlsxwriter, TooLarge when the format has too few rows or columns
     """
-    require("xlsx", "format", "xlsx")
-    import xlsxwriter
-
     decimals = XLSX_DECIMALS if decimals is None else decimals
     instants, handles = result.speed.shape
     if 2 * handles + 1 > XLSX_ROWS_MAX or instants + 1 > XLSX_COLUMNS_MAX:
@@ -128,29 +130,32 @@ def trajectory_xlsx(result: Trajectory, decimals: int | None = None, language: L
             f"xlsx holds at most {(XLSX_ROWS_MAX - 1) // 2} handles and {XLSX_COLUMNS_MAX - 1} instants, "
             f"got {handles} handles and {instants} instants: ask for csv",
         )
-    names = handle_names(handles - 1, language)
+    return workbook(trajectory_sheets(result, language), decimals)
+
+
+def trajectory_sheets(result: Trajectory, language: Language) -> list[Sheet]:
+    """Positions, with two rows for each handle, x above y, and speeds: handles as rows, instants as columns."""
+    instants, handles = result.speed.shape
     chinese = language is Language.CHINESE
-    gap = "" if chinese else " "
-    sink = io.BytesIO()
-    with xlsxwriter.Workbook(sink, {"in_memory": True}) as book:
-        book.set_properties({"created": XLSX_CREATED})
-        number = book.add_format({"num_format": "0." + "0" * decimals if decimals else "0"})
-        positions = result.position.transpose(1, 2, 0).reshape(2 * handles, instants)
-        for title, labels, rows in (
-            ("位置" if chinese else "positions", [f"{n}{gap}{axis} (m)" for n in names for axis in "xy"], positions),
-            ("速度" if chinese else "speeds", [f"{n} (m/s)" for n in names], result.speed.T),
-        ):
-            sheet = book.add_worksheet(title)
-            sheet.freeze_panes(1, 1)
-            sheet.set_column(0, 0, 20)
-            sheet.set_column(1, max(instants, 1), 11, number)
-            _write_rows(sheet, result.time, labels, _rounded(rows, decimals))
-    return sink.getvalue()
+    names, gap = handle_names(handles - 1, language), "" if chinese else " "
+    times = [f"{instant:.12g} s" for instant in result.time.tolist()]
+    positions = result.position.transpose(1, 2, 0).reshape(2 * handles, instants)
+    axes = [f"{name}{gap}{axis} (m)" for name in names for axis in "xy"]
+    return [
+        Sheet("位置" if chinese else "positions", times, axes, positions),
+        Sheet("速度" if chinese else "speeds", times, _speed_labels(names, chinese), result.speed.T),
+    ]
 
 
-def _write_rows(sheet: Worksheet, time: Floats, labels: list[str], rows: Floats) -> None:
-    sheet.write_row(0, 1, [f"{instant:.12g} s" for instant in time.tolist()])
-    for k, (label, row) in enumerate(zip(labels, rows.tolist(), strict=True), start=1):
-        sheet.write_string(k, 0, label)
-        for column, value in enumerate(row, start=1):
-            sheet.write_number(k, column, value)
+def _speed_labels(names: Sequence[str], chinese: bool) -> list[str]:
+    """Names of the rows of speeds; the contest's own workbooks have two blanks after a body and the tail."""
+    ends = (names[0], names[-1])
+    return [f"{name}{'  ' if chinese and name not in ends else ' '}(m/s)" for name in names]
+
+
+def instant_sheet(result: Trajectory, language: Language) -> Sheet:
+    """A row for each handle at the only instant of a trajectory: x, y and speed."""
+    chinese, handles = language is Language.CHINESE, result.speed.shape[-1]
+    columns = ["横坐标x (m)", "纵坐标y (m)", "速度 (m/s)"] if chinese else ["x (m)", "y (m)", "speed (m/s)"]
+    numbers = np.column_stack([result.position.reshape(handles, 2), result.speed.reshape(handles)])
+    return Sheet("Sheet1", columns, handle_names(handles - 1, language), numbers)

@@ -1,0 +1,41 @@
+"""The command bench-dragon contest: every answer and every file that a student hands in."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from app.command import show
+from app.contest.films import Wanted
+from app.contest.kit import write_kit
+from app.contest.report import answer_table
+from app.contest.solved import ContestRequest
+from app.contest.words import Say
+from app.extras import require
+from app.files.tables import Language
+from core import InvalidValue
+
+
+def contest(
+    asked: ContestRequest,
+    folder: Annotated[Path, typer.Argument(help="Folder for the files; created if missing.")],
+    language: Annotated[Language, typer.Option(help="Language of names, captions and the report.")] = Language.CHINESE,
+    films: Annotated[bool, typer.Option(help="Write dance.mp4 and turn.mp4 (without the extra film: .gif).")] = True,
+    gif: Annotated[bool, typer.Option(help="Write the films as .gif too.")] = False,
+) -> None:
+    """The contest kit (CUMCM 2024 A): workbooks, answers, tables, figures, films and a report, into a folder."""
+    require("xlsx", "folder", "contest")
+    if folder.exists() and not folder.is_dir():
+        raise InvalidValue("folder", f"FOLDER must be a folder, got the file {folder}")
+    folder.mkdir(parents=True, exist_ok=True)
+    with show.steps() as progress:
+        kit = write_kit(folder, asked, language, Wanted(films, gif), progress)
+    print(answer_table(kit.given, Say(language)), end="")
+    for name in kit.files:
+        print(folder / name, file=sys.stderr)
+    if kit.missing:
+        print(f"Error: figures and films were not written: {kit.missing.message}", file=sys.stderr)
+        raise typer.Exit(1)

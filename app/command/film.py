@@ -1,0 +1,31 @@
+"""The command bench-dragon film: the dance as a film."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from app.command import show
+from app.extras import require
+from app.files.disk import checked_output, write_whole
+from app.files.shooting import ENDINGS, GIF_TYPE
+from app.questions import films
+from app.questions.films import FilmQuery, FilmRequest
+from app.questions.question import Terms
+
+
+def film(
+    asked: FilmQuery | FilmRequest,
+    output: Annotated[Path, typer.Option(help="Write a .mp4 file (extra film), or a .gif.")] = Path("dance.mp4"),
+) -> None:
+    """A film of the dance, of any dragon on any path and in any venue with a FILE."""
+    gif = checked_output("output", output, (".mp4", ".gif")) == ENDINGS[GIF_TYPE]
+    require("figures" if gif else "film", "output", "A .gif" if gif else "A .mp4 (a .gif needs less)")
+    form = GIF_TYPE if gif else films.FORM
+    with show.waiting(f"film {output}") as progress:
+        data = films.films(asked, Terms(progress=progress), form)
+    write_whole(output, data)
+    print(output, file=sys.stderr)

@@ -1,0 +1,1 @@
+"""The contest kit: every answer to problem A of CUMCM 2024, and the files that students hand in."""

@@ -1,0 +1,139 @@
+"""The five answers in numbers, each with its bracket and with how it is known."""
+
+from __future__ import annotations
+
+from dataclasses import asdict, dataclass
+from typing import Any
+
+from app.contest.solved import Solved
+from app.contest.words import Say
+from core import MinimumPitch, ShortestTurn
+
+
+@dataclass(frozen=True)
+class Given:
+    """One number of an answer.
+
+    question: 1 to 5; bracket: the interval in which the exact value is proven to lie, if there is one; how: known
+    """
+
+    question: int
+    name: str
+    value: float
+    unit: str
+    bracket: tuple[float | None, float | None] | None
+    how: str
+
+    def to_json(self) -> dict[str, Any]:
+        return asdict(self)
+
+
+def answers(solved: Solved, say: Say) -> list[Given]:
+    """The numbers of the five answers, in the order of the questions."""
+    return [
+        *_inwards(solved, say),
+        *_contact(solved, say),
+        *_pitch(solved, say),
+        *_turn(solved, say),
+        _speed(solved, say),
+    ]
+
+
+def _inwards(solved: Solved, say: Say) -> list[Given]:
+    found, stop = solved.inwards, solved.inwards.time[-1]
+    how = say(
+        "every handle from the chord equation, every speed from the rigid links: good to 1e-11 m and 1e-11 m/s",
+        "逐节由弦长方程求位置，由刚性约束求速度：误差小于 1e-11 m 与 1e-11 m/s",
+    )
+    head = say("head", "龙头")
+    rear = say("rear handle of the tail", "龙尾（后）把手")
+    at = say(f" at {stop:g} s", f"（{stop:g} s）")
+    rows = [(head, 0), (rear, -1)]
+    numbers = [
+        (f"{name}{say(', ', ' ')}{axis}{at}", float(found.position[-1, k, i]))
+        for name, k in rows
+        for i, axis in enumerate("xy")
+    ]
+    speed = (f"{rear}{say(', speed', '速度')}{at}", float(found.speed[-1, -1]))
+    return [Given(1, name, value, "m", None, how) for name, value in numbers] + [Given(1, *speed, "m/s", None, how)]
+
+
+def _contact(solved: Solved, say: Say) -> list[Given]:
+    found = solved.contact
+    if found.time is None or found.benches is None or found.head is None:
+        name = say("no contact is found until", "直到此刻没有碰撞")
+        return [Given(2, name, solved.met_at, "s", found.time_bracket, say("the search ended there", "搜索到此为止"))]
+    a, b = found.benches
+    pair = say(f"benches {a} and {b}", f"第 {a} 节与第 {b} 节板凳（龙头为 0）")
+    steps = found.certificate.steps
+    how = say(
+        f"{pair} touch; {steps} proven steps show that nothing touched earlier",
+        f"{pair}相碰；{steps} 个经过证明的步长表明此前没有碰撞",
+    )
+    place = say("the head at that time", "该时刻的龙头")
+    return [
+        Given(2, say("first contact", "首次碰撞时刻"), found.time, "s", found.time_bracket, how),
+        Given(2, say("distance of the head from the centre", "龙头到中心的距离"), found.head.radius, "m", None, place),
+    ]
+
+
+def _pitch(solved: Solved, say: Say) -> list[Given]:
+    found = solved.pitch
+    return [Given(3, say("minimum pitch", "最小螺距"), found.pitch, "m", found.pitch_bracket, _why_pitch(found, say))]
+
+
+def _why_pitch(found: MinimumPitch, say: Say) -> str:
+    pair = found.benches or ()
+    whose = say(" of benches {} and {}", "（第 {} 节与第 {} 节板凳）").format(*pair) if pair else ""
+    words = {
+        "graze": say("a graze on the way", "途中的擦碰"),
+        "circle": say("contact on the circle", "到达调头圆时的碰撞"),
+        "start": say("contact at the start", "起点处的碰撞"),
+        "fold": say("a bench that can no longer follow", "板凳无法继续跟随"),
+    }
+    every = found.proven_up_to is None and found.scan_step is None
+    proven = say("every larger pitch is proven feasible", "已证明更大的螺距全部可行")
+    sampled = say("larger pitches are partly sampled, not proven", "更大的螺距有一部分是抽样而非证明")
+    limit = say("limited by ", "限制因素：") + words[found.limited_by.value] + whose
+    return f"{limit}{say('; ', '；')}{proven if every else sampled}"
+
+
+def _turn(solved: Solved, say: Say) -> list[Given]:
+    shortest, length = solved.shortest, solved.turn.length
+    why = say(
+        "closed form. The radii add up to S = sqrt(R^2 + (p / 2 pi)^2), without the ratio, and both arcs turn by "
+        "the same angle a: the length S a does not depend on the ratio",
+        "闭式解：两段圆弧半径之和 S = sqrt(R^2 + (p / 2π)^2) 与比例无关，且两段圆弧转过同一角 a，"
+        "因此长度 S a 与半径之比无关",
+    )
+    inner = say("turn from the deepest entry", "从最深处进入时的调头曲线长度")
+    return [
+        Given(4, say("length of the turn", "调头曲线长度"), length, "m", None, why),
+        Given(4, inner, shortest.turn.length, "m", None, _why_shortest(shortest, say)),
+        Given(
+            4, say("shorter by", "缩短"), length - shortest.turn.length, "m", None, say("the difference", "两者之差")
+        ),
+    ]
+
+
+def _why_shortest(found: ShortestTurn, say: Say) -> str:
+    limits = {
+        "bend": say("a handle could not follow a tighter arc", "圆弧再小则把手无法跟随"),
+        "contact": say("benches would touch", "板凳会相碰"),
+        "centre": say("nothing, down to the centre", "直到中心都没有限制"),
+    }
+    radius = f"{found.turn.entry_radius:.6f} m"
+    return (
+        say(f"entry at a radius of {radius}; limit: ", f"在半径 {radius} 处进入；限制：")
+        + limits[found.limited_by.value]
+    )
+
+
+def _speed(solved: Solved, say: Say) -> Given:
+    found, limit = solved.fastest, solved.asked.speed_limit
+    handles = ", ".join(map(str, found.handles))
+    how = say(
+        f"handles {handles} reach {limit:g} m/s at {found.time:.6f} s, {found.speed_ratio:.6f} times the head's speed",
+        f"第 {handles} 号把手在 {found.time:.6f} s 达到 {limit:g} m/s，为龙头速度的 {found.speed_ratio:.6f} 倍",
+    )
+    return Given(5, say("maximum head speed", "龙头最大速度"), found.head_speed, "m/s", found.head_speed_bracket, how)

@@ -1,0 +1,305 @@
+"""The figures of the paper: each is drawn once and written as PDF, SVG and PNG."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+
+import matplotlib
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.patches import Circle
+from matplotlib.patheffects import withStroke
+
+import core
+from app.contest.sensitivity import Panel, panels
+from app.contest.solved import Solved
+from app.contest.words import Say
+from app.files.drawing import canvas
+from app.files.fonts import families
+from app.files.tables import handle_names
+from core import Dance, bench_outlines
+from core.design.pitch_scan import JUMP_WIDTH, scan_near_minimum
+from core.plots import BLUE, GREY, PALE, VERMILION, draw_dance
+
+FORMATS = ("pdf", "svg", "png")
+PNG_DPI = 160
+# Colour-blind safe and different in brightness (Okabe and Ito), one for each handle shown.
+COLOURS = ("#D55E00", "#0072B2", "#009E73", "#CC79A7", "#56B4E9", "#E69F00", "#000000")
+# Instants of a curve over time.
+CURVE = 400
+# The clearance is drawn over this part of the way to first contact, up to it.
+CLEARANCE_FROM = 0.72
+# A white edge keeps words readable on a line.
+OUTLINED = [withStroke(linewidth=3.0, foreground="white")]
+# Pitches of the staircase.
+STAIRS = 60
+
+
+@dataclass(frozen=True)
+class Drawn:
+    """name: of the files; caption: of the figure in the report; files: bytes by format"""
+
+    name: str
+    caption: str
+    files: dict[str, bytes]
+
+
+def figures(solved: Solved, say: Say, progress: Callable[[float], None]) -> Iterator[Drawn]:
+    """Every figure in turn. raises: MissingPackage without a font for the language"""
+    family = families(say.language)
+    kinds = (positions, snapshots, clearance, staircase, geometry, amplification, sensitivity)
+    for k, draw in enumerate(kinds):
+        with matplotlib.rc_context({"font.family": family, "svg.hashsalt": "bench-dragon"}):
+            figure, caption = draw(solved, say)
+            files = {kind: _bytes(figure, kind) for kind in FORMATS}
+        progress((k + 1) / len(kinds))
+        yield Drawn(draw.__name__, caption, files)
+
+
+def _bytes(figure: Figure, format: str) -> bytes:
+    """The file of a figure, the same bytes for the same figure."""
+    sink = io.BytesIO()
+    undated = {"pdf": {"CreationDate": None}, "svg": {"Date": None}, "png": {"Software": None}}[format]
+    figure.savefig(sink, format=format, dpi=PNG_DPI, metadata=undated)
+    return sink.getvalue()
+
+
+def positions(solved: Solved, say: Say) -> tuple[Figure, str]:
+    """Question 1: where every handle is at the last second, and the speeds of some over time."""
+    figure, stop = canvas(11.5, 4.8), float(solved.inwards.time[-1])
+    places, rates = figure.subplots(1, 2, width_ratios=(1.15, 1.0))
+    figure.set_layout_engine("constrained", wspace=0.06)
+    handles = solved.inwards.position[-1]
+    draw_dance(places, solved.spiral.path, handles, bench_outlines(solved.dragon, handles), linewidth=0.3)
+    dots = places.scatter(*handles.T, c=solved.inwards.speed[-1], s=11, cmap="cividis", zorder=3, linewidths=0)
+    bar = figure.colorbar(dots, ax=places, label=say("speed of the handle [m/s]", "把手速度 [m/s]"), shrink=0.85)
+    bar.ax.ticklabel_format(useOffset=False)
+    places.plot(
+        *handles[0], "o", markersize=9, markerfacecolor="none", markeredgecolor=VERMILION, label=say("head", "龙头")
+    )
+    places.legend(loc="upper right", fontsize=8)
+    places.set_title(say(f"Handles at {stop:g} s", f"{stop:g} s 时的把手位置"), fontsize=10)
+    names = handle_names(solved.dragon.benches, say.language)
+    for k, colour in zip(solved.handles, COLOURS, strict=False):
+        rates.plot(solved.inwards.time, solved.inwards.speed[:, k], color=colour, linewidth=1.3, label=names[k])
+    rates.set(xlabel=say("time [s]", "时间 [s]"), ylabel=say("speed [m/s]", "速度 [m/s]"))
+    rates.ticklabel_format(useOffset=False)
+    rates.legend(fontsize=8, loc="lower left")
+    rates.set_title(say("Speeds of the handles that the paper shows", "论文所列把手的速度"), fontsize=10)
+    caption = say(
+        f"Positions of all handles at {stop:g} s, coloured by speed (left), and speeds over time (right).",
+        f"{stop:g} s 时全部把手的位置，颜色表示速度（左）；速度随时间的变化（右）。",
+    )
+    return figure, caption
+
+
+def snapshots(solved: Solved, say: Say) -> tuple[Figure, str]:
+    """Questions 1 and 2: the dance at its start, half way, at the last second and at first contact."""
+    stop = float(solved.inwards.time[-1])
+    times = [0.0, 0.5 * stop, stop, solved.met_at]
+    figure = canvas(9.0, 9.0)
+    found = core.trajectory(solved.spiral, times)
+    extent = 1.22 * float(np.abs(found.position).max())
+    pair = solved.contact.benches or ()
+    for axes, time, handles in zip(figure.subplots(2, 2).flat, times, found.position, strict=True):
+        outlines = bench_outlines(solved.dragon, handles)
+        draw_dance(axes, solved.spiral.path, handles, outlines, linewidth=0.4)
+        axes.fill(*outlines[0].T, color=VERMILION, zorder=4, label=say("head", "龙头"))
+        title = f"{time:g} s"
+        if time == solved.met_at and pair:
+            axes.fill(*outlines[pair[1]].T, color=BLUE, zorder=4, label=say(f"bench {pair[1]}", f"第 {pair[1]} 节板凳"))
+            title = say(f"First contact, {time:.6f} s", f"首次碰撞，{time:.6f} s")
+        axes.set(xlim=(-extent, extent), ylim=(-extent, extent))
+        axes.set_title(title, fontsize=10)
+        axes.legend(loc="upper right", fontsize=8)
+    caption = say("Every bench at four instants.", "四个时刻的全部板凳。")
+    return figure, caption
+
+
+def clearance(solved: Solved, say: Say) -> tuple[Figure, str]:
+    """Question 2: the smallest distance of two benches over time, with its local minima."""
+    figure = canvas(8.0, 4.6)
+    axes = figure.subplots()
+    profile = core.clearance_profile(solved.spiral, np.linspace(CLEARANCE_FROM * solved.met_at, solved.met_at, CURVE))
+    grazes = [(graze.time, 1e3 * graze.clearance) for graze in profile.grazes]
+    time = np.concatenate([profile.time, [t for t, _ in grazes]])
+    gap = np.concatenate([1e3 * profile.clearance, [g for _, g in grazes]])
+    order = np.argsort(time)
+    axes.plot(time[order], gap[order], color=BLUE, linewidth=1.2, label=say("clearance", "最小间距"))
+    if grazes:
+        axes.plot(
+            *np.transpose(grazes),
+            "o",
+            color=VERMILION,
+            markersize=4,
+            label=say("graze (local minimum)", "擦碰（局部极小）"),
+        )
+    axes.axhline(0.0, color="black", linewidth=0.8, linestyle="dashed", label=say("touch", "相碰"))
+    axes.set(
+        xlabel=say("time [s]", "时间 [s]"), ylabel=say("clearance of the nearest pair [mm]", "最近两节板凳的间距 [mm]")
+    )
+    axes.legend(fontsize=8)
+    near = solved.contact.certificate.least_clearance
+    least = (
+        say(
+            f" The closest graze before it leaves {1e3 * near.clearance:.3f} mm at {near.time:.3f} s.",
+            f" 此前最近的一次擦碰在 {near.time:.3f} s，间距仅 {1e3 * near.clearance:.3f} mm。",
+        )
+        if near
+        else ""
+    )
+    return figure, say(
+        "Clearance over time up to first contact, with its grazes.", "首次碰撞之前的最小间距及其擦碰。"
+    ) + least
+
+
+def staircase(solved: Solved, say: Say) -> tuple[Figure, str]:
+    """Question 3: where the head stands at first contact, against the pitch."""
+    figure, radius, least = canvas(8.0, 4.8), solved.asked.turning_diameter / 2, solved.pitch.pitch
+    scan, _ = scan_near_minimum(
+        solved.dragon, samples=STAIRS, turning_radius=radius, start_turns=solved.asked.start_turns, margin=0.0
+    )
+    axes = figure.subplots()
+    _stairs(axes, scan, radius, least, say)
+    axes.set(
+        xlabel=say("pitch [m]", "螺距 [m]"),
+        ylabel=say("radius of the head at first contact [m]", "首次碰撞时龙头的半径 [m]"),
+    )
+    axes.set_ylim(0.0, 1.25 * float(scan.radius.max(initial=radius)))
+    axes.legend(loc="lower left", fontsize=8)
+    near = axes.inset_axes((0.56, 0.60, 0.41, 0.36))
+    _stairs(near, scan, radius, least, say)
+    near.set(xlim=(0.995 * least, 1.005 * least), ylim=(0.94 * radius, 1.05 * radius))
+    near.tick_params(labelsize=7)
+    axes.indicate_inset_zoom(near, edgecolor="black", linewidth=0.7)
+    caption = say(
+        "The head's radius at first contact falls in jumps as the pitch grows: no pitch stops it on the circle.",
+        "首次碰撞时龙头的半径随螺距增大而跳跃式下降，因此没有任何螺距使龙头恰好停在调头圆上。",
+    )
+    return figure, caption
+
+
+def _stairs(axes: Axes, scan: core.PitchScan, radius: float, least: float, say: Say) -> None:
+    for k, (a, b) in enumerate(scan.pieces):
+        label = say("first contact", "首次碰撞") if k == 0 else None
+        axes.plot(scan.pitch[a:b], scan.radius[a:b], color=BLUE, linewidth=1.6, label=label)
+    for a, _ in scan.pieces[1:]:
+        if scan.pitch[a] - scan.pitch[a - 1] <= JUMP_WIDTH:
+            axes.plot(
+                scan.pitch[a - 1 : a + 1], scan.radius[a - 1 : a + 1], color=GREY, linewidth=0.8, linestyle="dotted"
+            )
+    axes.axhline(
+        radius,
+        color="black",
+        linewidth=0.9,
+        linestyle="dashed",
+        label=say(f"turning circle, {radius:g} m", f"调头圆，{radius:g} m"),
+    )
+    label = say(f"minimum pitch, {least:.9f} m", f"最小螺距，{least:.9f} m")
+    axes.axvline(least, color=VERMILION, linewidth=1.1, linestyle="dashdot", label=label)
+
+
+def geometry(solved: Solved, say: Say) -> tuple[Figure, str]:
+    """Question 4: the two arcs between the coils, with their centres and radii."""
+    turn, figure = solved.turn, canvas(7.0, 6.6)
+    axes, radius = figure.subplots(), turn.turning_radius
+    axes.set_aspect("equal")
+    axes.set(xlabel="x [m]", ylabel="y [m]")
+    reach = 2.2 * radius
+    for (s0, s1), colour, label in _stretches(turn, reach, say):
+        axes.plot(*turn.position(np.linspace(s0, s1, CURVE)).T, color=colour, linewidth=2.0, label=label)
+    axes.add_patch(Circle((0.0, 0.0), radius, fill=False, linestyle="dashed", color=GREY, linewidth=1.0))
+    for k, (centre, size) in enumerate(zip(turn.centres, turn.radii, strict=True), start=1):
+        axes.add_patch(Circle(centre, size, fill=False, color=PALE, linewidth=1.0))
+        end = turn.entry if k == 1 else turn.exit
+        axes.plot(*np.transpose([centre, end]), color=GREY, linewidth=0.9, linestyle="dotted")
+        axes.plot(*centre, "k+", markersize=9)
+        axes.annotate(
+            f"$C_{k}$, {size:.4f} m", centre, (8, -12), textcoords="offset points", fontsize=9, path_effects=OUTLINED
+        )
+    marks = (
+        (turn.entry, say("entry", "入点")),
+        (turn.tangent_point, say("joint", "切点")),
+        (turn.exit, say("exit", "出点")),
+    )
+    for point, name in marks:
+        axes.plot(*point, "ko", markersize=5, zorder=6)
+        axes.annotate(name, point, (8, 8), textcoords="offset points", fontsize=10, zorder=7, path_effects=OUTLINED)
+    axes.set(xlim=(-1.6 * radius, 1.6 * radius), ylim=(-1.5 * radius, 1.5 * radius))
+    axes.legend(loc="upper left", fontsize=8, framealpha=1.0)
+    caption = say(
+        f"The turn: two tangent arcs inside the circle of {2 * radius:g} m, {turn.length:.7f} m long at every ratio.",
+        f"调头曲线：直径 {2 * radius:g} m 圆内的两段相切圆弧，总长 {turn.length:.7f} m，与半径之比无关。",
+    )
+    return figure, caption
+
+
+def _stretches(turn: core.Turn, reach: float, say: Say) -> list[tuple[tuple[float, float], str, str]]:
+    """Beginning and end [m] of the pieces that are drawn, with colour and name."""
+    middle = turn.radii[0] * turn.angles[0]
+    low, high = max(turn.begin, -8.0 * reach), min(turn.end, turn.length + 8.0 * reach)
+    return [
+        ((low, 0.0), BLUE, say("coil inwards", "盘入螺线")),
+        ((0.0, middle), VERMILION, say("first arc", "第一段圆弧")),
+        ((middle, turn.length), "#E69F00", say("second arc", "第二段圆弧")),
+        ((turn.length, high), "#009E73", say("coil outwards", "盘出螺线")),
+    ]
+
+
+def amplification(solved: Solved, say: Say) -> tuple[Figure, str]:
+    """Question 5: the speeds of handles on the way through the turn, over that of the head."""
+    figure, fastest = canvas(8.0, 4.6), solved.fastest
+    axes = figure.subplots()
+    peak = fastest.time_at_unit_head_speed
+    travel = np.unique(np.concatenate([np.linspace(-5.0, peak + 40.0, 2 * CURVE), [peak]]))
+    dance = Dance(solved.dragon, solved.turn)
+    rates = core.trajectory(dance, travel).speed
+    names = handle_names(solved.dragon.benches, say.language)
+    for k, colour in zip((1, 2, 3, 8, 20), COLOURS[1:], strict=False):
+        if k <= solved.dragon.benches:
+            axes.plot(travel, rates[:, k], color=colour, linewidth=1.0, label=names[k])
+    axes.plot(
+        travel,
+        rates.max(axis=1),
+        color="black",
+        linewidth=1.8,
+        linestyle="dashed",
+        label=say("fastest handle", "最快的把手"),
+    )
+    axes.plot(peak, fastest.speed_ratio, "o", color=VERMILION, markersize=7, label=f"{fastest.speed_ratio:.6f}")
+    axes.axvspan(0.0, solved.turn.length, color=PALE, alpha=0.5, label=say("head on the arcs", "龙头在圆弧上"))
+    axes.set(xlabel=say("way of the head from the entry [m]", "龙头自入点起的路程 [m]"))
+    axes.set(ylabel=say("speed over the head's speed", "速度与龙头速度之比"))
+    axes.legend(fontsize=8, loc="upper right")
+    caption = say(
+        f"Speed amplification in the turn: at most {fastest.speed_ratio:.6f}, so {solved.asked.speed_limit:g} m/s "
+        f"allow a head speed of {fastest.head_speed:.6f} m/s.",
+        f"调头过程中的速度放大：最大 {fastest.speed_ratio:.6f} 倍，因此限速 {solved.asked.speed_limit:g} m/s 时"
+        f"龙头速度最大为 {fastest.head_speed:.6f} m/s。",
+    )
+    return figure, caption
+
+
+def sensitivity(solved: Solved, say: Say) -> tuple[Figure, str]:
+    """How the answers change with the numbers of the problem."""
+    figure = canvas(10.0, 7.4)
+    for axes, panel in zip(figure.subplots(2, 2).flat, panels(solved, say), strict=True):
+        _draw_panel(axes, panel)
+    caption = say(
+        "Sensitivity: minimum pitch against width, turning diameter and length of the bodies; maximum head speed "
+        "against the ratio of the arcs. The dots are the values of the problem.",
+        "灵敏度：最小螺距随板宽、调头圆直径和龙身板长的变化；龙头最大速度随圆弧半径之比的变化。圆点为题目给定值。",
+    )
+    return figure, caption
+
+
+def _draw_panel(axes: Axes, panel: Panel) -> None:
+    x, y = np.array(panel.points, dtype=np.float64).T if panel.points else np.empty((2, 0))
+    axes.plot(x, y, color=BLUE, linewidth=1.4, marker=".", markersize=4)
+    axes.plot(*panel.own, "o", color=VERMILION, markersize=7)
+    axes.set(xlabel=panel.varied, ylabel=panel.answer)
+    axes.grid(color=PALE, linewidth=0.6)
+    axes.tick_params(labelsize=8)

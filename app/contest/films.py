@@ -1,0 +1,45 @@
+"""The two films of the kit: the dance inwards up to first contact, and the turn."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from functools import partial
+
+from app.contest.solved import Solved
+from app.contest.words import Say
+from app.files.shooting import ENDINGS, LOOKS, Shooting
+
+
+@dataclass(frozen=True)
+class Wanted:
+    """films: any at all; gif: each as a GIF too; seconds: each plays [s]"""
+
+    films: bool = True
+    gif: bool = False
+    seconds: float = 20.0
+
+
+def films(
+    solved: Solved, say: Say, wanted: Wanted, progress: Callable[[str, float], None]
+) -> Iterator[tuple[str, bytes]]:
+    """Name and bytes of every film that is wanted; without PyAV each is a GIF.
+
+    raises: MissingPackage without matplotlib, or without a font for the language
+    """
+    if not wanted.films:
+        return
+    from app.files import film
+
+    span = solved.asked.span
+    inwards = say("Bench dragon, to first contact", "板凳龙：盘入至首次碰撞")
+    kinds = (
+        ("dance", solved.spiral, 0.0, solved.met_at, inwards),
+        ("turn", solved.turning, -span, span, say("Bench dragon, the turn", "板凳龙：调头")),
+    )
+    forms = list(ENDINGS) if wanted.gif else list(ENDINGS)[:1]
+    for name, dance, start, stop, title in kinds:
+        for form in forms:
+            shooting = Shooting(start, stop, wanted.seconds, *LOOKS[form], say.language)
+            file = name + ENDINGS[form]
+            yield file, film.film(dance, shooting, form, title=title, progress=partial(progress, file))

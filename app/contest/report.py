@@ -1,0 +1,98 @@
+"""report.md: one page that ties the files of the kit together, every number from this run."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from app.contest.answers import Given
+from app.contest.solved import Solved
+from app.contest.tables import Table
+from app.contest.words import Say
+
+if TYPE_CHECKING:
+    from app.contest.figures import Drawn
+
+DIGITS = 9
+
+
+def answer_table(given: Sequence[Given], say: Say) -> str:
+    """The five answers as a table in Markdown."""
+    heads = say("question|what|value|bracket|how it is known", "问题|量|数值|区间|依据").split("|")
+    lines = [heads, ["---", "---", "---:", "---", "---"]]
+    lines += [
+        [str(one.question), one.name, f"{one.value:.{DIGITS}f} {one.unit}", _bracket(one), one.how] for one in given
+    ]
+    return "".join(f"| {' | '.join(line)} |\n" for line in lines)
+
+
+def _bracket(one: Given) -> str:
+    if one.bracket is None:
+        return ""
+    return ", ".join("?" if end is None else f"{end:.12g}" for end in one.bracket) + f" {one.unit}"
+
+
+def report(
+    solved: Solved,
+    given: Sequence[Given],
+    tables: Sequence[Table],
+    drawn: Sequence[Drawn],
+    films: Sequence[str],
+    say: Say,
+) -> str:
+    """The page. films: names of their files"""
+    parts = [
+        say("# The bench dragon: every answer", "# 板凳龙：全部答案"),
+        _dragon(solved, say),
+        say("## Answers", "## 答案"),
+        answer_table(given, say),
+        _ratio(solved, say),
+        say("## Workbooks", "## 结果文件"),
+        say(
+            "[result1.xlsx](result1.xlsx), [result2.xlsx](result2.xlsx), [result4.xlsx](result4.xlsx): all handles, "
+            "six decimals, halves rounded away from zero.",
+            "[result1.xlsx](result1.xlsx)、[result2.xlsx](result2.xlsx)、[result4.xlsx](result4.xlsx)：全部把手，"
+            "六位小数，四舍五入。",
+        ),
+        say("## Tables", "## 表格"),
+    ]
+    for table in tables:
+        links = " ".join(f"[{kind}](tables/{table.name}.{kind})" for kind in ("csv", "md", "tex"))
+        parts += [f"**{table.caption}** ({links})", table.to_markdown()]
+    if drawn:
+        parts.append(say("## Figures", "## 图"))
+    for one in drawn:
+        links = " ".join(f"[{kind}](figures/{one.name}.{kind})" for kind in one.files)
+        parts.append(f"![{one.name}](figures/{one.name}.png)\n\n*{one.caption}* ({links})")
+    if films:
+        parts += [say("## Films", "## 动画"), say(", ", "、").join(f"[{name}]({name})" for name in films)]
+    return "\n\n".join(part.rstrip("\n") for part in parts) + "\n"
+
+
+def _dragon(solved: Solved, say: Say) -> str:
+    asked = solved.asked
+    return say(
+        f"{asked.benches} benches (head {asked.head_length:g} m, body {asked.body_length:g} m, "
+        f"width {asked.width:g} m, overhang {asked.overhang:g} m) "
+        f"on a spiral of {asked.pitch:g} m pitch from {asked.start_turns:g} turns, "
+        f"the head at {asked.head_speed:g} m/s; turning circle {asked.turning_diameter:g} m, "
+        f"pitch of the turn {asked.turn_pitch:g} m, ratio of its arcs {asked.ratio:g}, "
+        f"speed limit {asked.speed_limit:g} m/s.",
+        f"共 {asked.benches} 节板凳（龙头长 {asked.head_length:g} m，龙身与龙尾长 {asked.body_length:g} m，"
+        f"板宽 {asked.width:g} m，孔到板端 {asked.overhang:g} m），螺距 {asked.pitch:g} m，"
+        f"自第 {asked.start_turns:g} 圈盘入，"
+        f"龙头速度 {asked.head_speed:g} m/s；调头圆直径 {asked.turning_diameter:g} m，调头螺距 {asked.turn_pitch:g} m，"
+        f"圆弧半径之比 {asked.ratio:g}，限速 {asked.speed_limit:g} m/s。",
+    )
+
+
+def _ratio(solved: Solved, say: Say) -> str:
+    turn, shortest = solved.turn, solved.shortest.turn
+    return say(
+        f"Question 4 asks for a shorter turn. Other ratios give none: the length is {turn.length:.7f} m at every "
+        f"ratio. An entry deeper inside the circle does: at a radius of {shortest.entry_radius:.6f} m the turn is "
+        f"{shortest.length:.7f} m long, {turn.length - shortest.length:.7f} m shorter.",
+        f"问题 4 问调头曲线能否变短。改变半径之比不能：对任何比例长度都是 {turn.length:.7f} m。"
+        f"在圆内更深处进入则可以：在半径 {shortest.entry_radius:.6f} m 处进入时长度为 {shortest.length:.7f} m，"
+        f"缩短 {turn.length - shortest.length:.7f} m。",
+    )

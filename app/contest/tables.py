@@ -1,0 +1,102 @@
+"""The tables that the paper must show, as CSV, Markdown and LaTeX."""
+
+from __future__ import annotations
+
+import csv
+import io
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+import core
+from app.contest.solved import Solved
+from app.contest.words import Say
+from app.files.tables import XLSX_DECIMALS, handle_names
+from app.files.workbooks import rounded_away
+from core import Dance
+from core.values import Floats
+
+
+@dataclass(frozen=True)
+class Table:
+    """name: of its files; caption; corner: over the names of the rows; columns, rows: names; numbers: (R, C)"""
+
+    name: str
+    caption: str
+    corner: str
+    columns: Sequence[str]
+    rows: Sequence[str]
+    numbers: Floats
+
+    def entries(self) -> list[list[str]]:
+        """Every number as the contest writes it."""
+        whole = rounded_away(self.numbers, XLSX_DECIMALS)
+        return [[f"{value:.{XLSX_DECIMALS}f}" for value in row] for row in whole.tolist()]
+
+    def lines(self) -> list[list[str]]:
+        """Name and entries of every row."""
+        return [[name, *row] for name, row in zip(self.rows, self.entries(), strict=True)]
+
+    def to_csv(self) -> str:
+        sink = io.StringIO()
+        csv.writer(sink, lineterminator="\n").writerows([[self.corner, *self.columns], *self.lines()])
+        return sink.getvalue()
+
+    def to_markdown(self) -> str:
+        rule = ["---", *["---:"] * len(self.columns)]
+        lines = [[self.corner, *self.columns], rule, *self.lines()]
+        return "".join(f"| {' | '.join(line)} |\n" for line in lines)
+
+    def to_latex(self) -> str:
+        """A table for the packages booktabs and, in Chinese, ctex."""
+        body = "".join(f"    {' & '.join(line)} \\\\\n" for line in self.lines())
+        return (
+            "\\begin{table}[htbp]\n  \\centering\n"
+            f"  \\caption{{{self.caption}}}\n  \\label{{tab:{self.name}}}\n"
+            f"  \\begin{{tabular}}{{l{'r' * len(self.columns)}}}\n    \\toprule\n"
+            f"    {' & '.join([self.corner, *self.columns])} \\\\\n    \\midrule\n{body}"
+            "    \\bottomrule\n  \\end{tabular}\n\\end{table}\n"
+        )
+
+
+def paper_tables(solved: Solved, say: Say) -> list[Table]:
+    """Positions and speeds of questions 1 and 4 at the instants that the contest asks for, and those of question 2."""
+    first, turning = say("Question 1", "问题 1"), say("Question 4", "问题 4")
+    return [
+        *_over_time(solved, solved.spiral, solved.shown_times, ("", first), say),
+        _at_contact(solved, say),
+        *_over_time(solved, solved.turning, solved.turn_times, ("turn-", turning), say),
+    ]
+
+
+def _names(solved: Solved, say: Say) -> list[str]:
+    names = handle_names(solved.dragon.benches, say.language)
+    return [names[k] for k in solved.handles]
+
+
+def _over_time(solved: Solved, dance: Dance, times: Floats, about: tuple[str, str], say: Say) -> list[Table]:
+    """about: beginning of the names, and of the captions"""
+    name, question = about
+    found = core.trajectory(dance, times)
+    handles, gap = _names(solved, say), say(" ", "")
+    columns = [f"{time:g} s" for time in times.tolist()]
+    axes = [f"{handle}{gap}{axis} (m)" for handle in handles for axis in "xy"]
+    places = found.position[:, solved.handles].transpose(1, 2, 0).reshape(len(axes), times.size)
+    speeds = [f"{handle} (m/s)" for handle in handles]
+    positions, rates = say("positions", "位置"), say("speeds", "速度")
+    corner, colon = say("handle", "把手"), say(": ", "：")
+    return [
+        Table(f"{name}positions", f"{question}{colon}{positions}", corner, columns, axes, places),
+        Table(f"{name}speeds", f"{question}{colon}{rates}", corner, columns, speeds, found.speed[:, solved.handles].T),
+    ]
+
+
+def _at_contact(solved: Solved, say: Say) -> Table:
+    numbers = np.column_stack([solved.meeting.position[0], solved.meeting.speed[0]])[solved.handles]
+    columns = say("x (m)|y (m)|speed (m/s)", "横坐标x (m)|纵坐标y (m)|速度 (m/s)").split("|")
+    caption = say(
+        f"Question 2: positions and speeds at {solved.met_at:.6f} s",
+        f"问题 2：{solved.met_at:.6f} s 时的位置和速度",
+    )
+    return Table("contact", caption, say("handle", "把手"), columns, _names(solved, say), numbers)

@@ -1,0 +1,215 @@
+"""Films of a dance: every bench at every instant from our own poses, as MP4 (H.264, through PyAV) or as GIF (Pillow).
+
+matplotlib draws what stands still once. For each frame the picture is copied back, and Agg fills two paths: the body,
+all benches in one, and the head. Meanwhile a second thread encodes the frames before. The same film gives the same
+bytes on the same versions of these libraries.
+"""
+
+from __future__ import annotations
+
+import io
+from collections import deque
+from collections.abc import Callable, Iterator
+from concurrent.futures import Future, ThreadPoolExecutor
+from contextlib import contextmanager
+from typing import Any
+
+import matplotlib
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+from matplotlib.patches import PathPatch
+from matplotlib.path import Path
+from numpy.typing import NDArray
+
+from app.files.drawing import draw_venue
+from app.files.fonts import families
+from app.files.shooting import MP4_TYPE, Shooting
+from app.files.tables import Language
+from core import Budget, Dance, Venue, bench_outlines, trajectory
+from core.budget import bounded
+from core.plots import BLUE, VERMILION, draw_dance
+from core.values import Floats
+
+DPI = 100
+# Type of the words, as a share of the height of the picture.
+TYPE_SHARE = 0.026
+# Empty space around the dragon, as a share of its extent; instants at which that extent is taken.
+AROUND, EXTENT_INSTANTS = 0.04, 60
+# Instants whose handles are computed at once.
+BATCH = 60
+# Frames that wait for the encoder.
+WAITING = 4
+# H.264: quality (crf, smaller is better), effort and threads, whose number changes the bytes. Slower presets halve the
+# file and take twice the time (measured 2026-11-22).
+OPTIONS, THREADS = {"crf": "24", "preset": "superfast", "x264-params": "bframes=0:subme=0"}, 2
+# A GIF shows every frame for whole hundredths of a second.
+GIF_TICK = 100
+WORDS = {Language.ENGLISH: "{time:.2f} s", Language.CHINESE: "时间 {time:.2f} 秒"}
+BODY_EDGE = "#003A5D"
+
+
+@bounded("the film was not drawn")
+def film(
+    dance: Dance,
+    shooting: Shooting,
+    form: str,
+    *,
+    venue: Venue | None = None,
+    title: str = "",
+    budget: Budget | None = None,
+    progress: Callable[[float], None] = lambda share: None,
+) -> bytes:
+    """The bytes of a film in one of FORMS.
+
+    progress: called with the share of the frames that is done
+    raises: OutsideRun; TooMuchWork where the budget is stopped; MissingPackage without a font for the language
+    """
+    budget = budget or Budget()
+    encode = encoded_mp4 if form == MP4_TYPE else encoded_gif
+    sink = io.BytesIO()
+    with encode(sink, shooting) as take:
+        for k, frame in enumerate(frames(dance, shooting, venue, title, budget)):
+            take(frame)
+            progress((k + 1) / shooting.times.size)
+    return sink.getvalue()
+
+
+def frames(
+    dance: Dance, shooting: Shooting, venue: Venue | None, title: str, budget: Budget
+) -> Iterator[NDArray[np.uint8]]:
+    """Pictures (height, width, 4) in red, green, blue, alpha, each its own copy."""
+    times = shooting.times
+    stage = Stage(dance, shooting, venue, title)
+    for first in range(0, times.size, BATCH):
+        some = times[first : first + BATCH]
+        outlines = bench_outlines(dance.dragon, trajectory(dance, some, budget=budget).position)
+        for time, benches in zip(some, outlines, strict=True):
+            budget.look()
+            yield stage.frame(float(time), benches)
+
+
+class Stage:
+    """A picture that is drawn again and again: what stands still, then the benches and the time."""
+
+    def __init__(self, dance: Dance, shooting: Shooting, venue: Venue | None, title: str) -> None:
+        size = (shooting.width / DPI, shooting.height / DPI)
+        points = TYPE_SHARE * shooting.height * 72.0 / DPI
+        self.words = WORDS[shooting.language]
+        with matplotlib.rc_context({"font.family": families(shooting.language), "font.size": points}):
+            figure = Figure(figsize=size, dpi=DPI)
+            self.canvas = FigureCanvasAgg(figure)
+            self.axes = figure.add_axes((0.0, 0.0, 1.0, 1.0))
+            sampled = np.linspace(shooting.start, shooting.stop, EXTENT_INSTANTS)
+            handles = trajectory(dance, sampled).position.reshape(-1, 2)
+            draw_dance(self.axes, dance.path, handles, np.empty((0, 4, 2)))
+            draw_venue(self.axes, venue)
+            self._look(handles, shooting)
+            place: dict[str, Any] = {"transform": self.axes.transAxes, "zorder": 9, "parse_math": False}
+            self.axes.text(0.985, 0.97, title, ha="right", va="top", **place)
+            self.time = self.axes.text(0.985, 0.03, "", ha="right", va="bottom", animated=True, **place)
+        count = dance.dragon.benches
+        self.head = self._benches(1, VERMILION, "black")
+        self.body = self._benches(count - 1, BLUE, BODY_EDGE)
+        self.canvas.draw()
+        self.still = self.canvas.copy_from_bbox(figure.bbox)
+
+    def _look(self, handles: Floats, shooting: Shooting) -> None:
+        """Show all handles, in a scale that is equal in x and y and fills the frame."""
+        low, high = handles.min(axis=0), handles.max(axis=0)
+        middle, half = 0.5 * (low + high), 0.5 * (1.0 + 2.0 * AROUND) * (high - low) + 1.0
+        shape = shooting.width / shooting.height
+        tall = max(float(half[1]), float(half[0]) / shape)
+        self.axes.set(xlim=(middle[0] - shape * tall, middle[0] + shape * tall))
+        self.axes.set(ylim=(middle[1] - tall, middle[1] + tall), aspect="auto")
+        self.axes.set_axis_off()
+        scale_bar(self.axes, middle - np.array([shape * tall, tall]), tall)
+
+    def _benches(self, count: int, face: str, edge: str) -> PathPatch:
+        codes = np.tile([Path.MOVETO, Path.LINETO, Path.LINETO, Path.LINETO, Path.CLOSEPOLY], count)
+        path = Path(np.zeros((5 * count, 2)), codes.astype(Path.code_type))
+        patch = PathPatch(path, facecolor=face, edgecolor=edge, linewidth=0.8, animated=True, zorder=3)
+        self.axes.add_patch(patch)
+        return patch
+
+    def frame(self, time: float, outlines: Floats) -> NDArray[np.uint8]:
+        """The picture at one instant. outlines: (n, 4, 2) [m]"""
+        closed = np.concatenate([outlines, outlines[:, :1]], axis=1)
+        self.head.get_path().vertices = closed[0]
+        self.body.get_path().vertices = closed[1:].reshape(-1, 2)
+        self.time.set_text(self.words.format(time=time))
+        self.canvas.restore_region(self.still)
+        for artist in (self.body, self.head, self.time):
+            self.axes.draw_artist(artist)
+        return np.array(self.canvas.buffer_rgba())
+
+    def pixel(self, points: Floats) -> Floats:
+        """Columns and rows of points, (..., 2) [pixels]; points: (..., 2) [m]"""
+        found: Floats = self.axes.transData.transform(points.reshape(-1, 2)).reshape(points.shape)
+        found[..., 1] = self.canvas.get_width_height()[1] - found[..., 1]
+        return found
+
+
+def scale_bar(axes: Axes, corner: Floats, half: float) -> None:
+    """Draw a bar of a round length at the lower left. corner: lower left of the view [m]; half: of its height [m]"""
+    length = 10.0 ** np.floor(np.log10(half / 2.0))
+    x, y = corner + 0.07 * half
+    axes.plot([x, x + length], [y, y], color="black", linewidth=2.0, solid_capstyle="butt", zorder=9)
+    axes.text(x, y + 0.02 * half, f"{length:g} m", ha="left", va="bottom", zorder=9)
+
+
+Take = Callable[[NDArray[np.uint8]], None]
+
+
+@contextmanager
+def encoded_mp4(sink: io.BytesIO, shooting: Shooting) -> Iterator[Take]:
+    """Context that writes frames as H.264 in a second thread; yields the function that takes one."""
+    import av
+    from av.video.reformatter import ColorRange, Colorspace
+
+    waiting: deque[Future[None]] = deque()
+    # The encoder is left first: a file that closes while a frame is written to it would end the process.
+    with av.open(sink, "w", format="mp4") as file, ThreadPoolExecutor(1) as encoder:
+        stream = file.add_stream("libx264", rate=round(shooting.rate), options=OPTIONS)
+        stream.width, stream.height, stream.pix_fmt = shooting.width, shooting.height, "yuv420p"
+        stream.codec_context.thread_count = THREADS
+        stream.codec_context.colorspace, stream.codec_context.color_range = Colorspace.ITU709, ColorRange.MPEG
+
+        def encode(picture: NDArray[np.uint8]) -> None:
+            frame = av.VideoFrame.from_ndarray(picture, format="rgba")
+            file.mux(stream.encode(frame.reformat(format="yuv420p", dst_colorspace=Colorspace.ITU709)))
+
+        def take(picture: NDArray[np.uint8]) -> None:
+            waiting.append(encoder.submit(encode, picture))
+            if len(waiting) > WAITING:
+                waiting.popleft().result()
+
+        try:
+            yield take
+            while waiting:
+                waiting.popleft().result()
+            file.mux(stream.encode(None))
+        finally:
+            for one in waiting:
+                one.cancel()
+
+
+@contextmanager
+def encoded_gif(sink: io.BytesIO, shooting: Shooting) -> Iterator[Take]:
+    """Context that writes frames as a GIF that repeats; yields the function that takes one."""
+    from PIL import Image
+
+    pictures: list[Image.Image] = []
+
+    def take(picture: NDArray[np.uint8]) -> None:
+        image = Image.fromarray(picture[..., :3])
+        palette = pictures[0] if pictures else None
+        pictures.append(image.quantize(64, palette=palette, dither=Image.Dither.NONE))
+
+    yield take
+    ticks = max(round(GIF_TICK * shooting.seconds / len(pictures)), 2)
+    pictures[0].save(
+        sink, "gif", save_all=True, append_images=pictures[1:], duration=1000 * ticks // GIF_TICK, loop=0,
+        optimize=False, disposal=1,
+    )  # fmt: skip

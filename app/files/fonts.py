@@ -1,0 +1,64 @@
+"""The font of a picture: one that has every character of its words, so that none becomes an empty box."""
+
+from __future__ import annotations
+
+from functools import cache
+
+from app.extras import MissingPackage
+from app.files.tables import Language
+
+# Families with the characters of simplified Chinese, the ones made for it first.
+CHINESE = (
+    "Noto Sans CJK SC",
+    "Source Han Sans SC",
+    "Source Han Sans CN",
+    "WenQuanYi Micro Hei",
+    "WenQuanYi Zen Hei",
+    "Microsoft YaHei",
+    "PingFang SC",
+    "Hiragino Sans GB",
+    "SimHei",
+    "Heiti SC",
+    "Droid Sans Fallback",
+    "Noto Sans CJK JP",
+)
+# The font that matplotlib brings with it: Latin letters, digits and mathematical signs.
+LATIN = "DejaVu Sans"
+# Characters that a Chinese font must have: some of those that our pictures use.
+TRIED = "板凳龙螺距速度首次碰撞调头把手"
+
+
+@cache
+def families(language: Language) -> tuple[str, ...]:
+    """Families of fonts, the first of which that has a character draws it.
+
+    raises: MissingPackage for Chinese where no font on this machine has its characters
+    """
+    if language is Language.ENGLISH:
+        return (LATIN,)
+    from matplotlib import font_manager
+
+    manager = font_manager.fontManager
+    known = {font.fname for font in manager.ttflist}
+    for file in font_manager.findSystemFonts():  # matplotlib remembers fonts from before this one was installed
+        if file not in known:
+            manager.addfont(file)
+    installed = {font.name: font for font in reversed(manager.ttflist)}
+    for name in CHINESE:
+        if name in installed and _draws(installed[name]):
+            return (name, LATIN)
+    raise MissingPackage(
+        "language",
+        "--language zh needs a font with Chinese characters, which this machine does not have: install "
+        "fonts-wqy-microhei or fonts-noto-cjk (apt install fonts-wqy-microhei)",
+    )
+
+
+def _draws(entry: object) -> bool:
+    from matplotlib.ft2font import FT2Font
+
+    try:
+        font = FT2Font(entry.fname, face_index=getattr(entry, "index", 0))  # type: ignore[attr-defined]
+    except TypeError:  # before matplotlib 3.11 a file had one face
+        font = FT2Font(entry.fname)  # type: ignore[attr-defined]
+    return font.get_charmap().keys() >= set(map(ord, TRIED))

@@ -1,0 +1,39 @@
+"""What a film shows and how it looks, known before anything is drawn."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from importlib.util import find_spec
+
+import numpy as np
+
+from app.files.tables import Language
+from core.values import Floats
+
+MP4_TYPE, GIF_TYPE = "video/mp4", "image/gif"
+# Forms of a film and the endings of their files, the default first: without PyAV a film is a GIF.
+ENDINGS = ({MP4_TYPE: ".mp4"} if find_spec("av") else {}) | {GIF_TYPE: ".gif"}
+# Frames a second and height of the picture [pixels]. A GIF holds every picture whole, so a large one takes much room.
+LOOKS = {MP4_TYPE: (30, 1080), GIF_TYPE: (12, 360)}
+
+
+@dataclass(frozen=True)
+class Shooting:
+    """start, stop: of the dance [s]; seconds: the film plays [s]; rate: [frames/s]; height: [pixels], width 16 : 9"""
+
+    start: float
+    stop: float
+    seconds: float = 20.0
+    rate: float = 30.0
+    height: int = 1080
+    language: Language = Language.ENGLISH
+
+    @property
+    def width(self) -> int:
+        """[pixels], even, as H.264 wants it"""
+        return 2 * round(self.height * 8 / 9)
+
+    @property
+    def times(self) -> Floats:
+        """Instants of the dance that the frames show, (F,) [s]."""
+        return np.linspace(self.start, self.stop, max(round(self.seconds * self.rate), 2))

@@ -1,0 +1,93 @@
+"""A film of the dance, on any path and in any venue."""
+
+from __future__ import annotations
+
+from pydantic import Field
+
+from app.files.shooting import ENDINGS, GIF_TYPE, LOOKS, MP4_TYPE, Shooting
+from app.files.tables import Language
+from app.questions.question import Question, Terms
+from app.wire.dances import DanceQuery, PlacedDance
+from app.wire.models import Instant, Wire, check_limit, measure
+from core import Dance, EndReason, InvalidValue, Outcome, first_contact
+from core.errors import said
+
+FORM = next(iter(ENDINGS))
+# A film without a stop ends at first contact, or after this long, or this much before a fold [s].
+LONGEST, BEFORE_FOLD = 1_000.0, 1e-3
+# Time to draw and encode a million pixels of a film, measured 2026-11-22 [s].
+SECONDS_PER_MEGAPIXEL = {MP4_TYPE: 0.012, GIF_TYPE: 0.04}
+
+
+class FilmFields(Wire):
+    """What a film shows, and how it looks."""
+
+    start: Instant | None = measure(
+        "s", "First instant; null: 0, or, if the dance has no time 0, when the whole dragon is on the path", None
+    )
+    stop: Instant | None = measure(
+        "s", "Last instant; null: first contact, otherwise the end of the run, at most 1,000 s after the start", None
+    )
+    seconds: float = measure("s", "How long the film plays", 20.0, ge=0.1, le=120)
+    rate: int | None = measure("1/s", "Frames a second; null: 30, of a GIF 12", None, ge=1, le=60)
+    height: int | None = measure(
+        "pixels", "Height of the picture, 16 : 9; null: 1080, of a GIF 360", None, ge=90, le=2160, multiple_of=2
+    )
+    language: Language = Field(Language.ENGLISH, description="Language of the words in the picture")
+    title: str = Field("", max_length=80, description="Words at the upper right")
+
+
+class FilmQuery(FilmFields, DanceQuery):
+    """A film of a uniform dragon on a spiral."""
+
+
+class FilmRequest(FilmFields, PlacedDance):
+    """A film of any dragon on any path, in any venue."""
+
+    language: Language = Field(Language.ENGLISH, description="Language of the words in the picture", strict=False)
+
+
+def films(asked: FilmQuery | FilmRequest, terms: Terms, form: str = FORM) -> bytes:
+    """A film of the dance: every bench at every instant, as MP4 or GIF."""
+    from app.files import film
+
+    dance = asked.to_dance(terms.settings.drawn_benches_max)
+    venue = asked.to_place(dance.dragon).venue if isinstance(asked, PlacedDance) else None
+    rate, height = look(asked, form)
+    megapixels = round(asked.seconds * rate * height * height * 16 / 9 / 1e6)
+    check_limit(
+        "seconds", "millions of pixels", megapixels, terms.settings.film_megapixels_max, "take fewer or smaller"
+    )
+    start, stop = stretch(asked, dance, terms)
+    shooting = Shooting(start, stop, asked.seconds, rate, height, asked.language)
+    return film.film(
+        dance, shooting, form, venue=venue, title=asked.title, budget=terms.budget, progress=terms.progress
+    )
+
+
+def look(asked: FilmFields, form: str) -> tuple[int, int]:
+    """Frames a second, and height [pixels]."""
+    rate, height = LOOKS[form]
+    return asked.rate or rate, asked.height or height
+
+
+def stretch(asked: FilmFields, dance: Dance, terms: Terms) -> tuple[float, float]:
+    """First and last instant of the film [s]. raises: InvalidValue; OutsideRun"""
+    start = dance.default_start if asked.start is None else asked.start
+    if asked.stop is not None:
+        return dance.span(start, asked.stop)
+    end = dance.end
+    until = min(end.time - (BEFORE_FOLD if end.reason is EndReason.FOLD else 0.0), start + LONGEST)
+    if until <= start:
+        raise InvalidValue("start", f"start must be before {said(until)} s, when {end.why}, got {said(start)} s")
+    found = first_contact(dance, start=start, stop=until, budget=terms.budget)
+    meets = found.outcome is Outcome.CONTACT and found.time is not None
+    return dance.span(start, found.time if meets else until)
+
+
+def _cost(asked: FilmFields, form: str = FORM) -> float:
+    rate, height = look(asked, form)
+    return asked.seconds * rate * height * height * 16 / 9 / 1e6 * SECONDS_PER_MEGAPIXEL[form]
+
+
+QUESTION = Question(films, None, body=FilmRequest, forms=tuple(ENDINGS), cost=_cost, at="/films")

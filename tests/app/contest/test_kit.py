@@ -1,0 +1,211 @@
+"""The contest kit, written by the real command and read again by other programs."""
+
+from __future__ import annotations
+
+import csv
+import json
+import re
+import subprocess
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import openpyxl
+import pytest
+from PIL import Image
+
+from tests.app.command import COMMAND, run
+
+REFERENCE = Path(__file__).parents[2] / "reference"
+# Half of the last of six decimals, and the rounding of that decimal text [m and m/s].
+SIX_DECIMALS = 0.5e-6 + 1e-14
+WORKBOOKS = ("result1", "result2", "result4")
+FIGURES = ("positions", "snapshots", "clearance", "staircase", "geometry", "amplification", "sensitivity")
+TABLES = ("positions", "speeds", "contact", "turn-positions", "turn-speeds")
+
+
+def reference(name: str) -> Any:
+    return json.loads((REFERENCE / f"{name}.json").read_bytes())
+
+
+@pytest.fixture(scope="module", params=["zh", "en"])
+def kit(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> tuple[str, Path]:
+    folder = tmp_path_factory.mktemp("kit") / request.param
+    done = run("contest", str(folder), "--language", request.param, "--no-films")
+    assert done.returncode == 0, done.stderr
+    return request.param, folder
+
+
+def sheets(folder: Path, name: str) -> list[Any]:
+    return list(openpyxl.load_workbook(folder / f"{name}.xlsx").worksheets)
+
+
+def numbers(sheet: Any) -> np.ndarray[Any, Any]:
+    return np.array([row[1:] for row in sheet.iter_rows(min_row=2, values_only=True)])
+
+
+@pytest.mark.parametrize("name", WORKBOOKS)
+def test_chinese_labels_are_the_contest_s_own_to_the_blank_and_english_ones_words_of_that_layout(
+    kit: tuple[str, Path], name: str
+) -> None:
+    language, folder = kit
+    own = reference("contest_workbooks")["workbooks"][name]
+    found = sheets(folder, name)
+    assert [sheet.dimensions for sheet in found] == [sheet["dimensions"] for sheet in own]
+    if language == "en":
+        words = [str(cell.value) for sheet in found for cell in sheet["A"][1:]]
+        assert words[0].startswith("head")
+        assert words[-1].startswith("tail (rear)")
+        assert all(word.isascii() for word in words)
+        return
+    assert [sheet.title for sheet in found] == [sheet["title"] for sheet in own]
+    for sheet, told in zip(found, own, strict=True):
+        assert [cell.value for cell in sheet["A"]] == told["first_column"]
+        top = [cell.value for cell in sheet[1]]
+        assert (top[:4], top[-1]) == (told["first_row_start"], told["first_row_end"])
+
+
+@pytest.mark.parametrize("name", WORKBOOKS)
+def test_every_cell_is_a_number_of_six_decimals_in_a_frozen_sheet(kit: tuple[str, Path], name: str) -> None:
+    for sheet in sheets(kit[1], name):
+        assert sheet.freeze_panes == "B2"
+        assert sheet.column_dimensions["A"].width > 15
+        cells = [cell for row in sheet.iter_rows(min_row=2, min_col=2) for cell in row]
+        assert {cell.data_type for cell in cells} == {"n"}
+        assert {cell.number_format for cell in cells} == {"0.000000"}
+        assert all(abs(cell.value * 1e6 - round(cell.value * 1e6)) < 1e-6 for cell in cells)
+
+
+def differences(place: Any, speed: Any, column: int, handles: list[Any]) -> list[float]:
+    """Of the sheets of positions and speeds from reference handles at the instant of one column."""
+    return [
+        abs(found - told)
+        for one in handles
+        for found, told in (
+            (place[2 * one["handle"], column], one["x"]),
+            (place[2 * one["handle"] + 1, column], one["y"]),
+            (speed[one["handle"], column], one["speed"]),
+        )
+    ]
+
+
+@pytest.mark.parametrize(("name", "first", "told"), [("result1", 0, "trajectory"), ("result4", -100, "turn")])
+def test_workbooks_hold_the_reference_numbers(kit: tuple[str, Path], name: str, first: int, told: str) -> None:
+    place, speed = map(numbers, sheets(kit[1], name))
+    known = reference(told)
+    instants = known["tables"] if told == "turn" else [*known["selected"], *known["full"]]
+    whole = [one for one in instants if float(one["time"]).is_integer() and one["time"] - first < place.shape[1]]
+    assert len(whole) >= 3
+    for one in whole:
+        assert max(differences(place, speed, round(one["time"]) - first, one["handles"])) <= SIX_DECIMALS
+
+
+def test_the_second_workbook_holds_the_dance_at_first_contact(kit: tuple[str, Path]) -> None:
+    table = numbers(sheets(kit[1], "result2")[0])
+    handles = reference("trajectory")["full"][-1]["handles"]
+    assert len(handles) == len(table) == 224
+    told = np.array([[one["x"], one["y"], one["speed"]] for one in handles])
+    # The reference's instant is 1e-9 s from ours at most, and handles move at 1 m/s.
+    assert np.abs(table - told).max() <= SIX_DECIMALS + 1e-9
+
+
+def test_the_answers_are_those_of_the_references_with_brackets(kit: tuple[str, Path]) -> None:
+    given = json.loads((kit[1] / "answers.json").read_bytes())
+    assert [one["question"] for one in given] == [1, 1, 1, 1, 1, 2, 2, 3, 4, 4, 4, 5]
+    contact = next(one for one in given if one["question"] == 2)
+    pitch = next(one for one in given if one["question"] == 3)
+    speed = next(one for one in given if one["question"] == 5)
+    assert contact["value"] == pytest.approx(412.473837682, abs=1e-9)
+    assert pitch["value"] == pytest.approx(0.450337393028, abs=1e-9)
+    assert speed["value"] == pytest.approx(reference("maximum_head_speed")["head_speed"], abs=1e-9)
+    for one in (contact, pitch, speed):
+        low, high = one["bracket"]
+        assert low <= one["value"] <= high
+        assert high - low < 2e-9
+    length, shorter = [one["value"] for one in given if one["question"] == 4][:2]
+    assert length == pytest.approx(13.6212449, abs=5e-8)
+    assert shorter < length
+    assert all(one["how"] for one in given)
+
+
+@pytest.mark.parametrize("name", TABLES)
+def test_a_table_says_the_same_in_every_format(kit: tuple[str, Path], name: str) -> None:
+    files = {kind: (kit[1] / "tables" / f"{name}.{kind}").read_text(encoding="utf-8") for kind in ("csv", "md", "tex")}
+    rows = list(csv.reader(files["csv"].splitlines()))
+    marked = [[cell.strip() for cell in line.strip("|").split("|")] for line in files["md"].splitlines()]
+    latex = re.findall(r"^    (.*) \\\\$", files["tex"], re.MULTILINE)
+    assert [marked[0], *marked[2:]] == rows
+    assert [line.split(" & ") for line in latex] == rows
+    assert files["tex"].count("\\toprule") == files["tex"].count("\\bottomrule") == 1
+
+
+def test_the_paper_s_tables_hold_the_reference_numbers(kit: tuple[str, Path]) -> None:
+    rows = list(csv.reader((kit[1] / "tables" / "positions.csv").read_text(encoding="utf-8").splitlines()))[1:]
+    selected = reference("trajectory")["selected"]
+    assert len(selected) == len(rows[0]) - 1 == 6
+    for column, one in enumerate(selected, start=1):
+        places = [(one["handles"][k // 2]["x" if k % 2 == 0 else "y"], rows[k][column]) for k in range(len(rows))]
+        assert max(abs(told - float(text)) for told, text in places) <= SIX_DECIMALS
+
+
+@pytest.mark.parametrize("name", FIGURES)
+def test_a_figure_is_drawn_in_three_formats(kit: tuple[str, Path], name: str) -> None:
+    files = {kind: (kit[1] / "figures" / f"{name}.{kind}").read_bytes() for kind in ("pdf", "svg", "png")}
+    assert files["pdf"].startswith(b"%PDF-")
+    assert b"<svg" in files["svg"]
+    with Image.open(kit[1] / "figures" / f"{name}.png") as picture:
+        assert min(picture.size) > 600
+        assert len(picture.convert("L").getcolors()) > 20
+
+
+def test_the_report_ties_everything_together(kit: tuple[str, Path]) -> None:
+    language, folder = kit
+    page = (folder / "report.md").read_text(encoding="utf-8")
+    links = re.findall(r"\]\(([^)]+)\)", page)
+    assert {link for link in links if not (folder / link).is_file()} == set()
+    assert len(links) > 40
+    for number in ("412.473837682", "0.450337393", "13.6212449", "1.246266358"):
+        assert number in page
+    assert ("板凳" in page) is (language == "zh")
+
+
+def test_other_numbers_give_other_answers(tmp_path: Path) -> None:
+    done = run(
+        "contest", str(tmp_path), "--no-films", "--language", "en", "--benches", "40", "--stop", "60", "--span", "20"
+    )
+    assert done.returncode == 0, done.stderr
+    assert sheets(tmp_path, "result1")[0].dimensions == "A1:BJ83"
+    assert "40 benches" in (tmp_path / "report.md").read_text(encoding="utf-8")
+
+
+def test_a_time_after_the_fold_is_refused_in_one_line(tmp_path: Path) -> None:
+    done = run("contest", str(tmp_path), "--stop", "500")
+    assert done.returncode == 2
+    assert done.stderr.startswith("Error: stop must be at most 432.917924")
+    assert done.stderr.count("\n") == 1
+
+
+# matplotlib's own fonts alone, as on a machine without one for Chinese.
+WITHOUT_FONTS = """
+import sys
+from matplotlib import font_manager
+font_manager.findSystemFonts = lambda *_, **__: []
+own = font_manager.fontManager
+own.ttflist = [font for font in own.ttflist if "matplotlib" in font.fname]
+sys.argv = ["bench-dragon", "contest", sys.argv[1], "--language", sys.argv[2], "--no-films"]
+from app.command.main import app
+app()
+"""
+
+
+@pytest.mark.parametrize(("language", "code"), [("zh", 1), ("en", 0)])
+def test_without_a_chinese_font_all_but_pictures_is_written(tmp_path: Path, language: str, code: int) -> None:
+    python = Path(COMMAND).with_name("python")
+    done = subprocess.run(
+        [python, "-c", WITHOUT_FONTS, tmp_path, language], capture_output=True, text=True, timeout=120
+    )
+    assert done.returncode == code, done.stderr
+    assert all((tmp_path / f"{name}.xlsx").is_file() for name in WORKBOOKS)
+    assert (tmp_path / "report.md").is_file()
+    assert ("fonts-wqy-microhei" in done.stderr) is (code == 1)
+    assert bool(list((tmp_path / "figures").iterdir())) is (code == 0)

@@ -1,0 +1,114 @@
+"""Films: their frames decoded again and compared with the poses, from the command, the service and a job."""
+
+from __future__ import annotations
+
+import io
+import time
+from pathlib import Path
+
+import av
+import httpx
+import numpy as np
+import pytest
+from PIL import Image
+
+from app.files.film import Stage, film
+from app.files.shooting import GIF_TYPE, MP4_TYPE, Shooting
+from core import Budget, Dance, Dragon, Spiral, TooMuchWork, Turn, bench_poses, trajectory
+from tests.app.command import run
+
+# Of the head and of the body, as drawn; video keeps colours to within a few parts of 255.
+HEAD, BODY, NEAR = (213, 94, 0), (0, 114, 178), 60
+SMALL = {"dragon": {"benches": 12}, "seconds": 1, "rate": 6, "height": 360, "stop": 60}
+
+
+def decoded(data: bytes) -> list[np.ndarray]:
+    with av.open(io.BytesIO(data)) as file:
+        return [frame.to_ndarray(format="rgb24") for frame in file.decode(video=0)]
+
+
+def is_like(pixel: np.ndarray, colour: tuple[int, int, int]) -> bool:
+    return bool(np.abs(pixel.astype(int) - colour).max() < NEAR)
+
+
+def centres(stage: Stage, dance: Dance, instant: float) -> np.ndarray:
+    """Rows and columns of the middle of every bench at one instant."""
+    middle = bench_poses(trajectory(dance, [instant]).position[0])[:, :2]
+    return np.rint(stage.pixel(middle)[:, ::-1]).astype(int)
+
+
+@pytest.mark.parametrize("path", [Spiral(), Turn(1.7)], ids=["spiral", "turn"])
+def test_every_frame_shows_every_bench_where_it_is(path: Spiral | Turn, tmp_path: Path) -> None:
+    dance = Dance(Dragon(benches=30), path)
+    file = tmp_path / "dance.mp4"
+    kind = "turn" if isinstance(path, Turn) else "spiral"
+    asked = tmp_path / "asked.json"
+    asked.write_text(f'{{"dragon": {{"benches": 30}}, "path": {{"kind": "{kind}"}}}}')
+    done = run(
+        "film", str(asked), "--output", str(file), "--start", "0", "--stop", "90", "--seconds", "1", "--rate", "10"
+    )
+    assert done.returncode == 0, done.stderr
+    found = decoded(file.read_bytes())
+    shooting = Shooting(0.0, 90.0, 1.0, 10)
+    stage = Stage(dance, shooting, None, "")
+    assert len(found) == shooting.times.size == 10
+    for instant, picture in zip(shooting.times, found, strict=True):
+        assert picture.shape == (1080, 1920, 3)
+        places = centres(stage, dance, float(instant))
+        assert is_like(picture[tuple(places[0])], HEAD), instant
+        assert all(is_like(picture[tuple(place)], BODY) for place in places[1:]), instant
+        orange = np.argwhere((np.abs(picture.astype(int) - HEAD) < NEAR).all(axis=-1))
+        assert np.abs(orange.mean(axis=0) - places[0]).max() < 3.0, instant
+
+
+def test_a_film_plays_as_long_as_asked_and_a_gif_too(client: httpx.Client) -> None:
+    answer = client.post("/films", json=SMALL).raise_for_status()
+    assert answer.headers["content-type"] == MP4_TYPE
+    with av.open(io.BytesIO(answer.content)) as file:
+        stream = file.streams.video[0]
+        assert (stream.width, stream.height, stream.frames, float(stream.average_rate)) == (640, 360, 6, 6.0)
+    gif = client.post("/films", json=SMALL, headers={"Accept": GIF_TYPE}).raise_for_status()
+    with Image.open(io.BytesIO(gif.content)) as picture:
+        assert (picture.format, picture.size, picture.n_frames) == ("GIF", (640, 360), 6)
+        assert 900 <= picture.info["duration"] * picture.n_frames <= 1100
+
+
+def test_a_job_films_what_the_call_itself_films(client: httpx.Client) -> None:
+    direct = client.post("/films", json=SMALL).raise_for_status()
+    later = client.post("/films", json=SMALL, headers={"Prefer": "respond-async"})
+    assert later.status_code == 202
+    address = later.headers["location"]
+    end = time.monotonic() + 60
+    while client.get(address).json()["status"] not in ("successful", "failed"):
+        assert time.monotonic() < end
+        time.sleep(0.1)
+    assert client.get(f"{address}/result").content == direct.content
+
+
+def test_a_film_that_is_too_large_or_outside_the_run_is_refused(client: httpx.Client) -> None:
+    large = client.post("/films", json={"seconds": 120, "rate": 60, "height": 2160})
+    assert large.status_code == 422
+    assert "must be at most 4000 here" in large.json()["detail"]
+    late = client.post("/films", json={"stop": 500})
+    assert (late.status_code, late.json()["errors"][0]["pointer"]) == (422, "/stop")
+
+
+def test_a_file_of_another_kind_is_refused(tmp_path: Path) -> None:
+    done = run("film", "--output", str(tmp_path / "dance.avi"))
+    assert (done.returncode, done.stderr) == (2, "Error: --output must end in .mp4 or .gif, got .avi\n")
+
+
+@pytest.mark.parametrize("form", [MP4_TYPE, GIF_TYPE])
+@pytest.mark.parametrize("frames", range(0, 20, 2))
+def test_a_film_that_is_stopped_ends_alone(form: str, frames: int) -> None:
+    """Its encoder may still write a frame then: the process goes on, and so does the next film."""
+    budget = Budget()
+
+    def stop_after(share: float) -> None:
+        if share * shooting.times.size >= frames:
+            budget.stop()
+
+    shooting = Shooting(0.0, 60.0, 2.0, 12)
+    with pytest.raises(TooMuchWork, match="the film was not drawn"):
+        film(Dance(Dragon(benches=5), Spiral()), shooting, form, budget=budget, progress=stop_after)
+    assert len(film(Dance(Dragon(benches=5), Spiral()), Shooting(0.0, 1.0, 0.2, 10), form)) > 1000
