@@ -1,0 +1,155 @@
+"""The command bench-dragon grade: what is right in workbooks of the contest, and which error made the rest wrong."""
+
+from __future__ import annotations
+
+import csv
+import io
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Annotated
+
+import typer
+from rich.text import Text
+
+from app.command import show
+from app.command.options import Json
+from app.files.disk import checked_output, write_whole
+from app.files.tables import Language
+from app.grade.layout import Kind
+from app.grade.reading import FILE_MAX
+from app.grade.report import SHEETS, DiagnosisAnswer, FileAnswer, GradeAnswer, SheetAnswer, TypedAnswer, graded, typed
+from app.grade.words import say
+from core import Budget, InvalidValue
+
+# Files of a folder that are graded.
+ENDINGS = (".xlsx", ".xlsm", ".xls", ".csv")
+SUMMARY = ("file", "workbook", "verdict", "cells", "right", "missing", "diagnosis")
+
+
+def grade(
+    files: Annotated[
+        list[Path] | None,
+        typer.Argument(help="result1.xlsx, result2.xlsx, result4.xlsx, or CSV; or folders of many students."),
+    ] = None,
+    collision_time: Annotated[str | None, typer.Option(help="Answer to question 2: time of first contact [s]")] = None,
+    pitch: Annotated[str | None, typer.Option(help="Answer to question 3: minimum pitch [m]")] = None,
+    turn_length: Annotated[str | None, typer.Option(help="Answer to question 4: length of the turn [m]")] = None,
+    speed: Annotated[str | None, typer.Option(help="Answer to question 5: maximum speed of the head [m/s]")] = None,
+    language: Annotated[Language, typer.Option(help="Language of the words.")] = Language.ENGLISH,
+    summary: Annotated[Path | None, typer.Option(help="Write a .csv file with one line for each file.")] = None,
+    json: Json = False,
+) -> None:
+    """What is right in a student's results, and which known error made the rest wrong. The exit code is always 0."""
+    if summary:
+        checked_output("summary", summary, (".csv",))
+    numbers = {"collision_time": collision_time, "pitch": pitch, "turn_length": turn_length, "speed": speed}
+    given = {name: text for name, text in numbers.items() if text is not None}
+    named = list(_named(files or []))
+    if not named and not given:
+        raise InvalidValue("files", "give at least one FILE or one number, such as --pitch 0.45")
+    answers = [typed(name, text, language) for name, text in given.items()]
+    found = []
+    with show.waiting("grading") as progress:
+        for k, file in enumerate(named):
+            # One byte more than may be read shows that the file is too long.
+            with file.open("rb") as source:
+                data = source.read(FILE_MAX + 1)
+            found.append(graded(str(file), data, language, Budget()))
+            progress((k + 1) / len(named))
+    answer = GradeAnswer(files=found, answers=answers)
+    if summary:
+        write_whole(summary, _summary(found).encode("utf-8-sig"))
+    if json:
+        show.print_json(answer.to_json())
+    else:
+        show.print_parts(*_parts(answer, language))
+
+
+def _named(files: list[Path]) -> Iterator[Path]:
+    """Every file that is to be graded: those of a folder by path. raises: OSError for one that cannot be read"""
+    for file in files:
+        if file.is_dir():
+            inside = sorted(path for path in file.rglob("*") if path.suffix.lower() in ENDINGS and path.is_file())
+            yield from (path for path in inside if not path.name.startswith(("~$", ".")))
+        else:
+            file.open("rb").close()
+            yield file
+
+
+def _summary(files: list[FileAnswer]) -> str:
+    """CSV with a line for each file."""
+    sink = io.StringIO()
+    writer = csv.writer(sink)
+    writer.writerow(SUMMARY)
+    for file in files:
+        errors = "; ".join(one.error for one in file.diagnosis)
+        writer.writerow([file.file, file.workbook or "", file.verdict.value, *_counts(file), errors])
+    return sink.getvalue()
+
+
+def _counts(file: FileAnswer) -> tuple[int, int, int]:
+    sheets = file.sheets
+    return sum(one.cells for one in sheets), sum(one.right for one in sheets), sum(one.missing for one in sheets)
+
+
+def _parts(answer: GradeAnswer, language: Language) -> Iterator[show.Part]:
+    for one in answer.answers:
+        yield from _typed(one, language)
+    for file in answer.files:
+        yield from _file(file, language)
+    if len(answer.files) > 1:
+        columns = [say(f"column_{name}", language) for name in SUMMARY]
+        table = show.new_table(say("summary", language), *columns)
+        for file in answer.files:
+            errors = ", ".join(one.error for one in file.diagnosis)
+            counts = [f"{count:,}" for count in _counts(file)]
+            table.add_row(file.file, file.workbook or "", say(file.verdict.value, language), *counts, errors)
+        yield table
+
+
+def _typed(one: TypedAnswer, language: Language) -> Iterator[show.Part]:
+    name, verdict = say(one.answer, language), say(one.verdict.value, language)
+    yield Text(f"{name}: {one.found:.12g} {one.unit}: {verdict}", style="bold")
+    if one.verdict != "right":
+        yield "  " + say("is_right", language, right=f"{one.expected:.9f}", unit=one.unit)
+        yield from _diagnosis(one.diagnosis, language)
+    yield ""
+
+
+def _file(file: FileAnswer, language: Language) -> Iterator[show.Part]:
+    yield Text(f"{file.file}: {say(file.verdict.value, language)}", style="bold")
+    yield from (f"  {one}" for one in file.notes)
+    for sheet in file.sheets:
+        yield from _sheet(sheet, language)
+    if file.diagnosis or file.verdict == "wrong":
+        yield from _diagnosis(file.diagnosis, language)
+    marks = {True: "+", False: "-", None: " "}
+    yield from (f"  [{marks[one.met]}] {one.words}" for one in file.rubric)
+    yield ""
+
+
+def _sheet(sheet: SheetAnswer, language: Language) -> Iterator[show.Part]:
+    verdict = say(sheet.verdict.value, language)
+    if sheet.decimals:
+        verdict += say("to_decimals", language, decimals=sheet.decimals)
+    title = sheet.sheet or say(SHEETS[Kind(sheet.holds)], language)
+    yield "  " + say(
+        "sheet_line", language, title=title, verdict=verdict, right=f"{sheet.right:,}", cells=f"{sheet.cells:,}"
+    )
+    yield from (f"    {one}" for one in sheet.notes)
+    for name, cell in (("worst", sheet.worst), ("first", sheet.first)):
+        if cell and sheet.verdict == "wrong":
+            values = {"found": f"{cell.found:.6f}", "expected": f"{cell.expected:.6f}", "time": f"{cell.time:.9g}"}
+            yield "    " + say(
+                f"{name}_cell", language, cell=cell.cell, handle=cell.handle, quantity=cell.quantity, **values
+            )
+    if sheet.verdict in ("wrong", "incomplete"):
+        yield from (f"    {line}" for line in sheet.picture)
+
+
+def _diagnosis(found: list[DiagnosisAnswer], language: Language) -> Iterator[show.Part]:
+    if not found:
+        yield "  " + say("nothing_fits", language)
+    for one in found:
+        yield f"  > {one.words}"
+        yield f"    {one.evidence}"

@@ -1,0 +1,156 @@
+"""Chains of handles on curves that the contest does not mean: recomputed to compare with what was handed in.
+
+The right dance is `core`'s. Here are its wrong relatives: handles an arc apart instead of a chord, angles rounded on
+the way, and turns whose arcs do not meet the spiral tangentially, which `core` rightly refuses as paths.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from core import Dance, Dragon, Spiral, Turn
+from core.values import Floats
+
+# x, y [m] and speed [m/s] of every handle (T, H, 3) at times (T,) [s].
+Motion = Callable[[Floats], Floats]
+# Steps of Newton for the next angle, and of the false position for the next place: both reach 1e-12 long before.
+NEWTON_STEPS, FALSE_STEPS = 8, 40
+
+
+def motion(position: Floats, speed: Floats) -> Floats:
+    """(T, H, 3) from positions (T, H, 2) and speeds (T, H)."""
+    return np.concatenate([position, speed[..., None]], axis=-1)
+
+
+def link_speeds(position: Floats, tangent: Floats) -> Floats:
+    """Speeds (T, H) [m/s] of handles on rigid links, the first at 1 m/s: along a link both ends are equally fast.
+
+    position, tangent: (T, H, 2); v[k + 1] (T[k + 1] . u) = v[k] (T[k] . u), u along the link
+    """
+    along = position[:, :-1] - position[:, 1:]
+    before = np.abs((tangent[:, :-1] * along).sum(axis=-1))
+    after = np.abs((tangent[:, 1:] * along).sum(axis=-1))
+    ratio = before / np.where(after > 0.0, after, 1.0)
+    return np.concatenate([np.ones((len(position), 1)), np.cumprod(ratio, axis=1)], axis=1)
+
+
+def equal_arcs(dance: Dance) -> Motion:
+    """Handles one chord's length apart along the curve, so that all are equally fast."""
+    back = np.concatenate([[0.0], np.cumsum(dance.dragon.chords)])
+
+    def moved(times: Floats) -> Floats:
+        s = times[:, None] * dance.head_speed - back
+        return motion(dance.path.position(s), np.full(s.shape, dance.head_speed))
+
+    return moved
+
+
+def rounded_angles(dance: Dance, path: Spiral, decimals: int) -> Motion:
+    """Every handle's polar angle rounded to some decimals before the next one is computed."""
+
+    def moved(times: Floats) -> Floats:
+        theta = np.round(path.theta(times * dance.head_speed), decimals)
+        thetas = [theta]
+        for chord in dance.dragon.chords:
+            theta = np.round(theta + _turned(theta, (chord / path.growth) ** 2), decimals)
+            thetas.append(theta)
+        return _on_spiral(path, np.stack(thetas, axis=1))
+
+    return moved
+
+
+def _turned(theta: Floats, chord2: float) -> Floats:
+    """Angle to the next handle by Newton: delta^2 + 4 theta (theta + delta) sin^2(delta / 2) = chord2."""
+    delta = np.sqrt(chord2) / np.maximum(theta, 1.0)
+    for _ in range(NEWTON_STEPS):
+        sine, cosine = np.sin(0.5 * delta), np.cos(0.5 * delta)
+        value = delta**2 + 4.0 * theta * (theta + delta) * sine**2 - chord2
+        slope = 2.0 * delta + 4.0 * theta * (sine**2 + (theta + delta) * sine * cosine)
+        delta = delta - value / slope
+    return np.asarray(delta)
+
+
+def _on_spiral(path: Spiral, theta: Floats) -> Floats:
+    """The motion of handles at these polar angles (T, H)."""
+    radial = np.stack([np.cos(theta), np.sin(theta)], axis=-1)
+    across = np.stack([radial[..., 1], -radial[..., 0]], axis=-1)
+    position = radial * (path.growth * theta)[..., None]
+    tangent = (theta[..., None] * across - radial) / np.sqrt(1.0 + theta**2)[..., None]
+    return motion(position, link_speeds(position, tangent))
+
+
+@dataclass(frozen=True)
+class Bent:
+    """A turn of two arcs that may meet the spiral and each other at an angle.
+
+    right: the turn whose coils lead in and out; arcs: centre, radius, angle of its beginning, angle turned, of both
+    """
+
+    right: Turn
+    arcs: tuple[tuple[complex, float, float, float], ...]
+
+    @property
+    def length(self) -> float:
+        return sum(radius * abs(turned) for _, radius, _, turned in self.arcs)
+
+    def place(self, s: Floats) -> tuple[Floats, Floats]:
+        """Points and tangents (..., 2) at places s [m], 0 at the entry."""
+        after = s - self.length
+        outside = np.where(s < 0.0, s, self.right.length + np.maximum(after, 0.0))
+        point, tangent = self.right.position(outside), self.right.tangent(outside)
+        begun = 0.0
+        for centre, radius, start, turned in self.arcs:
+            here = (s >= begun) & (s < begun + radius * abs(turned))
+            angle = start + math.copysign(1.0, turned) * (s - begun) / radius
+            spoke = np.stack([np.cos(angle), np.sin(angle)], axis=-1)
+            ahead = math.copysign(1.0, turned) * np.stack([-spoke[..., 1], spoke[..., 0]], axis=-1)
+            arc = np.array([centre.real, centre.imag]) + radius * spoke
+            point, tangent = np.where(here[..., None], arc, point), np.where(here[..., None], ahead, tangent)
+            begun += radius * abs(turned)
+        return point, tangent
+
+
+def on_bent(dragon: Dragon, path: Bent) -> Motion:
+    """A dragon along such a turn at 1 m/s: every handle is the nearest place behind its leader that is a chord away."""
+
+    def moved(times: Floats) -> Floats:
+        s = times
+        points: list[Floats] = []
+        tangents: list[Floats] = []
+        for chord in [None, *dragon.chords]:
+            if chord is not None:
+                s = _behind(path, s, points[-1], float(chord))
+            point, tangent = path.place(s)
+            points.append(point)
+            tangents.append(tangent)
+        position = np.stack(points, axis=1)
+        return motion(position, link_speeds(position, np.stack(tangents, axis=1)))
+
+    return moved
+
+
+def _behind(path: Bent, s: Floats, point: Floats, chord: float) -> Floats:
+    """Places behind s whose points are one chord from `point`: bracketed, then by false position (Illinois)."""
+
+    def excess(at: Floats) -> Floats:
+        found: Floats = np.linalg.norm(path.place(at)[0] - point, axis=-1) - chord
+        return found
+
+    near, far = s - 0.9 * chord, s - 1.6 * chord
+    f_near, f_far = excess(near), excess(far)
+    middle = near
+    for _ in range(FALSE_STEPS):
+        span = np.where(f_far != f_near, f_far - f_near, 1.0)
+        middle = far - f_far * (far - near) / span
+        value = excess(middle)
+        if np.abs(value).max() < 1e-12:
+            break
+        crossed = np.sign(value) != np.sign(f_far)
+        f_near = np.where(crossed, f_far, 0.5 * f_near)
+        near = np.where(crossed, far, near)
+        far, f_far = middle, value
+    return middle

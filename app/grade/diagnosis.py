@@ -1,0 +1,246 @@
+"""Which known error explains the wrong cells of a workbook.
+
+Input: the judgements of its sheets. Output: findings, each with the numbers that support it; none where nothing fits.
+State: none. Argument: an error is recomputed as a model, and counts only if it gives nearly all of the wrong cells.
+First the positions are explained, by an error of geometry or by the right motion; then the speeds, by what that motion
+gives or by an error of speed made on it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from app.grade.chains import Motion
+from app.grade.expected import Workbook, contact_time, dance_of
+from app.grade.geometry import Model, geometries, of_dance, time_at
+from app.grade.layout import COMPONENTS, HANDLES, SPEED, Ints, Kind, X, Y
+from app.grade.shortcuts import Finding, explained
+from app.grade.verdict import RIGHT, ROUNDED, Judgement
+from app.grade.words import note
+from core import Budget, Spiral
+from core.values import Floats
+
+# A model must give so large a share of the wrong cells, and of all cells [1].
+WRONG_SHARE, ALL_SHARE = 0.9, 0.95
+# A first look at a model takes so many instants, and goes on if it gives so large a share of their cells [1].
+LOOKS, LOOK_SHARE = 12, 0.75
+# Beside the decimals written a student's own arithmetic may be off by so much [m, m/s].
+ARITHMETIC = 2e-6
+# With fewer decimals than these nothing can be told apart.
+DECIMALS_LEAST = 2
+# Steps of difference quotients that are tried [s].
+STEPS = (1.0, 0.5, 0.2, 0.1, 0.05, 0.02, 0.01, 0.001)
+# Links to wrong handles that must be whole: the seams of what was only moved about are not [1].
+RING_SHARE = 0.995
+# A handle is on the spiral, and a chord has its length, within this [m].
+ON_SPIRAL = 1e-4
+
+
+@dataclass(frozen=True)
+class _Fit:
+    """How well a model gives a sheet: shares of the wrong cells and of all, and the mean distance from the others."""
+
+    wrong: float
+    all: float
+    off: float
+    count: int
+    tolerance: float
+
+    @property
+    def explains(self) -> bool:
+        return self.wrong >= WRONG_SHARE and self.all >= ALL_SHARE
+
+
+def diagnosed(judgements: list[Judgement], budget: Budget) -> list[Finding]:
+    """Findings on the sheets of one workbook."""
+    written = max((one.written for one in judgements), default=0)
+    # A sheet of whole numbers, such as equal speeds, has the decimals of the other one.
+    judgements = [one if one.written >= DECIMALS_LEAST else replace(one, written=written) for one in judgements]
+    if written < DECIMALS_LEAST or not any(one.is_off for one in judgements):
+        return []
+    by_kind = {one.table.kind: one for one in judgements}
+    if Kind.CONTACT in by_kind:
+        return _of_contact(by_kind[Kind.CONTACT], budget)
+    return _over_time(by_kind.get(Kind.POSITION), by_kind.get(Kind.SPEED), budget)
+
+
+def _fit(one: Judgement, given: Floats, at: Ints | slice = slice(None)) -> _Fit:
+    """given: (T, HANDLES, 3), what a model gives at the times of the sheet, or at some of them; at: which"""
+    components = list(COMPONENTS[one.table.kind])
+    known = one.handles < given.shape[1]
+    off = np.abs(one.values[at][:, known] - given[:, one.handles[known]][..., components])
+    wrong = one.off[at][:, known] > RIGHT
+    tolerance = ROUNDED * 10.0**-one.written + ARITHMETIC
+    present, fits = np.isfinite(off), off <= tolerance
+    count = int(wrong.sum())
+    share = float(fits[wrong].mean()) if count else 1.0
+    if not present.any():
+        return _Fit(0.0, 0.0, np.inf, count, tolerance)
+    return _Fit(share, float(fits[present].mean()), float(np.median(off[present])), count, tolerance)
+
+
+def _best(one: Judgement, times: Floats, models: Iterable[Model], budget: Budget) -> tuple[Model, _Fit] | None:
+    """The model that explains a sheet best; None where none does."""
+    found: list[tuple[Model, _Fit]] = []
+    some = np.unique(np.linspace(0, times.size - 1, LOOKS).astype(np.int64))
+    for model in models:
+        budget.look()
+        # Most models are far off already at a few instants.
+        if _fit(one, model.motion(times[some]), some).all < LOOK_SHARE:
+            continue
+        fit = _fit(one, model.motion(times))
+        if fit.explains:
+            found.append((model, fit))
+    return max(found, key=lambda pair: (round(pair[1].all, 3), -pair[1].off), default=None)
+
+
+def _finding(model: Model, fit: _Fit, one: Judgement) -> Finding:
+    worst = one.worst()
+    assert worst is not None
+    values = {
+        "sheet": one.table.title,
+        "share": f"{100 * fit.wrong:.1f}",
+        "count": fit.count,
+        "tolerance": f"{fit.tolerance:.1e}",
+        "worst": f"{one.off[worst]:.6g}",
+        "unit": "m/s" if COMPONENTS[one.table.kind][worst[2]] == SPEED else "m",
+    }
+    return Finding(model.error, note(f"error_{model.error}", **model.values), note("evidence", **values))
+
+
+def _over_time(position: Judgement | None, speed: Judgement | None, budget: Budget) -> list[Finding]:
+    either = position or speed
+    assert either is not None
+    right = Model("", of_dance(dance_of(either.workbook)))
+    findings: list[Finding] = []
+    base: Model | None = right
+    if position and position.is_off:
+        times = position.times
+        found = _best(position, times, geometries(dance_of(position.workbook), times, _head(position)), budget)
+        base = found[0] if found else None
+        if found:
+            findings.append(_finding(*found, position))
+        elif ring := _wrong_ring(position):
+            findings.append(ring)
+    if speed is None or not speed.is_off:
+        return findings
+    if base is not None and _fit(speed, base.motion(speed.times)).explains:
+        return findings
+    models = [] if base is None else [*_speeds(base.motion)]
+    if position is None:
+        models += geometries(dance_of(speed.workbook), speed.times, None)
+    elif base is None:
+        models += [_equal_speeds()]
+    if found := _best(speed, speed.times, models, budget):
+        findings.append(_finding(*found, speed))
+    return findings
+
+
+def _head(one: Judgement) -> Floats | None:
+    """The head's points as handed in (T, 2), NaN where there are none."""
+    line = np.flatnonzero(one.handles == 0)
+    return one.values[:, line[0], :2] if line.size else None
+
+
+def _equal_speeds() -> Model:
+    return Model("equal_speeds", lambda times: np.ones((times.size, HANDLES, 3)))
+
+
+def _speeds(motion: Motion) -> Iterator[Model]:
+    """Known errors in the speeds of a motion."""
+    yield _equal_speeds()
+    for step in STEPS:
+        for error, before, after in (
+            ("forward_difference", 0.0, step),
+            ("backward_difference", -step, 0.0),
+            ("central_difference", -step, step),
+        ):
+
+            def moved(times: Floats, before: float = before, after: float = after) -> Floats:
+                first, last = motion(times + before), motion(times + after)
+                last[..., SPEED] = np.linalg.norm(last[..., :2] - first[..., :2], axis=-1) / (after - before)
+                return last
+
+            yield Model(error, moved, {"step": f"{step:g}"})
+
+
+def _of_contact(one: Judgement, budget: Budget) -> list[Finding]:
+    """Findings on result2: the instant is told by where the head was put."""
+    right = of_dance(dance_of(Workbook.RESULT2))
+    time = np.array([contact_time()])
+    head = _head(one)
+    times = [contact_time(), *(_instants(head) if head is not None else [])]
+    findings: list[Finding] = []
+    for instant in times:
+        at = np.array([instant])
+        base = Model("other_instant", right, {"time": f"{instant:.6f}"})
+        models = [base] if instant != time[0] else []
+        models += [*geometries(dance_of(Workbook.RESULT2), at, None), *_speeds(right)]
+        if found := _best(one, at, models, budget):
+            findings.append(_finding(*found, one))
+            if instant != time[0]:
+                findings += explained("collision_time", instant, 10.0**-4)
+            break
+    return findings
+
+
+def _instants(head: Floats) -> Iterator[float]:
+    """Times at which the head is at the place where it was put [s], also on the mirrored spiral."""
+    for point in (head[0], head[0] * [1.0, -1.0]):
+        if not np.isfinite(point).all():
+            continue
+        dance = dance_of(Workbook.RESULT2)
+        path = dance.path
+        assert isinstance(path, Spiral)
+        theta = float(np.hypot(*point)) / path.growth
+        place = path.growth * theta * np.array([np.cos(theta), np.sin(theta)])
+        if np.linalg.norm(place - point) < ON_SPIRAL:
+            arc = 0.5 * path.growth * (theta * np.hypot(1.0, theta) + np.arcsinh(theta))
+            yield time_at(dance, path.length - float(arc), point)
+
+
+def _wrong_ring(one: Judgement) -> Finding | None:
+    """A handle that is a chord away from the one before, on the curve, but on another ring.
+
+    Argument: a point of the spiral has the polar angle radius / growth. If every handle of the sheet is on the spiral
+    and every chord has its length, and still a handle's angle is less than that of the one before, or larger by more
+    than half a turn, then another root of the chord equation was taken there.
+    """
+    dance = dance_of(one.workbook)
+    path = dance.path
+    order = np.argsort(one.handles)
+    if not isinstance(path, Spiral) or not np.array_equal(one.handles[order], np.arange(HANDLES)):
+        return None
+    points = one.values[:, order]
+    radius = np.linalg.norm(points, axis=-1)
+    theta = radius / path.growth
+    place = radius[..., None] * np.stack([np.cos(theta), np.sin(theta)], axis=-1)
+    on_curve = np.linalg.norm(place - points, axis=-1) < ON_SPIRAL
+    chords = np.linalg.norm(np.diff(points, axis=1), axis=-1)
+    kept = (np.abs(chords - dance.dragon.chords) < ON_SPIRAL) & on_curve[:, 1:] & on_curve[:, :-1]
+    wrong = np.any(one.off[:, order] > RIGHT, axis=-1)[:, 1:]
+    if not wrong.any() or kept[wrong].mean() < RING_SHARE:
+        return None
+    step = np.diff(theta, axis=1)
+    other = np.argwhere((step < 0.0) | (step > np.pi))
+    if not other.size:
+        return None
+    t, k = min((tuple(map(int, at)) for at in other), key=lambda at: (at[1], at[0]))
+    values = {
+        "handle": k + 1,
+        "time": f"{one.times[t]:g}",
+        "chord": f"{chords[t, k]:.6f}",
+        "turns": f"{step[t, k] / (2 * np.pi):+.3f}",
+        "right": f"{_right_step(one, order, t, k, path):+.3f}",
+        "count": len(other),
+    }
+    return Finding("wrong_ring", note("error_wrong_ring"), note("evidence_ring", **values))
+
+
+def _right_step(one: Judgement, order: np.ndarray, t: int, k: int, path: Spiral) -> float:
+    """Turns from one handle to the next where they belong."""
+    wanted = np.linalg.norm(one.wanted[t, order[k : k + 2]][:, [X, Y]], axis=-1) / path.growth
+    return float(np.diff(wanted)[0] / (2.0 * np.pi))

@@ -1,0 +1,66 @@
+"""What the contest's workbooks hold when they are right."""
+
+from __future__ import annotations
+
+from enum import StrEnum
+from functools import cache
+
+import numpy as np
+
+from app.grade.layout import BENCHES, HANDLES, Kind
+from core import Dance, Dragon, Spiral, Turn, first_contact
+from core import trajectory as trajectory_of
+from core.values import Floats
+
+PITCH = 1.7  # [m], of the spiral that question 4 turns on
+# The run of result4 begins and ends this far from the beginning of the turn; result1 lasts so long [s].
+TURN_SPAN, SPIRAL_SPAN = 100, 300
+
+
+class Workbook(StrEnum):
+    """A workbook of the contest."""
+
+    RESULT1 = "result1"
+    RESULT2 = "result2"
+    RESULT4 = "result4"
+
+
+# What each workbook holds.
+KINDS = {
+    Workbook.RESULT1: (Kind.POSITION, Kind.SPEED),
+    Workbook.RESULT2: (Kind.CONTACT,),
+    Workbook.RESULT4: (Kind.POSITION, Kind.SPEED),
+}
+
+
+@cache
+def dance_of(workbook: Workbook) -> Dance:
+    return Dance(Dragon(BENCHES), Turn(PITCH) if workbook is Workbook.RESULT4 else Spiral())
+
+
+@cache
+def contact_time() -> float:
+    """The time of first contact [s]."""
+    time = first_contact(dance_of(Workbook.RESULT2)).time
+    assert time is not None
+    return time
+
+
+def times_of(workbook: Workbook) -> Floats:
+    """The instants of a workbook [s]."""
+    if workbook is Workbook.RESULT2:
+        return np.array([contact_time()])
+    if workbook is Workbook.RESULT4:
+        return np.arange(-TURN_SPAN, TURN_SPAN + 1, dtype=np.float64)
+    return np.arange(SPIRAL_SPAN + 1, dtype=np.float64)
+
+
+def cells_of(workbook: Workbook, kind: Kind) -> int:
+    """Number of cells with a number in a sheet."""
+    return times_of(workbook).size * HANDLES * {Kind.POSITION: 2, Kind.SPEED: 1, Kind.CONTACT: 3}[kind]
+
+
+def motion_of(workbook: Workbook, times: Floats) -> Floats:
+    """x, y [m] and speed [m/s] of every handle (T, HANDLES, 3) at these times (T,) [s]."""
+    found = trajectory_of(dance_of(workbook), times)
+    return np.concatenate([found.position, found.speed[..., None]], axis=-1)

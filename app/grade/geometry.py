@@ -1,0 +1,201 @@
+"""Known errors in where the handles are: each as the motion that it gives.
+
+Input: the right dance and what was handed in, from which a free number such as the start is taken. Output: models, each
+with the name of its error, its motion and the numbers that its words tell. State: none.
+"""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from app.grade.chains import Bent, Motion, equal_arcs, motion, on_bent, rounded_angles
+from app.grade.expected import PITCH
+from core import BenchDragonError, Dance, Dragon, Spiral, Turn
+from core import trajectory as trajectory_of
+from core.values import Floats
+
+# Decimals to which a constant or an angle is rounded early.
+CONSTANT_DECIMALS, ANGLE_DECIMALS = (2, 3, 4, 5), (1, 2, 3, 4, 5)
+PI_ROUNDED = (3.14, 3.1416)
+# Times at which the head passes a place are found among places this far apart [m], and looked for within this [m].
+PLACE_STEP, PLACE_NEAR = 0.01, 0.05
+
+
+@dataclass(frozen=True)
+class Model:
+    """A known error, recomputed. error: its name; motion: what it gives; values: numbers that its words tell"""
+
+    error: str
+    motion: Motion
+    values: dict[str, object] = field(default_factory=dict)
+
+
+def of_dance(dance: Dance) -> Motion:
+    """The right motion of a dance."""
+
+    def moved(times: Floats) -> Floats:
+        found = trajectory_of(dance, np.minimum(times, dance.end.time))
+        return motion(found.position, found.speed)
+
+    return moved
+
+
+def geometries(dance: Dance, times: Floats, head: Floats | None) -> Iterator[Model]:
+    """Every known error in the positions, the likeliest first.
+
+    times: (T,) [s] of the sheet; head: (T, 2) [m] the head as handed in, NaN where it is not
+    """
+    right = of_dance(dance)
+    yield Model("anticlockwise", lambda t: right(t) * [1.0, -1.0, 1.0])
+    yield Model("equal_arcs", equal_arcs(dance))
+    yield from _other_dragons(dance)
+    if isinstance(dance.path, Spiral):
+        yield from _other_angles(dance, dance.path)
+        yield from _rounded_spirals(dance, dance.path)
+    elif isinstance(dance.path, Turn):
+        yield from _other_turns(dance, dance.path)
+    if head is not None:
+        yield from _other_starts(dance, times, head)
+
+
+def _other_dragons(dance: Dance) -> Iterator[Model]:
+    """Wrong distances between the handles."""
+    benches, right = dance.dragon.benches, Dragon()
+    lengths = {"head_length": 3.41, "body_length": 2.20}
+    half = 0.5 * right.overhangs[0]
+    for error, given in (
+        ("length_for_chord", lengths | {"overhang": 0.0}),
+        ("overhang_once", lengths | {"overhang": float(half)}),
+        ("head_as_body", {"head_length": 2.20}),
+        ("body_as_head", {"body_length": 3.41}),
+    ):
+        dragon = Dragon(benches, **given)
+        try:
+            yield Model(error, of_dance(Dance(dragon, dance.path)))
+        except BenchDragonError:  # The arcs are too tight for such a chord to be followed without a jump.
+            assert isinstance(dance.path, Turn)
+            yield Model(error, on_bent(dragon, Bent(dance.path, tuple(_arcs_of(dance.path)))))
+
+
+def _other_angles(dance: Dance, path: Spiral) -> Iterator[Model]:
+    """The head at an angle that follows from a wrong arc length, at the time when the right head is there."""
+    b, start = path.growth, path.start_theta
+
+    def head_at(theta: Floats) -> Floats:
+        arc = 0.5 * b * (theta * np.sqrt(1.0 + theta**2) + np.arcsinh(theta))
+        return np.asarray((path.length - arc) / dance.head_speed)
+
+    def circles(t: Floats) -> Floats:
+        return np.sqrt(np.maximum(start**2 - 2.0 * t / b, 0.0))  # ds = r dtheta
+
+    def no_logarithm(t: Floats) -> Floats:
+        whole = 0.5 * b * start * math.sqrt(1.0 + start**2) - t
+        square = 2.0 * np.maximum(whole, 0.0) / b
+        return np.sqrt(np.maximum(0.5 * (np.sqrt(1.0 + 4.0 * square**2) - 1.0), 0.0))
+
+    def steady(t: Floats) -> Floats:
+        return start - t / (b * start)  # the angular speed of the start, kept
+
+    def explicit(t: Floats) -> Floats:
+        """Explicit Euler in steps of 1 s."""
+        theta, found = start, {}
+        for second in range(int(t.max(initial=0.0)) + 1):
+            found[float(second)] = theta
+            theta -= 1.0 / (b * math.sqrt(1.0 + theta**2))
+        return np.array([found.get(float(one), start) for one in t])
+
+    right = of_dance(dance)
+
+    def led_by(law: Callable[[Floats], Floats]) -> Motion:
+        return lambda t: right(head_at(law(t)))
+
+    yield Model("arc_of_circle", led_by(circles))
+    yield Model("arc_without_logarithm", led_by(no_logarithm))
+    yield Model("steady_angle", led_by(steady))
+    yield Model("euler_steps", led_by(explicit))
+
+
+def _rounded_spirals(dance: Dance, path: Spiral) -> Iterator[Model]:
+    """Numbers rounded before they were used."""
+    turns = {}
+    for decimals in CONSTANT_DECIMALS:
+        turns[f"b = {round(path.growth, decimals):g}"] = 2.0 * math.pi * round(path.growth, decimals)
+    for rounded in PI_ROUNDED:
+        turns[f"pi = {rounded:g}"] = path.pitch * math.pi / rounded
+    for what, pitch in turns.items():
+        try:
+            yield Model("rounded_early", of_dance(Dance(dance.dragon, Spiral(pitch, path.start_turns))), {"what": what})
+        except BenchDragonError:
+            continue
+    for decimals in ANGLE_DECIMALS:
+        yield Model("rounded_early", rounded_angles(dance, path, decimals), {"what": f"theta, {decimals} decimals"})
+
+
+def _other_turns(dance: Dance, path: Turn) -> Iterator[Model]:
+    """Turns of another shape."""
+    for ratio in (1.0 / path.ratio, 1.0):
+        error = "ratio_inverted" if ratio < 1.0 else "equal_arcs_of_turn"
+        yield Model(error, of_dance(Dance(dance.dragon, Turn(PITCH, ratio=ratio))))
+    entry, leaving = complex(*path.entry), complex(*path.exit)
+    # Semicircles on the line from the entry to the exit: tangent to the turning circle instead of the spiral.
+    along = (leaving - entry) / abs(leaving - entry)
+    total = 0.5 * abs(leaving - entry)
+    radii = (total * path.ratio / (1.0 + path.ratio), total / (1.0 + path.ratio))
+    centres = (entry + radii[0] * along, leaving - radii[1] * along)
+    begins = (cmath.phase(-along), cmath.phase(-along))
+    turned = (-math.pi, math.pi)
+    arcs = tuple(zip(centres, radii, begins, turned, strict=True))
+    yield Model("arcs_not_tangent", on_bent(dance.dragon, Bent(path, arcs)))
+    mirrored = tuple(
+        (along * (centre / along).conjugate(), radius, 2.0 * cmath.phase(along) - start, -angle)
+        for centre, radius, start, angle in _arcs_of(path)
+    )
+    yield Model("wrong_centre", on_bent(dance.dragon, Bent(path, mirrored)))
+
+
+def _arcs_of(path: Turn) -> list[tuple[complex, float, float, float]]:
+    """Centre, radius, angle of the beginning and angle turned of the right arcs."""
+    points = (complex(*path.entry), complex(*path.tangent_point))
+    found = []
+    for k, sign in enumerate((-1.0, 1.0)):
+        centre = complex(*path.centres[k])
+        found.append((centre, path.radii[k], cmath.phase(points[k] - centre), sign * path.angles[k]))
+    return found
+
+
+def _other_starts(dance: Dance, times: Floats, head: Floats) -> Iterator[Model]:
+    """The start on another turn, and time 0 elsewhere, both told by where the head was put."""
+    known = np.flatnonzero(np.isfinite(head).all(axis=1))
+    if not known.size:
+        return
+    first, path = known[0], dance.path
+    if isinstance(path, Spiral) and times[first] == 0.0:
+        turns = round(float(np.hypot(*head[first])) / path.pitch, 3)
+        if turns > 1.0 and abs(turns - path.start_turns) > 1e-3:
+            try:
+                moved = of_dance(Dance(dance.dragon, Spiral(path.pitch, turns)))
+                yield Model("other_start", moved, {"turns": f"{turns:g}"})
+            except BenchDragonError:
+                pass
+    span = np.arange(times[first] - 500.0, min(times[first] + 500.0, dance.end.time), PLACE_STEP)
+    off = np.linalg.norm(path.position(span * dance.head_speed) - head[first], axis=-1)
+    if off.min() > PLACE_NEAR:
+        return
+    shift = time_at(dance, float(span[off.argmin()]), head[first]) - float(times[first])
+    if abs(shift) > 1e-5:
+        right = of_dance(dance)
+        yield Model("shifted_time", lambda t: right(t + shift), {"shift": f"{shift:+.6g}"})
+
+
+def time_at(dance: Dance, time: float, point: Floats) -> float:
+    """The time near this one at which the head is nearest to a point [s], by Newton along the path."""
+    for _ in range(5):
+        s = time * dance.head_speed
+        miss = point - dance.path.position(s)
+        time += float(miss @ dance.path.tangent(s)) / dance.head_speed
+    return time

@@ -1,0 +1,365 @@
+"""What a sheet holds: which handle, which instant and which unit every number stands for.
+
+Input: a grid of cells. Output: tables of positions, speeds, or both at one instant, with the place of every number in
+the grid. State: none. Labels decide where there are any, in either language and either orientation; otherwise the order
+does.
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass, field, replace
+from enum import StrEnum
+
+import numpy as np
+from numpy.typing import NDArray
+
+from app.grade.reading import Cell, Grid, plain
+from app.grade.words import Note, note
+from core.values import Floats
+
+Ints = NDArray[np.int64]
+
+# Handles of the contest's dragon: the head's is 0, the rear one of the tail is the last.
+BENCHES = 223
+HANDLES = BENCHES + 1
+# Labels stand within so many rows and columns of the first cell.
+MARGIN = 8
+# Fewer labels than this are taken for chance.
+LABELS_LEAST = 3
+UNITS = {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "米": 1.0, "厘米": 1e-2, "毫米": 1e-3}
+TIME = re.compile(r"(?:t\s*=?\s*)?([-+]?\d+(?:\.\d+)?)\s*(s|sec|seconds?|秒)?", re.IGNORECASE)
+UNIT = re.compile(r"[(\[]\s*([a-zμ米厘毫]+)\s*(/\s*(?:s|秒))?\s*[)\]]?$", re.IGNORECASE)
+HEAD, REAR = re.compile(r"龙头|head", re.IGNORECASE), re.compile(r"[(（]\s*后|后把手|rear", re.IGNORECASE)
+TAIL, BODY = (
+    re.compile(r"龙尾|tail", re.IGNORECASE),
+    re.compile(r"第?\s*(\d+)\s*节|body\D*(\d+)|龙身\D*(\d+)", re.IGNORECASE),
+)
+SPEED_WORD = re.compile(r"速度|速率|speed|velocity|^v$", re.IGNORECASE)
+TIME_WORD, HANDLE_WORD = re.compile(r"时间|time|^t$", re.IGNORECASE), re.compile(r"把手|handle", re.IGNORECASE)
+# Components of a number, in the order of the last axis of a table.
+X, Y, SPEED = 0, 1, 2
+
+
+class Kind(StrEnum):
+    """What a table holds: x and y; speeds; or x, y and speed at one instant."""
+
+    POSITION = "position"
+    SPEED = "speed"
+    CONTACT = "contact"
+
+
+COMPONENTS = {Kind.POSITION: (X, Y), Kind.SPEED: (SPEED,), Kind.CONTACT: (X, Y, SPEED)}
+
+
+@dataclass(frozen=True)
+class Table:
+    """Numbers of a sheet and where they stand.
+
+    times: (T,) [s]; one NaN for the instant of first contact
+    handles: (H,) by their labels; values: (T, H, C) in the units of the sheet's labels turned into m and m/s, NaN where
+        there is none; row, column: of the same shape, places in the grid from 0
+    by_order: (H,) handles by the order in which they stand
+    """
+
+    title: str
+    kind: Kind
+    times: Floats
+    handles: Ints
+    by_order: Ints
+    values: Floats
+    row: Ints
+    column: Ints
+    grid: Grid
+    notes: list[Note] = field(default_factory=list)
+
+    def place(self, at: tuple[int, ...]) -> tuple[int, int]:
+        """Row and column of one number in the grid, from 0."""
+        return int(self.row[at]), int(self.column[at])
+
+
+@dataclass(frozen=True)
+class _Label:
+    """handle: None where the label names none; -1: the tail, -2: its rear; component: None where it names none."""
+
+    handle: int | None
+    component: int | None
+    unit: float
+
+
+def _label(cell: Cell) -> _Label | None:
+    """What a text says of a line of numbers; None where it says nothing."""
+    if not isinstance(cell, str):
+        return None
+    text = plain(cell)
+    unit, component = 1.0, None
+    if found := UNIT.search(text):
+        unit = UNITS.get(found[1].lower(), 1.0)
+        component = SPEED if found[2] else None
+        text = text[: found.start()].rstrip() if found[2] or found[1].lower() in UNITS else text
+    if component is None and (axis := re.search(r"([xy])\s*(?:坐标|轴)?$", text, re.IGNORECASE)):
+        component = "xy".index(axis[1].lower())
+    elif component is None and SPEED_WORD.search(text):
+        component = SPEED
+    handle = None
+    if HEAD.search(text):
+        handle = 0
+    elif TAIL.search(text):
+        handle = -2 if REAR.search(text) else -1
+    elif body := BODY.search(text):
+        handle = int(next(filter(None, body.groups())))
+    return None if handle is None and component is None else _Label(handle, component, unit)
+
+
+def _instant(cell: Cell) -> float | None:
+    """The time that a cell names [s]: text with or without a unit, or a number."""
+    if isinstance(cell, float):
+        return cell
+    found = TIME.fullmatch(plain(cell)) if isinstance(cell, str) else None
+    return float(found[1]) if found else None
+
+
+def tables_of(grid: Grid) -> list[Table]:
+    """The tables of a sheet; none where it holds no numbers that this program knows."""
+    cells = _trimmed(grid)
+    if not cells:
+        return []
+    if long := _long(grid, cells):
+        return long
+    found = _wide(grid, cells, turned=False) or _wide(
+        grid, [list(line) for line in zip(*cells, strict=True)], turned=True
+    )
+    return [found] if found else []
+
+
+def _trimmed(grid: Grid) -> list[list[Cell]]:
+    """The cells as a rectangle that begins at the first one."""
+    width = max((k + 1 for row in grid.rows for k, cell in enumerate(row) if cell is not None), default=0)
+    height = max((k + 1 for k, row in enumerate(grid.rows) if any(cell is not None for cell in row)), default=0)
+    return [(list(row) + [None] * width)[:width] for row in grid.rows[:height]]
+
+
+def _long(grid: Grid, cells: list[list[Cell]]) -> list[Table]:
+    """Tables of a list with a line for each handle and instant: time, handle, x, y, speed."""
+    names = [plain(cell).lower() if isinstance(cell, str) else "" for cell in cells[0]]
+    columns = {}
+    for k, name in enumerate(names):
+        label = _label(cells[0][k])
+        if TIME_WORD.search(name):
+            columns["time"] = k
+        elif HANDLE_WORD.search(name):
+            columns["handle"] = k
+        elif label and label.component is not None:
+            columns["xyv"[label.component]] = k
+    if not {"time", "handle"} <= columns.keys() or len(columns) < 3:
+        return []
+    lines = [
+        (n, row)
+        for n, row in enumerate(cells[1:], start=1)
+        if isinstance(row[columns["time"]], float) and isinstance(row[columns["handle"]], float)
+    ]
+    if not lines:
+        return []
+    instants = np.array([row[columns["time"]] for _, row in lines], dtype=np.float64)
+    times, t = np.unique(instants, return_inverse=True)
+    numbers = np.array([row[columns["handle"]] for _, row in lines], dtype=np.float64)
+    handles, h = np.unique(numbers.astype(np.int64), return_inverse=True)
+    found = []
+    for kind in (Kind.POSITION, Kind.SPEED):
+        names_of = ["xyv"[component] for component in COMPONENTS[kind]]
+        if not set(names_of) <= columns.keys():
+            continue
+        wanted = [columns[name] for name in names_of]
+        shape = (times.size, handles.size, len(wanted))
+        values, rows = np.full(shape, np.nan), np.zeros(shape, dtype=np.int64)
+        for c, k in enumerate(wanted):
+            values[t, h, c] = [row[k] if isinstance(row[k], float) else np.nan for _, row in lines]
+            rows[t, h, c] = [n for n, _ in lines]
+        column = np.broadcast_to(np.array(wanted, dtype=np.int64), shape)
+        order = np.arange(handles.size)
+        found.append(Table(grid.title or kind.value, kind, times, handles, order, values, rows, column, grid))
+    return found
+
+
+def _wide(grid: Grid, cells: list[list[Cell]], *, turned: bool) -> Table | None:
+    """The table of a sheet with a line for each handle. turned: the cells are the sheet's, columns for rows"""
+    labels = [[_label(row[k]) for row in cells] for k in range(min(MARGIN, len(cells[0])))]
+    counts = [sum(label is not None and label.handle is not None for label in column) for column in labels]
+    aside = int(np.argmax(counts))
+    if counts[aside] < LABELS_LEAST:
+        return None if turned else _bare(grid, cells)
+    first = next(k for k, label in enumerate(labels[aside]) if label and label.handle is not None)
+    heads = cells[max(0, first - MARGIN) : first]
+    lines = _lines(labels[aside])
+    named = {k: label.component for k, label in _head_labels(heads, aside).items()}
+    if {X, Y} <= set(named.values()) and len(named) <= len(COMPONENTS[Kind.CONTACT]) + 1:
+        return _contact(grid, cells, lines, _head_labels(heads, aside), turned)
+    return _over_time(grid, cells, lines, _times(heads, cells, aside), turned)
+
+
+def _head_labels(heads: list[list[Cell]], aside: int) -> dict[int, _Label]:
+    """Columns whose head names x, y or a speed and no handle."""
+    found = {}
+    for row in heads:
+        for k, cell in enumerate(row):
+            label = _label(cell)
+            if k != aside and label and label.component is not None and label.handle is None:
+                found[k] = label
+    return found
+
+
+def _lines(labels: list[_Label | None]) -> list[tuple[int, _Label]]:
+    """The lines that a label names; one without a label below one without an axis is its y, as in merged cells."""
+    found: list[tuple[int, _Label]] = []
+    for k, label in enumerate(labels):
+        if label is not None and label.handle is not None:
+            found.append((k, label))
+        elif label is None and found and found[-1][0] == k - 1 and found[-1][1].component is None:
+            found[-1] = (k - 1, replace(found[-1][1], component=X))
+            found.append((k, replace(found[-1][1], component=Y)))
+    return found
+
+
+def _times(heads: list[list[Cell]], cells: list[list[Cell]], aside: int) -> dict[int, float]:
+    """Columns and the instants that they are for; by their order where no head tells."""
+    best: dict[int, float] = {}
+    for row in heads:
+        told = {k: t for k, cell in enumerate(row) if k > aside and (t := _instant(cell)) is not None}
+        best = told if len(told) > len(best) else best
+    if best and np.all(np.diff(list(best.values())) > 0):
+        return best
+    columns = range(aside + 1, len(cells[0]))
+    start = -100.0 if len(columns) == 201 else 0.0
+    return {k: start + n for n, k in enumerate(columns)}
+
+
+def _numbered(lines: list[tuple[int, _Label]]) -> tuple[dict[int, int], dict[int, int]]:
+    """Handle of every line, by its label and by its order. The tail follows the last body bench that is named."""
+    last = max([BENCHES - 2, *(label.handle for _, label in lines if label.handle is not None)])
+    by_label: dict[int, int] = {}
+    by_order: dict[int, int] = {}
+    seen: dict[int, int] = {}
+    for k, label in lines:
+        assert label.handle is not None
+        handle = label.handle if label.handle >= 0 else last - label.handle
+        by_label[k], by_order[k] = handle, seen.setdefault(handle, len(seen))
+    return by_label, by_order
+
+
+def _over_time(
+    grid: Grid, cells: list[list[Cell]], lines: list[tuple[int, _Label]], times: dict[int, float], turned: bool
+) -> Table | None:
+    """Positions or speeds of handles at instants."""
+    components = {label.component for _, label in lines}
+    by_speed = SPEED in components or (X not in components and SPEED_WORD.search(grid.title) is not None)
+    if not by_speed and X not in components:
+        # Labels without an axis: two lines for each handle are x above y.
+        twice = len(lines) > 1 and lines[0][1].handle == lines[1][1].handle
+        if twice:
+            lines = [(k, replace(label, component=n % 2)) for n, (k, label) in enumerate(lines)]
+        by_speed = not twice
+    kind = Kind.SPEED if by_speed else Kind.POSITION
+    if kind is Kind.SPEED:
+        lines = [(k, replace(label, component=SPEED)) for k, label in lines if label.component in (None, SPEED)]
+    return _filled(grid, cells, kind, lines, times, turned)
+
+
+def _contact(
+    grid: Grid, cells: list[list[Cell]], lines: list[tuple[int, _Label]], heads: dict[int, _Label], turned: bool
+) -> Table:
+    """x, y and speed of handles at one instant."""
+    by_label, by_order = _numbered(lines)
+    columns = {label.component: (k, label.unit) for k, label in heads.items()}
+    rows = [k for k, _ in lines]
+    shape = (1, len(rows), len(COMPONENTS[Kind.CONTACT]))
+    values, row, column = np.full(shape, np.nan), np.zeros(shape, dtype=np.int64), np.zeros(shape, dtype=np.int64)
+    notes: list[Note] = []
+    for component, (k, unit) in columns.items():
+        assert component is not None
+        values[0, :, component] = [_value(cells[n][k], notes, n, k, turned) * unit for n in rows]
+        row[0, :, component], column[0, :, component] = rows, k
+    above, aside = (column, row) if turned else (row, column)
+    handles, order = (np.array([of[k] for k in rows]) for of in (by_label, by_order))
+    title = grid.title or Kind.CONTACT.value
+    return Table(title, Kind.CONTACT, np.array([np.nan]), handles, order, values, above, aside, grid, notes)
+
+
+def _filled(
+    grid: Grid,
+    cells: list[list[Cell]],
+    kind: Kind,
+    lines: list[tuple[int, _Label]],
+    times: dict[int, float],
+    turned: bool,
+) -> Table | None:
+    """The table of these lines and instants."""
+    components = COMPONENTS[kind]
+    lines = [(k, label) for k, label in lines if label.component in components]
+    if not lines or not times:
+        return None
+    by_label, by_order = _numbered(lines)
+    handles = list(dict.fromkeys(by_label[k] for k, _ in lines))
+    place = {handle: n for n, handle in enumerate(handles)}
+    order = {by_label[k]: by_order[k] for k, _ in lines}
+    shape = (len(times), len(handles), len(components))
+    values, row = np.full(shape, np.nan), np.zeros(shape, dtype=np.int64)
+    notes: list[Note] = []
+    columns = list(times)
+    for k, label in lines:
+        at = (slice(None), place[by_label[k]], components.index(label.component or 0))
+        values[at] = [_value(cells[k][n], notes, k, n, turned) for n in columns]
+        values[at] *= label.unit
+        row[at] = k
+    column = np.broadcast_to(np.array(columns, dtype=np.int64)[:, None, None], shape)
+    above, aside = (column, row) if turned else (row, column)
+    title, instants = grid.title or kind.value, np.array(list(times.values()))
+    numbered, ordered = np.array(handles), np.array([order[handle] for handle in handles])
+    return Table(title, kind, instants, numbered, ordered, values, above, aside, grid, notes)
+
+
+def _value(cell: Cell, notes: list[Note], row: int, column: int, turned: bool) -> float:
+    """The number in a cell, also one stored as text; NaN, with a note, for other text."""
+    if isinstance(cell, float):
+        return cell
+    if cell is None:
+        return float("nan")
+    place = cell_name(*((column, row) if turned else (row, column)))
+    try:
+        number = float(plain(cell))
+        notes.append(note("text_number", cell=place))
+    except ValueError:
+        notes.append(note("text", cell=place, text=cell[:30]))
+        return float("nan")
+    return number if np.isfinite(number) else float("nan")
+
+
+def _bare(grid: Grid, cells: list[list[Cell]]) -> Table | None:
+    """A table of numbers without labels of handles, told by its size."""
+    numeric = [k for k, row in enumerate(cells) if sum(isinstance(cell, float) for cell in row) > len(row) // 2]
+    if not numeric:
+        return None
+    first = next((k for k in numeric if len(cells) - k in (HANDLES, 2 * HANDLES)), None)
+    if first is None:
+        return None
+    rows = range(first, len(cells))
+    twice = len(rows) == 2 * HANDLES
+    kind = Kind.POSITION if twice else Kind.SPEED
+    lines = [(k, _Label(n // 2 if twice else n, n % 2 if twice else SPEED, 1.0)) for n, k in enumerate(rows)]
+    aside = next(k for k, cell in enumerate(cells[first]) if isinstance(cell, float)) - 1
+    if not twice and len(cells[first]) - aside - 1 == len(COMPONENTS[Kind.CONTACT]):
+        heads = {aside + 1 + c: _Label(None, c, 1.0) for c in COMPONENTS[Kind.CONTACT]}
+        return _contact(grid, cells, lines, heads, False)
+    return _filled(grid, cells, kind, lines, _times(cells[:first], cells, aside), False)
+
+
+def cell_name(row: int, column: int) -> str:
+    """Name of a cell in a spreadsheet, from a row and a column from 0.
+
+    >>> cell_name(1, 27)
+    'AB2'
+    """
+    letters, left = "", column + 1
+    while left:
+        left, letter = divmod(left - 1, 26)
+        letters = chr(ord("A") + letter) + letters
+    return f"{letters}{row + 1}"

@@ -1,0 +1,220 @@
+"""What the grader answers: a verdict for each file and sheet, what explains the errors, and the rubric in words."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import PurePath
+
+from pydantic import Field
+
+from app.files.tables import Language, handle_names
+from app.grade.diagnosis import diagnosed
+from app.grade.expected import cells_of
+from app.grade.layout import BENCHES, COMPONENTS, HANDLES, Kind, cell_name, tables_of
+from app.grade.reading import Unreadable, grids_of
+from app.grade.rubric import Criterion, rubric_of
+from app.grade.shortcuts import UNITS, Finding, explained, is_right, right_answer
+from app.grade.verdict import Judgement, Verdict, judged, lacking, workbook_of, worst_of
+from app.grade.words import note, say
+from app.wire.models import Answer
+from core import Budget, InvalidValue
+from core.budget import Halted
+
+# Words for a sheet by what it holds.
+SHEETS = {Kind.POSITION: "position", Kind.SPEED: "speeds", Kind.CONTACT: "contact"}
+VALUE = "in m for x and y, in m/s for a speed"
+
+
+class CellAnswer(Answer):
+    """One wrong cell."""
+
+    sheet: str = Field(description="Title of the sheet")
+    cell: str = Field(description="Name of the cell, such as B3")
+    row: int = Field(description="Row, from 1")
+    column: int = Field(description="Column, from 1")
+    handle: str = Field(description="Name of the handle")
+    quantity: str = Field(description="x, y or speed")
+    time: float = Field(description="Instant [s]", json_schema_extra={"x-unit": "s"})
+    found: float = Field(description=f"What stands there, {VALUE}")
+    expected: float = Field(description=f"What is right, {VALUE}")
+
+
+class SheetAnswer(Answer):
+    """One sheet."""
+
+    sheet: str = Field(description="Title of the sheet")
+    holds: str = Field(description="position, speed, or contact: x, y and speed at first contact")
+    verdict: Verdict = Field(description="right, rounded, wrong, incomplete or unreadable")
+    decimals: int | None = Field(description="With rounded: decimals with which all cells are right; else null")
+    cells: int = Field(description="Cells that the contest asks for")
+    right: int = Field(description="Cells that are right within 5.1e-7")
+    missing: int = Field(description="Cells that are missing")
+    worst: CellAnswer | None = Field(description="The cell that is furthest off; null where none is wrong")
+    first: CellAnswer | None = Field(description="The first wrong cell, row by row; null where none is wrong")
+    picture: list[str] = Field(
+        description="Where the wrong cells are: a line for some handles, the head first, and a mark for some instants: "
+        ". right, o rounded, # wrong, ? missing"
+    )
+    notes: list[str] = Field(description="What else a reader should know, in words")
+
+
+class DiagnosisAnswer(Answer):
+    """A known error that explains what is wrong."""
+
+    error: str = Field(description="Name of the error")
+    words: str = Field(description="The error in words")
+    evidence: str = Field(description="The numbers that support it")
+
+
+class CriterionAnswer(Answer):
+    """One point of the rubric."""
+
+    criterion: str = Field(description="Name of the point")
+    met: bool | None = Field(description="null where the file does not show it")
+    words: str = Field(description="The point and what was found, in words")
+
+
+class FileAnswer(Answer):
+    """One file."""
+
+    file: str = Field(description="Name of the file")
+    workbook: str | None = Field(description="result1, result2 or result4; null where that is unknown")
+    verdict: Verdict = Field(description="The worst verdict of its sheets")
+    diagnosis: list[DiagnosisAnswer] = Field(description="Errors that explain what is wrong; empty where nothing fits")
+    sheets: list[SheetAnswer] = Field(description="Its sheets")
+    rubric: list[CriterionAnswer] = Field(description="The rubric of the contest's reviewers")
+    notes: list[str] = Field(description="What else a reader should know, in words")
+
+
+class TypedAnswer(Answer):
+    """One number that was typed in."""
+
+    answer: str = Field(description="collision_time, pitch, speed or turn_length")
+    verdict: Verdict = Field(description="right, as far as its digits go, or wrong")
+    found: float = Field(description="What was given, in the unit beside it")
+    expected: float = Field(description="What is right, in the unit beside it")
+    unit: str = Field(description="Unit of both")
+    diagnosis: list[DiagnosisAnswer] = Field(description="Shortcuts that give the number; empty where nothing fits")
+
+
+class GradeAnswer(Answer):
+    """The files in the order given, and the typed answers."""
+
+    files: list[FileAnswer] = Field(description="One entry for each file")
+    answers: list[TypedAnswer] = Field(description="One entry for each number that was typed in")
+
+
+def graded(name: str, data: bytes, language: Language, budget: Budget) -> FileAnswer:
+    """The grade of one file. name: of the file, which may tell its workbook; raises: TooMuchWork"""
+    try:
+        return _graded(name, data, language, budget)
+    except Unreadable as error:
+        return FileAnswer(
+            file=name, workbook=None, verdict=Verdict.UNREADABLE, diagnosis=[], sheets=[], rubric=[],
+            notes=[error.said.said(language)],
+        )  # fmt: skip
+    except Halted as error:
+        raise budget.too_much(
+            "name", "must name a smaller file: it was not graded {then}", len(data), "bytes"
+        ) from error
+
+
+def _graded(name: str, data: bytes, language: Language, budget: Budget) -> FileAnswer:
+    grids, notes = grids_of(data, budget)
+    tables = [table for grid in grids for table in tables_of(grid)]
+    if not tables:
+        raise Unreadable(note("no_table"))
+    workbook = workbook_of(tables, PurePath(name).stem)
+    judgements = [judged(table, workbook) for table in tables]
+    findings = diagnosed(judgements, budget)
+    sheets = [_sheet(one, language) for one in judgements]
+    if len(grids) > 1 or data.startswith(b"PK"):
+        sheets += [_lacking(kind, cells_of(workbook, kind), language) for kind in lacking(tables, workbook)]
+    return FileAnswer(
+        file=name,
+        workbook=workbook.value,
+        verdict=worst_of(sheet.verdict for sheet in sheets),
+        diagnosis=_found(findings, language),
+        sheets=sheets,
+        rubric=[_criterion(one, language) for one in rubric_of(judgements, findings)],
+        notes=[one.said(language) for one in notes],
+    )
+
+
+def typed(name: str, text: str, language: Language) -> TypedAnswer:
+    """The grade of a typed number. name: one of UNITS; text: as it was typed, whose digits tell its rounding
+
+    raises: InvalidValue
+    """
+    try:
+        value = float(text)
+    except ValueError as error:
+        raise InvalidValue(name, f"{name} must be a number [{UNITS[name]}], got {text!r:.60}") from error
+    if not 0.0 < value < 1e6:
+        raise InvalidValue.of(name, "must be more than 0 and less than 1e6", value, UNITS[name])
+    decimals = len(text.lower().partition("e")[0].partition(".")[2].strip())
+    half_unit = 0.5 * 10.0 ** -min(decimals, 12)
+    right = is_right(name, value, half_unit)
+    return TypedAnswer(
+        answer=name,
+        verdict=Verdict.RIGHT if right else Verdict.WRONG,
+        found=value,
+        expected=right_answer(name),
+        unit=UNITS[name],
+        diagnosis=[] if right else _found(explained(name, value, half_unit), language),
+    )
+
+
+def _found(findings: Sequence[Finding], language: Language) -> list[DiagnosisAnswer]:
+    return [
+        DiagnosisAnswer(error=one.error, words=one.said.said(language), evidence=one.evidence.said(language))
+        for one in findings
+    ]
+
+
+def _criterion(one: Criterion, language: Language) -> CriterionAnswer:
+    return CriterionAnswer(criterion=one.name, met=one.met, words=one.said.said(language))
+
+
+def _sheet(one: Judgement, language: Language) -> SheetAnswer:
+    worst, first = one.worst(), one.first()
+    return SheetAnswer(
+        sheet=one.table.title,
+        holds=one.table.kind.value,
+        verdict=one.verdict,
+        decimals=one.decimals if one.verdict is Verdict.ROUNDED else None,
+        cells=one.cells,
+        right=one.right,
+        missing=one.missing,
+        worst=worst and _cell(one, worst, language),
+        first=first and _cell(one, first, language),
+        picture=one.picture(),
+        notes=[known.said(language) for known in one.notes],
+    )
+
+
+def _cell(one: Judgement, at: tuple[int, ...], language: Language) -> CellAnswer:
+    row, column = one.table.place(at)
+    t, h, c = at
+    return CellAnswer(
+        sheet=one.table.title,
+        cell=cell_name(row, column),
+        row=row + 1,
+        column=column + 1,
+        handle=handle_names(BENCHES, language)[one.handles[h]],
+        quantity=("x", "y", "speed")[COMPONENTS[one.table.kind][c]],
+        time=float(one.times[t]),
+        found=float(one.values[at]),
+        expected=float(one.wanted[at]),
+    )
+
+
+def _lacking(kind: Kind, cells: int, language: Language) -> SheetAnswer:
+    said = say("no_sheet", language, kind=say(SHEETS[kind], language))
+    return SheetAnswer(
+        sheet="", holds=kind.value, verdict=Verdict.INCOMPLETE, decimals=None, cells=cells, right=0, missing=cells,
+        worst=None, first=None, picture=[], notes=[said],
+    )  # fmt: skip
+
+
+assert HANDLES == BENCHES + 1

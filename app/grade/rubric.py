@@ -1,0 +1,83 @@
+"""The points that the contest's reviewers look at, each with what a file shows of it.
+
+Input: judgements and findings of one workbook. Output: criteria, met, not met, or not shown. State: none.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from app.grade.expected import Workbook
+from app.grade.layout import HANDLES, Kind
+from app.grade.shortcuts import Finding
+from app.grade.verdict import Judgement, Verdict
+from app.grade.words import Note, note
+
+# Mean speeds over a second differ from those at its middle by less than this, as handles turn [m/s].
+MEAN_SPEED = 0.1
+# Share of the cells that may be further off, at the kinks of the turn [1].
+SHARE = 0.99
+GOOD = (Verdict.RIGHT, Verdict.ROUNDED, Verdict.INCOMPLETE)
+# Findings that tell how first contact was looked for.
+STEPPED = {"time_steps", "time_steps_before"}
+NO_OVERHANG = {"no_overhang", "length_for_chord", "overhang_once", "one_corner"}
+NOT_SMOOTH = {"arcs_not_tangent", "wrong_centre"}
+
+
+@dataclass(frozen=True)
+class Criterion:
+    """met: None where the file does not show it"""
+
+    name: str
+    met: bool | None
+    said: Note
+
+
+def rubric_of(judgements: Sequence[Judgement], findings: Sequence[Finding]) -> list[Criterion]:
+    """The five points, for one workbook."""
+    return list(_criteria({one.table.kind: one for one in judgements}, {one.error for one in findings}))
+
+
+def _criteria(by_kind: dict[Kind, Judgement], errors: set[str]) -> Iterator[Criterion]:
+    position, speed, contact = (by_kind.get(kind) for kind in (Kind.POSITION, Kind.SPEED, Kind.CONTACT))
+    placed = position or contact
+    branch = None if placed is None else "wrong_ring" not in errors if placed.verdict in GOOD or errors else None
+    yield _criterion("branch", branch)
+    consistent = _share_consistent(position, speed) if position and speed else None
+    if consistent is None:
+        yield _criterion("speeds", (contact is not None and contact.verdict in GOOD) or None)
+    else:
+        yield Criterion("speeds", consistent >= SHARE, note("rubric_speeds_share", share=f"{100 * consistent:.1f}"))
+    refined = None if contact is None else contact.verdict in GOOD or (False if errors & STEPPED else None)
+    overhang = None if contact is None else contact.verdict in GOOD or (False if errors & NO_OVERHANG else None)
+    yield _criterion("overhang", overhang)
+    yield _criterion("refined", refined)
+    smooth = None
+    if placed and placed.workbook is Workbook.RESULT4:
+        smooth = placed.verdict in GOOD or (False if errors & NOT_SMOOTH else None)
+    yield _criterion("tangents", smooth)
+
+
+def _criterion(name: str, met: bool | None) -> Criterion:
+    words = {True: "yes", False: "no", None: "unknown"}[met]
+    return Criterion(name, met, note(f"rubric_{name}_{words}"))
+
+
+def _share_consistent(position: Judgement, speed: Judgement) -> float | None:
+    """Share of the speeds that agree with the way that their handle goes from one instant to the next."""
+    times, p, v = np.intersect1d(position.times, speed.times, return_indices=True)
+    if times.size < 2:
+        return None
+    places = {int(handle): k for k, handle in enumerate(position.handles) if handle < HANDLES}
+    both = [(places[int(handle)], k) for k, handle in enumerate(speed.handles) if int(handle) in places]
+    if not both:
+        return None
+    a, b = (np.array(side) for side in zip(*both, strict=True))
+    ways = np.linalg.norm(np.diff(position.values[p][:, a], axis=0), axis=-1) / np.diff(times)[:, None]
+    told = speed.values[v][:, b, 0]
+    off = np.abs(ways - 0.5 * (told[1:] + told[:-1]))
+    known = np.isfinite(off)
+    return float((off[known] <= MEAN_SPEED).mean()) if known.any() else None

@@ -1,0 +1,328 @@
+"""Known shortcuts to the contest's four numbers, each recomputed: what a typed answer looks like when one was taken.
+
+Input: the name of a number, its value and how far it may be rounded. Output: findings; none where no shortcut gives the
+value. State: each shortcut is computed once in a process.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from functools import cache
+
+import numpy as np
+
+from app.grade.chains import Motion
+from app.grade.expected import PITCH, Workbook, contact_time, dance_of
+from app.grade.geometry import geometries, of_dance
+from app.grade.layout import SPEED
+from app.grade.words import Note, note
+from core import (
+    BenchDragonError,
+    Dance,
+    Dragon,
+    Spiral,
+    Turn,
+    bench_outlines,
+    bench_poses,
+    clearance_profile,
+    first_contact,
+    maximum_head_speed,
+    minimum_pitch,
+    separation,
+)
+from core import trajectory as trajectory_of
+from core.sampling import bisected
+from core.shapes.angle_sum import angle_sums, literal_corners
+from core.shapes.rectangles import corners
+from core.values import Floats
+
+TURNING_RADIUS = 4.5  # [m], of the contest's turning circle
+SPEED_LIMIT = 2.0  # [m/s], of the contest's question 5
+# Steps of time in which students look for an event [s].
+STEPS = (1.0, 0.5, 0.2, 0.1, 0.05, 0.02, 0.01, 0.001)
+# Angle sum [deg] that must be counted as 360 to obtain the paper's time, 0.9 degrees less.
+LOOSE_ANGLE = 359.1
+# Rounding of an angle sum [deg]: corners inside give 360 within 1e-12, corners 1e-9 m outside give less than this.
+EXACT_ANGLE = 360.0 - 1e-6
+# The head's neighbourhood: the ring around it has at most 34 benches; benches further back lie in a ring further out.
+RING_BENCHES = 40
+# Steps of the searches for a first time [s] and for sign changes in the pitch [m], and where bisection stops.
+TIME_STEP, PITCH_STEP, RESOLUTION = 0.1, 0.001, 1e-10
+# Pitches that students try [m], as the paper does.
+PITCH_RANGE = (0.30, 0.55)
+# Head radius from which the way to the circle is looked at: the least clearance is reached within it [m].
+WAY_RADIUS = 4.8
+# The angle sums of the whole run in one array would take 500 MB.
+SUM_BATCHES = 20
+# Steps in which students look for the pitch [m].
+PITCH_GRIDS = (0.01, 0.005, 0.001, 0.0005, 0.0001, 0.00005)
+# A pitch that is short by more than this counts as infeasible, not as rounded [m].
+INFEASIBLE = 1e-5
+# A truncated number loses at most so many decimals.
+TRUNCATED = (2, 3, 4, 5)
+# The turn's speeds peak among the first handles, soon after the entry [s]; and the step in which they are sampled [s].
+PEAK_BENCHES, PEAK_SPAN, PEAK_STEP = 30, 40.0, 0.01
+# Errors of the turn that leave it smooth, so that a sample shows its highest speed.
+SMOOTH = ("head_as_body", "body_as_head", "ratio_inverted", "equal_arcs_of_turn")
+# So many shortcuts to one number are told.
+FINDINGS_MOST = 3
+# Other entries that students take [m].
+ENTRIES = (4.0, TURNING_RADIUS)
+
+# Poses (..., 3) and sizes (..., 2) -> corners (..., 4, 2).
+Outline = Callable[[Floats, Floats], Floats]
+
+
+@dataclass(frozen=True)
+class Finding:
+    """A known error that explains a number. error: its name; said: the error in words; evidence: the numbers"""
+
+    error: str
+    said: Note
+    evidence: Note
+
+
+@dataclass(frozen=True)
+class Shortcut:
+    """What a shortcut gives. values: numbers that its words tell"""
+
+    error: str
+    value: float
+    values: dict[str, object]
+
+
+UNITS = {"collision_time": "s", "pitch": "m", "speed": "m/s", "turn_length": "m"}
+
+
+@cache
+def right_answer(name: str) -> float:
+    """The right value of one of UNITS, in its unit."""
+    if name == "collision_time":
+        return contact_time()
+    if name == "pitch":
+        return minimum_pitch(Dragon(), turning_radius=TURNING_RADIUS).pitch
+    if name == "speed":
+        return maximum_head_speed(dance_of(Workbook.RESULT4), SPEED_LIMIT).head_speed
+    return Turn(PITCH).length
+
+
+def is_right(name: str, value: float, half_unit: float) -> bool:
+    """Is a value the right one, as far as its digits go? A pitch that was rounded down is none: it is infeasible."""
+    short = right_answer(name) - value
+    return abs(short) <= 1.02 * half_unit and not (name == "pitch" and short > INFEASIBLE)
+
+
+def explained(name: str, value: float, half_unit: float) -> list[Finding]:
+    """Findings on one of UNITS.
+
+    value: in its unit; half_unit: half of the last digit that is given, in that unit
+    """
+    within = 1.02 * half_unit
+    if is_right(name, value, half_unit):
+        return []
+    fits = [one for one in _shortcuts(name) if abs(one.value - value) <= within]
+    if not fits and name == "turn_length":
+        fits = [*_other_entry(value)]
+    if name == "pitch":
+        fits = [*_truncated(value, right_answer(name)), *fits] or [*_on_grid(value)]
+    # Of several steps that give the same number the largest is told.
+    nearest: dict[str, Shortcut] = {}
+    for one in sorted(fits, key=lambda one: round(abs(one.value - value), 9)):
+        nearest.setdefault(one.error, one)
+    numbers = {"unit": UNITS[name], "right": f"{right_answer(name):.9g}", "value": f"{value:.9g}"}
+    return [
+        Finding(
+            one.error,
+            note(f"error_{one.error}", **one.values),
+            note(
+                "gives_on_grid" if "grid" in one.values else "gives", gives=f"{one.value:.9g}", **numbers, **one.values
+            ),
+        )
+        for one in list(nearest.values())[:FINDINGS_MOST]
+    ]
+
+
+@cache
+def _shortcuts(name: str) -> tuple[Shortcut, ...]:
+    found = {
+        "collision_time": _collision_times,
+        "pitch": _pitches,
+        "speed": _speeds,
+        "turn_length": _lengths,
+    }[name]()
+    return tuple(found)
+
+
+def _collision_times() -> Iterator[Shortcut]:
+    right = contact_time()
+    dance = dance_of(Workbook.RESULT2)
+    for step in STEPS:
+        after, before = math.ceil(right / step) * step, math.floor(right / step) * step
+        clear, touching = clearance_profile(dance, np.array([before, after])).clearance
+        assert clear > 0.0 > touching
+        yield Shortcut("time_steps", after, {"step": f"{step:g}"})
+        yield Shortcut("time_steps_before", before, {"step": f"{step:g}"})
+    for error, dragon in _other_dragons():
+        time = first_contact(Dance(dragon, Spiral())).time
+        if time is not None:
+            yield Shortcut(error, time, {})
+    yield Shortcut("loose_angle", angle_sum_time(corners, LOOSE_ANGLE), {"angle": f"{360.0 - LOOSE_ANGLE:.1f}"})
+    yield Shortcut("literal_corners", angle_sum_time(literal_corners, EXACT_ANGLE), {})
+
+
+def _other_dragons() -> Iterator[tuple[str, Dragon]]:
+    right = Dragon()
+    yield "no_overhang", Dragon(head_length=float(right.chords[0]), body_length=float(right.chords[1]), overhang=0.0)
+    yield "length_for_chord", Dragon(overhang=0.0)
+    yield "head_as_body", Dragon(head_length=2.20)
+
+
+def _pitches() -> Iterator[Shortcut]:
+    yield Shortcut("pose_on_circle", circle_pitch(any_touch_at_start), {})
+    yield Shortcut("pose_on_circle_head", circle_pitch(head_touches_at_start), {})
+    yield Shortcut("one_corner", circle_pitch(_corner_at_start), {})
+    for step in STEPS[:4]:
+        yield Shortcut("pitch_time_steps", _stepped_pitch(step), {"step": f"{step:g}"})
+    for error, dragon in _other_dragons():
+        try:
+            yield Shortcut(error, minimum_pitch(dragon, turning_radius=TURNING_RADIUS).pitch, {})
+        except BenchDragonError:
+            continue
+
+
+def _truncated(value: float, right: float) -> Iterator[Shortcut]:
+    """The right number cut off, and so too small to be feasible."""
+    for decimals in TRUNCATED:
+        cut = math.floor(right * 10.0**decimals) / 10.0**decimals
+        if abs(cut - value) < RESOLUTION and cut < right:
+            yield Shortcut("truncated", cut, {"decimals": decimals})
+
+
+def _on_grid(value: float) -> Iterator[Shortcut]:
+    """A pitch that was looked for in steps: the first of a grid above the right one, or above that of a shortcut."""
+    for step in PITCH_GRIDS:
+        for one in (Shortcut("pitch_steps", right_answer("pitch"), {}), *_shortcuts("pitch")[:3]):
+            if abs(math.ceil(one.value / step) * step - value) < RESOLUTION:
+                yield Shortcut(one.error, one.value, {"grid": f"{step:g}"})
+                return
+
+
+def _speeds() -> Iterator[Shortcut]:
+    dance = dance_of(Workbook.RESULT4)
+    right = of_dance(Dance(Dragon(PEAK_BENCHES), dance.path))
+    for step in STEPS[:6]:
+        yield Shortcut("speed_time_steps", _fastest(right, step), {"step": f"{step:g}"})
+    for step in STEPS[:7]:
+        times = np.arange(0.0, PEAK_SPAN, step)
+        moved = np.linalg.norm(right(times + step)[..., :2] - right(times)[..., :2], axis=-1) / step
+        yield Shortcut("forward_difference", SPEED_LIMIT / float(moved.max()), {"step": f"{step:g}"})
+    for model in geometries(Dance(Dragon(PEAK_BENCHES), dance.path), np.zeros(1), None):
+        if model.error in SMOOTH:
+            yield Shortcut(model.error, _fastest(model.motion, PEAK_STEP), model.values)
+
+
+def _fastest(motion: Motion, step: float) -> float:
+    """The head speed at which no handle exceeds the limit at the instants of a grid [m/s]."""
+    return SPEED_LIMIT / float(motion(np.arange(0.0, PEAK_SPAN, step))[..., SPEED].max())
+
+
+def _lengths() -> Iterator[Shortcut]:
+    yield Shortcut("arcs_not_tangent", math.pi * TURNING_RADIUS, {})
+
+
+def _other_entry(value: float) -> Iterator[Shortcut]:
+    """The entry inside the circle from which the turn has this length."""
+
+    def longer(entry: float) -> bool:
+        return Turn(PITCH, TURNING_RADIUS, entry_radius=entry).length >= value
+
+    if not longer(ENTRIES[0]) and longer(ENTRIES[1]):
+        entry = bisected(longer, *ENTRIES, width=RESOLUTION)[1]
+        length = Turn(PITCH, TURNING_RADIUS, entry_radius=entry).length
+        yield Shortcut("other_entry", length, {"entry": f"{entry:.4f}"})
+
+
+def _stepped_pitch(step: float) -> float:
+    """The smallest pitch whose way to the circle has no contact at the instants of a grid [m]."""
+    sizes = np.stack([Dragon(RING_BENCHES).lengths, Dragon(RING_BENCHES).widths], axis=-1)
+
+    def clear(pitch: float) -> bool:
+        spiral = Spiral(pitch)
+        late, first = (spiral.length - Spiral(pitch, radius / pitch).length for radius in (TURNING_RADIUS, WAY_RADIUS))
+        times = step * np.arange(math.ceil(first / step), math.floor(late / step) + 1, dtype=np.float64)
+        poses = bench_poses(trajectory_of(Dance(Dragon(RING_BENCHES), spiral), times).position)
+        found = separation(poses[:, :1], sizes[:1], poses[:, 2:], sizes[2:])
+        return bool(found.separation.min() > 0.0)
+
+    right = right_answer("pitch")
+    return bisected(clear, right - PITCH_STEP, right, width=RESOLUTION)[1]
+
+
+def any_touch_at_start(path: Spiral) -> bool:
+    return bool(clearance_profile(Dance(Dragon(), path), np.array([0.0])).clearance[0] <= 0.0)
+
+
+def head_touches_at_start(path: Spiral) -> bool:
+    dragon = Dragon()
+    poses = bench_poses(trajectory_of(Dance(dragon, path), [0.0]).position[0])
+    sizes = np.stack([dragon.lengths, dragon.widths], axis=-1)
+    return bool(separation(poses[0], sizes[0], poses[2:], sizes[2:]).separation.min() <= 0.0)
+
+
+def _corner_at_start(path: Spiral) -> bool:
+    """Is the outer front corner of the head inside a body bench?"""
+    dragon = Dragon(RING_BENCHES)
+    handles = trajectory_of(Dance(dragon, path), [0.0]).position[0]
+    corner, poses = bench_outlines(dragon, handles)[0, 0], bench_poses(handles)[2:]
+    away = corner - poses[:, :2]
+    along = np.abs(away[:, 0] * np.cos(poses[:, 2]) + away[:, 1] * np.sin(poses[:, 2]))
+    across = np.abs(away[:, 1] * np.cos(poses[:, 2]) - away[:, 0] * np.sin(poses[:, 2]))
+    return bool(((along <= 0.5 * dragon.lengths[2:]) & (across <= 0.5 * dragon.widths[2:])).any())
+
+
+def circle_pitch(touches: Callable[[Spiral], bool]) -> float:
+    """The largest pitch in PITCH_RANGE at which the pose on the circle, without the way there, touches [m]."""
+
+    def touching(pitch: float) -> bool:
+        # On a spiral that starts at the circle the head is there at time 0.
+        return touches(Spiral(pitch, TURNING_RADIUS / pitch))
+
+    pitches = np.arange(*PITCH_RANGE, PITCH_STEP).tolist()
+    last = max(k for k, pitch in enumerate(pitches) if touching(pitch))
+    apart = bisected(lambda pitch: not touching(pitch), pitches[last], pitches[last + 1], width=RESOLUTION)
+    return apart[0]
+
+
+def _largest_sums(outline: Outline, times: Floats) -> Floats:
+    """The paper's rule, eqs. 13-16: the largest angle sum between head and body benches at every time.
+
+    outline: function from poses and sizes to corners (..., 4, 2); times: (T,) [s]; returns (T,) [deg]
+    """
+    dragon = Dragon(benches=RING_BENCHES)
+    poses = bench_poses(trajectory_of(Dance(dragon, Spiral()), times).position)
+    outlines = outline(poses, np.stack([dragon.lengths, dragon.widths], axis=-1))
+    head, body = outlines[:, :1], outlines[:, 2:]
+    sums = np.maximum(angle_sums(body, head), angle_sums(head, body))
+    return np.asarray(np.degrees(sums.max(axis=(1, 2))))
+
+
+def largest_sum(outline: Outline, time: float) -> float:
+    """The largest angle sum between head and body benches at a time [deg]."""
+    return float(_largest_sums(outline, np.array([time]))[0])
+
+
+@cache
+def _sampled_sums(outline: Outline) -> tuple[Floats, Floats]:
+    """Instants TIME_STEP apart over the whole run [s], and the largest angle sum at each [deg]."""
+    times = np.arange(0.0, Dance(Dragon(), Spiral()).end.time, TIME_STEP)
+    batches = np.array_split(times, SUM_BATCHES)
+    return times, np.concatenate([_largest_sums(outline, batch) for batch in batches])
+
+
+def angle_sum_time(outline: Outline, angle: float) -> float:
+    """First time [s] at which an angle sum reaches an angle [deg], among instants TIME_STEP apart, then bisected."""
+    times, sums = _sampled_sums(outline)
+    high = float(times[np.flatnonzero(sums >= angle)[0]])
+    return bisected(lambda time: largest_sum(outline, time) >= angle, high - TIME_STEP, high, width=RESOLUTION)[1]

@@ -1,0 +1,217 @@
+"""Which cells of a sheet are right.
+
+Input: a table and the workbook that it belongs to. Output: a judgement with counts, the worst and the first wrong cell
+and a picture of where they are. State: none.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from enum import StrEnum
+
+import numpy as np
+from numpy.typing import NDArray
+
+from app.grade.expected import KINDS, Workbook, cells_of, contact_time, dance_of, motion_of, times_of
+from app.grade.layout import COMPONENTS, HANDLES, Kind, Table
+from app.grade.words import Note, note
+from core.values import Floats
+
+# Six decimals are right within half a unit of the last, and 2 % of that for those who round twice [m, m/s].
+RIGHT = 5.1e-7
+# Fewer decimals k are counted as rounded within this times 10^-k.
+ROUNDED, DECIMALS = 0.51, (5, 4, 3, 2)
+# Decimals that a double can hold beside metres.
+DECIMALS_MOST = 12
+# Sizes in centimetres and millimetres are this much larger than in metres, more or less.
+SCALES = {1e-2: (50.0, 200.0), 1e-3: (500.0, 2000.0)}
+# A handle is taken for the one that it is nearest to [m, m/s].
+NEAR = 0.01
+# Size of the picture, and its marks: right, right but for rounding, wrong, missing.
+PICTURE_ROWS, PICTURE_COLUMNS = 14, 42
+MARKS = ".o#?"
+# Earliest time of a column that is looked at [s].
+EARLIEST = -1000.0
+
+
+class Verdict(StrEnum):
+    """How a sheet or a file is, from the best to the worst."""
+
+    RIGHT = "right"
+    ROUNDED = "rounded"
+    INCOMPLETE = "incomplete"
+    WRONG = "wrong"
+    UNREADABLE = "unreadable"
+
+
+def worst_of(verdicts: Iterator[Verdict]) -> Verdict:
+    return max(verdicts, key=list(Verdict).index, default=Verdict.UNREADABLE)
+
+
+@dataclass(frozen=True)
+class Judgement:
+    """What is right in a sheet.
+
+    values, wanted: (T, H, C) [m, m/s] as handed in, in our units, and right; handles (H,), times (T,) [s]
+    decimals: with which the sheet is right, where it is rounded; written: decimals that its numbers have
+    cells: that the contest asks for; right, missing: of them
+    """
+
+    table: Table
+    workbook: Workbook
+    verdict: Verdict
+    decimals: int | None
+    written: int
+    cells: int
+    right: int
+    missing: int
+    times: Floats
+    handles: NDArray[np.int64]
+    values: Floats
+    wanted: Floats
+    notes: list[Note] = field(default_factory=list)
+
+    @property
+    def off(self) -> Floats:
+        """Distance of every number from the right one (T, H, C), NaN where there is none."""
+        off: Floats = np.abs(self.values - self.wanted)
+        return off
+
+    @property
+    def is_off(self) -> bool:
+        """Is a number further off than the decimals that are written allow?"""
+        return float(np.nan_to_num(self.off).max(initial=0.0)) > max(RIGHT, ROUNDED * 10.0**-self.written)
+
+    def worst(self) -> tuple[int, ...] | None:
+        """Index of the number that is furthest off; None where all are right."""
+        off = np.nan_to_num(self.off)
+        return tuple(map(int, np.unravel_index(off.argmax(), off.shape))) if off.size and off.max() > RIGHT else None
+
+    def first(self) -> tuple[int, ...] | None:
+        """Index of the first wrong number of the sheet, as one reads it."""
+        wrong = self.off > RIGHT
+        if not wrong.any():
+            return None
+        reading = np.where(wrong, self.table.row * (self.table.column.max() + 1) + self.table.column, np.inf)
+        return tuple(map(int, np.unravel_index(reading.argmin(), reading.shape)))
+
+    def picture(self) -> list[str]:
+        """Lines of marks: a line for some handles, the head first; a mark for some instants, or for x, y and speed."""
+        off = self.off
+        level = np.where(off > RIGHT, 1, 0)
+        level[off > ROUNDED * 10.0 ** -DECIMALS[-1]] = 2
+        level[np.isnan(off)] = 3
+        level = level[0].T if len(level) == 1 else level.max(axis=2)
+        level = level.T[np.argsort(self.handles)]
+        height, width = min(PICTURE_ROWS, level.shape[0]), min(PICTURE_COLUMNS, level.shape[1])
+        bands = [band.max(axis=0) for band in np.array_split(level, height)]
+        return ["".join(MARKS[part.max()] for part in np.array_split(band, width)) for band in bands]
+
+
+def workbook_of(tables: list[Table], name: str) -> Workbook:
+    """The workbook that tables are from: by what they hold, by the name of the file, by the number of instants."""
+    if any(table.kind is Kind.CONTACT for table in tables):
+        return Workbook.RESULT2
+    if any(table.times.min() < 0 for table in tables):
+        return Workbook.RESULT4
+    if "4" in name and any(abs(table.times.size - times_of(Workbook.RESULT4).size) <= 1 for table in tables):
+        return Workbook.RESULT4
+    return Workbook.RESULT1
+
+
+def judged(table: Table, workbook: Workbook) -> Judgement:
+    """The judgement of one table."""
+    notes = [*table.notes[:3]]
+    if len(table.notes) > len(notes):
+        notes.append(note("more_text", count=len(table.notes) - len(notes)))
+    times = np.array([contact_time()]) if table.kind is Kind.CONTACT else table.times
+    told = (times >= EARLIEST) & (times <= dance_of(workbook).end.time)
+    at = np.where(told, times, 0.0)
+    motion = motion_of(workbook, at)[..., list(COMPONENTS[table.kind])]
+    values = table.values * _scale(table, motion, notes)
+    handles = _handles(table, values, motion, notes)
+    known = handles < HANDLES
+    if not known.all():
+        notes.append(note("extra_handles", count=int((~known).sum())))
+    wanted = np.full(values.shape, np.nan)
+    wanted[:, known] = motion[:, handles[known]]
+    wanted[~told] = np.nan
+    asked = told & (np.abs(times[:, None] - times_of(workbook)).min(axis=1) < 1e-9)
+    if not asked.all():
+        notes.append(note("extra_times", count=int((~asked).sum())))
+    wanted[~asked] = np.nan
+    return _counted(table, workbook, times, handles, np.where(np.isnan(wanted), np.nan, values), wanted, notes)
+
+
+def _counted(
+    table: Table,
+    workbook: Workbook,
+    times: Floats,
+    handles: NDArray[np.int64],
+    values: Floats,
+    wanted: Floats,
+    notes: list[Note],
+) -> Judgement:
+    off, cells = np.abs(values - wanted), cells_of(workbook, table.kind)
+    present, right = int((~np.isnan(off)).sum()), int((off <= RIGHT).sum())
+    largest = float(np.nanmax(off)) if present else np.inf
+    decimals = next((k for k in DECIMALS if largest <= ROUNDED * 10.0**-k), None)
+    if not present:
+        verdict = Verdict.UNREADABLE
+        notes.append(note("no_numbers"))
+    elif largest > RIGHT and decimals is None:
+        verdict = Verdict.WRONG
+    elif present < cells:
+        verdict = Verdict.INCOMPLETE
+    else:
+        verdict = Verdict.RIGHT if largest <= RIGHT else Verdict.ROUNDED
+    missing = cells - present
+    if missing and present:
+        absent = sorted(set(range(HANDLES)) - set(handles.tolist()))
+        late = len(set(times_of(workbook).tolist()) - set(times.tolist()))
+        notes.append(note("missing", count=missing, handles=len(absent), times=late))
+    rounded = None if largest <= RIGHT else decimals
+    written = _decimals(values)
+    return Judgement(
+        table, workbook, verdict, rounded, written, cells, right, missing, times, handles, values, wanted, notes
+    )
+
+
+def _scale(table: Table, motion: Floats, notes: list[Note]) -> float:
+    """What turns the numbers into metres; their size tells centimetres and millimetres."""
+    size = float(np.nanmedian(np.abs(table.values))) if np.isfinite(table.values).any() else 0.0
+    right = float(np.median(np.abs(motion)))
+    for scale, (low, high) in SCALES.items():
+        if low * right <= size <= high * right:
+            notes.append(note("unit", unit="cm" if scale == 1e-2 else "mm"))
+            return scale
+    return 1.0
+
+
+def _handles(table: Table, values: Floats, motion: Floats, notes: list[Note]) -> NDArray[np.int64]:
+    """The handle of every line: by its label or, where that fits more numbers, by its order."""
+
+    def near(handles: NDArray[np.int64]) -> int:
+        known = handles < HANDLES
+        return int((np.abs(values[:, known] - motion[:, handles[known]]) < NEAR).sum())
+
+    if np.array_equal(table.handles, table.by_order) or near(table.by_order) <= near(table.handles):
+        return table.handles
+    notes.append(note("by_order"))
+    return table.by_order
+
+
+def _decimals(values: Floats) -> int:
+    """Decimals that the numbers have."""
+    some = values[np.isfinite(values)].ravel()[:5000]
+    for k in range(DECIMALS_MOST):
+        scaled = some * 10.0**k
+        if np.all(np.abs(scaled - np.round(scaled)) < 1e-6):
+            return k
+    return DECIMALS_MOST
+
+
+def lacking(tables: list[Table], workbook: Workbook) -> list[Kind]:
+    """Kinds of sheets that a workbook of the contest has and this one has not."""
+    return [kind for kind in KINDS[workbook] if kind not in {table.kind for table in tables}]

@@ -1,0 +1,348 @@
+"""What the grader says, in English and in Chinese, with the terms of the contest."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from app.files.tables import Language
+
+
+@dataclass(frozen=True)
+class Note:
+    """Something to say: its name in WORDS, and the values that it tells of."""
+
+    code: str
+    values: dict[str, object] = field(default_factory=dict)
+
+    def said(self, language: Language) -> str:
+        return say(self.code, language, **self.values)
+
+
+def note(code: str, **values: object) -> Note:
+    return Note(code, values)
+
+
+def say(code: str, language: Language, **values: object) -> str:
+    """A text of WORDS with its values."""
+    english, chinese = WORDS[code]
+    return (chinese if language is Language.CHINESE else english).format(**values)
+
+
+WORDS = {
+    # -- files that cannot be graded --
+    "too_long": (
+        "The file has {size} MB, and at most {most} MB are read: a workbook of the contest has 2 MB.",
+        "文件为 {size} MB，最多读取 {most} MB：竞赛工作簿约 2 MB。",
+    ),
+    "empty": ("The file is empty.", "文件为空。"),
+    "encrypted": (
+        "The workbook is encrypted: save it without a password.",
+        "工作簿已加密：请取消密码后另存。",
+    ),
+    "old_format": (
+        "The workbook has the old format .xls: save it as .xlsx.",
+        "工作簿为旧格式 .xls：请另存为 .xlsx。",
+    ),
+    "truncated": (
+        "The workbook is damaged: its archive ends early or does not unpack. Save or upload it again.",
+        "工作簿已损坏：压缩包不完整或无法解压。请重新保存或上传。",
+    ),
+    "broken": ("The workbook is damaged and cannot be opened ({why}).", "工作簿已损坏，无法打开（{why}）。"),
+    "bomb": (
+        "The archive would unpack to {size} MB in {parts} parts, and at most {most} MB in 500 parts are read.",
+        "压缩包解压后为 {size} MB、{parts} 个部分，最多读取 {most} MB、500 个部分。",
+    ),
+    "other_archive": (
+        "The file is an archive but no .xlsx workbook: save the sheets as .xlsx or .csv.",
+        "文件是压缩包，但不是 .xlsx 工作簿：请另存为 .xlsx 或 .csv。",
+    ),
+    "declared": (
+        "The workbook declares a document type in {part}, which no spreadsheet program writes: it was not read.",
+        "工作簿的 {part} 含有文档类型声明，电子表格软件不会写入：未读取。",
+    ),
+    "too_many_cells": ("The table has more than {most} cells.", "表格超过 {most} 个单元格。"),
+    "no_csv": (
+        "The file is neither a workbook nor a table of text (CSV).",
+        "文件既不是工作簿，也不是文本表格（CSV）。",
+    ),
+    "no_table": (
+        "No sheet has labels such as 龙头x (m) and times such as 0 s, or numbers for 224 handles.",
+        "没有任何工作表含有“龙头x (m)”之类的标签和“0 s”之类的时间，或 224 个把手的数据。",
+    ),
+    "no_numbers": ("The sheet has no numbers where they belong.", "工作表中应有数据处没有数值。"),
+    # -- notes --
+    "macros": ("The workbook holds macros: they were not run.", "工作簿含有宏：未运行。"),
+    "formulas": (
+        "{count} cells hold formulas, the first is {cell}: the values stored with them were read.",
+        "{count} 个单元格含有公式，第一个是 {cell}：读取的是随公式保存的数值。",
+    ),
+    "merged": (
+        "{count} ranges of cells are merged, the first is {cell}: only its first cell has a value.",
+        "{count} 处合并单元格，第一处是 {cell}：只有首个单元格有值。",
+    ),
+    "text_number": ("The number in {cell} is stored as text.", "{cell} 中的数值以文本形式保存。"),
+    "text": ("{cell} should hold a number and holds the text “{text}”.", "{cell} 应为数值，却是文本“{text}”。"),
+    "more_text": ("{count} further cells hold text.", "另有 {count} 个单元格为文本。"),
+    "unit": ("The numbers are in {unit}: they were read as such.", "数值单位为 {unit}：已按此读取。"),
+    "by_order": (
+        "The labels of the handles are out of step: the handles were taken in the order in which they stand.",
+        "把手标签有错位：已按排列顺序对应把手。",
+    ),
+    "extra_handles": (
+        "{count} handle too many: the dragon has 224, from the head to the rear of the tail.",
+        "多出 {count} 个把手：从龙头到龙尾（后）共 224 个。",
+    ),
+    "extra_times": (
+        "{count} columns are for times that the contest does not ask for: they were not graded.",
+        "{count} 列的时刻不在赛题要求之内：未评分。",
+    ),
+    "missing": (
+        "{count} cells are missing ({handles} handles and {times} instants without any).",
+        "缺少 {count} 个单元格（{handles} 个把手、{times} 个时刻完全没有数据）。",
+    ),
+    "no_sheet": ("The sheet of the {kind} is missing.", "缺少{kind}工作表。"),
+    "position": ("positions", "位置"),
+    "speeds": ("speeds", "速度"),
+    "speed": ("maximum speed of the head", "龙头最大速度"),
+    "contact": ("positions and speeds at first contact", "首次碰撞时的位置与速度"),
+    # -- errors --
+    "error_anticlockwise": ("The dragon goes anticlockwise, not clockwise.", "盘入方向为逆时针，应为顺时针。"),
+    "error_equal_arcs": (
+        "The handles are equal arcs apart, not chords: a rigid bench keeps the straight distance.",
+        "相邻把手按弧长等距，应为弦长：刚性板凳保持的是直线距离。",
+    ),
+    "error_length_for_chord": (
+        "The length of a bench was taken for the distance of its handles: the overhang of 0.275 m at both ends is forgotten.",
+        "把板长当作把手间距：忘记减去两端各 0.275 m。",
+    ),
+    "error_overhang_once": (
+        "The overhang was subtracted at one end only: the distance of the handles is the length minus 2 x 0.275 m.",
+        "只减去一端的 0.275 m：把手间距应为板长减 2 × 0.275 m。",
+    ),
+    "error_head_as_body": ("The head bench was taken for a body bench of 2.20 m.", "把龙头当作 2.20 m 的龙身。"),
+    "error_body_as_head": (
+        "All benches were given the length of the head, 3.41 m.",
+        "所有板凳都取了龙头的板长 3.41 m。",
+    ),
+    "error_arc_of_circle": (
+        "The angle follows from ds = r dtheta, the arc of a circle: on the spiral ds = b sqrt(1 + theta^2) dtheta.",
+        "角度由圆弧公式 ds = r dθ 得出：螺线上应为 ds = b√(1+θ²) dθ。",
+    ),
+    "error_arc_without_logarithm": (
+        "The arc length lacks its logarithmic term: it is b/2 (theta sqrt(1 + theta^2) + asinh theta).",
+        "弧长公式缺少对数项：应为 b/2·(θ√(1+θ²) + arsinh θ)。",
+    ),
+    "error_steady_angle": (
+        "The angular speed of the start was kept: at a constant speed along the spiral it grows inwards.",
+        "角速度保持为初始值：沿螺线匀速时，越向内角速度越大。",
+    ),
+    "error_euler_steps": (
+        "The angle was integrated by Euler's method in steps of 1 s: the closed form of the arc length is exact.",
+        "角度用步长 1 s 的欧拉法积分：弧长有精确公式。",
+    ),
+    "error_rounded_early": ("A number was rounded before it was used: {what}.", "中间数值过早舍入：{what}。"),
+    "error_other_start": (
+        "The head starts on turn {turns}, not on turn 16 (8.8 m from the centre).",
+        "龙头起点在第 {turns} 圈，应为第 16 圈（距中心 8.8 m）。",
+    ),
+    "error_shifted_time": (
+        "Time 0 is elsewhere: all times are shifted by {shift} s.",
+        "时间零点有误：所有时刻偏移 {shift} s。",
+    ),
+    "error_other_instant": ("The dragon stands where it is at {time} s.", "队伍处于 {time} s 时的位置。"),
+    "error_ratio_inverted": (
+        "The ratio of the two arcs is inverted: the first has the larger radius.",
+        "两段圆弧的半径比颠倒：前一段半径应为后一段的 2 倍。",
+    ),
+    "error_equal_arcs_of_turn": ("Both arcs of the turn have one radius.", "两段圆弧半径相等。"),
+    "error_arcs_not_tangent": (
+        "The arcs are semicircles on the line from entry to exit: they are tangent to each other and not to the spirals.",
+        "圆弧是以进出点连线为直径的半圆：两弧相切，但与螺线不相切。",
+    ),
+    "error_wrong_centre": (
+        "The centres of the arcs lie on the wrong side of the line from entry to exit.",
+        "圆弧圆心位于进出点连线的错误一侧。",
+    ),
+    "error_equal_speeds": ("All handles have the speed of the head.", "所有把手速度都等于龙头速度。"),
+    "error_forward_difference": (
+        "The speeds are forward difference quotients with a step of {step} s.",
+        "速度由向前差商得出，步长 {step} s。",
+    ),
+    "error_backward_difference": (
+        "The speeds are backward difference quotients with a step of {step} s.",
+        "速度由向后差商得出，步长 {step} s。",
+    ),
+    "error_central_difference": (
+        "The speeds are central difference quotients with a step of {step} s.",
+        "速度由中心差商得出，步长 {step} s。",
+    ),
+    "error_wrong_ring": (
+        "A handle was put on the wrong ring: another root of the chord equation was taken.",
+        "把手落在错误的一圈上：取了弦长方程的另一个根。",
+    ),
+    "error_time_steps": (
+        "The event was looked for in steps of {step} s: this is the first one after it.",
+        "以 {step} s 为步长搜索：这是碰撞后的第一个时刻。",
+    ),
+    "error_time_steps_before": (
+        "The event was looked for in steps of {step} s: this is the last one before it.",
+        "以 {step} s 为步长搜索：这是碰撞前的最后一个时刻。",
+    ),
+    "error_no_overhang": (
+        "The rectangles end at the handles: the overhang of 0.275 m at both ends is forgotten.",
+        "矩形只画到把手处：忘记两端各 0.275 m。",
+    ),
+    "error_loose_angle": (
+        "The sum of angles was taken for 360 degrees when it lacked {angle} degrees: nothing touches there.",
+        "角度和还差 {angle}° 时就当作 360°：此时并未碰撞。",
+    ),
+    "error_literal_corners": (
+        "The corners follow equation 12 of a paper as it is printed, with a wrong sign: they draw no rectangle.",
+        "顶点按论文公式 12 的印刷形式计算，符号有误：画出的不是矩形。",
+    ),
+    "error_pose_on_circle": (
+        "Only the pose with the head on the circle was checked: benches touch earlier, on the way there.",
+        "只检验了龙头位于圆上的一个时刻：在途中更早就会碰撞。",
+    ),
+    "error_pose_on_circle_head": (
+        "Only the head was checked, and only in the pose on the circle: benches touch earlier, on the way there.",
+        "只检验了龙头，且只在圆上的一个时刻：在途中更早就会碰撞。",
+    ),
+    "error_one_corner": (
+        "Only the outer front corner of the head was checked, and only in the pose on the circle.",
+        "只检验了龙头前外角，且只在圆上的一个时刻。",
+    ),
+    "error_pitch_time_steps": (
+        "The way to the circle was checked in steps of {step} s, which step over the narrowest graze.",
+        "以 {step} s 为步长检验途中，跨过了最险的擦碰。",
+    ),
+    "error_pitch_steps": (
+        "The pitch was looked for in steps: this is the first feasible one among them.",
+        "以固定步长搜索螺距：这是其中第一个可行值。",
+    ),
+    "error_truncated": (
+        "The number was cut off after {decimals} decimals: it is smaller than the least feasible pitch, so benches touch.",
+        "数值在第 {decimals} 位小数后被截断：小于最小可行螺距，会发生碰撞。",
+    ),
+    "error_speed_time_steps": (
+        "The highest speed was looked for in steps of {step} s, which miss its peak.",
+        "以 {step} s 为步长寻找最高速度，错过了峰值。",
+    ),
+    "error_other_entry": (
+        "The turn begins inside the circle, {entry} m from the centre, not on its edge at 4.5 m.",
+        "调头起点在圆内，距中心 {entry} m，而不是在 4.5 m 的边界上。",
+    ),
+    "evidence": (
+        "{sheet}: recomputed with this error, {share} % of the {count} wrong cells agree within {tolerance} {unit}; they are up to {worst} {unit} off the right ones.",
+        "{sheet}：按此错误重新计算，{count} 个错误单元格中 {share} % 在 {tolerance} {unit} 内吻合；与正确值最多相差 {worst} {unit}。",
+    ),
+    "evidence_ring": (
+        "At {time} s handle {handle} is {chord} m from the one before, as it should be, and {turns} turns further along the spiral instead of {right}; so are {count} links in all.",
+        "{time} s 时，{handle} 号把手与前一把手相距 {chord} m（正确），但沿螺线相差 {turns} 圈，应为 {right} 圈；共 {count} 处。",
+    ),
+    "gives_on_grid": (
+        "Recomputed with this error the number is {gives} {unit}, and the next in steps of {grid} {unit} is {value} {unit}; {right} {unit} is right.",
+        "按此错误重新计算得 {gives} {unit}，以 {grid} {unit} 为步长的下一个值为 {value} {unit}；正确为 {right} {unit}。",
+    ),
+    "gives": (
+        "Recomputed with this error the number is {gives} {unit}; {value} {unit} was given, {right} {unit} is right.",
+        "按此错误重新计算得 {gives} {unit}；所给为 {value} {unit}，正确为 {right} {unit}。",
+    ),
+    # -- the rubric --
+    "rubric_branch_yes": (
+        "Every handle follows the one before on the right branch.",
+        "每个把手都取了正确的分支（紧随前一把手）。",
+    ),
+    "rubric_branch_no": (
+        "A handle is on the wrong branch: it must be the first root behind the one before.",
+        "有把手取错分支：应为前一把手之后的第一个根。",
+    ),
+    "rubric_branch_unknown": (
+        "The branch of the next handle: not shown.",
+        "下一把手的分支：未能判断。",
+    ),
+    "rubric_speeds_yes": (
+        "The speeds belong to the positions.",
+        "速度与位置相符。",
+    ),
+    "rubric_speeds_no": (
+        "The speeds do not belong to the positions.",
+        "速度与位置不符。",
+    ),
+    "rubric_speeds_unknown": (
+        "Speeds consistent with the positions: not shown, that takes both sheets.",
+        "速度与位置是否相符：需要两张工作表。",
+    ),
+    "rubric_overhang_yes": (
+        "Benches are rectangles with their overhang.",
+        "板凳按含伸出部分的矩形处理。",
+    ),
+    "rubric_overhang_no": (
+        "Benches lack their overhang.",
+        "板凳缺少伸出部分。",
+    ),
+    "rubric_overhang_unknown": (
+        "Rectangles with overhang: not shown here.",
+        "是否按含伸出部分的矩形处理：此处未体现。",
+    ),
+    "rubric_refined_yes": (
+        "First contact was refined.",
+        "首次碰撞时刻经过细化求解。",
+    ),
+    "rubric_refined_no": (
+        "First contact was only stepped over: refine it, by bisection for example.",
+        "首次碰撞只按固定步长搜索：应细化，例如用二分法。",
+    ),
+    "rubric_refined_unknown": (
+        "First contact refined instead of stepped: not shown here.",
+        "首次碰撞是否细化：此处未体现。",
+    ),
+    "rubric_tangents_yes": (
+        "The path is smooth where the arcs begin and end.",
+        "圆弧与螺线相切，路径光滑。",
+    ),
+    "rubric_tangents_no": (
+        "The path has kinks where the arcs begin or end: the arcs must be tangent to the spirals and to each other.",
+        "路径在圆弧端点处有折角：圆弧应与螺线相切，且两弧相切。",
+    ),
+    "rubric_tangents_unknown": (
+        "Continuity at the tangents: not shown here.",
+        "切点处的连续性：此处未体现。",
+    ),
+    "rubric_speeds_share": (
+        "{share} % of the speeds agree with the way from one instant to the next.",
+        "{share} % 的速度与相邻时刻的位移相符。",
+    ),
+    # -- verdicts and lines of the command --
+    "right": ("right", "正确"),
+    "rounded": ("rounded", "已舍入"),
+    "incomplete": ("incomplete", "不完整"),
+    "wrong": ("wrong", "错误"),
+    "unreadable": ("unreadable", "无法读取"),
+    "to_decimals": (" to {decimals} decimals", "到 {decimals} 位小数"),
+    "sheet_line": (
+        "{title}: {verdict}, {right} of {cells} cells right",
+        "{title}：{verdict}，{cells} 个单元格中 {right} 个正确",
+    ),
+    "worst_cell": (
+        "worst: {cell}, {handle}, {quantity} at {time} s: {found}, right is {expected}",
+        "误差最大：{cell}，{handle}，{time} s 时的 {quantity}：{found}，正确为 {expected}",
+    ),
+    "first_cell": (
+        "first: {cell}, {handle}, {quantity} at {time} s: {found}, right is {expected}",
+        "首个错误：{cell}，{handle}，{time} s 时的 {quantity}：{found}，正确为 {expected}",
+    ),
+    "nothing_fits": ("No known error gives these numbers.", "没有已知错误能得出这些数值。"),
+    "is_right": ("{right} {unit} is right.", "正确值为 {right} {unit}。"),
+    "collision_time": ("time of first contact", "首次碰撞时刻"),
+    "pitch": ("minimum pitch", "最小螺距"),
+    "turn_length": ("length of the turn", "调头曲线长度"),
+    "summary": ("All files", "全部文件"),
+    "column_file": ("file", "文件"),
+    "column_workbook": ("workbook", "工作簿"),
+    "column_verdict": ("verdict", "判定"),
+    "column_cells": ("cells", "单元格"),
+    "column_right": ("right", "正确"),
+    "column_missing": ("missing", "缺少"),
+    "column_diagnosis": ("diagnosis", "诊断"),
+}

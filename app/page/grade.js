@@ -1,0 +1,141 @@
+/** The grader: workbooks that are dropped or chosen, and typed answers, each with the service's verdict. */
+
+import { Problem, Superseded } from "./api.js";
+import { $, make, onClick } from "./elements.js";
+import { refusalWords, say } from "./text.js";
+
+const ANSWERS = ["collision_time", "pitch", "turn_length", "speed"];
+/** The colour of each mark of a picture; what is right stays pale. */
+const COLOURS = { ".": "--line", o: "--undecided", "#": "--contact", "?": "--border" };
+const OUTCOMES = { right: "clear", rounded: "clear", incomplete: "undecided", wrong: "contact", unreadable: "contact" };
+const MARKS = { right: "✓", rounded: "✓", incomplete: "!", wrong: "✕", unreadable: "✕" };
+const CELL = 6;
+
+export class Grader {
+  #files = [];
+  #answers = [];
+  #language = null;
+
+  constructor(service) {
+    this.service = service;
+    const drop = $("#drop");
+    $("#files").addEventListener("change", (event) => this.#take([...event.target.files]));
+    for (const name of ["dragover", "drop"]) drop.addEventListener(name, (event) => event.preventDefault());
+    for (const name of ["dragenter", "dragover"]) drop.addEventListener(name, () => drop.classList.add("over"));
+    for (const name of ["dragleave", "drop"]) drop.addEventListener(name, () => drop.classList.remove("over"));
+    drop.addEventListener("drop", (event) => this.#take([...event.dataTransfer.files]));
+    $("#typed").addEventListener("submit", (event) => {
+      event.preventDefault();
+      this.#grade();
+    });
+    onClick("#grade-clear", () => {
+      $("#files").value = "";
+      $("#typed").reset();
+      this.#files = [];
+      this.#answers = [];
+      this.show();
+    });
+  }
+
+  /** Show everything in this language; the service's words are asked for again. */
+  translate(language) {
+    const changed = this.#language !== null && this.#language !== language;
+    this.#language = language;
+    if (changed && this.#answers.length) this.#grade();
+  }
+
+  show() {
+    $("#grades").replaceChildren(...this.#answers.flatMap(({ answer, refused }) => (refused ? [refused] : boxes(answer))));
+  }
+
+  #take(files) {
+    this.#files = files;
+    this.#grade();
+  }
+
+  async #grade() {
+    const numbers = ANSWERS.map((name) => [name, $(`#typed-${name}`).value.trim()]).filter(([, text]) => text);
+    const asked = this.#files.map((file) => [{ name: file.name.slice(-200), language: this.#language }, file]);
+    if (numbers.length) asked.unshift([{ language: this.#language, ...Object.fromEntries(numbers) }, undefined]);
+    const found = [];
+    this.#answers = found;
+    for (const [query, file] of asked) {
+      try {
+        found.push({ answer: await this.service.ask("grade", "grade", { query, file: file ?? new Blob() }) });
+      } catch (error) {
+        if (error instanceof Superseded) return;
+        if (!(error instanceof Problem)) throw error;
+        const heading = make("h3", { textContent: file?.name ?? say("typed") });
+        found.push({ refused: make("div", { className: "answer" }, heading, make("p", { className: "error", ...refusalWords(error.message) })) });
+      }
+      if (this.#answers !== found) return;
+      this.show();
+    }
+  }
+}
+
+const paragraph = (textContent, className = "") => make("p", { textContent, className });
+
+/** The boxes of one answer of the service. */
+function boxes({ files, answers }) {
+  const typed = answers.map((one) => {
+    const { found, expected, unit, verdict } = one;
+    const right = verdict === "right" ? [] : [paragraph(say("rightIs", { value: expected.toFixed(9), unit }))];
+    return box(`${say(`typed_${one.answer}`)}: ${found} ${unit}`, verdict, [...right, ...diagnosis(one)]);
+  });
+  return [...typed, ...files.map(fileBox)];
+}
+
+function box(title, verdict, content) {
+  const mark = make("span", { className: "mark", "aria-hidden": "true", textContent: MARKS[verdict] });
+  const value = make("p", { className: "value" }, mark, say(`verdict_${verdict}`));
+  const outcome = { className: "answer", "data-outcome": OUTCOMES[verdict] };
+  return make("div", outcome, make("h3", { textContent: title }), value, ...content);
+}
+
+function diagnosis({ verdict, diagnosis: found }) {
+  if (!found.length) return verdict === "wrong" ? [paragraph(say("nothingFits"))] : [];
+  return found.flatMap(({ words, evidence }) => [paragraph(words, "finding"), paragraph(evidence, "evidence")]);
+}
+
+function fileBox(file) {
+  const points = file.rubric.map(({ met, words }) => make("li", { className: `met-${met}`, textContent: words }));
+  const rubric = make("details", {}, make("summary", { textContent: say("rubric") }), make("ul", {}, ...points));
+  return box(file.file, file.verdict, [
+    ...file.notes.map((one) => paragraph(one)),
+    ...diagnosis(file),
+    ...file.sheets.flatMap(sheetParts),
+    ...(points.length ? [rubric] : []),
+  ]);
+}
+
+function sheetParts(sheet) {
+  const { right, cells, verdict, worst, first, picture, notes } = sheet;
+  const title = sheet.sheet || say(`holds_${sheet.holds}`);
+  const line = say("sheetIs", { title, verdict: say(`verdict_${verdict}`), right, cells });
+  const parts = [paragraph(line, "sheet"), ...notes.map((one) => paragraph(one))];
+  if (verdict === "wrong")
+    for (const [key, cell] of Object.entries({ worstCell: worst, firstCell: first })) {
+      const { found, expected, time } = cell;
+      const values = { ...cell, found: found.toFixed(6), expected: expected.toFixed(6), time: Number(time.toFixed(6)) };
+      parts.push(paragraph(say(key, values)));
+    }
+  if (picture.some((line) => /[^.]/.test(line))) parts.push(drawn(picture));
+  return parts;
+}
+
+/** A picture of where the wrong cells are: handles from the top, instants from the left. */
+function drawn(picture) {
+  const width = picture[0].length;
+  const size = { width: CELL * width, height: CELL * picture.length };
+  const canvas = make("canvas", { ...size, className: "marks", role: "img", "aria-label": say("marks") });
+  const context = canvas.getContext("2d");
+  const style = getComputedStyle(document.documentElement);
+  picture.forEach((line, row) =>
+    [...line].forEach((mark, column) => {
+      context.fillStyle = style.getPropertyValue(COLOURS[mark]);
+      context.fillRect(CELL * column, CELL * row, CELL - 1, CELL - 1);
+    }),
+  );
+  return canvas;
+}

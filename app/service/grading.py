@@ -1,0 +1,93 @@
+"""POST /grade: a workbook or CSV as the body, graded in memory; nothing of it is kept or logged.
+
+The file is the whole body, not a part of a form: its length is limited before it is read, and any HTTP client sends it
+with one option. Further numbers stand in the query.
+"""
+
+from __future__ import annotations
+
+from typing import Annotated, Any
+
+from fastapi import APIRouter, Depends, Query, Request, Response
+from pydantic import Field
+
+from app.files.tables import CSV_TYPE, XLSX_TYPE, Language
+from app.grade.report import GradeAnswer, graded, typed
+from app.grade.shortcuts import UNITS
+from app.service.lanes import Lanes
+from app.service.problems import Refused
+from app.service.routes import PROBLEM, PROBLEMS
+from app.service.watch import WatchedRoute
+from app.settings import Settings
+from app.wire.models import JSON, Wire, measure
+from app.wire.problem import ErrorItem
+
+FILE_TYPE = "application/octet-stream"
+TYPES = (FILE_TYPE, XLSX_TYPE, CSV_TYPE)
+# How long a file takes, as far as a full lane may say [s].
+COST = 3.0
+STATUSES = (413, 414, 415, 422, 500, 503)
+# A number as it was typed: its digits tell how far it is rounded.
+TYPED = r"^[0-9]{1,6}(\.[0-9]{1,15})?$"
+
+
+class GradeQuery(Wire):
+    """What goes with the file."""
+
+    name: str = Field("upload", min_length=1, max_length=200, description="Name of the file, as result1.xlsx")
+    language: Language = Field(Language.ENGLISH, description="Language of the words: en or zh")
+    collision_time: str | None = measure("s", "Time of first contact", None, pattern=TYPED)
+    pitch: str | None = measure("m", "Minimum pitch", None, pattern=TYPED)
+    turn_length: str | None = measure("m", "Length of the turn", None, pattern=TYPED)
+    speed: str | None = measure("m/s", "Maximum speed of the head", None, pattern=TYPED)
+
+
+class UploadRoute(WatchedRoute):
+    """A call whose body is a file."""
+
+    takes_file = True
+
+    def seconds(self, settings: Settings) -> float:
+        return settings.grade_seconds
+
+
+router = APIRouter(tags=["Grading"], route_class=UploadRoute)
+
+
+async def uploaded(request: Request) -> bytes:
+    """The body. raises: Refused (415) for one of another type"""
+    data = await request.body()
+    kind = request.headers.get("content-type", "").partition(";")[0].strip().lower()
+    if data and kind not in TYPES:
+        detail = f"The body must be the file itself, of type {' or '.join(TYPES)}, got {kind or 'no Content-Type'}."
+        raise Refused(415, detail, [ErrorItem(name="Content-Type", detail=detail)], {"Accept-Post": ", ".join(TYPES)})
+    return data
+
+
+_FILE: dict[str, Any] = {"schema": {"type": "string", "format": "binary"}}
+
+
+@router.post(
+    "/grade",
+    operation_id="grade",
+    response_class=Response,
+    responses={
+        200: {"description": "The answer", "model": GradeAnswer, "content": {JSON: {}}},
+        **{status: {"description": PROBLEMS[status], "content": PROBLEM} for status in STATUSES},
+    },
+    openapi_extra={"security": [], "requestBody": {"required": False, "content": {FILE_TYPE: _FILE}}},
+)
+def grade(
+    request: Request, data: Annotated[bytes, Depends(uploaded)], wanted: Annotated[GradeQuery, Query()]
+) -> Response:
+    """What is right in a workbook of the contest, and which known error made the rest wrong."""
+    given = {name: text for name in UNITS if (text := getattr(wanted, name)) is not None}
+    if not data and not given:
+        detail = "Send a workbook or CSV as the body, or a number such as pitch in the query."
+        raise Refused(422, detail, [ErrorItem(name="name", detail=detail)])
+    lanes: Lanes = request.app.state.lanes
+    with lanes.of(COST, JSON).taken(COST):
+        answers = [typed(name, text, wanted.language) for name, text in given.items()]
+        files = [graded(wanted.name, data, wanted.language, request.state.budget)] if data else []
+    answer = GradeAnswer(files=files, answers=answers)
+    return Response(answer.to_json(), headers={"Cache-Control": "no-store"}, media_type=JSON)

@@ -1,0 +1,193 @@
+"""What students hand in, right and with one error each: computed in plain steps, without the grader's models."""
+
+from __future__ import annotations
+
+import io
+import math
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import xlsxwriter
+from openpyxl import Workbook
+from scipy.optimize import brentq
+
+from core import Dance, Dragon, Spiral, Turn, trajectory
+
+Floats = np.ndarray[Any, np.dtype[np.float64]]
+# Positions (T, 224, 2) [m] and speeds (T, 224) [m/s].
+Results = tuple[Floats, Floats]
+SPIRAL_TIMES, TURN_TIMES = np.arange(301.0), np.arange(-100.0, 101.0)
+B, START = 0.55 / (2.0 * math.pi), 32.0 * math.pi
+CONTACT = 412.47383768211466  # [s]
+
+
+def of(dance: Dance, times: Floats) -> Results:
+    found = trajectory(dance, times)
+    return found.position, found.speed
+
+
+def spiral(times: Floats = SPIRAL_TIMES, dragon: Dragon | None = None, **path: float) -> Results:
+    return of(Dance(dragon or Dragon(), Spiral(**path)), times)
+
+
+def turn(times: Floats = TURN_TIMES, dragon: Dragon | None = None, **path: float) -> Results:
+    return of(Dance(dragon or Dragon(), Turn(1.7, **path)), times)
+
+
+def arc(theta: float) -> float:
+    return 0.5 * B * (theta * math.hypot(1.0, theta) + math.asinh(theta))
+
+
+def head_at(theta_of: Callable[[float], float]) -> Results:
+    """The dance with its head at another angle at every time: as the right one when its head is there."""
+    return spiral(np.array([arc(START) - arc(theta_of(t)) for t in SPIRAL_TIMES]))
+
+
+def circle_angle() -> Results:
+    return head_at(lambda t: math.sqrt(START**2 - 2.0 * t / B))
+
+
+def steady_angle() -> Results:
+    return head_at(lambda t: START - t / 8.8)
+
+
+def equal_arcs() -> Results:
+    """Every handle an arc of a chord's length behind the one before, by root finding."""
+    back = np.concatenate([[0.0], np.cumsum(Dragon().chords)])
+    position = np.empty((301, 224, 2))
+    # The same angle comes back at many times, as the body follows the head.
+    reach = np.linspace(0.1, 1.2 * math.sqrt(2.0 * (arc(START) + back[-1]) / B), 400_000)
+    arcs = 0.5 * B * (reach * np.hypot(1.0, reach) + np.arcsinh(reach))
+    for t in range(301):
+        theta = np.interp(arc(START) - t + back, arcs, reach)
+        for _ in range(3):
+            theta -= (0.5 * B * (theta * np.hypot(1.0, theta) + np.arcsinh(theta)) - (arc(START) - t + back)) / (
+                B * np.hypot(1.0, theta)
+            )
+        position[t] = B * theta[:, None] * np.stack([np.cos(theta), np.sin(theta)], axis=-1)
+    return position, np.ones((301, 224))
+
+
+def mirrored(results: Results) -> Results:
+    return results[0] * [1.0, -1.0], results[1]
+
+
+def with_speeds(results: Results, speed: Floats) -> Results:
+    return results[0], speed
+
+
+def quotient(before: float, after: float, motion: Callable[[Floats], Results] = spiral) -> Results:
+    """Speeds as the way from one time to another over the time that it takes."""
+    times = SPIRAL_TIMES if motion is spiral else TURN_TIMES
+    way = motion(times + after)[0] - motion(times + before)[0]
+    return with_speeds(motion(times), np.hypot(way[..., 0], way[..., 1]) / (after - before))
+
+
+def gradient() -> Results:
+    """Speeds by numpy.gradient from the table itself, rounded to six decimals as it is."""
+    position = np.round(spiral()[0], 6)
+    velocity = np.gradient(position, axis=0)
+    return with_speeds((position, velocity), np.hypot(velocity[..., 0], velocity[..., 1]))
+
+
+def wrong_ring(handle: int) -> Results:
+    """One handle takes the next root of the chord equation; those behind it follow on that ring."""
+    right = spiral()
+    theta = np.hypot(right[0][..., 0], right[0][..., 1]) / B
+    chords = Dragon().chords
+    for t in range(301):
+        for k in range(handle, 224):
+            before, chord = theta[t, k - 1], chords[k - 1]
+
+            def excess(delta: float, before: float = before, chord: float = chord) -> float:
+                after = before + delta
+                gap = before**2 + after**2 - 2.0 * before * after * math.cos(delta)
+                return B * math.sqrt(max(gap, 0.0)) - chord
+
+            low, high = (math.pi, 2.0 * math.pi) if k == handle else (1e-6, 1.5)
+            theta[t, k] = before + brentq(excess, low, high, xtol=1e-13)
+    position = B * theta[..., None] * np.stack([np.cos(theta), np.sin(theta)], axis=-1)
+    return position, right[1]
+
+
+def semicircles() -> Results:
+    """A turn of two semicircles on the line from the entry to the exit, 3 m and 1.5 m: every handle by root finding."""
+    path = Turn(1.7)
+    entry = np.array(path.entry)
+    along = -entry / np.linalg.norm(entry)
+    left = np.array([-along[1], along[0]])
+
+    def place(s: float) -> Floats:
+        if s < 0.0:
+            return np.asarray(path.position(s))
+        if s < 3.0 * math.pi:
+            angle = s / 3.0  # clockwise: first to the left of the line, as seen along it
+            return entry + 3.0 * along - 3.0 * (math.cos(angle) * along - math.sin(angle) * left)
+        if s < 4.5 * math.pi:
+            angle = (s - 3.0 * math.pi) / 1.5
+            return entry + 7.5 * along - 1.5 * (math.cos(angle) * along + math.sin(angle) * left)
+        return np.asarray(path.position(path.length + s - 4.5 * math.pi))
+
+    right, chords = turn(), Dragon().chords
+    position = right[0].copy()
+    for t, s in enumerate(TURN_TIMES):
+        if s <= 0.0:
+            continue
+        for k in range(224):
+            if k:
+                point = position[t, k - 1]
+                if s < -4.0:
+                    break  # from here on the spiral, as far behind as in the right dance only if s is the same
+                s = brentq(
+                    lambda u, point=point, k=k: float(np.linalg.norm(place(u) - point)) - chords[k - 1],
+                    s - 1.6 * chords[k - 1], s - 0.9 * chords[k - 1], xtol=1e-12,
+                )  # fmt: skip
+            position[t, k] = place(s)
+        else:
+            continue
+        rest = trajectory(Dance(Dragon(), path), s + np.zeros(1)).position[0]
+        # On the coil a chain behind a handle depends on its place alone, and body chords are equal.
+        body = trajectory(Dance(Dragon(head_length=2.20), path), np.array([s])).position[0]
+        position[t, k - 1 :] = (rest if k == 1 else body)[: 224 - k + 1]
+    return position, right[1]
+
+
+def labels(kind: str) -> list[str]:
+    names = ["龙头", *(f"第{k}节龙身" for k in range(1, 222)), "龙尾", "龙尾（后）"]
+    if kind == "position":
+        return [f"{name}{axis} (m)" for name in names for axis in "xy"]
+    return [f"{name} (m/s)" for name in names]
+
+
+def sheets(results: Results) -> tuple[Floats, Floats]:
+    """Rows of the two sheets, rounded to six decimals as the contest asks."""
+    position, speed = results
+    return np.round(position.transpose(1, 2, 0).reshape(-1, len(position)), 6), np.round(speed.T, 6)
+
+
+def workbook(results: Results, times: Floats, decimals: int = 6) -> bytes:
+    """result1 or result4 as XlsxWriter writes it."""
+    sink = io.BytesIO()
+    with xlsxwriter.Workbook(sink, {"in_memory": True}) as book:
+        for title, kind, rows in zip(("位置", "速度"), ("position", "speed"), sheets(results), strict=True):
+            sheet = book.add_worksheet(title)
+            sheet.write_row(0, 1, [f"{t:g} s" for t in times])
+            for k, (label, row) in enumerate(zip(labels(kind), np.round(rows, decimals).tolist(), strict=True), 1):
+                sheet.write_string(k, 0, label)
+                for n, value in enumerate(row, 1):
+                    sheet.write_number(k, n, value)
+    return sink.getvalue()
+
+
+def contact_workbook(results: Results) -> bytes:
+    """result2 as openpyxl writes it: the first instant of these results."""
+    position, speed = results
+    book = Workbook(write_only=True)
+    sheet = book.create_sheet("Sheet1")
+    sheet.append([None, "横坐标x (m)", "纵坐标y (m)", "速度 (m/s)"])
+    for label, point, v in zip(labels("speed"), position[0].tolist(), speed[0].tolist(), strict=True):
+        sheet.append([label.removesuffix(" (m/s)"), *(round(x, 6) for x in (*point, v))])
+    sink = io.BytesIO()
+    book.save(sink)
+    return sink.getvalue()

@@ -1,0 +1,96 @@
+"""bench-dragon grade: files, folders, numbers, a summary; exit code 0 for every verdict."""
+
+from __future__ import annotations
+
+import csv
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from app.grade.shortcuts import explained
+from tests.app.command import run
+from tests.app.grade.students import CONTACT, contact_workbook, spiral
+
+
+@pytest.fixture(scope="module")
+def class_of_three(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("class")
+    for name, data in (
+        ("li", contact_workbook(spiral(np.array([412.48])))),
+        ("wang", contact_workbook(spiral(np.array([CONTACT])))),
+        ("zhao", b"PK\x03\x04 cut off"),
+    ):
+        (folder / name).mkdir()
+        (folder / name / "result2.xlsx").write_bytes(data)
+    return folder
+
+
+def test_a_folder_is_graded_by_path_with_exit_code_0(class_of_three: Path, tmp_path: Path) -> None:
+    summary = tmp_path / "summary.csv"
+    done = run("grade", str(class_of_three), "--json", "--summary", str(summary))
+    assert done.returncode == 0
+    files = json.loads(done.stdout)["files"]
+    assert [Path(file["file"]).parent.name for file in files] == ["li", "wang", "zhao"]
+    assert [file["verdict"] for file in files] == ["wrong", "right", "unreadable"]
+    assert [one["error"] for one in files[0]["diagnosis"]] == ["other_instant", "time_steps"]
+    with summary.open(encoding="utf-8-sig", newline="") as lines:
+        assert [row["verdict"] for row in csv.DictReader(lines)] == ["wrong", "right", "unreadable"]
+
+
+def test_files_stand_in_the_order_given(class_of_three: Path) -> None:
+    given = [str(class_of_three / name / "result2.xlsx") for name in ("zhao", "li")]
+    files = json.loads(run("grade", *given, "--json").stdout)["files"]
+    assert [file["file"] for file in files] == given
+
+
+def test_the_words_are_in_the_language_chosen(class_of_three: Path) -> None:
+    file = str(class_of_three / "li" / "result2.xlsx")
+    assert "以 0.02 s 为步长搜索" in run("grade", file, "--language", "zh").stdout
+    assert "looked for in steps of 0.02 s" in run("grade", file).stdout
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        ((), "give at least one FILE or one number"),
+        (("--pitch", "wide"), "pitch must be a number [m], got 'wide'"),
+        (("--pitch", "-1"), "pitch must be more than 0"),
+        (("missing.xlsx",), "missing.xlsx: No such file or directory"),
+    ],
+)
+def test_wrong_usage_is_one_line(arguments: tuple[str, ...], words: str) -> None:
+    done = run("grade", *arguments)
+    assert (done.returncode, done.stdout) == (2, "")
+    assert words in done.stderr
+    assert done.stderr.count("\n") == 1
+
+
+# Number, as it is typed, and the shortcut that gives it; empty: none is known.
+TYPED = [
+    ("collision_time", 412.47, 2, ""),
+    ("collision_time", 412.48, 2, "time_steps"),
+    ("collision_time", 406.43, 2, "loose_angle"),
+    ("collision_time", 407.4, 1, "literal_corners"),
+    ("collision_time", 412.8, 1, ""),
+    ("pitch", 0.4202, 4, "pose_on_circle"),
+    ("pitch", 0.4171, 4, "pose_on_circle_head"),
+    ("pitch", 0.4052, 4, "one_corner"),
+    ("pitch", 0.4503, 4, "truncated"),
+    ("pitch", 0.450274, 6, "pitch_time_steps"),
+    ("pitch", 0.450297, 6, "pitch_time_steps"),
+    ("pitch", 0.450333, 6, "pitch_time_steps"),
+    ("pitch", 0.4321, 4, ""),
+    ("turn_length", 13.0, 1, "other_entry"),
+    ("turn_length", 13.62, 2, ""),
+    ("speed", 1.2470, 4, "speed_time_steps"),
+    ("speed", 1.4063, 4, "speed_time_steps"),
+    ("speed", 1.3194, 4, ""),
+]
+
+
+@pytest.mark.parametrize(("name", "value", "decimals", "error"), TYPED)
+def test_a_number_is_traced_to_its_shortcut(name: str, value: float, decimals: int, error: str) -> None:
+    found = explained(name, value, 0.5 * 10.0**-decimals)
+    assert [one.error for one in found][:1] == [error] * bool(error)

@@ -1,0 +1,113 @@
+"""Twenty workbooks with one known error each are diagnosed; five with errors of no known kind are not."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from app.files.tables import Language
+from app.grade.report import FileAnswer, graded
+from core import Budget, Dragon
+from tests.app.grade import students
+from tests.app.grade.students import CONTACT, SPIRAL_TIMES, TURN_TIMES, of, spiral, turn
+
+AT_CONTACT = np.array([CONTACT])
+ONCE = Dragon(overhang=0.1375)
+
+
+def first(results: students.Results) -> bytes:
+    return students.workbook(results, SPIRAL_TIMES)
+
+
+def fourth(results: students.Results) -> bytes:
+    return students.workbook(results, TURN_TIMES)
+
+
+# Error -> the workbook.
+KNOWN = {
+    "anticlockwise": lambda: first(students.mirrored(spiral())),
+    "equal_arcs": lambda: first(students.equal_arcs()),
+    "length_for_chord": lambda: first(spiral(dragon=Dragon(overhang=0.0))),
+    "overhang_once": lambda: first(spiral(dragon=ONCE)),
+    "arc_of_circle": lambda: first(students.circle_angle()),
+    "steady_angle": lambda: first(students.steady_angle()),
+    "wrong_ring": lambda: first(students.wrong_ring(7)),
+    "forward_difference": lambda: first(students.quotient(0.0, 0.1)),
+    "central_difference": lambda: first(students.gradient()),
+    "equal_speeds": lambda: first(students.with_speeds(spiral(), np.ones((301, 224)))),
+    "head_as_body": lambda: first(spiral(dragon=Dragon(head_length=2.20))),
+    "rounded_early": lambda: first(spiral(pitch=0.0875 * 2.0 * np.pi)),
+    "other_start": lambda: first(spiral(start_turns=15.0)),
+    "shifted_time": lambda: first(spiral(SPIRAL_TIMES + 1.0)),
+    "ratio_inverted": lambda: fourth(turn(ratio=0.5)),
+    "arcs_not_tangent": lambda: fourth(students.semicircles()),
+    "turn: shifted_time": lambda: fourth(turn(TURN_TIMES + 13.621245)),
+    "turn: backward_difference": lambda: fourth(students.quotient(-0.01, 0.0, turn)),
+    "contact: other_instant": lambda: students.contact_workbook(spiral(np.array([412.48]))),
+    "contact: length_for_chord": lambda: students.contact_workbook(spiral(AT_CONTACT, dragon=Dragon(overhang=0.0))),
+}
+# What no student does: each is wrong, and none of the known errors gives it.
+UNKNOWN = {
+    "one cell": lambda: first(one_cell()),
+    "noise": lambda: first(noise()),
+    "another pitch": lambda: first(spiral(pitch=0.6, start_turns=8.8 / 0.6)),
+    "some handles swapped": lambda: first(swapped()),
+    "contact: turned by a degree": lambda: students.contact_workbook(turned()),
+}
+
+
+def one_cell() -> students.Results:
+    position, speed = spiral()
+    position[120, 40, 0] += 0.7
+    return position, speed
+
+
+def noise() -> students.Results:
+    position, speed = spiral()
+    return position + np.random.default_rng(4).normal(0.0, 0.01, position.shape), speed
+
+
+def swapped() -> students.Results:
+    position, speed = spiral()
+    return np.concatenate([position[:, :100], position[:, 99::-1], position[:, 200:]], axis=1), speed
+
+
+def turned() -> students.Results:
+    position, speed = spiral(AT_CONTACT)
+    c, s = np.cos(np.radians(1.0)), np.sin(np.radians(1.0))
+    return position @ np.array([[c, s], [-s, c]]), speed
+
+
+def grade(data: bytes) -> FileAnswer:
+    return graded("upload.xlsx", data, Language.ENGLISH, Budget())
+
+
+@pytest.mark.parametrize("name", KNOWN)
+def test_a_known_error_is_diagnosed_with_its_numbers(name: str) -> None:
+    found = grade(KNOWN[name]())
+    # Speeds hardly differ from one another, so that wrong ones may count as rounded.
+    assert found.verdict in ("wrong", "rounded")
+    assert found.diagnosis[0].error == name.rpartition(" ")[2]
+    assert any(letter.isdigit() for letter in found.diagnosis[0].evidence)
+
+
+@pytest.mark.parametrize("name", UNKNOWN)
+def test_an_error_of_no_known_kind_is_not_diagnosed(name: str) -> None:
+    found = grade(UNKNOWN[name]())
+    assert (found.verdict, found.diagnosis) == ("wrong", [])
+
+
+def test_the_step_of_a_difference_quotient_is_told() -> None:
+    [one] = grade(KNOWN["forward_difference"]()).diagnosis
+    assert one.words == "The speeds are forward difference quotients with a step of 0.1 s."
+
+
+def test_a_wrong_instant_is_traced_to_its_steps() -> None:
+    found = grade(KNOWN["contact: other_instant"]()).diagnosis
+    assert [one.error for one in found] == ["other_instant", "time_steps"]
+
+
+def test_right_results_have_nothing_to_diagnose() -> None:
+    for data in (first(of(students.Dance(Dragon(), students.Spiral()), SPIRAL_TIMES)), fourth(turn())):
+        found = grade(data)
+        assert (found.verdict, found.diagnosis) == ("right", [])

@@ -1,0 +1,91 @@
+"""POST /grade on the real service: a file as the body, numbers in the query, a limit of its own, nothing kept."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import httpx
+import numpy as np
+import pytest
+
+from tests.app.grade.students import CONTACT, SPIRAL_TIMES, contact_workbook, spiral, workbook
+from tests.app.serving import serving
+
+FILE = {"Content-Type": "application/octet-stream"}
+
+
+def graded(client: httpx.Client, data: bytes, **query: str) -> dict[str, object]:
+    answer = client.post("/grade", content=data, params=query, headers=FILE).raise_for_status()
+    assert answer.headers["cache-control"] == "no-store"
+    return dict(answer.json())
+
+
+@pytest.fixture(scope="module")
+def second() -> bytes:
+    return contact_workbook(spiral(np.array([CONTACT])))
+
+
+def test_the_service_answers_what_the_command_answers(client: httpx.Client, second: bytes, tmp_path: Path) -> None:
+    from tests.app.command import run
+
+    file = tmp_path / "result2.xlsx"
+    file.write_bytes(second)
+    for language in ("en", "zh"):
+        told = json.loads(run("grade", str(file), "--pitch", "0.4202", "--language", language, "--json").stdout)
+        told["files"][0]["file"] = "result2.xlsx"
+        assert graded(client, second, name="result2.xlsx", pitch="0.4202", language=language) == told
+
+
+def test_a_file_longer_than_other_bodies_is_taken(client: httpx.Client) -> None:
+    # A full result1 of 17 digits, stored rather than packed tightly, and padded beyond the limit of other bodies.
+    data = workbook(spiral(), SPIRAL_TIMES, 15)
+    assert graded(client, data, name="result1.xlsx")["files"][0]["verdict"] == "right"  # type: ignore[index]
+    [file] = graded(client, b"text " * 1_000_000)["files"]  # type: ignore[misc]
+    assert file["verdict"] == "unreadable"
+
+
+def test_a_file_beyond_the_limit_is_refused(tmp_path: Path) -> None:
+    with serving(tmp_path / "log", grade_bytes_max=1000) as service:
+        for size, status in ((1000, 200), (1001, 413)):
+            answer = httpx.post(f"{service.url}/grade", content=b"x" * size, headers=FILE, timeout=60)
+            assert answer.status_code == status
+        assert answer.json()["detail"] == "The body must be at most 1000 bytes: ask for less in one request."
+
+
+def test_the_deadline_ends_the_grading(tmp_path: Path) -> None:
+    data = workbook(spiral(), SPIRAL_TIMES)
+    with serving(tmp_path / "log", grade_seconds=0.2) as service:
+        answer = httpx.post(f"{service.url}/grade", content=data, headers=FILE, timeout=60)
+    assert answer.status_code == 422
+    assert "it was not graded within 0.2 s" in answer.json()["detail"]
+
+
+def test_nothing_of_the_file_is_logged(tmp_path: Path, second: bytes) -> None:
+    with serving(tmp_path / "log") as service:
+        httpx.post(f"{service.url}/grade?name=secret.xlsx", content=second, headers=FILE, timeout=60).raise_for_status()
+        httpx.post(f"{service.url}/grade", content=b"secret,words", headers=FILE, timeout=60).raise_for_status()
+    assert "words" not in (tmp_path / "log").read_text()
+
+
+@pytest.mark.parametrize(
+    ("query", "headers", "status", "words"),
+    [
+        ({}, {"Content-Type": "application/json"}, 415, "The body must be the file itself"),
+        ({"pitch": "wide"}, FILE, 422, "pitch"),
+        ({"language": "fr"}, FILE, 422, "language must be"),
+        ({"colour": "red"}, FILE, 422, '"colour" is unknown here'),
+    ],
+)
+def test_wrong_requests_get_a_clear_word(
+    client: httpx.Client, query: dict[str, str], headers: dict[str, str], status: int, words: str
+) -> None:
+    answer = client.post("/grade", content=b"a,b", params=query, headers=headers)
+    assert (answer.status_code, answer.headers["content-type"]) == (status, "application/problem+json")
+    assert words in answer.json()["detail"]
+
+
+def test_nothing_to_grade_is_refused(client: httpx.Client) -> None:
+    answer = client.post("/grade")
+    assert answer.status_code == 422
+    assert answer.json()["detail"].startswith("Send a workbook or CSV as the body")

@@ -1,0 +1,101 @@
+"""The page grades dropped workbooks and typed answers, in both languages, on a phone, and forgets them on request."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from axe_playwright_python.sync_playwright import Axe
+from playwright.sync_api import expect
+
+from core import Dragon
+from tests.app.grade.students import CONTACT, SPIRAL_TIMES, contact_workbook, spiral, workbook
+
+# Instants of a workbook that is soon read.
+FEW = SPIRAL_TIMES[:21]
+PHONE = {"width": 390, "height": 844}
+SERIOUS = {"serious", "critical"}
+
+
+@pytest.fixture(scope="module")
+def files(tmp_path_factory: pytest.TempPathFactory) -> list[str]:
+    folder = tmp_path_factory.mktemp("student")
+    for name, data in (
+        ("result1.xlsx", workbook(spiral(FEW, Dragon(overhang=0.0)), FEW)),
+        ("result2.xlsx", contact_workbook(spiral(np.array([CONTACT])))),
+        ("result4.xlsx", b"PK, but no workbook"),
+    ):
+        (folder / name).write_bytes(data)
+    return [str(folder / name) for name in ("result1.xlsx", "result2.xlsx", "result4.xlsx")]
+
+
+def test_chosen_files_are_graded_each_for_itself(open_page: Any, settled: Any, files: list[str]) -> None:
+    page = open_page()
+    settled(page)
+    page.locator("#files").set_input_files(files)
+    boxes = page.locator("#grades .answer")
+    expect(boxes).to_have_count(3)
+    first, second, third = (boxes.nth(k) for k in range(3))
+    expect(first.locator(".value")).to_have_text("✕wrong")
+    expect(first.locator(".finding")).to_contain_text("The length of a bench was taken for the distance of its handles")
+    expect(first.locator(".evidence")).to_contain_text("wrong cells agree within")
+    expect(first.locator("canvas.marks")).to_have_count(2)
+    expect(second.locator(".value")).to_have_text("✓right")
+    expect(third.locator(".value")).to_have_text("✕unreadable")
+
+
+def test_a_dropped_file_is_graded(open_page: Any, settled: Any, files: list[str]) -> None:
+    page = open_page()
+    settled(page)
+    data = list(Path(files[1]).read_bytes())
+    drop = """data => {
+        const files = new DataTransfer();
+        files.items.add(new File([new Uint8Array(data)], "result2.xlsx"));
+        const event = new DragEvent("drop", { dataTransfer: files, bubbles: true, cancelable: true });
+        document.querySelector("#drop").dispatchEvent(event);
+        return event.defaultPrevented;
+    }"""
+    assert page.evaluate(drop, data)
+    expect(page.locator("#grades .value")).to_have_text("✓right")
+
+
+def test_typed_answers_are_graded_and_cleared(open_page: Any) -> None:
+    page = open_page()
+    page.locator("#typed-pitch").fill("0.4202")
+    page.locator("#typed-speed").fill("1.246266")
+    page.keyboard.press("Enter")
+    boxes = page.locator("#grades .answer")
+    expect(boxes).to_have_count(2)
+    expect(boxes.nth(0)).to_contain_text("Only the pose with the head on the circle was checked")
+    expect(boxes.nth(1).locator(".value")).to_have_text("✓right")
+    page.get_by_role("button", name="Clear").click()
+    expect(boxes).to_have_count(0)
+
+
+def test_a_number_that_is_none_is_refused_in_words(open_page: Any) -> None:
+    page = open_page(failing=True)
+    page.locator("#typed-pitch").fill("wide")
+    page.keyboard.press("Enter")
+    expect(page.locator("#grades .error")).to_contain_text("itch")
+
+
+def test_the_language_of_the_verdicts_follows_that_of_the_page(open_page: Any, settled: Any, files: list[str]) -> None:
+    page = open_page(viewport=PHONE)
+    settled(page)
+    page.locator("#files").set_input_files(files[:2])
+    expect(page.locator("#grades .answer")).to_have_count(2)
+    page.get_by_role("button", name="中文").click()
+    expect(page.locator("#grades .finding")).to_contain_text("把板长当作把手间距")
+    expect(page.locator("#grades .answer").nth(1).locator(".value")).to_have_text("✓正确")
+    assert page.evaluate("document.documentElement.scrollWidth <= innerWidth")
+
+
+def test_the_verdicts_are_accessible(open_page: Any, settled: Any, files: list[str]) -> None:
+    page = open_page()
+    settled(page)
+    page.locator("#files").set_input_files(files)
+    expect(page.locator("#grades .answer")).to_have_count(3)
+    found = Axe().run(page, context="#grade").response["violations"]
+    assert [one for one in found if one["impact"] in SERIOUS] == []
