@@ -6,15 +6,26 @@ from importlib.util import find_spec
 
 from core import BenchDragonError
 
-_FIGURES, _SWEEP, _XLSX = ("matplotlib",), ("pyarrow",), ("xlsxwriter",)
+_FIGURES, _SWEEP, _XLSX = ("matplotlib",), ("pyarrow",), ("xlsxwriter", "openpyxl")
 # Modules that each extra of pyproject.toml installs and that its use needs.
 MODULES = {
     "arrow": ("pyarrow",),
     "dask": ("dask", "distributed", *_SWEEP),
     "data": ("pandas", "xarray"),
     "figures": _FIGURES,
+    "film": ("av", *_FIGURES),
     "proof": ("flint",),
-    "service": ("fastapi", "fastapi_swagger", "prometheus_client", "uplot", "uvicorn", *_FIGURES, *_SWEEP, *_XLSX),
+    "service": (
+        "fastapi",
+        "fastapi_swagger",
+        "prometheus_client",
+        "uplot",
+        "uvicorn",
+        "av",
+        *_FIGURES,
+        *_SWEEP,
+        *_XLSX,
+    ),
     "sweep": _SWEEP,
     "xlsx": _XLSX,
 }

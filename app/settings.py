@@ -30,6 +30,8 @@ class Settings(BaseSettings):
     model_config = SettingsConfigDict(env_prefix="BENCH_DRAGON_", frozen=True)
 
     body_bytes_max: int = Field(4_000_000, ge=1, description="Longest request body [bytes]")
+    grade_bytes_max: int = Field(20_000_000, ge=1, description="Longest file in POST /grade [bytes]")
+    grade_seconds: float = Field(60.0, gt=0, description="Longest grading of one file [s]")
     benches_max: int = Field(100_000, ge=1, description="Longest dragon [benches]")
     scanned_benches_max: int = Field(10_000, ge=1, description="Longest dragon whose pitches are scanned [benches]")
     checked_benches_max: int = Field(
@@ -38,19 +40,40 @@ class Settings(BaseSettings):
         description="Longest dragon in /check, POST /clearance, /maximum-head-speed and /shortest-turn [benches]",
     )
     drawn_benches_max: int = Field(5_000, ge=1, description="Longest dragon in a figure [benches]")
+    film_megapixels_max: int = Field(
+        4_000, ge=1, description="Largest film: millions of pixels of all frames; 20 s at 1080p have 1,244"
+    )
     cells_max: int = Field(1_000_000, ge=1, description="Largest table: instants x handles")
     workbook_cells_max: int = Field(200_000, ge=1, description="Largest xlsx table, which is slow to write")
     poses_max: int = Field(20_000, ge=1, description="Largest number of benches in one /overlaps request")
     pairs_max: int = Field(20_000, ge=1, description="Largest number of overlapping pairs in one /overlaps answer")
-    concurrent_max: int = Field(8, ge=1, description="Computations at once in one process; further requests get 503")
-    retry_after: int = Field(1, ge=1, description="Retry-After of a 503 [s]")
+    query_bytes_max: int = Field(8_000, ge=1, description="Longest query [bytes]")
+    parts_max: int = Field(200_000, ge=1, description="Most objects and lists in one request body")
+    cheap_max: int = Field(8, ge=1, description="Computations of up to 0.1 s at once in one process; more get 503")
+    heavy_max: int = Field(4, ge=1, description="Longer computations at once in one process; more get 503")
+    heavy_client_max: int = Field(
+        4, ge=1, description="Longer computations at once of one client in one process; more get 429"
+    )
+    workbooks_max: int = Field(1, ge=1, description="Workbooks written at once in one process; more get 503")
+    large_bodies_max: int = Field(4, ge=1, description="Bodies over 64 kB read at once in one process; more get 503")
+    retry_after: int = Field(1, ge=1, description="Shortest wait that a 503 asks for [s]")
+    deadline_seconds: float = Field(10.0, gt=0, description="Longest computation of one answer [s]; jobs take longer")
+    head_seconds: float = Field(10.0, gt=0, description="Longest time to send the head of a request [s]")
+    body_seconds: float = Field(60.0, gt=0, description="Longest time to send a body [s]")
+    stalled_seconds: float = Field(30.0, gt=0, description="Longest time without taking more of an answer [s]")
+    grace_seconds: int = Field(10, ge=0, description="Longest wait for running computations after SIGTERM [s]")
+    log_json: bool = Field(False, description="Log one JSON object a line")
+    compressed_bytes_min: int = Field(
+        1_000_000, ge=0, description="Shortest answer that is sent as gzip to who takes it [bytes]; 0: none is"
+    )
+    cache_seconds: int = Field(86_400, ge=0, description="Cache-Control max-age of an answer [s]")
     data: Path | None = Field(
         None, description="Folder of the jobs; none: a temporary folder, removed when the service ends"
     )
     token: str = Field(
         "", description="Token that requests for jobs must carry (Authorization: Bearer); empty: none needed"
     )
-    jobs_max: int = Field(1_000, ge=1, description="Largest number of jobs kept; further requests get 503")
+    jobs_max: int = Field(1_000, ge=1, description="Largest number of jobs kept; more get 503")
     jobs_client_max: int = Field(20, ge=1, description="Unfinished jobs of one client; further requests get 429")
     jobs_running_max: int = Field(2, ge=1, description="Jobs that run at once; the others wait")
     jobs_bytes_max: int = Field(
@@ -60,5 +83,15 @@ class Settings(BaseSettings):
     job_result_bytes_max: int = Field(10**9, ge=1, description="Largest result of a job [bytes]")
     job_memory_max: int = Field(4 * 2**30, ge=2**28, description="Memory of the process of a job [bytes]")
     job_seconds_max: float = Field(3_600.0, gt=0, description="Longest run of a job [s]")
+    sweep_designs_max: int = Field(1_000_000, ge=1, description="Most designs of one sweep")
+    sweep_shards_max: int = Field(10_000, ge=1, description="Most files of one sweep while it runs")
+    sweep_bytes_max: int = Field(
+        10**9, ge=1, description="Size of the files of one sweep while it runs; beyond it the sweep fails [bytes]"
+    )
+    sweep_seconds_max: float = Field(86_400.0, gt=0, description="Longest run of a sweep [s]")
+    sweeps_running_max: int = Field(1, ge=1, description="Sweeps among the jobs that run at once; the others wait")
+    sweep_processes: int | None = Field(
+        None, ge=1, le=WORKERS_MAX, description="Processes that answer a sweep; none: one for each core"
+    )
+    dask: str = Field("", description="Scheduler of a Dask cluster that answers sweeps; empty: processes here do")
     job_days_max: float = Field(7.0, gt=0, description="Time for which a finished job is kept [days]")
-    cache_seconds: int = Field(86_400, ge=0, description="Cache-Control max-age of an answer [s]")

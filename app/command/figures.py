@@ -16,7 +16,7 @@ from app.files.disk import checked_output, write_whole
 from app.questions import figures as drawn
 from app.questions.figures import Format
 from app.questions.pitch_scan import PitchScanQuery
-from app.settings import Settings
+from app.questions.question import Terms
 from app.wire.refusals import refusing
 from core import InvalidValue
 
@@ -65,6 +65,6 @@ def figures(
         checked_output("format", picture)
     for one, request in requests.items():
         with refusing(request), show.waiting(f"figure {one.value}") as progress:
-            data = ASKED[one].told(request, Settings(), format.media_type, progress)
+            data = ASKED[one].whole(request, Terms(progress=progress), format.media_type)
         write_whole(files[one], data)
         print(files[one], file=sys.stderr)

@@ -19,22 +19,36 @@ from typer.core import TyperGroup
 
 import core
 from app import questions
-from app.command import figures, jobs, prove, show, sweep, trajectory
+from app.command import contest, figures, film, grade, jobs, prove, show, sweep, trajectory
 from app.command.options import Json, asks, unused
 from app.command.usage import Misuse, told
+from app.contest.solved import ContestRequest
 from app.extras import require
-from app.files.disk import checked_output, object_words, read_dance, read_json, write_whole
+from app.files.disk import (
+    TABLE_ENDINGS,
+    checked_output,
+    object_words,
+    read_dance,
+    read_json,
+    trajectory_writer,
+    write_whole,
+)
+from app.files.tables import Language
 from app.questions.check import CheckRequest
 from app.questions.clearance import ClearanceQuery, ClearanceRequest
 from app.questions.collision_time import CollisionQuery, CollisionRequest
 from app.questions.figures import Format, InstantQuery, TrajectoryFigureRequest
+from app.questions.films import FilmQuery, FilmRequest
 from app.questions.maximum_head_speed import MaximumHeadSpeedQuery, MaximumHeadSpeedRequest
 from app.questions.minimum_pitch import MinimumPitchQuery
 from app.questions.overlaps import OverlapsRequest
+from app.questions.question import Terms
 from app.questions.shortest_turn import ShortestTurnQuery
+from app.questions.tolerance import ToleranceQuery, ToleranceRequest
 from app.questions.trajectory import TrajectoryRequest
 from app.questions.turn import TurnQuery
 from app.settings import WORKERS_MAX, Settings
+from app.wire.dances import TimeRange
 from app.wire.messages import checked
 from app.wire.refusals import refusing
 from core import BenchDragonError, InvalidValue
@@ -101,6 +115,9 @@ def bench_dragon(
 
 app.command("trajectory")(asks(trajectory.TrajectoryOptions, TrajectoryRequest)(trajectory.trajectory))
 app.command()(figures.figures)
+app.command("film")(asks(FilmQuery, FilmRequest)(film.film))
+app.command("contest")(asks(ContestRequest)(contest.contest))
+app.command()(grade.grade)
 
 
 @app.command()
@@ -108,8 +125,10 @@ app.command()(figures.figures)
 def collision_time(asked: CollisionQuery | CollisionRequest, json: Json = False) -> None:
     """When two benches first touch, or come nearer than a margin, and how this is known."""
     with show.waiting("first contact"):
-        answer = questions.collision_time.collision_time(asked, Settings())
+        answer = questions.collision_time.collision_time(asked, Terms())
     title = f"First time that two benches are nearer than {said(asked.margin)} m" if asked.margin else "First contact"
+    if stray := asked.to_stray().total:
+        title += f" that may come about with strays up to {said(stray)} m"
     show.print_answer(title, answer, json, margin=asked.margin, benches=asked.benches)
 
 
@@ -118,7 +137,7 @@ def collision_time(asked: CollisionQuery | CollisionRequest, json: Json = False)
 def clearance(asked: ClearanceQuery | ClearanceRequest, json: Json = False) -> None:
     """Smallest distance between two benches that share no handle, and the pair, at every instant."""
     with show.waiting("clearance"):
-        answer = questions.clearance.clearance(asked, Settings())
+        answer = questions.clearance.clearance(asked, Terms())
     if json:
         show.print_json(answer.to_json())
     else:
@@ -130,7 +149,7 @@ def clearance(asked: ClearanceQuery | ClearanceRequest, json: Json = False) -> N
 def minimum_pitch(asked: MinimumPitchQuery, json: Json = False) -> None:
     """The smallest pitch such that every larger one lets the head reach the turning circle."""
     with show.waiting("minimum pitch"):
-        answer = questions.minimum_pitch.minimum_pitch(asked, Settings())
+        answer = questions.minimum_pitch.minimum_pitch(asked, Terms())
     gap = f" and no bench nearer than {said(asked.margin)} m to another" if asked.margin else ""
     title = f"Minimum pitch for a turning circle of {said(asked.turning_diameter)} m{gap}"
     show.print_answer(title, answer, json, margin=asked.margin, benches=asked.benches)
@@ -140,7 +159,7 @@ def minimum_pitch(asked: MinimumPitchQuery, json: Json = False) -> None:
 @asks(TurnQuery)
 def turn(asked: TurnQuery, json: Json = False) -> None:
     """Two tangent arcs that lead from a spiral inwards to the same one outwards."""
-    show.print_answer("Turn", questions.turn.turn(asked, Settings()), json)
+    show.print_answer("Turn", questions.turn.turn(asked, Terms()), json)
 
 
 @app.command()
@@ -148,9 +167,18 @@ def turn(asked: TurnQuery, json: Json = False) -> None:
 def shortest_turn(asked: ShortestTurnQuery, json: Json = False) -> None:
     """The turn with the deepest entry inside its circle that the dragon can dance, and what limits it."""
     with show.waiting("shortest turn"):
-        answer = questions.shortest_turn.shortest_turn(asked, Settings())
+        answer = questions.shortest_turn.shortest_turn(asked, Terms())
     gap = f" with no bench nearer than {said(asked.margin)} m to another" if asked.margin else ""
     show.print_answer(f"Shortest turn{gap}", answer, json, margin=asked.margin)
+
+
+@app.command()
+@asks(ToleranceQuery, ToleranceRequest)
+def tolerance(asked: ToleranceQuery | ToleranceRequest, json: Json = False) -> None:
+    """How far people may stray before benches touch, proven, and a pose that shows where they do."""
+    with show.waiting("tolerance"):
+        answer = questions.tolerance.tolerance(asked, Terms())
+    show.print_answer("How far people may stray", answer, json)
 
 
 @app.command()
@@ -158,7 +186,7 @@ def shortest_turn(asked: ShortestTurnQuery, json: Json = False) -> None:
 def maximum_head_speed(asked: MaximumHeadSpeedQuery | MaximumHeadSpeedRequest, json: Json = False) -> None:
     """The largest constant head speed at which no handle exceeds the limit on the way through a turn."""
     with show.waiting("maximum head speed"):
-        answer = questions.maximum_head_speed.maximum_head_speed(asked, Settings())
+        answer = questions.maximum_head_speed.maximum_head_speed(asked, Terms())
     show.print_answer(f"Maximum head speed for {said(asked.speed_limit)} m/s", answer, json)
 
 
@@ -170,6 +198,10 @@ def check(
     figure: Annotated[Path | None, typer.Option(help="Draw the dance into a .svg or .png file.")] = None,
     time: Annotated[
         float | None, typer.Option(help="Time to draw [s]; default: the first failure, else the least clearance")
+    ] = None,
+    output: Annotated[
+        Path | None,
+        typer.Option(help="Write positions and speeds at every second to a .csv, .xlsx, .arrow or .json file."),
     ] = None,
     cross_check: Annotated[
         str | None,
@@ -185,20 +217,36 @@ def check(
     if figure:
         require("figures", "figure", "--figure")
     ending = checked_output("figure", figure, (".svg", ".png")) if figure else ""
+    write = (
+        trajectory_writer(checked_output("output", output, TABLE_ENDINGS), None, Language.ENGLISH) if output else None
+    )
     dance = read_dance(file)
     if cross_check is not None:
         dance["cross_check"] = cross_check
     asked = checked(CheckRequest, dance, object_words(file))
     with refusing(asked), show.waiting("check"):
-        answer = questions.check.check(asked, Settings())
+        answer = questions.check.check(asked, Terms())
         drawn = _drawn_check(asked, answer, Format(ending[1:]), time) if figure else b""
+        table = write(_danced(asked, answer)) if write else b""
     if figure:
         write_whole(figure, drawn)
         print(figure, file=sys.stderr)
+    if output:
+        write_whole(output, table)
+        print(output, file=sys.stderr)
     if json:
         show.print_json(answer.to_json())
     else:
         show.print_parts(*show.report_tables(answer, margin=asked.margin, benches=asked.benches))
+
+
+def _danced(asked: CheckRequest, answer: questions.check.Report) -> core.Trajectory:
+    """Positions and speeds at every second of the stretch that was judged, within the run."""
+    settings = Settings()
+    dance = asked.to_dance(settings.checked_benches_max)
+    stop = dance.end.time if asked.stop is None else min(asked.stop, dance.end.time)
+    steps = TimeRange(start=answer.start, stop=stop)
+    return core.trajectory(dance, steps.times_of(dance, settings.cells_max))
 
 
 def _drawn_check(asked: CheckRequest, answer: questions.check.Report, format: Format, time: float | None) -> bytes:
@@ -209,7 +257,7 @@ def _drawn_check(asked: CheckRequest, answer: questions.check.Report, format: Fo
     # The time does not come from the file, so a refusal of it must name the option.
     picture = TrajectoryFigureRequest.model_construct(**shown, time=time)
     with refusing(picture):
-        return questions.figures.trajectory_figure(picture, Settings(), format.media_type)
+        return questions.figures.trajectory_figure(picture, Terms(), format.media_type)
 
 
 @app.command()
@@ -229,9 +277,9 @@ def overlaps(
         benches = checked(OverlapsRequest, read_json(file))
     with show.waiting("overlaps"):
         if file:
-            answer, margin = questions.overlaps.overlaps(benches, Settings()), benches.margin
+            answer, margin = questions.overlaps.overlaps(benches, Terms()), benches.margin
         else:
-            answer, margin = questions.overlaps.of_dance(asked, Settings()), asked.margin
+            answer, margin = questions.overlaps.of_dance(asked, Terms()), asked.margin
     if json:
         show.print_json(answer.to_json())
     else:
@@ -242,11 +290,11 @@ def overlaps(
 def paper(json: Json = False) -> None:
     """The paper's numbers beside those of this program, with the reason for each difference."""
     with show.waiting("recomputing the paper"):
-        answer = questions.paper.paper(questions.paper.Nothing(), Settings())
+        answer = questions.paper.paper(questions.paper.Nothing(), Terms())
     if json:
         show.print_json(answer.to_json())
     else:
-        show.print_parts(*show.paper_tables(answer.rows))
+        show.print_parts(*show.paper_tables(answer.rows, answer.literature))
 
 
 @app.command()

@@ -8,7 +8,6 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from typing import Any
 
-import numpy as np
 from pydantic import BaseModel
 from rich import box
 from rich.console import Console
@@ -16,26 +15,16 @@ from rich.progress import Progress
 from rich.table import Table
 from rich.text import Text
 
-from app.files import tables
 from app.questions.check import LeastClearance, Nearest, Report
 from app.questions.overlaps import OverlapsAnswer
-from app.questions.paper import PaperNumber
+from app.questions.paper import PaperNumber, PublishedNumber
 from app.wire import answers
 from app.wire.models import Answer, unit_of
-from core import Judgement, RunEnd, Trajectory
+from core import Judgement
 from core.errors import said, said_bound
 
-# Handles of a trajectory on a terminal, as the contest asks, and the number of instants if that many fit.
-SHOWN_HANDLES = (0, 1, 51, 101, 151, 201)
-SHOWN_INSTANTS = 7
-# Decimals of a trajectory on a terminal.
+# Decimals of lengths and speeds on a terminal.
 SHOWN_DECIMALS = 6
-# On a run that ends in a fold, a handle this many times faster than the head shows that the fold is near [1]; the mark
-# of such an instant.
-FAST = 2.0
-NEAR_FOLD = " *"
-# From this number on, evenly spaced instants are preferred to one or two more.
-EVEN_INSTANTS = 5
 # Width of a table besides its entries: for each column, and at its sides [characters].
 COLUMN_SPACE, TABLE_SPACE = 3, 1
 # Width of a table where standard output is no terminal [characters].
@@ -43,6 +32,10 @@ PIPE_WIDTH = 120
 # Fields that are proven, shown with all digits; and the words for a null that is an answer.
 PROVEN = frozenset({"clear_until", "proven_from", "proven_up_to"})
 SAID_BY_NULL = {"proven_up_to": "every larger pitch", "scan_step": "no scan"}
+# Entries of a list in a table; a longer one is only counted.
+LISTED_MOST = 50
+# Separations of two benches: below zero they overlap.
+SEPARATIONS = frozenset({"gap", "clearance"})
 # A progress bar appears after this wait [s].
 SHOWN_WAIT = 1.0
 
@@ -68,17 +61,34 @@ def waiting(what: str) -> Iterator[Callable[[float], None]]:
             bar.stop()
 
 
+@contextmanager
+def steps() -> Iterator[Callable[[str, float], None]]:
+    """Progress over several things on standard error, a line for each that is done where that is no terminal."""
+    if sys.stderr.isatty():
+        with Progress(console=Console(stderr=True), transient=True) as bar:
+            tasks: dict[str, Any] = {}
+
+            def told(what: str, share: float) -> None:
+                if what not in tasks:
+                    tasks[what] = bar.add_task(what, total=1.0)
+                bar.update(tasks[what], completed=share)
+
+            yield told
+        return
+    yield lambda what, share: print(what, file=sys.stderr, flush=True) if share >= 1.0 else None
+
+
 def print_json(data: bytes) -> None:
     sys.stdout.buffer.write(data + b"\n")
     sys.stdout.buffer.flush()
 
 
-def _console() -> Console:
+def new_console() -> Console:
     return Console(highlight=False, markup=False, width=None if sys.stdout.isatty() else PIPE_WIDTH)
 
 
 def print_parts(*parts: Part) -> None:
-    console = _console()
+    console = new_console()
     for part in parts:
         console.print(part)
 
@@ -92,7 +102,7 @@ def print_answer(title: str, answer: Answer, json: bool, *, margin: float = 0.0,
     if json:
         print_json(answer.to_json())
         return
-    table = _table(title, "field", "value", header=False)
+    table = new_table(title, "field", "value", header=False)
     for name, value in _flat(answer, benches=benches):
         table.add_row(name, _near(value, margin) if name in ("outcome", "limited by") else value)
     print_parts(table)
@@ -113,8 +123,12 @@ def _flat(answer: BaseModel, prefix: str = "", *, benches: int) -> Iterator[tupl
             yield label, ", ".join(f"{word} {_shown(said)}" for word, said in value)
         elif isinstance(value, answers.PairCheck):
             yield from ((f"{label}: {word}", said) for word, said in _check_words(value, benches))
+        elif isinstance(value, list) and len(value) > LISTED_MOST:
+            yield label, f"{len(value)}, listed by --json"
         elif isinstance(value, BaseModel):
             yield from _flat(value, f"{label}: ", benches=benches)
+        elif isinstance(value, float) and name in SEPARATIONS:
+            yield label, _separation(value, " m")
         elif value is not None:
             unit = unit_of(field)
             exact = isinstance(value, (float, tuple)) and (name in PROVEN or name.endswith("_bracket"))
@@ -128,6 +142,12 @@ def _digits(value: float | tuple[float | None, ...]) -> str:
     """A proven value with all its digits, because a rounded one could claim more than is proven."""
     ends = value if isinstance(value, tuple) else (value,)
     return ", ".join("unknown" if end is None else said(end) for end in ends)
+
+
+def _separation(metres: float, unit: str = "", decimals: int = 9) -> str:
+    """A separation of two benches [m]; below zero by how much they overlap."""
+    shown = _shown(float(metres), decimals)
+    return (f"overlap by {shown[1:]}" if shown.startswith("-") else shown) + unit
 
 
 def _check_words(check: answers.PairCheck, benches: int) -> Iterator[tuple[str, str]]:
@@ -160,128 +180,38 @@ def _shown(value: Any, decimals: int = 9) -> str:
     return f"{round(value, decimals) + 0.0:.{decimals}f}" if isinstance(value, float) else str(value)
 
 
-def _table(title: str, *columns: str, header: bool = True) -> Table:
+def new_table(title: str, *columns: str, header: bool = True) -> Table:
     table = Table(title=title, box=box.SIMPLE, show_header=header, title_justify="left", title_style="bold")
     for k, name in enumerate(columns):
         table.add_column(name, justify="right" if k and header else "left", overflow="fold")
     return table
 
 
-def trajectory_tables(
-    result: Trajectory,
-    handles: Sequence[int] | None = None,
-    *,
-    all_instants: bool = False,
-    decimals: int | None = None,
-    fold: RunEnd | None = None,
-) -> list[Part]:
-    """Tables of some handles at some instants.
-
-    handles: to show; None: those of the contest and the last
-    decimals: of every number; None: SHOWN_DECIMALS
-    fold: of the run, if it ends in one; instants just before it are marked, as speeds grow without bound there
-    all_instants: show all in as many tables as needed; else up to SHOWN_INSTANTS, evenly spaced, in one table
-    """
-    instants, number = result.speed.shape
-    rows = list(handles) if handles else sorted({k for k in SHOWN_HANDLES if k < number} | {number - 1})
-    names = tables.handle_names(number - 1)
-    labels = [f"{k} {names[k]}" for k in rows]
-    x, y = result.position[..., 0], result.position[..., 1]
-    places = SHOWN_DECIMALS if decimals is None else decimals
-    instant_names = [_instant(result, t, fold) for t in range(instants)]
-    blocks = _blocks(result, rows, labels, instant_names, all_instants, places)
-    shown: list[Part] = []
-    for title, values in (("x [m]", x), ("y [m]", y), ("speed [m/s]", result.speed)):
-        for block in blocks:
-            table = _table(title, "handle", *(instant_names[t] for t in block))
-            for k, label in zip(rows, labels, strict=True):
-                table.add_row(label, *(_entry(value, places) for value in values[block, k]))
-            shown.append(table)
-    count = sum(map(len, blocks))
-    of_handles, of_instants = _plural("handle", range(number)), _plural("instant", range(instants))
-    words = f"{len(rows)} of {number} {of_handles}, {count} of {instants} {of_instants}"
-    choose = ["--handles"] * (handles is None) + ["--times"] * (not all_instants)
-    verb = "choose" if len(choose) > 1 else "chooses"
-    advice = ["--output has all", *([f"{' and '.join(choose)} {verb}"] if choose else [])]
-    shown.append(f"{words}: {', '.join(advice)}.")
-    if fold and any(instant_names[t].endswith(NEAR_FOLD) for block in blocks for t in block):
-        when = f"Just before bench {fold.bench} folds, at {fold.time:.9f} s"
-        shown.append(
-            f"{NEAR_FOLD.strip()} {when}: towards that instant the speeds of handles behind it grow without bound."
-        )
-    return shown
-
-
-def _blocks(
-    result: Trajectory,
-    rows: Sequence[int],
-    labels: Sequence[str],
-    names: Sequence[str],
-    all_instants: bool,
-    decimals: int,
-) -> list[list[int]]:
-    """The instants of each table, as many as fit into the width. names: of the instants"""
-    instants = len(result.time)
-    values = np.concatenate([result.position[:, rows].reshape(instants, -1), result.speed[:, rows]], axis=1)
-    room = _console().width - TABLE_SPACE - COLUMN_SPACE - max(map(len, [*labels, "handle"]), default=0)
-
-    def width(t: int) -> int:
-        return COLUMN_SPACE + max(map(len, [names[t], *(_entry(value, decimals) for value in values[t])]))
-
-    if not all_instants:
-        counts = range(min(SHOWN_INSTANTS, instants), 1, -1)
-        even = [count for count in counts if count >= EVEN_INSTANTS and (instants - 1) % (count - 1) == 0]
-        for count in (*even, *counts):
-            spaced = np.linspace(0, instants - 1, count).round().astype(int).tolist()
-            if sum(map(width, spaced)) <= room:
-                return [spaced]
-        return [[0]] if instants else []
-    blocks: list[list[int]] = []
-    left = 0
-    for t in range(instants):
-        taken = width(t)
-        if not blocks or taken > left:
-            blocks.append([])
-            left = room
-        blocks[-1].append(t)
-        left -= taken
-    return blocks
-
-
-def _instant(result: Trajectory, t: int, fold: RunEnd | None) -> str:
-    near = fold is not None and result.speed[t].max() > FAST * result.speed[t, 0]
-    return f"{result.time[t]:.12g} s{NEAR_FOLD if near else ''}"
-
-
-def _entry(value: float, decimals: int) -> str:
-    return f"{round(value, decimals) + 0.0:.{decimals}f}"
-
-
 def clearance_tables(columns: dict[str, Any]) -> list[Part]:
     """Clearance at every instant, and the local minima between them."""
-    table = _table("Clearance", "time [s]", "clearance [m]", "benches")
+    table = new_table("Clearance", "time [s]", "clearance [m]", "benches")
     for time, clearance, benches in zip(columns["time"], columns["clearance"], columns["benches"], strict=True):
-        table.add_row(said(time), _shown(float(clearance)), _shown(tuple(benches)))
-    grazes = _table("Local minima", "time [s]", "clearance [m]", "benches")
+        table.add_row(said(time), _separation(clearance), _shown(tuple(benches)))
+    grazes = new_table("Local minima", "time [s]", "clearance [m]", "benches")
     for graze in columns["grazes"]:
-        grazes.add_row(_shown(graze.time), _shown(graze.clearance), _shown(graze.benches))
+        grazes.add_row(_shown(graze.time), _separation(graze.clearance), _shown(graze.benches))
     return [table, grazes if columns["grazes"] else "No local minimum between the first and the last instant."]
 
 
 def overlap_tables(answer: OverlapsAnswer, margin: float = 0.0) -> list[Part]:
     title = f"Pairs nearer than {said(margin)} m" if margin else "Overlapping pairs"
-    table = _table(title, "benches", "separation [m]", "witness a [m]", "witness b [m]")
+    table = new_table(title, "benches", "separation [m]", "witness a [m]", "witness b [m]")
     for one in answer.overlaps:
-        table.add_row(*map(_shown, (one.benches, one.separation, one.witness_a, one.witness_b)))
+        table.add_row(_shown(one.benches), _separation(one.separation), _shown(one.witness_a), _shown(one.witness_b))
     check = answer.cross_check
     found = ", ".join(f"{engine.value} {len(pairs)}" for engine, pairs in check.engines.items())
     asked = "All four engines" if not check.left_out else "The engines that can judge a margin"
     return [table, f"{asked} {'agree' if check.agree else 'DISAGREE'}; pairs found: {found}"]
 
 
-def paper_tables(rows: Sequence[PaperNumber]) -> list[Part]:
-    """The numbers side by side, then each reason with its evidence."""
-    table = _table("The paper beside this program", "quantity", "paper", "here", "difference")
+def paper_tables(rows: Sequence[PaperNumber], literature: Sequence[PublishedNumber]) -> list[Part]:
+    """The numbers side by side, then each reason with its evidence; then the numbers of other publications."""
+    table = new_table("The paper beside this program", "quantity", "paper", "here", "difference")
     for one in rows:
         name = f"{one.quantity} [{one.unit}], {one.source}"
         table.add_row(name, str(one.paper), _shown(one.ours), f"{one.difference:+.6f}")
@@ -289,6 +219,14 @@ def paper_tables(rows: Sequence[PaperNumber]) -> list[Part]:
     for one in rows:
         facts = [f"  {fact.what}: {_shown(fact.value)} {fact.unit}" for fact in one.evidence]
         parts += [Text(one.quantity, style="bold"), one.reason, *facts, ""]
+    others = new_table("Other publications", "quantity", "published", "here", "difference")
+    for other in literature:
+        difference = f"{other.difference:+.6f}"
+        others.add_row(f"{other.quantity} [{other.unit}]", str(other.published), _shown(other.ours), difference)
+    parts.append(others)
+    for other in literature:
+        known = [f"{found.words} {found.evidence}" for found in other.diagnosis] or ["No known shortcut gives it."]
+        parts += [Text(f"{other.published} {other.unit}: {other.source}", style="bold"), *known, ""]
     return parts
 
 
@@ -302,7 +240,7 @@ VERDICTS = {
 def report_tables(report: Report, *, margin: float, benches: int) -> list[Part]:
     """The verdict, the failures in order of time, and the measured values. margin: [m]; benches: of the dragon"""
     verdict = VERDICTS[report.verdict]
-    facts = _table(f"From {report.start:.3f} to {report.stop:.3f} s", "what", "value", "at", "who")
+    facts = new_table(f"From {report.start:.3f} to {report.stop:.3f} s", "what", "value", "at", "who")
     for name, value, time, who in _measured(report, margin, benches):
         facts.add_row(name, value, "" if time is None else f"{time:.6f} s", who)
     origin = report.origin
@@ -325,7 +263,8 @@ def _measured(report: Report, margin: float, benches: int) -> Iterator[tuple[str
             judged_words(check.judged, benches),
         )
     if least := report.least_clearance:
-        yield "least clearance", _distance(least), least.time, f"benches {_shown(least.benches)}"
+        least_words = _distance(least) if least.distance >= 0.0 else _separation(least.distance, " m", SHOWN_DECIMALS)
+        yield "least clearance", least_words, least.time, f"benches {_shown(least.benches)}"
     for area in report.venue.areas if report.venue else ():
         yield (
             f"nearest to {area.name}",
@@ -338,7 +277,7 @@ def _measured(report: Report, margin: float, benches: int) -> Iterator[tuple[str
             "highest speed",
             f"{speed.speed:.6f} m/s",
             speed.time,
-            f"{_plural('handle', speed.handles)} {_shown(speed.handles)}",
+            f"{plural('handle', speed.handles)} {_shown(speed.handles)}",
         )
     else:
         yield "highest speed", "grows without bound", report.stop, "towards the fold"
@@ -346,7 +285,7 @@ def _measured(report: Report, margin: float, benches: int) -> Iterator[tuple[str
         yield "sharpest bend", f"{bend.angle:.6f} rad", bend.time, f"benches {_shown(bend.benches)}"
 
 
-def _plural(word: str, things: Sequence[Any]) -> str:
+def plural(word: str, things: Sequence[Any]) -> str:
     return word if len(things) == 1 else f"{word}s"
 
 

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import sys
+from collections.abc import Sequence
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Literal
 
+import numpy as np
 import typer
 from pydantic import Field
 
@@ -18,8 +20,20 @@ from app.questions.trajectory import TrajectoryRequest
 from app.settings import Settings
 from app.wire.dances import DanceQuery, TimeRange
 from app.wire.messages import checked
-from app.wire.models import measure
-from core import Dragon, InvalidValue
+from app.wire.models import TurningDiameter, measure
+from app.wire.paths import EntryRadius, TurnFields
+from core import Dance, Dragon, InvalidValue, RunEnd, Spiral, Trajectory
+from core.values import Floats
+
+# Handles of a trajectory on a terminal, as the contest asks, and the number of instants if that many fit.
+SHOWN_HANDLES = (0, 1, 51, 101, 151, 201)
+SHOWN_INSTANTS = 7
+# On a run that ends in a fold, a handle this many times faster than the head shows that the fold is near [1]; the mark
+# of such an instant.
+FAST = 2.0
+NEAR_FOLD = " *"
+# From this number on, evenly spaced instants are preferred to one or two more.
+EVEN_INSTANTS = 5
 
 
 class TrajectoryOptions(TimeRange, DanceQuery):
@@ -32,6 +46,12 @@ class TrajectoryOptions(TimeRange, DanceQuery):
         description="Decimals of x, y and speed; default: all (6 for xlsx and for the table on a terminal)",
     )
     times: str | None = measure("s", "Instants such as 0,60,120, instead of --start, --stop and --step", None)
+    path: Literal["spiral", "turn"] = Field(
+        "spiral", description="Path: a spiral inwards, or the contest's turn between two coils"
+    )
+    turning_diameter: TurningDiameter = measure("m", "Diameter of the circle in which the turn lies", 9.0)
+    ratio: float = Field(2.0, ge=0.01, le=100, description="Radius of the first arc of the turn divided by the second")
+    entry_radius: EntryRadius = None
     handles: str | None = Field(
         None, description="Handles in the table, such as 0,1,51; default: those that the contest asks for"
     )
@@ -56,13 +76,14 @@ def trajectory(
         unused(context, ["language"], "applies to the names in an xlsx file: give --output with .xlsx, or leave it out")
     write = trajectory_writer(ending, asked.decimals, language) if ending else None
     settings = Settings()
-    dance = asked.to_dance(settings.benches_max)
+    dance = _dance(asked, context, settings.benches_max)
     handles, times = _handles(context.params["handles"], dance.dragon), asked.times
     if given(context, "times") and (ranged := given(context, "start", "stop", "step")):
         raise InvalidValue("times", f"--times replaces --{ranged[0]}: give one of the two")
     if isinstance(times, str):
         asked = checked(TrajectoryRequest, {"times": numbers("times", times, float), "decimals": asked.decimals})
     instants = asked.times_of(dance, settings.cells_max)
+    _warn_before_start(dance, instants)
     with show.waiting("trajectory"):
         result = core.trajectory(dance, instants)
         data = write(result) if write else b""
@@ -73,8 +94,31 @@ def trajectory(
         show.print_json(data)
     else:
         fold, all_instants = dance.end if dance.end.bench is not None else None, isinstance(times, (str, list))
-        shown = show.trajectory_tables(result, handles, all_instants=all_instants, decimals=asked.decimals, fold=fold)
+        shown = trajectory_tables(result, handles, all_instants=all_instants, decimals=asked.decimals, fold=fold)
         show.print_parts(*shown)
+
+
+TURN_FIELDS = ("turning_diameter", "ratio", "entry_radius")
+
+
+def _dance(asked: TrajectoryOptions | TrajectoryRequest, context: typer.Context, benches_max: int) -> Dance:
+    """The dance on the path asked for, whose own pitch is the default. raises: TooLarge, InvalidValue"""
+    if isinstance(asked, TrajectoryRequest) or asked.path == "spiral":
+        unused(context, TURN_FIELDS, "belongs to a turn: give --path turn too, or leave it out")
+    if isinstance(asked, TrajectoryRequest):
+        unused(context, ["path"], "cannot be combined with FILE, which describes the dance")
+        return asked.to_dance(benches_max)
+    if asked.path == "spiral":
+        return asked.to_dance(benches_max)
+    told = {name: getattr(asked, name) for name in given(context, "pitch", "start_turns", *TURN_FIELDS)}
+    return Dance(asked.to_dragon(benches_max), TurnFields(**told).to_turn(), asked.head_speed)
+
+
+def _warn_before_start(dance: Dance, instants: Floats) -> None:
+    """Tell who asks for a negative time on a spiral that the dance only begins at 0."""
+    if isinstance(dance.path, Spiral) and instants.size and instants.min() < 0.0:
+        words = "the dance begins at 0 s, and before it the head is on the outward extension of the same spiral"
+        print(f"Warning: {words}; for the contest's turn give --path turn", file=sys.stderr)
 
 
 def _handles(text: str | None, dragon: Dragon) -> list[int] | None:
@@ -87,3 +131,95 @@ def _handles(text: str | None, dragon: Dragon) -> list[int] | None:
             rule = f"handles[{k}] must be from 0 to {dragon.benches} for this dragon, got {handle}"
             raise InvalidValue(f"handles.{k}", rule)
     return found
+
+
+def trajectory_tables(
+    result: Trajectory,
+    handles: Sequence[int] | None = None,
+    *,
+    all_instants: bool = False,
+    decimals: int | None = None,
+    fold: RunEnd | None = None,
+) -> list[show.Part]:
+    """Tables of some handles at some instants.
+
+    handles: to show; None: those of the contest and the last
+    decimals: of every number; None: show.SHOWN_DECIMALS
+    fold: of the run, if it ends in one; instants just before it are marked, as speeds grow without bound there
+    all_instants: show all in as many tables as needed; else up to SHOWN_INSTANTS, evenly spaced, in one table
+    """
+    instants, number = result.speed.shape
+    rows = list(handles) if handles else sorted({k for k in SHOWN_HANDLES if k < number} | {number - 1})
+    names = tables.handle_names(number - 1)
+    labels = [f"{k} {names[k]}" for k in rows]
+    x, y = result.position[..., 0], result.position[..., 1]
+    places = show.SHOWN_DECIMALS if decimals is None else decimals
+    instant_names = [_instant(result, t, fold) for t in range(instants)]
+    blocks = _blocks(result, rows, labels, instant_names, all_instants, places)
+    shown: list[show.Part] = []
+    for title, values in (("x [m]", x), ("y [m]", y), ("speed [m/s]", result.speed)):
+        for block in blocks:
+            table = show.new_table(title, "handle", *(instant_names[t] for t in block))
+            for k, label in zip(rows, labels, strict=True):
+                table.add_row(label, *(_entry(value, places) for value in values[block, k]))
+            shown.append(table)
+    count = sum(map(len, blocks))
+    of_handles, of_instants = show.plural("handle", range(number)), show.plural("instant", range(instants))
+    words = f"{len(rows)} of {number} {of_handles}, {count} of {instants} {of_instants}"
+    choose = ["--handles"] * (handles is None) + ["--times"] * (not all_instants)
+    verb = "choose" if len(choose) > 1 else "chooses"
+    advice = ["--output has all", *([f"{' and '.join(choose)} {verb}"] if choose else [])]
+    shown.append(f"{words}: {', '.join(advice)}.")
+    if fold and any(instant_names[t].endswith(NEAR_FOLD) for block in blocks for t in block):
+        when = f"Just before bench {fold.bench} folds, at {fold.time:.9f} s"
+        shown.append(
+            f"{NEAR_FOLD.strip()} {when}: towards that instant the speeds of handles behind it grow without bound."
+        )
+    return shown
+
+
+def _blocks(
+    result: Trajectory,
+    rows: Sequence[int],
+    labels: Sequence[str],
+    names: Sequence[str],
+    all_instants: bool,
+    decimals: int,
+) -> list[list[int]]:
+    """The instants of each table, as many as fit into the width. names: of the instants"""
+    instants = len(result.time)
+    values = np.concatenate([result.position[:, rows].reshape(instants, -1), result.speed[:, rows]], axis=1)
+    room = (
+        show.new_console().width - show.TABLE_SPACE - show.COLUMN_SPACE - max(map(len, [*labels, "handle"]), default=0)
+    )
+
+    def width(t: int) -> int:
+        return show.COLUMN_SPACE + max(map(len, [names[t], *(_entry(value, decimals) for value in values[t])]))
+
+    if not all_instants:
+        counts = range(min(SHOWN_INSTANTS, instants), 1, -1)
+        even = [count for count in counts if count >= EVEN_INSTANTS and (instants - 1) % (count - 1) == 0]
+        for count in (*even, *counts):
+            spaced = np.linspace(0, instants - 1, count).round().astype(int).tolist()
+            if sum(map(width, spaced)) <= room:
+                return [spaced]
+        return [[0]] if instants else []
+    blocks: list[list[int]] = []
+    left = 0
+    for t in range(instants):
+        taken = width(t)
+        if not blocks or taken > left:
+            blocks.append([])
+            left = room
+        blocks[-1].append(t)
+        left -= taken
+    return blocks
+
+
+def _instant(result: Trajectory, t: int, fold: RunEnd | None) -> str:
+    near = fold is not None and result.speed[t].max() > FAST * result.speed[t, 0]
+    return f"{result.time[t]:.12g} s{NEAR_FOLD if near else ''}"
+
+
+def _entry(value: float, decimals: int) -> str:
+    return f"{round(value, decimals) + 0.0:.{decimals}f}"

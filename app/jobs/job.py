@@ -1,4 +1,4 @@
-"""One job as a value: how far it is, in memory and on the wire."""
+"""One job as a value: its progress, in memory and on the wire."""
 
 from __future__ import annotations
 
@@ -12,10 +12,12 @@ import orjson
 # Random bytes of a job's name, and the name: in hexadecimal, which no shell takes for an option.
 ID_BYTES = 24
 ID_PATTERN = r"[0-9a-f]{48}"
+# Operation id of the call that asks one question for many designs; its jobs keep files of their own while they run.
+SWEEP = "sweep"
 
 
 class JobState(StrEnum):
-    """How far a job is, in the words of OGC API Processes."""
+    """Status of a job, by the names of OGC API Processes."""
 
     ACCEPTED = "accepted"
     RUNNING = "running"
@@ -29,9 +31,10 @@ UNFINISHED = (JobState.ACCEPTED, JobState.RUNNING)
 
 @dataclass(frozen=True)
 class Job:
-    """What is known of one job. Times in seconds since 1970.
+    """One job. Times are in seconds since 1970.
 
-    progress: 0 to 100; rate: [percent/s]; time_left: [s]; deaths: processes that it ended; size: of its result [bytes]
+    progress: 0 to 100; rate: [percent/s]; time_left: [s]; done, total: designs of a sweep
+    deaths: processes that it ended; size: of its result, or of the shards of a sweep [bytes]
     problem: why it failed, as the service would have answered; expired: its call and result are removed
     """
 
@@ -46,6 +49,8 @@ class Job:
     progress: int
     rate: float | None
     time_left: float | None
+    done: int | None
+    total: int | None
     deaths: int
     media_type: str | None
     size: int
@@ -71,6 +76,8 @@ class Job:
             "progress": self.progress,
             "rate": self.rate,
             "time_left": self.time_left,
+            "done": self.done,
+            "total": self.total,
             "problem": None if self.problem is None else orjson.loads(self.problem),
         }
 
@@ -83,7 +90,7 @@ def _instant(seconds: float | None) -> str | None:
 
 @dataclass(frozen=True)
 class Room:
-    """How much a store takes: jobs in all, unfinished ones of one client, bytes of all calls and results."""
+    """Limits of a store: all jobs, unfinished jobs of one client, bytes of all calls and results."""
 
     jobs: int
     of_client: int
@@ -91,7 +98,7 @@ class Room:
 
 
 class Full(Exception):
-    """No more jobs are taken."""
+    """The store has as many jobs as it may hold."""
 
 
 class FullForClient(Full):
@@ -99,4 +106,4 @@ class FullForClient(Full):
 
 
 class FullOfBytes(Full):
-    """The calls and results take as many bytes as they may."""
+    """The calls and results have reached their limit of bytes."""

@@ -1,4 +1,4 @@
-"""What a process of the service does for its jobs: it keeps the store, and sees that a runner runs when there is work.
+"""The jobs in a process of the service: it opens the store, and starts a runner when there is work.
 
 Every process of the service has a keeper. One of them holds the lock and starts a runner when there is work; the runner
 ends with the process that started it. When that one is killed, the keeper of another process gets the lock.
@@ -50,11 +50,11 @@ class Keeper:
         self._thread.start()
 
     def hurry(self) -> None:
-        """There is work: do not wait to find it."""
+        """Report new work, so that the keeper does not wait for its next look."""
         self._wake.set()
 
     def stop(self) -> None:
-        """The runner and its jobs end; they go on when the service is started again."""
+        """End the runner and its jobs; they continue when the service starts again."""
         self.leaving.set()
         self._wake.set()
         self._thread.join()
@@ -85,7 +85,7 @@ class Keeper:
 
 
 def start(module: str, *arguments: str, stdout: int | None = None) -> subprocess.Popen[bytes]:
-    """A process of ours that ends when its input does, so with whoever started it, also when that one is killed.
+    """A process that ends when its standard input closes, so also when its parent is killed.
 
     It has a session of its own: what a terminal sends to the service is not for it.
     """
@@ -96,7 +96,7 @@ def start(module: str, *arguments: str, stdout: int | None = None) -> subprocess
 
 @contextmanager
 def kept(settings: Settings) -> Iterator[Keeper | str]:
-    """The jobs of this process while it serves; why there are none where the data folder cannot be used."""
+    """The jobs of this process while it serves, or the reason why the data folder cannot be used."""
     with ExitStack() as stack:
         try:
             store = Store(settings.data or Path(stack.enter_context(scratch())))
@@ -114,7 +114,7 @@ def kept(settings: Settings) -> Iterator[Keeper | str]:
 
 @contextmanager
 def scratch() -> Iterator[str]:
-    """A folder for jobs that nobody wants to keep."""
+    """A temporary folder for jobs."""
     with TemporaryDirectory(prefix="bench-dragon-data-", ignore_cleanup_errors=True) as folder:
         logger.warning("BENCH_DRAGON_DATA is not set: jobs are kept in %s, and only until the service ends", folder)
         yield folder
@@ -122,7 +122,7 @@ def scratch() -> Iterator[str]:
 
 @contextmanager
 def _told(keeper: Keeper) -> Iterator[None]:
-    """Within it, listeners leave when the process is asked to end: the server waits for them before it says so."""
+    """A context in which listeners leave when the process is asked to end, because the server waits for them."""
     if current_thread() is not main_thread():
         yield
         return

@@ -21,13 +21,13 @@ NO_RESULT = "job {} is {}, so it has no result"
 
 
 class NoJob(BenchDragonError):
-    """A job, or its result, is not there, or the service refuses to say."""
+    """A job or its result does not exist, or the service refuses access."""
 
     code = "no-job"
 
 
 class Jobs(Protocol):
-    """Where jobs are. raises: NoJob where a job or a result is missing"""
+    """A place that holds jobs. raises: NoJob if a job or a result is missing"""
 
     def list(self) -> list[dict[str, Any]]: ...
 
@@ -39,7 +39,7 @@ class Jobs(Protocol):
 
 
 class InFolder:
-    """The jobs of a data folder; the service may run or not."""
+    """The jobs of a data folder, whether or not the service runs."""
 
     def __init__(self, folder: Path) -> None:
         if not (folder / "jobs.sqlite").is_file():
@@ -111,7 +111,7 @@ class OfService:
 
 
 def place(data: Path | None, url: str, token: str) -> Jobs:
-    """Where to look, as the options say. raises: InvalidValue where they do not"""
+    """The place that the options name. raises: InvalidValue if they name none"""
     if url and data is not None:
         raise InvalidValue("url", "--url takes the place of --data: give one of the two")
     if url:

@@ -1,4 +1,4 @@
-"""The calls about jobs, and what a question does for who prefers a job (Prefer: respond-async)."""
+"""The calls about jobs, and jobs for clients that prefer them (Prefer: respond-async)."""
 
 from __future__ import annotations
 
@@ -18,18 +18,32 @@ from pydantic import BaseModel, ValidationError
 from starlette.concurrency import run_in_threadpool
 from starlette.types import Receive, Scope, Send
 
-from app.jobs.job import ID_PATTERN, Full, FullForClient, FullOfBytes, Job, JobState, Room
+from app.jobs.job import ID_PATTERN, SWEEP, Full, FullForClient, FullOfBytes, Job, JobState, Room
 from app.jobs.keeper import Keeper
 from app.jobs.task import Task
-from app.jobs.wire import EVENTS_TYPE, JobList, JobRequest, JobStatus, status
+from app.jobs.wire import (
+    EVENTS_TYPE,
+    SWEEP_EXAMPLE,
+    SWEEP_FORMS,
+    JobList,
+    JobRequest,
+    JobStatus,
+    SweepRequest,
+    pointer_in_sweep,
+    status,
+)
 from app.questions import CALLS
 from app.questions.figures import Format
+from app.service.bodies import BodyRoute
 from app.service.problems import Refused, answer_of, problem
-from app.service.reply import RESPOND_ASYNC, form_of, refuse_query, reply_body
+from app.service.reply import RESPOND_ASYNC, client_of, form_of, refuse_query, reply_body
+from app.settings import Settings
+from app.sweeps.spec import Spec
 from app.wire.faults import in_body, unfit
 from app.wire.messages import shown
-from app.wire.models import JSON
-from app.wire.problem import PROBLEM_TYPE, ErrorItem
+from app.wire.models import JSON, check_limit
+from app.wire.problem import PROBLEM_TYPE, ErrorItem, problem_of
+from core import BenchDragonError
 
 logger = logging.getLogger("uvicorn.error")
 
@@ -58,7 +72,7 @@ PROBLEMS = {
 
 
 def keeper_of(request: Request) -> Keeper:
-    """raises: Refused (503) where there are no jobs"""
+    """The keeper of the jobs. raises: Refused (503) if the service has none"""
     keeper: Keeper | str = request.app.state.jobs
     if isinstance(keeper, str):
         raise Refused(503, f"This service takes no jobs: {keeper}.", headers=COME_AGAIN)
@@ -79,10 +93,9 @@ def take(request: Request, task: Task) -> Response:
     """A new job. raises: Refused where there is no room"""
     keeper = keeper_of(request)
     limits = keeper.settings
-    client = request.client.host if request.client else ""
     try:
         room = Room(limits.jobs_max, limits.jobs_client_max, limits.jobs_bytes_max)
-        job = keeper.store.create(task.call, task.to_bytes(), client, room)
+        job = keeper.store.create(task.call, task.to_bytes(), client_of(request), room)
     except FullForClient as error:
         detail = f"{limits.jobs_client_max} of your jobs are not finished, as many as may: wait for one or dismiss one."
         raise Refused(429, detail, headers=COME_AGAIN) from error
@@ -99,13 +112,13 @@ def take(request: Request, task: Task) -> Response:
 
 
 def later(request: Request, task: Task) -> Response:
-    """A job for a question that a client prefers to be answered later. raises: Refused"""
+    """A new job for a question whose client prefers a job. raises: Refused"""
     guard(request)
     return take(request, task)
 
 
 async def store_problem(request: Request, error: Exception) -> Response:
-    """The answer where SQLite cannot write or read: the disk is full, or it fails."""
+    """The answer if SQLite cannot write or read: the disk is full or fails."""
     if getattr(error, "sqlite_errorcode", None) == sqlite3.SQLITE_FULL:
         detail = "The disk of the data folder is full: remove jobs that you do not need, or make room."
         return problem(507, "insufficient-storage", detail)
@@ -115,11 +128,13 @@ async def store_problem(request: Request, error: Exception) -> Response:
 
 
 router = APIRouter(prefix="/jobs", tags=["Jobs"])
+# The calls that make jobs: their bodies may be large.
+asking = APIRouter(tags=["Jobs"], route_class=BodyRoute)
 TOKEN_SCHEME = {"token": {"type": "http", "scheme": "bearer", "description": "The token of a service that has one"}}
 
 
 def told(name: str, *statuses: int, model: type[BaseModel] | None = None, content: Any = None) -> dict[str, Any]:
-    """What OpenAPI says of a call: its operation id, its problems, and what it answers in place of JSON."""
+    """OpenAPI description of a call: operation id, problems, and the media type if it is not JSON."""
     problems = {number: {"description": PROBLEMS[number], "content": PROBLEM_REF} for number in statuses}
     answer = {200: {"description": "The answer", "content": content}} if content else {}
     security: list[dict[str, list[str]]] = [{}, {"token": []}] if 401 in statuses else []
@@ -149,8 +164,8 @@ Found = Annotated[Job, Depends(found)]
 no_query = Depends(refuse_query)
 
 
-@router.post(
-    "",
+@asking.post(
+    "/jobs",
     status_code=202,
     dependencies=[Depends(guard), Depends(reply_body)],
     **told("ask_later", 400, 401, 404, 406, 413, 415, 422, 429, 500, 503, 507, model=JobStatus),
@@ -159,7 +174,7 @@ def ask_later(
     request: Request,
     wanted: Annotated[JobRequest, Body(examples=[{"question": "collision_time", "request": {"pitch": 0.5}}])],
 ) -> Response:
-    """Asks a question whose answer is worked out later; Location is the address of its job."""
+    """Asks a question that is answered later; Location is the address of its job."""
     if wanted.question not in CALLS:
         near = difflib.get_close_matches(wanted.question, CALLS, n=1)
         advice = f"did you mean {near[0]}?" if near else f"it must be one of {', '.join(sorted(CALLS))}"
@@ -167,7 +182,7 @@ def ask_later(
         raise Refused(422, detail, [ErrorItem(pointer="/question", detail=detail)])
     call, values = CALLS[wanted.question], dict(wanted.request)
     accept = wanted.accept
-    if call.question.model is None and "format" in values:  # It stands in the path of the call.
+    if call.question.format_in_path and "format" in values:  # It stands in the path of the call.
         accept = format_of(values.pop("format"))
     form = form_of(accept, call.question.forms, {"pointer": "/accept"})
     try:
@@ -176,6 +191,26 @@ def ask_later(
         found = [{**one, "loc": ("body", *one["loc"])} for one in error.errors()]
         return answer_of(unfit(found, call.asked, in_body(values, "/request")))
     return take(request, Task(call.name, values, form))
+
+
+@asking.post(
+    "/sweeps",
+    status_code=202,
+    dependencies=[Depends(guard), Depends(reply_body)],
+    **told(SWEEP, 400, 401, 406, 413, 415, 422, 429, 500, 503, 507, model=JobStatus),
+)
+def sweep(request: Request, wanted: Annotated[SweepRequest, Body(examples=[SWEEP_EXAMPLE])]) -> Response:
+    """Asks one question for many designs; Location is the address of the job whose result is their table."""
+    limits: Settings = request.app.state.settings
+    form = form_of(wanted.accept, SWEEP_FORMS, {"pointer": "/accept"})
+    try:
+        spec = Spec.of(wanted.model_dump(exclude={"accept"}))
+        check_limit("over", "designs", spec.designs, limits.sweep_designs_max, "ask for fewer in one sweep")
+        check_limit("shard_size", "shards", spec.shards, limits.sweep_shards_max, "give a larger shard_size")
+    except BenchDragonError as error:
+        place = pointer_in_sweep(error.field, wanted)
+        return answer_of(problem_of(422, error.code, error.message, [ErrorItem(pointer=place, detail=error.message)]))
+    return take(request, Task(SWEEP, spec.model_dump(mode="json"), form))
 
 
 def format_of(value: Any) -> str:

@@ -28,6 +28,7 @@ from typing import Any
 
 import orjson
 
+from app.jobs.job import SWEEP
 from app.jobs.keeper import start
 from app.jobs.lock import FolderLock
 from app.jobs.store import Store
@@ -50,17 +51,18 @@ RETRY_SECONDS = 1.0
 class Work:
     """A process that does a job.
 
-    begun: since when, on the clock that never jumps [s]; over: nobody waits for it
+    begun: since when, on the clock that never jumps [s]; most: how long it may take [s]; over: nobody waits for it
     first: when it first said what share of the work is done [s], and the share
     """
 
     process: subprocess.Popen[bytes]
     begun: float
+    most: float
     over: bool = False
     first: tuple[float, float] | None = None
 
     def rate(self, share: float) -> float | None:
-        """How fast the work proceeds on average since something was first said of it [1/s]; None: nobody knows yet."""
+        """Average rate of progress since the first report [1/s]; None before it."""
         now = time.monotonic()
         if self.first is None:
             self.first = now, share
@@ -68,7 +70,7 @@ class Work:
         return (share - before) / (now - since) if now > since and share > before else None
 
     def end(self) -> None:
-        """The process and all that it started end at once."""
+        """Kill the process and its children."""
         self.over = True
         if self.process.returncode is not None:
             return  # Its number may be another's by now.
@@ -81,7 +83,7 @@ class Work:
 
 @dataclass(frozen=True)
 class Word:
-    """What a process said: a line, or None when it has ended."""
+    """A message of a process: a line, or None when it has ended."""
 
     job: str
     work: Work
@@ -89,7 +91,7 @@ class Word:
 
 
 class Runner:
-    """Runs what waits in the store, as many jobs at once as may."""
+    """Runs the waiting jobs of the store, up to a number at the same time."""
 
     def __init__(self, store: Store, settings: Settings) -> None:
         self.store, self.settings = store, settings
@@ -101,7 +103,7 @@ class Runner:
         self._unheeded: deque[Word] = deque()
 
     def run(self) -> None:
-        """Until there has been nothing to do for a while."""
+        """Run jobs until none has waited for a while."""
         self.store.begin()
         idle_since = time.monotonic()
         while self.works or time.monotonic() - idle_since < IDLE_SECONDS:
@@ -114,7 +116,7 @@ class Runner:
                 idle_since = time.monotonic()
 
     def step(self) -> None:
-        """Heed what was said, end what should not run any more, start what may."""
+        """Process messages, end dismissed jobs, start waiting ones."""
         self._listen()
         if self._spare is not None and self._spare.poll() is not None:
             self._spare = None
@@ -127,16 +129,22 @@ class Runner:
                 continue
             if job not in wanted:
                 work.end()
-            elif time.monotonic() - work.begun > self.settings.job_seconds_max:
-                self.store.fail(job, too_long(self.settings.job_seconds_max))
+            elif time.monotonic() - work.begun > work.most:
+                self.store.fail(job, too_long(work.most))
                 work.end()
+        self.store.tidy(self.works)
         self.store.expire(self.settings.job_days_max)
-        while len(self.works) < self.settings.jobs_running_max and (taken := self.store.take()):
+        while len(self.works) < self.settings.jobs_running_max:
+            taken = self.store.take(self.settings.sweeps_running_max)
+            if taken is None:
+                break
             self._start(taken)
 
     def _start(self, job: str) -> None:
         process, self._spare = self._spare or self._new(), self._new()
-        work = Work(process, time.monotonic())
+        known, settings = self.store.get(job), self.settings
+        most = settings.sweep_seconds_max if known and known.question == SWEEP else settings.job_seconds_max
+        work = Work(process, time.monotonic(), most)
         self.works[job] = work
         Thread(target=self._hear, args=(job, work), daemon=True).start()
         assert process.stdin is not None
@@ -166,8 +174,12 @@ class Runner:
 
     def _heed(self, word: Word) -> None:
         match word.said:
+            case {"share": float(share), "rate": rate, "done": int(done), "total": int(total), "size": int(size)}:
+                self.store.proceed(word.job, share, rate, done=done, total=total, size=size)
             case {"share": float(share)}:
                 self.store.proceed(word.job, share, word.work.rate(share))
+            case {"kept": int(kept)}:
+                self.store.resume(word.job, kept)
             case {"written": str(name), "media_type": str(media_type)}:
                 self.store.succeed(word.job, Path(name), media_type)
                 word.work.end()
@@ -184,20 +196,20 @@ class Runner:
 
 
 def too_long(seconds: float) -> bytes:
-    """The problem of a job that ran longer than it may."""
+    """The problem of a job that exceeded its time limit."""
     detail = f"The job took longer than {seconds:g} s, the most that one may take here: ask for less."
     return problem_of(422, "too-much-work", detail).to_json()
 
 
 def died(code: int) -> bytes:
-    """The problem of a job whose process always ends without a word. code: of its last end, minus a signal"""
+    """The problem of a job whose process always ends without an answer. code: last exit code, or minus the signal"""
     how = f"signal {-code}" if code < 0 else f"exit code {code}"
     detail = f"The job ended its process each time it was tried, the last time by {how}: it may need too much memory."
     return problem_of(500, "process-ended", detail).to_json()
 
 
 def follow_input() -> None:
-    """Read on, and end this process and all that it started when its input ends: whoever started it is gone."""
+    """Read standard input, and end this process and its children when it ends, because their parent is gone."""
 
     def follow() -> None:
         while os.read(sys.stdin.fileno(), 1024):

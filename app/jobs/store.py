@@ -2,6 +2,7 @@
 
     FOLDER/jobs.sqlite   tables jobs and events; written ahead (WAL) and flushed at every change
     FOLDER/results/ID    the bytes of an answer: there whole or not at all
+    FOLDER/sweeps/ID     the shards of a sweep that is not finished
 
 Every change of a job is one transaction and one event, so that whoever listens sees each once. Only the runner moves a
 job on from accepted; anyone may dismiss it.
@@ -11,9 +12,10 @@ from __future__ import annotations
 
 import os
 import secrets
+import shutil
 import sqlite3
 import time
-from collections.abc import Iterator
+from collections.abc import Container, Iterator
 from contextlib import closing, contextmanager
 from dataclasses import fields
 from pathlib import Path
@@ -22,7 +24,7 @@ from typing import Any
 
 import orjson
 
-from app.jobs.job import ID_BYTES, Full, FullForClient, FullOfBytes, Job, JobState, Room
+from app.jobs.job import ID_BYTES, SWEEP, Full, FullForClient, FullOfBytes, Job, JobState, Room
 
 # How long a change waits for that of another process [s].
 PATIENCE = 5.0
@@ -32,13 +34,14 @@ EVENTS_KEPT = 100
 DEATHS_MAX = 3
 DAY = 86_400.0  # [s]
 # Version of the tables below; a folder of another one is not touched.
-LAYOUT = 1
+LAYOUT = 2
 TABLES = """
 CREATE TABLE IF NOT EXISTS jobs (
     id TEXT PRIMARY KEY, question TEXT NOT NULL, call BLOB NOT NULL, client TEXT NOT NULL, state TEXT NOT NULL,
     created REAL NOT NULL, started REAL, finished REAL, updated REAL NOT NULL, message TEXT NOT NULL,
     progress INTEGER NOT NULL DEFAULT 0, rate REAL, time_left REAL, deaths INTEGER NOT NULL DEFAULT 0,
-    media_type TEXT, size INTEGER NOT NULL DEFAULT 0, problem BLOB, expired INTEGER NOT NULL DEFAULT 0
+    media_type TEXT, size INTEGER NOT NULL DEFAULT 0, problem BLOB, expired INTEGER NOT NULL DEFAULT 0,
+    done INTEGER, total INTEGER, kept INTEGER NOT NULL DEFAULT 0
 );
 CREATE INDEX IF NOT EXISTS jobs_by_state ON jobs (state, created);
 CREATE TABLE IF NOT EXISTS events (
@@ -47,7 +50,8 @@ CREATE TABLE IF NOT EXISTS events (
 ) WITHOUT ROWID;
 """
 
-
+# What makes tables of layout 1 such tables.
+FROM_1 = "done INTEGER", "total INTEGER", "kept INTEGER NOT NULL DEFAULT 0"
 COLUMNS = ", ".join(field.name for field in fields(Job))
 
 
@@ -61,7 +65,9 @@ class Store:
         self.folder = folder.absolute()
         self.results = self.folder / "results"
         self.folder.mkdir(mode=0o700, parents=True, exist_ok=True)
-        self.results.mkdir(mode=0o700, exist_ok=True)
+        self.sweeps = self.folder / "sweeps"
+        for inner in (self.results, self.sweeps):
+            inner.mkdir(mode=0o700, exist_ok=True)
         file = self.folder / "jobs.sqlite"
         file.touch(mode=0o600)  # Whoever can read the names of jobs can read their results.
         self._lock = Lock()
@@ -80,7 +86,10 @@ class Store:
         run("PRAGMA secure_delete = ON")  # A removed call is overwritten, not just forgotten.
         with self._change():
             layout = run("PRAGMA user_version").fetchone()[0]
-            if layout not in (0, LAYOUT):
+            if layout == 1:
+                for column in FROM_1:
+                    run(f"ALTER TABLE jobs ADD COLUMN {column}")
+            elif layout not in (0, LAYOUT):
                 raise OSError(f"the jobs of {self.folder} are of another version of this program (layout {layout})")
             for table in filter(str.strip, TABLES.split(";")):
                 run(table)
@@ -92,7 +101,7 @@ class Store:
 
     @contextmanager
     def _change(self) -> Iterator[sqlite3.Connection]:
-        """One transaction, that nothing of another thread or process comes between."""
+        """One transaction, isolated from other threads and processes."""
         with self._lock:
             self._connection.execute("BEGIN IMMEDIATE")
             try:
@@ -109,7 +118,7 @@ class Store:
             return rows.fetchall()
 
     def _move(self, run: sqlite3.Connection, job: str, where: str, /, **values: Any) -> bool:
-        """Was the job as `where` says, so that it now has these values? The event tells who listens."""
+        """Set these values of a job if `where` holds: True if it did. The event informs listeners."""
         values["updated"] = time.time()
         setting = ", ".join(f"{name} = :{name}" for name in values)
         changed = run.execute(f"UPDATE jobs SET {setting} WHERE id = :id AND {where}", values | {"id": job}).rowcount
@@ -161,6 +170,13 @@ class Store:
         """The newest first."""
         return [_job(row) for row in self._read(f"SELECT {COLUMNS} FROM jobs ORDER BY created DESC, id")]
 
+    def counts(self) -> tuple[dict[str, int], int, int]:
+        """Number of jobs by state, and of the sweeps that are not finished the designs that are done, and all."""
+        states = dict(self._read("SELECT state, count(*) FROM jobs GROUP BY state"))
+        sums = "SELECT coalesce(sum(done), 0), coalesce(sum(total), 0) FROM jobs WHERE state IN ('accepted', 'running')"
+        [(done, total)] = self._read(sums)
+        return states, done, total
+
     def call(self, job: str) -> bytes:
         """raises: KeyError for a job that is not there"""
         rows = self._read("SELECT call FROM jobs WHERE id = ?", job)
@@ -170,15 +186,19 @@ class Store:
         return data
 
     def events(self, job: str, after: int) -> list[tuple[int, bytes]]:
-        """Number and status of everything that happened to a job after event number `after`."""
+        """Number and status of every event of a job after event number `after`."""
         return self._read("SELECT number, data FROM events WHERE job = ? AND number > ? ORDER BY number", job, after)
 
     def result(self, job: str) -> Path:
-        """Where the answer of a successful job is."""
+        """Path of the answer of a successful job."""
         return self.results / job
 
+    def shards(self, job: str) -> Path:
+        """Folder of the shards of a sweep; not there before it runs."""
+        return self.sweeps / job
+
     def dismiss(self, job: str) -> bool:
-        """Is the job dismissed by this, because it was not finished? The runner ends its process."""
+        """Dismiss an unfinished job: True if it was unfinished. The runner ends its process."""
         now, words = time.time(), "It was dismissed before it was done."
         with self._change() as run:
             return self._move(
@@ -190,25 +210,27 @@ class Store:
                 message=words,
                 time_left=None,
                 client="",
+                size=0,
             )
 
     def remove(self, job: str) -> None:
-        """Nothing of a job is left: no row, no event, no result."""
+        """Remove a job with its events and its result."""
         self.result(job).unlink(missing_ok=True)  # First, because on a full disk this makes room for the rest.
         with self._change() as run:
             run.execute("DELETE FROM jobs WHERE id = ?", (job,))
         self._read("PRAGMA wal_checkpoint(TRUNCATE)")  # What was written ahead still holds the call.
 
     def has_work(self, days: float) -> bool:
-        """Is there something for a runner to do? days: how long finished jobs are kept"""
+        """Does a runner have work? days: how long finished jobs are kept"""
         latest = time.time() - days * DAY
         due = "SELECT 1 FROM jobs WHERE state IN ('accepted', 'running') OR finished < ? AND NOT expired"
-        return bool(self._read(f"{due} OR finished < ? LIMIT 1", latest, latest - days * DAY))
+        known = self._read(f"{due} OR finished < ? LIMIT 1", latest, latest - days * DAY)
+        return bool(known) or any(self.sweeps.iterdir())  # Shards of what is finished are to be removed.
 
     # What the runner alone does.
 
     def begin(self) -> None:
-        """Ready for a runner: what the last one left running waits again, and what it left half written is gone."""
+        """Prepare for a runner: jobs left running wait again, and half-written files are removed."""
         with self._change() as run:
             words = "Its process was ended from outside; it goes on."
             for (job,) in run.execute("SELECT id FROM jobs WHERE state = 'running'").fetchall():
@@ -218,35 +240,52 @@ class Store:
                 if file.name not in kept:
                     file.unlink(missing_ok=True)
 
-    def take(self) -> str | None:
-        """The job that has waited longest, now running; None when none waits."""
+    def take(self, sweeps: int = 1) -> str | None:
+        """Start the job that has waited longest; None if none may run. sweeps: largest number that run at once"""
+        running = f"SELECT count(*) FROM jobs WHERE state = 'running' AND question = '{SWEEP}'"
+        may_run = f"state = 'accepted' AND (question != '{SWEEP}' OR ({running}) < ?)"
         with self._change() as run:
-            row = run.execute("SELECT id FROM jobs WHERE state = 'accepted' ORDER BY created LIMIT 1").fetchone()
+            row = run.execute(f"SELECT id FROM jobs WHERE {may_run} ORDER BY created LIMIT 1", (sweeps,)).fetchone()
             if row is None:
                 return None
             self._move(run, row[0], "1", state=JobState.RUNNING, started=time.time(), progress=0, message="It runs.")
         job: str = row[0]
         return job
 
+    def tidy(self, works: Container[str]) -> None:
+        """Shards of sweeps that are finished or removed go. works: jobs that have a process, which may still write"""
+        for folder in self.sweeps.iterdir():
+            found = self.get(folder.name)
+            if folder.name not in works and (found is None or found.is_finished):
+                shutil.rmtree(folder, ignore_errors=True)
+
     def running(self) -> set[str]:
         return {row[0] for row in self._read("SELECT id FROM jobs WHERE state = 'running'")}
 
-    def proceed(self, job: str, share: float, rate: float | None) -> None:
-        """The job has done a share of its work, 0 to 1, and proceeds at a rate [1/s]."""
+    def proceed(self, job: str, share: float, rate: float | None, **more: int) -> None:
+        """Record the progress of a job: share done, 0 to 1, and rate [1/s].
+
+        more: of a sweep the designs `done` of the `total`, and the `size` of its shards [bytes]
+        """
         left = (1.0 - share) / rate if rate else None
         percent = 100.0 * rate if rate else None
         with self._change() as run:
-            self._move(run, job, "state = 'running'", progress=int(100.0 * share), rate=percent, time_left=left)
+            self._move(run, job, "state = 'running'", progress=int(100.0 * share), rate=percent, time_left=left, **more)
+
+    def resume(self, job: str, kept: int) -> None:
+        """A sweep goes on from so many designs; were there fewer when it last began, its deaths are forgotten."""
+        with self._change() as run:
+            self._move(run, job, f"state = 'running' AND kept < {kept:d}", kept=kept, deaths=0)
 
     def succeed(self, job: str, written: Path, media_type: str) -> None:
-        """The job is done: its answer takes its place, for good before the state says so."""
+        """Finish a job with its answer, which is safe on the disk before the status changes."""
         result = self.result(job)
         if written.exists():  # Else this is said again because the disk did not take the state.
             os.replace(written, result)
             flush_folder(self.results)
         size = result.stat().st_size if result.exists() else 0
         words = "It is done."
-        done = {
+        moves = {
             "state": JobState.SUCCESSFUL,
             "finished": time.time(),
             "message": words,
@@ -255,18 +294,26 @@ class Store:
         }
         with self._change() as run:
             moved = self._move(
-                run, job, "state = 'running'", media_type=media_type, size=size, client="", rate=None, **done
+                run, job, "state = 'running'", media_type=media_type, size=size, client="", rate=None, **moves
             )
         found = self.get(job)
         if not moved and (found is None or found.state is not JobState.SUCCESSFUL):
             result.unlink(missing_ok=True)
 
     def fail(self, job: str, problem: bytes) -> None:
-        """The job is done, and its answer is a problem."""
+        """Finish a job with a problem."""
         words = orjson.loads(problem)["detail"]
-        done = {"state": JobState.FAILED, "finished": time.time(), "message": words, "rate": None, "time_left": None}
+        now = time.time()
+        moves = {
+            "state": JobState.FAILED,
+            "finished": now,
+            "message": words,
+            "rate": None,
+            "time_left": None,
+            "size": 0,
+        }
         with self._change() as run:
-            self._move(run, job, "state = 'running'", problem=problem, client="", **done)
+            self._move(run, job, "state = 'running'", problem=problem, client="", **moves)
 
     def die(self, job: str, problem: bytes) -> None:
         """The job's process ended without a word: it is tried again, but for the third time fails with this problem."""
@@ -282,7 +329,7 @@ class Store:
         return None
 
     def expire(self, days: float) -> None:
-        """Calls and results of jobs that finished so many days ago go, and after as many more all that is known."""
+        """Remove calls and results of jobs that finished so many days ago; the jobs too after twice as many."""
         latest = time.time() - days * DAY
         old = self._read("SELECT id FROM jobs WHERE finished < ? AND NOT expired", latest)
         for (job,) in old:
@@ -299,7 +346,7 @@ def _job(row: tuple[Any, ...]) -> Job:
 
 
 def flush_folder(folder: Path) -> None:
-    """The names in a folder are on the disk, where the system can say so."""
+    """Flush the names of a folder to the disk, if the system supports it."""
     if os.name == "nt":
         return
     handle = os.open(folder, os.O_RDONLY)

@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 import json
+import math
 from collections.abc import Callable
 from dataclasses import asdict, dataclass
 from typing import Any, Self
 
 from app.questions import CALLS
+from app.questions.question import Terms
 from app.settings import Settings
 from app.wire.faults import in_body, in_query, refused
 from app.wire.problem import Problem
 from app.wire.refusals import reworded
-from core import BenchDragonError
+from core import BenchDragonError, Budget
 
 
 @dataclass(frozen=True)
@@ -31,11 +33,11 @@ class Task:
         return cls(**json.loads(data))
 
     def answer(self, settings: Settings, progress: Callable[[float], None]) -> bytes | Problem:
-        """What the service says to the call."""
+        """The answer of the service to the call."""
         call = CALLS[self.call]
         asked = call.asked.model_validate(self.request)
         try:
-            return call.question.told(asked, settings, self.form, progress)
+            return call.question.whole(asked, Terms(settings, Budget(math.inf), progress), self.form)
         except BenchDragonError as error:
             item = in_query if call.method == "GET" else in_body(self.request)
             return refused(reworded(error, asked), item)

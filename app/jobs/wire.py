@@ -7,11 +7,22 @@ from typing import Any
 import orjson
 from pydantic import BaseModel, ConfigDict, Field
 
+from app.files.tables import CSV_TYPE, PARQUET_TYPE
 from app.jobs.job import Job, JobState
+from app.sweeps.spec import Spec
+from app.wire.faults import pointer
 from app.wire.models import JSON, measure
 from app.wire.problem import Problem
 
 EVENTS_TYPE = "text/event-stream"
+# Forms of the table of a sweep.
+SWEEP_FORMS = (PARQUET_TYPE, CSV_TYPE, JSON)
+SWEEP_EXAMPLE = {
+    "question": "collision_time",
+    "over": {"pitch": {"start": 0.5, "stop": 0.6, "count": 40}, "width": [0.25, 0.3, 0.35]},
+    "request": {"margin": 0.05},
+    "accept": "text/csv",
+}
 
 
 class JobRequest(BaseModel):
@@ -24,8 +35,31 @@ class JobRequest(BaseModel):
     accept: str = Field("*/*", description="Form of the result, as in the header Accept of the call", max_length=200)
 
 
+class SweepRequest(Spec):
+    """One question over some of its parameters, as the file of a sweep says it."""
+
+    accept: str = Field(
+        "*/*",
+        description=f"Form of the table, as in a header Accept; the first of {', '.join(SWEEP_FORMS)} if any will do",
+        max_length=200,
+    )
+
+
+def pointer_in_sweep(field: str, asked: SweepRequest) -> str:
+    """Where a sweep gives a field: its own, or a parameter of its question.
+
+    >>> pointer_in_sweep("path.pitch", SweepRequest(question="check", over={"path.pitch": [-1]}))
+    '/over/path.pitch'
+    """
+    if field.partition(".")[0] in SweepRequest.model_fields:
+        return pointer(field.split("."), asked.model_dump(mode="json"))
+    if over := next((name for name in asked.over if f"{name}.".startswith(f"{field}.")), ""):
+        return f"/over/{over}"
+    return f"/request{pointer(field.split('.'), asked.request)}"
+
+
 class Link(BaseModel):
-    """Where something about a job is."""
+    """A link to a resource of a job."""
 
     href: str = Field(description="Address")
     rel: str = Field(description="What is there: self, monitor (its events), or results")
@@ -33,7 +67,7 @@ class Link(BaseModel):
 
 
 class JobStatus(BaseModel):
-    """How far a job is, in the words of OGC API Processes."""
+    """Status of a job, by the names of OGC API Processes."""
 
     jobID: str = Field(description="Name of the job; whoever knows it may see and dismiss the job")  # noqa: N815
     type: str = Field(description="Always process")
@@ -47,6 +81,10 @@ class JobStatus(BaseModel):
     progress: int = measure("%", "Share of the work that is done, 0 to 100; 0 where a question cannot say")
     rate: float | None = measure("%/s", "How fast it goes on average")
     time_left: float | None = measure("s", "How long it will still run if it goes on like that")
+    done: int | None = Field(
+        description="Designs of a sweep that are answered; null before that, and for other questions"
+    )
+    total: int | None = Field(description="Designs of a sweep; null as for done")
     problem: Problem | None = Field(description="Why it failed, as the call itself would have answered")
     links: list[Link] = Field(description="Where its status, its events and its result are")
 

@@ -3,23 +3,23 @@
 It asks the question and writes the answer into a new file, which the runner then names. It
 changes nothing in the store: whatever becomes of it, nothing is lost or done by halves.
 
-output  lines of JSON: {"share": 0.5}, {"written": FILE, "media_type": ...} or {"problem": TEXT}
+output  lines of JSON: {"share": 0.5}, {"written": FILE, "media_type": ...} or {"problem": TEXT}; of a sweep also
+        {"kept": DESIGNS}, and beside the share its rate, the designs and the bytes
 """
 
 from __future__ import annotations
 
 import logging
 import os
+import shutil
 import sys
 import tempfile
-import time
 from importlib import import_module
 from importlib.util import find_spec
 from pathlib import Path
-from typing import Any
 
-import orjson
-
+from app.jobs.job import SWEEP
+from app.jobs.mouth import Mouth
 from app.jobs.runner import follow_input
 from app.jobs.store import Store
 from app.jobs.task import Task
@@ -30,38 +30,22 @@ logger = logging.getLogger("app.jobs")
 
 # Jobs yield to whoever waits for an answer (man 2 nice).
 NICENESS = 10
-# Between two words about progress [s].
-PROGRESS_SECONDS = 0.5
-
-
-class Mouth:
-    """Tells the runner what happens, on what was standard output; what others print goes to standard error."""
-
-    def __init__(self) -> None:
-        self._line = os.fdopen(os.dup(sys.stdout.fileno()), "wb", buffering=0)
-        os.dup2(sys.stderr.fileno(), sys.stdout.fileno())
-        self._latest = 0.0
-
-    def say(self, **words: Any) -> None:
-        self._line.write(orjson.dumps(words) + b"\n")
-
-    def share(self, done: float) -> None:
-        """So much of the work is done, 0 to 1."""
-        if time.monotonic() - self._latest >= PROGRESS_SECONDS:
-            self._latest = time.monotonic()
-            self.say(share=float(done))
 
 
 def limit_memory(most: int) -> None:
-    """More memory than this is not given to this process [bytes], where the system knows such a limit."""
+    """Limit the memory of this process [bytes], if the system supports it."""
     if find_spec("resource"):
         resource = import_module("resource")
         resource.setrlimit(resource.RLIMIT_AS, (most, most))
 
 
-def answer(task: Task, settings: Settings, mouth: Mouth) -> bytes | Problem:
-    """What the service says to the task."""
+def answer(task: Task, settings: Settings, mouth: Mouth, shards: Path) -> bytes | Path | Problem:
+    """The answer of the service to the task; of a sweep the file of its table. shards: folder of a sweep"""
     try:
+        if task.call == SWEEP:
+            from app.jobs.sweeping import swept  # What it needs takes 0.3 s to load, and no other job needs it.
+
+            return swept(task, settings, shards, mouth)
         return task.answer(settings, mouth.share)
     except MemoryError:
         most = settings.job_memory_max
@@ -72,12 +56,16 @@ def answer(task: Task, settings: Settings, mouth: Mouth) -> bytes | Problem:
         return problem_of(500, "internal-error", "The service failed on this job; the log of the service says why.")
 
 
-def written(found: bytes, folder: Path) -> Path:
-    """A new file with the answer, safe on the disk. raises: OSError, and leaves no file"""
+def written(found: bytes | Path, folder: Path) -> Path:
+    """A new file with the answer, safe on the disk; of a file a copy. raises: OSError, and leaves no file"""
     handle, name = tempfile.mkstemp(prefix=".", dir=folder)
     try:
         with os.fdopen(handle, "wb") as file:
-            file.write(found)
+            if isinstance(found, Path):
+                with found.open("rb") as source:
+                    shutil.copyfileobj(source, file)
+            else:
+                file.write(found)
             file.flush()
             os.fsync(file.fileno())
     except BaseException:
@@ -87,14 +75,16 @@ def written(found: bytes, folder: Path) -> Path:
 
 
 def do(store: Store, job: str, settings: Settings, mouth: Mouth) -> None:
-    """The job, to its answer or its problem."""
+    """Run the job until it has an answer or a problem."""
     task = Task.from_bytes(store.call(job))
-    found = answer(task, settings, mouth)
+    found = answer(task, settings, mouth, store.shards(job))
     most = settings.job_result_bytes_max
-    if isinstance(found, bytes) and len(found) > most:
-        detail = f"The answer has {len(found)} bytes, and one that is kept may have {most}: ask for less."
-        found = problem_of(413, "content-too-large", detail)
-    if isinstance(found, bytes):
+    if not isinstance(found, Problem):
+        size = len(found) if isinstance(found, bytes) else found.stat().st_size
+        if size > most:
+            detail = f"The answer has {size} bytes, and one that is kept may have {most}: ask for less."
+            found = problem_of(413, "content-too-large", detail)
+    if not isinstance(found, Problem):
         try:
             return mouth.say(written=str(written(found, store.results)), media_type=task.form)
         except OSError as error:

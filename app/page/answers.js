@@ -10,6 +10,12 @@ const MARKS = { contact: "✕", contact_at_start: "✕", folds: "!", clear: "✓
 export const millimetres = (metres) => (1000 * metres).toFixed(3).replace(/^-(0\.0+)$/, "$1");
 const paragraph = (textContent, more) => make("p", { textContent, ...more });
 const pair = ([a, b], benches) => ({ a: benchName(a, benches), b: benchName(b, benches) });
+/** A separation in words: the gap, or below zero by how much two benches overlap. metres: [m] */
+export function gapWords(metres) {
+  const gap = millimetres(metres);
+  return gap.startsWith("-") ? say("overlap", { depth: gap.slice(1) }) : say("gap", { gap });
+}
+
 /** A bound with the given number of decimals, rounded to the side on which it still holds; way: 1 up, -1 down. */
 const bound = (value, decimals, way) => {
   const text = value.toFixed(decimals);
@@ -71,8 +77,9 @@ function contactLine(answer, { benches, margin }) {
   if (state === "clear") return end ? sayNear("clearUntil", margin, { time: end.time.toFixed(6) }) : sayNear("clearAll", margin);
   const [x, y, radius] = [...point, head.radius].map((one) => one.toFixed(6));
   const values = { ...pair(both, benches), x, y, radius };
-  if (margin > 0 && gap < 0) return say("pairOverlaps", { ...values, depth: millimetres(-gap) });
-  return sayNear("pairMeets", margin, { ...values, gap: millimetres(gap) });
+  const shown = millimetres(gap);
+  if (shown.startsWith("-")) return say("pairOverlaps", { ...values, depth: shown.slice(1) });
+  return sayNear("pairMeets", margin, { ...values, gap: shown });
 }
 
 /** The time until which nothing is proven to touch; none for a contact at the start, or if nothing is decided. */
@@ -166,5 +173,5 @@ export function insetWords({ benches: [a, b], corner, edge }, gap, { benches, ma
     corner && edge
       ? sayNear("insetMeet", margin, { corner: say(corner.name), a: name(corner.bench), edge: say(edge.name), b: name(edge.bench) })
       : `${name(a)}, ${name(b)}`;
-  return gap === null ? words : `${words}; ${say("gap", { gap: millimetres(gap) })}`;
+  return gap === null ? words : `${words}; ${gapWords(gap)}`;
 }

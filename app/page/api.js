@@ -5,7 +5,10 @@ const GRACE = 150;
 const HEARTBEAT = 5_000;
 const [RETRY_FIRST, RETRY_LAST] = [500, 8_000];
 const GATEWAY_ERRORS = [502, 504];
-const BUSY = 503;
+const EMPTY = 204;
+/** Refusals that a moment mends, and the longest moment for which a person is kept waiting [s]. */
+const BUSY = [429, 503];
+const MOMENT = 10;
 
 /** The service's message about a refused request; errors: [{name or pointer, detail}]. */
 export class Problem extends Error {
@@ -17,6 +20,9 @@ export class Problem extends Error {
 
 /** A newer question of the same kind replaced this one. */
 export class Superseded extends Error {}
+
+/** How long the service asks to wait [s]. */
+const pauseOf = (response) => Number(response.headers.get("Retry-After")) || 1;
 
 const wait = (milliseconds) => new Promise((resolve) => setTimeout(resolve, milliseconds));
 
@@ -57,12 +63,14 @@ export class Service {
     setInterval(() => document.hidden || this.#return || this.#beat(), HEARTBEAT);
   }
 
-  /** The newest answer on a channel. throws: Problem, Superseded */
-  async ask(channel, path, { query, body, accept = "application/json" } = {}) {
+  /** The newest answer on a channel; null for an empty one. body: sent as JSON; file: sent as it is; how: method, cache.
+   throws: Problem, Superseded */
+  async ask(channel, path, { query, body, file, accept = "application/json", headers: more, ...how } = {}) {
     if (!this.#channels.has(channel)) this.#channels.set(channel, new Channel());
     const url = query ? `${path}?${new URLSearchParams(query)}` : path;
-    const headers = { Accept: accept, ...(body && { "Content-Type": "application/json" }) };
-    const options = { method: body ? "POST" : "GET", headers, body: body && JSON.stringify(body) };
+    const type = file ? "application/octet-stream" : body && "application/json";
+    const headers = { Accept: accept, ...(type && { "Content-Type": type }), ...more };
+    const options = { method: type ? "POST" : "GET", headers, body: file ?? (body && JSON.stringify(body)), ...how };
     this.tell.busy(channel, true);
     try {
       const answer = await this.#channels.get(channel).ask((signal) => this.#patiently(url, options, signal));
@@ -83,9 +91,10 @@ export class Service {
   async #patiently(url, options, signal) {
     for (;;) {
       const response = await this.#fetch(url, { ...options, signal });
+      if (response?.status === EMPTY) return null;
       if (response?.ok) return options.headers.Accept.includes("json") ? response.json() : response.blob();
       if (!response) await this.#untilBack();
-      else if (response.status === BUSY) await wait(1000 * (Number(response.headers.get("Retry-After")) || 1));
+      else if (BUSY.includes(response.status) && pauseOf(response) <= MOMENT) await wait(1000 * pauseOf(response));
       else throw new Problem(response.status, await response.json().catch(() => null));
       signal.throwIfAborted();
     }

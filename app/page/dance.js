@@ -11,7 +11,7 @@ const PICK_RADIUS = 22;
 const INSET_WIDTHS = 1.6;
 
 /** A number of colours interpolated along a list such as "#00224e, #fee838". */
-function palette(ramp) {
+export function palette(ramp) {
   const stops = ramp.split(",").map((colour) => [1, 3, 5].map((at) => parseInt(colour.trim().slice(at, at + 2), 16)));
   return Array.from({ length: SHADES }, (_, k) => {
     const place = (k / SHADES) * (stops.length - 1);

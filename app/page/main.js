@@ -6,10 +6,14 @@ import { Chart, clearancePlan, scanPlan } from "./charts.js";
 import { Controls } from "./controls.js";
 import { Dance, speedRange } from "./dance.js";
 import { $, $$, make, onClick } from "./elements.js";
+import { Jobs } from "./jobs.js";
+import { Grader } from "./grade.js";
 import { Keep } from "./keep.js";
 import { Player } from "./player.js";
 import { Questions } from "./questions.js";
+import { SweepMap } from "./map.js";
 import { FIELDS, State } from "./state.js";
+import { QUESTIONS, SweepForm } from "./sweeps.js";
 import { Table } from "./table.js";
 import { benchName, handleName, refusalWords, say, sayNear, setLanguage } from "./text.js";
 
@@ -23,6 +27,7 @@ const BUSY = {
   fastest: ["#highest-speed"],
   clearance: ["#clearance"],
   scan: ["#scan"],
+  grade: ["#grade"],
 };
 /** Titles of the boxes that show a refusal. */
 const TITLES = { contact: "firstContact", minimum: "minimumPitch", shortest: "shortestTurn", fastest: "highest" };
@@ -62,6 +67,11 @@ const charts = {
   scan: new Chart($("#scan .plot"), scanPlan, (pitch) => state.set({ pitch: pitch.toFixed(PITCH_DECIMALS) })),
 };
 const keep = new Keep(state, service, questions, $("#canvas"), announce);
+const map = new SweepMap($("#map"), openDesign);
+const jobs = new Jobs($("#jobs"), service, showMap, announce);
+new SweepForm($("#sweep"), state, (spec) => jobs.start(spec));
+let swept = null;
+const grader = new Grader(service);
 let limits = {};
 let drawing = 0;
 
@@ -143,7 +153,7 @@ function showTime() {
   const step = (of.end - of.begin) / (answer.time.length - 1) || 1;
   const k = Math.min(Math.round((time - of.begin) / step), answer.time.length - 1);
   const [a, b] = answer.benches[k].map((bench) => benchName(bench, of.numbers.benches));
-  const gap = answers.millimetres(answer.clearance[k]);
+  const gap = answers.gapWords(answer.clearance[k]);
   $("#clearance .reading").textContent = say("clearanceAt", { time: answer.time[k].toFixed(2), gap, a, b });
 }
 
@@ -252,16 +262,35 @@ function showState(changed) {
   draw();
 }
 
+/** Show the map of a sweep. spec: null if another browser asked for it */
+function showMap(columns, spec) {
+  swept = spec ?? null;
+  map.show(columns, QUESTIONS[spec?.question]?.value, `value_${spec?.question}`);
+}
+
+/** Show the dance of one design. over: its parameters; row: all columns of it */
+function openDesign(over, row) {
+  const { path, value } = QUESTIONS[swept?.question] ?? { path: "spiral" };
+  const answered = value === "pitch" && row.pitch !== null ? { pitch: row.pitch } : {};
+  const known = Object.entries({ ...swept?.request, ...over, ...answered }).filter(([name]) => NUMBERS.includes(name));
+  state.set({ path, time: null, view: null, ...Object.fromEntries(known.map(([name, number]) => [name, String(number)])) });
+  $("#canvas").scrollIntoView({ block: "nearest" });
+}
+
 /** Mark the button of this value as pressed, among buttons that choose between values. */
 function press(name, value) {
   for (const button of $$(`[data-${name}]`)) button.setAttribute("aria-pressed", button.dataset[name] === value);
 }
 
 function translate() {
-  press("lang", setLanguage(state.get("lang")));
+  const language = setLanguage(state.get("lang"));
+  press("lang", language);
+  grader.translate(language);
   showScanHelp();
   controls.translate(limits);
   player.translate();
+  jobs.render();
+  map.draw();
   for (const [kind, show] of Object.entries(SHOW)) if (kind === "dance" ? questions.dance : questions.answers[kind]) show();
   if (dance.scene.pose) showPose(dance.scene.pose);
   TELL.refused();
@@ -306,6 +335,8 @@ function listen() {
 function restyle() {
   dance.restyle();
   for (const chart of Object.values(charts)) chart.show();
+  map.draw();
+  grader.show();
   draw();
 }
 
@@ -315,6 +346,7 @@ async function readLimits() {
   const parameters = ["/collision-time", "/minimum-pitch"].flatMap((path) => paths[path].get.parameters);
   const range = ({ minimum, exclusiveMinimum, maximum, "x-unit": unit }) => [minimum ?? exclusiveMinimum, maximum, unit];
   limits = Object.fromEntries(parameters.map(({ name, schema }) => [name, range(schema)]));
+  map.units = Object.fromEntries(Object.entries(limits).map(([name, [, , unit]]) => [name, unit]));
   controls.translate(limits);
 }
 

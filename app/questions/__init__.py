@@ -10,12 +10,14 @@ from app.questions import (
     clearance,
     collision_time,
     figures,
+    films,
     maximum_head_speed,
     minimum_pitch,
     overlaps,
     paper,
     pitch_scan,
     shortest_turn,
+    tolerance,
     trajectory,
     turn,
 )
@@ -32,11 +34,13 @@ _ALL = (
     shortest_turn.QUESTION,
     maximum_head_speed.QUESTION,
     check.QUESTION,
+    tolerance.QUESTION,
     overlaps.QUESTION,
     paper.QUESTION,
     figures.TRAJECTORY,
     figures.CONTACT,
     figures.PITCH_SCAN,
+    films.QUESTION,
 )
 QUESTIONS: dict[str, Question] = {question.name: question for question in _ALL}
 CALLS: dict[str, Call] = {call.name: call for question in _ALL for call in calls_of(question)}

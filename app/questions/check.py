@@ -8,8 +8,7 @@ from pydantic import Field
 
 import core
 from app.questions.collision_time import CollisionTime, Contact
-from app.questions.question import Question
-from app.settings import Settings
+from app.questions.question import Question, Terms
 from app.wire import degrees
 from app.wire.answers import Head, Pair, Point
 from app.wire.dances import PlacedDance
@@ -30,8 +29,12 @@ class CheckRequest(Contact, PlacedDance, strict=True):
 class LeastClearance(Answer):
     """The least clearance over the dance."""
 
-    distance: float = measure("m", "Smallest distance found; 0 at the first touch")
-    at_least: float | None = measure("m", "Proven lower bound; null: the search gave up before proving one")
+    distance: float = measure(
+        "m", "Smallest distance found; 0 at the first touch; below zero by how much benches overlap at the start"
+    )
+    at_least: float | None = measure(
+        "m", "Proven lower bound; null: the search gave up before proving one, or the distance is below zero"
+    )
     time: float = measure("s", "Time of the smallest distance")
     benches: Pair = Field(description="The pair at that distance")
 
@@ -62,7 +65,7 @@ class AreaClearance(Answer):
     nearest: Nearest = Field(description="Smallest distance over the dance")
 
 
-class Stray(Answer):
+class Misplaced(Answer):
     """A bench that starts outside the square or inside an obstacle."""
 
     name: str = Field(description="Name of the square or of the obstacle")
@@ -73,8 +76,13 @@ class Stray(Answer):
 class VenueClearance(Answer):
     """Distances between the benches and the venue."""
 
-    stray: Stray | None = Field(description="The first bench that starts outside the square or in an obstacle")
+    misplaced: Misplaced | None = Field(description="The first bench that starts outside the square or in an obstacle")
+    stray: Misplaced | None = Field(description="The same, by the name that it had first")
     areas: list[AreaClearance] = Field(description="The square, then the obstacles")
+
+    @classmethod
+    def of(cls, found: core.VenueClearance | None) -> Self | None:
+        return None if found is None else cls.known(found, stray=found.misplaced)
 
 
 class HighestSpeed(Answer):
@@ -156,23 +164,28 @@ class Report(Answer):
     origin: Origin | None = Field(description="Place of x = y = 0; null unless the venue was given in degrees")
 
     @classmethod
-    def of(cls, found: core.Report, dance: core.Dance, asked: CheckRequest, origin: degrees.Origin | None) -> Self:
-        return cls.known(found, first_contact=CollisionTime.of(found.first_contact, dance, asked), origin=origin)
+    def of(
+        cls, found: core.Report, dance: core.Dance, asked: CheckRequest, terms: Terms, origin: degrees.Origin | None
+    ) -> Self:
+        contact = CollisionTime.of(found.first_contact, dance, asked, terms)
+        return cls.known(found, first_contact=contact, venue=VenueClearance.of(found.venue), origin=origin)
 
 
-def check(asked: CheckRequest, settings: Settings) -> Report:
+def check(asked: CheckRequest, terms: Terms) -> Report:
     """Can the dragon dance this path here? First contact, least clearance, venue, speed, sharpest bend."""
-    dance = asked.to_dance(settings.checked_benches_max)
+    dance = asked.to_dance(terms.settings.checked_benches_max)
     place = asked.to_place(dance.dragon)
     found = core.check(
         dance,
         venue=place.venue,
         margin=asked.margin,
+        stray=asked.to_stray(),
         speed_limit=asked.speed_limit,
         start=asked.start,
         stop=asked.stop,
+        budget=terms.budget,
     )
-    return Report.of(found, dance, asked, place.origin)
+    return Report.of(found, dance, asked, terms, place.origin)
 
 
 QUESTION = Question(check, Report, body=CheckRequest)

@@ -5,11 +5,13 @@ from __future__ import annotations
 from pydantic import Field
 
 import core
-from app.questions.question import Question
-from app.settings import Settings
+from app.questions.question import Question, Terms
 from app.wire.answers import Columns, Graze, Pair
-from app.wire.dances import DanceQuery, TimedDance, TimeRange
+from app.wire.dances import DanceQuery, TimedDance, TimeRange, TimeSteps
 from app.wire.models import Answer, measure
+
+# Time that one bench at one instant takes, measured 2026-11-22 [s].
+SECONDS_PER_CELL = 3e-6
 
 
 class ClearanceQuery(TimeRange, DanceQuery):
@@ -29,13 +31,24 @@ class ClearanceTable(Answer):
     grazes: list[Graze] = Field(description="Local minima between the first and the last instant, refined")
 
 
-def clearance(asked: ClearanceQuery | ClearanceRequest, settings: Settings) -> Columns:
+def clearance(asked: ClearanceQuery | ClearanceRequest, terms: Terms) -> Columns:
     """Smallest separation of two benches that are not neighbours, and the pair, at every instant."""
-    flat = isinstance(asked, ClearanceQuery)
-    dance = asked.to_dance(settings.benches_max if flat else settings.checked_benches_max)
-    found = core.clearance_profile(dance, asked.times_of(dance, settings.cells_max))
+    found = profile(asked, terms)
     columns = {"time": found.time, "clearance": found.clearance, "benches": found.benches}
     return Columns(columns | {"grazes": found.grazes})
 
 
-QUESTION = Question(clearance, ClearanceTable, flat=ClearanceQuery, body=ClearanceRequest)
+def profile(asked: ClearanceQuery | ClearanceRequest, terms: Terms) -> core.ClearanceProfile:
+    """The same as core has it. raises: TooLarge, InvalidValue"""
+    flat = isinstance(asked, ClearanceQuery)
+    dance = asked.to_dance(terms.settings.benches_max if flat else terms.settings.checked_benches_max)
+    return core.clearance_profile(dance, asked.times_of(dance, terms.settings.cells_max), budget=terms.budget)
+
+
+def _cost(asked: ClearanceQuery | ClearanceRequest) -> float:
+    times = (asked if isinstance(asked, ClearanceQuery) else asked.times) or TimeSteps()
+    instants = len(times) if isinstance(times, list) else times.instants()
+    return instants * asked.benches * SECONDS_PER_CELL
+
+
+QUESTION = Question(clearance, ClearanceTable, flat=ClearanceQuery, body=ClearanceRequest, cost=_cost)

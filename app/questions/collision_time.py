@@ -7,15 +7,18 @@ from typing import Self
 from pydantic import Field
 
 import core
-from app.questions.question import Question
-from app.settings import Settings
+from app.questions.question import UNKNOWN_COST, Question, Terms
 from app.wire.answers import End, Feature, Graze, Head, Pair, PairCheck, Point
-from app.wire.dances import DanceFields, DanceQuery
-from app.wire.models import Answer, CrossCheck, Instant, Margin, Wire, measure
+from app.wire.dances import DanceFields, DanceQuery, Strays, UniformDragon
+from app.wire.models import Answer, CrossCheck, Instant, Margin, measure
+from app.wire.paths import SpiralPath
 from core import Dance, Outcome
 
+# Of longer dragons only the benches near the contact are judged.
+JUDGED_MOST = 2_000
 
-class Contact(Wire):
+
+class Contact(Strays):
     """What counts as a contact, and how independent engines check it."""
 
     margin: Margin = 0.0
@@ -67,7 +70,9 @@ class CollisionTime(Answer):
     head: Head | None = Field(description="The head at that time")
     benches: Pair | None = Field(description="The pair in contact")
     gap: float | None = measure(
-        "m", "Gap between the two at that time: the margin, or less if they are nearer from the start"
+        "m",
+        "Gap between the two at that time, each in its place: the margin, or less if they are nearer from the start, "
+        "or more with a stray",
     )
     corner: Feature | None = Field(description="Corner that touches or is nearest")
     edge: Feature | None = Field(description="Edge that this corner touches or is nearest to")
@@ -76,24 +81,40 @@ class CollisionTime(Answer):
     certificate: Certificate = Field(description="How the answer is known")
     cross_check: PairCheck | None = Field(
         description="Verdicts of the engines 1e-6 m of travel before and after the contact (for a contact at the "
-        "start: at the start and after it); null without a contact or if not requested"
+        "start: at the start and after it), with a stray of the pair alone at its own distance; null without a "
+        "contact or if not requested"
     )
 
     @classmethod
-    def of(cls, contact: core.FirstContact, dance: Dance, asked: Contact) -> Self:
+    def of(cls, contact: core.FirstContact, dance: Dance, asked: Contact, terms: Terms) -> Self:
         check = None
         if asked.cross_check != "none":
-            check = core.contact_check(contact, dance, margin=asked.margin, whole=asked.cross_check == "dragon")
+            whole = asked.cross_check == "dragon"
+            check = core.contact_check(contact, dance, margin=asked.margin, whole=whole, budget=terms.budget)
         return cls.known(contact, margin=asked.margin, cross_check=check)
 
 
-def collision_time(asked: CollisionQuery | CollisionRequest, settings: Settings) -> CollisionTime:
+def collision_time(asked: CollisionQuery | CollisionRequest, terms: Terms) -> CollisionTime:
     """When two benches that share no handle first touch or come nearer than a margin, and how that is known."""
-    dance, start, stop = asked.to_dance(asked.most_benches(settings)), 0.0, None
+    dance, start, stop = asked.to_dance(asked.most_benches(terms.settings)), 0.0, None
     if isinstance(asked, CollisionRequest):
         start, stop = dance.begin if asked.start is None else asked.start, asked.stop
-    found = core.first_contact(dance, margin=asked.margin, start=start, stop=stop)
-    return CollisionTime.of(found, dance, asked)
+    found = core.first_contact(
+        dance, margin=asked.margin, stray=asked.to_stray(), start=start, stop=stop, budget=terms.budget
+    )
+    return CollisionTime.of(found, dance, asked, terms)
 
 
-QUESTION = Question(collision_time, CollisionTime, flat=CollisionQuery, body=CollisionRequest)
+def _cost(asked: CollisionQuery | CollisionRequest) -> float:
+    """A search on a spiral does not grow with the benches; a judgement of the whole dragon does."""
+    if isinstance(asked, CollisionRequest):
+        repeats = isinstance(asked.path, SpiralPath) and isinstance(asked.dragon, UniformDragon)
+        if not repeats:
+            return UNKNOWN_COST
+    if asked.strays:
+        return UNKNOWN_COST
+    judged = min(asked.benches, JUDGED_MOST) if asked.cross_check == "dragon" else 0
+    return 0.005 + 5e-5 * judged + 2e-6 * asked.benches
+
+
+QUESTION = Question(collision_time, CollisionTime, flat=CollisionQuery, body=CollisionRequest, cost=_cost)

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from enum import StrEnum
 
 from app.questions.pitch_scan import PitchScanQuery, PitchScanRequest
-from app.questions.question import Question
-from app.settings import Settings
+from app.questions.question import Question, Terms
 from app.wire.dances import DanceQuery, PlacedDance
 from app.wire.models import Instant, Margin, measure
+from core.design.pitch_scan import scan_near_minimum
 
 
 class Format(StrEnum):
@@ -61,47 +60,48 @@ class ContactFigureRequest(PlacedDance):
     stop: Instant | None = measure("s", "End time; null: the end of the run", None)
 
 
-def trajectory_figure(asked: TrajectoryFigureQuery | TrajectoryFigureRequest, settings: Settings, form: str) -> bytes:
+def trajectory_figure(asked: TrajectoryFigureQuery | TrajectoryFigureRequest, terms: Terms, form: str) -> bytes:
     """Every handle at one instant, coloured by its speed, on the given path and in the given venue."""
     from app.files import figures
 
-    dance = asked.to_dance(settings.drawn_benches_max)
+    dance = asked.to_dance(terms.settings.drawn_benches_max)
     venue = asked.to_place(dance.dragon).venue if isinstance(asked, PlacedDance) else None
     time = dance.default_start if asked.time is None else asked.time
     return figures.trajectory_figure(dance, venue=venue, time=time, format=FORMATS[form])
 
 
-def contact_figure(asked: ContactQuery | ContactFigureRequest, settings: Settings, form: str) -> bytes:
+def contact_figure(asked: ContactQuery | ContactFigureRequest, terms: Terms, form: str) -> bytes:
     """The dance at first contact, with the pair that touches or is too near marked and enlarged."""
     from app.files import figures
 
     if isinstance(asked, ContactQuery):
-        dance = asked.to_dance(settings.drawn_benches_max)
-        return figures.contact_figure(dance, margin=asked.margin, format=FORMATS[form])
-    dance = asked.to_dance(settings.checked_benches_max)
+        dance = asked.to_dance(terms.settings.drawn_benches_max)
+        return figures.contact_figure(dance, margin=asked.margin, format=FORMATS[form], budget=terms.budget)
+    dance = asked.to_dance(terms.settings.checked_benches_max)
     start = dance.default_start if asked.start is None else asked.start
     venue = asked.to_place(dance.dragon).venue
     return figures.contact_figure(
-        dance, venue=venue, margin=asked.margin, start=start, stop=asked.stop, format=FORMATS[form]
+        dance,
+        venue=venue,
+        margin=asked.margin,
+        start=start,
+        stop=asked.stop,
+        format=FORMATS[form],
+        budget=terms.budget,
     )
 
 
-def pitch_scan_figure(
-    asked: PitchScanQuery | PitchScanRequest,
-    settings: Settings,
-    form: str,
-    *,
-    progress: Callable[[float], None] = lambda share: None,
-) -> bytes:
+def pitch_scan_figure(asked: PitchScanQuery | PitchScanRequest, terms: Terms, form: str) -> bytes:
     """Where the head stands at first contact, against the pitch: jumps as jumps, the minimum pitch marked."""
     from app.files import figures
 
-    dragon = asked.to_dragon(min(settings.drawn_benches_max, asked.most_benches(settings)))
-    return figures.pitch_scan_figure(
-        dragon, samples=asked.samples, format=FORMATS[form], progress=progress, **asked.to_circle()
+    dragon = asked.to_dragon(min(terms.settings.drawn_benches_max, asked.most_benches(terms.settings)))
+    found = scan_near_minimum(
+        dragon, samples=asked.samples, progress=terms.progress, budget=terms.budget, **asked.to_circle()
     )
+    return figures.pitch_scan_figure(*found, format=FORMATS[form], **asked.to_circle())
 
 
 TRAJECTORY = Question(trajectory_figure, None, flat=TrajectoryFigureQuery, body=TrajectoryFigureRequest, forms=FORMS)
 CONTACT = Question(contact_figure, None, flat=ContactQuery, body=ContactFigureRequest, forms=FORMS)
-PITCH_SCAN = Question(pitch_scan_figure, None, flat=PitchScanQuery, body=PitchScanRequest, forms=FORMS, tells=True)
+PITCH_SCAN = Question(pitch_scan_figure, None, flat=PitchScanQuery, body=PitchScanRequest, forms=FORMS)

@@ -5,8 +5,7 @@ from __future__ import annotations
 from pydantic import Field
 
 import core
-from app.questions.question import Question
-from app.settings import Settings
+from app.questions.question import Question, Terms
 from app.wire.dances import DanceFields, UniformDragon
 from app.wire.models import Answer, Instant, SpeedLimit, Wire, measure
 from app.wire.paths import BY_KIND, AnyPath, TurnFields, TurnPath
@@ -53,14 +52,15 @@ class MaximumHeadSpeed(Answer):
     time_at_unit_head_speed: float = measure("s", "The same time at a head speed of 1 m/s")
 
 
-def maximum_head_speed(asked: MaximumHeadSpeedQuery | MaximumHeadSpeedRequest, settings: Settings) -> MaximumHeadSpeed:
+def maximum_head_speed(asked: MaximumHeadSpeedQuery | MaximumHeadSpeedRequest, terms: Terms) -> MaximumHeadSpeed:
     """The largest constant head speed at which no handle ever exceeds the limit."""
-    dance, limit = asked.to_dance(settings.checked_benches_max), asked.speed_limit
+    dance, limit = asked.to_dance(terms.settings.checked_benches_max), asked.speed_limit
     if isinstance(asked, MaximumHeadSpeedQuery):
-        return MaximumHeadSpeed.model_validate(core.maximum_head_speed(dance, limit))
+        return MaximumHeadSpeed.model_validate(core.maximum_head_speed(dance, limit, budget=terms.budget))
     # Core takes times at a head speed of 1 m/s.
     start, stop = (None if time is None else time * asked.head_speed for time in (asked.start, asked.stop))
-    return MaximumHeadSpeed.model_validate(core.maximum_head_speed(dance, limit, start=start, stop=stop))
+    found = core.maximum_head_speed(dance, limit, start=start, stop=stop, budget=terms.budget)
+    return MaximumHeadSpeed.model_validate(found)
 
 
 QUESTION = Question(maximum_head_speed, MaximumHeadSpeed, flat=MaximumHeadSpeedQuery, body=MaximumHeadSpeedRequest)

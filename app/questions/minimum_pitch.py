@@ -7,16 +7,18 @@ from typing import Self
 from pydantic import Field
 
 import core
-from app.questions.question import Question
-from app.settings import Settings
+from app.questions.question import UNKNOWN_COST, Question, Terms
 from app.wire.answers import Pair, PairCheck, Point
-from app.wire.dances import BenchByBench, Circle, DragonFields, UniformDragon
+from app.wire.dances import BenchByBench, Circle, DragonFields, Strays, UniformDragon
 from app.wire.models import PITCH_MAX, Answer, CrossCheck, measure
 from core import Dragon, InvalidValue, LimitedBy
 from core.errors import said
 
+# A search with chords of at least this and circles of at most this takes 20 ms [m].
+CHORD_ORDINARY, CIRCLE_ORDINARY = 0.5, 30.0
 
-class PitchFields(Circle):
+
+class PitchFields(Strays, Circle):
     """How tight may the spiral be?"""
 
     cross_check: CrossCheck = "dragon"
@@ -61,14 +63,15 @@ class MinimumPitch(Answer):
     )
     cross_check: PairCheck | None = Field(
         description="Verdicts of the engines at a pitch 1e-6 m larger and smaller, with the head where the pair is in "
-        "contact; null without a pair or if not requested"
+        "contact; null without a pair, with a stray, or if not requested"
     )
 
     @classmethod
-    def of(cls, found: core.MinimumPitch, dragon: Dragon, asked: PitchFields) -> Self:
+    def of(cls, found: core.MinimumPitch, dragon: Dragon, asked: PitchFields, terms: Terms) -> Self:
         check = None
-        if asked.cross_check != "none":
-            check = core.pitch_check(found, dragon, margin=asked.margin, whole=asked.cross_check == "dragon")
+        if asked.cross_check != "none" and not asked.to_stray().total:
+            whole = asked.cross_check == "dragon"
+            check = core.pitch_check(found, dragon, margin=asked.margin, whole=whole, budget=terms.budget)
         return cls.known(found, cross_check=check)
 
 
@@ -94,11 +97,22 @@ def allowed(found: core.MinimumPitch, asked: Circle, dragon: Dragon) -> core.Min
     raise InvalidValue.of(field, narrower, float(dragon.overhangs[bench]), "m")
 
 
-def minimum_pitch(asked: MinimumPitchQuery | MinimumPitchRequest, settings: Settings) -> MinimumPitch:
+def minimum_pitch(asked: MinimumPitchQuery | MinimumPitchRequest, terms: Terms) -> MinimumPitch:
     """The smallest pitch such that at every larger one the head reaches the circle without a contact."""
-    dragon = asked.to_dragon(asked.most_benches(settings))
-    found = allowed(core.minimum_pitch(dragon, **asked.to_circle()), asked, dragon)
-    return MinimumPitch.of(found, dragon, asked)
+    dragon = asked.to_dragon(asked.most_benches(terms.settings))
+    found = core.minimum_pitch(dragon, **asked.to_circle(), stray=asked.to_stray(), budget=terms.budget)
+    return MinimumPitch.of(allowed(found, asked, dragon), dragon, asked, terms)
 
 
-QUESTION = Question(minimum_pitch, MinimumPitch, flat=MinimumPitchQuery, body=MinimumPitchRequest)
+def _cost(asked: MinimumPitchQuery | MinimumPitchRequest) -> float:
+    """Benches shorter than their way around the circle is long take thousands of times as long as ordinary ones."""
+    dragon = asked if isinstance(asked, MinimumPitchQuery) else asked.dragon
+    if asked.strays or not isinstance(dragon, UniformDragon):
+        return UNKNOWN_COST
+    chord = min(dragon.head_length, dragon.body_length) - 2 * dragon.overhang
+    if chord < CHORD_ORDINARY or asked.turning_diameter > CIRCLE_ORDINARY:
+        return UNKNOWN_COST
+    return 0.02 + 1e-4 * dragon.benches
+
+
+QUESTION = Question(minimum_pitch, MinimumPitch, flat=MinimumPitchQuery, body=MinimumPitchRequest, cost=_cost)

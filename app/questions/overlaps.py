@@ -9,8 +9,7 @@ from pydantic import Field
 
 import core
 from app.questions.figures import InstantQuery
-from app.questions.question import Question
-from app.settings import Settings
+from app.questions.question import Question, Terms
 from app.wire.answers import LEFT_OUT, Pair, Point
 from app.wire.models import Answer, Coordinate, Length, Margin, Width, Wire, check_limit, measure
 from core import Engine
@@ -82,27 +81,33 @@ class OverlapsAnswer(Answer):
         )
 
 
-def overlaps(asked: OverlapsRequest, settings: Settings) -> OverlapsAnswer:
+def overlaps(asked: OverlapsRequest, terms: Terms) -> OverlapsAnswer:
     """Which benches overlap or are nearer than a margin, how deep and where, according to four engines."""
-    poses, lengths, widths = asked.to_poses(settings.poses_max)
-    return _judged(poses, lengths, widths, settings, margin=asked.margin, chained=asked.chained)
+    poses, lengths, widths = asked.to_poses(terms.settings.poses_max)
+    return _judged(poses, lengths, widths, terms, margin=asked.margin, chained=asked.chained)
 
 
-def of_dance(asked: InstantQuery, settings: Settings) -> OverlapsAnswer:
+def of_dance(asked: InstantQuery, terms: Terms) -> OverlapsAnswer:
     """The same for the benches of a dance at one instant."""
-    dance = asked.to_dance(settings.poses_max)
-    dragon, poses = dance.dragon, core.bench_poses(core.trajectory(dance, [asked.time]).position[0])
-    return _judged(poses, dragon.lengths, dragon.widths, settings, margin=asked.margin, chained=True)
+    dance = asked.to_dance(terms.settings.poses_max)
+    handles = core.trajectory(dance, [asked.time], budget=terms.budget).position[0]
+    dragon, poses = dance.dragon, core.bench_poses(handles)
+    return _judged(poses, dragon.lengths, dragon.widths, terms, margin=asked.margin, chained=True)
 
 
 def _judged(
-    poses: Floats, lengths: Floats, widths: Floats, settings: Settings, *, margin: float, chained: bool
+    poses: Floats, lengths: Floats, widths: Floats, terms: Terms, *, margin: float, chained: bool
 ) -> OverlapsAnswer:
     """The overlaps of benches, and the verdict of each engine on them. raises: TooLarge, InvalidValue"""
-    found = core.overlaps(poses, lengths, widths, margin=margin, chained=chained)
-    check_limit("benches", "overlapping pairs", len(found.pairs), settings.pairs_max, "move them apart")
-    check = core.cross_check(poses, lengths, widths, margin=margin, chained=chained)
+    found = core.overlaps(poses, lengths, widths, margin=margin, chained=chained, budget=terms.budget)
+    check_limit("benches", "overlapping pairs", len(found.pairs), terms.settings.pairs_max, "move them apart")
+    check = core.cross_check(poses, lengths, widths, margin=margin, chained=chained, budget=terms.budget)
     return OverlapsAnswer.of(found, check)
 
 
-QUESTION = Question(overlaps, OverlapsAnswer, body=OverlapsRequest)
+def _cost(asked: OverlapsRequest) -> float:
+    benches = len(asked.benches)
+    return 4e-5 * benches + 5e-6 * min(benches * benches / 2, 20_000)
+
+
+QUESTION = Question(overlaps, OverlapsAnswer, body=OverlapsRequest, cost=_cost)

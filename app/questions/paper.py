@@ -6,55 +6,46 @@ Its four numbers and its search range are constants here; every other number is 
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from functools import cache
 
 import numpy as np
 from pydantic import Field
 
-from app.questions.question import Question
-from app.settings import Settings
-from app.wire.models import Answer, Wire
-from core import (
-    Dragon,
-    FirstContact,
-    Spiral,
-    bench_poses,
-    clearance_profile,
-    first_contact,
-    minimum_pitch,
-    separation,
+from app.files.tables import Language
+from app.grade.report import DiagnosisAnswer, typed
+from app.grade.shortcuts import (
+    EXACT_ANGLE,
+    LOOSE_ANGLE,
+    PITCH_RANGE,
+    RESOLUTION,
+    TURNING_RADIUS,
+    angle_sum_time,
+    any_touch_at_start,
+    circle_pitch,
+    head_touches_at_start,
+    largest_sum,
 )
+from app.grade.words import say
+from app.questions.question import Question, Terms
+from app.wire.models import Answer, Wire
+from core import Dance, Dragon, FirstContact, Spiral, clearance_profile, first_contact, minimum_pitch
 from core import trajectory as trajectory_of
-from core.dance import Dance
 from core.design.pitch_scan import stop_radius
-from core.shapes.angle_sum import angle_sums, literal_corners
+from core.sampling import bisected
+from core.shapes.angle_sum import literal_corners
 from core.shapes.rectangles import corners
-from core.values import Floats
 
 PAPER_LENGTH = 442.590256  # [m], eq. 2
 PAPER_TIME = 406.43  # [s], figure 7
 PAPER_RADIUS = 2.883  # [m], section 3.3
 PAPER_PITCH = 0.474924  # [m], section 3.3
-PAPER_RANGE = (0.30, 0.55)  # [m], section 3.3
-TURNING_RADIUS = 4.5  # [m], section 2.5
 
-# Angle sum [deg] that must be counted as 360 to obtain the paper's time.
-LOOSE_ANGLE = 359.1
-# Rounding of an angle sum [deg]: corners inside give 360 within 1e-12, corners 1e-9 m outside give less than this.
-EXACT_ANGLE = 360.0 - 1e-6
-# The head's neighbourhood: the ring around it has at most 34 benches; benches further back lie in a ring further out.
-RING_BENCHES = 40
-# Steps of the searches for a first time [s] and for sign changes in the pitch [m], and where bisection stops.
-TIME_STEP = 0.1
-PITCH_STEP = 0.001
-RESOLUTION = 1e-10
-# The angle sums of the whole run in one array would take 500 MB.
-SUM_BATCHES = 20
-
-
-# Poses (..., 3) and sizes (..., 2) -> corners (..., 4, 2).
-Outline = Callable[[Floats, Floats], Floats]
+# Numbers that others published: where, its number, and its name in app/grade/shortcuts.py.
+PUBLISHED = (
+    ("B. Zhang, Y. Shang, X. Lin, ICMMCT 2025, doi 10.25236/icmmct.2025.021", "collision_time", "412.478"),
+    ("B. Zhang, Y. Shang, X. Lin, ICMMCT 2025, doi 10.25236/icmmct.2025.021", "pitch", "0.45035"),
+    ("Z. Shi, Y. Wei, C. Zhang, AJST, article 30378, doi 10.54097/rq3xkw77", "pitch", "0.43"),
+)
 
 
 class Nothing(Wire):
@@ -82,10 +73,23 @@ class PaperNumber(Answer, frozen=True):
     evidence: list[Evidence] = Field(description="Computations behind the reason")
 
 
+class PublishedNumber(Answer, frozen=True):
+    """One number that others published about the contest's problem, beside ours."""
+
+    quantity: str = Field(description="Name of the quantity")
+    unit: str = Field(description="Unit of published, ours and difference")
+    source: str = Field(description="Authors, place, year and DOI")
+    published: float = Field(description="Value as published, in that unit")
+    ours: float = Field(description="Value computed here, in that unit")
+    difference: float = Field(description="Our value minus the published one, in that unit")
+    diagnosis: list[DiagnosisAnswer] = Field(description="Known shortcuts that give it; empty where nothing fits")
+
+
 class PaperTable(Answer):
-    """The paper's reported numbers beside ours."""
+    """The paper's reported numbers beside ours, and those of other publications."""
 
     rows: list[PaperNumber] = Field(description="One row for each number in the paper")
+    literature: list[PublishedNumber] = Field(description="One row for each number published elsewhere")
 
 
 @cache
@@ -93,6 +97,26 @@ def comparison() -> tuple[PaperNumber, ...]:
     """The four numbers that the paper reports, for its own dragon and spiral."""
     found = first_contact(Dance(Dragon(), Spiral()))
     return (_arc_length(), _collision_time(found), _collision_radius(found), _minimum_pitch())
+
+
+@cache
+def literature() -> tuple[PublishedNumber, ...]:
+    """The numbers of other publications, each with the shortcut that gives it where one is known."""
+    found = []
+    for source, name, text in PUBLISHED:
+        one = typed(name, text, Language.ENGLISH)
+        found.append(
+            PublishedNumber(
+                quantity=say(name, Language.ENGLISH),
+                unit=one.unit,
+                source=source,
+                published=one.found,
+                ours=one.expected,
+                difference=one.expected - one.found,
+                diagnosis=one.diagnosis,
+            )
+        )
+    return tuple(found)
 
 
 def _compared(
@@ -118,8 +142,8 @@ def _arc_length() -> PaperNumber:
 
 def _collision_time(found: FirstContact) -> PaperNumber:
     assert found.time is not None
-    loose = _first_time(corners, LOOSE_ANGLE)
-    literal = _first_time(literal_corners, EXACT_ANGLE)
+    loose = angle_sum_time(corners, LOOSE_ANGLE)
+    literal = angle_sum_time(literal_corners, EXACT_ANGLE)
     there = clearance_profile(Dance(Dragon(), Spiral()), np.array([PAPER_TIME]))
     a, b = (int(bench) for bench in there.benches[0])
     gap = float(there.clearance[0])
@@ -129,10 +153,10 @@ def _collision_time(found: FirstContact) -> PaperNumber:
         f"without a contact: it passes {LOOSE_ANGLE:g} degrees at {loose:.2f} s, where benches {a} and {b} are "
         f"{1000 * gap:.1f} mm apart. Rounding such a sum up to 360 gives the paper's time.",
         [
-            _fact("largest angle sum at the paper's time", _largest_sum(corners, PAPER_TIME), "deg"),
+            _fact("largest angle sum at the paper's time", largest_sum(corners, PAPER_TIME), "deg"),
             _fact(f"first time of an angle sum of {LOOSE_ANGLE:g} degrees", loose, "s"),
             _fact(f"clearance at the paper's time, benches {a} and {b}", gap, "m"),
-            _fact("first time of an angle sum of 360 degrees", _first_time(corners, EXACT_ANGLE), "s"),
+            _fact("first time of an angle sum of 360 degrees", angle_sum_time(corners, EXACT_ANGLE), "s"),
             _fact("the same with eq. 12 as printed: w/2 cos theta of the wrong sign in all four y", literal, "s"),
         ],
     )  # fmt: skip
@@ -160,7 +184,7 @@ def _minimum_pitch() -> PaperNumber:
     below, above = _bisected_radius()
     head = first_contact(Dance(Dragon(), Spiral(PAPER_PITCH))).head
     at_paper = head.radius if head else 0.0
-    alone, head_alone = _circle_pitch(_any_touch_at_start), _circle_pitch(_head_touches_at_start)
+    alone, head_alone = circle_pitch(any_touch_at_start), circle_pitch(head_touches_at_start)
     return _compared(
         "minimum pitch", "m", "section 3.3", PAPER_PITCH, found.pitch,
         f"The paper bisects the radius of first contact towards {TURNING_RADIUS:g} m, but that radius jumps from "
@@ -178,47 +202,6 @@ def _minimum_pitch() -> PaperNumber:
     )  # fmt: skip
 
 
-def _largest_sums(outline: Outline, times: Floats) -> Floats:
-    """The paper's rule, eqs. 13-16: the largest angle sum between head and body benches at every time.
-
-    outline: function from poses and sizes to corners (..., 4, 2); times: (T,) [s]; returns (T,) [deg]
-    """
-    dragon = Dragon(benches=RING_BENCHES)
-    poses = bench_poses(trajectory_of(Dance(dragon, Spiral()), times).position)
-    outlines = outline(poses, np.stack([dragon.lengths, dragon.widths], axis=-1))
-    head, body = outlines[:, :1], outlines[:, 2:]
-    sums = np.maximum(angle_sums(body, head), angle_sums(head, body))
-    return np.asarray(np.degrees(sums.max(axis=(1, 2))))
-
-
-def _largest_sum(outline: Outline, time: float) -> float:
-    return float(_largest_sums(outline, np.array([time]))[0])
-
-
-@cache
-def _sampled_sums(outline: Outline) -> tuple[Floats, Floats]:
-    """Instants TIME_STEP apart over the whole run [s], and the largest angle sum at each [deg]."""
-    times = np.arange(0.0, Dance(Dragon(), Spiral()).end.time, TIME_STEP)
-    batches = np.array_split(times, SUM_BATCHES)
-    return times, np.concatenate([_largest_sums(outline, batch) for batch in batches])
-
-
-def _first_time(outline: Outline, angle: float) -> float:
-    """First time [s] at which an angle sum reaches an angle [deg], among instants TIME_STEP apart, then bisected."""
-    times, sums = _sampled_sums(outline)
-    high = float(times[np.flatnonzero(sums >= angle)[0]])
-    return _bisected(lambda time: _largest_sum(outline, time) >= angle, high - TIME_STEP, high)[1]
-
-
-def _bisected(holds: Callable[[float], bool], low: float, high: float) -> tuple[float, float]:
-    """Bracket of one change: holds(low) differs from holds(high), RESOLUTION apart."""
-    before = holds(low)
-    while high - low > RESOLUTION:
-        middle = 0.5 * (low + high)
-        low, high = (middle, high) if holds(middle) == before else (low, middle)
-    return low, high
-
-
 def _contact_radius(pitch: float) -> float:
     """Radius of the default dragon's head at first contact, as a scan finds it [m]; 0 without a contact."""
     return stop_radius(Dragon(), Spiral(pitch)) or 0.0
@@ -226,35 +209,12 @@ def _contact_radius(pitch: float) -> float:
 
 def _bisected_radius() -> tuple[float, float]:
     """The two pitches at which the bisection of section 3.3, for a head that stops at the circle, ends."""
-    return _bisected(lambda pitch: _contact_radius(pitch) <= TURNING_RADIUS, *PAPER_RANGE)
+    return bisected(lambda pitch: _contact_radius(pitch) <= TURNING_RADIUS, *PITCH_RANGE, width=RESOLUTION)
 
 
-def _circle_pitch(touches: Callable[[Spiral], bool]) -> float:
-    """The largest pitch in the paper's range at which the pose on the circle, without the way there, touches [m]."""
-
-    def touching(pitch: float) -> bool:
-        # On a spiral that starts at the circle the head is there at time 0.
-        return touches(Spiral(pitch, TURNING_RADIUS / pitch))
-
-    pitches = np.arange(*PAPER_RANGE, PITCH_STEP).tolist()
-    last = max(k for k, pitch in enumerate(pitches) if touching(pitch))
-    return _bisected(touching, pitches[last], pitches[last + 1])[0]
-
-
-def _any_touch_at_start(path: Spiral) -> bool:
-    return bool(clearance_profile(Dance(Dragon(), path), np.array([0.0])).clearance[0] <= 0.0)
-
-
-def _head_touches_at_start(path: Spiral) -> bool:
-    dragon = Dragon()
-    poses = bench_poses(trajectory_of(Dance(dragon, path), [0.0]).position[0])
-    sizes = np.stack([dragon.lengths, dragon.widths], axis=-1)
-    return bool(separation(poses[0], sizes[0], poses[2:], sizes[2:]).separation.min() <= 0.0)
-
-
-def paper(asked: Nothing, settings: Settings) -> PaperTable:
+def paper(asked: Nothing, terms: Terms) -> PaperTable:
     """The paper's reported numbers beside ours, with the reason for each difference."""
-    return PaperTable(rows=list(comparison()))
+    return PaperTable(rows=list(comparison()), literature=list(literature()))
 
 
 QUESTION = Question(paper, PaperTable, flat=Nothing)

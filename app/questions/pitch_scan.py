@@ -2,13 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 from pydantic import Field
 
 from app.questions.minimum_pitch import allowed
-from app.questions.question import Question
-from app.settings import Settings
+from app.questions.question import Question, Terms
 from app.wire.answers import Columns, Pair
 from app.wire.dances import Circle, DragonFields, UniformDragon
 from app.wire.models import Answer, measure
@@ -39,17 +36,14 @@ class PitchScanTable(Answer):
     minimum_pitch: float = measure("m", "Minimum pitch, around which the scanned pitches lie")
 
 
-def pitch_scan(
-    asked: PitchScanQuery | PitchScanRequest,
-    settings: Settings,
-    *,
-    progress: Callable[[float], None] = lambda share: None,
-) -> Columns:
+def pitch_scan(asked: PitchScanQuery | PitchScanRequest, terms: Terms) -> Columns:
     """Where the head stands at first contact, against the pitch, around the minimum pitch."""
-    dragon = asked.to_dragon(min(settings.scanned_benches_max, asked.most_benches(settings)))
-    scan, least = scan_near_minimum(dragon, samples=asked.samples, progress=progress, **asked.to_circle())
+    dragon = asked.to_dragon(min(terms.settings.scanned_benches_max, asked.most_benches(terms.settings)))
+    scan, least = scan_near_minimum(
+        dragon, samples=asked.samples, progress=terms.progress, budget=terms.budget, **asked.to_circle()
+    )
     table = {"pitch": scan.pitch, "radius": scan.radius, "pieces": scan.pieces}
     return Columns(table | {"minimum_pitch": allowed(least, asked, dragon).pitch})
 
 
-QUESTION = Question(pitch_scan, PitchScanTable, flat=PitchScanQuery, body=PitchScanRequest, tells=True)
+QUESTION = Question(pitch_scan, PitchScanTable, flat=PitchScanQuery, body=PitchScanRequest)

@@ -2,24 +2,51 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
 from typing import Any
 
 from app.settings import Settings
 from app.wire.models import JSON, Answer, Wire
+from core import Budget
+
+# Cost of a question without an estimate of its own: not a cheap one [s].
+UNKNOWN_COST = 1.0
+
+
+def unknown_cost(asked: Wire, *form: str) -> float:
+    return UNKNOWN_COST
+
+
+def unheard(share: float) -> None:
+    """Progress that nobody follows."""
+
+
+@dataclass(frozen=True)
+class Terms:
+    """What an answer may take, and who follows it.
+
+    settings: limits of the sizes
+    budget: limit of the work, and the flag that ends it
+    progress: called with the share of the work that is done, from 0 to 1
+    """
+
+    settings: Settings = field(default_factory=Settings)
+    budget: Budget = field(default_factory=Budget)
+    progress: Callable[[float], None] = unheard
 
 
 @dataclass(frozen=True)
 class Question:
     """One question: its requests and the function that answers it.
 
-    answer: function of a request and the settings, and of a form if there are several; its name is the name of the
+    answer: function of a request and the terms, and of a form if there are several; its name is the name of the
         question, and its first line summarises the answer
     model: type of the answer's JSON; None for a picture
     flat, body: the request as parameters of a query, and as a JSON object with a dragon and a path
     forms: media types of the answer; the first is the default
-    tells: the function takes `progress` and calls it with the share of its work that is done, from 0 to 1
+    at: path of its address where that does not follow from its name
+    cost: estimated time of the answer [s], from a request and a form, before anything is computed
     """
 
     answer: Callable[..., Any]
@@ -27,7 +54,8 @@ class Question:
     flat: type[Wire] | None = None
     body: type[Wire] | None = None
     forms: tuple[str, ...] = (JSON,)
-    tells: bool = False
+    cost: Callable[..., float] = unknown_cost
+    at: str = ""
 
     @property
     def name(self) -> str:
@@ -36,21 +64,33 @@ class Question:
     @property
     def path(self) -> str:
         """Path of its address at the service."""
+        if self.at:
+            return self.at
         words = self.name.replace("_", "-")
         return f"/{words}" if self.model else f"/figures/{words.removesuffix('-figure')}.{{format}}"
+
+    @property
+    def format_in_path(self) -> bool:
+        """Does its address name the form of the answer?"""
+        return "{format}" in self.path
 
     @property
     def summary(self) -> str:
         return (self.answer.__doc__ or "").partition("\n")[0]
 
-    def told(
-        self, asked: Wire, settings: Settings, form: str, progress: Callable[[float], None] = lambda share: None
-    ) -> bytes:
-        """The answer in one of its forms, as the service gives it."""
-        forms = (form,) * (len(self.forms) > 1)
-        found = self.answer(asked, settings, *forms, **({"progress": progress} if self.tells else {}))
-        data: bytes = found if isinstance(found, bytes) else found.to_json()
-        return data
+    def estimate(self, asked: Wire, form: str) -> float:
+        """Estimated time of the answer in one of its forms [s]."""
+        return self.cost(asked, *(form,) * (len(self.forms) > 1))
+
+    def told(self, asked: Wire, terms: Terms, form: str) -> bytes | Iterator[bytes]:
+        """The answer in one of its forms, whole or in blocks, as the service gives it."""
+        found = self.answer(asked, terms, *(form,) * (len(self.forms) > 1))
+        return found if isinstance(found, bytes | Iterator) else found.to_json()
+
+    def whole(self, asked: Wire, terms: Terms, form: str) -> bytes:
+        """The answer in one of its forms, as `told` gives it, in one piece."""
+        found = self.told(asked, terms, form)
+        return found if isinstance(found, bytes) else b"".join(found)
 
 
 @dataclass(frozen=True)

@@ -7,16 +7,15 @@ from typing import Self
 from pydantic import Field
 
 import core
-from app.questions.question import Question
+from app.questions.question import Question, Terms
 from app.questions.turn import Turn
-from app.settings import Settings
 from app.wire.answers import Pair, Point
-from app.wire.dances import DragonFields, UniformDragon
+from app.wire.dances import DragonFields, Strays, UniformDragon
 from app.wire.models import Margin, measure
 from app.wire.paths import TurnCircle
 
 
-class ShortestTurnFields(TurnCircle):
+class ShortestTurnFields(Strays, TurnCircle):
     """The circle and the coils of the turn to shorten."""
 
     margin: Margin = 0.0
@@ -52,15 +51,17 @@ class ShortestTurn(Turn):
         return cls.known(found, **Turn.of(found.turn).model_dump())
 
 
-def shortest_turn(asked: ShortestTurnQuery | ShortestTurnRequest, settings: Settings) -> ShortestTurn:
+def shortest_turn(asked: ShortestTurnQuery | ShortestTurnRequest, terms: Terms) -> ShortestTurn:
     """The turn that begins as deep inside its circle as the dragon can dance, and what prevents a deeper one."""
     found = core.shortest_turn(
-        asked.to_dragon(settings.checked_benches_max),
+        asked.to_dragon(terms.settings.checked_benches_max),
         asked.pitch,
         asked.turning_diameter / 2,
         asked.ratio,
         start_turns=asked.start_turns,
         margin=asked.margin,
+        stray=asked.to_stray(),
+        budget=terms.budget,
     )
     return ShortestTurn.of_shortest(found)
 

@@ -7,8 +7,7 @@ from typing import Self
 from pydantic import Field
 
 import core
-from app.questions.question import Question
-from app.settings import Settings
+from app.questions.question import Question, Terms
 from app.wire.answers import Point
 from app.wire.models import Answer, Wire, measure
 from app.wire.paths import TurnFields, TurnPath
@@ -44,9 +43,9 @@ class Turn(Answer):
         return cls.known(found, turning_diameter=2 * found.turning_radius)
 
 
-def turn(asked: TurnQuery | TurnRequest, settings: Settings) -> Turn:
+def turn(asked: TurnQuery | TurnRequest, terms: Terms) -> Turn:
     """Two tangent arcs that lead from a spiral inwards to the same one outwards."""
     return Turn.of(asked.to_turn() if isinstance(asked, TurnQuery) else asked.path.to_path())
 
 
-QUESTION = Question(turn, Turn, flat=TurnQuery, body=TurnRequest)
+QUESTION = Question(turn, Turn, flat=TurnQuery, body=TurnRequest, cost=lambda asked: 1e-3)

@@ -8,27 +8,30 @@ from __future__ import annotations
 import logging
 import os
 import sqlite3
+import warnings
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
 from pathlib import Path
-from threading import BoundedSemaphore
 from typing import Any
 
 from fastapi import Depends, FastAPI, Request, Response
 from fastapi.responses import FileResponse, HTMLResponse
-from prometheus_client import CollectorRegistry, Gauge, generate_latest
+from prometheus_client import CollectorRegistry, generate_latest
 from prometheus_client.exposition import CONTENT_TYPE_LATEST
 from prometheus_client.multiprocess import MultiProcessCollector
 from pydantic import Field
+from pydantic.warnings import UnsupportedFieldAttributeWarning
 from starlette.middleware import Middleware
 from starlette.staticfiles import StaticFiles
 
 from app.jobs import routes as jobs
 from app.jobs.keeper import kept
-from app.service import problems, routes
+from app.jobs.metrics import JobMetrics
+from app.service import grading, problems, routes
 from app.service.examples import EXAMPLES
-from app.service.middleware import BodyLimit, HeadAsGet, Metrics, Mistakes, SafetyHeaders
-from app.service.reply import VERSION, refuse_query
+from app.service.lanes import Lanes
+from app.service.middleware import HeadAsGet, Metrics, Mistakes, RequestId, RequestLimits, SafetyHeaders
+from app.service.reply import VERSION, build, refuse_query
 from app.settings import SHARED_COUNTS, Settings
 from app.wire.models import Answer
 from app.wire.problem import Problem
@@ -36,6 +39,8 @@ from core import Dragon, Spiral, first_contact, trajectory
 from core.dance import Dance
 
 logger = logging.getLogger("uvicorn.error")
+# FastAPI silences this warning while it declares a body; our models are built later, when they are first used.
+warnings.filterwarnings("ignore", category=UnsupportedFieldAttributeWarning)
 
 
 class State(Answer):
@@ -55,6 +60,7 @@ TAGS = [
         "description": "Answers in numbers. GET takes a query, POST a body with a dragon and a path.",
     },
     {"name": "Figures", "description": "Answers as pictures in SVG or PNG."},
+    {"name": "Grading", "description": "What is right in a student's workbook, and which error made the rest wrong."},
     {"name": "Jobs", "description": "Answers computed later; no kill of a process loses them."},
     {"name": "Service", "description": "Liveness and readiness."},
 ]
@@ -105,6 +111,7 @@ def _difference() -> str:
 @asynccontextmanager
 async def _lifespan(app: FastAPI) -> AsyncIterator[None]:
     app.state.fault = fault()
+    build()
     with kept(app.state.settings) as app.state.jobs:
         yield
 
@@ -125,24 +132,25 @@ def create_app(settings: Settings | None = None) -> FastAPI:
         redirect_slashes=False,
         lifespan=_lifespan,
         middleware=[
+            Middleware(RequestId),
             Middleware(SafetyHeaders),
             Middleware(HeadAsGet),
             Middleware(Metrics, registry=registry),
             Middleware(Mistakes),
-            Middleware(BodyLimit, bytes_max=settings.body_bytes_max),
+            Middleware(RequestLimits, settings=settings),
         ],
     )
     app.state.settings = settings
     app.state.fault = "it has not run"
     app.state.jobs, app.state.later = "it has not started", jobs.later
-    app.state.free = BoundedSemaphore(settings.concurrent_max)
-    app.state.busy = Gauge(
-        "bench_dragon_computations", "Computations running", registry=registry, multiprocess_mode="livesum"
-    )
+    app.state.lanes = Lanes(settings, registry)
     app.state.registry = registry
+    registry.register(JobMetrics(lambda: app.state.jobs))
     app.openapi = lambda: _openapi(app)  # type: ignore[method-assign]
     problems.install(app)
     app.include_router(routes.router())
+    app.include_router(jobs.asking)
+    app.include_router(grading.router)
     app.include_router(jobs.router)
     app.add_exception_handler(sqlite3.Error, jobs.store_problem)
     _add_health(app)
@@ -203,12 +211,20 @@ def _add_health(app: FastAPI) -> None:
         return State(status="ready")
 
     @app.get("/metrics", include_in_schema=False)
-    async def metrics(request: Request) -> Response:
+    def metrics(request: Request) -> Response:
         registry = request.app.state.registry
         if SHARED_COUNTS in os.environ:  # Counts of all processes on this port.
             registry = CollectorRegistry()
             MultiProcessCollector(registry)  # type: ignore[no-untyped-call]
+            registry.register(JobMetrics(lambda: request.app.state.jobs))
         return Response(generate_latest(registry), media_type=CONTENT_TYPE_LATEST)
+
+
+class _Files(StaticFiles):
+    """Files of a page; not the Python beside them that makes their folder a package."""
+
+    def lookup_path(self, path: str) -> tuple[str, os.stat_result | None]:
+        return ("", None) if path.endswith((".py", ".pyc")) else super().lookup_path(path)
 
 
 def _add_pages(app: FastAPI) -> None:
@@ -224,6 +240,6 @@ def _add_pages(app: FastAPI) -> None:
     async def index() -> Response:
         return FileResponse(PAGE / "index.html")
 
-    app.mount("/docs/assets", StaticFiles(packages=[("fastapi_swagger", "resources")]))
-    app.mount("/page/uplot", StaticFiles(packages=[("uplot", "static")]))
-    app.mount("/page", StaticFiles(directory=PAGE))
+    app.mount("/docs/assets", _Files(packages=[("fastapi_swagger", "resources")]))
+    app.mount("/page/uplot", _Files(packages=[("uplot", "static")]))
+    app.mount("/page", _Files(directory=PAGE))

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import logging
+import re
+import uuid
 from time import perf_counter
 
 from prometheus_client import CollectorRegistry, Counter, Histogram
@@ -10,44 +12,82 @@ from starlette.datastructures import Headers, MutableHeaders
 from starlette.requests import Request
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
+from app.service.logs import request_id
 from app.service.problems import Refused, http_problem, server_problem
+from app.settings import Settings
 from app.wire.problem import ErrorItem
 
 logger = logging.getLogger("uvicorn.error")
 
-SELF_ONLY = "default-src 'self'"
+SELF_ONLY = "default-src 'self'; frame-ancestors 'none'"
 # Swagger UI uses inline styles and icons from data: addresses.
-DOCS_POLICY = "default-src 'self'; style-src 'self' 'unsafe-inline'; img-src 'self' data:"
+DOCS_POLICY = f"{SELF_ONLY}; style-src 'self' 'unsafe-inline'; img-src 'self' data:"
+# Path of the call that takes a file, which has a limit of its own.
+GRADE = "/grade"
+CLOSE = {"Connection": "close"}
+# A name that a client may give its request.
+REQUEST_ID = re.compile(r"[A-Za-z0-9._:-]{1,100}")
 
 
-class BodyLimit:
-    """Answers 413 as soon as a body exceeds the limit, by its stated length or while it streams in."""
+class RequestLimits:
+    """Answers 414 to a long query, 400 to two statements of one length, and 413 as soon as a body is too long."""
 
-    def __init__(self, app: ASGIApp, bytes_max: int) -> None:
-        self.app, self.bytes_max = app, bytes_max
+    def __init__(self, app: ASGIApp, settings: Settings) -> None:
+        self.app, self.bytes_max, self.query_max = app, settings.body_bytes_max, settings.query_bytes_max
+        self.file_max = settings.grade_bytes_max
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         if scope["type"] != "http":
             return await self.app(scope, receive, send)
-        read = 0
+        read, most = 0, self.file_max if scope["path"] == GRADE else self.bytes_max
 
         async def counted() -> Message:
             nonlocal read
             message = await receive()
             read += len(message.get("body", b""))
-            if read > self.bytes_max:
-                raise self._refused()
+            if read > most:
+                raise self._refused(most)
             return message
 
-        stated = Headers(scope=scope).get("content-length", "0")
-        if stated.isdecimal() and int(stated) > self.bytes_max:
-            response = await http_problem(Request(scope), self._refused())
+        if refused := self._refused_head(Headers(scope=scope), scope["query_string"], most):
+            response = await http_problem(Request(scope), refused)
             return await response(scope, receive, send)
         return await self.app(scope, counted, send)
 
-    def _refused(self) -> Refused:
-        detail = f"The body must be at most {self.bytes_max} bytes: ask for less in one request."
-        return Refused(413, detail, [ErrorItem(pointer="", detail=detail)], {"Connection": "close"})
+    def _refused_head(self, headers: Headers, query: bytes, most: int) -> Refused | None:
+        if len(query) > self.query_max:
+            detail = f"The query must have at most {self.query_max} bytes, got {len(query)}: ask in a body."
+            return Refused(414, detail, headers=CLOSE)
+        stated = headers.get("content-length", "0")
+        if "transfer-encoding" in headers and "content-length" in headers:
+            detail = "The length of a body is stated twice: send Content-Length or Transfer-Encoding, not both."
+            return Refused(400, detail, [ErrorItem(name="Content-Length", detail=detail)], CLOSE)
+        return self._refused(most) if stated.isdecimal() and int(stated) > most else None
+
+    def _refused(self, most: int) -> Refused:
+        detail = f"The body must be at most {most} bytes: ask for less in one request."
+        return Refused(413, detail, [ErrorItem(pointer="", detail=detail)], CLOSE)
+
+
+class RequestId:
+    """Names each request, as its client does in X-Request-ID, or anew: in the answer and in the log."""
+
+    def __init__(self, app: ASGIApp) -> None:
+        self.app = app
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        if scope["type"] != "http":
+            return await self.app(scope, receive, send)
+        given = Headers(scope=scope).get("x-request-id", "")
+        name = given if REQUEST_ID.fullmatch(given) else uuid.uuid4().hex
+        request_id.set(name)
+
+        async def named(message: Message) -> None:
+            if message["type"] == "http.response.start":
+                message["headers"] = [*message["headers"], (b"x-request-id", name.encode())]
+            await send(message)
+
+        return await self.app(scope, receive, named)
 
 
 class HeadAsGet:

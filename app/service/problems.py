@@ -9,11 +9,16 @@ from typing import get_type_hints
 from fastapi import FastAPI, Request, Response
 from fastapi.exceptions import RequestValidationError
 from starlette.exceptions import HTTPException
+from starlette.routing import Match, Mount
 
 from app.wire.faults import Placing, in_body, in_query, refused, unfit
 from app.wire.messages import shown
 from app.wire.problem import PROBLEM_TYPE, ErrorItem, Problem, problem_of, title
-from core import BenchDragonError
+from core import BenchDragonError, TooMuchWork
+
+# What a client may do whose answer takes too much work.
+A_JOB = "Ask for it as a job, which may take longer: POST /jobs, or this request with the header Prefer: respond-async."
+METHODS = ("DELETE", "GET", "PATCH", "POST", "PUT")
 
 
 class Refused(HTTPException):
@@ -47,7 +52,10 @@ def install(app: FastAPI) -> None:
 
 async def core_problem(request: Request, error: BenchDragonError) -> Response:
     """Answer to a value refused by core or by a limit of the service."""
-    return answer_of(refused(error, await _placing(request)))
+    said = refused(error, await _placing(request))
+    if isinstance(error, TooMuchWork) and not _takes_file(request):
+        said.detail += f" {A_JOB}"
+    return answer_of(said)
 
 
 async def validation_problem(request: Request, error: RequestValidationError) -> Response:
@@ -62,8 +70,13 @@ async def validation_problem(request: Request, error: RequestValidationError) ->
     return answer_of(unfit(found, get_type_hints(request.scope["endpoint"]).get("wanted"), await _placing(request)))
 
 
+def _takes_file(request: Request) -> bool:
+    return getattr(request.scope.get("route"), "takes_file", False)
+
+
 async def _placing(request: Request) -> Placing:
-    if request.method in ("GET", "HEAD"):
+    # The body of a call that takes a file is no JSON, so what it refuses stands in its query.
+    if request.method in ("GET", "HEAD") or _takes_file(request):
         return in_query
     return in_body(await request.json() if await request.body() else {})
 
@@ -76,9 +89,7 @@ async def http_problem(request: Request, error: HTTPException) -> Response:
     if status == 404 and detail == HTTPStatus.NOT_FOUND.phrase:
         detail = f"There is nothing at {shown(request.url.path)}: see /docs for all calls."
     elif status == 405:
-        allowed = {method.strip() for method in headers.get("Allow", "").split(",") if method.strip()}
-        allowed |= {"OPTIONS"} | ({"HEAD"} if "GET" in allowed else set())
-        headers["Allow"] = ", ".join(sorted(allowed))
+        headers["Allow"] = ", ".join(sorted(_allowed(request)))
         if request.method == "OPTIONS":
             return Response(status_code=204, headers=headers)
         detail = f"{request.url.path} does not support {request.method}: use {headers['Allow']}."
@@ -86,6 +97,17 @@ async def http_problem(request: Request, error: HTTPException) -> Response:
         detail, code = "The body is not JSON in UTF-8. Send an object such as {}.", "broken-json"
         items = [ErrorItem(pointer="", detail=detail)]
     return problem(status, code, detail, items, headers)
+
+
+def _allowed(request: Request) -> set[str]:
+    """Every method that some call at this path knows."""
+    found = {
+        "GET" if isinstance(route, Mount) else method
+        for method in METHODS
+        for route in request.app.routes
+        if route.matches({**request.scope, "method": method})[0] is Match.FULL
+    }
+    return found | {"OPTIONS"} | ({"HEAD"} if "GET" in found else set())
 
 
 def server_problem() -> Response:

@@ -14,8 +14,10 @@ from pydantic import ValidationError
 from app.files.tables import CSV_TYPE
 from app.questions import CALLS, Call
 from app.questions.figures import Format
+from app.service.bodies import BodyRoute
 from app.service.examples import EXAMPLES
 from app.service.reply import BodyReply, QueryReply, Reply
+from app.service.watch import WatchedRoute
 from app.wire.models import JSON, Wire
 from app.wire.problem import PROBLEM_TYPE
 
@@ -27,13 +29,15 @@ PROBLEMS = {
     404: "There is no such format",
     406: "Accept asks for a media type that this call does not offer",
     413: "The body is too long",
+    414: "The query is too long",
     415: "The body is not of type application/json",
     422: "A value is outside its limits, a name is unknown, or an instant lies after the end of the run",
+    429: "This client has as many heavy computations running as it may",
     500: "The service failed",
     503: "The largest number of computations is running",
 }
-QUERY_STATUSES = (406, 422, 500, 503)
-BODY_STATUSES = (400, 406, 413, 415, 422, 500, 503)
+QUERY_STATUSES = (406, 414, 422, 429, 500, 503)
+BODY_STATUSES = (400, 406, 413, 415, 422, 429, 500, 503)
 
 
 def router() -> APIRouter:
@@ -54,7 +58,7 @@ def _default(body: type[Wire]) -> tuple[Wire, ...]:
 def _add(router: APIRouter, call: Call) -> None:
     question, method = call.question, call.method
     statuses = QUERY_STATUSES if method == "GET" else BODY_STATUSES
-    if question.model is None:
+    if question.format_in_path:
         statuses = (404, *statuses)
     problems: dict[int | str, dict[str, Any]] = {
         status: {"description": PROBLEMS[status], "content": PROBLEM} for status in statuses
@@ -76,6 +80,7 @@ def _add(router: APIRouter, call: Call) -> None:
         response_class=Response,
         responses={200: answer, 304: unchanged, **problems},
         openapi_extra={"security": []},
+        route_class_override=BodyRoute if method == "POST" else WatchedRoute,
     )
 
 
@@ -88,7 +93,7 @@ def _endpoint(call: Call) -> Callable[..., Response]:
     def figure(reply: Reply, format: Format, wanted: Wire) -> Response:
         return reply(call, wanted, format)
 
-    endpoint = answer if call.question.model else figure
+    endpoint = figure if call.question.format_in_path else answer
     wanted: Any
     if call.method == "GET":
         replying, wanted = QueryReply, Annotated[call.asked, Query()]

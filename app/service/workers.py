@@ -9,16 +9,18 @@ improvement). `make bench` measures it again.
 
 from __future__ import annotations
 
+import errno
 import logging
 import multiprocessing
 import os
 import signal
 import socket
 import sys
-from contextlib import ExitStack
-from tempfile import TemporaryDirectory
+from collections.abc import Iterator
+from contextlib import ExitStack, contextmanager
+from tempfile import TemporaryDirectory, TemporaryFile
 from threading import Thread
-from typing import Literal
+from typing import Any
 
 import uvicorn
 from fastapi import FastAPI
@@ -26,14 +28,20 @@ from prometheus_client.multiprocess import mark_process_dead
 from uvicorn.supervisors import Multiprocess
 
 from app.jobs.keeper import scratch
+from app.service.logs import log_config
+from app.service.protocol import Protocol
 from app.settings import DATA, SHARED_COUNTS, WORKERS_MAX, Settings, usable_cores
 from core import InvalidValue
 
 logger = logging.getLogger("uvicorn.error")
 
-# Not httptools, although it saves a fifteenth of the time: it answers an unknown method itself, with 400 and without
-# problem details.
-PARSER: Literal["h11"] = "h11"
+# Built on h11, not httptools, although that saves a fifteenth of the time: httptools answers an unknown method itself,
+# with 400 and without problem details.
+PARSER = Protocol
+# Room for the counts of one process: three kinds of metrics, a file of 1 MiB each.
+COUNTS_BYTES = 4 << 20
+# A process that says nothing for this long is replaced [s]. On a busy machine a process takes ten seconds to start.
+SILENT_SECONDS = 60
 BACKLOG = 2048  # Connections that may wait to be accepted; uvicorn's default.
 
 
@@ -74,7 +82,7 @@ def listen(host: str, port: int) -> socket.socket:
 class _Supervisor(Multiprocess):
     """uvicorn's supervisor; its processes ignore Ctrl-C while they start and leave no gauge behind when they die."""
 
-    def __init__(self, config: uvicorn.Config, shared: socket.socket, counts: str) -> None:
+    def __init__(self, config: uvicorn.Config, shared: socket.socket, counts: str | None) -> None:
         super().__init__(config, [shared])
         self.counts = counts
         self.counted: set[int | None] = set()
@@ -89,15 +97,42 @@ class _Supervisor(Multiprocess):
     def keep_subprocess_alive(self) -> None:
         super().keep_subprocess_alive()
         alive = {process.pid for process in self.processes}
-        for gone in self.counted - alive:
+        for gone in self.counted - alive if self.counts else ():
             mark_process_dead(gone, self.counts)  # type: ignore[no-untyped-call]
         self.counted = alive
+
+
+@contextmanager
+def _counts_folder(workers: int) -> Iterator[str | None]:
+    """A folder in which the processes count; None, and a word in the log, where the system has no room for it.
+
+    Their files are mapped into memory: on a full disk a process would die of its first count.
+    """
+    with ExitStack() as kept:
+        try:
+            folder = kept.enter_context(TemporaryDirectory(prefix="bench-dragon-"))
+            with TemporaryFile(dir=folder, buffering=0) as room:
+                for _ in range(workers):
+                    if room.write(bytes(COUNTS_BYTES)) < COUNTS_BYTES:
+                        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+        except OSError as error:
+            why = error.strerror or str(error)
+            logger.warning(
+                "The folder for temporary files cannot be used (%s): /metrics shows one process alone. "
+                "Free some space there, or set TMPDIR to another folder.",
+                why,
+            )
+            kept.close()
+            yield None
+            return
+        yield folder
 
 
 def create_child_app() -> FastAPI:
     """create_app() in a process that ends when its parent ends, also when the parent is killed."""
     from app.service.main import create_app
 
+    logging.captureWarnings(Settings().log_json)
     parent = multiprocessing.parent_process()
     assert parent is not None
 
@@ -114,17 +149,26 @@ def serve(host: str, port: int, workers: int) -> None:
 
     raises: OSError when the port is taken or the address is not local; with one process uvicorn reports it and exits
     """
+    settings = Settings()
+    logging.captureWarnings(settings.log_json)
+    given: dict[str, Any] = {
+        "factory": True,
+        "host": host,
+        "port": port,
+        "http": PARSER,
+        "log_config": log_config(settings.log_json),
+        "timeout_graceful_shutdown": settings.grace_seconds,
+        "timeout_worker_healthcheck": SILENT_SECONDS,
+    }
     if workers == 1:
-        uvicorn.run("app.service.main:create_app", factory=True, host=host, port=port, http=PARSER)
+        uvicorn.run("app.service.main:create_app", **given)
         return
-    config = uvicorn.Config(
-        "app.service.workers:create_child_app", factory=True, host=host, port=port, http=PARSER, workers=workers
-    )
-    with listen(host, port) as shared, TemporaryDirectory(prefix="bench-dragon-") as counts, ExitStack() as stack:
-        if Settings().data is None:
+    config = uvicorn.Config("app.service.workers:create_child_app", workers=workers, **given)
+    with listen(host, port) as shared, _counts_folder(workers) as counts, ExitStack() as stack:
+        if settings.data is None:
             os.environ[DATA] = stack.enter_context(scratch())
-        # Folder in which the processes add up the counts of /metrics; prometheus_client reads the variable on import.
-        os.environ[SHARED_COUNTS] = counts
+        if counts:  # Folder in which the processes add up the counts of /metrics; prometheus_client reads the variable.
+            os.environ[SHARED_COUNTS] = counts
         shown = f"[{host}]" if ":" in host else host
         at = f"http://{shown}:{shared.getsockname()[1]}"
         logger.info("Uvicorn running on %s in %d processes (Press CTRL+C to quit)", at, workers)

@@ -48,14 +48,17 @@ def sweep(
     return Sweep(place, spec)
 
 
-def engine_of(dask: str | None, workers: int | None = None) -> Callable[[], Engine]:
-    """What makes the engine: processes of this machine, or a Dask cluster. raises: MissingPackage"""
-    if dask is None:
+def engine_of(dask: str | None, workers: int | None = None, **waits: float) -> Callable[[], Engine]:
+    """What makes the engine: processes of this machine, or a Dask cluster, with its `patience` and `first` wait.
+
+    raises: MissingPackage
+    """
+    if not dask:
         return lambda: Processes(workers)
     require("dask", "dask", "Dask")
     from app.sweeps.cluster import Cluster
 
-    return lambda: Cluster(dask, workers)
+    return lambda: Cluster(dask, workers, **waits)
 
 
 def _axis(values: Any) -> Any:

@@ -1,4 +1,4 @@
-"""The engine across machines: a Dask cluster that is there already, or one of this machine.
+"""The engine across machines: an existing Dask cluster, or a new one on this machine.
 
 Workers need bench-dragon of the same version; they share no folder, as their answers travel to the client, which
 writes them. Whatever is lost on the way, with a worker, a future or the scheduler, is asked again.
@@ -14,9 +14,8 @@ from contextlib import suppress
 
 from distributed import Client, Future, KilledWorker, LocalCluster
 
-from app.sweeps.engines import Done, NoAnswer, arrived, attempt
+from app.sweeps.engines import Done, NoAnswer, NoScheduler, arrived, attempt
 from app.sweeps.shards import Piece
-from core import BenchDragonError
 
 # The word for a cluster of this machine, in place of an address.
 LOCAL = "local"
@@ -26,12 +25,6 @@ PATIENCE, AGAIN = 600.0, 1.0
 FAILURES = 8
 # What a connection, an answer on its way, and the look at lost futures may take [s].
 CONNECT, ANSWER, LOOK = 10.0, 60.0, 2.0
-
-
-class NoScheduler(BenchDragonError):
-    """Nobody answers at the address of the cluster."""
-
-    code = "no-scheduler"
 
 
 def _local(workers: int | None) -> LocalCluster:
@@ -51,9 +44,12 @@ class Cluster:
 
     alone = False
 
-    def __init__(self, address: str, workers: int | None = None, patience: float = PATIENCE) -> None:
+    def __init__(
+        self, address: str, workers: int | None = None, patience: float = PATIENCE, first: float = 0.0
+    ) -> None:
         """address: of the scheduler, or LOCAL; workers: of a local cluster, else one for each core
-        patience: how long a scheduler that is gone is waited for [s]. raises: NoScheduler"""
+        patience: how long to wait for a lost scheduler; first: for one that was never there [s]
+        raises: NoScheduler"""
         self._own = _local(workers) if address == LOCAL else None
         self._address = self._own.scheduler_address if self._own else address
         self._patience = patience
@@ -61,15 +57,15 @@ class Cluster:
         self._out: dict[Future[tuple[bytes | None, str]], Piece] = {}
         self._lost: list[Piece] = []
         self._looked, self._workers, self._failures = 0.0, 1, 0
-        self._client = self._connected(0.0)
+        self._client = self._connected(first)
 
     @property
     def workers(self) -> int:
-        """Threads of all workers, as of the last look."""
+        """Number of threads of all workers when they were last counted."""
         return self._workers
 
     def submit(self, piece: Piece) -> None:
-        """Hand it to the cluster, now or once there is one again."""
+        """Submit a piece to the cluster, now or after the connection is restored."""
         # Not "pure": a future that was cancelled would be found again by its key.
         try:
             future = self._client.submit(attempt, piece, pure=False)
@@ -80,7 +76,7 @@ class Cluster:
         future.add_done_callback(self._finished.put)
 
     def wait(self, seconds: float) -> list[Done]:
-        """What was done since the last call. raises: NoScheduler, NoAnswer"""
+        """Pieces answered since the last call. raises: NoScheduler, NoAnswer"""
         done: list[Done] = []
         with suppress(queue.Empty):
             done += self._heard(self._finished.get(timeout=seconds))
@@ -91,7 +87,7 @@ class Cluster:
         return done
 
     def close(self) -> None:
-        """Let go of the cluster, and end a local one."""
+        """Disconnect from the cluster; a local one ends."""
         for future in self._out:
             with suppress(Exception):
                 future.cancel()
@@ -118,7 +114,7 @@ class Cluster:
         return []
 
     def _failed(self, piece: Piece, error: Exception) -> None:
-        """Ask again: a cluster that breaks just now raises all kinds of errors. raises: NoAnswer after many in a row"""
+        """Submit again, as a failing cluster raises many kinds of errors. raises: NoAnswer after many in a row"""
         self._failures += 1
         if self._failures >= FAILURES and self._client.status == "running":
             words = f"workers of {self._address} cannot answer: {type(error).__name__}: {error}"
@@ -126,7 +122,7 @@ class Cluster:
         self._lost.append(piece)
 
     def _look(self) -> None:
-        """Connect again where that is needed, and ask again for what is lost."""
+        """Reconnect if necessary, and submit the lost pieces again."""
         self._looked = time.monotonic()
         if self._client.status not in ("running", "connecting"):
             self._lost += self._out.values()
@@ -145,7 +141,7 @@ class Cluster:
             self._workers = max(sum(self._client.nthreads().values()), 1)
 
     def _connected(self, patience: float) -> Client:
-        """A client of the scheduler, waited for. raises: NoScheduler"""
+        """A client of the scheduler, once it answers. raises: NoScheduler"""
         until = time.monotonic() + patience
         while True:
             try:

@@ -37,7 +37,7 @@ class Column:
         return pa.field(self.name, TYPES[self.kind])
 
     def value(self, answer: Any) -> Any:
-        """What an answer has there; None where it has nothing."""
+        """The value of this column in an answer; None if it has none."""
         for step in self.steps:
             if answer is None:
                 return None
@@ -52,8 +52,8 @@ def _dumped(value: Any) -> Any:
 
 
 def answer_columns(model: type[BaseModel], left_out: frozenset[str] = frozenset()) -> list[Column]:
-    """Every number, word and yes or no of an answer, those of inner objects and of pairs by dotted names; what is a
-    list of any length as JSON."""
+    """A column for every number, word and truth value of an answer: dotted names for inner objects and pairs, JSON for
+    lists of any length."""
     return [column for column in _columns_of(model, ()) if column.name not in left_out]
 
 

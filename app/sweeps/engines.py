@@ -26,6 +26,12 @@ class NoAnswer(BenchDragonError):
     code = "no-answer"
 
 
+class NoScheduler(BenchDragonError):
+    """Nobody answers at the address of a cluster."""
+
+    code = "no-scheduler"
+
+
 def attempt(piece: Piece) -> tuple[bytes | None, str]:
     """Rows of a piece, else why there are none: errors with fields of their own do not travel between processes."""
     try:
@@ -35,7 +41,7 @@ def attempt(piece: Piece) -> tuple[bytes | None, str]:
 
 
 def arrived(piece: Piece, attempted: tuple[bytes | None, str]) -> Done:
-    """What attempt() found. raises: NoAnswer"""
+    """The result of attempt(). raises: NoAnswer"""
     rows, why = attempted
     if rows is None:
         raise NoAnswer("workers", f"workers cannot answer: {why}")
@@ -52,13 +58,13 @@ class Engine(Protocol):
 
     @property
     def workers(self) -> int:
-        """How many pieces are answered at once, now; at least 1."""
+        """Number of pieces that are answered at the same time now; at least 1."""
 
     def submit(self, piece: Piece) -> None:
         """Take a piece."""
 
     def wait(self, seconds: float) -> list[Done]:
-        """What was done since the last call, once there is anything, or after so long."""
+        """Pieces answered since the last call; waits for one, up to a time limit."""
 
     def close(self) -> None:
-        """Let go of everything; what was not answered is lost."""
+        """End the engine; unanswered pieces are lost."""

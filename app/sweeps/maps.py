@@ -8,11 +8,12 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from app.files.drawing import BLUE, GREY, canvas
+from app.files.drawing import canvas
 from app.sweeps.spec import Range
 from app.sweeps.summary import numbers_of
 from app.sweeps.table import Sweep
 from core import InvalidValue
+from core.plots import BLUE, GREY
 from core.values import Floats
 
 WIDTH, HEIGHT = 7.5, 5.5  # [inch]

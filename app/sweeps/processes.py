@@ -27,7 +27,7 @@ PATIENCE = 5.0
 
 
 class CannotStart(BenchDragonError):
-    """The processes of a sweep end before they answer anything."""
+    """Every process of a sweep ended before it answered a piece."""
 
     code = "cannot-start"
 
@@ -51,11 +51,11 @@ class _Worker:
 
     @property
     def pid(self) -> int:
-        """Number of the process."""
+        """Process id."""
         return self._process.pid
 
     def give(self, piece: Piece) -> None:
-        """Hand it a piece; whether it lives to answer it is heard from the thread."""
+        """Send a piece to the process; the thread reports the answer, or that the process died."""
         self.piece = piece
         with contextlib.suppress(OSError):
             send(cast(Any, self._process.stdin), piece)
@@ -80,7 +80,7 @@ class _Worker:
 
 
 class Processes:
-    """So many processes; one that dies is followed by another."""
+    """A fixed number of processes; a dead one is replaced."""
 
     alone = True
 
@@ -98,7 +98,7 @@ class Processes:
 
     @property
     def pids(self) -> list[int]:
-        """Their numbers."""
+        """Process ids."""
         return [worker.pid for worker in self._all]
 
     def submit(self, piece: Piece) -> None:
@@ -107,7 +107,7 @@ class Processes:
         self._hand_out()
 
     def wait(self, seconds: float) -> list[Done]:
-        """What was done since the last call. raises: CannotStart, NoAnswer"""
+        """Pieces answered since the last call. raises: CannotStart, NoAnswer"""
         done: list[Done] = []
         with contextlib.suppress(queue.Empty):
             done += self._heard(*self._events.get(timeout=seconds))

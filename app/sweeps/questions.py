@@ -6,18 +6,28 @@ A question of one's own is swept alike, as long as a worker can import what it i
 from __future__ import annotations
 
 from collections.abc import Callable, Collection
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from typing import Any
 
 from pydantic import BaseModel
 
-import core
 from app import questions
 from app.questions.check import LeastClearance
+from app.questions.question import Terms
 from app.settings import Settings
+from app.sweeps.rows import (
+    ClearanceRow,
+    OverlapsRow,
+    TrajectoryRow,
+    clearance_row,
+    least_clearance,
+    overlaps_row,
+    trajectory_row,
+)
 from app.wire.dances import DanceFields, DanceQuery
 from app.wire.messages import checked
+from app.wire.models import Answer
 from app.wire.refusals import refusing
 from core import BenchDragonError, InvalidValue
 
@@ -51,35 +61,45 @@ class Question:
             return self.ask(request)
 
 
-def least_clearance(asked: DanceQuery | DanceFields, settings: Settings) -> LeastClearance:
-    """The least separation of two benches that share no handle, over the whole dance."""
-    found = core.least_clearance(asked.to_dance(settings.checked_benches_max))
-    if found is None:
-        raise InvalidValue.of("dragon.benches", "must be at least 3 for two to share no handle", asked.benches, "")
-    return LeastClearance.model_validate(found)
-
-
 def _ways(question: questions.Question, seconds: float, shown: str, *left_out: str) -> tuple[Question, ...]:
     """A question of the registry, flat and as a body."""
     assert question.model is not None
-    ask, requests = partial(question.answer, settings=LIMITS), (question.flat, question.body)
+    ask, requests = partial(question.answer, terms=Terms(LIMITS)), (question.flat, question.body)
     known = (question.model, ask, seconds, shown, frozenset(left_out))
     return tuple(Question(question.name, request, *known) for request in requests if request)
 
 
+def _known(name: str) -> questions.Question:
+    return questions.QUESTIONS[name]
+
+
+def _row(answer: Callable[..., Answer], model: type[Answer], name: str) -> questions.Question:
+    """A question of the registry that answers with lists, with another answer: a row."""
+    return replace(_known(name), answer=answer, model=model)
+
+
 _LEAST = questions.Question(least_clearance, LeastClearance, flat=DanceQuery, body=DanceFields)
 # The ways to ask each, the flat one first. The seconds are those of the defaults on one core of a small machine.
-QUESTIONS = {
-    ways[0].name: ways
-    for ways in (
-        _ways(questions.QUESTIONS["collision_time"], 1e-3, "time", "certificate.method"),
-        _ways(questions.QUESTIONS["minimum_pitch"], 2e-2, "pitch"),
-        _ways(questions.QUESTIONS["turn"], 1e-4, "length"),
-        _ways(questions.QUESTIONS["shortest_turn"], 0.5, "length"),
-        _ways(questions.QUESTIONS["maximum_head_speed"], 5e-2, "head_speed"),
-        _ways(_LEAST, 2e-2, "distance"),
-        _ways(questions.QUESTIONS["check"], 0.1, "least_clearance.distance", "first_contact.certificate.method"),
-    )
+_ALL = {
+    "collision_time": _ways(_known("collision_time"), 1e-3, "time", "certificate.method"),
+    "minimum_pitch": _ways(_known("minimum_pitch"), 2e-2, "pitch"),
+    "turn": _ways(_known("turn"), 1e-4, "length"),
+    "shortest_turn": _ways(_known("shortest_turn"), 0.5, "length"),
+    "maximum_head_speed": _ways(_known("maximum_head_speed"), 5e-2, "head_speed"),
+    "least_clearance": _ways(_LEAST, 2e-2, "distance"),
+    "check": _ways(_known("check"), 0.1, "least_clearance.distance", "first_contact.certificate.method"),
+    "tolerance": _ways(_known("tolerance"), 0.3, "stray", "certificate.method"),
+    "clearance": _ways(_row(clearance_row, ClearanceRow, "clearance"), 0.2, "clearance"),
+    "trajectory": _ways(_row(trajectory_row, TrajectoryRow, "trajectory"), 2e-3, "greatest_speed"),
+    "overlaps": _ways(_row(overlaps_row, OverlapsRow, "overlaps"), 1e-2, "separation"),
+}
+QUESTIONS = _ALL | {name: ways[1:] for own, ways in _ALL.items() if (name := f"{own}_of") in questions.CALLS}
+# Questions of the service whose answers are no row, and why.
+PICTURE = "it answers with a picture: sweep the question whose numbers it draws"
+NO_ROWS = {
+    "pitch_scan": "it is a sweep itself: sweep collision_time over pitch",
+    "paper": "it takes no parameters",
+    **{name: PICTURE for name, question in questions.QUESTIONS.items() if question.model is None},
 }
 
 
@@ -88,6 +108,8 @@ def question_of(name: str, parameters: Collection[str] = ()) -> Question:
 
     raises: InvalidValue
     """
+    if why := NO_ROWS.get(name.removesuffix("_of")):
+        raise InvalidValue("question", f"question {name} has no row for a table, as {why}")
     if name not in QUESTIONS:
         raise InvalidValue("question", f"question must be one of {', '.join(QUESTIONS)}, got {name!r:.60}")
     names = [parameter.partition(".")[0] for parameter in parameters]
@@ -95,7 +117,7 @@ def question_of(name: str, parameters: Collection[str] = ()) -> Question:
 
 
 def refusal(error: Exception) -> tuple[str, str]:
-    """Code and message of what keeps a design from an answer."""
+    """Code and message of the error that a design raised."""
     if isinstance(error, BenchDragonError):
         return error.code, error.message
     return "internal-error", f"{type(error).__name__}: {error}"

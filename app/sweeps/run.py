@@ -31,7 +31,7 @@ DEATHS = 3
 
 @dataclass(frozen=True, slots=True)
 class Progress:
-    """How far a run is.
+    """Progress of a run.
 
     designs: answered; total: of the sweep; rate: designs per second in this run, 0 before the first
     left: time that the others take at that rate [s]
@@ -51,14 +51,14 @@ class Progress:
 
 @dataclass(slots=True)
 class _Shard:
-    """A shard under way: answers of its pieces by where they start, and what is still out."""
+    """A shard in progress: the answers of its pieces by their first design, and the number of unanswered pieces."""
 
     out: int = 1
     rows: dict[int, bytes] = field(default_factory=dict)
 
 
 class _Run:
-    """The shards that are missing, and those under way."""
+    """The missing shards, and those in progress."""
 
     def __init__(self, folder: Path, spec: Spec, question: Question, missing: Iterator[int], total: int) -> None:
         self.folder, self.spec, self.question, self.missing = folder, spec, question, missing
@@ -70,7 +70,7 @@ class _Run:
         self.answered_here, self.designs, self.total = 0, total, spec.designs
 
     def next_piece(self) -> Piece | None:
-        """What to submit next: the rest of shards under way before new ones."""
+        """The next piece to submit: from shards in progress first, then from new ones."""
         if self.ready:
             return self.ready.popleft()
         shard = next(self.missing, None)
@@ -80,7 +80,7 @@ class _Run:
         return Piece.whole(self.spec, self.question, shard)
 
     def take(self, piece: Piece, rows: bytes) -> None:
-        """Rows of a piece; with the last of its shard the file is written."""
+        """Keep the rows of a piece; the last piece of a shard writes its file."""
         shard = self.under_way[piece.shard]
         shard.rows[piece.start] = rows
         shard.out -= 1
@@ -92,7 +92,7 @@ class _Run:
             del self.under_way[piece.shard]
 
     def died(self, piece: Piece, alone: bool) -> None:
-        """The process that had a piece is no more: the design that killed it, if one did, is found by halving."""
+        """A process died while it answered a piece: halve the piece until the design that killed it is found."""
         if not alone:
             self.aside.append(piece)
         elif piece.stop - piece.start > 1:
@@ -106,12 +106,12 @@ class _Run:
                 self.take(piece, piece.killed())
 
     def progress(self) -> Progress:
-        """How far it is."""
+        """Progress of the run."""
         rate = self.answered_here / max(time.monotonic() - self.begun, 1e-9)
         return Progress(self.designs, self.total, rate, (self.total - self.designs) / rate if rate else None)
 
     def through(self, engine: Engine, report: Callable[[Progress], None]) -> None:
-        """Answer everything that an engine can, and close it."""
+        """Answer all missing designs with an engine, then close it."""
         out = 0
         try:
             while True:
@@ -133,7 +133,7 @@ class _Run:
 
 
 def begin(folder: Path, spec: Spec) -> None:
-    """Make the folder of a sweep, or find that it is of this one. raises: InvalidValue, OSError"""
+    """Create the folder of a sweep, or check that it belongs to this sweep. raises: InvalidValue, OSError"""
     folder.mkdir(parents=True, exist_ok=True)
     kept = folder / SPEC_FILE
     if not kept.exists():
@@ -148,7 +148,7 @@ def begin(folder: Path, spec: Spec) -> None:
 
 
 def missing_shards(folder: Path, spec: Spec) -> list[int]:
-    """The shards that have no file yet."""
+    """The shards without a file."""
     if (folder / TABLE_FILE).exists():
         return []
     there = shards.parts(folder)

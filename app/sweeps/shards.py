@@ -32,7 +32,7 @@ KILLED_MESSAGE = "the process that answered this design died, each time"
 
 
 class OtherVersion(BenchDragonError):
-    """A worker runs another version than the one that the sweep was begun with."""
+    """A worker runs a different version from the one that began the sweep."""
 
     code = "other-version"
 
@@ -146,7 +146,7 @@ def write_part(folder: Path, spec: Spec, shard: int, pieces: Iterable[bytes]) ->
 
 
 def write_durably(file: Path, data: bytes) -> None:
-    """The file with these bytes, there whole or not at all, and there for good once this returns."""
+    """Write a file completely or not at all; it is safe on the disk when this returns."""
     handle, name = tempfile.mkstemp(prefix=TEMPORARY, dir=file.parent)
     try:
         with os.fdopen(handle, "wb") as sink:
@@ -161,7 +161,7 @@ def write_durably(file: Path, data: bytes) -> None:
 
 
 def keep(temporary: Path, file: Path) -> None:
-    """Give a written file its name, for good."""
+    """Rename a written file to its final name, safely on the disk."""
     mask = os.umask(0)
     os.umask(mask)
     temporary.chmod(0o666 & ~mask)

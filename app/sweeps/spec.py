@@ -1,4 +1,4 @@
-"""What a sweep asks: one question over some of its parameters, the same on every machine.
+"""The spec of a sweep: one question over some of its parameters, the same on every machine.
 
 A spec never changes. Its canonical bytes name it, and a shard is known by that name and its index.
 """
@@ -17,6 +17,7 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_valida
 import core
 from app.sweeps.questions import Question, question_of
 from app.wire.messages import checked
+from app.wire.models import measure
 from core import InvalidValue, TooLarge
 
 DESIGNS_MAX = 10**8
@@ -42,8 +43,8 @@ class _Told(BaseModel):
 class Range(_Told):
     """Values from `start` to `stop`: `count` of them evenly spaced, both ends included, or samples if count is null."""
 
-    start: float = Field(description="First value")
-    stop: float = Field(description="Last value")
+    start: float = measure("as the parameter", "First value")
+    stop: float = measure("as the parameter", "Last value")
     count: int | None = Field(None, ge=2, le=DESIGNS_MAX, description="How many; null: sampled")
     scale: Literal["linear", "log"] = Field("linear", description="Evenly spaced values, or their logarithms")
 
@@ -54,7 +55,7 @@ class Range(_Told):
         return self
 
     def at(self, share: float) -> float:
-        """The value at a share of the way: start at 0, stop at 1."""
+        """The value at a fraction of the range: start at 0, stop at 1."""
         if share in (0.0, 1.0):
             return self.stop if share else self.start
         if self.scale == "log":
@@ -68,7 +69,7 @@ class Range(_Told):
 
 
 class Samples(_Told):
-    """How sampled ranges are sampled, together: point k is known from k alone."""
+    """How sampled ranges are sampled together; point k depends on k alone."""
 
     count: int = Field(ge=1, le=DESIGNS_MAX, description="Number of samples")
     sequence: Literal["sobol", "philox"] = Field(
@@ -126,7 +127,7 @@ class Spec(_Told):
 
     @property
     def asks(self) -> Question:
-        """The question that its name means, asked in the way that has its parameters. raises: InvalidValue"""
+        """The named question, in the form that has all these parameters. raises: InvalidValue"""
         return question_of(self.question, [*self.over, *self.request])
 
     @property
@@ -164,7 +165,7 @@ class Spec(_Told):
 
     @property
     def name(self) -> str:
-        """What tells this sweep from every other: the SHA-256 of its canonical bytes."""
+        """The identity of this sweep: the SHA-256 of its canonical bytes."""
         return hashlib.sha256(self.canonical()).hexdigest()
 
     def _check(self, question: Question) -> None:
@@ -186,7 +187,7 @@ class Spec(_Told):
         self._check_names(question)
 
     def _check_names(self, question: Question) -> None:
-        """Refuse what is wrong with every design: unknown parameters, and a base that is refused by itself.
+        """Refuse mistakes that affect every design: unknown parameters, and an invalid base.
 
         A value of an axis that is refused is a bad design, and a row of the table.
         """
@@ -203,7 +204,7 @@ class Spec(_Told):
 
 
 def placed(request: dict[str, Any], values: dict[str, Any]) -> dict[str, Any]:
-    """A request with values at dotted places; the one given stays as it is.
+    """A copy of a request with values set at dotted names.
 
     >>> placed({"path": {"kind": "spiral"}, "margin": 0}, {"path.pitch": 0.5})
     {'path': {'kind': 'spiral', 'pitch': 0.5}, 'margin': 0}

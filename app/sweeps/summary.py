@@ -39,7 +39,7 @@ class Summary:
     greatest: tuple[float, dict[str, Any]] | None
 
     def lines(self) -> list[tuple[str, str]]:
-        """Names and values, as people read them."""
+        """Names and values as text."""
         found = [("designs", f"{self.rows} of {self.total}")]
         found += [(f"error {code}", str(count)) for code, count in sorted(self.errors.items())]
         for word, end in (("least", self.least), ("greatest", self.greatest)):

@@ -39,7 +39,7 @@ class Sweep:
 
     @classmethod
     def open(cls, folder: Path) -> Sweep:
-        """The sweep of a folder. raises: InvalidValue where it has none, or one of another version"""
+        """The sweep of a folder. raises: InvalidValue if it has none, or one of a different version"""
         file = folder / SPEC_FILE
         try:
             told = orjson.loads(file.read_bytes())
@@ -54,11 +54,11 @@ class Sweep:
 
     @property
     def missing(self) -> int:
-        """Number of shards that have no rows yet."""
+        """Number of shards without rows."""
         return len(missing_shards(self.folder, self.spec))
 
     def tables(self, columns: Sequence[str] | None = None) -> Iterator[pa.Table]:
-        """The rows there are, shard by shard; columns: only these. raises: InvalidValue"""
+        """The available rows, shard by shard. columns: to read. raises: InvalidValue"""
         whole = self.folder / TABLE_FILE
         if whole.exists():
             with pq.ParquetFile(whole) as opened:
@@ -70,7 +70,7 @@ class Sweep:
                 yield opened.read(columns=columns)
 
     def table(self, columns: Sequence[str] | None = None) -> pa.Table:
-        """The rows there are. raises: InvalidValue where there are none, or no such column"""
+        """The available rows. raises: InvalidValue if there are none, or no such column"""
         tables = list(self.tables(columns))
         if not tables:
             raise InvalidValue("folder", f"{self.folder} has no rows yet: run the sweep")
@@ -107,7 +107,7 @@ class Sweep:
         return whole
 
     def to_csv(self, file: Path) -> None:
-        """The table as CSV, there whole or not at all. raises: InvalidValue where parts are missing; OSError"""
+        """Write the table as CSV, completely or not at all. raises: InvalidValue if parts are missing; OSError"""
         self._check_complete()
         with _written(file) as name:
             writer = None
@@ -116,6 +116,18 @@ class Sweep:
                 writer.write_table(table)
             assert writer is not None
             writer.close()
+
+    def to_json(self, file: Path) -> None:
+        """The table as JSON, a list for each column, there whole or not at all.
+
+        raises: InvalidValue where parts are missing; OSError
+        """
+        self._check_complete()
+        with _written(file) as name, open(name, "wb") as sink:
+            for k, column in enumerate(next(self.tables()).column_names):
+                sink.write((b"," if k else b"{") + orjson.dumps(column) + b":")
+                sink.write(orjson.dumps(self.table([column])[column].to_pylist()))
+            sink.write(b"}")
 
     def _check_complete(self) -> None:
         if self.missing:
@@ -134,7 +146,7 @@ class Sweep:
 
 
 def _gathered(tables: Iterator[pa.Table]) -> Iterator[pa.Table]:
-    """The same rows in tables of at least GROUP rows, but for the last."""
+    """The same rows in tables of at least GROUP rows, except the last."""
     held: list[pa.Table] = []
     for table in tables:
         held.append(table)

@@ -27,7 +27,7 @@ from app.wire.models import (
     measure,
 )
 from app.wire.paths import BY_KIND, KINDS, AnyPath, SpiralFields, SpiralPath
-from core import Dance, Dragon, InvalidValue
+from core import Dance, Dragon, InvalidValue, Stray
 from core.dragon import BENCHES_MAX
 from core.errors import said
 from core.values import Floats
@@ -35,6 +35,8 @@ from core.values import Floats
 # The last instant of a range may miss `stop` by this share of a step, so that 0 to 0.3 by 0.1 has four instants.
 LAST_STEP_TOLERANCE = 1e-9
 FEWER_CELLS = "take a larger step, a shorter range or fewer benches"
+# Half of the longest chord there can be; half of a dragon's shortest chord is the limit that counts [m].
+STRAY_MAX = 25
 # Nesting depth of objects and lists: a collection of features of polygons has nine levels.
 VENUE_DEPTH_MAX = 20
 
@@ -76,6 +78,33 @@ class BenchByBench(Wire, strict=True):
         """raises: TooLarge, InvalidValue"""
         check_limit("dragon.lengths", "benches", self.benches, benches_max, "shorten the dragon")
         return Dragon.of(self.lengths, self.widths, self.overhangs)
+
+
+class Strays(Wire):
+    """How far every hole may be from its place, by people and by the play of its pin."""
+
+    stray: float = measure(
+        "m", "How far each person may be from their place at any time; adds to the margin what benches may move", 0.0,
+        ge=0, le=STRAY_MAX,
+    )  # fmt: skip
+    hole: float = measure(
+        "m", "Diameter of the holes in the benches, if the play of the pins is to count", 0.0, ge=0, le=1
+    )
+    pin: float = measure(
+        "m", "Diameter of the pins in these holes; half of what it lacks adds to the stray", 0.0, ge=0, le=1
+    )
+
+    @property
+    def strays(self) -> bool:
+        """Is any stray asked for? Then a search takes longer."""
+        return self.stray > 0.0 or self.hole > 0.0
+
+    def to_stray(self) -> Stray:
+        """raises: InvalidValue for a pin wider than its hole"""
+        if self.pin > self.hole:
+            rule = f"{{field}} must be no wider than its {{hole}} ({said(self.hole)} m), got {said(self.pin)} m"
+            raise InvalidValue("pin", rule, hole="hole")
+        return Stray(self.stray, self.hole, self.pin)
 
 
 class HeadSpeed(Wire):

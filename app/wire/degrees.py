@@ -62,11 +62,12 @@ def place_of(geometry: Mapping[str, object], coordinates: Coordinates | None, dr
     geographic = named is not None and GEOGRAPHIC.search(named) is not None
     if coordinates is None and named is not None and not geographic:
         words = "give longitude and latitude without crs, or true metres with coordinates 'metres' beside the venue"
-        raise InvalidValue("venue.crs", f"venue.crs must be left out or name CRS84, got {named!r}: {words}")
+        raise InvalidValue("venue.crs", f"venue.crs must be left out or name CRS84, got {named!r:.60}: {words}")
     if named is not None and coordinates == ("metres" if geographic else "degrees"):
         meant = "longitude and latitude" if geographic else "something else"
         raise InvalidValue(
-            "coordinates", f"coordinates must agree with venue.crs, which is {named!r}: {meant}, got {coordinates!r}"
+            "coordinates",
+            f"coordinates must agree with venue.crs, which is {named!r:.60}: {meant}, got {coordinates!r}",
         )
     if coordinates == "degrees" or geographic:
         return _laid_out(_in_degrees(geometry))

@@ -7,11 +7,9 @@ from typing import Any
 
 from app.wire.dances import SHAPES
 from app.wire.messages import message
-from app.wire.problem import ErrorItem, Problem, problem_of
+from app.wire.problem import ERRORS_MAX, PLACE_MAX, ErrorItem, Problem, plain, problem_of
 from core import BenchDragonError
 
-# More errors than this in one request are counted, not listed.
-ERRORS_MAX = 20
 # What pydantic says of a union, though it is the field `kind` that is wrong.
 UNION_ERRORS = frozenset({"union_tag_invalid", "union_tag_not_found"})
 # An error from the steps that lead to its place and its words.
@@ -58,7 +56,9 @@ def pointer(place: Sequence[Any], body: Any) -> str:
             break
         if step in SHAPES and not (isinstance(body, dict) and step in body):
             continue
+        if len(str(step)) > PLACE_MAX:
+            break
         steps.append(str(step).replace("~", "~0").replace("/", "~1"))
         inside = isinstance(body, list) or (isinstance(body, dict) and step in body)
         body = body[step] if inside else None
-    return "".join(f"/{step}" for step in steps)
+    return plain("".join(f"/{step}" for step in steps), ERRORS_MAX * PLACE_MAX)

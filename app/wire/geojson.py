@@ -12,9 +12,9 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from core import Area, InvalidValue, Venue
-from core.paths.route import COORDINATE_MAX, Point
+from core.paths.pieces import COORDINATE_MAX, Point
 from core.values import checked_number
-from core.venue import Ring, refuse_many_edges
+from core.venue import Ring, checked_name, refuse_many_edges
 
 # Name and rings.
 Polygon = tuple[str, tuple[Ring, ...]]
@@ -70,8 +70,8 @@ def _polygons(field: str, geometry: object, depth: int = 0) -> list[Found]:
     if kind == "Feature":
         properties = geometry.get("properties")
         name = properties.get("name") if isinstance(properties, Mapping) else None
-        if name is not None and not isinstance(name, str):
-            raise InvalidValue(f"{field}.properties.name", f"{field}.properties.name must be a text, got {name!r}")
+        if name is not None:
+            checked_name(f"{field}.properties.name", name, f"{field}.properties.name")
         inner = _polygons(f"{field}.geometry", geometry.get("geometry"), depth + 1)
         return [(name or own, where, rings) for own, where, rings in inner]
     members = {"FeatureCollection": "features", "GeometryCollection": "geometries"}.get(str(kind))

@@ -67,7 +67,7 @@ def message(error: Mapping[str, Any], asked: Any, thing: str = OBJECT) -> str:
     """
     units = known_units()
     names = [part for part in error["loc"][1:] if isinstance(part, str)]
-    name = next((part for part in reversed(names) if part in units), names[-1] if names else "the body")
+    name = next((part for part in reversed(names) if part in units), names[-1] if names else f"the {error['loc'][0]}")
     kind, value, limits = error["type"], error["input"], error.get("ctx", {})
     told_apart = next((part for part in reversed(names) if part in KINDS), "")
     unit = units.get(f"{told_apart}.{name}", units.get(name, ""))

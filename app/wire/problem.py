@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterable
 from http import HTTPStatus
+from itertools import islice
 
 from pydantic import BaseModel, Field
 
 PROBLEM_TYPE = "application/problem+json"
+# Errors beyond this number in one request are counted, not listed.
+ERRORS_MAX = 20
+# Longest detail and place; longer ones are cut, so that a problem has less than 20 kB [characters].
+DETAIL_MAX, PLACE_MAX = 300, 200
 # Titles by RFC 9110, which newer Pythons know by these names and older ones do not.
-TITLES = {413: "Content Too Large", 422: "Unprocessable Content"}
+TITLES = {413: "Content Too Large", 414: "URI Too Long", 422: "Unprocessable Content"}
 
 
 class ErrorItem(BaseModel):
@@ -31,8 +35,7 @@ class Problem(BaseModel):
     errors: list[ErrorItem] = Field(description="Each thing that is wrong, with its place")
 
     def to_json(self) -> bytes:
-        text = json.dumps(self.model_dump(exclude_none=True), ensure_ascii=False, separators=(",", ":"))
-        return text.encode(errors="backslashreplace")  # Half a character of a request is shown as JSON escapes it.
+        return self.model_dump_json(exclude_none=True).encode()
 
 
 def problem_of(status: int, code: str, detail: str, errors: Iterable[ErrorItem] = ()) -> Problem:
@@ -41,9 +44,18 @@ def problem_of(status: int, code: str, detail: str, errors: Iterable[ErrorItem] 
         type=f"urn:problem-type:bench-dragon:{code}",
         title=title(status),
         status=status,
-        detail=detail,
-        errors=list(errors),
+        detail=plain(detail, 2 * DETAIL_MAX),
+        errors=[
+            ErrorItem(pointer=one.pointer, name=one.name and plain(one.name, PLACE_MAX), detail=plain(one.detail))
+            for one in islice(errors, ERRORS_MAX)
+        ],
     )
+
+
+def plain(text: str, longest: int = DETAIL_MAX) -> str:
+    """Text that can be sent: cut if it is long, without half characters."""
+    text = text if len(text) <= longest else f"{text[:longest]}... ({len(text)} characters)"
+    return text.encode(errors="replace").decode()
 
 
 def title(status: int) -> str:

@@ -14,7 +14,9 @@ TOUCHING = re.compile(r"\b(touch|overlap|meet)", re.IGNORECASE)
 # What is said of a touch alone, of both by `nearest`, or of no contact.
 APART_FROM_MARGINS = {
     ("Turn", "tangent_point"), ("ShortestTurn", "tangent_point"), ("Overlap", "separation"), ("Nearest", "distance"),
-    ("LeastClearance", "distance"), *(("CollisionTime", name) for name in ("margin", "corner", "edge")),
+    ("LeastClearance", "distance"), ("Shown", "depth"),
+    *(("Tolerance", name) for name in ("stray", "stray_bracket", "limited_by", "time", "exhibit")),
+    *(("CollisionTime", name) for name in ("margin", "corner", "edge")),
 }  # fmt: skip
 
 

@@ -204,8 +204,8 @@ def test_bad_benches_are_a_problem(
         ("GET", "/trajectory/", 404, ""),
         ("GET", "/page/nowhere.js", 404, ""),
         ("GET", "/trajectory", 405, "OPTIONS, POST"),
-        ("DELETE", "/collision-time", 405, "GET, HEAD, OPTIONS"),
-        ("BREW", "/collision-time", 405, "GET, HEAD, OPTIONS"),
+        ("DELETE", "/collision-time", 405, "GET, HEAD, OPTIONS, POST"),
+        ("BREW", "/collision-time", 405, "GET, HEAD, OPTIONS, POST"),
     ],
 )
 def test_a_wrong_path_or_method_is_a_problem(

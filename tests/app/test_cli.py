@@ -13,7 +13,6 @@ import signal
 import socket
 import struct
 import subprocess
-import sys
 import tempfile
 import termios
 import time
@@ -26,13 +25,9 @@ import openpyxl
 import pytest
 
 import core
+from tests.app.command import COMMAND, ENVIRONMENT, PATIENCE, run
 from tests.conftest import heed_ctrl_c
 
-COMMAND = str(Path(sys.executable).with_name("bench-dragon"))
-ENVIRONMENT = {
-    name: value for name, value in os.environ.items() if not name.startswith(("BENCH_DRAGON_", "FORCE_COLOR"))
-}
-PATIENCE = 120.0  # [s]: only against a test that would hang
 HEALTH_COUNT = 'bench_dragon_requests_total{path="/healthz"'
 CROSSED = {
     "benches": [
@@ -41,17 +36,6 @@ CROSSED = {
     ],
     "chained": False,
 }
-
-
-def run(*arguments: str, text: str | None = None, **environment: str) -> subprocess.CompletedProcess[str]:
-    return subprocess.run(
-        [COMMAND, *arguments],
-        input=text,
-        capture_output=True,
-        text=True,
-        timeout=PATIENCE,
-        env={**ENVIRONMENT, **environment},
-    )
 
 
 def answer_of(*arguments: str, **keywords: Any) -> str:
@@ -101,7 +85,15 @@ def test_overlaps_reads_benches_from_a_file_or_a_pipe(client: httpx.Client, tmp_
     told = served(client, "POST", "/overlaps", CROSSED)
     assert [one["benches"] for one in told["overlaps"]] == [[0, 1]]
     assert json.loads(answer_of("overlaps", str(file), "--json")) == told
-    assert json.loads(answer_of("overlaps", "-", "--json", text=json.dumps(CROSSED))) == told
+    piped = subprocess.run(
+        [COMMAND, "overlaps", "-", "--json"],
+        input=json.dumps(CROSSED),
+        stdout=subprocess.PIPE,
+        text=True,
+        timeout=PATIENCE,
+        env=ENVIRONMENT,
+    )
+    assert json.loads(piped.stdout) == told
 
 
 def test_overlaps_of_the_dance_before_and_after_first_contact() -> None:
@@ -120,6 +112,9 @@ def test_overlaps_of_the_dance_before_and_after_first_contact() -> None:
         (["collision-time", "--margin", "0.05"], ["left out", "angle_sum"]),
         (["collision-time", "--benches", "3000"], ["benches from 0 to 287, of 3,000: those near the pair"]),
         (["collision-time", "--pitch", "0.25", "--start-turns", "8"], ["contact_at_start", "   after yes"]),
+        (["collision-time", "--pitch", "0.3"], ["overlap by 0.114626613 m"]),
+        (["clearance", "--pitch", "0.3", "--stop", "1"], ["[m]", "overlap by 0.114626613"]),
+        (["overlaps", "--time", "413"], ["overlap by 0.0"]),
         (["collision-time", "--pitch", "0.8"], ["clear", "fold", "637.66"]),
         (["minimum-pitch"], ["0.450337393 m", "graze", "0, 19", "every larger pitch", "no scan"]),
         (["overlaps", "--time", "413"], ["0, 8", "All four engines agree"]),
@@ -519,7 +514,7 @@ def test_the_shell_completes_commands_and_options() -> None:
     asked = {"_BENCH_DRAGON_COMPLETE": "complete_bash", "COMP_CWORD": "1"}
     assert answer_of(**asked, COMP_WORDS="bench-dragon coll").split() == ["collision-time"]
     asked["COMP_CWORD"] = "2"
-    assert answer_of(**asked, COMP_WORDS="bench-dragon collision-time --pi").split() == ["--pitch"]
+    assert answer_of(**asked, COMP_WORDS="bench-dragon collision-time --pit").split() == ["--pitch"]
 
 
 def test_completion_is_offered_once_and_not_by_each_command() -> None:

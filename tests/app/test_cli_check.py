@@ -10,7 +10,8 @@ from typing import Any
 import httpx
 import pytest
 
-from tests.app.test_cli import answer_of, run, served
+from tests.app.command import run
+from tests.app.test_cli import answer_of, served
 
 ROUNDING = 1e-12  # of an angle [1]
 DANCE = """
@@ -180,6 +181,14 @@ def test_a_least_clearance_is_not_rounded_above_what_is_proven_and_a_fold_has_no
     (shown,) = re.findall(r"proven: at least ([\d.]+) m", said)
     assert proven - LAST_SHOWN < float(shown) <= proven
     assert re.search(r"highest speed +grows without bound +238\.214985 s +towards the fold", said)
+
+
+def test_benches_that_overlap_at_the_start_are_said_to(tmp_path: Path) -> None:
+    file = tmp_path / "dance.json"
+    file.write_text('{"path": {"pitch": 0.3}}')
+    assert re.search(
+        r"least clearance +overlap by 0\.114627 m +0\.000000 s +benches 8, 28 ", answer_of("check", str(file))
+    )
 
 
 @pytest.mark.parametrize(

@@ -9,7 +9,7 @@ from typing import Any
 import httpx
 import pytest
 
-from tests.app.test_cli import run
+from tests.app.command import run
 
 DANCE = """
 margin = 0.2

@@ -11,6 +11,7 @@ import pytest
 
 from app.files import figures
 from core import Dance, Dragon, Line, OutsideRun, Route, Spiral, first_contact, minimum_pitch
+from core.design.pitch_scan import scan_near_minimum
 
 SMALL = Dragon(benches=30)
 PNG_SIGNATURE = b"\x89PNG\r\n\x1a\n"
@@ -21,6 +22,11 @@ def texts(svg: bytes) -> str:
     parser = ElementTree.XMLParser(target=ElementTree.TreeBuilder(insert_comments=True))
     root = ElementTree.fromstring(svg, parser)
     return "\n".join(node.text or "" for node in root.iter() if node.tag is ElementTree.Comment)
+
+
+def scan_figure(dragon: Dragon, *, samples: int, margin: float = 0.0, format: str = "svg") -> bytes:
+    circle = {"turning_radius": 4.5, "start_turns": 16.0, "margin": margin}
+    return figures.pitch_scan_figure(*scan_near_minimum(dragon, samples=samples, **circle), **circle, format=format)
 
 
 def test_trajectory_figure_names_its_axes_units_and_instant() -> None:
@@ -62,7 +68,7 @@ def test_contact_figure_with_a_margin_states_it() -> None:
     from_start = texts(figures.contact_figure(Dance(Dragon(), Spiral()), margin=0.2))
     assert "Nearer than 0.2 m from the start on" in from_start
     assert "a gap of 0.169279 m" in from_start
-    scan = texts(figures.pitch_scan_figure(Dragon(benches=8), margin=0.05, samples=5))
+    scan = texts(scan_figure(Dragon(benches=8), margin=0.05, samples=5))
     assert "radius of the head when two benches are first nearer than 0.05 m [m]" in scan
     never = texts(figures.contact_figure(Dance(Dragon(benches=5), Spiral(9.0, 3.0)), margin=0.1))
     assert "Never nearer than 0.1 m: the run ends clear at the centre" in never
@@ -88,7 +94,7 @@ def test_contact_figure_of_two_parallel_edges_names_no_corner() -> None:
 
 def test_pitch_scan_figure_marks_minimum_pitch_and_circle() -> None:
     least = minimum_pitch(SMALL)
-    words = texts(figures.pitch_scan_figure(SMALL, samples=9))
+    words = texts(scan_figure(SMALL, samples=9))
     assert f"minimum pitch, {least.pitch:.9f} m" in words
     assert "turning circle, 4.5 m" in words
 
@@ -101,7 +107,7 @@ def test_equal_questions_give_equal_bytes(kind: str, format: str) -> None:
             return figures.trajectory_figure(Dance(SMALL, Spiral()), format=format)
         if kind == "contact":
             return figures.contact_figure(Dance(SMALL, Spiral()), format=format)
-        return figures.pitch_scan_figure(SMALL, samples=5, format=format)
+        return scan_figure(SMALL, samples=5, format=format)
 
     first = drawn()
     assert first == drawn()
@@ -134,4 +140,4 @@ def test_trajectory_figure_after_the_end_of_the_run_is_refused() -> None:
 
 
 def test_pitch_scan_figure_of_a_dragon_that_cannot_touch_says_so() -> None:
-    assert "No contact at any of these pitches" in texts(figures.pitch_scan_figure(Dragon(benches=2), samples=3))
+    assert "No contact at any of these pitches" in texts(scan_figure(Dragon(benches=2), samples=3))

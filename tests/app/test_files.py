@@ -15,7 +15,7 @@ import pytest
 
 from app.files.disk import checked_output, write_whole
 from core import InvalidValue
-from tests.app.test_cli import COMMAND, ENVIRONMENT, PATIENCE, run
+from tests.app.command import COMMAND, ENVIRONMENT, PATIENCE, run
 
 OLD, NEW = b"what stood here before", b"what is written now"
 # A file may grow to this in the tests of a full disk [bytes].

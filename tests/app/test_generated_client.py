@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import importlib
 import inspect
+import io
 import os
 import re
 import subprocess
@@ -14,11 +15,13 @@ from types import ModuleType
 from typing import Any, get_args
 
 import httpx
+import numpy as np
 import pytest
 
 from app.questions import QUESTIONS
 from app.service.examples import EXAMPLES
 from tests.app.conftest import ANSWER_TIMEOUT
+from tests.app.grade.students import CONTACT, contact_workbook, spiral
 
 PACKAGE = "generated_client"
 WARNING = re.compile(r"^(?:WARNING|ERROR) parsing \S+ (\S+)", re.MULTILINE)
@@ -66,7 +69,7 @@ def body_of(module: ModuleType, body: Any) -> Any:
 def test_the_generator_warns_of_nothing_but_pictures(words: str) -> None:
     warned = WARNING.findall(words)
     assert len(warned) == words.count("WARNING") + words.count("ERROR")
-    assert {path.rpartition("/")[0] for path in warned} <= {"/figures"}
+    assert {path.rpartition("/")[0] for path in warned} <= {"/figures", ""}
 
 
 @pytest.mark.parametrize(
@@ -81,7 +84,7 @@ def test_every_question_is_answered(own: Any, client: httpx.Client, name: str, m
 
 
 @pytest.mark.parametrize(
-    ("name", "method"), [c[:2] for c in CALLS if not c[2].model], ids=[c[0] for c in CALLS if not c[2].model]
+    ("name", "method"), [c[:2] for c in CALLS if c[2].format_in_path], ids=[c[0] for c in CALLS if c[2].format_in_path]
 )
 def test_every_figure_is_drawn(own: Any, name: str, method: str) -> None:
     module, formats = call("figures", name), importlib.import_module(f"{PACKAGE}.models.format_").Format
@@ -97,6 +100,14 @@ def test_a_refusal_comes_back_as_a_problem(own: Any) -> None:
     problem = call("questions", "collision_time").sync(client=own, overhang=2.0)
     assert (problem.status, type(problem).__name__) == (422, "Problem")
     assert problem.errors[0].name == "overhang"
+
+
+def test_a_file_is_graded(own: Any) -> None:
+    module, types = call("grading", "grade"), importlib.import_module(f"{PACKAGE}.types")
+    file = types.File(payload=io.BytesIO(contact_workbook(spiral(np.array([CONTACT])))))
+    answer = module.sync(client=own, body=file, name="result2.xlsx", pitch="0.450337393")
+    assert (answer.files[0].workbook, answer.files[0].verdict, answer.files[0].diagnosis) == ("result2", "right", [])
+    assert (answer.answers[0].verdict, answer.answers[0].unit) == ("right", "m")
 
 
 def test_the_service_is_alive_and_ready(own: Any) -> None:

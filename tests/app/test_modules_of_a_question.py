@@ -33,20 +33,22 @@ asyncio.run(ask())
 print(*sorted(seen))
 """
 # Of the edge: what every request passes, the models, dances and paths on the wire, the question's own file, and
-# how every question is told, over HTTP or as a job.
+# how every question is told, over HTTP or as a job, in its lane and until its deadline.
 AT_THE_EDGE = {
     "app.questions.collision_time",
     "app.questions.question",
+    "app.service.lanes",
     "app.service.middleware",
     "app.service.reply",
     "app.service.routes",
+    "app.service.watch",
     "app.wire.dances",
     "app.wire.models",
     "app.wire.paths",
 }
 
 
-def test_a_collision_time_goes_through_eight_modules_of_the_edge() -> None:
+def test_a_collision_time_goes_through_ten_modules_of_the_edge() -> None:
     modules = subprocess.check_output([sys.executable, "-c", COUNTED], cwd=ROOT, text=True).split()
     assert "core.contact.search" in modules
     assert {module for module in modules if module.startswith("app")} <= AT_THE_EDGE

@@ -20,6 +20,9 @@ from tests.app.conftest import ANSWER_TIMEOUT
 from tests.app.renew_examples import text
 
 EXAMPLES_PER_CALL = 25
+# Of right values for the calls that take up to a second each. A picture has no schema to conform to, and its request
+# is that of the question that it draws; the answer to POST /minimum-pitch is that of GET.
+EXAMPLES_OF_SLOW = 8
 # Grazes are flat in time, so theirs is known to 1e-7 s only [m], [s], [rad] and relative.
 EXAMPLE_TOLERANCE = 1e-6
 SPENT = {"steps", "bound", "evaluations", "method", "evidence", "at_least", "head_speed_bracket", "speed_bracket"}
@@ -45,6 +48,11 @@ def can_be_asked(call: str, mode: GenerationMode) -> bool:
     return "requestBody" in description or "parameters" in description
 
 
+def examples(call: str, mode: GenerationMode) -> int:
+    is_slow = "/figures/" in call or call in ("POST /minimum-pitch", "POST /films")
+    return EXAMPLES_OF_SLOW if is_slow and mode.is_positive else EXAMPLES_PER_CALL
+
+
 def is_a_spiral_that_does_not_say_so(body: Any) -> bool:
     """A path without a kind: the schema asks for one, so that clients tell paths apart; the service takes a spiral."""
     path = body.get("path") if isinstance(body, dict) else None
@@ -58,7 +66,9 @@ def is_a_spiral_that_does_not_say_so(body: Any) -> bool:
 )
 def test_every_call_conforms_to_its_description(server: str, call: str, mode: GenerationMode) -> None:
     @given(case=CALLS[call].as_strategy(generation_mode=mode))
-    @settings(max_examples=EXAMPLES_PER_CALL, deadline=None, derandomize=True, suppress_health_check=list(HealthCheck))
+    @settings(
+        max_examples=examples(call, mode), deadline=None, derandomize=True, suppress_health_check=list(HealthCheck)
+    )
     def conforms(case: Any) -> None:
         assume(not (mode.is_negative and is_a_spiral_that_does_not_say_so(case.body)))
         case.call_and_validate(base_url=server, checks=CHECKED, timeout=ANSWER_TIMEOUT)
@@ -82,7 +92,7 @@ def holds_floats(field: Any) -> bool:
 def test_every_field_is_described_and_every_measure_has_its_unit(document: Any) -> None:
     assert [name for name, field in fields(document) if "$ref" not in field and not field.get("description")] == []
     # A direction and a ratio have no unit, and the numbers of the paper have theirs beside them.
-    free = {"normal", "ratio", "speed_ratio", "paper", "ours", "difference", "value"}
+    free = {"normal", "ratio", "speed_ratio", "paper", "published", "ours", "difference", "value", "found", "expected"}
     bare = [n for n, field in fields(document) if holds_floats(field) and "[" not in field["description"]]
     assert set(bare) <= free
 
@@ -96,10 +106,10 @@ def test_every_unit_in_words_stands_in_the_schema_too(document: Any) -> None:
 def test_calls_are_named_as_their_questions_and_lock_nothing(document: Any) -> None:
     calls = {call["operationId"]: call for path in document["paths"].values() for call in path.values()}
     both = {f"{name}_of" for name, question in QUESTIONS.items() if question.flat and question.body}
-    jobs = {"ask_later", "list_jobs", "job_status", "dismiss_job", "job_result", "job_events"}
-    assert calls.keys() == QUESTIONS.keys() | both | jobs | {"healthz", "readyz"}
+    jobs = {"ask_later", "list_jobs", "job_status", "dismiss_job", "job_result", "job_events", "sweep"}
+    assert calls.keys() == QUESTIONS.keys() | both | jobs | {"grade", "healthz", "readyz"}
     # A service may have a token for who makes and lists jobs.
-    guarded = {"ask_later", "list_jobs"}
+    guarded = {"ask_later", "list_jobs", "sweep"}
     assert all(calls[name]["security"] == [{}, {"token": []}] for name in guarded)
     assert all(calls[name]["security"] == [] for name in calls.keys() - guarded)
     assert {tag for call in calls.values() for tag in call["tags"]} == {tag["name"] for tag in document["tags"]}
@@ -163,10 +173,10 @@ def same(got: Any, told: Any) -> bool:
 def test_every_call_has_an_example_and_its_problems(document: Any) -> None:
     calls = {(method, path): call for path, methods in document["paths"].items() for method, call in methods.items()}
     for (method, path), call in calls.items():
-        if path.startswith(("/figures", "/healthz", "/readyz")):
+        if path.startswith(("/figures", "/films", "/grade", "/healthz", "/readyz")):
             continue
         # What is told of a job is never the same.
-        of_job = path.startswith("/jobs")
+        of_job = path.startswith(("/jobs", "/sweeps"))
         assert of_job or f"{method.upper()} {path}" in EXAMPLES
         for status in ("422", "500", "503") if of_job else ("406", "422", "500", "503"):
             assert list(call["responses"][status]["content"]) == ["application/problem+json"], (path, status)

@@ -7,18 +7,14 @@ import os
 import pty
 import signal
 import subprocess
-import sys
 from pathlib import Path
 
 import pytest
 
+from tests.app import command
+from tests.app.command import COMMAND, ENVIRONMENT, PATIENCE
 from tests.conftest import heed_ctrl_c
 
-COMMAND = [str(Path(sys.executable).with_name("bench-dragon")), "prove"]
-ENVIRONMENT = {
-    name: value for name, value in os.environ.items() if not name.startswith(("BENCH_DRAGON_", "FORCE_COLOR"))
-}
-PATIENCE = 120.0  # [s]: only against a test that would hang
 FIVE = ("--benches", "5", "--start-turns", "6")  # a dragon whose proof takes no time
 # A dragon whose minimum pitch a fold limits, on a circle of diameter 1.7 m.
 FOLDING = (
@@ -27,15 +23,8 @@ FOLDING = (
 )
 
 
-def run(*arguments: str, text: str | None = None, **environment: str) -> subprocess.CompletedProcess[str]:
-    return subprocess.run(
-        [*COMMAND, *arguments],
-        input=text,
-        capture_output=True,
-        text=True,
-        timeout=PATIENCE,
-        env={**ENVIRONMENT, **environment},
-    )
+def run(*arguments: str, **given: str) -> subprocess.CompletedProcess[str]:
+    return command.run("prove", *arguments, **given)
 
 
 @pytest.fixture(scope="module")
@@ -241,7 +230,7 @@ def test_a_bar_shows_and_ctrl_c_ends_the_proof_cleanly(tmp_path: Path) -> None:
     # All pairs of 223 benches in their own right take most of a minute.
     arguments = ["collision-time", "--every-pair", "--output", str(tmp_path / "proof.json")]
     process = subprocess.Popen(
-        [*COMMAND, *arguments],
+        [COMMAND, "prove", *arguments],
         stdout=subprocess.DEVNULL,
         stderr=follower,
         env=ENVIRONMENT,

@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 import httpx
 import pytest
 
-from tests.app.test_cli import run
+from tests.app.command import run
 
 # Names of core that no request has.
 INSIDE = re.compile(r"turning_radius|path\.path|pieces|times\[|dragon\.|path\.")
@@ -124,6 +124,9 @@ BODIES = [
     Asked("check", {"path": {"kind": "turn"}, "stop": 1e5}, "/stop", "stop must be at most"),
     Asked("check", {"path": {"kind": "turn", "turning_diameter": 0.002, "pitch": 0.001, "entry_radius": 0.001}},
           "/path/entry_radius", "path.entry_radius must leave arcs"),
+    Asked("maximum-head-speed", {"path": {"kind": "spiral"}}, "/stop",
+          "stop must be given: the run ends at a fold, towards which speeds grow without bound; it must be before 432"),
+    Asked("maximum-head-speed", {"path": {"kind": "spiral"}, "stop": None}, "/stop", "stop must be given: the run"),
     Asked("figures/trajectory.svg", {"time": 440}, "/time", "time must be at most 432.917924228 s, when bench 0"),
     Asked("figures/contact.svg", {"path": {"kind": "turn"}, "stop": 1e5}, "/stop", "stop must be at most"),
 ]  # fmt: skip

@@ -10,9 +10,12 @@ import pytest
 import core
 from app.questions import QUESTIONS
 from app.questions.question import Question
+from core.tolerance.curve import time_on_circle
 
 # Flat values of a question, and the same in a body.
 SMALL = {"benches": 30}
+# When the head of the dance of `tolerance` is on its circle [s].
+ON_CIRCLE = time_on_circle(core.Dance(core.Dragon(30), core.Spiral(0.6, 9.0)), 4.0)
 SAME: dict[str, tuple[dict[str, Any], dict[str, Any]]] = {
     "collision_time": (
         {"pitch": 0.5, "margin": 0.05, "cross_check": "pair", "head_speed": 2},
@@ -29,6 +32,10 @@ SAME: dict[str, tuple[dict[str, Any], dict[str, Any]]] = {
     "maximum_head_speed": (
         {"benches": 30, "ratio": 1.5, "speed_limit": 1.5},
         {"dragon": SMALL, "path": {"kind": "turn", "ratio": 1.5}, "speed_limit": 1.5},
+    ),
+    "tolerance": (
+        {"benches": 30, "pitch": 0.6, "start_turns": 9, "turning_diameter": 8},
+        {"dragon": SMALL, "path": {"kind": "spiral", "pitch": 0.6, "start_turns": 9}, "stop": ON_CIRCLE},
     ),
     "trajectory_figure": ({"benches": 9, "time": 20}, {"dragon": {"benches": 9}, "time": 20}),
     "contact_figure": ({"benches": 30, "margin": 0.1}, {"dragon": SMALL, "margin": 0.1}),

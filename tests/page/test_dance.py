@@ -223,8 +223,23 @@ def test_a_fold_is_as_clear_as_a_contact(open_page: Any, server: str) -> None:
 def test_contact_at_the_start_has_its_picture_and_its_depth(open_page: Any) -> None:
     page = open_page("?pitch=0.3")
     text_of(page, "#first-contact .value", "Touching already at the start")
-    text_of(page, "#inset figcaption", "gap -")
+    text_of(page, "#inset figcaption", "overlap by ")
     text_of(page, "#clock", "0.00 s")
+
+
+@pytest.mark.parametrize("margin", [0, 0.2])
+def test_benches_that_overlap_are_said_to_overlap_by_what_the_service_answers(
+    open_page: Any, server: str, margin: float
+) -> None:
+    answer = collision_time(server, pitch=0.3, margin=margin)
+    depth = f"{-1000 * answer['gap']:.3f} mm"
+    page = open_page(f"?pitch=0.3&margin={margin}")
+    for language, words in (("English", f"overlap by {depth}"), ("中文", f"重叠 {depth}")):
+        page.get_by_role("button", name=language).click()
+        for place in ("#first-contact p", "#inset figcaption", "#clearance .reading"):
+            text_of(page, place, words)
+        for place in ("#first-contact", "#inset figcaption", "#clearance .reading"):
+            assert not re.search(r"[-−]\d+\.\d+ mm", page.locator(place).inner_text())
 
 
 def test_two_benches_cannot_touch_and_the_chart_says_so_in_the_services_words(open_page: Any, server: str) -> None:

@@ -180,6 +180,31 @@ def test_a_wait_of_more_than_half_a_second_shows_its_progress(open_page: Any, se
         page.wait_for_timeout(50)
 
 
+def opacity(page: Any, place: str) -> float:
+    return float(page.locator(place).first.evaluate("one => getComputedStyle(one).opacity"))
+
+
+OLD = ("#first-contact .value", "#run-end .value", "#canvas", "#clearance .plot", "#rows")
+
+
+def test_old_answers_turn_pale_while_new_ones_are_computed(open_page: Any, settled: Any, server: str) -> None:
+    page = open_page()
+    settled(page)
+    assert {place: opacity(page, place) for place in OLD} == dict.fromkeys(OLD, 1.0)
+    page.route("**/collision-time*", lambda route: None)
+    page.locator("#pitch").fill("0.5")
+    page.locator("#first-contact[aria-busy=true]").wait_for()
+    for place in OLD:
+        page.wait_for_function("place => getComputedStyle(document.querySelector(place)).opacity < 1", arg=place)
+        assert 0.3 < opacity(page, place) < 0.7, place
+    page.unroute("**/collision-time*")
+    page.locator("#pitch").fill("0.52")
+    wanted = httpx.get(f"{server}/collision-time?pitch=0.52").json()["time"]
+    page.locator("#first-contact .value", has_text=f"{wanted:.6f}").wait_for()
+    settled(page)
+    assert {place: opacity(page, place) for place in OLD} == dict.fromkeys(OLD, 1.0)
+
+
 def test_a_service_that_fails_is_told_in_its_own_words(open_page: Any, settled: Any) -> None:
     page = open_page("?pitch=0.5", failing=True)
     settled(page)
@@ -209,7 +234,7 @@ def test_a_busy_service_is_asked_again(open_page: Any, settled: Any) -> None:
 
 def test_the_policy_lets_the_page_load_from_its_service_alone(open_page: Any, settled: Any, server: str) -> None:
     policy = httpx.get(server).headers["content-security-policy"]
-    assert policy == "default-src 'self'"
+    assert policy == "default-src 'self'; frame-ancestors 'none'"
     page = open_page()
     settled(page)
     assert page.evaluate("document.querySelectorAll('script:not([src]), style, [style*=url], [onclick]').length") == 0

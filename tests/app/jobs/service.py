@@ -106,9 +106,9 @@ class Service:
     def of(self, role: str) -> list[Process]:
         return [process for process in self.processes() if process.role == role]
 
-    def post(self, wanted: Any) -> str:
+    def post(self, wanted: Any, path: str = "/jobs") -> str:
         """Address of a new job."""
-        answer = self.client.post("/jobs", json=wanted)
+        answer = self.client.post(path, json=wanted)
         assert answer.status_code == 202, answer.text
         return answer.headers["location"]
 

@@ -11,7 +11,7 @@ import orjson
 import pytest
 
 from app.jobs.job import ID_PATTERN, Full, FullForClient, FullOfBytes, JobState, Room
-from app.jobs.store import DEATHS_MAX, EVENTS_KEPT, Store
+from app.jobs.store import DEATHS_MAX, EVENTS_KEPT, TABLES, Store
 
 ROOM = Room(jobs=10, of_client=10, bytes=1_000)
 PROBLEM = orjson.dumps({"detail": "It does not work."})
@@ -149,3 +149,22 @@ def test_a_broken_file_is_told(tmp_path: Path) -> None:
     (tmp_path / "jobs.sqlite").write_bytes(b"no database" * 1000)
     with pytest.raises(sqlite3.DatabaseError):
         Store(tmp_path)
+
+
+def test_jobs_of_the_layout_before_are_taken_over(tmp_path: Path) -> None:
+    with sqlite3.connect(tmp_path / "jobs.sqlite") as old:
+        without = ",\n    done INTEGER, total INTEGER, kept INTEGER NOT NULL DEFAULT 0"
+        assert without in TABLES
+        for table in TABLES.replace(without, "").split(";"):
+            old.execute(table)
+        old.execute(
+            "INSERT INTO jobs (id, question, call, client, state, created, updated, message)"
+            " VALUES ('a', 'turn', x'', '', 'accepted', 1, 1, '')"
+        )
+        old.execute("PRAGMA user_version = 1")
+    old.close()
+    for _ in range(2):  # The second time it is of this layout.
+        store = Store(tmp_path)
+        found = store.known("a")
+        assert (found.question, found.done, found.total) == ("turn", None, None)
+        store.close()

@@ -9,6 +9,7 @@ import pytest
 import core
 from app.questions.check import CheckRequest, Report
 from app.questions.collision_time import CollisionQuery, CollisionTime
+from app.questions.question import Terms
 from app.sweeps.columns import Column, answer_columns, value_type
 from app.sweeps.questions import QUESTIONS, question_of
 from tests.app.sweeps.odd_questions import Height
@@ -25,7 +26,7 @@ def test_numbers_words_and_pairs_become_columns_and_lists_json() -> None:
 
 def test_what_an_answer_does_not_have_is_null() -> None:
     dance = core.Dance(core.Dragon(), core.Spiral())
-    answer = CollisionTime.of(core.first_contact(dance), dance, CollisionQuery(cross_check="none"))
+    answer = CollisionTime.of(core.first_contact(dance), dance, CollisionQuery(cross_check="none"), Terms())
     values = {column.name: column.value(answer) for column in answer_columns(CollisionTime)}
     assert (values["outcome"], values["benches.0"], values["benches.1"]) == ("contact", 0, 8)
     assert values["head.radius"] == answer.head.radius if answer.head else False
@@ -51,6 +52,6 @@ def test_a_list_of_values_has_one_type(values: list[Any], kind: type) -> None:
 
 def test_a_column_of_a_list_of_models_is_their_json() -> None:
     dance = core.Dance(core.Dragon(5), core.Spiral())
-    answer = Report.of(core.check(dance, speed_limit=0.5), dance, CheckRequest(cross_check="none"), None)
+    answer = Report.of(core.check(dance, speed_limit=0.5), dance, CheckRequest(cross_check="none"), Terms(), None)
     column = Column("failures", ("failures",), str, as_json=True)
     assert '"kind":"speed"' in column.value(answer)

@@ -19,7 +19,7 @@ from app.sweeps.run import begin
 from app.sweeps.shards import Piece, parts, write_part
 from app.sweeps.spec import Spec
 from app.sweeps.table import Sweep
-from tests.app.test_cli import COMMAND, ENVIRONMENT, PATIENCE
+from tests.app.command import COMMAND, ENVIRONMENT, PATIENCE
 from tests.conftest import heed_ctrl_c
 
 SPEC = """

@@ -5,6 +5,8 @@ from __future__ import annotations
 import time
 from pathlib import Path
 
+import pytest
+
 import core
 from app.sweeps.designs import designs
 from app.sweeps.shards import Piece, write_part
@@ -12,7 +14,8 @@ from app.sweeps.spec import Spec
 
 # All included: the request checked, the dance made, the answer, its row, the file; to the search alone [1].
 COST_MAX = 1.25
-ROUNDS = 4
+# Rounds at most: on a busy machine the first ones may tell more of the others that compute.
+ROUNDS = 20
 
 
 def test_a_design_costs_little_more_than_its_search(tmp_path: Path) -> None:
@@ -31,5 +34,7 @@ def test_a_design_costs_little_more_than_its_search(tmp_path: Path) -> None:
         write_part(tmp_path, spec, 0, [Piece.whole(spec, spec.asks, 0).answered()])
         bare.append(searched - begun)
         all_included.append(time.thread_time() - searched)
-    # The least of each: what other processes take of the caches only adds to a time.
-    assert min(all_included) <= COST_MAX * min(bare)
+        # The least of each: what other processes take of the caches only adds to a time.
+        if len(bare) > 2 and min(all_included) <= COST_MAX * min(bare):
+            return
+    pytest.fail(f"{min(all_included):.3f} s against {min(bare):.3f} s for the search alone")

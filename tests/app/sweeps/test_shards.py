@@ -8,13 +8,16 @@ import pickle
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
 
 import core
+from app.questions import CALLS
 from app.questions.collision_time import CollisionQuery, CollisionTime
-from app.sweeps.questions import QUESTIONS, Question, question_of
+from app.questions.question import Terms
+from app.sweeps.questions import NO_ROWS, QUESTIONS, Question, question_of
 from app.sweeps.shards import OtherVersion, Piece, checked_part, part_name, parts, write_part
 from app.sweeps.spec import Spec
 from core import InvalidValue
@@ -36,7 +39,7 @@ def test_each_row_is_the_answer_to_its_request() -> None:
     for row in rows(Piece.whole(spec, question, 0)) + rows(Piece.whole(spec, question, 1)):
         asked = CollisionQuery(pitch=row["pitch"], width=row["width"], benches=50, cross_check="none")
         dance = asked.to_dance(50)
-        answer = CollisionTime.of(core.first_contact(dance), dance, asked)
+        answer = CollisionTime.of(core.first_contact(dance), dance, asked, Terms())
         assert (row["outcome"], row["time"]) == (answer.outcome, answer.time)
         assert (row["benches.0"], row["benches.1"]) == (answer.benches or (None, None))
         assert row["certificate.steps"] == answer.certificate.steps
@@ -76,18 +79,63 @@ def test_what_core_refuses_is_said_in_the_words_of_the_spec() -> None:
     assert row["error.message"] == "benches must be at least 3 for two to share no handle, got 2"
 
 
+BENCH = {"x": 0.0, "y": 0.0, "heading": 0.0, "length": 2.2, "width": 0.3}
+# A request, the name of a parameter, a good value and a bad one.
+FLAT = ({"benches": 8}, "pitch", 1.7)
+BODY = ({"dragon": {"benches": 8}}, "path.pitch", 1.7)
+ASKED = {
+    "collision_time": ({"benches": 8}, "pitch", 0.55),
+    "minimum_pitch": ({"benches": 8}, "margin", 0.01),
+    "minimum_pitch_of": ({"dragon": {"benches": 8}}, "margin", 0.01),
+    "turn": ({}, "pitch", 1.7),
+    "turn_of": ({"path": {"kind": "turn"}}, "path.pitch", 1.7),
+    "shortest_turn_of": ({"dragon": {"benches": 8}}, "pitch", 1.7),
+    "maximum_head_speed_of": ({"dragon": {"benches": 8}, "stop": 100.0}, "path.pitch", 1.7),
+    "collision_time_of": ({"dragon": {"benches": 8}}, "path.pitch", 0.55),
+    "overlaps": ({"benches": [BENCH] * 3}, "margin", 0.01),
+}
+
+
 @pytest.mark.parametrize("name", QUESTIONS)
 def test_every_question_is_answered_and_refuses_a_bad_design(name: str) -> None:
-    question = question_of(name)
-    parameter = "path.pitch" if name == "check" else "margin" if name == "minimum_pitch" else "pitch"
-    good = 0.01 if name == "minimum_pitch" else 0.55 if name == "collision_time" else 1.7
-    small = {"dragon": {"benches": 8}} if name == "check" else {} if name == "turn" else {"benches": 8}
-    spec = spec_of(question, {parameter: [good, -1.0]}, request=small, shard_size=2)
+    body = name.endswith("_of") or name in ("check", "trajectory")
+    request, parameter, good = ASKED.get(name, BODY if body else FLAT)
+    question = question_of(name, [parameter, *request])
+    spec = Spec.of({"question": name, "over": {parameter: [good, -1.0]}, "request": request, "shard_size": 2})
     answered, refused = rows(Piece.whole(spec, question, 0))
-    assert answered["error.code"] is None
+    assert answered["error.code"] is None, answered
     assert isinstance(answered[question.shown], float)
     assert refused["error.code"] == "invalid-value"
     assert parameter.rpartition(".")[2] in refused["error.message"]
+
+
+def test_every_call_of_the_service_is_swept_or_said_not_to_be() -> None:
+    for name in CALLS:
+        assert (name in QUESTIONS) is (name.removesuffix("_of") not in NO_ROWS)
+
+
+def row_of(name: str, request: dict[str, Any], **over: Any) -> Any:
+    """The row of a single design."""
+    [row] = rows(Piece.whole(spec := Spec.of({"question": name, "over": over, "request": request}), spec.asks, 0))
+    return row
+
+
+def test_the_row_of_a_table_is_what_the_table_says() -> None:
+    dance = core.Dance(core.Dragon(benches=30), core.Spiral(0.6))
+    times = np.arange(0.0, 301.0)
+    table = core.trajectory(dance, times)
+    row = row_of("trajectory", {"dragon": {"benches": 30}}, **{"path.pitch": [0.6]})
+    assert (row["time"], row["head_x"], row["head_y"]) == (300.0, *table.position[-1, 0])
+    assert (row["tail_x"], row["tail_y"], row["tail_speed"]) == (*table.position[-1, -1], table.speed[-1, -1])
+    assert (row["least_speed"], row["greatest_speed"]) == (table.speed.min(), table.speed.max())
+    profile = core.clearance_profile(dance, times)
+    row = row_of("clearance", {"benches": 30}, pitch=[0.6])
+    assert row["clearance"] == min(profile.clearance.min(), *(graze.clearance for graze in profile.grazes))
+    third = BENCH | {"x": 0.2, "y": 0.1}
+    row = row_of("overlaps", {"benches": [BENCH, BENCH | {"y": 9.0}, third]}, margin=[0.0])
+    assert (row["pairs"], row["benches.0"], row["benches.1"], row["agree"]) == (1, 0, 2, True)
+    assert row["separation"] == pytest.approx(-0.2, abs=1e-12)
+    assert row_of("overlaps", {"benches": [BENCH]}, margin=[0.0])["separation"] is None
 
 
 def test_a_bad_design_is_a_row_with_its_error_and_the_others_are_answered() -> None:

@@ -72,6 +72,12 @@ def test_cross_checks_are_left_out_unless_they_are_asked_for() -> None:
     ("changes", "message"),
     [
         ({"question": "collision"}, "question must be one of collision_time, minimum_pitch"),
+        ({"question": "pitch_scan_of"}, "question pitch_scan_of has no row for a table, as it is a sweep itself"),
+        (
+            {"question": "contact_figure"},
+            "question contact_figure has no row for a table, as it answers with a picture",
+        ),
+        ({"question": "collision_time_of"}, '"pitch" is unknown here: it belongs into path'),
         ({"over": {"pich": [0.5]}}, '"pich" is unknown here: did you mean pitch?'),
         ({"request": {"width": -1}}, "width must be at least 0.001 m, got -1 m"),
         ({"request": {"widht": 1}}, '"widht" is unknown here: did you mean width?'),

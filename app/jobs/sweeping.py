@@ -1,0 +1,107 @@
+"""The job of a sweep: its shards stand in a folder of the job, from which it goes on when its process was killed.
+
+The table has the bytes that `bench-dragon sweep` gives to the same spec.
+"""
+
+from __future__ import annotations
+
+import shutil
+from pathlib import Path
+
+from app.extras import MissingPackage
+from app.files.tables import CSV_TYPE
+from app.jobs.mouth import Mouth
+from app.jobs.task import Task
+from app.settings import Settings
+from app.sweeps.call import engine_of
+from app.sweeps.engines import NoAnswer, NoScheduler
+from app.sweeps.processes import CannotStart
+from app.sweeps.run import SPEC_FILE, Progress, run
+from app.sweeps.spec import Spec
+from app.sweeps.table import Sweep
+from app.wire.faults import in_body, refused
+from app.wire.models import JSON
+from app.wire.problem import Problem, problem_of
+from core import BenchDragonError
+
+# What keeps a sweep from its answers, though nothing is wrong with the spec.
+FAILURES = (CannotStart, MissingPackage, NoAnswer, NoScheduler)
+# How long a scheduler is waited for that was never there [s].
+FIRST_SECONDS = 60.0
+
+
+class TooManyBytes(BenchDragonError):
+    """The files of a sweep take more room than they may."""
+
+    code = "content-too-large"
+
+
+def swept(task: Task, settings: Settings, folder: Path, mouth: Mouth) -> Path | Problem:
+    """File of the table in the form of the task, or why there is none.
+
+    folder: of the shards; those that are there already are not answered again
+    """
+    try:
+        spec = Spec.of(task.request)
+        _renew(folder, spec)
+        engine = engine_of(
+            settings.dask or None,
+            settings.sweep_processes,
+            patience=settings.sweep_seconds_max,
+            first=FIRST_SECONDS,
+        )
+        teller = _Teller(folder, settings.sweep_bytes_max, mouth)
+        run(spec, folder, question=spec.asks, engine=engine, progress=teller)
+        teller.tell(Progress(spec.designs, spec.designs, 0.0, None))
+        return _table(Sweep(folder, spec), task.form)
+    except FAILURES as error:
+        return problem_of(503, error.code, f"The sweep failed: {error.message}.")
+    except TooManyBytes as error:
+        return problem_of(413, error.code, error.message)
+    except BenchDragonError as error:
+        return refused(error, in_body(task.request))
+    except OSError as error:
+        detail = f"The sweep could not be written into the data folder: {error.strerror}. Make room and ask again."
+        return problem_of(507, "insufficient-storage", detail)
+
+
+class _Teller:
+    """Tells how far a run is, and ends it when its files take too much room."""
+
+    def __init__(self, folder: Path, bytes_max: int, mouth: Mouth) -> None:
+        self.folder, self.bytes_max, self.mouth = folder, bytes_max, mouth
+        self.begun = False
+
+    def __call__(self, progress: Progress) -> None:
+        """raises: TooManyBytes"""
+        if not self.begun:
+            self.begun = True
+            self.mouth.say(kept=progress.designs)
+        if self.mouth.is_due():
+            self.tell(progress)
+
+    def tell(self, progress: Progress) -> None:
+        """raises: TooManyBytes"""
+        size = sum(file.stat().st_size for file in self.folder.glob("*.parquet"))
+        if size > self.bytes_max:
+            words = f"The sweep has {size} bytes after {progress.designs} of {progress.total} designs"
+            raise TooManyBytes("over", f"{words}, and one may have {self.bytes_max} here: ask for fewer designs.")
+        share, rate = progress.designs / progress.total, progress.rate / progress.total
+        self.mouth.say(share=share, rate=rate or None, done=progress.designs, total=progress.total, size=size)
+
+
+def _renew(folder: Path, spec: Spec) -> None:
+    """Shards of another version of this program go: its answers may be others."""
+    kept = folder / SPEC_FILE
+    if folder.exists() and not (kept.exists() and kept.read_bytes() == spec.canonical()):
+        shutil.rmtree(folder)
+
+
+def _table(sweep: Sweep, form: str) -> Path:
+    whole = sweep.compact()
+    writers = {CSV_TYPE: sweep.to_csv, JSON: sweep.to_json}
+    if form not in writers:
+        return whole
+    file = sweep.folder / f"table.{form.rpartition('/')[2]}"
+    writers[form](file)
+    return file

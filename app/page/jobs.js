@@ -1,0 +1,171 @@
+/** The jobs that this browser has started, and with a token all of the service: how far each is, its result, its end. */
+
+import { Problem, Superseded } from "./api.js";
+import { $, make } from "./elements.js";
+import { refusalWords, say } from "./text.js";
+
+const STORED = "bench-dragon-jobs";
+/** So many jobs are remembered. */
+const REMEMBERED = 50;
+/** Between two looks at a job that is not finished [ms]. */
+const LOOK = 1_000;
+const UNFINISHED = ["accepted", "running"];
+const STATES = { accepted: "jobWaits", running: "jobRuns", successful: "jobDone", failed: "jobFailed", dismissed: "jobDismissed" };
+
+/** What the browser remembers; nothing where it may not. */
+function remembered() {
+  try {
+    const found = JSON.parse(localStorage.getItem(STORED));
+    return Array.isArray(found) ? found.filter(({ id }) => /^[0-9a-f]{48}$/.test(id)) : [];
+  } catch {
+    return [];
+  }
+}
+
+export class Jobs {
+  /** id -> {spec if this browser asked, status} */
+  #jobs = new Map();
+  #timer = 0;
+
+  /** show(columns, spec): draw the table of a sweep; announce(words) */
+  constructor(list, service, show, announce) {
+    Object.assign(this, { list, service, show, announce });
+    for (const { id, spec } of remembered()) this.#jobs.set(id, { spec });
+    $("#token").addEventListener("change", () => this.#listAll());
+    this.#look();
+  }
+
+  get #headers() {
+    const token = $("#token").value.trim();
+    return token ? { Authorization: `Bearer ${token}` } : {};
+  }
+
+  /** Start a sweep. throws: Problem */
+  async start(spec) {
+    const status = await this.service.ask("sweep", "sweeps", { body: spec, headers: this.#headers });
+    this.#jobs = new Map([[status.jobID, { spec, status, shown: false }], ...this.#jobs]);
+    this.#remember();
+    this.announce(say("jobStarted"));
+    this.#look();
+  }
+
+  #remember() {
+    const own = [...this.#jobs].filter(([, { spec }]) => spec).slice(0, REMEMBERED);
+    try {
+      localStorage.setItem(STORED, JSON.stringify(own.map(([id, { spec }]) => ({ id, spec }))));
+    } catch {
+      // Where the browser keeps nothing, the list ends with the page.
+    }
+  }
+
+  async #listAll() {
+    if (!$("#token").value.trim()) return;
+    try {
+      const { jobs } = await this.service.ask("jobs", "jobs", { headers: this.#headers });
+      for (const status of jobs) this.#jobs.set(status.jobID, { ...this.#jobs.get(status.jobID), status });
+      this.render();
+      this.#look();
+    } catch (error) {
+      this.#refused(error);
+    }
+  }
+
+  /** Ask how far every job is that is not finished, and again after a while. */
+  async #look() {
+    clearTimeout(this.#timer);
+    this.render();
+    for (const [id, job] of this.#jobs) {
+      if (job.status && !UNFINISHED.includes(job.status.status)) continue;
+      try {
+        job.status = await this.service.ask(`job ${id}`, `jobs/${id}`, { cache: "no-store" });
+      } catch (error) {
+        if (error instanceof Superseded) return;
+        if (!(error instanceof Problem)) throw error;
+        this.#forget(id);
+      }
+      if (job.shown === false && job.status?.status === "successful") this.#open(id, job);
+    }
+    this.render();
+    if ([...this.#jobs.values()].some(({ status }) => UNFINISHED.includes(status?.status))) {
+      this.#timer = setTimeout(() => this.#look(), LOOK);
+    }
+  }
+
+  #forget(id) {
+    this.#jobs.delete(id);
+    this.#remember();
+    this.render();
+  }
+
+  #refused(error) {
+    if (error instanceof Problem) this.announce(refusalWords(error.message).textContent);
+    else if (!(error instanceof Superseded)) throw error;
+  }
+
+  async #open(id, job) {
+    job.shown = true;
+    try {
+      this.show(await this.service.ask("map", `jobs/${id}/result`), job.spec);
+      this.announce(say("jobReady"));
+    } catch (error) {
+      this.#refused(error);
+    }
+  }
+
+  async #end(id) {
+    try {
+      const status = await this.service.ask(`end ${id}`, `jobs/${id}`, { method: "DELETE" });
+      if (status) this.#jobs.get(id).status = status;
+      else this.#forget(id);
+      this.render();
+    } catch (error) {
+      this.#refused(error);
+    }
+  }
+
+  /** Show the list, also after a change of language; what has the focus keeps it. */
+  render() {
+    const focus = document.activeElement?.id;
+    const rows = [...this.#jobs].filter(([, { status }]) => status).map(([id, job]) => this.#row(id, job));
+    this.list.replaceChildren(...rows);
+    $("#no-jobs").hidden = rows.length > 0;
+    if (focus && this.list.querySelector(`#${CSS.escape(focus)}`)) $(`#${CSS.escape(focus)}`).focus();
+  }
+
+  #row(id, job) {
+    const { status } = job;
+    const going = UNFINISHED.includes(status.status);
+    const name = `${what(status.processID, job.spec)}`;
+    const button = (key, act) => {
+      const made = make("button", { type: "button", id: `${key}-${id}`, textContent: say(key), "aria-label": `${say(key)}: ${name}` });
+      made.addEventListener("click", act);
+      return made;
+    };
+    const row = make("li", { "data-state": status.status }, make("span", { className: "what", textContent: name }));
+    row.append(make("span", { className: "state", textContent: stateWords(status) }));
+    if (going) row.append(make("progress", { max: 100, value: status.progress, "aria-label": `${name}: ${status.progress} %` }));
+    const { href, type } = status.links.find(({ rel }) => rel === "results") ?? {};
+    const isTable = status.processID === "sweep" && type === "application/json";
+    const buttons = make("span", { className: "buttons" });
+    if (href && isTable) buttons.append(button("jobMap", () => this.#open(id, job)));
+    if (href) buttons.append(make("a", { href: `jobs/${id}/result`, download: `${status.processID}-${id.slice(0, 8)}`, textContent: say("jobResult") }));
+    buttons.append(button(going ? "jobCancel" : "jobRemove", () => this.#end(id)));
+    row.append(buttons);
+    if (status.problem) row.append(make("p", { className: "error", ...refusalWords(status.problem.detail) }));
+    return row;
+  }
+}
+
+function what(process, spec) {
+  if (!spec) return process === "sweep" ? say("sweep") : process;
+  const names = Object.keys(spec.over).map((name) => say(name));
+  return say("sweepOver", { question: say(`sweep_${spec.question}`), names: names.join(say("and")) });
+}
+
+/** How far a job is: state, designs, rate and time left. */
+function stateWords({ status, done, total, rate, time_left: left }) {
+  const words = [say(STATES[status])];
+  if (done !== null && status === "running") words.push(say("jobDesigns", { done, total }));
+  if (rate && total && status === "running") words.push(say("jobRate", { rate: ((rate * total) / 100).toPrecision(3), left: Math.ceil(left) }));
+  return words.join(say("comma"));
+}

@@ -1,0 +1,117 @@
+/** The form of a sweep: a question over one or two of its parameters, the others as on the page. */
+
+import { make } from "./elements.js";
+import { DRAGON, FIELDS } from "./state.js";
+import { refusalWords, say } from "./text.js";
+
+const SPIRAL = [...DRAGON, "pitch", "start_turns", "head_speed"];
+const CIRCLE = [...DRAGON, "turning_diameter", "start_turns"];
+/** Questions that the page sweeps: the parameters of each, its own value, and the path of its dance. */
+export const QUESTIONS = {
+  collision_time: { parameters: [...SPIRAL, "margin"], value: "time", path: "spiral" },
+  minimum_pitch: { parameters: [...CIRCLE, "margin"], value: "pitch", path: "spiral" },
+  least_clearance: { parameters: SPIRAL, value: "distance", path: "spiral" },
+  shortest_turn: { parameters: [...CIRCLE, "pitch", "margin"], value: "length", path: "turn" },
+  maximum_head_speed: { parameters: [...CIRCLE, "pitch"], value: "head_speed", path: "turn" },
+};
+/** What the form begins with: parameter, from, to, count. */
+const FIRST = [
+  ["pitch", 0.45, 0.6, 31],
+  ["width", 0.25, 0.35, 11],
+];
+const COUNT_MAX = 200;
+const NONE = "";
+
+export class SweepForm {
+  #rows;
+
+  /** start(spec): asks the service; throws its refusal */
+  constructor(form, state, start) {
+    Object.assign(this, { state, start });
+    const options = Object.keys(QUESTIONS).map((name) => make("option", { value: name, "data-text": `sweep_${name}` }));
+    this.question = make("select", { id: "sweep-question" }, ...options);
+    this.#rows = FIRST.map((first, k) => this.#row(k, first));
+    this.error = make("p", { id: "sweep-error", className: "error", role: "alert" });
+    const go = make("button", { className: "main", "data-text": "sweepStart" });
+    const label = make("label", { htmlFor: "sweep-question", "data-text": "sweepQuestion" });
+    form.append(make("p", {}, label, " ", this.question), ...this.#rows.map(({ box }) => box), make("p", {}, go), this.error);
+    this.question.addEventListener("change", () => this.#offer());
+    form.addEventListener("submit", (event) => {
+      event.preventDefault();
+      this.#submit();
+    });
+    this.#offer();
+  }
+
+  #row(k, [name, from, to, count]) {
+    const number = (key, value, more = {}) =>
+      make("input", { id: `sweep-${key}-${k}`, type: "number", step: "any", required: true, value, "data-label": key, ...more });
+    const row = {
+      k,
+      name: make("select", { id: `sweep-name-${k}`, "data-label": "sweepParameter" }),
+      from: number("sweepFrom", from),
+      to: number("sweepTo", to),
+      count: number("sweepCount", count, { step: 1, min: 2, max: COUNT_MAX }),
+      wanted: name,
+    };
+    const legend = make("legend", { "data-text": `sweepParameter${k}` });
+    const part = (key) => make("label", { htmlFor: row[key].id }, make("span", { "data-text": row[key].dataset.label }), row[key]);
+    row.numbers = ["from", "to", "count"].map(part);
+    row.box = make("fieldset", {}, legend, make("div", { className: "axis" }, row.name, ...row.numbers));
+    row.name.addEventListener("change", () => this.#choose(row, row.name.value));
+    return row;
+  }
+
+  /** Offer the parameters of the question; one that it does not have gives way to another. */
+  #offer() {
+    const { parameters } = QUESTIONS[this.question.value];
+    const taken = new Set();
+    for (const row of this.#rows) {
+      const known = row.k ? [NONE, ...parameters] : parameters;
+      const options = known.map((name) => make("option", { value: name, "data-text": name || "sweepNone", textContent: say(name || "sweepNone") }));
+      row.name.replaceChildren(...options);
+      const wanted = known.includes(row.wanted) && !taken.has(row.wanted) ? row.wanted : known.find((name) => !taken.has(name));
+      if (wanted === row.wanted) row.name.value = wanted;
+      else this.#choose(row, wanted);
+      taken.add(wanted);
+    }
+  }
+
+  #choose(row, name) {
+    row.name.value = row.wanted = name;
+    for (const part of row.numbers) part.hidden = !name;
+    for (const key of ["from", "to", "count"]) row[key].disabled = !name;
+    const field = FIELDS.find((one) => one.name === name);
+    if (field) [row.from.value, row.to.value] = field.slider;
+  }
+
+  /** What is asked: the spec of a sweep. */
+  spec() {
+    const question = this.question.value;
+    const rows = this.#rows.filter((row) => row.wanted);
+    const over = Object.fromEntries(rows.map((row) => [row.wanted, axis(row)]));
+    const others = QUESTIONS[question].parameters.filter((name) => !(name in over));
+    const request = Object.fromEntries(others.map((name) => [name, Number(this.state.get(name))]));
+    return { question, over, request, accept: "application/json" };
+  }
+
+  async #submit() {
+    const [first, second] = this.#rows.map((row) => row.wanted);
+    this.error.textContent = first === second ? say("sweepTwice") : "";
+    if (this.error.textContent) return;
+    try {
+      await this.start(this.spec());
+    } catch (error) {
+      if (!error.errors) throw error;
+      Object.assign(this.error, refusalWords(error.message));
+    }
+  }
+}
+
+/** Values of a parameter: a range, or whole numbers. */
+function axis({ wanted, from, to, count }) {
+  const [start, stop, steps] = [from, to, count].map((field) => Number(field.value));
+  if (wanted !== "benches") return { start, stop, count: steps };
+  const whole = Array.from({ length: steps }, (_, k) => Math.round(start + ((stop - start) * k) / (steps - 1)));
+  return [...new Set(whole)];
+}

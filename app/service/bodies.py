@@ -1,0 +1,85 @@
+"""Bodies of requests: counted before they are read, and read beside the event loop where they are large.
+
+Python reads a list or an object of JSON in 1 us and holds its lock all the while: 1.3 million of them took 1.5 s
+(measured 2026-11-22), in whatever thread. So their number is limited, by a count of the brackets that begin them.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import re
+from typing import Any
+
+from anyio import CapacityLimiter, to_thread
+from fastapi import Request, Response
+from fastapi.exceptions import RequestValidationError
+
+from app.service.lanes import Lanes
+from app.service.problems import Refused, validation_problem
+from app.service.watch import Handler, WatchedRoute
+from app.settings import Settings
+from app.wire.problem import ErrorItem
+
+# Larger bodies are read and answered in a thread of their own [bytes]; smaller ones take under 2 ms to read.
+LARGE = 64_000
+# How long the answer to a large body takes, as far as a full lane may say [s].
+LARGE_COST = 1.0
+# Escapes for the character NUL and for halves of characters: a text that holds one is no text.
+ESCAPES = re.compile(rb"\\u(?:0000|[dD][89a-fA-F])")
+NO_TEXT = re.compile("[\0\ud800-\udfff]")
+
+
+class BodyRoute(WatchedRoute):
+    """A call with a body, which no body can keep from others."""
+
+    def unwatched(self) -> Handler:
+        answer = super().unwatched()
+
+        async def small(request: Request) -> Response:
+            if ESCAPES.search(await request.body()):
+                _refuse_no_text(await _value(request))
+            return await answer(request)
+
+        async def in_thread(request: Request) -> Response:
+            try:
+                return await small(request)
+            except RequestValidationError as error:  # Thousands of errors take as long to tell as the body to read.
+                return await validation_problem(request, error)
+
+        async def handled(request: Request) -> Response:
+            body = await request.body()
+            if len(body) <= LARGE:
+                return await small(request)
+            settings: Settings = request.app.state.settings
+            parts = body.count(b"[") + body.count(b"{")
+            if parts > settings.parts_max:
+                detail = f"The body must hold at most {settings.parts_max} objects and lists, got about {parts}."
+                raise Refused(422, detail, [ErrorItem(pointer="", detail=detail)])
+            lanes: Lanes = request.app.state.lanes
+            with lanes.large_bodies.taken(LARGE_COST):
+                # Threads beside those that answer small requests.
+                return await to_thread.run_sync(asyncio.run, in_thread(request), limiter=CapacityLimiter(1))
+
+        return handled
+
+
+async def _value(request: Request) -> Any:
+    """The body as JSON; None where it is none, which the answer will say."""
+    try:
+        return await request.json()
+    except (ValueError, RecursionError):
+        return None
+
+
+def _refuse_no_text(value: Any) -> None:
+    """raises: Refused (422) when a text in the body, or a name, holds NUL or half a character"""
+    left = [value]
+    while left:
+        one = left.pop()
+        if isinstance(one, dict):
+            left += [*one, *one.values()]
+        elif isinstance(one, list):
+            left += one
+        elif isinstance(one, str) and NO_TEXT.search(one):
+            detail = f"A text in the body holds NUL or half of a character, near {one[:40]!a}: leave it out."
+            raise Refused(422, detail, [ErrorItem(pointer="", detail=detail)])

@@ -1,0 +1,145 @@
+"""HTTP/1.1 by uvicorn and h11, with an end to every wait and problems for what is no HTTP.
+
+uvicorn ends a connection on which no request begins. It waits for ever for the rest of one that has begun, and for a
+client that takes nothing of its answer. It also reads all that has arrived before it does anything else: 200,000 chunks
+of one byte, 1.6 s (measured 2026-11-22).
+"""
+
+from __future__ import annotations
+
+from asyncio import TimerHandle, Transport
+from typing import Any
+
+import h11
+from uvicorn.protocols.http.flow_control import FlowControl
+from uvicorn.protocols.http.h11_impl import H11Protocol
+
+from app.service.problems import problem
+from app.settings import Settings
+
+# Chunked bodies are read in pieces of this many bytes, other work in between: 700 chunks of one byte, 6 ms.
+PIECE = 4096
+
+
+class _Flow(FlowControl):
+    """Reads no more from the client while pieces of what it sent are left."""
+
+    held = False
+
+    def resume_reading(self) -> None:
+        if self.held:
+            self.read_paused = False
+        else:
+            super().resume_reading()
+
+
+class Protocol(H11Protocol):
+    """One connection.
+
+    A timer runs while the client owes the rest of a head, and another while it owes the rest of a body or takes nothing
+    of an answer.
+    """
+
+    def __init__(self, *given: Any, **named: Any) -> None:
+        super().__init__(*given, **named)
+        self.settings = Settings()
+        self.left = bytearray()
+        self._owed = ""
+        self._owing: TimerHandle | None = None
+        self._stalled: TimerHandle | None = None
+
+    def connection_made(self, transport: Transport) -> None:  # type: ignore[override]
+        super().connection_made(transport)
+        self.flow: _Flow = _Flow(transport)
+        self._watch()
+
+    def connection_lost(self, exc: Exception | None) -> None:
+        self._stop()
+        self.left.clear()
+        super().connection_lost(exc)
+
+    def data_received(self, data: bytes) -> None:
+        if self.left or (len(data) > PIECE and self._in_chunks(data)):
+            first = not self.left
+            self.left += data
+            self.flow.held = True
+            self.transport.pause_reading()
+            if first:
+                self._read_on()
+            return
+        super().data_received(data)
+        self._watch()
+
+    def _in_chunks(self, data: bytes) -> bool:
+        if self.conn.their_state is h11.SEND_BODY:
+            return any(name == b"transfer-encoding" for name, _ in self.headers)
+        return b"chunked" in data.lower()
+
+    def _read_on(self) -> None:
+        """Reads one piece, and the next one when the loop has looked after everybody else."""
+        if self.transport.is_closing():
+            return
+        piece = bytes(self.left[:PIECE])
+        del self.left[:PIECE]
+        super().data_received(piece)
+        self._watch()
+        if self.left:
+            self.loop.call_soon(self._read_on)
+            return
+        self.flow.held = False
+        if not self.flow.read_paused and not self.transport.is_closing():
+            self.transport.resume_reading()
+
+    def on_response_complete(self) -> None:
+        super().on_response_complete()
+        self._watch()
+
+    def pause_writing(self) -> None:
+        super().pause_writing()
+        self._stalled = self.loop.call_later(self.settings.stalled_seconds, self.transport.abort)
+
+    def resume_writing(self) -> None:
+        super().resume_writing()
+        if self._stalled is not None:
+            self._stalled.cancel()
+
+    def _watch(self) -> None:
+        """Starts, keeps or stops the timer by what the client owes now."""
+        state = self.conn.their_state
+        begun = self.timeout_keep_alive_task is None  # Between requests uvicorn has a timer of its own.
+        owed = "head" if state is h11.IDLE and begun else "body" if state is h11.SEND_BODY else ""
+        if owed == self._owed:
+            return
+        if self._owing is not None:
+            self._owing.cancel()
+        self._owed, self._owing = owed, None
+        if owed:
+            seconds = self.settings.head_seconds if owed == "head" else self.settings.body_seconds
+            self._owing = self.loop.call_later(seconds, self._late, owed, seconds)
+
+    def _late(self, owed: str, seconds: float) -> None:
+        if self.transport.is_closing():
+            return
+        if self.conn.our_state in (h11.IDLE, h11.SEND_RESPONSE) and owed == "head":
+            self._refuse(408, "request-timeout", f"The head of the request was not whole within {seconds:g} s.")
+        else:
+            self.transport.abort()
+
+    def _stop(self) -> None:
+        for timer in (self._owing, self._stalled):
+            if timer is not None:
+                timer.cancel()
+
+    def send_400_response(self, msg: str) -> None:
+        self._refuse(400, "malformed-http", "The request is no HTTP/1.1 that this service understands.")
+
+    def _refuse(self, status: int, code: str, detail: str) -> None:
+        answer = problem(status, code, detail, headers={"Connection": "close"})
+        for event in (
+            h11.Response(status_code=status, headers=answer.raw_headers, reason=b""),
+            h11.Data(data=bytes(answer.body)),
+            h11.EndOfMessage(),
+        ):
+            if output := self.conn.send(event):
+                self.transport.write(output)
+        self.transport.close()

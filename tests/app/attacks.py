@@ -1,0 +1,272 @@
+"""Requests that once took the service down, each as a function of its address, and a client that watches meanwhile.
+
+`make soak` runs them all together with ordinary clients: python -m tests.app.attacks SECONDS
+"""
+
+from __future__ import annotations
+
+import http.client
+import json
+import os
+import socket
+import sys
+import tempfile
+import threading
+import time
+from collections import Counter
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
+from dataclasses import dataclass, field
+from pathlib import Path
+from urllib.parse import urlencode, urlsplit
+
+from app.files.tables import XLSX_TYPE
+
+Attack = Callable[[str, float], None]  # base URL and how long to go on [s]
+ATTACKS: dict[str, Attack] = {}
+JSON = {"Content-Type": "application/json"}
+# An error is short [bytes].
+ERROR_BYTES = 20_000
+
+
+def attack(found: Attack) -> Attack:
+    ATTACKS[found.__name__] = found
+    return found
+
+
+def ask(
+    url: str, method: str, path: str, body: bytes | None = None, timeout: float = 30.0, accept: str = "*/*"
+) -> tuple[int, bytes]:
+    """Status and body of one answer."""
+    connection = http.client.HTTPConnection(urlsplit(url).netloc, timeout=timeout)
+    try:
+        connection.request(method, path, body, {"Accept": accept} | (JSON if body is not None else {}))
+        response = connection.getresponse()
+        return response.status, response.read()
+    finally:
+        connection.close()
+
+
+def ask_and_leave(url: str, path: str, stay: float) -> None:
+    """A client that hangs up after a while, whether it was answered or not."""
+    with suppress(OSError):
+        ask(url, "GET", path, timeout=stay)
+
+
+def at_once(jobs: list[Callable[[], object]]) -> None:
+    """Each in a thread of its own; one that gets no answer is no matter: the client that watches says what it sees."""
+
+    def without_answer(job: Callable[[], object]) -> None:
+        with suppress(OSError):
+            job()
+
+    threads = [threading.Thread(target=without_answer, args=(job,), daemon=True) for job in jobs]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+
+
+def _many(url: str, path: str, count: int, stay: float) -> None:
+    at_once([lambda: ask_and_leave(url, path, stay)] * count)
+
+
+@attack
+def heavy_speeds(url: str, seconds: float) -> None:
+    """114 s of work each, their clients gone before the end."""
+    query = {"benches": 2000, "pitch": 10, "start_turns": 200, "turning_diameter": 200}
+    _many(url, "/maximum-head-speed?" + urlencode(query), 40, seconds)
+
+
+@attack
+def long_thin_dragon(url: str, seconds: float) -> None:
+    query = {"benches": 6308, "body_length": 0.001, "head_length": 0.001, "overhang": 0}
+    _many(url, "/minimum-pitch?" + urlencode(query), 8, seconds)
+
+
+@attack
+def equal_arcs(url: str, seconds: float) -> None:
+    _many(url, "/shortest-turn?head_length=1.001&ratio=1", 8, seconds)
+
+
+@attack
+def polygon_of_holes(url: str, seconds: float) -> None:
+    """140,000 rings of four points, 3.6 MB."""
+    ring = [[0, 0], [1, 0], [0, 1], [0, 0]]
+    venue = {
+        "type": "FeatureCollection",
+        "features": [
+            {
+                "type": "Feature",
+                "properties": {"kind": "area"},
+                "geometry": {"type": "Polygon", "coordinates": [ring] * 140_000},
+            }
+        ],
+    }
+    ask_once(url, "/check", json.dumps({"venue": venue}, separators=(",", ":")).encode(), seconds)
+
+
+def ask_once(url: str, path: str, body: bytes, seconds: float) -> None:
+    """One request with a body, which must be refused or answered."""
+    status, answer = ask(url, "POST", path, body, timeout=max(seconds, 20.0))
+    assert status in (200, 400, 413, 422, 503), (status, answer[:300])
+    assert status == 200 or len(answer) < ERROR_BYTES
+
+
+@attack
+def names_twice(url: str, seconds: float) -> None:
+    query = "&".join(f"n{k}=1&n{k}=1" for k in range(5_500))
+    status, answer = ask(url, "GET", f"/collision-time?{query}")
+    assert 400 <= status < 500
+    assert len(answer) < ERROR_BYTES
+
+
+@attack
+def deep_brackets(url: str, seconds: float) -> None:
+    ask_once(url, "/trajectory", b'{"path": {"kind": [' + b"[]," * 1_330_000 + b"[]]}}", seconds)
+
+
+@attack
+def tiny_chunks(url: str, seconds: float) -> None:
+    """200,000 chunks of one byte."""
+    with socket.create_connection((urlsplit(url).hostname or "", urlsplit(url).port or 80), timeout=30.0) as peer:
+        head = f"POST /trajectory HTTP/1.1\r\nHost: {urlsplit(url).netloc}\r\nContent-Type: application/json\r\n"
+        with suppress(OSError):
+            peer.sendall(
+                (head + "Transfer-Encoding: chunked\r\n\r\n").encode() + b"1\r\n \r\n" * 200_000 + b"0\r\n\r\n"
+            )
+            peer.recv(65536)
+
+
+@attack
+def large_csv(url: str, seconds: float) -> None:
+    """Tables of a million cells, 24 at once."""
+    body = json.dumps({"times": {"start": 0, "stop": 400, "step": 0.09}}).encode()
+    at_once([lambda: ask(url, "POST", "/trajectory", body, timeout=60.0, accept="text/csv")] * 24)
+
+
+@attack
+def workbooks(url: str, seconds: float) -> None:
+    """A second of pure Python each."""
+    at_once([lambda: ask(url, "POST", "/trajectory", b"{}", timeout=60.0, accept=XLSX_TYPE)] * 8)
+
+
+@attack
+def long_names(url: str, seconds: float) -> None:
+    """A name of a million characters for a figure."""
+    ring = [[0, 0], [30, 0], [30, 30], [0, 0]]
+    venue = {
+        "type": "Feature",
+        "properties": {"name": "x" * 10**6},
+        "geometry": {"type": "Polygon", "coordinates": [ring]},
+    }
+    ask_once(url, "/figures/trajectory.svg", json.dumps({"venue": venue}).encode(), seconds)
+
+
+@attack
+def half_open(url: str, seconds: float) -> None:
+    """200 connections that never send a whole request."""
+    peers = []
+    try:
+        for _ in range(200):
+            peer = socket.create_connection((urlsplit(url).hostname or "", urlsplit(url).port or 80), timeout=10.0)
+            peer.sendall(b"GET /healthz HTTP/1.1\r\nX-Slow: ")
+            peers.append(peer)
+        time.sleep(seconds)
+    finally:
+        for peer in peers:
+            peer.close()
+
+
+@dataclass
+class Watch:
+    """What another client saw: the slowest answers [s], and what was not answered well."""
+
+    slowest: dict[str, float] = field(default_factory=dict)
+    failures: list[str] = field(default_factory=list)
+    asked: int = 0
+
+
+@contextmanager
+def watching(url: str, paths: tuple[str, ...] = ("/healthz", "/collision-time")) -> Iterator[Watch]:
+    """A client that asks each path every 50 ms until the block ends."""
+    watch, done = Watch(), threading.Event()
+
+    def look(path: str) -> None:
+        asked = 0
+        while not done.wait(0.05) or not asked:
+            asked += 1
+            query = f"?pitch={0.55 + 1e-9 * asked:.9f}&cross_check=pair" if path == "/collision-time" else ""
+            started = time.perf_counter()
+            try:
+                status, answer = ask(url, "GET", path + query)
+            except OSError as error:
+                status, answer = 0, str(error).encode()
+            seconds = time.perf_counter() - started
+            watch.slowest[path] = max(seconds, watch.slowest.get(path, 0.0))
+            watch.asked += 1
+            if status != http.client.OK:
+                watch.failures.append(f"{path} {status} {answer[:200]!r}")
+
+    threads = [threading.Thread(target=look, args=(path,), daemon=True) for path in paths]
+    for thread in threads:
+        thread.start()
+    try:
+        yield watch
+    finally:
+        done.set()
+        for thread in threads:
+            thread.join()
+
+
+def memory(pid: int) -> float:
+    """Resident memory of a process and its children [MB]."""
+    with open(f"/proc/{pid}/task/{pid}/children") as found:
+        children = [int(child) for child in found.read().split()]
+    with open(f"/proc/{pid}/statm") as pages:
+        own = int(pages.read().split()[1]) * os.sysconf("SC_PAGE_SIZE") / 1e6
+    return own + sum(memory(child) for child in children)
+
+
+def soak(seconds: float, connections: int = 64) -> None:
+    """Ordinary clients and all attacks at once; prints what the clients saw, and the memory of the service."""
+    from tests.app.serving import serving
+
+    with tempfile.TemporaryDirectory() as folder, serving(Path(folder) / "log", workers=2) as service:
+        end, counts, statuses = time.monotonic() + seconds, threading.Lock(), Counter[int]()
+
+        def client(number: int) -> None:
+            asked = 0
+            while time.monotonic() < end:
+                asked += 1
+                pitch = 0.45 + 1e-7 * (asked * connections + number)
+                path = ("/collision-time?pitch={:.9f}", "/minimum-pitch?turning_diameter={:.9f}")[asked % 8 == 0]
+                try:
+                    status, _ = ask(service.url, "GET", path.format(pitch if asked % 8 else 9.0 + pitch))
+                except OSError:
+                    status = 0
+                with counts:
+                    statuses[status] += 1
+
+        def attacker() -> None:
+            while time.monotonic() < end:
+                for one in ATTACKS.values():
+                    with suppress(OSError):
+                        one(service.url, 5.0)
+
+        with watching(service.url) as watch:
+            clients = [threading.Thread(target=client, args=(k,), daemon=True) for k in range(connections)]
+            for thread in [*clients, threading.Thread(target=attacker, daemon=True)]:
+                thread.start()
+            while time.monotonic() < end:
+                time.sleep(min(10.0, seconds / 10))
+                print(f"{end - time.monotonic():6.0f} s left, {memory(service.process.pid):6.0f} MB", flush=True)
+            for thread in clients:
+                thread.join()
+        print("answers by status (0: no answer):", dict(statuses))
+        print("slowest of one more client [s]:", watch.slowest)
+        print(f"not answered well: {len(watch.failures)} of {watch.asked}", *watch.failures[:5], sep="\n  ")
+
+
+if __name__ == "__main__":
+    soak(float(sys.argv[1]))

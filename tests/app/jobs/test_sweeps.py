@@ -1,0 +1,205 @@
+"""POST /sweeps at the real service: the table has the bytes of an undisturbed sweep, whatever happens on the way."""
+
+from __future__ import annotations
+
+import itertools
+import json
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from app.files.tables import CSV_TYPE, PARQUET_TYPE
+from app.sweeps.run import begin
+from app.sweeps.shards import Piece, write_part
+from app.sweeps.spec import Spec
+from app.sweeps.table import Sweep
+from tests.app.jobs.service import LINGER, SHORT, Service, wait_for
+from tests.app.sweeps.kills import Cluster
+
+TOKEN = "correct horse"
+BYTES_MAX = 100_000
+SPEC: dict[str, Any] = {
+    "question": "collision_time",
+    "over": {"pitch": {"start": 0.42, "stop": 0.60, "count": 100}, "width": [0.25, 0.30, 0.35, -1.0]},
+    "request": {"benches": 60},
+    "shard_size": 20,
+}
+# Some seconds of work, a shard of which is done at once.
+LONG_SPEC: dict[str, Any] = {
+    "question": "check",
+    "over": {"dragon.width": {"start": 0.2, "stop": 0.3, "count": 80}},
+    "request": {"dragon": {"benches": 40}},
+    "shard_size": 2,
+}
+
+
+@pytest.fixture(scope="module")
+def service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Service]:
+    limits = {
+        "token": TOKEN,
+        "sweep_designs_max": 500,
+        "sweep_shards_max": 100,
+        "sweep_processes": 1,
+        "jobs_running_max": 2,
+    }
+    with Service(tmp_path_factory.mktemp("sweeps"), **limits) as service:
+        service.client.headers.update({"Authorization": f"Bearer {TOKEN}"})
+        yield service
+
+
+def undisturbed(folder: Path, told: dict[str, Any]) -> Sweep:
+    """The same sweep, answered in this process."""
+    spec = Spec.of(told)
+    begin(folder, spec)
+    for shard in range(spec.shards):
+        write_part(folder, spec, shard, [Piece.whole(spec, spec.asks, shard).answered()])
+    return Sweep(folder, spec)
+
+
+def parts(service: Service) -> dict[str, tuple[int, int]]:
+    """The shards of all sweeps: which file each is, and when it was written."""
+    found = sorted((service.folder / "sweeps").glob("*/part-*"))
+    return {file.name: (file.stat().st_ino, file.stat().st_mtime_ns) for file in found}
+
+
+def metric(service: Service, name: str) -> float:
+    lines = service.client.get("/metrics").text.splitlines()
+    return next(float(line.removeprefix(name)) for line in lines if line.startswith(f"{name} "))
+
+
+def test_the_result_is_the_table_of_the_same_sweep_in_each_form(service: Service, tmp_path: Path) -> None:
+    expected = undisturbed(tmp_path / "a", SPEC)
+    expected.to_csv(tmp_path / "a.csv")
+    rows = expected.table().to_pylist()
+    whole = expected.compact().read_bytes()
+    addresses = {form: service.post(SPEC | {"accept": form}, "/sweeps") for form in (PARQUET_TYPE, CSV_TYPE)}
+    addresses["application/json"] = service.post(SPEC | {"accept": "application/json"}, "/sweeps")
+    found = {}
+    for form, address in addresses.items():
+        status = service.finished(address)
+        assert (status["status"], status["processID"], status["done"], status["total"]) == (
+            "successful",
+            "sweep",
+            400,
+            400,
+        )
+        answer = service.client.get(f"{address}/result")
+        assert answer.headers["content-type"].partition(";")[0] == form
+        found[form] = answer.content
+    assert found[PARQUET_TYPE] == whole
+    assert found[CSV_TYPE] == (tmp_path / "a.csv").read_bytes()
+    columns = json.loads(found["application/json"])
+    assert [dict(zip(columns, row, strict=True)) for row in zip(*columns.values(), strict=True)] == rows
+    assert sum(code == "invalid-value" for code in columns["error.code"]) == 100
+    wait_for(lambda: not list((service.folder / "sweeps").iterdir()), LINGER)
+    for address in addresses.values():
+        assert service.client.delete(address).status_code == 204
+
+
+def test_a_sweep_that_is_killed_more_often_than_other_jobs_may_be_goes_on_from_its_shards(
+    service: Service, tmp_path: Path
+) -> None:
+    address = service.post(LONG_SPEC, "/sweeps")
+    for kill in range(4):
+        before = parts(service)
+        wait_for(lambda before=before: len(parts(service)) >= len(before) + 3)
+        there = parts(service)
+        if kill < 3:
+            wait_for(lambda: service.of("child"))
+            for process in service.of("child"):
+                process.kill()
+        else:
+            service.process.kill()
+            service.process.wait()
+            wait_for(lambda: not service.processes(), LINGER)
+            service.start()
+        wait_for(lambda: service.status(address)["status"] == "running")
+        wait_for(lambda: service.of("child"))
+        now = parts(service)
+        assert {name: now[name] for name in there} == there
+    told = []
+    while (status := service.status(address))["status"] in ("accepted", "running"):
+        told += [status["done"]] if status["rate"] else []
+    assert status["status"] == "successful", status
+    assert told
+    assert told == sorted(told)
+    expected = undisturbed(tmp_path / "a", LONG_SPEC).compact().read_bytes()
+    assert service.client.get(f"{address}/result").content == expected
+
+
+def test_a_dismissed_sweep_leaves_no_shard_and_no_process_and_others_are_answered_meanwhile(service: Service) -> None:
+    address, waits = service.post(LONG_SPEC, "/sweeps"), service.post(LONG_SPEC, "/sweeps")
+    wait_for(lambda: parts(service))
+    assert service.finished(service.post(SHORT))["status"] == "successful"
+    wait_for(lambda: metric(service, "bench_dragon_sweep_designs_done") > 0)
+    assert metric(service, "bench_dragon_sweep_designs") == 80
+    assert metric(service, "bench_dragon_sweep_shards") >= 1
+    assert metric(service, 'bench_dragon_jobs{state="running"}') == 1
+    # One sweep at once: the other leaves its place to other jobs.
+    assert service.status(waits)["status"] == "accepted"
+    # One process answers calls, and one the sweep.
+    assert len(service.of("worker") + service.of("parent")) == 2
+    for one in (waits, address):
+        assert service.client.delete(one).json()["status"] == "dismissed"
+        assert service.client.delete(one).status_code == 204
+        assert service.client.get(one).status_code == 404
+    wait_for(lambda: not list((service.folder / "sweeps").iterdir()), LINGER)
+    wait_for(lambda: not service.of("child") and not service.of("worker"), LINGER)
+
+
+@pytest.mark.parametrize(
+    ("wanted", "status", "pointer", "words"),
+    [
+        (
+            {"over": {"pitch": {"start": 0.5, "stop": 1, "count": 501}}},
+            422,
+            "/over",
+            "designs must be at most 500 here",
+        ),
+        ({"over": {"pitch": [0.5] * 101}, "shard_size": 1}, 422, "/shard_size", "shards must be at most 100 here, got"),
+        ({"over": {"pitsh": [1.0]}}, 422, "/over/pitsh", '"pitsh" is unknown here: did you mean pitch?'),
+        ({"over": {"pitch.a": [1.0]}}, 422, "/over/pitch.a", "pitch must be a number [m], got"),
+        ({"over": {"pitch": [1.0]}, "request": {"width": -1}}, 422, "/request/width", "width must be at least 0.001 m"),
+        ({"over": {"pitch": {"start": 1}}}, 422, "/over/pitch", "stop is missing"),
+        ({"over": {"pitch": {"start": 1, "stop": 2}}}, 422, "/samples", "samples must say how pitch is sampled"),
+        ({"over": {}}, 422, "/over", "over must have at least 1 entry, got none"),
+        ({"question": "pitch", "over": {"pitch": [1.0]}}, 422, "/question", "question must be one of collision_time,"),
+        ({"over": {"pitch": [1.0]}, "accept": "image/png"}, 406, "/accept", "This call answers application/vnd.apache"),
+    ],
+    ids=lambda part: part if isinstance(part, str) else None,
+)
+def test_what_is_wrong_is_refused_at_once_by_its_place(
+    service: Service, wanted: Any, status: int, pointer: str, words: str
+) -> None:
+    answer = service.client.post("/sweeps", json={"question": "collision_time"} | wanted)
+    assert answer.status_code == status
+    assert answer.headers["content-type"] == "application/problem+json"
+    error = answer.json()["errors"][0]
+    assert (error["pointer"][: len(pointer)], error["detail"][: len(words)]) == (pointer, words)
+
+
+def test_the_token_guards_sweeps(service: Service) -> None:
+    assert service.client.post("/sweeps", json=SPEC, headers={"Authorization": ""}).status_code == 401
+
+
+def test_a_cluster_answers_and_a_sweep_that_takes_too_much_room_fails(tmp_path: Path) -> None:
+    cluster = Cluster(tmp_path)
+    try:
+        with Service(tmp_path / "data", dask=cluster.address, sweep_bytes_max=BYTES_MAX) as service:
+            address = service.post(SPEC | {"shard_size": 100}, "/sweeps")
+            with service.client.stream("GET", f"{address}/events") as events:
+                told = [json.loads(line[6:]) for line in events.iter_lines() if line.startswith("data: ")]
+            assert told[-1]["status"] == "successful"
+            done = [status["done"] for status in told if status["done"] is not None]
+            assert all(before <= after for before, after in itertools.pairwise(done))
+            result = service.client.get(f"{address}/result").content
+            large = service.post(SPEC | {"shard_size": 1}, "/sweeps")
+            status = service.finished(large)
+            assert (status["status"], status["problem"]["status"]) == ("failed", 413)
+            assert f"and one may have {BYTES_MAX} here" in status["message"]
+            wait_for(lambda: not list((service.folder / "sweeps").iterdir()), LINGER)
+    finally:
+        cluster.end()
+    assert result == undisturbed(tmp_path / "a", SPEC | {"shard_size": 100}).compact().read_bytes()

@@ -1,0 +1,120 @@
+"""A computation ends at its deadline, and when its client is gone; as a job it goes on."""
+
+from __future__ import annotations
+
+import json
+import time
+from collections.abc import Callable, Iterator
+from contextlib import suppress
+from typing import Any
+
+import httpx
+import pytest
+
+from tests.app.serving import serving
+
+# Minutes of work.
+HEAVY = {"benches": 6308, "head_length": 0.001, "body_length": 0.001, "overhang": 0}
+HEAVY_BODY = {"dragon": HEAVY}
+# More than a small body: the service reads it in a thread of its own.
+LONG_BODY = HEAVY_BODY | {
+    "dragon": {"lengths": [2.2] * 2000, "widths": [0.3] * 2000, "overhangs": [0.275123456] * 2000}
+}
+SHORT_DEADLINE = 0.5  # [s]
+# The longest that anything may take here [s], where an answer alone would take minutes.
+SOON = 10.0
+
+
+@pytest.fixture(scope="module")
+def hurried(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
+    folder = tmp_path_factory.mktemp("hurried")
+    with serving(folder / "server.log", deadline_seconds=SHORT_DEADLINE, data=folder / "data") as service:
+        yield service.url
+
+
+@pytest.fixture(scope="module")
+def patient(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
+    with serving(tmp_path_factory.mktemp("patient") / "server.log", deadline_seconds=600) as service:
+        yield service.url
+
+
+def sample(url: str, name: str) -> float:
+    """Value of one line of /metrics; 0 where it is not there yet."""
+    lines = httpx.get(f"{url}/metrics").text.splitlines()
+    return next((float(line.rpartition(" ")[2]) for line in lines if line.startswith(f"{name} ")), 0.0)
+
+
+def soon(holds: Callable[[], bool]) -> bool:
+    until = time.monotonic() + SOON
+    while not holds():
+        if time.monotonic() > until:
+            return False
+        time.sleep(0.05)
+    return True
+
+
+@pytest.mark.parametrize(
+    "asked",
+    [
+        {"method": "GET", "url": "/minimum-pitch", "params": HEAVY},
+        {"method": "POST", "url": "/minimum-pitch", "json": HEAVY_BODY},
+        {"method": "POST", "url": "/maximum-head-speed", "json": LONG_BODY},
+        {"method": "GET", "url": "/pitch-scan", "params": {"samples": 401}},
+        {"method": "GET", "url": "/figures/pitch-scan.svg", "params": {"samples": 401}},
+    ],
+    ids=["query", "body", "long-body", "scan", "figure"],
+)
+def test_the_answer_at_the_deadline_says_what_was_too_much_and_offers_a_job(
+    hurried: str, asked: dict[str, Any]
+) -> None:
+    with httpx.Client(base_url=hurried, timeout=SOON) as client:
+        answer = client.request(**asked)
+    assert answer.status_code == 422
+    said = answer.json()
+    assert said["type"] == "urn:problem-type:bench-dragon:too-much-work"
+    assert f"not found within {SHORT_DEADLINE:g} s, the time that one answer may take here" in said["detail"]
+    assert "POST /jobs" in said["detail"]
+    assert "Prefer: respond-async" in said["detail"]
+    assert said["errors"][0].get("name") or said["errors"][0]["pointer"]
+    assert sample(hurried, 'bench_dragon_computations{lane="heavy"}') == 0.0
+
+
+def test_as_a_job_the_same_request_is_answered(hurried: str) -> None:
+    with httpx.Client(base_url=hurried, timeout=SOON) as client:
+        asked = client.build_request("GET", "/pitch-scan", params={"benches": 40, "samples": 401})
+        assert client.send(asked).json()["type"].endswith("too-much-work")
+        asked.headers["Prefer"] = "respond-async"
+        job = client.send(asked).headers["Location"]
+        wait = time.monotonic() + 60.0
+        while (state := client.get(job).json())["status"] in ("accepted", "running"):
+            assert time.monotonic() < wait
+            time.sleep(0.1)
+        assert state["status"] == "successful"
+        assert len(client.get(f"{job}/result").json()["pitch"]) > 401
+
+
+@pytest.mark.parametrize(
+    "asked",
+    [
+        {"method": "GET", "url": "/minimum-pitch", "params": HEAVY},
+        {"method": "POST", "url": "/minimum-pitch", "json": HEAVY_BODY},
+        {"method": "POST", "url": "/maximum-head-speed", "json": LONG_BODY},
+    ],
+    ids=["query", "body", "long-body"],
+)
+def test_a_computation_ends_when_its_client_is_gone(patient: str, asked: dict[str, Any]) -> None:
+    running, gone = 'bench_dragon_computations{lane="heavy"}', 'bench_dragon_stopped_total{reason="client gone"}'
+    before = sample(patient, gone)
+    with httpx.Client(base_url=patient, timeout=1.0) as client, suppress(httpx.ReadTimeout):
+        pytest.fail(client.request(**asked).text)
+    assert soon(lambda: sample(patient, gone) == before + 1.0)
+    assert soon(lambda: sample(patient, running) == 0.0)
+
+
+def test_a_client_that_waits_is_answered(patient: str) -> None:
+    """The watch ends no computation of a client that is there, also of one that has asked before."""
+    with httpx.Client(base_url=patient, timeout=SOON) as client:
+        times = {client.get("/collision-time", params={"benches": benches}).json()["time"] for benches in (40, 60, 223)}
+        body = json.dumps({"times": {"stop": 3}}).encode()
+        assert client.post("/trajectory", content=body, headers={"Content-Type": "application/json"}).status_code == 200
+    assert None not in times

@@ -1,0 +1,256 @@
+"""What the service does with bad HTTP, slow clients, full lanes, signals and a full disk, over real sockets."""
+
+from __future__ import annotations
+
+import json
+import os
+import resource
+import signal
+import socket
+import time
+from collections.abc import Callable, Iterator
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import suppress
+from html import escape
+from pathlib import Path
+from typing import Any
+from xml.etree import ElementTree
+
+import httpx
+import pytest
+
+from app.files.tables import CSV_TYPE
+from tests.app.serving import Service, serving
+
+HEAD_SECONDS, GRACE_SECONDS = 0.5, 1
+# Longest wait for what should come within the times above on a busy machine [s].
+SOON = 15.0
+# Seconds of compiled work that nothing stops: under the limits, and refused to a second client.
+HEAVY = "/minimum-pitch?benches=6308&body_length=0.001&head_length=0.001&overhang=0"
+SQUARE = {"type": "Polygon", "coordinates": [[[-30, -30], [30, -30], [30, 30], [-30, 30], [-30, -30]]]}
+PROBLEM = "application/problem+json"
+
+
+@pytest.fixture(scope="module")
+def held(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Service]:
+    """A service with short times and few places, and a log in JSON."""
+    log = tmp_path_factory.mktemp("held") / "server.log"
+    settings = {"head_seconds": HEAD_SECONDS, "body_seconds": HEAD_SECONDS, "stalled_seconds": HEAD_SECONDS}
+    with serving(log, log_json=True, heavy_max=1, grace_seconds=GRACE_SECONDS, **settings) as service:
+        yield service
+
+
+def send(service: Service, sent: bytes) -> bytes:
+    """All that the service answers until it closes the connection; fails if it keeps it for long."""
+    with socket.create_connection(service.address, timeout=SOON) as peer:
+        peer.sendall(sent)
+        return b"".join(iter(lambda: peer.recv(65536), b""))
+
+
+def until(found: Callable[[], bool]) -> None:
+    end = time.monotonic() + SOON
+    while not found():
+        assert time.monotonic() < end
+        time.sleep(0.05)
+
+
+@pytest.mark.parametrize("begun", [b"", b"GET /healthz HTTP/1.1\r\nX-Slow: ", b"GET"], ids=["nothing", "half", "word"])
+def test_a_head_that_never_ends_is_answered_408(held: Service, begun: bytes) -> None:
+    assert send(held, begun).startswith(b"HTTP/1.1 408 ")
+
+
+def test_a_body_that_never_ends_loses_its_connection(held: Service) -> None:
+    sent = b"POST /trajectory HTTP/1.1\r\nHost: x\r\nContent-Type: application/json\r\nContent-Length: 9\r\n\r\n{"
+    with suppress(ConnectionResetError):
+        assert send(held, sent) == b""
+
+
+def test_a_client_that_takes_nothing_of_its_answer_loses_its_connection(held: Service) -> None:
+    body = json.dumps({"times": {"stop": 400, "step": 0.1}}).encode()
+    head = "POST /trajectory HTTP/1.1\r\nHost: x\r\nContent-Type: application/json\r\n"
+    whole, taken = int(1e7), 0
+    with socket.create_connection(held.address, timeout=SOON) as peer:
+        peer.sendall(head.encode() + f"Content-Length: {len(body)}\r\n\r\n".encode() + body)
+        peer.recv(1)
+        time.sleep(6 * HEAD_SECONDS)
+        with suppress(ConnectionResetError):
+            while block := peer.recv(1 << 20):  # Fails by the time-out of the socket if the service waits on.
+                taken += len(block)
+    assert taken < whole
+
+
+def test_a_connection_may_rest_between_requests(held: Service) -> None:
+    with httpx.Client(base_url=held.url) as client:
+        for _ in range(2):
+            assert client.get("/healthz").status_code == 200
+            time.sleep(2 * HEAD_SECONDS)
+
+
+@pytest.mark.parametrize(
+    ("sent", "status"),
+    [
+        (b"nonsense\r\n\r\n", 400),
+        (b"GET / HTTP/1.1\r\n\r\n", 400),
+        (b"POST /overlaps HTTP/1.1\r\nHost: x\r\nContent-Length: 2, 3\r\nConnection: close\r\n\r\n{}", 400),
+        (
+            b"POST /turn HTTP/1.1\r\nHost: x\r\nContent-Length: 2\r\nTransfer-Encoding: chunked\r\n\r\n0\r\n\r\n",
+            400,
+        ),
+        (b"GET /turn?" + b"a=1&" * 4_000 + b" HTTP/1.1\r\nHost: x\r\nConnection: close\r\n\r\n", 414),
+    ],
+    ids=["no HTTP", "no host", "two lengths", "length and chunks", "long query"],
+)
+def test_malformed_http_is_a_problem(held: Service, sent: bytes, status: int) -> None:
+    head, _, body = send(held, sent).partition(b"\r\n\r\n")
+    assert head.startswith(f"HTTP/1.1 {status} ".encode())
+    assert PROBLEM.encode() in head
+    assert json.loads(body)["status"] == status
+
+
+@pytest.mark.parametrize(
+    "body", [b'{"\\ud800":1}', b'{"dragon":{"a\\u0000":1}}', b'{"path":{"kind":"\\udc00"}}', b'["\\u0000"]']
+)
+@pytest.mark.parametrize("path", ["/trajectory", "/check", "/overlaps", "/figures/trajectory.svg"])
+def test_half_a_character_or_nul_is_refused(held: Service, path: str, body: bytes) -> None:
+    answer = httpx.post(held.url + path, content=body, headers={"Content-Type": "application/json"})
+    assert (answer.status_code, answer.headers["content-type"]) == (422, PROBLEM)
+
+
+@pytest.mark.parametrize("name", ["a$\\frac{$", "$$", "<&>", "龙", "_^{}"])
+def test_a_name_is_drawn_as_it_is(held: Service, name: str) -> None:
+    venue = {"type": "Feature", "properties": {"name": name}, "geometry": SQUARE}
+    answer = httpx.post(f"{held.url}/figures/trajectory.svg", json={"venue": venue}, timeout=SOON)
+    assert answer.status_code == 200
+    assert any(escape(name) in str(node.text) for node in comments(answer.text))
+
+
+def comments(svg: str) -> list[Any]:
+    """matplotlib writes every text of a figure into a comment beside its outlines."""
+    parser = ElementTree.XMLParser(target=ElementTree.TreeBuilder(insert_comments=True))
+    return [node for node in ElementTree.fromstring(svg, parser).iter() if node.tag is ElementTree.Comment]
+
+
+@pytest.mark.parametrize("name", ["x" * 201, "a\u0007", "a\nb"])
+def test_a_name_is_one_line_of_plain_text(held: Service, name: str) -> None:
+    venue = {"type": "Feature", "properties": {"name": name}, "geometry": SQUARE}
+    answer = httpx.post(f"{held.url}/check", json={"venue": venue})
+    assert answer.status_code == 422
+    assert answer.json()["errors"][0]["pointer"] == "/venue/properties/name"
+
+
+def test_a_problem_is_short(held: Service) -> None:
+    with httpx.Client(base_url=held.url) as client:
+        answers = [
+            client.post("/trajectory", json={f"{'n' * 1000}{k}": 1 for k in range(90)}),
+            client.post("/trajectory", json={"x" * 1_000_000: 1}),
+            client.post("/check", json={"venue": {"type": "x" * 1_000_000}}),
+            client.get("/turn?" + "&".join(f"n{k}=1&n{k}=1" for k in range(400))),
+        ]
+    assert [answer.status_code for answer in answers] == [422] * 4
+    assert max(len(answer.content) for answer in answers) < 20_000
+
+
+def test_a_problem_about_a_query_speaks_of_no_body(held: Service) -> None:
+    answer = httpx.get(f"{held.url}/turn?" + "&".join(f"n{k}=1" for k in range(150)))
+    assert answer.status_code == 422
+    assert "body" not in answer.text
+
+
+def test_a_full_lane_says_when_to_come_again_and_others_pass(held: Service) -> None:
+    with httpx.Client(base_url=held.url, timeout=SOON) as client, ThreadPoolExecutor(1) as pool:
+        gone = pool.submit(lambda: httpx.get(held.url + HEAVY, timeout=2.0))
+        until(lambda: 'computations{lane="heavy"} 1.0' in client.get("/metrics").text)
+        refused = client.get(HEAVY)
+        cheap = client.get("/collision-time")
+        assert isinstance(gone.exception(), httpx.ReadTimeout) or gone.result().status_code in (200, 422)
+    assert (refused.status_code, refused.headers["content-type"]) == (503, PROBLEM)
+    assert int(refused.headers["retry-after"]) >= 1
+    assert cheap.status_code == 200
+
+
+def test_a_client_has_only_so_many_heavy_computations_and_leaves_places_to_others(tmp_path: Path) -> None:
+    with serving(tmp_path / "log", heavy_max=2, heavy_client_max=1) as service, ThreadPoolExecutor(1) as pool:
+        gone = pool.submit(lambda: httpx.get(service.url + HEAVY, timeout=4.0))
+        until(lambda: 'computations{lane="heavy"} 1.0' in httpx.get(f"{service.url}/metrics").text)
+        refused = httpx.get(service.url + HEAVY, timeout=SOON)
+        with httpx.Client(transport=httpx.HTTPTransport(local_address="127.0.0.2")) as other:
+            answer = other.get(f"{service.url}/maximum-head-speed?benches=20", timeout=SOON)
+        assert isinstance(gone.exception(), httpx.ReadTimeout) or gone.result().status_code in (200, 422)
+    assert (refused.status_code, refused.headers["content-type"]) == (429, PROBLEM)
+    assert "1 of your heavy computations are running" in refused.json()["detail"]
+    assert int(refused.headers["retry-after"]) >= 1
+    assert answer.status_code == 200
+
+
+@pytest.mark.parametrize("accept", ["*/*", CSV_TYPE])
+def test_a_large_answer_is_sent_as_gzip_to_who_takes_it(held: Service, accept: str) -> None:
+    body = {"times": {"stop": 400, "step": 2.0}}
+    with httpx.Client(base_url=held.url, timeout=SOON) as client:
+        plain, zipped = (
+            client.post("/trajectory", json=body, headers={"Accept": accept, "Accept-Encoding": coding})
+            for coding in ("identity", "gzip")
+        )
+        known = {"Accept": accept, "If-None-Match": zipped.headers["etag"]}
+        again = client.post("/trajectory", json=body, headers=known)
+    assert "content-encoding" not in plain.headers
+    assert zipped.headers["content-encoding"] == "gzip"
+    assert plain.content == zipped.content
+    assert plain.headers["etag"] != zipped.headers["etag"]
+    assert again.status_code == 304
+
+
+def test_any_tag_at_all_is_unchanged_and_what_is_refused_is_not(held: Service) -> None:
+    star = {"If-None-Match": "*"}
+    assert httpx.get(f"{held.url}/turn", headers=star).status_code == 304
+    assert httpx.get(f"{held.url}/turn?pitch=99", headers=star).status_code == 422
+
+
+def test_a_request_keeps_its_name_and_the_log_has_it(held: Service) -> None:
+    answers = [httpx.get(f"{held.url}/turn", headers={"X-Request-ID": name}) for name in ("dance-7", "no name!")]
+    assert answers[0].headers["x-request-id"] == "dance-7"
+    assert answers[1].headers["x-request-id"] != "no name!"
+    lines = [json.loads(line) for line in held.log.read_text().splitlines()]
+    assert [line["message"] for line in lines if line["request_id"] == "dance-7"]
+
+
+def test_no_python_is_served_and_no_page_frames_another(held: Service) -> None:
+    for path in ("/docs/assets/__init__.py", "/page/uplot/__init__.py"):
+        assert httpx.get(held.url + path).status_code == 404
+    assert "frame-ancestors 'none'" in httpx.get(held.url).headers["content-security-policy"]
+
+
+def alive(pid: int) -> bool:
+    try:
+        return Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0] != "Z"
+    except FileNotFoundError:
+        return False
+
+
+def children(pid: int) -> list[int]:
+    found = [int(one) for one in Path(f"/proc/{pid}/task/{pid}/children").read_text().split()]
+    return found + [inner for one in found for inner in children(one)]
+
+
+@pytest.mark.parametrize("workers", [1, 2])
+@pytest.mark.parametrize("stop", [signal.SIGTERM, signal.SIGINT, signal.SIGKILL])
+def test_the_service_leaves_with_heavy_work_running(tmp_path: Path, workers: int, stop: signal.Signals) -> None:
+    with serving(tmp_path / "log", workers=workers, grace_seconds=GRACE_SECONDS) as service, socket.socket() as peer:
+        peer.connect(service.address)
+        peer.sendall(f"GET {HEAVY} HTTP/1.1\r\nHost: x\r\n\r\n".encode())
+        time.sleep(1.0)
+        family = [service.process.pid, *children(service.process.pid)]
+        os.kill(service.process.pid, stop)
+        service.process.wait(SOON)
+        until(lambda: not any(alive(pid) for pid in family))
+
+
+def test_a_full_disk_leaves_metrics_of_one_process_and_a_word(tmp_path: Path) -> None:
+    def little_room() -> None:
+        resource.setrlimit(resource.RLIMIT_FSIZE, (100_000, 100_000))
+
+    with serving(tmp_path / "log", workers=2, limit=little_room) as service:
+        for _ in range(10):
+            assert httpx.get(f"{service.url}/collision-time").status_code == 200
+        assert "bench_dragon_requests" in httpx.get(f"{service.url}/metrics").text
+        assert "/metrics shows one process alone" in service.log.read_text()
+        assert "died" not in service.log.read_text()

@@ -1,0 +1,165 @@
+"""Sweeps on the page: the form starts a job of the real service, the list follows it, the map shows its table."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import httpx
+import pytest
+from axe_playwright_python.sync_playwright import Axe
+from playwright.sync_api import expect
+
+from tests.app.jobs.service import LONG, Service, wait_for
+
+PHONE = {"width": 390, "height": 844}
+SERIOUS = {"serious", "critical"}
+TOKEN = "correct horse"
+# The middle of the map: its margins are 64 px on the left, 16 on the right, 12 above and 44 below.
+MARGINS = {"left": 64, "right": 16, "top": 12, "bottom": 44}
+
+
+@pytest.fixture(scope="module")
+def service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Service]:
+    with Service(tmp_path_factory.mktemp("page"), sweep_processes=1, sweep_designs_max=100) as service:
+        yield service
+
+
+def base(service: Service) -> str:
+    return f"http://127.0.0.1:{service.port}"
+
+
+def ask(page: Any, question: str, *axes: tuple[str, float, float, int]) -> None:
+    """Fill the form and start the sweep."""
+    page.select_option("#sweep-question", question)
+    for k in range(2):
+        page.select_option(f"#sweep-name-{k}", axes[k][0] if k < len(axes) else "")
+    for k, (_, *numbers) in enumerate(axes):
+        for key, number in zip(("sweepFrom", "sweepTo", "sweepCount"), numbers, strict=True):
+            page.locator(f"#sweep-{key}-{k}").fill(str(number))
+    page.locator("#sweep button").click()
+
+
+def middle(page: Any) -> dict[str, float]:
+    box = page.locator("#map canvas").bounding_box()
+    left, top = MARGINS["left"], MARGINS["top"]
+    return {
+        "x": left + (box["width"] - left - MARGINS["right"]) / 2,
+        "y": top + (box["height"] - top - MARGINS["bottom"]) / 2,
+    }
+
+
+def drawn(page: Any) -> set[tuple[int, ...]]:
+    """The colours of the map, without its margins."""
+    code = """canvas => {
+      const { data, width } = canvas.getContext("2d").getImageData(70, 20, canvas.width - 100, canvas.height - 80);
+      return [...new Set(Array.from({ length: data.length / 4 }, (_, k) => data.slice(4 * k, 4 * k + 4).join(" ")))];
+    }"""
+    return {tuple(map(int, text.split())) for text in page.locator("#map canvas").evaluate(code)}
+
+
+def test_a_sweep_of_two_parameters_becomes_a_map_whose_designs_open(open_page: Any, service: Service) -> None:
+    page = open_page("?benches=40&margin=0.05", base=base(service))
+    ask(page, "collision_time", ("pitch", 0.5, 0.6, 5), ("width", 0.2, 0.3, 3))
+    item = page.locator("#jobs li")
+    expect(item).to_contain_text("First contact over Pitch and Width")
+    page.locator("#jobs li[data-state=successful]").wait_for()
+    page.locator("#map canvas").hover(position=middle(page))
+    query = {"pitch": 0.55, "width": 0.25, "benches": 40, "margin": 0.05, "cross_check": "none"}
+    answer = httpx.get(f"{base(service)}/collision-time", params=query).json()
+    reading = page.locator("#map .reading")
+    expect(reading).to_have_text(f"Pitch [m] 0.55, Width [m] 0.25: first contact [s] {answer['time']:.6g}")
+    assert len(drawn(page)) > 10
+    page.select_option("#map-value", "head.radius")
+    page.locator("#map canvas").hover(position=middle(page))
+    expect(reading).to_contain_text(f"head.radius {answer['head']['radius']:.6g}")
+    page.locator("#map canvas").click(position=middle(page))
+    expect(page.locator("#pitch")).to_have_value("0.55")
+    expect(page.locator("#width")).to_have_value("0.25")
+    page.locator("#first-contact .value", has_text=f"{answer['time']:.6f}").wait_for()
+
+
+def test_the_map_of_one_parameter_is_read_by_keyboard_in_chinese_and_its_minimum_pitch_is_danced(
+    open_page: Any, service: Service
+) -> None:
+    page = open_page("?benches=30", base=base(service), locale="zh-CN")
+    ask(page, "minimum_pitch", ("turning_diameter", 8, 10, 3))
+    page.locator("#jobs li[data-state=successful]", has_text="最小螺距，变化：调头空间直径").wait_for()
+    canvas = page.locator("#map canvas")
+    canvas.focus()
+    for key in ("ArrowRight", "ArrowRight", "ArrowRight"):
+        page.keyboard.press(key)
+    query = {"turning_diameter": 10, "benches": 30, "cross_check": "none"}
+    pitch = httpx.get(f"{base(service)}/minimum-pitch", params=query).json()["pitch"]
+    expect(page.locator("#map .reading")).to_have_text(f"调头空间直径 [m] 10：最小螺距 [m] {pitch:.6g}")
+    page.keyboard.press("Enter")
+    expect(page.locator("#pitch")).to_have_value(str(pitch))
+    expect(page.locator("#turning_diameter")).to_have_value("10")
+
+
+def test_the_list_outlives_the_page_and_jobs_are_cancelled_and_removed(open_page: Any, service: Service) -> None:
+    page = open_page("?benches=41", base=base(service), timezone_id="UTC")
+    ask(page, "shortest_turn", ("pitch", 1.6, 1.8, 90))
+    running = page.locator("#jobs li[data-state=running]")
+    expect(running.locator("progress")).to_be_visible()
+    expect(running).to_contain_text("of 90 designs")
+    page.reload()
+    expect(running).to_contain_text("Shortest turn over Pitch")
+    address = running.locator("button").get_attribute("id").replace("jobCancel-", "/jobs/")
+    assert service.status(address)["total"] == 90
+    running.get_by_role("button", name="Cancel").press("Enter")
+    gone = page.locator("#jobs li[data-state=dismissed]")
+    expect(gone).to_contain_text("cancelled")
+    gone.get_by_role("button", name="Remove").press("Enter")
+    expect(page.locator("#no-jobs")).to_be_visible()
+    assert service.client.get(address).status_code == 404
+    wait_for(lambda: not list((service.folder / "sweeps").iterdir()))
+    page.reload()
+    expect(page.locator("#no-jobs")).to_be_visible()
+
+
+def test_refusals_stand_below_the_form_in_words(open_page: Any, service: Service) -> None:
+    page = open_page(base=base(service), failing=True)
+    ask(page, "collision_time", ("pitch", 0.5, 0.6, 11), ("width", 0.2, 0.3, 11))
+    expect(page.locator("#sweep-error")).to_have_text(
+        "designs must be at most 100 here, got 121: ask for fewer in one sweep"
+    )
+    ask(page, "collision_time", ("pitch", 0.5, 0.6, 11), ("pitch", 0.2, 0.3, 11))
+    expect(page.locator("#sweep-error")).to_have_text("The two parameters must differ.")
+
+
+def test_who_has_the_token_sees_all_jobs(open_page: Any, tmp_path_factory: pytest.TempPathFactory) -> None:
+    with Service(tmp_path_factory.mktemp("token"), token=TOKEN) as guarded:
+        guarded.client.headers["Authorization"] = f"Bearer {TOKEN}"
+        address = guarded.post(LONG)
+        page = open_page(base=base(guarded), failing=True)
+        ask(page, "collision_time", ("pitch", 0.5, 0.6, 3))
+        expect(page.locator("#sweep-error")).to_contain_text("Jobs need the token of this service")
+        expect(page.locator("#no-jobs")).to_be_visible()
+        page.locator("#sweeps summary").click()
+        page.locator("#token").fill(TOKEN)
+        page.locator("#token").press("Enter")
+        expect(page.locator("#jobs li", has_text="trajectory")).to_be_visible()
+        page.locator("#sweep button").click()
+        page.locator("#jobs li[data-state=successful]", has_text="First contact over Pitch").wait_for()
+        guarded.client.delete(address)
+
+
+@pytest.mark.parametrize(
+    "options",
+    [{"color_scheme": "dark"}, {"viewport": PHONE, "locale": "zh-CN", "is_mobile": True}],
+    ids=["dark", "phone"],
+)
+def test_everyone_can_use_it(open_page: Any, service: Service, options: dict[str, Any]) -> None:
+    page = open_page("?benches=20", base=base(service), **options)
+    ask(page, "least_clearance", ("pitch", 0.7, 0.9, 4), ("benches", 18, 20, 3))
+    page.locator("#map:visible").wait_for()
+    page.locator("#sweeps summary").click()
+    found = Axe().run(page, context="#sweeps").response["violations"]
+    assert [(one["id"], one["nodes"][0]["html"]) for one in found if one["impact"] in SERIOUS] == []
+    width = page.viewport_size["width"]
+    assert page.evaluate("document.documentElement.scrollWidth") <= width
+    outside = """(width) => [...document.querySelectorAll("#sweeps *")]
+      .filter((one) => one.checkVisibility() && one.getBoundingClientRect().right > width + 1)
+      .map((one) => one.outerHTML)"""
+    assert page.evaluate(outside, width) == []

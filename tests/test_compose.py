@@ -1,0 +1,104 @@
+"""compose.yaml: valid by the Compose specification, and the commands of its services do together what it says."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import httpx
+import pytest
+import yaml
+from compose_spec import PyCompose
+
+from app.settings import Settings
+from tests.app.jobs.service import PATIENCE, wait_for
+from tests.app.sweeps.kills import free_port
+from tests.conftest import STOP_TIMEOUT, wait_until_live
+
+ROOT = Path(__file__).parent.parent
+FILE = yaml.safe_load((ROOT / "compose.yaml").read_text(encoding="utf-8"))
+SERVICES = FILE["services"]
+BIN = Path(sys.executable).parent
+
+
+def test_it_is_valid_by_the_specification() -> None:
+    compose = PyCompose.from_json(json.dumps(FILE))
+    compose.validate()
+    assert sorted(compose.service_names()) == ["scheduler", "service", "worker"]
+
+
+@pytest.mark.parametrize(
+    "wrong", [{"services": {"service": {"read_onli": True}}}, {"services": {}, "volume": {}}], ids=str
+)
+def test_a_slip_is_no_valid_file(wrong: dict[str, Any]) -> None:
+    with pytest.raises(ValueError, match="does not start with"):
+        PyCompose.from_json(json.dumps(wrong))
+
+
+def test_the_cluster_is_of_its_profile_and_nothing_is_written_but_in_the_volume() -> None:
+    assert {name: one.get("profiles") for name, one in SERVICES.items()} == {
+        "service": None,
+        "scheduler": ["cluster"],
+        "worker": ["cluster"],
+    }
+    assert SERVICES["worker"]["deploy"]["replicas"] == 2
+    assert all(one["read_only"] and one["tmpfs"] == ["/tmp"] for one in SERVICES.values())
+    assert {name: one["volumes"] for name, one in SERVICES.items() if "volumes" in one} == {"service": ["data:/data"]}
+    dockerfile = (ROOT / "Dockerfile").read_text(encoding="utf-8")
+    assert "ARG EXTRAS=service\n" in dockerfile
+    assert '"/src[${EXTRAS}]"' in dockerfile
+    assert "BENCH_DRAGON_DATA=/data" in dockerfile
+
+
+def test_its_settings_are_settings() -> None:
+    known = {f"BENCH_DRAGON_{name.upper()}" for name in Settings.model_fields}
+    assert set(SERVICES["service"]["environment"]) <= known
+
+
+def command_of(name: str, places: dict[str, str]) -> list[str]:
+    """The command of a service, with places of this machine for those inside of the containers."""
+    program, *words = SERVICES[name]["command"]
+    for place, here in places.items():
+        words = [word.replace(place, here) for word in words]
+    return [str(BIN / program), *words]
+
+
+@pytest.fixture
+def started(tmp_path: Path) -> Iterator[httpx.Client]:
+    """A client of the service, which runs with the scheduler and as many workers as the file says."""
+    ports = {"8786": str(free_port()), "8000": str(free_port())}
+    places = {"0.0.0.0": "127.0.0.1", "scheduler:": "127.0.0.1:", "/tmp": str(tmp_path), **ports}
+    given = {"BENCH_DRAGON_DATA": str(tmp_path / "data"), "BENCH_DRAGON_DASK": f"tcp://127.0.0.1:{ports['8786']}"}
+    names = ["scheduler", *["worker"] * SERVICES["worker"]["deploy"]["replicas"], "service"]
+    running: list[subprocess.Popen[bytes]] = []
+    try:
+        for k, name in enumerate(names):
+            with (tmp_path / f"{k}-{name}.log").open("wb") as log:
+                environment = os.environ | given
+                running.append(
+                    subprocess.Popen(command_of(name, places), cwd=tmp_path, env=environment, stdout=log, stderr=log)
+                )
+        wait_until_live(running[-1], int(ports["8000"]), tmp_path / f"{len(names) - 1}-service.log")
+        with httpx.Client(base_url=f"http://127.0.0.1:{ports['8000']}", timeout=PATIENCE) as client:
+            yield client
+    finally:
+        for process in reversed(running):
+            process.terminate()
+        for process in running:
+            process.wait(STOP_TIMEOUT)
+
+
+def test_the_commands_run_and_the_workers_answer_a_sweep_of_the_service(started: httpx.Client, tmp_path: Path) -> None:
+    spec = {"question": "turn", "over": {"pitch": {"start": 1.5, "stop": 2.0, "count": 40}}, "shard_size": 1}
+    address = started.post("/sweeps", json=spec | {"accept": "text/csv"}).headers["location"]
+    wait_for(lambda: started.get(address).json()["status"] not in ("accepted", "running"))
+    assert started.get(address).json()["status"] == "successful"
+    assert len(started.get(f"{address}/result").text.splitlines()) == 41
+    for log in tmp_path.glob("*-worker.log"):
+        assert "Registered to" in log.read_text()
+    assert len(list(tmp_path.glob("*-worker.log"))) == 2
