@@ -1,8 +1,11 @@
-# The service alone: no compiler, no root, nothing written outside /tmp and the volume of the jobs.
+# The service alone. The image has no compiler; the service does not run as root, and writes only to /tmp and /data.
 #   docker build -t bench-dragon . && docker run --read-only --tmpfs /tmp -v dragon:/data -p 8000:8000 bench-dragon
 ARG PYTHON_IMAGE=python:3.11-slim-bookworm
+# Extras of the distribution to install: service,dask adds sweeps on a Dask cluster.
+ARG EXTRAS=service
 
 FROM ${PYTHON_IMAGE} AS build
+ARG EXTRAS
 RUN apt-get update \
     && apt-get install -y --no-install-recommends gcc libc6-dev \
     && rm -rf /var/lib/apt/lists/*
@@ -10,11 +13,15 @@ RUN python -m venv /opt/bench-dragon
 COPY requirements.lock pyproject.toml setup.py README.md LICENSE /src/
 COPY core /src/core
 COPY app /src/app
-RUN /opt/bench-dragon/bin/pip install --no-cache-dir --disable-pip-version-check -c /src/requirements.lock '/src[service]' \
+RUN /opt/bench-dragon/bin/pip install --no-cache-dir --disable-pip-version-check -c /src/requirements.lock "/src[${EXTRAS}]" \
     && /opt/bench-dragon/bin/python -c "import core.kernels; assert core.kernels.COMPILED" \
     && /opt/bench-dragon/bin/python -m pip uninstall -y --quiet pip setuptools
 
 FROM ${PYTHON_IMAGE}
+# A font with Chinese characters, for figures and films in Chinese.
+RUN apt-get update \
+    && apt-get install -y --no-install-recommends fonts-wqy-microhei \
+    && rm -rf /var/lib/apt/lists/*
 COPY --from=build /opt/bench-dragon /opt/bench-dragon
 RUN install -d -o 10001 -g 10001 -m 700 /data
 VOLUME /data

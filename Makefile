@@ -1,13 +1,15 @@
 # The first `make` in a fresh clone creates .venv, installs the locked versions and compiles core/kernels.
 SHELL := /bin/bash
 .DEFAULT_GOAL := help
-.PHONY: help setup serve test rounding lint sweep-pitch sweep-kills job-kills bench examples figures dist lock clean
+.PHONY: help setup serve test rounding lint sweep-pitch sweep-kills job-kills soak bench examples figures dist lock clean
 
 VENV := .venv
 BIN := $(VENV)/bin
 PIP := $(BIN)/python -m pip --disable-pip-version-check --quiet --quiet
 HOST ?= 127.0.0.1
 PORT ?= 8000
+# The tests start hundreds of processes: without bytecode each of them compiles all of app and core.
+unexport PYTHONDONTWRITEBYTECODE
 PYTHON ?= $(shell for p in python3 python3.13 python3.12 python3.11; do \
 	$$p -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null && echo $$p && break; done)
 
@@ -19,8 +21,9 @@ help:
 	@echo 'make sweep-pitch  the minimum pitch of 2,000 random dragons against a slow scan, 10 minutes (DRAGONS=, FIRST=)'
 	@echo 'make sweep-kills  a sweep of 200,000 designs on a Dask cluster with 50 kills, half an hour (DESIGNS=, KILLS=, FIRST=)'
 	@echo 'make job-kills  50 processes of the service killed at random while it works on jobs, 5 minutes (KILLS=, SEED=)'
+	@echo 'make soak     64 clients and all attacks at once, 5 minutes (SECONDS=)'
 	@echo 'make bench    benchmarks against a plain SciPy baseline, into docs/performance.md'
-	@echo 'make examples the answers that /docs shows, asked again'
+	@echo 'make examples new answers for the examples in /docs'
 	@echo 'make figures  the figures of README.md and docs/'
 	@echo 'make dist     the sdist and the wheel in dist/, checked'
 	@echo 'make lock     new exact versions in requirements.lock'
@@ -48,7 +51,7 @@ serve: setup
 
 test: setup
 	@$(BIN)/python tests/page/browser.py
-	@$(BIN)/python -m pytest --numprocesses auto --dist loadfile $(ARGS)
+	@$(BIN)/python -m pytest --numprocesses auto --dist worksteal $(ARGS)
 
 rounding: setup
 	@$(BIN)/python -m tests.core.rounding_sweep $(or $(ARGS),10000)
@@ -66,6 +69,9 @@ sweep-kills: setup
 
 job-kills: setup
 	@$(BIN)/python -m tests.app.jobs.kills $(or $(KILLS),50) $(or $(SEED),0)
+
+soak: setup
+	@$(BIN)/python -m tests.app.attacks $(or $(SECONDS),300)
 
 bench: setup
 	@$(BIN)/python -m benchmarks.report docs/performance.md

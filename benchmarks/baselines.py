@@ -1,4 +1,4 @@
-"""The program that one would write first: scipy.optimize.brentq for every handle, shapely for every instant."""
+"""A plain program: scipy.optimize.brentq finds every handle, and shapely looks at every instant."""
 
 from __future__ import annotations
 

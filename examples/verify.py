@@ -2,8 +2,9 @@
 """Verify a certificate of `bench-dragon prove`, trusting nothing of Bench Dragon: python verify.py CERTIFICATE
 
 Exit code 0: the certificate proves the claim that is printed. 1: it does not, for the reason that is printed. 2:
-wrong usage, or a file that cannot be read. Only the standard library is used. Floating point only guesses; whole
-numbers decide. The verdict rests on the mathematics written down here, and on the code below.
+wrong usage, or a file that cannot be read. 3: the claim is of a kind that is not judged here: this says nothing about
+whether it is true; `bench-dragon prove --check` judges it. Only the standard library is used. Floating point only
+guesses; whole numbers decide. The verdict rests on the mathematics written down here, and on the code below.
 
 
 The dance and the claims
@@ -19,8 +20,8 @@ The claims:
   collision-time  From the start to time - 1e-10 s nothing touches, and at time + 1e-10 s two benches overlap.
   minimum-pitch   Nothing touches while the head walks from the start until it is turning_radius from the centre. With
                   a pitch 1e-6 m smaller, two benches overlap while the head is on that way, or the start lies within
-                  that circle. (Of other pitches it says nothing. A smaller pitch at which a bench folds instead is a
-                  form of certificate that this verifier refuses.)
+                  that circle. (Of other pitches it says nothing.)
+Not judged are claims with a margin, clear runs, other paths, and minimum pitches below which a bench folds.
 
 A certificate has `dragon`, runs of benches alike from the head on as [how many, length, width, overhang]; `claim`;
 the benches in `overlap` (6.), with head_theta for a pitch; and the `sweeps`, u + 1 with u = `repeats_from` (5.):
@@ -96,10 +97,10 @@ bench a inside. And those handles exist: r[k] > c / 2 gives F(theta, pi) > 4 the
 -------------------------------
 Sweep 0 covers the head's way with stretches that join. Sweep a + 1 covers all places of handle a + 1 while handle a
 passes the stretches of sweep a. Over each stretch bench a is shown apart from the benches a + 2, a + 3, ... one by
-one, until all others are far or there are none. n benches have all their pairs in the sweeps 0 to n - 3. But if the
-benches from u on are alike, sweep u serves for all later ones. For all handles follow one spiral: with handle k at
-theta, k > u, the benches behind it lie as those behind handle u do with handle u at theta, only that k - u of them
-are missing at the end.
+one, until all others are far or there are none. n benches have all their pairs in the sweeps 0 to n - 3. (One or two
+have none; then u = 0, and sweep 0 shows that there is always a next handle.) But if the benches from u on are alike,
+sweep u serves for all later ones. For all handles follow one spiral: with handle k at theta, k > u, the benches
+behind it lie as those behind handle u do with handle u at theta, only that k - u of them are missing at the end.
 Sweep u must then reach as far out as the handles u to n - 3 come: let P[u] be the largest
 theta of handle u, and P[k + 1] = f(P[k]), f(theta) = theta + d(theta). No handle k >= u passes P[k]. Suppose theta[k]
 <= P[k]. If f is shown to rise (rate[1] > 0) on all stretches from theta[k] up to P[k], then theta[k + 1] =
@@ -125,15 +126,20 @@ from bisect import bisect_left
 from fractions import Fraction
 from functools import lru_cache
 
-BITS, UNIT, COSINE_ERROR = 128, 1 << 128, 1 << 12  # the last in units
+# COSINE_ERROR is in units, TIME_BRACKET in seconds, PITCH_STEP in metres.
+BITS, UNIT, COSINE_ERROR, TIME_BRACKET, PITCH_STEP = 128, 1 << 128, 1 << 12, Fraction(1, 10**10), Fraction(1, 10**6)
 # Limits on the work: of the bytes and benches of a certificate, and of the bends (1.) that it needs.
 BYTES_MOST, BENCHES_MOST, BENDS_LEFT = 1 << 24, 10_000_000, iter(range(5_000_000))
-TIME_BRACKET, PITCH_STEP, NEVER = Fraction(1, 10**10), Fraction(1, 10**6), "no two benches but neighbours touch"
-KNOWN = "this verifier judges only collision times and minimum pitches at margin 0 without a fold, and this is neither"
+NEVER, MALFORMED = "no two benches but neighbours touch", "the certificate is malformed"
+KNOWN = "this verifier judges only collision times and minimum pitches, at margin 0 and without a fold"
 
 
 class Refused(ValueError):
     """The certificate does not prove its claim."""
+
+
+class NotJudged(Refused):
+    """The claim may be proven, but is of a kind that this verifier does not know."""
 
 
 class Loose(Refused):
@@ -203,8 +209,7 @@ def cos(x):
     if x.hi - x.lo > 6 * UNIT or abs(x.lo) > 999 * UNIT:
         return Interval(-UNIT, UNIT)
     half_turns = range(x.lo // PI.lo - 1, x.hi // PI.lo + 2)
-    inside = (k for k in half_turns if x.lo - COSINE_ERROR <= k * PI.lo <= x.hi + COSINE_ERROR)
-    values = [-UNIT if k % 2 else UNIT for k in inside]
+    values = [-UNIT if k % 2 else UNIT for k in half_turns if x.lo - COSINE_ERROR <= k * PI.lo <= x.hi + COSINE_ERROR]
     for end in {x.lo, x.hi}:
         k = (2 * end + PI.lo) // (2 * PI.lo)
         square, total, term = (end - k * PI.lo) ** 2 >> BITS, 0, UNIT
@@ -379,10 +384,10 @@ def covered(chain, bench, low, high, faces, places, halvings=3):
     try:
         row = Row(chain, bench, low, high).grow()
         rear, rises = row.theta, row.rate > ZERO
-        while len(row.placed) < len(faces) + 2:
+        while len(row.placed) < min(len(faces) + 2, len(chain.benches) - bench):
             row.grow()
-        missing = bisect_left(places, low.lo)
-        if not (bench + len(row.placed) + missing >= len(chain.benches) or row.all_far(rear)):
+        # As many benches are missing at the end as there are places below this stretch.
+        if not (bench + len(row.placed) + bisect_left(places, low.lo) >= len(chain.benches) or row.all_far(rear)):
             raise Loose("not proven: pairs are missing")
         for partner, face in enumerate(faces, 2):
             row.apart(partner, int(face))
@@ -399,20 +404,19 @@ def covered(chain, bench, low, high, faces, places, halvings=3):
 def all_apart(chain, high, low, sweeps, repeats_from):
     """5.: no two benches touch while the head goes from high in to low."""
     count, way = len(chain.benches), hull(low, high)
-    if repeats_from > count - 3 or (repeats_from < count - 3 and len(set(chain.benches[repeats_from:])) > 1):
+    if repeats_from > max(0, count - 3) or (repeats_from < count - 3 and len(set(chain.benches[repeats_from:])) > 1):
         raise Refused(f"not proven: the benches from {repeats_from} on are not alike, or have no pairs")
-    needed = 0 if low > high and not sweeps else repeats_from + 1
-    if len(sweeps) != needed or any(sweep["bench"] != bench for bench, sweep in enumerate(sweeps)):
+    if [sweep["bench"] for sweep in sweeps] != list(range(repeats_from + 1)) and (sweeps or not low > high):
         raise Refused(f"not proven: the sweeps are not those of benches 0 to {repeats_from}, each once, in this order")
     for bench, sweep in enumerate(sweeps):
         theta, places, rears, end = Interval(way.hi, way.hi), [way.hi], [], None
-        for kind in chain.benches[bench : count - 3] if bench == repeats_from else ():
+        for kind in chain.benches[bench : max(0, count - 3)] if bench == repeats_from else ():
             theta = theta + bend(theta, kind)
             places.append(theta.hi)
         for k, (first, last, faces) in enumerate(sweep["stretches"]):
             name = f"sweeps[{bench}].stretches[{k}], theta from {first!r} to {last!r} rad"
-            if not (last < first and len(faces) <= count - bench - 2 and set(faces) <= set("01234567")):
-                raise Refused(f"the certificate is malformed: {name} with its faces is no stretch of this dragon")
+            if not (last < first and len(faces) <= max(0, count - bench - 2) and set(faces) <= set("01234567")):
+                raise Refused(f"{MALFORMED}: {name} with its faces is no stretch of this dragon")
             if first != end if rears else exactly(first).lo < theta.hi:
                 raise Refused(f"not proven: the stretches do not join at {name}")
             try:
@@ -454,8 +458,7 @@ def minimum_pitch(runs, claim, overlap, *rest):
     if radius > pitch * turns or ("benches" not in overlap and radius <= (pitch - PITCH_STEP) * turns):
         raise Refused("not proven: the start lies within the circle, or does not lie within it with 1e-6 m less")
     if "benches" in overlap:
-        head = exactly(overlap["head_theta"])
-        if not exactly(radius) / less.growth < head < less.start:
+        if not exactly(radius) / less.growth < (head := exactly(overlap["head_theta"])) < less.start:
             raise Refused("not proven: the overlap is not shown to be on the way to the circle with 1e-6 m less")
         what = overlapping(less, head, *overlap["benches"]) + " on the way"
     all_apart(chain, chain.start, exactly(radius) / chain.growth, *rest)
@@ -463,7 +466,7 @@ def minimum_pitch(runs, claim, overlap, *rest):
 
 
 # The form of a member: an object of members, [each entry], (entry, entry, ...), or one of these.
-WORDS = {str: "a text", dict: "an object", list: "a list", tuple: "a list of so many", bool: "true"}
+WORDS = {str: "a text", dict: "an object", list: "a list", bool: "true"}
 WORDS |= {int: "a whole number from 0 to 1e15", float: "a number from 0 to 1e15"}
 MEMBERS = {"format": str, "precision": int, "repeats_from": int, "digest": str, "claim": dict, "overlap": dict}
 MEMBERS |= {"versions": {"python-flint": str, "flint": str}, "dragon": [(int, float, float, float)]}
@@ -479,23 +482,26 @@ def check_form(value, form, place):
         for name in [*form, *value]:
             inside = f"{place}.{json.dumps(name)[1:-1][:40]}".removeprefix(".")
             if name not in value or name not in form:
-                raise Refused(f"{KNOWN}: {inside} is {'no member of it' if name in value else 'missing'}")
+                raise Refused(f"{MALFORMED}: {inside} is {'no member of it' if name in value else 'missing'}")
             check_form(value[name], form[name], inside)
     elif type(value) is list and (type(form) is list or (type(form) is tuple and len(form) == len(value))):
         for k, entry in enumerate(value):
             check_form(entry, form[k % len(form)], f"{place}[{k}]")
     elif type(value) not in (form, int if form is float else form) or not (form in (str, dict) or 0 <= value <= 1e15):
         want = f"a list of {len(form)}" if type(form) is tuple else WORDS[form if type(form) is type else type(form)]
-        got = {dict: "an object", list: "another list"}.get(type(value)) or json.dumps(value)[:40]
-        raise Refused(f"{KNOWN}: {place or 'it'} must be {want}, got {got}")
+        raise Refused(f"{MALFORMED}: {place or 'it'} must be {want}, got {json.dumps(value)[:40]}")
 
 
 def verified(certificate):
     """What the certificate proves, in words."""
+    check_form(certificate, dict, "")
+    inside = [item for part in certificate.values() if isinstance(part, dict) for item in part.items()]
+    if other := {name: value for name, value in inside if name in ("margin", "folds") or value in ("clear", "contact")}:
+        raise NotJudged(f"not judged: {KNOWN}, and this certificate has {json.dumps(other)[:60]}")
     check_form(certificate, MEMBERS, "")
     runs, claim, overlap = (certificate[name] for name in ("dragon", "claim", "overlap"))
     if certificate["format"] != "bench-dragon proof 1" or claim.get("kind") not in list(CLAIMS):
-        raise Refused(f"{KNOWN}: its format or claim.kind is another")
+        raise Refused(f"{MALFORMED}: its format or claim.kind is another")
     prove, claim_form, overlap_form = CLAIMS[claim["kind"]]
     check_form(claim, claim_form, "claim")
     within = prove is minimum_pitch and "start_within_circle" in overlap
@@ -504,11 +510,11 @@ def verified(certificate):
     if told != hashlib.sha256(text.replace('"', "'").replace(":true", ":True").encode()).hexdigest():
         raise Refused("the certificate was changed after it was made: its digest does not fit")
     usable = all(count >= 1 and length > 2 * Fraction(overhang) for count, length, _, overhang in runs)
-    if not usable or not 1 <= sum(run[0] for run in runs) <= BENCHES_MOST:
-        raise Refused(f"the certificate is malformed: dragon must be 1 to {BENCHES_MOST} benches with room for a chord")
+    if not usable or not 1 <= (count := sum(run[0] for run in runs)) <= BENCHES_MOST:
+        raise Refused(f"{MALFORMED}: dragon must be 1 to {BENCHES_MOST} benches with room for a chord")
     statement = prove(runs, claim, overlap, certificate["sweeps"], certificate["repeats_from"])
     sizes = "; ".join(f"{n} of {long!r} m by {wide!r} m, overhang {over!r} m" for n, long, wide, over in runs)
-    dragon = f"A dragon of {sum(run[0] for run in runs)} benches ({sizes}) on the spiral of pitch {claim['pitch']!r} m"
+    dragon = f"A dragon of {count} bench{'es' * (count > 1)} ({sizes}) on the spiral of pitch {claim['pitch']!r} m"
     return f"{dragon} inwards from {claim['start_turns']!r} turns{statement}; the margin is 0 m.".replace(".0 ", " ")
 
 
@@ -525,5 +531,5 @@ if __name__ == "__main__":
         data = parser.parse_args().certificate.read(BYTES_MOST)
         print("Verified:", verified(json.loads(data, object_pairs_hook=members)))
     except (ArithmeticError, RecursionError, ValueError) as why:
-        what = "" if isinstance(why, Refused) else "the certificate is malformed: it is no JSON of up to 16 MB: "
-        raise SystemExit(f"Refused: {what}{why}") from None
+        what = "" if isinstance(why, Refused) else f"{MALFORMED}: it is no JSON of up to 16 MB: "
+        parser.exit(3 if isinstance(why, NotJudged) else 1, f"Refused: {what}{why}\n")

@@ -62,7 +62,7 @@ def test_the_village_dragon_keeps_half_a_metre_from_everything() -> None:
     assert found.passed, found.failures
     assert found.first_contact.outcome is Outcome.CLEAR
     assert found.venue is not None
-    assert found.venue.stray is None
+    assert found.venue.misplaced is None
     names = [area.name for area in found.venue.areas]
     assert names == ["square", "well", "stage", "linden tree", "chestnut tree"]
     for area in found.venue.areas:

@@ -12,17 +12,9 @@ ROOT = Path(__file__).parent.parent
 CORE, TESTS = ROOT / "core", ROOT / "tests" / "core"
 # Modules that are tested with others, as the parts of one answer.
 TESTED_WITH = {
-    "contact/fold.py": "contact/test_first_contact.py",
-    "contact/search.py": "contact/test_first_contact.py",
-    "design/ways.py": "design/test_minimum_pitch.py",
-    "errors.py": "test_wrong_types.py",
-    "paths/path.py": "paths/test_route.py",
-    "proof/claims.py": "proof/test_certificate.py",
-    "proof/pairs.py": "proof/test_certificate.py",
-    "proof/paths.py": "proof/test_dances.py",
-    "proof/route_stretch.py": "proof/test_route.py",
-    "proof/sweeps.py": "proof/test_certificate.py",
-    "proof/words.py": "proof/test_certificate.py",
+    "kernels/bends.py": "kernels/test_pairs.py",
+    "kernels/faces.py": "kernels/test_hulls.py",
+    "tolerance/exhibit.py": "tolerance/test_tolerance.py",
 }
 MODULES = [path.relative_to(CORE) for path in sorted(CORE.rglob("*.py")) if path.name != "__init__.py"]
 
