@@ -80,7 +80,11 @@ def listen(host: str, port: int) -> socket.socket:
 
 
 class _Supervisor(Multiprocess):
-    """uvicorn's supervisor; its processes ignore Ctrl-C while they start and leave no gauge behind when they die."""
+    """uvicorn's supervisor; its processes ignore Ctrl-C while they start and leave no gauge behind when they die.
+
+    It asks each process in turn whether it is alive and waits for the answer. This process closes its own copy of the
+    other end of that pipe: the pipe then ends with a process that is killed, and the next one is started at once.
+    """
 
     def __init__(self, config: uvicorn.Config, shared: socket.socket, counts: str | None) -> None:
         super().__init__(config, [shared])
@@ -93,9 +97,15 @@ class _Supervisor(Multiprocess):
         handler = signal.signal(signal.SIGINT, signal.SIG_IGN)
         super().init_processes()
         signal.signal(signal.SIGINT, handler)
+        self._close_their_ends()
+
+    def _close_their_ends(self) -> None:
+        for process in self.processes:
+            process.child_conn.close()
 
     def keep_subprocess_alive(self) -> None:
         super().keep_subprocess_alive()
+        self._close_their_ends()
         alive = {process.pid for process in self.processes}
         for gone in self.counted - alive if self.counts else ():
             mark_process_dead(gone, self.counts)  # type: ignore[no-untyped-call]

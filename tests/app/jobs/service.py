@@ -25,6 +25,11 @@ LOOK = 0.05  # [s] between two looks
 # Seconds of work, and within the limits.
 LONG = {"question": "trajectory", "request": {"times": {"stop": 400, "step": 1.0}}, "accept": XLSX_TYPE}
 SCAN = {"question": "pitch_scan", "request": {"samples": 401}}
+# Minutes of work, for tests that end it themselves.
+ENDLESS = {
+    "question": "minimum_pitch",
+    "request": {"benches": 6308, "head_length": 0.001, "body_length": 0.001, "overhang": 0.0},
+}
 SHORT = {"question": "collision_time", "request": {"pitch": 0.5}}
 
 

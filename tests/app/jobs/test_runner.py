@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import pytest
 
 from tests.app.jobs.kills import survive
-from tests.app.jobs.service import LINGER, SCAN, SHORT, Service, direct, wait_for
+from tests.app.jobs.service import ENDLESS, LINGER, SCAN, SHORT, Service, direct, wait_for
 
 KILLS, SEED = 4, 1
 
@@ -19,9 +20,9 @@ def service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Service]:
         yield service
 
 
-def begun(service: Service) -> str:
+def begun(service: Service, wanted: Any = SCAN) -> str:
     """Address of a new job that has a process by now."""
-    address = service.post(SCAN)
+    address = service.post(wanted)
     service.until(address, "running")
     wait_for(lambda: service.of("child"))
     return address
@@ -47,7 +48,7 @@ def test_a_job_goes_on_when_a_process_is_killed(service: Service, role: str) -> 
 
 
 def test_a_job_that_ends_its_process_three_times_has_failed(service: Service) -> None:
-    address = begun(service)
+    address = begun(service, ENDLESS)
     for _ in range(3):
         wait_for(lambda: service.of("child"))
         for process in service.of("child"):
