@@ -14,7 +14,7 @@ from app.grade.layout import BENCHES, COMPONENTS, HANDLES, Kind, cell_name, tabl
 from app.grade.reading import Unreadable, grids_of
 from app.grade.rubric import Criterion, rubric_of
 from app.grade.shortcuts import UNITS, Finding, explained, is_right, right_answer
-from app.grade.verdict import Judgement, Verdict, judged, lacking, workbook_of, worst_of
+from app.grade.verdict import Judgement, Rating, judged, lacking, workbook_of, worst_of
 from app.grade.words import note, say
 from app.wire.models import Answer
 from core import Budget, InvalidValue
@@ -44,7 +44,7 @@ class SheetAnswer(Answer):
 
     sheet: str = Field(description="Title of the sheet")
     holds: str = Field(description="position, speed, or contact: x, y and speed at first contact")
-    verdict: Verdict = Field(description="right, rounded, wrong, incomplete or unreadable")
+    verdict: Rating = Field(description="right, rounded, wrong, incomplete or unreadable")
     decimals: int | None = Field(description="With rounded: decimals with which all cells are right; else null")
     cells: int = Field(description="Cells that the contest asks for")
     right: int = Field(description="Cells that are right within 5.1e-7")
@@ -79,7 +79,7 @@ class FileAnswer(Answer):
 
     file: str = Field(description="Name of the file")
     workbook: str | None = Field(description="result1, result2 or result4; null where that is unknown")
-    verdict: Verdict = Field(description="The worst verdict of its sheets")
+    verdict: Rating = Field(description="The worst verdict of its sheets")
     diagnosis: list[DiagnosisAnswer] = Field(description="Errors that explain what is wrong; empty where nothing fits")
     sheets: list[SheetAnswer] = Field(description="Its sheets")
     rubric: list[CriterionAnswer] = Field(description="The rubric of the contest's reviewers")
@@ -90,7 +90,7 @@ class TypedAnswer(Answer):
     """One number that was typed in."""
 
     answer: str = Field(description="collision_time, pitch, speed or turn_length")
-    verdict: Verdict = Field(description="right, as far as its digits go, or wrong")
+    verdict: Rating = Field(description="right, as far as its digits go, or wrong")
     found: float = Field(description="What was given, in the unit beside it")
     expected: float = Field(description="What is right, in the unit beside it")
     unit: str = Field(description="Unit of both")
@@ -110,7 +110,7 @@ def graded(name: str, data: bytes, language: Language, budget: Budget) -> FileAn
         return _graded(name, data, language, budget)
     except Unreadable as error:
         return FileAnswer(
-            file=name, workbook=None, verdict=Verdict.UNREADABLE, diagnosis=[], sheets=[], rubric=[],
+            file=name, workbook=None, verdict=Rating.UNREADABLE, diagnosis=[], sheets=[], rubric=[],
             notes=[error.said.said(language)],
         )  # fmt: skip
     except Halted as error:
@@ -157,7 +157,7 @@ def typed(name: str, text: str, language: Language) -> TypedAnswer:
     right = is_right(name, value, half_unit)
     return TypedAnswer(
         answer=name,
-        verdict=Verdict.RIGHT if right else Verdict.WRONG,
+        verdict=Rating.RIGHT if right else Rating.WRONG,
         found=value,
         expected=right_answer(name),
         unit=UNITS[name],
@@ -182,7 +182,7 @@ def _sheet(one: Judgement, language: Language) -> SheetAnswer:
         sheet=one.table.title,
         holds=one.table.kind.value,
         verdict=one.verdict,
-        decimals=one.decimals if one.verdict is Verdict.ROUNDED else None,
+        decimals=one.decimals if one.verdict is Rating.ROUNDED else None,
         cells=one.cells,
         right=one.right,
         missing=one.missing,
@@ -212,7 +212,7 @@ def _cell(one: Judgement, at: tuple[int, ...], language: Language) -> CellAnswer
 def _lacking(kind: Kind, cells: int, language: Language) -> SheetAnswer:
     said = say("no_sheet", language, kind=say(SHEETS[kind], language))
     return SheetAnswer(
-        sheet="", holds=kind.value, verdict=Verdict.INCOMPLETE, decimals=None, cells=cells, right=0, missing=cells,
+        sheet="", holds=kind.value, verdict=Rating.INCOMPLETE, decimals=None, cells=cells, right=0, missing=cells,
         worst=None, first=None, picture=[], notes=[said],
     )  # fmt: skip
 

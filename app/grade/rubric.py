@@ -13,14 +13,14 @@ import numpy as np
 from app.grade.expected import Workbook
 from app.grade.layout import HANDLES, Kind
 from app.grade.shortcuts import Finding
-from app.grade.verdict import Judgement, Verdict
+from app.grade.verdict import Judgement, Rating
 from app.grade.words import Note, note
 
 # Mean speeds over a second differ from those at its middle by less than this, as handles turn [m/s].
 MEAN_SPEED = 0.1
 # Share of the cells that may be further off, at the kinks of the turn [1].
 SHARE = 0.99
-GOOD = (Verdict.RIGHT, Verdict.ROUNDED, Verdict.INCOMPLETE)
+GOOD = (Rating.RIGHT, Rating.ROUNDED, Rating.INCOMPLETE)
 # Findings that tell how first contact was looked for.
 STEPPED = {"time_steps", "time_steps_before"}
 NO_OVERHANG = {"no_overhang", "length_for_chord", "overhang_once", "one_corner"}

@@ -35,7 +35,7 @@ MARKS = ".o#?"
 EARLIEST = -1000.0
 
 
-class Verdict(StrEnum):
+class Rating(StrEnum):
     """How a sheet or a file is, from the best to the worst."""
 
     RIGHT = "right"
@@ -45,8 +45,8 @@ class Verdict(StrEnum):
     UNREADABLE = "unreadable"
 
 
-def worst_of(verdicts: Iterator[Verdict]) -> Verdict:
-    return max(verdicts, key=list(Verdict).index, default=Verdict.UNREADABLE)
+def worst_of(verdicts: Iterator[Rating]) -> Rating:
+    return max(verdicts, key=list(Rating).index, default=Rating.UNREADABLE)
 
 
 @dataclass(frozen=True)
@@ -60,7 +60,7 @@ class Judgement:
 
     table: Table
     workbook: Workbook
-    verdict: Verdict
+    verdict: Rating
     decimals: int | None
     written: int
     cells: int
@@ -158,14 +158,14 @@ def _counted(
     largest = float(np.nanmax(off)) if present else np.inf
     decimals = next((k for k in DECIMALS if largest <= ROUNDED * 10.0**-k), None)
     if not present:
-        verdict = Verdict.UNREADABLE
+        verdict = Rating.UNREADABLE
         notes.append(note("no_numbers"))
     elif largest > RIGHT and decimals is None:
-        verdict = Verdict.WRONG
+        verdict = Rating.WRONG
     elif present < cells:
-        verdict = Verdict.INCOMPLETE
+        verdict = Rating.INCOMPLETE
     else:
-        verdict = Verdict.RIGHT if largest <= RIGHT else Verdict.ROUNDED
+        verdict = Rating.RIGHT if largest <= RIGHT else Rating.ROUNDED
     missing = cells - present
     if missing and present:
         absent = sorted(set(range(HANDLES)) - set(handles.tolist()))

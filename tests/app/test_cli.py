@@ -309,8 +309,19 @@ def test_times_that_were_asked_for_are_all_shown_in_as_many_tables_as_they_take(
 
 
 def test_times_are_the_list_of_the_service(client: httpx.Client) -> None:
-    told = served(client, "POST", "/trajectory", {"times": [0.0, 12.5, -3.0]})
-    assert json.loads(answer_of("trajectory", "--times", "0,12.5,-3", "--json")) == told
+    told = served(client, "POST", "/trajectory", {"times": [0.0, 12.5, 3.0]})
+    assert json.loads(answer_of("trajectory", "--times", "0,12.5,3", "--json")) == told
+
+
+def test_times_before_the_dance_warn_on_a_spiral_and_belong_to_a_turn(client: httpx.Client) -> None:
+    times, few = ["--times", "-100,0", "--json"], ["--benches", "3"]
+    warned = run("trajectory", *few, "--pitch", "1.7", *times)
+    assert warned.returncode == 0
+    assert "begins at 0 s" in warned.stderr
+    assert "--path turn" in warned.stderr
+    body = {"dragon": {"benches": 3}, "path": {"kind": "turn"}, "times": [-100, 0]}
+    told = served(client, "POST", "/trajectory", body)
+    assert json.loads(answer_of("trajectory", *few, "--path", "turn", *times)) == told
 
 
 @pytest.mark.parametrize(
