@@ -54,7 +54,7 @@ async def core_problem(request: Request, error: BenchDragonError) -> Response:
     """Answer to a value refused by core or by a limit of the service."""
     said = refused(error, await _placing(request))
     if isinstance(error, TooMuchWork) and not _takes_file(request):
-        said.detail += f" {A_JOB}"
+        said.detail = f"{said.detail.removesuffix('.')}. {A_JOB}"
     return answer_of(said)
 
 
