@@ -360,11 +360,19 @@ def test_position_runs_along_the_tangent_at_unit_speed(route: Route, share: floa
 
 
 def slow_clearance(route: Route, times: np.ndarray) -> np.ndarray:
-    """Least distance of benches that share no handle, by shapely; 0 where two overlap. (T,) [m]"""
+    """Least distance of benches that share no handle, by shapely; 0 where two overlap. (T,) [m]
+
+    Benches whose middles are farther apart than their half diagonals reach are apart, and are left out: inf.
+    """
     a, b = np.triu_indices(DRAGON.benches, 2)
-    sizes = np.broadcast_to(np.stack([DRAGON.lengths, DRAGON.widths], axis=-1), (times.size, DRAGON.benches, 2))
-    shapes = shapely.polygons(corners(bench_poses(trajectory(Dance(DRAGON, route), times).position), sizes))
-    return shapely.distance(shapes[:, a], shapes[:, b]).min(axis=1)
+    size = np.stack([DRAGON.lengths, DRAGON.widths], axis=-1)
+    poses = bench_poses(trajectory(Dance(DRAGON, route), times).position)
+    shapes = shapely.polygons(corners(poses, np.broadcast_to(size, (times.size, *size.shape))))
+    reach = np.hypot(*size.T) / 2.0
+    near = np.hypot(*np.moveaxis(poses[:, a, :2] - poses[:, b, :2], -1, 0)) < reach[a] + reach[b]
+    least = np.full((times.size, a.size), np.inf)
+    least[near] = shapely.distance(shapes[:, a][near], shapes[:, b][near])
+    return least.min(axis=1)
 
 
 @settings(max_examples=40, deadline=None)
