@@ -23,6 +23,7 @@ class Budget:
 
     work: how much, see core/kernels/constants.py [1]; 1e7 take 1 to 4 s. None: each question takes its own default,
         which its docstring names; math.inf: none takes any
+    brief: end before work that takes a tenth of a second, as that of decimals near a graze
     halt: what is left of it, and the flag, as the compiled loops read them
     A question whose budget is spent or stopped ends with TooMuchWork. A spent budget interrupts no step: whoever asks
     for more then is refused. A stopped one is seen by every loop within milliseconds.
@@ -33,10 +34,10 @@ class Budget:
     (10.0, True)
     """
 
-    __slots__ = ("halt", "limited", "part", "then", "work")
+    __slots__ = ("brief", "halt", "limited", "part", "then", "work")
 
-    def __init__(self, work: float | None = None) -> None:
-        self.limited = work is not None
+    def __init__(self, work: float | None = None, *, brief: bool = False) -> None:
+        self.brief, self.limited = brief, work is not None
         self.work = math.inf if work is None else float(work)
         self.halt = kernels.Halt(self.work)
         self.part: Budget | None = None
@@ -65,6 +66,11 @@ class Budget:
     def spend(self, work: float) -> None:
         """Take work that was done from what is left [1]."""
         self.halt.left -= work
+
+    def take_time(self) -> None:
+        """raises: Halted where the question must not take long; the work that is about to begin does."""
+        if self.brief:
+            raise Halted(self)
 
     def look(self) -> None:
         """raises: Halted where the budget is stopped."""

@@ -8,7 +8,7 @@ import uuid
 from time import perf_counter
 
 from prometheus_client import CollectorRegistry, Counter, Histogram
-from starlette.datastructures import Headers, MutableHeaders
+from starlette.datastructures import Headers
 from starlette.requests import Request
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
@@ -118,15 +118,18 @@ class SafetyHeaders:
         if scope["type"] != "http":
             return await self.app(scope, receive, send)
         policy = DOCS_POLICY if scope["path"] == "/docs" else SELF_ONLY
+        added = [
+            (b"content-security-policy", policy.encode()),
+            (b"x-content-type-options", b"nosniff"),
+            (b"referrer-policy", b"no-referrer"),
+        ]
 
         async def guarded(message: Message) -> None:
             if message["type"] == "http.response.start":
-                headers = MutableHeaders(scope=message)
-                headers["Content-Security-Policy"] = policy
-                headers["X-Content-Type-Options"] = "nosniff"
-                headers["Referrer-Policy"] = "no-referrer"
+                headers = message["headers"] = [*message["headers"], *added]
                 # Browsers revalidate the page's files, so that modules of two versions never mix.
-                headers.setdefault("Cache-Control", "no-cache")
+                if not any(name == b"cache-control" for name, _ in headers):
+                    headers.append((b"cache-control", b"no-cache"))
             await send(message)
 
         return await self.app(scope, receive, guarded)

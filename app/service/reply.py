@@ -2,35 +2,41 @@
 
 from __future__ import annotations
 
+import asyncio
 import hashlib
 import zlib
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from functools import cache
 from importlib.metadata import version
 from pathlib import Path
 from typing import Annotated
 
 from fastapi import Depends, Request, Response
+from starlette.concurrency import run_in_threadpool
 from starlette.datastructures import Headers
 from starlette.responses import StreamingResponse
 
 from app.jobs.task import Task
 from app.questions import Call
 from app.questions.figures import Format
-from app.questions.question import Terms
+from app.questions.question import UNKNOWN_COST, Terms
 from app.service.lanes import Lanes
 from app.service.problems import Refused
+from app.service.watch import GLANCE, Glances, watched
 from app.settings import Settings
 from app.wire.models import JSON, Wire
 from app.wire.problem import ERRORS_MAX, ErrorItem
 from app.wire.refusals import reworded
-from core import BenchDragonError
+from core import BenchDragonError, TooMuchWork
 
 VERSION = version("bench-dragon")
 RESPOND_ASYNC = "respond-async"
 # Packages on whose bytes the answers depend.
 PACKAGES = tuple(Path(__file__).parents[2] / name for name in ("core", "app"))
+# The wait for everybody else [s]; uvloop reads no connection during one of 0.
+YIELD = 1e-3
 # gzip: level 1 makes 1.8 MB of a trajectory of 3.8 MB in 60 ms; level 6 makes 1.7 MB in 350 ms (2026-11-22).
 GZIP_LEVEL, GZIP_WINDOW = 1, 31
 # End of the tag of a compressed answer: other bytes need another tag.
@@ -55,7 +61,23 @@ class Reply:
         self.request = request
         self.settings: Settings = state.settings
         self._lanes: Lanes = state.lanes
+        self._glances: Glances = state.glances
+        self._least_cost = 0.0  # known from a first try [s]
         self._later: Callable[[Request, Task], Response] = state.later
+
+    async def to_query(self, call: Call, asked: Wire, *form: Format) -> Response:
+        """The answer to a request without a body: at once where it is expected to be quick, else from a thread."""
+        one_form = not form and len(call.question.forms) == 1
+        if one_form and call.question.estimate(asked, call.question.forms[0]) <= GLANCE:
+            async with self._glances.turn:
+                with suppress(TooMuchWork), self._glances.budget() as budget:
+                    self.request.state.budget = budget
+                    return self(call, asked)
+                if budget.stopped:
+                    await asyncio.sleep(YIELD)  # Everybody else first: the next one in turn may take as long.
+            self._least_cost = UNKNOWN_COST
+        async with watched(self.request, self.settings.deadline_seconds):
+            return await run_in_threadpool(self, call, asked, *form)
 
     def __call__(self, call: Call, asked: Wire, *form: Format) -> Response:
         """The answer to the request, in the best form that the client accepts; a figure has the form of its address.
@@ -78,7 +100,7 @@ class Reply:
             given = asked.model_dump(mode="json", exclude_unset=True)
             return self._later(self.request, Task(call.name, given, media_type))
         try:
-            cost = call.question.estimate(asked, media_type)
+            cost = max(call.question.estimate(asked, media_type), self._least_cost)
             with self._lanes.of(cost, media_type).taken(cost, client_of(self.request)):
                 data = call.question.told(asked, Terms(self.settings, self.request.state.budget), media_type)
                 if "*" in known:
@@ -101,7 +123,7 @@ class Reply:
 
     def _tag(self, asked: Wire, media_type: str) -> str:
         """Strong tag: an answer depends only on the call, its values with all defaults, the form and the build."""
-        values = "\n".join((build(), self.request.url.path, media_type, asked.model_dump_json()))
+        values = "\n".join((build(), self.request.scope["path"], media_type, asked.model_dump_json()))
         return hashlib.blake2b(values.encode(), digest_size=16).hexdigest()
 
 

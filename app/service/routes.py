@@ -8,7 +8,9 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Annotated, Any
 
-from fastapi import APIRouter, Body, Query, Response
+from fastapi import APIRouter, Body, Query, Request, Response
+from fastapi.exceptions import RequestValidationError
+from fastapi.routing import APIRoute
 from pydantic import ValidationError
 
 from app.files.tables import CSV_TYPE
@@ -16,8 +18,8 @@ from app.questions import CALLS, Call
 from app.questions.figures import Format
 from app.service.bodies import BodyRoute
 from app.service.examples import EXAMPLES
-from app.service.reply import BodyReply, QueryReply, Reply
-from app.service.watch import WatchedRoute
+from app.service.reply import BodyReply, QueryReply, Reply, reply_query
+from app.service.watch import Handler
 from app.wire.models import JSON, Wire
 from app.wire.problem import PROBLEM_TYPE
 
@@ -38,6 +40,27 @@ PROBLEMS = {
 }
 QUERY_STATUSES = (406, 414, 422, 429, 500, 503)
 BODY_STATUSES = (400, 406, 413, 415, 422, 429, 500, 503)
+
+
+class QueryRoute(APIRoute):
+    """A call that takes its values from the query, all of them validated at once; the endpoint describes it.
+
+    FastAPI's way, one by one, takes 0.3 ms more, a sixth of an answer (2026-11-22).
+    """
+
+    def get_route_handler(self) -> Handler:
+        call = CALLS[self.name]
+
+        async def handled(request: Request) -> Response:
+            reply = await reply_query(request)
+            try:
+                wanted = call.asked.model_validate(dict(request.query_params))
+            except ValidationError as error:
+                found = [{**one, "loc": ("query", *one["loc"])} for one in error.errors(include_url=False)]
+                raise RequestValidationError(found) from error
+            return await reply.to_query(call, wanted)
+
+        return handled
 
 
 def router() -> APIRouter:
@@ -80,20 +103,27 @@ def _add(router: APIRouter, call: Call) -> None:
         response_class=Response,
         responses={200: answer, 304: unchanged, **problems},
         openapi_extra={"security": []},
-        route_class_override=BodyRoute if method == "POST" else WatchedRoute,
+        route_class_override=BodyRoute if method == "POST" else None if question.format_in_path else QueryRoute,
     )
 
 
-def _endpoint(call: Call) -> Callable[..., Response]:
+def _endpoint(call: Call) -> Callable[..., Any]:
     """The function that FastAPI calls; its annotations describe the parameters."""
 
-    def answer(reply: Reply, wanted: Wire) -> Response:
+    def to_body(reply: Reply, wanted: Wire) -> Response:
         return reply(call, wanted)
 
-    def figure(reply: Reply, format: Format, wanted: Wire) -> Response:
+    def figure_to_body(reply: Reply, format: Format, wanted: Wire) -> Response:
         return reply(call, wanted, format)
 
-    endpoint = figure if call.question.format_in_path else answer
+    async def to_query(reply: Reply, wanted: Wire) -> Response:
+        return await reply.to_query(call, wanted)
+
+    async def figure_to_query(reply: Reply, format: Format, wanted: Wire) -> Response:
+        return await reply.to_query(call, wanted, format)
+
+    figure, answer = (figure_to_query, to_query) if call.method == "GET" else (figure_to_body, to_body)
+    endpoint: Callable[..., Any] = figure if call.question.format_in_path else answer
     wanted: Any
     if call.method == "GET":
         replying, wanted = QueryReply, Annotated[call.asked, Query()]

@@ -12,13 +12,16 @@ python-flint needs 0.6 microseconds for a sine with its cosine and 1.4 for an ar
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from decimal import Decimal, localcontext
+from threading import Lock
 from typing import NamedTuple
 
 import numpy as np
 
 from core import kernels
+from core.budget import Budget
 from core.contact.search import Marched, Search
 from core.kernels.constants import (
     ARC_ANGLE,
@@ -69,6 +72,23 @@ INTERVALS_MAX = 60
 TANGENT, LINK = slice(TX, TX + 2), slice(UX, UX + 2)
 
 Vector = tuple[Decimal, Decimal]
+
+
+# Decimals hold Python's lock: several threads of them would be no quicker, and would keep all others from it.
+_TURN = Lock()
+# Between two looks at the budget while another thread has the turn [s].
+TURN_SECONDS = 0.01
+
+
+@contextmanager
+def _in_turn(budget: Budget) -> Iterator[None]:
+    """A context that one thread at a time may have. raises: Halted"""
+    while not _TURN.acquire(timeout=TURN_SECONDS):
+        budget.look()
+    try:
+        yield
+    finally:
+        _TURN.release()
 
 
 class Bench(NamedTuple):
@@ -147,6 +167,7 @@ class ExactPair:
             here = self.benches(Decimal(start))
             h = stop - start
             while True:
+                self.search.budget.look()
                 slack = search.travel_rounding(start, stop)
                 place = search.place - start + slack
                 bends = kernels.pair_bends(search.scene, search.probe, place, h + 2.0 * slack, a, b)
@@ -297,7 +318,8 @@ def narrowed(search: Search, found: Marched, half: float, head_speed: float = 1.
         or not search.others_clear(pair.pair, found.proven, found.touching)
     ):
         return None
-    with localcontext() as context:
+    search.budget.take_time()
+    with _in_turn(search.budget), localcontext() as context:
         context.prec = DIGITS
         low, high = Decimal(found.proven), Decimal(found.touching)
         above, below = pair.gap(low), pair.gap(high)

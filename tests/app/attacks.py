@@ -90,6 +90,25 @@ def equal_arcs(url: str, seconds: float) -> None:
 
 
 @attack
+def uneven_dragons(url: str, seconds: float) -> None:
+    """Half a minute of work each: 2,000 different benches through a turn."""
+    dragon = {
+        "lengths": [2.2 + 0.001 * (k % 97) for k in range(2000)],
+        "widths": [0.3] * 2000,
+        "overhangs": [0.275] * 2000,
+    }
+    body = json.dumps({"dragon": dragon, "path": {"kind": "turn"}}).encode()
+    at_once([lambda: ask(url, "POST", "/check", body, timeout=seconds)] * 8)
+
+
+@attack
+def near_grazes(url: str, seconds: float) -> None:
+    """A tenth of a second each, where a millisecond is expected: two benches pass within 1e-9 m of each other."""
+    paths = (f"/collision-time?cross_check=pair&pitch={0.45033739302 + 1e-13 * k:.17g}" for k in range(40))
+    at_once([lambda path=path: ask(url, "GET", path, timeout=seconds) for path in paths])
+
+
+@attack
 def polygon_of_holes(url: str, seconds: float) -> None:
     """140,000 rings of four points, 3.6 MB."""
     ring = [[0, 0], [1, 0], [0, 1], [0, 0]]
@@ -250,9 +269,12 @@ def soak(seconds: float, connections: int = 64) -> None:
 
         def attacker() -> None:
             while time.monotonic() < end:
-                for one in ATTACKS.values():
-                    with suppress(OSError):
-                        one(service.url, 5.0)
+                for name, one in ATTACKS.items():
+                    try:
+                        with suppress(OSError):
+                            one(service.url, 5.0)
+                    except AssertionError as error:
+                        watch.failures.append(f"{name}: {error}")
 
         with watching(service.url) as watch:
             clients = [threading.Thread(target=client, args=(k,), daemon=True) for k in range(connections)]

@@ -216,18 +216,10 @@ def test_a_wrong_path_or_method_is_a_problem(
     assert answer.headers.get("allow", "") == header
 
 
-@pytest.mark.parametrize(
-    ("query", "name", "words"),
-    [
-        ("body_length=0.001&overhang=0", "body_length", "their minimum pitch was not found within 4e+07 steps of work"),
-        ("body_length=0.001&overhang=0&turning_diameter=6", "body_length", "the turning circle 6 m across"),
-    ],
-)
-def test_an_answer_that_takes_too_much_work_is_a_problem(
-    client: httpx.Client, query: str, name: str, words: str
-) -> None:
-    answer = client.get(f"/minimum-pitch?{query}")
-    assert_problem(answer, 422, name, (words,))
+def test_an_answer_that_takes_too_much_work_is_a_problem(client: httpx.Client) -> None:
+    answer = client.get("/minimum-pitch?body_length=0.001&overhang=0&turning_diameter=6")
+    words = ("their minimum pitch was not found within ", "the turning circle 6 m across")
+    assert_problem(answer, 422, "body_length", words)
     assert answer.json()["type"] == "urn:problem-type:bench-dragon:too-much-work"
 
 
