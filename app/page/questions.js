@@ -7,6 +7,8 @@ import { Track } from "./track.js";
 /** Time without a change after which input counts as paused [ms]. */
 const REST = 250;
 const CLEARANCE_SAMPLES = 400;
+/** The curve of how far people may stray is nearly straight. */
+const CURVE = { samples: 13 };
 /** At a fold the chain is about to break, so the page shows the instant this long before it [s]. */
 const BEFORE_END = 1e-6;
 /** Distance between samples of the path [m], and the largest number of samples. */
@@ -131,10 +133,10 @@ export class Questions {
       this.#whole = true;
       this.#keep("minimum", "minimum-pitch", { query: this.state.texts([...CIRCLE, ...CONTACT]) });
     }
-    const over = (names) => ({ query: this.state.texts(names) });
+    const over = (names, more) => ({ query: { ...this.state.texts(names), ...more } });
     const slow = [["tolerance", "tolerance", this.#toleranceOf()]];
     if (this.state.get("path") === "turn") slow.push(["shortest", "shortest-turn", over([...CIRCLE, ...CONTACT, "pitch"])]);
-    slow.push(["scan", "pitch-scan", over([...CIRCLE, "margin"])], ["curve", "tolerance-curve", over(CIRCLE)]);
+    slow.push(["scan", "pitch-scan", over([...CIRCLE, "margin"])], ["curve", "tolerance-curve", over(CIRCLE, CURVE)]);
     this.#askInTurn(slow);
   }
 
