@@ -196,7 +196,7 @@ export class Dance {
     pen.stroke(all, this.#colours.outline);
   }
 
-  /** The ground that the benches may cover, as one pale band. */
+  /** The ground that the benches may cover, as one band. */
   #grounds(pen) {
     const { pose, dragon } = this.scene;
     const [path, stray] = [new Path2D(), strayOf(dragon)];

@@ -27,7 +27,7 @@ export const WORDS = {
   showAll: ["Show all", "显示全部"],
   follow: ["Follow the head", "跟随龙头"],
   legend: ["Speed of the handles now", "当前把手速度"],
-  halo: ["Pale: where a bench may be", "浅色：板凳可能到达之处"],
+  halo: ["Band: where a bench may be", "色带：板凳可能到达之处"],
   allEqual: ["all equal", "全部相等"],
   insetTitle: ["Where the two benches are nearest, enlarged", "两节板凳最近处放大"],
   insetMeet: ["{corner} of {a} meets {edge} of {b}", "{a}的{corner}碰到{b}的{edge}"],
