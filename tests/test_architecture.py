@@ -157,6 +157,7 @@ ORDER = (
     "app.questions.maximum_head_speed",
     "app.questions.check",
     "app.questions.tolerance",
+    "app.questions.tolerance_curve",
     "app.questions.figures",
     "app.questions.films",
     "app.questions.overlaps",

@@ -45,6 +45,7 @@ from app.questions.overlaps import OverlapsRequest
 from app.questions.question import Terms
 from app.questions.shortest_turn import ShortestTurnQuery
 from app.questions.tolerance import ToleranceQuery, ToleranceRequest
+from app.questions.tolerance_curve import ToleranceCurveQuery
 from app.questions.trajectory import TrajectoryRequest
 from app.questions.turn import TurnQuery
 from app.settings import WORKERS_MAX, Settings
@@ -179,6 +180,18 @@ def tolerance(asked: ToleranceQuery | ToleranceRequest, json: Json = False) -> N
     with show.waiting("tolerance"):
         answer = questions.tolerance.tolerance(asked, Terms())
     show.print_answer("How far people may stray", answer, json)
+
+
+@app.command()
+@asks(ToleranceCurveQuery)
+def tolerance_curve(asked: ToleranceCurveQuery, json: Json = False) -> None:
+    """How far people may stray against the pitch: proven safe, and shown to touch."""
+    with show.waiting("tolerance curve") as progress:
+        answer = questions.tolerance_curve.tolerance_curve(asked, Terms(progress=progress))
+    if json:
+        show.print_json(answer.to_json())
+    else:
+        show.print_parts(show.curve_table(answer.columns))
 
 
 @app.command()

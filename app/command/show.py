@@ -198,6 +198,14 @@ def clearance_tables(columns: dict[str, Any]) -> list[Part]:
     return [table, grazes if columns["grazes"] else "No local minimum between the first and the last instant."]
 
 
+def curve_table(columns: dict[str, Any]) -> Part:
+    """How far people may stray at each pitch."""
+    table = new_table("How far people may stray", "pitch [m]", "stray [m]", "shown to touch [m]", "limited by")
+    for pitch, stray, touching, limit in zip(*columns.values(), strict=True):
+        table.add_row(said(pitch), said(stray), "unknown" if touching is None else said(touching), limit.value)
+    return table
+
+
 def overlap_tables(answer: OverlapsAnswer, margin: float = 0.0) -> list[Part]:
     title = f"Pairs nearer than {said(margin)} m" if margin else "Overlapping pairs"
     table = new_table(title, "benches", "separation [m]", "witness a [m]", "witness b [m]")

@@ -1,7 +1,7 @@
 /** The answers, each with how it is known. */
 
 import { make } from "./elements.js";
-import { benchName, handleName, refusalWords, say, sayNear } from "./text.js";
+import { benchName, handleName, refusalWords, say, sayOf, titleOf } from "./text.js";
 
 /** The mark of each outcome: a dance fails with a contact or a fold, passes, or is undecided. */
 const MARKS = { contact: "✕", contact_at_start: "✕", folds: "!", clear: "✓", undecided: "?" };
@@ -21,6 +21,8 @@ const bound = (value, decimals, way) => {
   const text = value.toFixed(decimals);
   return way * (Number(text) - value) < 0 ? (Number(text) + way * 10 ** -decimals).toFixed(decimals) : text;
 };
+/** A safe stray in centimetres, rounded down. metres: [m] */
+export const centimetres = (metres) => bound(100 * metres, 2, -1);
 const ends = ([low, high], decimals) => ({ low: bound(low, decimals, -1), high: bound(high, decimals, 1) });
 const bracket = (key, both, decimals) => [say("bracket"), say(key, ends(both, decimals))];
 
@@ -38,22 +40,22 @@ function facts(...rows) {
 }
 
 /** The benches that the engines judged, in words. benches: of the dragon */
-function judgedWords({ judged }, benches) {
+function judgedWords({ judged }, benches, asked) {
   const count = judged.length;
   if (count === benches) return say("judgedAll", { count });
-  return count === 2 ? say("judgedPair", pair(judged, benches)) : say("judgedNear", { count, benches });
+  return count === 2 ? sayOf("judgedPair", asked, pair(judged, benches)) : say("judgedNear", { count, benches });
 }
 
-function engines(check, benches, margin) {
-  if (!check) return paragraph(say("noEngines"));
-  const word = (overlaps) => (overlaps === null ? say("noBefore") : sayNear(overlaps ? "overlapping" : "apart", margin));
+function engines(check, benches, asked) {
+  if (!check) return paragraph(sayOf("noEngines", asked));
+  const word = (overlaps) => (overlaps === null ? say("noBefore") : sayOf(overlaps ? "overlapping" : "apart", asked));
   const cell = (overlaps) => make("td", { textContent: word(overlaps) });
   const head = (key, scope) => make("th", { scope, textContent: say(key) });
   const rows = Object.entries(check.engines).map(([name, { before, after }]) =>
     make("tr", {}, head(name, "row"), cell(before), cell(after)),
   );
   const heads = make("tr", {}, ...["engine", "before", "after"].map((key) => head(key, "col")));
-  const words = [`${say("engines", { count: rows.length })}${judgedWords(check, benches)}`, say(check.agree ? "agree" : "disagree")];
+  const words = [`${say("engines", { count: rows.length })}${judgedWords(check, benches, asked)}`, say(check.agree ? "agree" : "disagree")];
   const list = check.together.map((both) => Object.values(pair(both, benches)).join(", ")).join("; ");
   if (list) words.push(say("together", { list }));
   const caption = make("caption", { textContent: words.join(" ") });
@@ -64,58 +66,61 @@ function engines(check, benches, margin) {
 const stateOf = ({ outcome, end }) => (outcome === "clear" && end?.reason === "fold" ? "folds" : outcome);
 
 /** The outcome in a few words. answer: of /collision-time */
-export function outcomeWords(answer, margin) {
+export function outcomeWords(answer, asked) {
   const time = answer.time ?? answer.end?.time;
-  return sayNear(stateOf(answer), margin, { time: time?.toFixed(6) });
+  return sayOf(stateOf(answer), asked, { time: time?.toFixed(6) });
 }
 
-function contactLine(answer, { benches, margin }) {
+function contactLine(answer, asked) {
+  const { benches } = asked;
   const { time_bracket, point, benches: both, head, end, gap } = answer;
   const state = stateOf(answer);
   if (state === "undecided") return say("undecidedFrom", { time: bound(time_bracket[0], 9, -1) });
-  if (state === "folds") return sayNear("foldsUntil", margin, { name: benchName(end.bench, benches) });
-  if (state === "clear") return end ? sayNear("clearUntil", margin, { time: end.time.toFixed(6) }) : sayNear("clearAll", margin);
+  if (state === "folds") return sayOf("foldsUntil", asked, { name: benchName(end.bench, benches) });
+  if (state === "clear") return end ? sayOf("clearUntil", asked, { time: end.time.toFixed(6) }) : sayOf("clearAll", asked);
   const [x, y, radius] = [...point, head.radius].map((one) => one.toFixed(6));
   const values = { ...pair(both, benches), x, y, radius };
   const shown = millimetres(gap);
   if (shown.startsWith("-")) return say("pairOverlaps", { ...values, depth: shown.slice(1) });
-  return sayNear("pairMeets", margin, { ...values, gap: shown });
+  return sayOf("pairMeets", asked, { ...values, gap: shown });
 }
 
 /** The time until which nothing is proven to touch; none for a contact at the start, or if nothing is decided. */
-function certificateWords({ outcome, certificate: { steps, clear_until: until } }, margin) {
-  if (until !== null) return sayNear("certificateSteps", margin, { steps, until: bound(until, 10, -1) });
-  return outcome === "undecided" ? say("certificateNone") : sayNear("certificateStart", margin);
+function certificateWords({ outcome, certificate: { steps, clear_until: until } }, asked) {
+  if (until !== null) return sayOf("certificateSteps", asked, { steps, until: bound(until, 10, -1) });
+  return outcome === "undecided" ? say("certificateNone") : sayOf("certificateStart", asked);
 }
 
 /** answer: of /collision-time */
-export function showFirstContact(box, answer, { benches, margin }) {
+export function showFirstContact(box, answer, asked) {
   const { time_bracket, certificate } = answer;
-  const lines = [contactLine(answer, { benches, margin })];
-  const rows = time_bracket ? [[say("bracket"), sayNear("bracketTime", margin, ends(time_bracket, 10))]] : [];
-  rows.push([say("certificate"), certificateWords(answer, margin)]);
+  const lines = [contactLine(answer, asked)];
+  const rows = time_bracket ? [[say("bracket"), sayOf("bracketTime", asked, ends(time_bracket, 10))]] : [];
+  rows.push([say("certificate"), certificateWords(answer, asked)]);
   const least = certificate.least_clearance;
   if (least) {
-    const values = { ...pair(least.benches, benches), gap: millimetres(least.clearance), time: least.time.toFixed(6) };
-    rows.push([say("leastBefore"), say("leastBeforeIs", values)]);
+    const values = { ...pair(least.benches, asked.benches), gap: millimetres(least.clearance), time: least.time.toFixed(6) };
+    rows.push([say("leastBefore"), sayOf("leastBeforeIs", asked, values)]);
   }
   const method = paragraph(certificate.method, { lang: "en", className: "method" });
   const state = stateOf(answer);
   const mark = make("span", { className: "mark", "aria-hidden": "true", textContent: MARKS[state] });
-  const value = [mark, outcomeWords(answer, margin)];
-  const known = [facts(...rows), method, engines(answer.cross_check, benches, margin)];
-  show(box, sayNear("firstContact", margin), value, lines, known, state);
+  const value = [mark, outcomeWords(answer, asked)];
+  const known = [facts(...rows), method, engines(answer.cross_check, asked.benches, asked)];
+  show(box, titleOf("firstContact", asked), value, lines, known, state);
 }
 
 /** answer: of /minimum-pitch; use(pitch) sets it */
-export function showMinimumPitch(box, answer, { benches, turning_diameter: diameter, margin }, use) {
+export function showMinimumPitch(box, answer, asked, use) {
+  const { benches, turning_diameter: diameter } = asked;
   const names = answer.benches ? pair(answer.benches, Number(benches)) : {};
   const name = answer.bench === null ? "" : benchName(answer.bench, Number(benches));
-  const limit = sayNear(`limited_${answer.limited_by}`, margin, { ...names, name, radius: answer.head_radius?.toFixed(6) });
+  const limit = sayOf(`limited_${answer.limited_by}`, asked, { ...names, name, radius: answer.head_radius?.toFixed(6) });
   const { scan_step: step, proven_up_to: upTo } = answer;
   const all = step === null && upTo === null;
   const from = bound(answer.proven_from, 9, 1);
-  const lines = [sayNear(all ? "toCircle" : "toCircleTried", margin, { diameter }), limit];
+  const pitches = say(all ? "larger" : "largerTried");
+  const lines = [sayOf("toCircle", asked, { diameter, pitches }), limit];
   const islands = answer.other_feasible_intervals.map(([low, high]) => `${low.toFixed(6)}–${high.toFixed(6)} m`);
   if (islands.length) lines.push(say("islands", { list: islands.join(", ") }));
   const rows = [
@@ -126,22 +131,35 @@ export function showMinimumPitch(box, answer, { benches, turning_diameter: diame
     [say("proven"), say(upTo === null ? "provenToAll" : "provenTo", { from, upTo })],
     [say("evaluations"), answer.evaluations],
   ];
-  const known = [facts(...rows), engines(answer.cross_check, Number(benches), margin)];
-  show(box, say("minimumPitch"), `${answer.pitch.toFixed(9)} m`, lines, known);
+  const known = [facts(...rows), engines(answer.cross_check, Number(benches), asked)];
+  show(box, titleOf("minimumPitch", asked), `${answer.pitch.toFixed(9)} m`, lines, known);
   const button = make("button", { type: "button", textContent: say("usePitch") });
   button.addEventListener("click", () => use(answer.pitch_bracket[1]));
   box.querySelector("details").before(button);
 }
 
 /** answer: of /shortest-turn */
-export function showShortestTurn(box, answer, { benches, margin }) {
+export function showShortestTurn(box, answer, asked) {
   const { entry_radius, length, limited_by, scan_step, evaluations } = answer;
-  const names = answer.benches ? pair(answer.benches, Number(benches)) : {};
-  const limit = limited_by === "contact" ? sayNear("entry_contact", margin, names) : say(`entry_${limited_by}`);
+  const names = answer.benches ? pair(answer.benches, Number(asked.benches)) : {};
+  const limit = limited_by === "contact" ? sayOf("entry_contact", asked, names) : say(`entry_${limited_by}`);
   const lines = [say("entryIs", { length: length.toFixed(6) }), limit];
   const scanned = [say("scanned"), say("scannedEntries", { evaluations, step: 1000 * scan_step })];
   const known = facts(bracket("bracketEntry", answer.entry_bracket, 9), scanned);
-  show(box, say("shortestTurn"), `${entry_radius.toFixed(6)} m`, lines, [known]);
+  show(box, titleOf("shortestTurn", asked), `${entry_radius.toFixed(6)} m`, lines, [known]);
+}
+
+/** answer: of /tolerance on the way to a circle of this diameter [m]; without one, on the part of a turn that is danced */
+export function showTolerance(box, answer, benches, diameter) {
+  const { stray, stray_bracket: [low, high], limited_by: limit, time, certificate } = answer;
+  const values = { ...(answer.benches && pair(answer.benches, benches)), time: time?.toFixed(6) };
+  const safe = stray > 0 ? say(diameter ? "toleranceCircle" : "toleranceTurn", { diameter, stray: centimetres(stray) }) : "";
+  const lines = stray > 0 ? [safe, say(`tolerance_${limit}`, values)] : [say(high === null ? "toleranceNone" : "tolerance_touching", values)];
+  const cm = (metres, way) => bound(100 * metres, 7, way);
+  const both = high === null ? say("bracketStrayOpen", { low: cm(low, -1) }) : say("bracketStray", { low: cm(low, -1), high: cm(high, 1) });
+  const rows = [[say("bracket"), both], [say("certificate"), say("stepsTaken", { steps: certificate.steps })]];
+  const method = paragraph(certificate.method, { lang: "en", className: "method" });
+  show(box, say("tolerance"), `${centimetres(stray)} cm`, lines, [facts(...rows), method]);
 }
 
 /** fastest: highest_speed of /check; null in a run to a fold */
@@ -154,10 +172,10 @@ export function showHighestSpeed(box, fastest, { benches }) {
   show(box, say("highest"), `${speed.toFixed(6)} m/s`, [whose], known);
 }
 
-export function showEnd(box, answer, time, { benches, margin }) {
+export function showEnd(box, answer, time, asked) {
   const reason = answer.end?.reason ?? { undecided: "undecided", clear: "turn" }[answer.outcome] ?? "contact";
-  const name = reason === "fold" ? benchName(answer.end.bench, benches) : "";
-  const words = reason === "contact" ? sayNear("end_contact", margin) : say(`end_${reason}`, { name });
+  const name = reason === "fold" ? benchName(answer.end.bench, asked.benches) : "";
+  const words = reason === "contact" ? sayOf("end_contact", asked) : say(`end_${reason}`, { name });
   show(box, say("end"), `${(answer.end?.time ?? time).toFixed(6)} s`, [words], [paragraph(say("endKnown"))]);
 }
 
@@ -167,11 +185,11 @@ export function showRefusal(box, title, detail) {
 }
 
 /** The caption of the enlarged view. gap: [m] between the two benches, null while unknown */
-export function insetWords({ benches: [a, b], corner, edge }, gap, { benches, margin }) {
-  const name = (bench) => benchName(bench, benches);
+export function insetWords({ benches: [a, b], corner, edge }, gap, asked) {
+  const name = (bench) => benchName(bench, asked.benches);
   const words =
     corner && edge
-      ? sayNear("insetMeet", margin, { corner: say(corner.name), a: name(corner.bench), edge: say(edge.name), b: name(edge.bench) })
+      ? sayOf("insetMeet", asked, { corner: say(corner.name), a: name(corner.bench), edge: say(edge.name), b: name(edge.bench) })
       : `${name(a)}, ${name(b)}`;
   return gap === null ? words : `${words}; ${gapWords(gap)}`;
 }

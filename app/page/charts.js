@@ -1,4 +1,4 @@
-/** Two charts drawn by uPlot: clearance over time, and radius of the head at first contact against the pitch. */
+/** Charts drawn by uPlot: clearance over time, and, against the pitch, how far people may stray and where the head stops. */
 
 import { make } from "./elements.js";
 import { say } from "./text.js";
@@ -33,10 +33,11 @@ export class Chart {
     this.now(this.#now);
   }
 
+  /** x: where the marker stands; null hides it */
   now(x) {
     this.#now = x;
-    if (!this.#plot || x === null) return;
-    const left = this.#plot.valToPos(x, "x");
+    if (!this.#plot) return;
+    const left = x === null ? NaN : this.#plot.valToPos(x, "x");
     this.#marker.hidden = !(left >= -1 && left <= this.#plot.over.clientWidth + 1);
     this.#marker.style.transform = `translateX(${left}px)`;
   }
@@ -103,7 +104,7 @@ function pen(plot, colour) {
   };
 }
 
-/** Clearance over time, of /clearance; margin [m], contact: its time or null. */
+/** Clearance over time, of /clearance; margin [m]; contact: {time [s], gap [m]} of the first one, or null. */
 export function clearancePlan({ time, clearance, grazes, margin, contact }) {
   const low = 1000 * Math.min(0, ...clearance);
   const high = 1000 * Math.max(margin, ...clearance) || 1;
@@ -115,7 +116,21 @@ export function clearancePlan({ time, clearance, grazes, margin, contact }) {
     draw(pen) {
       pen.across(1000 * margin, "contact");
       for (const graze of grazes) pen.dot(graze.time, 1000 * graze.clearance, "text", 2.5);
-      if (contact !== null) pen.cross(contact, 1000 * margin, "contact");
+      if (contact) pen.cross(contact.time, 1000 * contact.gap, "contact");
+    },
+  };
+}
+
+/** How far people may stray against the pitch, of /tolerance-curve; own: a stray [m]; least: the pitch for it, or null. */
+export function curvePlan({ pitch, stray, own, least }) {
+  return {
+    labels: ["pitchAxis", "strayAxis"],
+    table: [pitch, stray.map((one) => 100 * one)],
+    range: [0, 100 * ABOVE * Math.max(own, ...stray)],
+    width: 2,
+    draw(pen) {
+      if (own > 0) pen.across(100 * own, "text");
+      if (least !== null) pen.up(least, "clear");
     },
   };
 }

@@ -1,5 +1,6 @@
 /** The picture: benches as rectangles between their handles, coloured by speed, over the faint path. */
 
+import { strayOf } from "./state.js";
 import { View } from "./view.js";
 
 const SHADES = 48;
@@ -36,6 +37,29 @@ function outline({ x, y }, { overhang, width }, k) {
   const [ox, oy, wx, wy] = [ux * overhang, uy * overhang, (-uy * width) / 2, (ux * width) / 2];
   const [fx, fy, rx, ry] = [x[k] + ox, y[k] + oy, x[k + 1] - ox, y[k + 1] - oy];
   return [[fx + wx, fy + wy], [fx - wx, fy - wy], [rx - wx, ry - wy], [rx + wx, ry + wy]];
+}
+
+/**
+ * Adds to a path the ground that bench k of a pose covers while each of its holes is within the stray [m] of its place:
+ * a side moves out by the stray between the holes, and a corner by (d + D) / chord times the stray, where d and D are
+ * its distances from the two holes.
+ */
+export function addGround(path, { x, y }, { overhang, width }, k, stray) {
+  const half = width / 2;
+  const [dx, dy] = [x[k] - x[k + 1], y[k] - y[k + 1]];
+  const chord = Math.hypot(dx, dy);
+  const reach = (stray * (Math.hypot(overhang, half) + Math.hypot(chord + overhang, half))) / chord;
+  const front = Math.atan2(dy, dx);
+  [k, k + 1].forEach((hole, end) => {
+    const way = front + end * Math.PI;
+    const [ux, uy] = [Math.cos(way), Math.sin(way)];
+    const place = (along, left) => [x[hole] + along * ux - left * uy, y[hole] + along * uy + left * ux];
+    path[end ? "lineTo" : "moveTo"](...place(0, -half - stray));
+    path.arc(...place(overhang, -half), reach, way - Math.PI / 2, way);
+    path.arc(...place(overhang, half), reach, way, way + Math.PI / 2);
+    path.lineTo(...place(0, half + stray));
+  });
+  path.closePath();
 }
 
 /** The two ends of an edge that the service names; inner is the side nearer to the centre. */
@@ -103,7 +127,7 @@ class Pen {
 
 export class Dance {
   /**
-   * pose {x, y, speed}, its dragon {width, overhang}, contact: the service's answer while its instant is shown, handle:
+   * pose {x, y, speed}, its dragon {width, overhang, stray, hole, pin}, contact: the service's answer while its instant is shown, handle:
    * the chosen one, names of head and handle, circle: radius of the turning circle [m]
    */
   scene = { pose: null, dragon: null, contact: null, handle: null, headName: "", handleName: "", circle: null };
@@ -120,7 +144,7 @@ export class Dance {
 
   restyle() {
     const style = getComputedStyle(this.canvas);
-    for (const name of ["text", "outline", "path", "circle", "head", "first", "second", "pick", "card"])
+    for (const name of ["text", "outline", "path", "circle", "head", "first", "second", "pick", "card", "halo"])
       this.#colours[name] = style.getPropertyValue(`--${name}`).trim();
     this.#palette = palette(style.getPropertyValue("--ramp"));
   }
@@ -138,6 +162,7 @@ export class Dance {
     if (this.#path) pen.stroke(this.#path, colours.path);
     if (circle > 0) pen.stroke(pen.circle(0, 0, circle * pen.scale), colours.circle, 1.5);
     if (!pose) return;
+    this.#grounds(pen);
     this.#benches(pen);
     pen.stroke(this.#bench(0), colours.head, 2.5);
     if (contact) this.#pair(pen);
@@ -171,6 +196,15 @@ export class Dance {
     pen.stroke(all, this.#colours.outline);
   }
 
+  /** The ground that the benches may cover, as one band. */
+  #grounds(pen) {
+    const { pose, dragon } = this.scene;
+    const [path, stray] = [new Path2D(), strayOf(dragon)];
+    if (!(stray > 0)) return;
+    for (let k = pose.x.length - 2; k >= 0; k--) addGround(path, pose, dragon, k, stray);
+    pen.fill(path, this.#colours.halo);
+  }
+
   /** The two benches that touch. */
   #pair(pen) {
     this.scene.contact.benches.forEach((bench, k) => {
@@ -185,6 +219,7 @@ export class Dance {
     const { pose, dragon, contact } = this.scene;
     const [x, y] = contact.point;
     const pen = new Pen(this.inset, { x, y, scale: this.inset.clientHeight / (2 * INSET_WIDTHS * dragon.width) });
+    this.#grounds(pen);
     this.#benches(pen);
     this.#pair(pen);
     if (contact.edge) {

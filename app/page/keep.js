@@ -2,6 +2,7 @@
 
 import { Problem, Superseded } from "./api.js";
 import { $, make, onClick } from "./elements.js";
+import { strayOf } from "./state.js";
 import { say } from "./text.js";
 
 const CSV_STEP = 1;
@@ -71,10 +72,15 @@ export class Keep {
   }
 
   async figure() {
-    const { kind, query, numbers } = this.questions.dance;
-    const asked = kind === "spiral" ? { query } : { body: this.questions.body({ margin: numbers.margin }) };
-    const blob = await this.service.ask("figure", "figures/contact.svg", { ...asked, accept: "image/svg+xml" });
-    return ["first-contact.svg", blob];
+    const { kind, query, numbers, end } = this.questions.dance;
+    const { stray, hole, pin, ...flat } = query;
+    // The figure of a contact has everybody in their place: with a stray, the figure is that of the last instant shown.
+    const strays = strayOf(query) > 0;
+    const body = this.questions.body(strays ? { time: end } : { margin: numbers.margin });
+    const asked = kind === "spiral" && !strays ? { query: flat } : { body };
+    const path = `figures/${strays ? "trajectory" : "contact"}.svg`;
+    const blob = await this.service.ask("figure", path, { ...asked, accept: "image/svg+xml" });
+    return [strays ? "dance.svg" : "first-contact.svg", blob];
   }
 
   /** The answer that the command gives; in the one shown, the engines may have judged only the pair. */

@@ -2,20 +2,20 @@
 
 import * as answers from "./answers.js";
 import { Problem, Service } from "./api.js";
-import { Chart, clearancePlan, scanPlan } from "./charts.js";
 import { Controls } from "./controls.js";
 import { Dance, speedRange } from "./dance.js";
-import { $, $$, make, onClick } from "./elements.js";
+import { $, $$, onClick } from "./elements.js";
+import { Graphs } from "./graphs.js";
 import { Jobs } from "./jobs.js";
 import { Grader } from "./grade.js";
 import { Keep } from "./keep.js";
 import { Player } from "./player.js";
 import { Questions } from "./questions.js";
 import { SweepMap } from "./map.js";
-import { FIELDS, State } from "./state.js";
+import { CONTACT, FIELDS, State, strayOf } from "./state.js";
 import { QUESTIONS, SweepForm } from "./sweeps.js";
 import { Table } from "./table.js";
-import { benchName, handleName, refusalWords, say, sayNear, setLanguage } from "./text.js";
+import { handleName, say, setLanguage } from "./text.js";
 
 const NUMBERS = [...FIELDS.map((field) => field.name), "path"];
 /** The boxes that wait for each kind of answer. */
@@ -23,15 +23,16 @@ const BUSY = {
   contact: ["#first-contact", "#run-end"],
   pose: ["#stage"],
   minimum: ["#minimum-pitch"],
+  tolerance: ["#tolerance"],
   shortest: ["#shortest-turn"],
   fastest: ["#highest-speed"],
   clearance: ["#clearance"],
+  curve: ["#curve"],
   scan: ["#scan"],
   grade: ["#grade"],
 };
 /** Titles of the boxes that show a refusal. */
-const TITLES = { contact: "firstContact", minimum: "minimumPitch", shortest: "shortestTurn", fastest: "highest" };
-const PITCH_DECIMALS = 4;
+const TITLES = { contact: "firstContact", minimum: "minimumPitch", tolerance: "tolerance", shortest: "shortestTurn", fastest: "highest" };
 const ZOOM = 1.5;
 /** On a run that ends in a fold, a handle this many times faster than the head shows that the fold is near [1]. */
 const FAST = 2;
@@ -62,10 +63,7 @@ const dance = new Dance($("#canvas"), $("#inset canvas"), {
 const player = new Player(state, questions, showPose, showTable);
 const controls = new Controls($("#controls"), state);
 const table = new Table($("#rows"), { choose, chosen: (handle) => state.set({ handle }) });
-const charts = {
-  clearance: new Chart($("#clearance .plot"), clearancePlan, (time) => player.seek(time)),
-  scan: new Chart($("#scan .plot"), scanPlan, (pitch) => state.set({ pitch: pitch.toFixed(PITCH_DECIMALS) })),
-};
+const graphs = new Graphs(state, questions, (time) => player.seek(time));
 const keep = new Keep(state, service, questions, $("#canvas"), announce);
 const map = new SweepMap($("#map"), openDesign);
 const jobs = new Jobs($("#jobs"), service, showMap, announce);
@@ -101,6 +99,7 @@ function showPose(pose) {
   // Inner and outer refer to the centre of a spiral, which other paths do not have.
   const drawn = contact && kind !== "spiral" ? { ...contact, edge: null } : contact;
   Object.assign(dance.scene, { pose, dragon: numbers, contact: drawn });
+  $("#halo").hidden = !(strayOf(numbers) > 0);
   $("#inset").hidden = !contact?.point;
   const { answer: touching, dance: of } = questions.answers.gap ?? {};
   const gap = of === questions.dance ? touching.clearance[0] : null;
@@ -147,31 +146,7 @@ function showTime() {
   $("#time").value = time;
   $("#time").setAttribute("aria-valuetext", text);
   $("#clock").textContent = text;
-  charts.clearance.now(time);
-  const { answer, dance: of } = questions.answers.clearance ?? {};
-  if (!answer || of !== questions.dance) return;
-  const step = (of.end - of.begin) / (answer.time.length - 1) || 1;
-  const k = Math.min(Math.round((time - of.begin) / step), answer.time.length - 1);
-  const [a, b] = answer.benches[k].map((bench) => benchName(bench, of.numbers.benches));
-  const gap = answers.gapWords(answer.clearance[k]);
-  $("#clearance .reading").textContent = say("clearanceAt", { time: answer.time[k].toFixed(2), gap, a, b });
-}
-
-/** The help text of the pitch chart, which depends on the margin. */
-function showScanHelp() {
-  $("#scan .hint").textContent = sayNear("scanHelp", state.get("margin"));
-}
-
-/** Mark the dance shown on the pitch chart. */
-function showPitch() {
-  const { answer, numbers, kind } = questions.dance ?? {};
-  if (!questions.answers.scan || !answer) return;
-  charts.scan.now(numbers.pitch);
-  const { pitch } = numbers;
-  const words = answer.head
-    ? say("scanAt", { pitch, radius: answer.head.radius.toFixed(6) })
-    : `${say("pitch")} ${pitch} m: ${answers.outcomeWords(answer, numbers.margin)}`;
-  $("#scan .reading").textContent = kind === "spiral" ? words : "";
+  graphs.time(time);
 }
 
 /** How each kind of answer changes the screen; called again after a change of language. */
@@ -181,14 +156,22 @@ const SHOW = {
     Object.assign($("#time"), { min: begin, max: end });
     answers.showFirstContact($("#first-contact"), answer, numbers);
     answers.showEnd($("#run-end"), answer, end, numbers);
-    showPitch();
+    graphs.pitch();
     keep.show();
     player.update();
   },
   minimum() {
     const { answer, query } = questions.answers.minimum;
     answers.showMinimumPitch($("#minimum-pitch"), answer, query, (pitch) => state.set({ pitch: String(pitch) }));
+    graphs.curve();
   },
+  tolerance() {
+    const { answer, query, body } = questions.answers.tolerance;
+    answers.showTolerance($("#tolerance"), answer, Number(query?.benches ?? body.dragon.benches), query?.turning_diameter);
+    graphs.curve();
+  },
+  curve: () => graphs.curve(),
+  scan: () => graphs.scan(),
   shortest() {
     const { answer, query } = questions.answers.shortest;
     answers.showShortestTurn($("#shortest-turn"), answer, query);
@@ -202,14 +185,8 @@ const SHOW = {
     answers.showFirstContact($("#first-contact"), { ...of.answer, cross_check }, of.numbers);
   },
   clearance() {
-    const { answer, dance: of } = questions.answers.clearance;
-    charts.clearance.show({ ...answer, margin: of.numbers.margin, contact: of.answer.time });
+    graphs.clearance();
     showTime();
-  },
-  scan() {
-    const { answer, query } = questions.answers.scan;
-    charts.scan.show({ ...answer, circle: Number(query.turning_diameter) / 2 });
-    showPitch();
   },
 };
 
@@ -230,9 +207,7 @@ const TELL = {
     if (refusals.has("contact") && !questions.dance) for (const box of $$("[aria-busy=true]")) box.setAttribute("aria-busy", false);
     for (const [kind, { message }] of refusals) {
       if (kind in TITLES) answers.showRefusal($(BUSY[kind][0]), TITLES[kind], message);
-      if (!(kind in charts)) continue;
-      charts[kind].show(null);
-      $(`#${kind} .reading`).replaceChildren(make("span", refusalWords(message)));
+      graphs.refuse(kind, message);
     }
   },
 };
@@ -244,7 +219,6 @@ const SHOW_STATE = {
   rate: (rate) => ($("#rate").value = rate),
   handle: () => announce(showHandle()),
   view: (view) => (view ? dance.view.set(...view) : (dance.view.fitted = true)),
-  margin: showScanHelp,
   turning_diameter: (diameter) => (dance.scene.circle = Number(diameter) / 2),
   path(path) {
     press("path", path);
@@ -258,6 +232,7 @@ const SHOW_STATE = {
 
 function showState(changed) {
   for (const [name, show] of Object.entries(SHOW_STATE)) if (changed.has(name)) show(state.get(name));
+  if (CONTACT.some((name) => changed.has(name))) graphs.help();
   if (NUMBERS.some((name) => changed.has(name))) questions.refresh();
   draw();
 }
@@ -286,7 +261,7 @@ function translate() {
   const language = setLanguage(state.get("lang"));
   press("lang", language);
   grader.translate(language);
-  showScanHelp();
+  graphs.help();
   controls.translate(limits);
   player.translate();
   jobs.render();
@@ -334,7 +309,7 @@ function listen() {
 
 function restyle() {
   dance.restyle();
-  for (const chart of Object.values(charts)) chart.show();
+  graphs.restyle();
   map.draw();
   grader.show();
   draw();

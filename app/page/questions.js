@@ -1,12 +1,14 @@
 /** The page's questions to the service: first contact, pose and minimum pitch at once, the others when input pauses. */
 
 import { Problem, Superseded } from "./api.js";
-import { DRAGON } from "./state.js";
+import { CONTACT, DRAGON } from "./state.js";
 import { Track } from "./track.js";
 
 /** Time without a change after which input counts as paused [ms]. */
 const REST = 250;
 const CLEARANCE_SAMPLES = 400;
+/** The curve of how far people may stray is nearly straight. */
+const CURVE = { samples: 13 };
 /** At a fold the chain is about to break, so the page shows the instant this long before it [s]. */
 const BEFORE_END = 1e-6;
 /** Distance between samples of the path [m], and the largest number of samples. */
@@ -15,11 +17,13 @@ const [PATH_STEP, PATH_SAMPLES] = [0.3, 6_000];
 const TURN_TRAVEL = 100;
 
 const MOTION = [...DRAGON, "pitch", "start_turns", "head_speed"];
-const CIRCLE = [...DRAGON, "turning_diameter", "start_turns", "margin"];
+const CIRCLE = [...DRAGON, "turning_diameter", "start_turns"];
 /** While a slider is dragged, the engines judge only the touching pair. */
 const QUICK = { cross_check: "pair" };
 /** Refusals of these concern a number that a person entered; others only affect what can be shown. The last one wins. */
 const ABOUT_NUMBERS = ["minimum", "contact"];
+
+const numbersOf = (texts) => Object.fromEntries(Object.entries(texts).map(([name, text]) => [name, Number(text)]));
 
 /** The last instant shown: first contact, or the time until which nothing touches. */
 function lastInstant({ time, time_bracket, end }) {
@@ -29,7 +33,7 @@ function lastInstant({ time, time_bracket, end }) {
 export class Questions {
   /** {kind, query, numbers, answer, begin, end, report: of /check if it answered, track} */
   dance = null;
-  /** kind -> {answer, query, dance}: the newest, to be shown again in another language */
+  /** kind -> {answer, query or body, dance}: the newest, to be shown again in another language */
   answers = {};
   /** channel -> Problem */
   refusals = new Map();
@@ -48,10 +52,9 @@ export class Questions {
     clearTimeout(this.#rest);
     this.#rest = setTimeout(() => this.#atRest(), REST);
     const kind = this.state.get("path");
-    const query = this.state.texts([...MOTION, "margin", ...(kind === "turn" ? ["turning_diameter"] : [])]);
-    const numbers = Object.fromEntries(Object.entries(query).map(([name, text]) => [name, Number(text)]));
-    if (this.#isNew("contact", { kind, ...query })) this.#askContact({ kind, query, numbers });
-    const circle = this.state.texts(CIRCLE);
+    const query = this.state.texts([...MOTION, ...CONTACT, ...(kind === "turn" ? ["turning_diameter"] : [])]);
+    if (this.#isNew("contact", { kind, ...query })) this.#askContact({ kind, query, numbers: numbersOf(query) });
+    const circle = this.state.texts([...CIRCLE, ...CONTACT]);
     if (!this.#isNew("minimum", circle)) return;
     this.#whole = !this.answers.minimum;
     this.#keep("minimum", "minimum-pitch", { query: this.#whole ? circle : { ...circle, ...QUICK } });
@@ -67,9 +70,14 @@ export class Questions {
 
   /** Body of /check: a spiral is danced to its end. */
   checkBody(asked) {
-    const { margin, head_speed } = asked.numbers;
-    const time = TURN_TRAVEL / head_speed;
-    return this.body({ margin, ...(asked.kind === "turn" && { start: -time, stop: time }) }, asked);
+    const contact = Object.fromEntries(CONTACT.map((name) => [name, asked.numbers[name]]));
+    return this.body({ ...contact, ...this.#stretch(asked) }, asked);
+  }
+
+  /** The part of a turn that is danced, as its coils have no end; a spiral is danced to its end. */
+  #stretch({ kind, numbers }) {
+    const time = TURN_TRAVEL / numbers.head_speed;
+    return kind === "turn" ? { start: -time, stop: time } : {};
   }
 
   /** The service's own numbers at one instant. */
@@ -123,10 +131,28 @@ export class Questions {
     this.#askDance();
     if (!this.#whole) {
       this.#whole = true;
-      this.#keep("minimum", "minimum-pitch", { query: this.state.texts(CIRCLE) });
+      this.#keep("minimum", "minimum-pitch", { query: this.state.texts([...CIRCLE, ...CONTACT]) });
     }
-    this.#askOnce("scan", "pitch-scan", CIRCLE);
-    if (this.state.get("path") === "turn") this.#askOnce("shortest", "shortest-turn", [...CIRCLE, "pitch"]);
+    const over = (names, more) => ({ query: { ...this.state.texts(names), ...more } });
+    const slow = [["tolerance", "tolerance", this.#toleranceOf()]];
+    if (this.state.get("path") === "turn") slow.push(["shortest", "shortest-turn", over([...CIRCLE, ...CONTACT, "pitch"])]);
+    slow.push(["scan", "pitch-scan", over([...CIRCLE, "margin"])], ["curve", "tolerance-curve", over(CIRCLE, CURVE)]);
+    this.#askInTurn(slow);
+  }
+
+  /** The request for how far people may stray on the way to the circle, or on the part of a turn that is danced. */
+  #toleranceOf() {
+    const kind = this.state.get("path");
+    const query = this.state.texts([...MOTION, "turning_diameter"]);
+    const asked = { kind, numbers: numbersOf(query) };
+    return kind === "turn" ? { body: this.body(this.#stretch(asked), asked) } : { query };
+  }
+
+  /** Ask slow questions one after another, because the service takes few at once. slow: [kind, path, question] of each */
+  async #askInTurn(slow) {
+    const changed = slow.filter(([kind, , question]) => this.#isNew(kind, question));
+    for (const [kind] of changed) this.service.tell.busy(kind, true);
+    for (const ask of changed) if (!this.#isNew(ask[0], ask[2], false)) await this.#keep(...ask);
   }
 
   /** Ask once for all that belongs to the dance shown. */
@@ -154,15 +180,10 @@ export class Questions {
     this.tell("track");
   }
 
-  #askOnce(kind, path, names) {
-    const query = this.state.texts(names);
-    if (this.#isNew(kind, query)) this.#keep(kind, path, { query });
-  }
-
   async #keep(kind, path, question, dance = null) {
     const answer = await this.#answer(kind, path, question);
     const outdated = dance && dance !== this.dance;
-    if (answer && !outdated) this.#accepted(kind, { answer, query: question.query, dance });
+    if (answer && !outdated) this.#accepted(kind, { answer, ...question, dance });
   }
 
   #accepted(kind, kept) {
@@ -171,10 +192,11 @@ export class Questions {
     this.tell(kind);
   }
 
-  #isNew(kind, query) {
-    const key = JSON.stringify(query);
+  /** Is this another question of its kind than the last one? mark: it becomes the last one */
+  #isNew(kind, question, mark = true) {
+    const key = JSON.stringify(question);
     if (this.#asked.get(kind) === key) return false;
-    this.#asked.set(kind, key);
+    if (mark) this.#asked.set(kind, key);
     return true;
   }
 

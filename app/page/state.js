@@ -15,9 +15,17 @@ export const FIELDS = [
   { name: "overhang", value: "0.275", group: "dragon", slider: [0, 0.45, 0.005] },
   { name: "head_speed", value: "1", group: "motion", slider: [0.1, 3, 0.05] },
   { name: "margin", value: "0", group: "motion", slider: [0, 0.2, 0.005] },
+  { name: "stray", value: "0", group: "people", slider: [0, 0.2, 0.001] },
+  { name: "hole", value: "0", group: "people", slider: [0, 0.1, 0.001] },
+  { name: "pin", value: "0", group: "people", slider: [0, 0.1, 0.001] },
 ];
 
-export const DRAGON = FIELDS.filter(({ group }) => group === "dragon").map(({ name }) => name);
+const namesOf = (wanted) => FIELDS.filter(({ group }) => group === wanted).map(({ name }) => name);
+export const DRAGON = namesOf("dragon");
+/** What counts as a contact. */
+export const CONTACT = ["margin", ...namesOf("people")];
+/** How far every hole may be from its place in all [m]: what people do, and half of what the pin lacks. */
+export const strayOf = ({ stray, hole, pin }) => Number(stray) + (hole - pin) / 2;
 export const RATES = [1, 2, 5, 10, 20, 50];
 /** Default pitch of a turn, from the contest: a turn needs a wider spiral. */
 const PITCHES = { spiral: "0.55", turn: "1.7" };

@@ -1,17 +1,18 @@
 /** The form of a sweep: a question over one or two of its parameters, the others as on the page. */
 
 import { make } from "./elements.js";
-import { DRAGON, FIELDS } from "./state.js";
+import { CONTACT, DRAGON, FIELDS } from "./state.js";
 import { refusalWords, say } from "./text.js";
 
 const SPIRAL = [...DRAGON, "pitch", "start_turns", "head_speed"];
 const CIRCLE = [...DRAGON, "turning_diameter", "start_turns"];
 /** Questions that the page sweeps: the parameters of each, its own value, and the path of its dance. */
 export const QUESTIONS = {
-  collision_time: { parameters: [...SPIRAL, "margin"], value: "time", path: "spiral" },
-  minimum_pitch: { parameters: [...CIRCLE, "margin"], value: "pitch", path: "spiral" },
+  collision_time: { parameters: [...SPIRAL, ...CONTACT], value: "time", path: "spiral" },
+  minimum_pitch: { parameters: [...CIRCLE, ...CONTACT], value: "pitch", path: "spiral" },
   least_clearance: { parameters: SPIRAL, value: "distance", path: "spiral" },
-  shortest_turn: { parameters: [...CIRCLE, "pitch", "margin"], value: "length", path: "turn" },
+  shortest_turn: { parameters: [...CIRCLE, "pitch", ...CONTACT], value: "length", path: "turn" },
+  tolerance: { parameters: [...SPIRAL, "turning_diameter"], value: "stray", path: "spiral" },
   maximum_head_speed: { parameters: [...CIRCLE, "pitch"], value: "head_speed", path: "turn" },
 };
 /** What the form begins with: parameter, from, to, count. */

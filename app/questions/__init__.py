@@ -18,6 +18,7 @@ from app.questions import (
     pitch_scan,
     shortest_turn,
     tolerance,
+    tolerance_curve,
     trajectory,
     turn,
 )
@@ -35,6 +36,7 @@ _ALL = (
     maximum_head_speed.QUESTION,
     check.QUESTION,
     tolerance.QUESTION,
+    tolerance_curve.QUESTION,
     overlaps.QUESTION,
     paper.QUESTION,
     figures.TRAJECTORY,

@@ -9,7 +9,7 @@ from pydantic import Field
 import core
 from app.questions.question import UNKNOWN_COST, Question, Terms
 from app.wire.answers import Pair, PairCheck, Point
-from app.wire.dances import BenchByBench, Circle, DragonFields, Strays, UniformDragon
+from app.wire.dances import BenchByBench, Circle, DragonFields, Strays, UniformDragon, WayToCircle
 from app.wire.models import PITCH_MAX, Answer, CrossCheck, measure
 from core import Dragon, InvalidValue, LimitedBy
 from core.errors import said
@@ -75,7 +75,7 @@ class MinimumPitch(Answer):
         return cls.known(found, cross_check=check)
 
 
-def allowed(found: core.MinimumPitch, asked: Circle, dragon: Dragon) -> core.MinimumPitch:
+def allowed(found: core.MinimumPitch, asked: WayToCircle, dragon: Dragon) -> core.MinimumPitch:
     """The minimum pitch, if other questions accept it. raises: InvalidValue naming what makes it too large"""
     if found.pitch <= PITCH_MAX:
         return found
@@ -87,7 +87,7 @@ def allowed(found: core.MinimumPitch, asked: Circle, dragon: Dragon) -> core.Min
     if found.benches is None or found.benches[1] - found.benches[0] > 2:
         raise InvalidValue.of("turning_diameter", f"must be larger: {why}", asked.turning_diameter, "m")
     # The benches are hardly apart even on a straight line.
-    if asked.margin:
+    if isinstance(asked, Circle) and asked.margin:
         raise InvalidValue.of("margin", f"must be smaller: {why}", asked.margin, "m")
     bench = found.benches[0]
     field = (

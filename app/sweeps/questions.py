@@ -98,6 +98,7 @@ QUESTIONS = _ALL | {name: ways[1:] for own, ways in _ALL.items() if (name := f"{
 PICTURE = "it answers with a picture: sweep the question whose numbers it draws"
 NO_ROWS = {
     "pitch_scan": "it is a sweep itself: sweep collision_time over pitch",
+    "tolerance_curve": "it is a sweep itself: sweep tolerance over pitch",
     "paper": "it takes no parameters",
     **{name: PICTURE for name, question in questions.QUESTIONS.items() if question.model is None},
 }

@@ -286,11 +286,16 @@ class CoreCircle(TypedDict):
     margin: float
 
 
-class Circle(Wire):
+class WayToCircle(Wire):
     """A circle that the head must reach from a start on a spiral of any pitch."""
 
     turning_diameter: TurningDiameter = measure("m", "Diameter of the circle that the head must reach", 9.0)
     start_turns: StartTurns = 16.0
+
+
+class Circle(WayToCircle):
+    """The same, with a margin on the way."""
+
     margin: Margin = 0.0
 
     def to_circle(self) -> CoreCircle:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -71,11 +71,13 @@ def tolerance_curve(
     *,
     turning_radius: float = 4.5,
     start_turns: float = 16.0,
+    progress: Callable[[float], None] = lambda share: None,
     budget: Budget | None = None,
 ) -> ToleranceCurve:
     """How far people may stray at each of some pitches, from the start until the head is on the turning circle.
 
     pitches: (N,) [m]; turning_radius: [m]; start_turns: turns from the centre to the start
+    progress: called with the share of the pitches that is done
     The inverse, the smallest pitch for a stray, is minimum_pitch(dragon, stray=...).
     raises: InvalidValue, also for a pitch at which the dance begins inside the circle or folds before it; TooMuchWork
     """
@@ -88,23 +90,26 @@ def tolerance_curve(
     if column.ndim != 1 or not 1 <= column.size <= CURVE_MOST:
         raise InvalidValue("pitches", f"{rule}, got an array of shape {column.shape}")
     answers = []
-    for pitch in column.tolist():
+    for k, pitch in enumerate(column.tolist()):
         dance = Dance(dragon, Spiral(pitch, start_turns))
         answers.append(tolerance(dance, stop=time_on_circle(dance, radius), budget=budget))
+        progress((k + 1) / column.size)
     return ToleranceCurve(column, np.array([one.stray for one in answers]), tuple(answers))
 
 
 def time_on_circle(dance: Dance, radius: float) -> float:
     """When the head of a dance on a spiral is on a circle around the centre [s].
 
-    raises: InvalidValue (turning_radius) for a circle outside the start, or one that the dance does not come to
+    raises: InvalidValue (turning_radius) for a circle that the dance starts on or in, or does not come to
     """
     assert isinstance(dance.path, Spiral)
-    if radius > dance.path.pitch * dance.path.start_turns:
-        rule = f"must be smaller: at a pitch of {said(dance.path.pitch)} m the dance starts inside that circle"
+    first = dance.path.pitch * dance.path.start_turns
+    if radius >= first:
+        where = "inside" if radius > first else "on"
+        rule = f"must be smaller: at a pitch of {said(dance.path.pitch)} m the dance starts {where} that circle"
         raise InvalidValue.of("turning_radius", rule, radius, "m")
     time = dance.path.travel_to(radius) / dance.head_speed
     if time > dance.end.time:
         rule = f"must be larger: {dance.end.why} at {dance.end.time:.6f} s, before the head is on that circle"
         raise InvalidValue.of("turning_radius", rule, radius, "m")
-    return max(time, 0.0)
+    return time

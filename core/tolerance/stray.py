@@ -53,6 +53,6 @@ def checked_stray(stray: object, dragon: Dragon) -> float:
     bench = int(dragon.chords.argmin())
     most = 0.5 * float(dragon.chords[bench])
     if total > most:
-        rule = f"must be at most half the chord of bench {bench} ({said(most)} m)"
+        rule = f"must be at most half the chord of bench {bench} ({most:.9g} m)"
         raise InvalidValue("stray", f"stray {rule}, got {said(total)} m")
     return total

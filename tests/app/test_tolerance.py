@@ -12,7 +12,17 @@ import httpx
 import numpy as np
 import pytest
 
-from core import Dance, Dragon, Spiral, bench_poses, first_contact, minimum_pitch, overlaps, tolerance
+from core import (
+    Dance,
+    Dragon,
+    Spiral,
+    bench_poses,
+    first_contact,
+    minimum_pitch,
+    overlaps,
+    tolerance,
+    tolerance_curve,
+)
 from core.tolerance.curve import time_on_circle
 
 ROOT = Path(__file__).parent.parent.parent
@@ -42,6 +52,24 @@ def test_any_dance_in_any_venue_has_one(client: httpx.Client) -> None:
     assert 0.0 < got["stray"] < alone["stray"]
 
 
+def test_the_curve_begins_at_the_minimum_pitch_and_holds_the_tolerances_of_core(client: httpx.Client) -> None:
+    got = client.get("/tolerance-curve", params={"benches": 40, "samples": 3}).raise_for_status().json()
+    least = minimum_pitch(Dragon(40)).pitch
+    assert got["pitch"] == pytest.approx([least, 1.5 * least, 2.0 * least], rel=1e-5)
+    curve = tolerance_curve(Dragon(40), got["pitch"])
+    assert got["stray"] == curve.stray.tolist()
+    assert got["touching"] == [one.stray_bracket[1] for one in curve.tolerances]
+    assert got["stray"][0] == pytest.approx(0.0, abs=1e-6)
+
+
+def test_a_curve_can_be_asked_where_a_dance_at_the_minimum_pitch_begins_on_the_circle(client: httpx.Client) -> None:
+    got = (
+        client.get("/tolerance-curve", params={"benches": 2, "start_turns": 9, "samples": 2}).raise_for_status().json()
+    )
+    assert got["pitch"][0] == pytest.approx(0.5, rel=1e-5)
+    assert got["limited_by"] == ["chord", "chord"]
+
+
 def test_a_stray_on_other_calls_is_that_of_core(client: httpx.Client) -> None:
     first = client.get("/collision-time", params={"stray": 0.02}).raise_for_status().json()
     assert first["time"] == first_contact(Dance(Dragon(), Spiral()), stray=0.02).time
@@ -65,6 +93,8 @@ def test_a_stray_of_0_gives_the_same_bytes(client: httpx.Client, call: str) -> N
         ("/collision-time", {"stray": -0.1}, "stray", "-0.1"),
         ("/minimum-pitch", {"hole": 0.05, "pin": 0.06}, "pin", "no wider than its hole (0.05 m), got 0.06 m"),
         ("/tolerance", {"turning_diameter": 40}, "turning_diameter", "must be smaller, got 40 m: at a pitch of 0.55 m"),
+        ("/tolerance", {"turning_diameter": 17.6}, "turning_diameter", "the dance starts on that circle"),
+        ("/tolerance-curve", {"from_pitch": 0.6, "to_pitch": 0.6}, "to_pitch", "larger than the lowest pitch (0.6 m)"),
         ("/tolerance", {"turning_diameter": 1}, "turning_diameter", "before the head is on that circle"),
     ],
 )

@@ -37,6 +37,7 @@ SAME: dict[str, tuple[dict[str, Any], dict[str, Any]]] = {
         {"benches": 30, "pitch": 0.6, "start_turns": 9, "turning_diameter": 8},
         {"dragon": SMALL, "path": {"kind": "spiral", "pitch": 0.6, "start_turns": 9}, "stop": ON_CIRCLE},
     ),
+    "tolerance_curve": ({"benches": 9, "samples": 2}, {"dragon": {"benches": 9}, "samples": 2}),
     "trajectory_figure": ({"benches": 9, "time": 20}, {"dragon": {"benches": 9}, "time": 20}),
     "contact_figure": ({"benches": 30, "margin": 0.1}, {"dragon": SMALL, "margin": 0.1}),
     "pitch_scan_figure": ({"benches": 4, "samples": 2}, {"dragon": {"benches": 4}, "samples": 2}),

@@ -91,7 +91,7 @@ def test_every_answer_stands_with_how_it_is_known(open_page: Any, settled: Any, 
         == "Ways to the circle computed, for single pitches and for strips"
     )
     assert page.locator("#minimum-pitch dd").last.inner_text() == str(least["evaluations"])
-    assert page.locator(".answer details").count() == page.locator(".answer:not([hidden])").count() == 4
+    assert page.locator(".answer details").count() == page.locator(".answer:not([hidden])").count() == 5
 
 
 def test_the_highest_speed_on_a_spiral_is_the_proven_one(open_page: Any, settled: Any, server: str) -> None:

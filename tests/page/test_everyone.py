@@ -85,7 +85,7 @@ def test_the_page_is_used_by_keyboard_alone(open_page: Any, settled: Any) -> Non
 
 @pytest.mark.parametrize("locale", ["en-GB", "zh-CN"])
 def test_nothing_is_cut_off_at_390_pixels(open_page: Any, settled: Any, locale: str) -> None:
-    page = open_page(viewport=PHONE, locale=locale, has_touch=True, is_mobile=True)
+    page = open_page("?stray=0.02", viewport=PHONE, locale=locale, has_touch=True, is_mobile=True)
     settled(page)
     assert page.evaluate("document.documentElement.scrollWidth") <= PHONE["width"]
     outside = """(width) => [...document.querySelectorAll("button, input, select, h1, h2, h3, .value")]
@@ -118,7 +118,7 @@ def test_reduced_motion_moves_in_steps(open_page: Any, settled: Any) -> None:
 @pytest.mark.parametrize(
     ("query", "options"),
     [
-        ("?handle=3", {}),
+        ("?handle=3&stray=0.02", {}),
         ("?pitch=2&start_turns=8", {"locale": "zh-CN"}),
         ("?pitch=55&benches=x", {"viewport": PHONE}),
     ],

@@ -1,0 +1,94 @@
+/** The charts of the page: what each shows of the answers, its reading and its help. */
+
+import { centimetres, gapWords, outcomeWords } from "./answers.js";
+import { Chart, clearancePlan, curvePlan, scanPlan } from "./charts.js";
+import { $, make } from "./elements.js";
+import { CONTACT, strayOf } from "./state.js";
+import { benchName, refusalWords, say, sayOf } from "./text.js";
+
+const PITCH_DECIMALS = 4;
+
+export class Graphs {
+  #charts;
+
+  /** seek(time): shows the dance at this time [s] */
+  constructor(state, questions, seek) {
+    Object.assign(this, { state, questions });
+    const choosePitch = (pitch) => state.set({ pitch: pitch.toFixed(PITCH_DECIMALS) });
+    this.#charts = {
+      clearance: new Chart($("#clearance .plot"), clearancePlan, seek),
+      curve: new Chart($("#curve .plot"), curvePlan, choosePitch),
+      scan: new Chart($("#scan .plot"), scanPlan, choosePitch),
+    };
+  }
+
+  restyle() {
+    for (const chart of Object.values(this.#charts)) chart.show();
+  }
+
+  /** The help texts, which depend on what counts as a contact. */
+  help() {
+    const asked = this.state.texts(CONTACT);
+    $("#clearance .hint").textContent = sayOf("clearanceHelp", asked);
+    $("#scan .hint").textContent = sayOf("scanHelp", asked) + (strayOf(asked) > 0 ? say("scanStray") : "");
+  }
+
+  /** Show a refusal in place of the chart of this kind, if there is one. */
+  refuse(kind, message) {
+    if (!(kind in this.#charts)) return;
+    this.#charts[kind].show(null);
+    $(`#${kind} .reading`).replaceChildren(make("span", refusalWords(message)));
+  }
+
+  clearance() {
+    const { answer, dance } = this.questions.answers.clearance;
+    const { time, gap } = dance.answer;
+    const { margin } = dance.numbers;
+    const contact = time === null ? null : { time, gap: strayOf(dance.numbers) > 0 ? gap : margin };
+    this.#charts.clearance.show({ ...answer, margin, contact });
+  }
+
+  /** Mark this time [s] on the chart of the clearance. */
+  time(now) {
+    this.#charts.clearance.now(now);
+    const { answer, dance } = this.questions.answers.clearance ?? {};
+    if (!answer || dance !== this.questions.dance) return;
+    const step = (dance.end - dance.begin) / (answer.time.length - 1) || 1;
+    const k = Math.min(Math.round((now - dance.begin) / step), answer.time.length - 1);
+    const [a, b] = answer.benches[k].map((bench) => benchName(bench, dance.numbers.benches));
+    const gap = gapWords(answer.clearance[k]);
+    $("#clearance .reading").textContent = say("clearanceAt", { time: answer.time[k].toFixed(2), gap, a, b });
+  }
+
+  /** How far people may stray against the pitch, with the stray asked about and the minimum pitch for it. */
+  curve() {
+    const { curve, minimum, tolerance } = this.questions.answers;
+    if (!curve) return;
+    const [own, least] = minimum ? [strayOf(minimum.query), minimum.answer.pitch] : [0, null];
+    this.#charts.curve.show({ ...curve.answer, own, least });
+    const pitch = tolerance?.query?.pitch ?? null;
+    this.#charts.curve.now(pitch && Number(pitch));
+    const words = () => say("curveAt", { pitch, stray: centimetres(tolerance.answer.stray) });
+    $("#curve .reading").textContent = pitch ? words() : "";
+  }
+
+  scan() {
+    const { answer, query } = this.questions.answers.scan;
+    this.#charts.scan.show({ ...answer, circle: Number(query.turning_diameter) / 2 });
+    this.pitch();
+  }
+
+  /** Mark the dance shown where the head stops against the pitch. */
+  pitch() {
+    const { answer, numbers, kind } = this.questions.dance ?? {};
+    if (!this.questions.answers.scan || !answer) return;
+    const { pitch } = numbers;
+    this.#charts.scan.now(pitch);
+    // With a stray the head need not stop there.
+    const stops = answer.head && !(strayOf(numbers) > 0);
+    const words = stops
+      ? say("scanAt", { pitch, radius: answer.head.radius.toFixed(6) })
+      : `${say("pitch")} ${pitch} m: ${outcomeWords(answer, numbers)}`;
+    $("#scan .reading").textContent = kind === "spiral" ? words : "";
+  }
+}

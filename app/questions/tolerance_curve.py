@@ -1,0 +1,80 @@
+"""How far may people stray, against the pitch?"""
+
+from __future__ import annotations
+
+import numpy as np
+from pydantic import Field
+
+import core
+from app.questions.minimum_pitch import allowed
+from app.questions.question import Question, Terms
+from app.wire.answers import Columns
+from app.wire.dances import DragonFields, UniformDragon, WayToCircle
+from app.wire.models import Answer, Pitch, measure
+from core import Dragon, InvalidValue, Limit
+from core.errors import said
+from core.values import Floats
+
+# Where nobody says up to which pitch: up to this many times the lowest one [1].
+WIDEST = 2.0
+# At the minimum pitch itself the dance may begin on the circle; so much above it there is a way to judge [1].
+ABOVE_MINIMUM = 1e-6
+
+
+class CurveFields(WayToCircle):
+    """Pitches of spirals that lead to a circle."""
+
+    from_pitch: Pitch | None = measure("m", "Lowest pitch; null: a millionth above the minimum pitch", None)
+    to_pitch: Pitch | None = measure("m", "Highest pitch; null: twice the lowest one", None)
+    samples: int = Field(20, ge=2, le=401, description="Number of pitches, evenly spaced")
+
+    def pitches(self, dragon: Dragon, terms: Terms) -> Floats:
+        """raises: InvalidValue for a highest pitch that is not above the lowest one"""
+        low, high = self.from_pitch, self.to_pitch
+        if low is None:
+            circle = {"turning_radius": self.turning_diameter / 2, "start_turns": self.start_turns}
+            least = core.minimum_pitch(dragon, **circle, budget=terms.budget)
+            low = allowed(least, self, dragon).pitch * (1.0 + ABOVE_MINIMUM)
+        if high is not None and high <= low:
+            rule = f"must be larger than the lowest pitch ({said(low)} m)"
+            raise InvalidValue.of("to_pitch", rule, high, "m")
+        return np.linspace(low, WIDEST * low if high is None else high, self.samples)
+
+
+class ToleranceCurveQuery(CurveFields, UniformDragon):
+    """How far people may stray, against the pitch."""
+
+
+class ToleranceCurveRequest(CurveFields, DragonFields, strict=True):
+    """How far people may stray, against the pitch, of any dragon."""
+
+
+class ToleranceCurve(Answer):
+    """Columns with one entry for each pitch, from the start of the dance until the head is on the circle."""
+
+    pitch: list[float] = measure("m", "Ascending")
+    stray: list[float] = measure("m", "Proven safe: while no hole is further from its place, nothing touches")
+    touching: list[float | None] = measure("m", "Shown to touch; null where no such pose was found")
+    limited_by: list[Limit] = Field(
+        description="What a larger stray breaks. benches: two benches touch; chord: nothing, up to half of the "
+        "shortest chord"
+    )
+
+
+def tolerance_curve(asked: ToleranceCurveQuery | ToleranceCurveRequest, terms: Terms) -> Columns:
+    """How far people may stray on the way to a turning circle, against the pitch of the spiral."""
+    dragon = asked.to_dragon(terms.settings.checked_benches_max)
+    curve = core.tolerance_curve(
+        dragon,
+        asked.pitches(dragon, terms),
+        turning_radius=asked.turning_diameter / 2,
+        start_turns=asked.start_turns,
+        progress=terms.progress,
+        budget=terms.budget,
+    )
+    ends = {"touching": [one.stray_bracket[1] for one in curve.tolerances]}
+    limits = {"limited_by": [one.limited_by for one in curve.tolerances]}
+    return Columns({"pitch": curve.pitch, "stray": curve.stray} | ends | limits)
+
+
+QUESTION = Question(tolerance_curve, ToleranceCurve, flat=ToleranceCurveQuery, body=ToleranceCurveRequest)
