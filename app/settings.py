@@ -66,6 +66,11 @@ class Settings(BaseSettings):
     compressed_bytes_min: int = Field(
         1_000_000, ge=0, description="Shortest answer that is sent as gzip to who takes it [bytes]; 0: none is"
     )
+    kept_bytes_max: int = Field(
+        32_000_000,
+        ge=0,
+        description="Room for the latest answers in memory of one process [bytes]; 0: none is kept",
+    )
     cache_seconds: int = Field(86_400, ge=0, description="Cache-Control max-age of an answer [s]")
     data: Path | None = Field(
         None, description="Folder of the jobs; none: a temporary folder, removed when the service ends"

@@ -29,6 +29,7 @@ from app.jobs import routes as jobs
 from app.jobs.keeper import kept
 from app.jobs.metrics import JobMetrics
 from app.service import grading, problems, routes
+from app.service.answers import KeptAnswers
 from app.service.examples import EXAMPLES
 from app.service.lanes import Lanes
 from app.service.middleware import HeadAsGet, Metrics, Mistakes, RequestId, RequestLimits, SafetyHeaders
@@ -152,6 +153,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     app.state.jobs, app.state.later = "it has not started", jobs.later
     app.state.lanes = Lanes(settings, registry)
     app.state.glances = Glances()
+    app.state.answers = KeptAnswers(settings.kept_bytes_max, registry)
     sys.setswitchinterval(SWITCH_SECONDS)
     app.state.registry = registry
     registry.register(JobMetrics(lambda: app.state.jobs))

@@ -22,6 +22,7 @@ from app.jobs.task import Task
 from app.questions import Call
 from app.questions.figures import Format
 from app.questions.question import UNKNOWN_COST, Terms
+from app.service.answers import KeptAnswers
 from app.service.lanes import Lanes
 from app.service.problems import Refused
 from app.service.watch import GLANCE, Glances, watched
@@ -62,6 +63,7 @@ class Reply:
         self.settings: Settings = state.settings
         self._lanes: Lanes = state.lanes
         self._glances: Glances = state.glances
+        self._answers: KeptAnswers = state.answers
         self._least_cost = 0.0  # known from a first try [s]
         self._later: Callable[[Request, Task], Response] = state.later
 
@@ -99,20 +101,28 @@ class Reply:
         if prefers_later(self.request.headers):
             given = asked.model_dump(mode="json", exclude_unset=True)
             return self._later(self.request, Task(call.name, given, media_type))
-        try:
-            cost = max(call.question.estimate(asked, media_type), self._least_cost)
-            with self._lanes.of(cost, media_type).taken(cost, client_of(self.request)):
-                data = call.question.told(asked, Terms(self.settings, self.request.state.budget), media_type)
-                if "*" in known:
-                    return Response(status_code=304, headers=headers)
-                if self._zips(data):
-                    headers |= {"ETag": f'"{tag}{GZIPPED}"', "Content-Encoding": "gzip"}
-                    data = _gzipped(data) if isinstance(data, Iterator) else b"".join(_gzipped([data]))
-        except BenchDragonError as error:
-            raise reworded(error, asked) from error
+        data: bytes | Iterator[bytes] | None = self._answers.get(tag)
+        if data is None:
+            data = self._computed(call, asked, media_type)
+            if isinstance(data, bytes):
+                self._answers.keep(tag, data)
+        if "*" in known:
+            return Response(status_code=304, headers=headers)
+        if self._zips(data):
+            headers |= {"ETag": f'"{tag}{GZIPPED}"', "Content-Encoding": "gzip"}
+            data = _gzipped(data) if isinstance(data, Iterator) else b"".join(_gzipped([data]))
         if isinstance(data, bytes):
             return Response(data, headers=headers, media_type=media_type)
         return StreamingResponse(data, headers=headers, media_type=media_type)
+
+    def _computed(self, call: Call, asked: Wire, media_type: str) -> bytes | Iterator[bytes]:
+        """The answer, computed in its lane."""
+        try:
+            cost = max(call.question.estimate(asked, media_type), self._least_cost)
+            with self._lanes.of(cost, media_type).taken(cost, client_of(self.request)):
+                return call.question.told(asked, Terms(self.settings, self.request.state.budget), media_type)
+        except BenchDragonError as error:
+            raise reworded(error, asked) from error
 
     def _zips(self, data: bytes | Iterator[bytes]) -> bool:
         """Is the answer worth compressing, and does the client accept gzip?"""

@@ -1,0 +1,42 @@
+"""Answers that the service keeps: repeated to the byte without computing, within their room."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import httpx
+from prometheus_client import CollectorRegistry
+
+from app.service.answers import KeptAnswers
+from tests.app.serving import serving
+from tests.app.test_deadline import sample
+
+REPEATED = "bench_dragon_repeated_total"
+
+
+def test_a_question_that_is_asked_again_is_answered_from_memory(tmp_path: Path) -> None:
+    with serving(tmp_path / "server.log") as service, httpx.Client(base_url=service.url, timeout=60.0) as client:
+        asked = {"samples": 21, "benches": 40}
+        first = client.get("/pitch-scan", params=asked)
+        assert sample(service.url, REPEATED) == 0.0
+        again = client.get("/pitch-scan", params=asked)
+        assert (again.content, again.headers["etag"]) == (first.content, first.headers["etag"])
+        assert sample(service.url, REPEATED) == 1.0
+        other = client.get("/pitch-scan", params=asked | {"margin": 0.01})
+        assert other.content != first.content
+        assert sample(service.url, REPEATED) == 1.0
+
+
+def test_the_answers_kept_stay_within_their_room_and_the_latest_stay() -> None:
+    kept = KeptAnswers(160, CollectorRegistry())
+    for number in range(40):
+        kept.keep(str(number), bytes(10))
+        assert kept.get("0") is not None, "it was asked for all the time"
+    assert [number for number in range(40) if kept.get(str(number)) is not None] == [0, *range(25, 40)]
+
+
+def test_a_large_answer_is_not_kept_and_without_room_none_is() -> None:
+    kept, none = KeptAnswers(160, CollectorRegistry()), KeptAnswers(0, CollectorRegistry())
+    kept.keep("large", bytes(11))
+    none.keep("small", b"{}")
+    assert kept.get("large") is none.get("small") is None
