@@ -20,8 +20,8 @@ from tests.app.conftest import ANSWER_TIMEOUT
 from tests.app.renew_examples import text
 
 EXAMPLES_PER_CALL = 25
-# Of right values for the calls that take up to a second each. A picture has no schema to conform to, and its request
-# is that of the question that it draws; the answer to POST /minimum-pitch is that of GET.
+# Of right values for the calls that take up to a second each, and of wrong ones for films, of which some are drawn. A
+# picture has no schema to conform to, and its request is that of the question that it draws.
 EXAMPLES_OF_SLOW = 8
 # Grazes are flat in time, so theirs is known to 1e-7 s only [m], [s], [rad] and relative.
 EXAMPLE_TOLERANCE = 1e-6
@@ -39,18 +39,18 @@ def document(client: httpx.Client) -> Any:
 
 
 def can_be_asked(call: str, mode: GenerationMode) -> bool:
-    """Every call with right values, but for the scans and curves of arbitrary dragons, which take up to ten
-    seconds each; with wrong ones if it takes any."""
+    """Every call with right values, but for scans and curves of arbitrary dragons and films of any size, which take up
+    to ten seconds each; with wrong ones if it takes any."""
     method, path = call.split()
     if mode.is_positive:
-        return not path.endswith(("pitch-scan", "pitch-scan.{format}", "tolerance-curve"))
+        return not path.endswith(("pitch-scan", "pitch-scan.{format}", "tolerance-curve", "films"))
     description = SCHEMA.raw_schema["paths"][path][method.lower()]
     return "requestBody" in description or "parameters" in description
 
 
 def examples(call: str, mode: GenerationMode) -> int:
-    is_slow = "/figures/" in call or call in ("POST /minimum-pitch", "POST /films")
-    return EXAMPLES_OF_SLOW if is_slow and mode.is_positive else EXAMPLES_PER_CALL
+    is_slow = call == "POST /films" or (mode.is_positive and ("/figures/" in call or "/minimum-pitch" in call))
+    return EXAMPLES_OF_SLOW if is_slow else EXAMPLES_PER_CALL
 
 
 def is_a_spiral_that_does_not_say_so(body: Any) -> bool:
