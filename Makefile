@@ -1,7 +1,7 @@
 # The first `make` in a fresh clone creates .venv, installs the locked versions and compiles core/kernels.
 SHELL := /bin/bash
 .DEFAULT_GOAL := help
-.PHONY: help setup serve test rounding lint sweep-pitch sweep-kills job-kills soak bench examples figures dist lock clean
+.PHONY: help setup serve test rounding lint sweep-pitch sweep-kills job-kills soak fuzz bench examples figures dist lock clean
 
 VENV := .venv
 BIN := $(VENV)/bin
@@ -22,6 +22,7 @@ help:
 	@echo 'make sweep-kills  a sweep of 200,000 designs on a Dask cluster with 50 kills, half an hour (DESIGNS=, KILLS=, FIRST=)'
 	@echo 'make job-kills  50 processes of the service killed at random while it works on jobs, 5 minutes (KILLS=, SEED=)'
 	@echo 'make soak     64 clients and all attacks at once, 5 minutes (SECONDS=)'
+	@echo 'make fuzz     10,000 requests by the description of the service and 12,000 odd ones (CASES=, MUTANTS=, SEED=)'
 	@echo 'make bench    benchmarks against a plain SciPy baseline, into docs/performance.md'
 	@echo 'make examples new answers for the examples in /docs'
 	@echo 'make figures  the figures of README.md and docs/'
@@ -72,6 +73,9 @@ job-kills: setup
 
 soak: setup
 	@$(BIN)/python -m tests.app.attacks $(or $(SECONDS),300)
+
+fuzz: setup
+	@$(BIN)/python -m tests.app.fuzz $(or $(CASES),10000) $(or $(MUTANTS),12000) $(or $(SEED),0)
 
 bench: setup
 	@$(BIN)/python -m benchmarks.report docs/performance.md

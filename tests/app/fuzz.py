@@ -1,0 +1,129 @@
+"""Requests that nobody would write: every call as its description allows and forbids, and its example with odd values.
+
+`make fuzz`: python -m tests.app.fuzz CASES MUTANTS [SEED] asks a service so many of each, and prints what it answered.
+"""
+
+from __future__ import annotations
+
+import copy
+import json
+import random
+import sys
+import tempfile
+import time
+from collections import Counter
+from pathlib import Path
+from typing import Any
+
+import httpx
+from hypothesis import HealthCheck, given, settings
+
+from app.service.examples import EXAMPLES
+from app.wire.problem import PROBLEM_TYPE
+from tests.app.serving import serving
+
+# Nothing takes longer than the deadline of an answer and a busy machine need [s].
+SLOWEST = 20.0
+ODD: tuple[Any, ...] = (
+    None, True, -1, 0, 0.0, -0.0, 1e-308, 1e308, -1e9, 1e6, 2**31, 2**63, 10**40, 0.1 + 0.2, "", "0", "NaN", "1e999",
+    "龙", "a$\\frac{$", "\u0000", "\ud800", "x" * 5000, [], {}, [[]], [None] * 50, {"kind": "spiral"}, [1e300, -1e300],
+    {"a": {"b": {"c": []}}},
+)  # fmt: skip
+
+
+class Tally:
+    """What a service answered."""
+
+    def __init__(self) -> None:
+        self.statuses: Counter[int] = Counter()
+        self.slowest = (0.0, "")
+
+    def add(self, answer: httpx.Response, seconds: float, asked: str) -> None:
+        """Count an answer. raises: AssertionError for a fault of the service, or an error that is no problem"""
+        status = answer.status_code
+        self.statuses[status] += 1
+        self.slowest = max(self.slowest, (seconds, asked[:200]))
+        assert status < 500 or (status == 503 and int(answer.headers["Retry-After"]) > 0), (asked, answer.text[:500])
+        assert status < 400 or answer.headers["Content-Type"] == PROBLEM_TYPE, (asked, answer.text[:500])
+        assert "Traceback" not in answer.text, asked
+        assert seconds < SLOWEST, (asked, seconds)
+
+
+def mutated(value: Any, chance: random.Random) -> Any:
+    """The value with one thing in it changed: a part left out, named otherwise, given twice, or odd."""
+    inner = list(value) if isinstance(value, dict) else range(len(value)) if isinstance(value, list) else []
+    if not inner or chance.random() < 0.15:
+        return copy.deepcopy(chance.choice(ODD))
+    found, at = copy.deepcopy(value), chance.choice(inner)
+    match chance.randrange(6):
+        case 0:
+            del found[at]
+        case 1 if isinstance(found, dict):
+            found[f"{at}_"] = found.pop(at)
+        case 1:
+            found += found
+        case _:
+            found[at] = mutated(found[at], chance)
+    return found
+
+
+def mutant(call: str, chance: random.Random) -> tuple[str, dict[str, Any]]:
+    """Path and options of a request that is one to three steps away from an example."""
+    example, path = EXAMPLES[call], call.split()[1]
+    asked: Any = (example.query if example.body is None else example.body) or {"pitch": 0.5}
+    for _ in range(chance.randrange(1, 4)):
+        asked = mutated(asked, chance)
+    if example.body is None:
+        pairs = asked.items() if isinstance(asked, dict) else [("pitch", asked)]
+        words = [(name, json.dumps(value) if isinstance(value, (dict, list)) else str(value)) for name, value in pairs]
+        return path, {"params": [(name, word.encode("utf-8", "replace").decode()) for name, word in words]}
+    content = json.dumps(asked, allow_nan=True).encode()
+    if chance.random() < 0.1:
+        cut = chance.randrange(len(content) + 1)
+        content = content[:cut] + chance.randbytes(chance.randrange(4)) + content[cut + chance.randrange(3) :]
+    return path, {"content": content, "headers": {"Content-Type": "application/json"}}
+
+
+def ask_mutants(url: str, count: int, seed: int = 0) -> Tally:
+    """Ask so many of them, each call in turn."""
+    chance, tally, calls = random.Random(seed), Tally(), sorted(EXAMPLES)
+    with httpx.Client(base_url=url, timeout=2.0 * SLOWEST) as client:
+        for number in range(count):
+            call = calls[number % len(calls)]
+            path, options = mutant(call, chance)
+            begun = time.monotonic()
+            answer = client.request(call.split()[0], path, **options)
+            tally.add(answer, time.monotonic() - begun, f"{call} {options}")
+    return tally
+
+
+def ask_described(url: str, count: int) -> Tally:
+    """Ask all calls as /openapi.json describes them, rightly and wrongly, with every check of schemathesis."""
+    from tests.app.test_openapi import CALLS, CHECKED, GenerationMode, can_be_asked
+
+    asked = [(call, mode) for call in CALLS for mode in GenerationMode if can_be_asked(call, mode)]
+    tally = Tally()
+
+    def conforms(case: Any) -> None:
+        begun = time.monotonic()
+        answer = case.call(base_url=url, timeout=2.0 * SLOWEST)
+        seconds = time.monotonic() - begun
+        case.validate_response(answer, checks=CHECKED)
+        told = httpx.Response(answer.status_code, headers=dict(answer.headers.items()), text=answer.text)
+        tally.add(told, seconds, f"{case.method} {case.path} {case.query} {case.body}")
+
+    for call, mode in asked:
+        cases = CALLS[call].as_strategy(generation_mode=mode)
+        few = -(-count // len(asked))
+        settings(max_examples=few, deadline=None, suppress_health_check=list(HealthCheck))(given(cases)(conforms))()
+        print(f"{call} {mode.value}: {tally.statuses.total()} so far, slowest {tally.slowest[0]:.1f} s", flush=True)
+    return tally
+
+
+if __name__ == "__main__":
+    with tempfile.TemporaryDirectory() as folder, serving(Path(folder) / "log", workers=2) as service:
+        for told in (
+            ask_mutants(service.url, int(sys.argv[2]), int(sys.argv[3]) if len(sys.argv) > 3 else 0),
+            ask_described(service.url, int(sys.argv[1])),
+        ):
+            print(f"answers by status: {dict(sorted(told.statuses.items()))}; slowest {told.slowest}")
