@@ -2,21 +2,25 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 import pytest
 import shapely
+from flint import arb, ctx
 
 from core import Dance, Dragon, InvalidValue, Line, Route, Spiral, Tolerance, bench_outlines, tolerance, trajectory
 from core.errors import OutsideRun, ProofRefused
 from core.proof import Certificate, check, prove_tolerance
+from core.proof.chain import Chain
+from core.sampling import bisected
 from core.tolerance.curve import time_on_circle
 from tests.core.forgeries import FORGERIES, edit, places, put_at, refusal, stretches, through_json
 from tests.core.forgeries import put_at as at
 
-DANCE = Dance(Dragon(14), Spiral(0.55, 6.0))
+DANCE = Dance(Dragon(12), Spiral(0.7, 5.0))
 STOP = time_on_circle(DANCE, 1.5)
 # How near poses rebuilt in doubles are to those in balls [m].
 REBUILT = 1e-12
@@ -63,8 +67,8 @@ def test_with_a_stray_shown_to_touch_no_proof_is_found(known: Tolerance) -> None
 
 
 def test_every_pair_in_its_own_right_proves_the_same() -> None:
-    dance = Dance(Dragon(8), Spiral(0.55, 4.0))
-    once, each = (prove_tolerance(dance, 0.01, start=1.0, stop=8.0, every_pair=every) for every in (False, True))
+    dance = Dance(Dragon(8), Spiral(0.7, 4.0))
+    once, each = (prove_tolerance(dance, 0.2, start=1.0, stop=8.0, every_pair=every) for every in (False, True))
     assert (len(once["sweeps"]), len(each["sweeps"])) == (2, 6)
     assert check(once).statement == check(each).statement
     assert check(once).statement.endswith("touch from 1 s to 8 s.")
@@ -78,8 +82,21 @@ def test_benches_of_many_sizes_are_proven_to_the_end_of_the_run() -> None:
     assert f"to {dance.end.time - 5e-10!r} s." in check(prove_tolerance(dance, stray)).statement
 
 
-def heading(content: dict[str, Any]) -> None:
-    content["overlap"]["headings"][3] += 1e-3
+@pytest.mark.parametrize("stray", [0.05, 0.3])
+def test_benches_are_far_only_where_no_strays_of_both_can_bring_them_together(stray: float) -> None:
+    with ctx.workprec(96):
+        nominal, strayed = (Chain(DANCE.dragon, arb(0.7), 5.0, stray=most) for most in (0.0, stray))
+        rear = arb(15.0)
+        inner = [
+            bisected(lambda theta, chain=chain: chain.far(0, rear, arb(theta)), 15.0, 60.0)[1] * 0.7 / math.tau
+            for chain in (nominal, strayed)
+        ]
+    first, second = (math.sqrt(radius**2 - 0.25 * DANCE.dragon.chords[0] ** 2) for radius in inner)
+    assert second - first == pytest.approx(2.0 * stray, rel=1e-9)
+
+
+def another_heading(content: dict[str, Any]) -> None:
+    content["overlap"]["headings"][3] += 0.1
 
 
 def another_side(content: dict[str, Any]) -> None:
@@ -96,8 +113,9 @@ OWN: dict[str, tuple[Callable[[dict[str, Any]], Any], str]] = {
     "a pose of smaller strays": (lambda c: c["claim"].__setitem__("shown", c["claim"]["shown"] - 2e-9), "to be within"),
     "a later stop": (lambda c: c["claim"].__setitem__("stop", c["claim"]["stop"] + 1e-6), "short of"),
     "an earlier start": (lambda c: c["claim"].__setitem__("start", -1e-6), "do not join"),
+    "a narrower pitch": (at("claim", "pitch", put=0.6999), "not apart by face|to be within"),
     "another side": (another_side, "not apart by face"),
-    "a pose with another bench turned": (heading, "to be within"),
+    "a pose with another bench turned": (another_heading, "to be within"),
     "a pose at another time": (lambda c: c["overlap"].__setitem__("time", c["overlap"]["time"] - 0.1), "to be within"),
     "a pose before the start": (at("overlap", "time", put=-1.0), "not one of this dragon in this time"),
     "a pose of another dragon": (lambda c: c["overlap"]["headings"].pop(), "not one of this dragon"),
@@ -123,7 +141,6 @@ SHARED = (
     "a pair left out",
     "a sweep dropped",
     "the head taken for a body bench",
-    "a narrower pitch",
 )
 
 
