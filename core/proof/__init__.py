@@ -111,11 +111,11 @@ pitch need not prove how the dance gets to M: if a bench folds earlier, the head
 Strays. Let the two holes of every bench be within d of their places, and its chord c be kept, d <= c / 2.
  14. The ground of a bench is the union of all its places then, in the frame of the bench where it should be. Whatever
      the benches between two others allow, these two do not touch if their grounds do not meet. Cut the bench across
-     at its holes: a place of one of the three parts is the convex hull of the places of its corners. So a polygon of
-     SIDES half planes in even directions that holds all places of those corners (15.) holds all places of the part; a
-     fourth polygon, with the largest of the three supports in each direction, holds the ground. And a point of the
-     segment between the displaced handles is within d of the point that divides the segment between their places
-     alike: 5. holds with h + d in place of h.
+     at its holes into three parts. Wherever a part is, it is the convex hull of its corners. So a polygon of SIDES half
+     planes in even directions that holds all places of its corners (15.) holds all places of the part; a fourth
+     polygon, with the largest of the three supports in each direction, holds the ground. A point of the segment
+     between the displaced handles is within d of the point that divides the segment between their places alike: so 5.
+     holds with h + d in place of h.
  15. Let the bench turn by phi, q = c sin(phi / 2): one hole moves by m + i q exp(i phi / 2), the other by m - i q
      exp(i phi / 2), the point p of the bench from 0, the middle of the chord, to m + exp(i phi) p. So |q| <= d, and m
      is in the lens of two discs of radius d. In the direction e, with t the argument of exp(i phi / 2) / e, m comes

@@ -100,11 +100,11 @@ class Side:
 
     def __init__(self, number: int, hulls: tuple[int, int], first: Ground, second: Ground) -> None:
         self.by_partner, side = number >= SIDES, number % SIDES
-        own, self._other = (second, first) if self.by_partner else (first, second)
-        mine, other = reversed(hulls) if self.by_partner else hulls
+        own, other = (second, first) if self.by_partner else (first, second)
+        mine, beyond = reversed(hulls) if self.by_partner else hulls
         self.turn = own.outwards[side].conjugate()
         self.support = own.supports[mine][side]
-        self._corners = self._other.corners[other]
+        self._outwards, self._corners = other.outwards, other.corners[beyond]
 
     def corners(self, axis: acb) -> list[acb]:
         """The corners that may be nearest to the line, in the other bench's frame (16.).
@@ -113,7 +113,7 @@ class Side:
         """
         towards = -axis.conjugate()
         guess = round(math.atan2(float(towards.imag), float(towards.real)) * SIDES / math.tau)
-        off = towards * self._other.outwards[guess % SIDES].conjugate()
+        off = towards * self._outwards[guess % SIDES].conjugate()
         if not off.real > 0:
             return self._corners
         sectors = (off.imag / off.real).atan() * SIDES / (2 * arb.pi())
