@@ -93,6 +93,7 @@ ORDER = (
     "core.tolerance.exhibit",
     "core.tolerance.tolerance",
     "core.tolerance.curve",
+    "core.tolerance.uncertain",
     "core.verdict",
     "core",
     "core.proof.pairs",
