@@ -54,12 +54,9 @@ def uncertain_tolerance(
     spread = checked_number("pitch_error", pitch_error, "m", 0.0, 0.5 * spiral.pitch)
     longer = Dragon.of(dragon.lengths + error, dragon.widths, dragon.overhangs)
     search = Search(longer, spiral, 0.0)
-    rings = search.rings
-    rings.shortest -= 2.0 * error
-    rings.all_shortest -= 2.0 * error
-    rings.between_shortest -= 2.0 * error
+    search.rings.between_shortest -= 2.0 * error
     low, high = ((spiral.pitch + off) / (2.0 * math.pi) for off in (-spread, spread))
-    least = float(kernels.ring_least(low, high, radius, rings)) - search.ring_rounding(radius, high)
+    least = float(kernels.ring_least(low, high, radius, search.rings)) - search.ring_rounding(radius, high)
     chords, half = dragon.chords - error, 0.5 * dragon.widths
     reach = (np.hypot(dragon.overhangs, half) + np.hypot(chords + dragon.overhangs, half)) / chords
     stray = (1.0 - ROUNDING) * least / (2.0 * float(reach.max()))
