@@ -27,16 +27,24 @@ def test_no_benches_and_no_pitch_within_their_errors_allow_less(seed: int) -> No
     assert 0.0 < safe < known < 2.5 * safe
 
 
-@pytest.mark.parametrize(("error", "spread"), [(0.1, 0.0), (0.0, 0.03), (0.1, 0.03)])
-def test_errors_allow_no_more_than_the_dragons_and_spirals_at_their_ends(error: float, spread: float) -> None:
+@pytest.mark.parametrize(
+    ("pitch", "radius", "error", "spread"),
+    [(0.7, CIRCLE, 0.1, 0.0), (0.7, CIRCLE, 0.0, 0.03), (0.7, CIRCLE, 0.1, 0.03), (9.0, 50.0, 0.1, 0.0)],
+    ids=["lengths", "pitch", "both", "benches next but one"],
+)
+def test_errors_allow_no_more_than_the_dragons_and_spirals_at_their_ends(
+    pitch: float, radius: float, error: float, spread: float
+) -> None:
     dragon = Dragon()
-    safe = uncertain_tolerance(dragon, 0.7, length_error=error, pitch_error=spread)
+    safe = uncertain_tolerance(dragon, pitch, length_error=error, pitch_error=spread, turning_radius=radius)
     ends = [
-        uncertain_tolerance(Dragon.of(dragon.lengths + off, dragon.widths, dragon.overhangs), 0.7 + more)
+        uncertain_tolerance(
+            Dragon.of(dragon.lengths + off, dragon.widths, dragon.overhangs), pitch + more, turning_radius=radius
+        )
         for off in (-error, error)
         for more in (-spread, spread)
     ]
-    assert 0.95 * min(ends) < safe <= min(ends) < uncertain_tolerance(dragon, 0.7)
+    assert 0.9 * min(ends) < safe <= min(ends) < uncertain_tolerance(dragon, pitch, turning_radius=radius)
 
 
 def test_where_nothing_is_proven_the_stray_is_none() -> None:
