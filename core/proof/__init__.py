@@ -108,7 +108,7 @@ pitch need not prove how the dance gets to M: if a bench folds earlier, the head
      root. The angles further out are below pi by 5., so 1. applies to them. 6. holds for them as for pairs. One or
      two benches have no pair, but a minimum pitch has sweep 0 for them too, which proves only that they follow.
 
-Strays. Let the two holes of every bench be within d of their places, and its chord c be kept, d <= c / 2.
+Strays. Let the two holes of every bench be within d of their places, and its chord c be kept, d < c.
  14. The ground of a bench is the union of all its places then, in the frame of the bench where it should be. Whatever
      the benches between two others allow, these two do not touch if their grounds do not meet. Cut the bench across
      at its holes into three parts. Wherever a part is, it is the convex hull of its corners. So a polygon of SIDES half
