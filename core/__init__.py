@@ -40,6 +40,7 @@ from core.tolerance.curve import ToleranceCurve, tolerance_curve
 from core.tolerance.exhibit import Exhibit
 from core.tolerance.stray import Stray
 from core.tolerance.tolerance import Limit, StrayProof, Tolerance, tolerance
+from core.tolerance.uncertain import uncertain_tolerance
 from core.venue import Area, AreaClearance, Misplaced, Nearest, Venue, VenueClearance, venue_clearance
 from core.verdict import Failure, FailureKind, Judgement, Report, check
 
@@ -124,6 +125,7 @@ __all__ = [
     "tolerance",
     "tolerance_curve",
     "trajectory",
+    "uncertain_tolerance",
     "venue_clearance",
     "verdicts",
 ]

@@ -21,7 +21,7 @@ The claims:
   minimum-pitch   Nothing touches while the head walks from the start until it is turning_radius from the centre. With
                   a pitch 1e-6 m smaller, two benches overlap while the head is on that way, or the start lies within
                   that circle. (Of other pitches it says nothing.)
-Not judged are claims with a margin, clear runs, other paths, and minimum pitches below which a bench folds.
+Not judged are claims with a margin, clear runs, strays, other paths, and minimum pitches below which a bench folds.
 
 A certificate has `dragon`, runs of benches alike from the head on as [how many, length, width, overhang]; `claim`;
 the benches in `overlap` (6.), with head_theta for a pitch; and the `sweeps`, u + 1 with u = `repeats_from` (5.):
@@ -492,11 +492,11 @@ def check_form(value, form, place):
         raise Refused(f"{MALFORMED}: {place or 'it'} must be {want}, got {json.dumps(value)[:40]}")
 
 
-def verified(certificate):
+def verified(certificate, not_judged=("margin", "folds", "clear", "contact", "tolerance")):
     """What the certificate proves, in words."""
     check_form(certificate, dict, "")
     inside = [item for part in certificate.values() if isinstance(part, dict) for item in part.items()]
-    if other := {name: value for name, value in inside if name in ("margin", "folds") or value in ("clear", "contact")}:
+    if other := {name: value for name, value in inside if name in not_judged or value in not_judged}:
         raise NotJudged(f"not judged: {KNOWN}, and this certificate has {json.dumps(other)[:60]}")
     check_form(certificate, MEMBERS, "")
     runs, claim, overlap = (certificate[name] for name in ("dragon", "claim", "overlap"))

@@ -24,7 +24,15 @@ from flint import arb, ctx, fmpz
 
 from core import Dance, Dragon, Spiral, Turn, first_contact, minimum_pitch
 from core.errors import ProofRefused
-from core.proof import Certificate, chain, check, prove_clear, prove_collision_time, prove_minimum_pitch
+from core.proof import (
+    Certificate,
+    chain,
+    check,
+    prove_clear,
+    prove_collision_time,
+    prove_minimum_pitch,
+    prove_tolerance,
+)
 from tests.core.forgeries import FORGERIES, edit, put_at, stretches
 
 ROOT = Path(__file__).parents[1]
@@ -319,6 +327,7 @@ def test_a_true_certificate_of_another_kind_is_not_judged_and_its_kind_is_named(
         (prove_collision_time(Dance(dragon, path), time, margin=0.02), '{"margin": 0.02}'),
         (prove_clear(Dance(dragon, path), time - 1.0), '{"kind": "clear"}'),
         (prove_clear(Dance(Dragon(5), Turn(1.7)), 10.0, margin=0.01), '{"kind": "clear", "margin": 0.01}'),
+        (prove_tolerance(Dance(dragon, path), 1e-3, stop=1.0), '{"kind": "tolerance"}'),
         (prove_minimum_pitch(folding, pitch, turning_radius=0.85, start_turns=5.0), '{"folds": 0}'),
     ):
         line = refusal(judged(certificate), 3)

@@ -23,6 +23,7 @@ from rich.progress import Progress
 import core
 from app.files.disk import checked_output, read_dance, write_whole
 from app.questions.check import CheckRequest
+from app.questions.tolerance import ToleranceQuery
 from app.settings import Settings
 from app.wire.dances import Circle, DanceQuery, HeadSpeed, UniformDragon
 from app.wire.messages import checked
@@ -31,6 +32,7 @@ from app.wire.paths import TurnFields
 from core import InvalidValue, Outcome
 from core.dance import Dance
 from core.errors import ProofRefused, said
+from core.tolerance.curve import time_on_circle
 
 if TYPE_CHECKING:
     from core.proof import Proof
@@ -76,6 +78,17 @@ class TurnClaim(_Thorough, HeadSpeed, TurnFields, UniformDragon):
     margin: Margin = 0.0
 
 
+class StrayClaim(_Thorough, ToleranceQuery):
+    """How far people may stray until the head is on the circle."""
+
+    stray: float | None = measure(
+        "m",
+        "Stray to prove safe; default: the answer of tolerance, and its pose in which two benches touch",
+        None,
+        gt=0,
+    )
+
+
 @contextmanager
 def _working(what: str) -> Iterator[Callable[[float], None]]:
     """A progress bar on standard error; yields a function of the share done. A refusal or Ctrl-C ends the command."""
@@ -102,7 +115,7 @@ def prove(
         Path | None, typer.Option(help="Verify this certificate without a search; - reads standard input.")
     ] = None,
 ) -> None:
-    """Prove a contact, a clear run or a minimum pitch in ball arithmetic, or check a proof. Needs python-flint."""
+    """Prove a contact, a clear run, a pitch or a stray in ball arithmetic, or check a proof. Needs python-flint."""
     if (check is None) == (context.invoked_subcommand is None):
         raise typer.BadParameter("give either a claim to prove or --check FILE")
     if check is None:
@@ -193,6 +206,32 @@ def clear(
             margin=asked.margin,
             every_pair=asked.every_pair,
             progress=progress,
+        )
+    _finish(certificate, output)
+
+
+def tolerance(
+    asked: StrayClaim,
+    output: Annotated[Path, typer.Option(help="File for the certificate.")] = Path("tolerance.proof.json"),
+) -> None:
+    """Prove how far people may stray: nothing touches within it until the head is on the circle.
+
+    Without --stray also a pose of the whole dragon is proven in which two benches overlap with strays a little larger.
+    """
+    checked_output("output", output, (".json",))
+    dance = asked.to_dance(Settings().benches_max)
+    stop = time_on_circle(dance, asked.turning_diameter / 2)
+    with _working("proof") as progress:
+        from core.proof import prove_tolerance
+
+        stray, shown = asked.stray, None
+        if stray is None:
+            found = core.tolerance(dance, stop=stop)
+            stray, shown = found.stray, found.exhibit
+            if stray == 0.0:
+                raise ProofRefused("stray", "no stray is known to be safe until the head is on the circle")
+        certificate = prove_tolerance(
+            dance, stray, exhibit=shown, stop=stop, every_pair=asked.every_pair, progress=progress
         )
     _finish(certificate, output)
 

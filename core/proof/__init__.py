@@ -1,6 +1,6 @@
 """Contact and clear runs, proven in ball arithmetic, and checked again without a search.
 
-Four claims about a dragon, each number exactly the double given:
+Five claims about a dragon, each number exactly the double given:
 
     collision time t   on a spiral r = b theta, b = pitch / (2 pi): nothing touches in [0, t - 1e-10 s], and a pair
                        strictly overlaps at t + 1e-10 s
@@ -11,6 +11,9 @@ Four claims about a dragon, each number exactly the double given:
                        the claim includes the end, the run is over by stop + 1e-9 s: a bench folds, the head is at
                        the centre, or the route is at its end
     contact t          a collision time on any of these paths, from a start on
+    tolerance d        on a spiral: while every hole is within d of its place and every chord keeps its length, nothing
+                       touches in [start, stop]; if the claim includes a pose, a pair strictly overlaps in it, and its
+                       strays are below a second number
 
 With a margin, "touches" is "comes within the margin", and "strictly overlaps" is "is strictly nearer than the margin".
 
@@ -105,12 +108,39 @@ pitch need not prove how the dance gets to M: if a bench folds earlier, the head
      root. The angles further out are below pi by 5., so 1. applies to them. 6. holds for them as for pairs. One or
      two benches have no pair, but a minimum pitch has sweep 0 for them too, which proves only that they follow.
 
+Strays. Let the two holes of every bench be within d of their places, and its chord c be kept, d < c.
+ 14. The ground of a bench is the union of all its places then, in the frame of the bench where it should be. Whatever
+     the benches between two others allow, these two do not touch if their grounds do not meet. Cut the bench across
+     at its holes into three parts. Wherever a part is, it is the convex hull of its corners. So a polygon of SIDES half
+     planes in even directions that holds all places of its corners (15.) holds all places of the part; a fourth
+     polygon, with the largest of the three supports in each direction, holds the ground. A point of the segment
+     between the displaced handles is within d of the point that divides the segment between their places alike: so 5.
+     holds with h + d in place of h.
+ 15. Let the bench turn by phi, q = c sin(phi / 2): one hole moves by m + i q exp(i phi / 2), the other by m - i q
+     exp(i phi / 2), the point p of the bench from 0, the middle of the chord, to m + exp(i phi) p. So |q| <= d, and m
+     is in the lens of two discs of radius d. In the direction e, with t the argument of exp(i phi / 2) / e, m comes
+         d - |q sin t|   where |q| <= d |sin t|,   else   |cos t| sqrt(d^2 - q^2)
+     far. The second is never more than the first (Cauchy and Schwarz), which is used where the balls do not decide.
+     Let q = d sin(psi), kappa = d / c, kappa' = kappa / sqrt(1 - kappa^2). By psi, |phi'| <= 2 kappa and |phi''| <= 2
+     kappa', as sin(phi / 2) = kappa sin(psi). So the second derivatives are at most d (1 + 2 kappa + kappa^2 + kappa')
+     for m, on either range, and |p| (4 kappa^2 + 2 kappa') for exp(i phi) p. On either side of psi = 0 values and
+     slopes of the two ranges agree where they meet. So between two samples of psi that are w apart, and not on both
+     sides of 0, nothing is more than K w^2 / 8 above the higher one, K the sum of these two bounds.
+ 16. Let n be the outward normal of a side of a polygon, and u = -n seen from the other bench lie between the directions
+     of sides k and k + 1 of its polygon: u is the sum of these two with factors that are not negative. So no point of
+     that polygon is farther along u than the corner where its sides k and k + 1 meet. Two polygons are apart
+     over a stretch if 4. holds for the corners of all k that u passes. Two grounds are, if their fourth polygons are,
+     or each of the three of one from each of the three of the other.
+ 17. A pose is given by its first handle and the heading of every bench: each chord is exact. The place of a handle on
+     the spiral is known from the time.
+
 A certificate holds the parameters, the stretches as [highest place, lowest place, faces], and the overlap, or the bench
 that folds with M and m of 12. `faces` has one digit for each bench from the next but one on: 0 to 3 for the faces +x,
 +y, -x, -y of the first bench, 4 to 7 for those of the other one, 8 for a direction of 7. (then the directions [rad] are
-the fourth entry), 9 for 10. The doubles and the faces are guesses, made in double precision; every inequality above is
-decided on balls, when a proof is made and when it is checked. The precision of flint is global to the process: prove
-and check in one thread at a time.
+the fourth entry), 9 for 10. A claim about strays has a list of one side or of nine (16.) in place of each digit: 0 to
+SIDES - 1 for those of the first bench, from SIDES on for those of the other one. The doubles, the faces and the sides
+are guesses, made in double precision; every inequality above is decided on balls, when a proof is made and when it is
+checked. The precision of flint is global to the process: prove and check in one thread at a time.
 """
 
 from __future__ import annotations
@@ -129,6 +159,7 @@ from core.proof.certificate import (
     prove_collision_time,
     prove_contact,
     prove_minimum_pitch,
+    prove_tolerance,
 )
 
 __all__ = [
@@ -140,4 +171,5 @@ __all__ = [
     "prove_collision_time",
     "prove_contact",
     "prove_minimum_pitch",
+    "prove_tolerance",
 ]

@@ -18,15 +18,17 @@ from core.proof.claims import CollisionTimeClaim, MinimumPitchClaim, refusing
 from core.proof.dances import Clear, Contact, last_stop
 from core.proof.members import CLAIMS, SHOWN_MOST, refuse_malformed
 from core.proof.paths import recorded_path
+from core.proof.strays import ToleranceClaim, recorded_pose
 from core.proof.sweeps import Progress, found, recorded, swept
 from core.proof.words import runs
+from core.tolerance.exhibit import Exhibit
 
 FORMAT = "bench-dragon proof 1"
 # Working precision [bits]: the claims decide gaps of about 1e-12 m; 96 bits leave 1e-24 m after 1e5 handles.
 PRECISION = 96
 
 Certificate = dict[str, Any]
-Claim = CollisionTimeClaim | MinimumPitchClaim | Clear | Contact
+Claim = CollisionTimeClaim | MinimumPitchClaim | Clear | Contact | ToleranceClaim
 
 
 @dataclass(frozen=True, slots=True)
@@ -116,10 +118,36 @@ def prove_contact(
     return _proven(claim, every_pair, progress)
 
 
-def _proven(claim: Claim, every_pair: bool, progress: Progress) -> Certificate:
+def prove_tolerance(
+    dance: Dance,
+    stray: float,
+    *,
+    exhibit: Exhibit | None = None,
+    start: float = 0.0,
+    stop: float | None = None,
+    every_pair: bool = False,
+    progress: Progress = lambda share: None,
+) -> Certificate:
+    """A certificate that nothing touches in [start, stop] [s] while every hole is within the stray of its place [m].
+
+    dance: on a spiral; exhibit: a pose in which two benches overlap, proven too, with strays up to 1e-9 m above its own
+    stop: None for the end of the run, or 0.5e-9 s before a fold or the centre
+    every_pair, progress, returns, raises: as prove_collision_time(); OutsideRun for times outside the dance
+    """
+    path = dance.path
+    if not isinstance(path, Spiral):
+        raise InvalidValue("path", "path must be a spiral: strays have no proof on any other")
+    if stop is None:
+        stop, _ = last_stop(dance.dragon, recorded_path(path), dance.head_speed)
+    pose, shown = ({}, None) if exhibit is None else recorded_pose(exhibit)
+    sizes = dance.dragon, path.pitch, path.start_turns, dance.head_speed
+    return _proven(ToleranceClaim(*sizes, start, stop, stray, shown), every_pair, progress, pose)
+
+
+def _proven(claim: Claim, every_pair: bool, progress: Progress, pose: dict[str, Any] | None = None) -> Certificate:
     with ctx.workprec(PRECISION), refusing("claim"):
         chain = claim.chain
-        overlap = claim.find_overlap(lambda share: progress(claim.search_share * share))
+        overlap = pose or claim.find_overlap(lambda share: progress(claim.search_share * share))
         claim.check_overlap(overlap)
         repeats_from = max(0, chain.count - 3) if every_pair else chain.repeats_from
         rest = 1.0 - claim.search_share
@@ -145,11 +173,9 @@ def _proven(claim: Claim, every_pair: bool, progress: Progress) -> Certificate:
 
 
 def _values(claim: Claim) -> dict[str, Any]:
-    """The members of a claim; a margin only if it is positive, so that certificates without one keep their form."""
+    """The members of a claim; a margin, or a stray shown, only if there is one."""
     values = {field.name: getattr(claim, field.name) for field in fields(claim) if field.name != "dragon"}
-    if not values["margin"]:
-        del values["margin"]
-    return values
+    return {name: value for name, value in values.items() if value or name not in ("margin", "shown")}
 
 
 def check(certificate: Certificate, *, progress: Progress = lambda share: None) -> Proof:

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 from flint import acb, arb
 
 from core.dragon import Dragon
 from core.errors import said
+from core.proof.ground import AT_ONCE, ONE_BY_ONE, Ground, Side
 from core.proof.pairs import Benches, Limit, Size, Unproven, above, below, stays_above
 
 # A guess from doubles is within this of its root [rad]; an interval Newton step verifies it.
@@ -40,12 +42,18 @@ class Follower:
 
 
 class Chain(Follower):
-    """A dragon on a spiral: growth b [m/rad], start [rad]. Its places are theta [rad], always above the floor."""
+    """A dragon on a spiral: growth b [m/rad], start [rad]. Its places are theta [rad], always above the floor.
+
+    stray: how far every hole may be from its place [m]; grounds: of its benches, none without a stray
+    """
 
     floor = 0.0
 
-    def __init__(self, dragon: Dragon, pitch: arb, start_turns: float, margin: float = 0.0) -> None:
+    def __init__(self, dragon: Dragon, pitch: arb, start_turns: float, margin: float = 0.0, stray: float = 0.0) -> None:
         super().__init__(dragon, margin)
+        self.stray = arb(stray)
+        strayed = set(self.sizes) if stray else ()
+        self.grounds = {size: Ground(size.chord / 2, size.half_length, size.half_width, self.stray) for size in strayed}
         self.growth = pitch / (2 * arb.pi())
         self.start = 2 * arb.pi() * start_turns
         kinds = {size: (size.chord / self.growth) ** 2 for size in set(self.sizes)}
@@ -85,10 +93,10 @@ class Chain(Follower):
         return newton(theta, around, self.arc(theta) - left, self.growth * (1 + around**2).sqrt())
 
     def far(self, bench: int, rear: arb, theta: arb) -> bool:
-        """Whether all benches behind a handle at theta are apart from this one, its rear handle at rear (5.) [rad]."""
+        """Whether all benches behind a handle at theta are apart from this one, its rear handle at rear (5., 14.)."""
         inner = (self.growth * theta.lower()) ** 2 - arb(self.longest) ** 2 / 4
         outer = self.growth * rear.upper() + self.sizes[bench].reach
-        return bool(inner > 0 and inner.sqrt() - self.reach > outer + self.margin)
+        return bool(inner > 0 and inner.sqrt() - self.reach > outer + self.margin + 2 * self.stray)
 
     def outermost(self, bench: int, highest: float) -> list[float]:
         """P[bench], ..., P[n - 3] of 6., rounded up. highest: P[bench] [rad]"""
@@ -294,17 +302,35 @@ class Stretch:
         partner: counted from bench; face, direction: see Limit
         """
         first, second = (self.chain.sizes[self.bench + k] for k in (0, partner))
-        limit = Limit(face, direction, first, second)
+        return self._beyond(partner, Limit(face, direction, first, second))
+
+    def grounds(self, partner: int) -> tuple[Ground, Ground]:
+        """Of the first bench and of partner."""
+        first, second = (self.chain.grounds[self.chain.sizes[self.bench + k]] for k in (0, partner))
+        return first, second
+
+    def grounds_apart(self, partner: int, sides: Sequence[int]) -> bool:
+        """Whether the grounds of the two are apart over the whole stretch, by these sides (16.).
+
+        sides: one that has the other ground beyond it, or one for each two of their polygons
+        """
+        hulls = AT_ONCE if len(sides) == 1 else ONE_BY_ONE
+        both = self.grounds(partner)
+        return all(self._beyond(partner, Side(number, pair, *both)) for number, pair in zip(sides, hulls, strict=True))
+
+    def _beyond(self, partner: int, limit: Limit | Side) -> bool:
+        """Whether one of the two is more than the margin beyond a line of the other, over the whole stretch (4.)."""
         a, b = (partner, 0) if limit.by_partner else (0, partner)
         centre_a, along_a, centre_move_a, along_move_a = self.placed[a]
         centre_b, along_b, centre_move_b, along_move_b = self.placed[b]
         turn, turning = limit.turn * along_a.conjugate(), limit.turn * along_move_a.conjugate()
         to_move = turn * (centre_move_b - centre_move_a) + turning * (centre_b - centre_a)
         axis_move = turn * along_move_b + turning * along_b
+        corners = limit.corners(turn * along_b)
         gaps = []
         for pose in self.ends:
             to, axis = pose.seen(a, b)
             to, axis = limit.turn * to, limit.turn * axis
-            gaps.append([(to + axis * corner).real - limit.support for corner in limit.other.corners])
-        slopes = [(to_move + axis_move * corner).real for corner in limit.other.corners]
+            gaps.append([(to + axis * corner).real - limit.support for corner in corners])
+        slopes = [(to_move + axis_move * corner).real for corner in corners]
         return stays_above(gaps[0], gaps[1], slopes, self.width, self.chain.margin)

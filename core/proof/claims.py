@@ -217,8 +217,7 @@ def check_near(chain: AnyChain, head: arb, a: int, b: int, when: str) -> None:
 
     head: its place [rad], [m]; raises: Unproven
     """
-    if not 0 <= a < b - 1 < chain.count - 1:
-        raise Unproven(f"benches {a} and {b} are no pair")
+    checked_pair(chain, a, b)
     pose = chain.pose_at(0, head)
     pose.grow_to(a)
     pose = chain.pose_at(a, pose.places[a])
@@ -226,6 +225,16 @@ def check_near(chain: AnyChain, head: arb, a: int, b: int, when: str) -> None:
     if not pose.within(b - a, chain.margin):
         how = f"be nearer than {said(float(chain.margin))} m" if chain.margin > 0 else "overlap"
         raise Unproven(f"benches {a} and {b} are not shown to {how} {when}")
+
+
+def checked_pair(chain: AnyChain, a: int, b: int) -> tuple[int, int]:
+    """Two benches a < b if they share no handle.
+
+    raises: Unproven
+    """
+    if not 0 <= a < b - 1 < chain.count - 1:
+        raise Unproven(f"benches {a} and {b} are no pair")
+    return a, b
 
 
 def head_theta(chain: Chain, handle: int, theta: float, low: float, high: float) -> float:

@@ -13,8 +13,10 @@ from typing import Any
 from core.errors import ProofRefused, said, spoken
 from core.proof.claims import CollisionTimeClaim, MinimumPitchClaim
 from core.proof.dances import ENDINGS, Clear, Contact
+from core.proof.ground import ONE_BY_ONE, SIDES
 from core.proof.pairs import ALL_FACES, CIRCLES, DIRECTION
 from core.proof.paths import PIECES, POINTS, TURN
+from core.proof.strays import ToleranceClaim
 
 # The fewest and the most bits that a certificate may ask for. Its numbers are doubles, of 53 bits; the default dragon's
 # certificate is checked in 0.9 s with 96 bits, in 7.5 s with 4,096 (measured 2026-11-21).
@@ -23,7 +25,7 @@ PRECISION_LEAST, PRECISION_MOST = 53, 4096
 NUMBER_MOST = 1e15
 # Messages shorten longer values to this [characters].
 SHOWN_MOST = 40
-CLAIMS = {kind.kind: kind for kind in (CollisionTimeClaim, MinimumPitchClaim, Clear, Contact)}
+CLAIMS = {kind.kind: kind for kind in (CollisionTimeClaim, MinimumPitchClaim, Clear, Contact, ToleranceClaim)}
 
 Rule = Callable[[str, Any], None]
 
@@ -35,19 +37,20 @@ def refuse_malformed(certificate: Any) -> None:
     """
     claim: Any = certificate.get("claim") if isinstance(certificate, dict) else None
     kind: Any = claim.get("kind") if isinstance(claim, dict) else None
-    without = {} if kind == Clear.kind else {"overlap": _any_object}
-    _object("", certificate, MEMBERS | without)
+    strays = kind == ToleranceClaim.kind
+    with_overlap = "shown" in claim if strays else kind != Clear.kind
+    _object("", certificate, MEMBERS | ({"overlap": _any_object} if with_overlap else {}))
     if not isinstance(kind, str) or kind not in CLAIMS:
         names = list(CLAIMS)
         raise _malformed("claim.kind", f"must be {', '.join(names[:-1])} or {names[-1]}", kind)
-    optional = {"margin": _positive} if "margin" in claim else {}
+    optional = {name: _positive for name in ("shown" if strays else "margin",) if name in claim}
     _object("claim", claim, CLAIM_MEMBERS[kind] | optional)
-    if kind != Clear.kind:
+    if with_overlap:
         _overlap(kind, certificate["overlap"])
-    on_spiral = kind in (CollisionTimeClaim.kind, MinimumPitchClaim.kind) or claim["path"]["kind"] == "spiral"
+    on_spiral = "path" not in claim or claim["path"]["kind"] == "spiral"
     letters = ALL_FACES + (DIRECTION if optional else "") + ("" if on_spiral else CIRCLES)
     if certificate["sweeps"] != []:  # A contact at the very start leaves nothing to sweep.
-        _each(_sweep(letters, on_spiral))("sweeps", certificate["sweeps"])
+        _each(_sweep(_strayed_stretch if strays else _stretch(letters, on_spiral)))("sweeps", certificate["sweeps"])
 
 
 def _malformed(name: str, must: str, got: Any) -> ProofRefused:
@@ -116,7 +119,7 @@ def _number(name: str, value: Any) -> None:
 def _positive(name: str, value: Any) -> None:
     _number(name, value)
     if not value > 0:
-        raise _malformed(name, "must be positive (no margin, no such member)", value)
+        raise _malformed(name, f"must be positive (no {name.split('.')[-1]}, no such member)", value)
 
 
 def _whole(name: str, value: Any) -> None:
@@ -154,7 +157,8 @@ def _overlap(kind: str, value: Mapping[str, Any]) -> None:
         _object("overlap", value, {"folds": _whole, "head_theta": _each(_number, 2)})
         return
     theta: dict[str, Rule] = {"head_theta": _number} if kind == MinimumPitchClaim.kind else {}
-    _object("overlap", value, {"benches": _each(_whole, 2)} | theta)
+    pose = {"time": _number, "head": _each(_number, 2), "headings": _each(_number)}
+    _object("overlap", value, {"benches": _each(_whole, 2)} | theta | (pose if kind == ToleranceClaim.kind else {}))
 
 
 def _path(name: str, value: Any) -> None:
@@ -172,14 +176,28 @@ def _piece(name: str, value: Any) -> None:
     _object(name, value, {"kind": _text} | members)
 
 
-def _sweep(letters: str, positive: bool) -> Rule:
-    stretches = _each(_stretch(letters, positive))
-    return lambda name, value: _object(name, value, {"bench": _whole, "stretches": stretches})
+def _sweep(stretch: Rule) -> Rule:
+    return lambda name, value: _object(name, value, {"bench": _whole, "stretches": _each(stretch)})
+
+
+def _strayed_stretch(name: str, value: Any) -> None:
+    """[highest theta, lowest theta, sides]: for each bench behind the number of one side, or of nine (16.)."""
+    if not isinstance(value, list) or len(value) != 3 or not isinstance(value[2], list):
+        raise _malformed(name, "must be [highest theta, lowest theta, sides]", value)
+    _stretch("", True)(name, [*value[:2], ""])
+    for k, sides in enumerate(value[2]):
+        place, nine = f"{name}.2.{k}", len(ONE_BY_ONE)
+        if not isinstance(sides, list) or len(sides) not in (1, nine):
+            raise _malformed(place, f"must be a list of 1 or {nine} sides", sides)
+        for i, side in enumerate(sides):
+            _whole(f"{place}.{i}", side)
+            if not side < 2 * SIDES:
+                raise _malformed(f"{place}.{i}", f"must be a side, from 0 to {2 * SIDES - 1}", side)
 
 
 def _stretch(letters: str, positive: bool) -> Rule:
     """[highest place, lowest place, faces], and the directions if faces has any. positive: whether places must be."""
-    place, last = "theta" if positive else "place", max(letters)
+    place, last = "theta" if positive else "place", max(letters, default="")
 
     def checked(name: str, value: Any) -> None:
         lengths = (3, 4) if DIRECTION in letters else (3,)
@@ -224,4 +242,6 @@ CLAIM_MEMBERS: dict[str, dict[str, Rule]] = {
     MinimumPitchClaim.kind: {"kind": _text} | dict.fromkeys(("pitch", "start_turns", "turning_radius"), _number),
     Clear.kind: _DANCE | {"stop": _number, "until": _one_of(*ENDINGS)},
     Contact.kind: _DANCE | {"time": _number},
+    ToleranceClaim.kind: {"kind": _text}
+    | dict.fromkeys(("pitch", "start_turns", "head_speed", "start", "stop", "stray"), _number),
 }

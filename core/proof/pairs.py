@@ -61,6 +61,10 @@ class Limit:
             self.turn = FACES[side]
             self.support = own.half_width if side % 2 else own.half_length
 
+    def corners(self, axis: acb) -> Sequence[acb]:
+        """The corners that may be nearest to the line, in the other bench's frame: all, wherever its axis points."""
+        return self.other.corners
+
 
 def stays_above(first: Sequence[arb], last: Sequence[arb], slopes: Sequence[arb], width: arb, least: arb) -> bool:
     """Whether every g > least over a stretch, from g at its ends and an enclosure of g' (4.)."""

@@ -5,10 +5,11 @@ from __future__ import annotations
 import math
 from bisect import bisect_left
 from collections.abc import Callable, Iterator, Sequence
-from typing import Any
+from typing import Any, TypeGuard
 
-from core.errors import ProofRefused
+from core.errors import ProofRefused, said
 from core.proof.chain import Chain, Stretch
+from core.proof.ground import AT_ONCE, ONE_BY_ONE, best_side
 from core.proof.pairs import ALL_FACES, CIRCLES, DIRECTION, Unproven
 from core.proof.route import RouteChain
 from core.proof.route_stretch import RouteStretch
@@ -21,9 +22,11 @@ WIDTH_LEAST = 1e-13
 Progress = Callable[[float], None]
 AnyChain = Chain | RouteChain
 AnyStretch = Stretch | RouteStretch
+# What keeps a pair apart: a face, or with a stray one side of their grounds or nine (16.).
+Face = str | list[int]
 # (highest place, lowest place, one face for each bench from the next but one on, until all others are far, and the
 # directions)
-Tile = tuple[float, float, str, list[float]]
+Tile = tuple[float, float, str | list[Face], list[float]]
 # Sweep of one bench: (bench, highest place, lowest place, places of 6.) -> proven tiles, in the order of the dance.
 Source = Callable[[int, float, float, Sequence[float]], Iterator["tuple[AnyStretch, Tile]"]]
 
@@ -46,28 +49,30 @@ def stretch_of(chain: AnyChain, bench: int, low: float, high: float, last: int) 
 
 def _faces(stretch: AnyStretch) -> Tile:
     """Verified faces that keep all benches of the stretch apart; raises Overlap if a pair is too near at an end."""
-    faces, directions = "", []
+    faces: Any = [] if _strays(stretch) else ""
+    directions = []
     while not stretch.complete:
         stretch.grow()
         partner = len(stretch.placed) - 1
         if partner < 2:
             continue
         face, direction = _face(stretch, partner)
-        faces += face
+        faces += face if isinstance(face, str) else [face]
         if face == DIRECTION:
             directions.append(direction)
     return stretch.high, stretch.low, faces, directions
 
 
-def _face(stretch: AnyStretch, partner: int) -> tuple[str, float]:
+def _face(stretch: AnyStretch, partner: int) -> tuple[Face, float]:
     """The face that keeps this pair apart over the whole stretch, and the direction if it is one."""
+    if _strays(stretch):
+        return _sides(stretch, partner), 0.0
     if stretch.within_circles(partner):
         return CIRCLES, 0.0
     margin = stretch.chain.margin
     for place, pose in zip((stretch.low, stretch.high), stretch.ends, strict=True):
         if pose.within(partner, margin):
-            absent = stretch.chain.count - stretch.last
-            raise Overlap(stretch.chain, stretch.bench + absent, stretch.bench + absent + partner, place)
+            raise Overlap(stretch.chain, *_met(stretch, partner), place)
     low, high = (pose.gaps(partner) for pose in stretch.ends)
     tries = [(max(ALL_FACES, key=lambda k: min(float(low[int(k)]), float(high[int(k)]))), 0.0)]
     if margin > 0:
@@ -76,6 +81,42 @@ def _face(stretch: AnyStretch, partner: int) -> tuple[str, float]:
         if stretch.apart(partner, face, direction):
             return face, direction
     raise Unproven(f"benches {stretch.bench} and {stretch.bench + partner} are not shown to be apart")
+
+
+def _met(stretch: AnyStretch, partner: int) -> tuple[int, int]:
+    """The first two benches that are where this pair is, by 6."""
+    first = stretch.bench + stretch.chain.count - stretch.last
+    return first, first + partner
+
+
+def _strays(stretch: AnyStretch) -> TypeGuard[Stretch]:
+    """Whether it is of grounds."""
+    return isinstance(stretch, Stretch) and bool(stretch.chain.grounds)
+
+
+def _sides(stretch: Stretch, partner: int) -> list[int]:
+    """The one side, or the nine, that keep the grounds of this pair apart over the whole stretch."""
+    grounds = stretch.grounds(partner)
+    seen = [(complex(to), complex(axis)) for to, axis in (pose.seen(0, partner) for pose in stretch.ends)]
+    for hulls in (AT_ONCE, ONE_BY_ONE):
+        best = [best_side(*grounds, pair, seen) for pair in hulls]
+        sides = [number for number, _ in best]
+        if min(gap for _, gap in best) > 0.0 and stretch.grounds_apart(partner, sides):
+            return sides
+    for place, instant in zip((stretch.low, stretch.high), seen, strict=True):
+        if min(best_side(*grounds, pair, [instant])[1] for pair in ONE_BY_ONE) <= 0.0:
+            a, b = _met(stretch, partner)
+            strayed = f"with strays up to {said(float(stretch.chain.stray))} m"
+            where = f"when handle {a} is at {stretch.chain.named(place)}"
+            raise ProofRefused("claim", f"not proven: {strayed} benches {a} and {b} may touch {where}")
+    raise Unproven(f"benches {stretch.bench} and {stretch.bench + partner} are not shown to stay apart")
+
+
+def _apart(stretch: AnyStretch, partner: int, face: Face, direction: float) -> bool:
+    """Whether this face keeps a pair apart over the whole stretch."""
+    if not isinstance(face, str):
+        return _strays(stretch) and stretch.grounds_apart(partner, face)
+    return stretch.within_circles(partner) if face == CIRCLES else stretch.apart(partner, face, direction)
 
 
 def found(chain: AnyChain) -> Source:
@@ -122,9 +163,7 @@ def recorded(chain: AnyChain, sweeps: Sequence[Any]) -> Source:
             directions = iter(rest[0] if rest else ())
             for partner, face in enumerate(faces, 2):
                 direction = next(directions) if face == DIRECTION else 0.0
-                if not (
-                    stretch.within_circles(partner) if face == CIRCLES else stretch.apart(partner, face, direction)
-                ):
+                if not _apart(stretch, partner, face, direction):
                     pair = f"benches {bench} and {bench + partner}"
                     raise Unproven(f"{pair} are not apart by face {face} over [{high!r}, {low!r}]")
             yield stretch, (high, low, faces, rest[0] if rest else [])

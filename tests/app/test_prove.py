@@ -16,6 +16,7 @@ from tests.app.command import COMMAND, ENVIRONMENT, PATIENCE
 from tests.conftest import heed_ctrl_c
 
 FIVE = ("--benches", "5", "--start-turns", "6")  # a dragon whose proof takes no time
+TWELVE = ("--benches", "12", "--pitch", "0.7", "--start-turns", "5", "--turning-diameter", "3")
 # A dragon whose minimum pitch a fold limits, on a circle of diameter 1.7 m.
 FOLDING = (
     *("--benches", "14", "--head-length", "2.21", "--body-length", "1.47", "--width", "0.06", "--overhang", "0.12"),
@@ -131,12 +132,14 @@ pieces = [
         (("minimum-pitch", *FOLDING, "--benches", "1", "--overhang", "0.275"), "less the start lies within"),
         (("clear", "--benches", "4"), "bench 0 cannot follow any more (it folds) before 432.9179242"),
         (("clear", *FIVE, "--stop", "20", "--margin", "0.1"), "from 0 s to 20 s."),
+        (("tolerance", *TWELVE), "benches 0 and 6 overlap in a pose with strays below 0.0441376"),
+        (("tolerance", *TWELVE, "--stray", "0.02"), "is within 0.02 m of its place and every chord keeps its length"),
         (("turn", "--benches", "14", "--start", "-5", "--stop", "20"), "touch from -5 s to 20 s."),
         (("turn", "--benches", "20", "--start", "-5", "--stop", "20", "--margin", "0.34"), "nearer than 0.34 m at 13."),
     ],
     ids=[
         "time with a margin", "pitch with a margin", "pitch at a fold", "one bench at a fold", "start at the circle",
-        "to the fold", "to a stop", "turn", "turn with a margin",
+        "to the fold", "to a stop", "tolerance", "a stray", "turn", "turn with a margin",
     ],
 )  # fmt: skip
 def test_every_claim_is_proven_and_its_certificate_checked(
@@ -168,6 +171,10 @@ def test_a_dance_from_a_file_is_proven_to_its_end(tmp_path: Path) -> None:
     ("arguments", "words"),
     [
         (("clear", *FIVE), "Refused: not proven: benches 0 and 4 overlap when handle 0 is at theta = "),
+        (
+            ("tolerance", *TWELVE, "--stray", "0.0442"),
+            "Refused: not proven: with strays up to 0.0442 m benches 0 and 6 ",
+        ),
         (("turn", "--margin", "1.2"), "Refused: benches 0 and "),
         (
             ("collision-time", "--benches", "3", "--margin", "0.01"),

@@ -46,6 +46,7 @@ CALLS: dict[Callable[..., Any], dict[str, Any]] = {
     core.tolerance_curve: {"dragon": DRAGON, "pitches": [0.9], "turning_radius": 4.5, "start_turns": 6.0},
     core.trajectory: {"dance": DANCE, "times": [0.0]},
     core.Turn: {"pitch": 1.7, "turning_radius": 4.5, "ratio": 2.0, "start_turns": 16.0, "entry_radius": 4.0},
+    core.uncertain_tolerance: {"dragon": DRAGON, "pitch": 0.9, "length_error": 0.01, "pitch_error": 0.01},
     core.venue_clearance: {"dance": DANCE, "venue": SQUARE, "margin": 0.0, "stop": 9.0},
     core.verdicts: {"before": POSES, "after": POSES, "lengths": COLUMN, "widths": COLUMN, "margin": 0.0},
     core.Arc: {"centre": (0, 0), "radius": 3.0, "start_angle": 0.0, "sweep": 1.0},
@@ -76,6 +77,7 @@ SPOKEN = {
     core.overlaps: {"poses": "benches"},
     core.pitch_scan: {"start_turns": "path.start_turns"},
     core.tolerance_curve: {"start_turns": "path.start_turns"},
+    core.uncertain_tolerance: {"pitch": "path.pitch"},
     core.verdicts: {"before": "benches", "after": "benches"},
 }
 WRONG = {

@@ -49,12 +49,12 @@ MALFORMED = {
     "a claim of another kind": (
         at("claim", "kind", put="x"),
         "claim.kind",
-        'claim.kind must be collision-time, minimum-pitch, clear or contact, got "x"',
+        'claim.kind must be collision-time, minimum-pitch, clear, contact or tolerance, got "x"',
     ),
     "a claim without a kind": (
         lambda c: c["claim"].pop("kind"),
         "claim.kind",
-        "claim.kind must be collision-time, minimum-pitch, clear or contact, got null",
+        "claim.kind must be collision-time, minimum-pitch, clear, contact or tolerance, got null",
     ),
     "a claim that is none": (at("claim", put=[]), "claim", "claim must be an object, got a list of 0"),
     "a time in words": (at("claim", "time", put="51"), "claim.time", 'claim.time must be a number, got "51"'),

@@ -1,0 +1,130 @@
+"""A claim about strays: nothing touches within one, and with one a little larger a pose is shown in which two do."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, ClassVar
+
+import numpy as np
+from flint import acb, arb
+
+from core.dance import Dance
+from core.dragon import Dragon
+from core.errors import InvalidValue, said
+from core.paths.spiral import Spiral
+from core.proof.chain import Chain
+from core.proof.claims import checked_pair, settle
+from core.proof.pairs import Benches, Unproven, above, below
+from core.proof.sweeps import Progress
+from core.proof.words import apart_words, dragon_words
+from core.tolerance.exhibit import Exhibit
+from core.tolerance.stray import checked_stray
+
+# Added to the strays of a pose in doubles, to be shown in balls: above the rounding of places up to 1e4 m [m].
+SHOWN_ROUNDING = 1e-9
+
+
+@dataclass(frozen=True)
+class ToleranceClaim:
+    """While every hole is within the stray of its place and every chord keeps its length, nothing touches in
+    [start, stop] [s]; in a pose that the certificate shows, with strays below `shown`, one pair strictly overlaps.
+
+    stray, shown: [m]; shown is None if no pose is part of the claim
+    way, find_overlap(), check_overlap(), search_share, follows: as of CollisionTimeClaim
+    """
+
+    kind: ClassVar[str] = "tolerance"
+    search_share: ClassVar[float] = 0.0
+    follows: ClassVar[bool] = False
+    dragon: Dragon
+    pitch: float
+    start_turns: float
+    head_speed: float
+    start: float
+    stop: float
+    stray: float
+    shown: float | None = None
+
+    def __post_init__(self) -> None:
+        path = Spiral(self.pitch, self.start_turns)
+        dance = Dance(self.dragon, path, self.head_speed)
+        start, stop = dance.span(self.start, self.stop)
+        stray = checked_stray(self.stray, self.dragon)
+        if not stray > 0.0:
+            raise InvalidValue("stray", f"stray must be positive, got {said(stray)} m: prove clear without one")
+        settle(self, pitch=path.pitch, start_turns=path.start_turns, head_speed=dance.head_speed)
+        settle(self, start=start, stop=stop, stray=stray)
+
+    @cached_property
+    def chain(self) -> Chain:
+        return Chain(self.dragon, arb(self.pitch), self.start_turns, stray=self.stray)
+
+    @property
+    def way(self) -> tuple[float, float]:
+        return above(self._place(self.start)), below(self._place(self.stop))
+
+    def _place(self, time: float) -> arb:
+        return self.chain.place_after(time * arb(self.head_speed))
+
+    def find_overlap(self, progress: Progress) -> dict[str, Any]:
+        return {}
+
+    def check_overlap(self, overlap: dict[str, Any]) -> str:
+        span = f"from {said(self.start)} s to {said(self.stop)} s"
+        words = (
+            f"{dragon_words(self.dragon)}, its head at {said(self.head_speed)} m/s on the spiral of pitch "
+            f"{said(self.pitch)} m inwards from {said(self.start_turns)} turns: while every hole is within "
+            f"{said(self.stray)} m of its place and every chord keeps its length, {apart_words(0.0)} {span}"
+        )
+        if self.shown is None:
+            return f"{words}."
+        a, b = self._check_pose(overlap, self.shown)
+        shown = f"in a pose with strays below {said(self.shown)} m at {said(overlap['time'])} s"
+        return f"{words}, and benches {a} and {b} overlap {shown}."
+
+    def _check_pose(self, overlap: dict[str, Any], most: float) -> list[int]:
+        """Check that two benches that are not neighbours strictly overlap in a pose (17.), and return them.
+
+        raises: Unproven
+        """
+        chain, time, headings = self.chain, overlap["time"], overlap["headings"]
+        a, b = checked_pair(chain, *overlap["benches"])
+        if not (self.start <= time <= self.stop and len(headings) == chain.count):
+            raise Unproven("the pose is not one of this dragon in this time")
+        head = self._place(time)
+        nominal = chain.pose_at(0, head)
+        nominal.grow_to(chain.count)
+        turned = acb(0, head).exp()
+        handle, pair = acb(*overlap["head"]), Benches([chain.sizes[a], chain.sizes[b]])
+        for k, place in enumerate(nominal.points):
+            if not abs(handle - turned * place) < most:
+                raise Unproven(f"handle {k} of the pose is not shown to be within {said(most)} m of its place")
+            if k < chain.count:
+                sine, cosine = arb(headings[k]).sin_cos()
+                along = acb(cosine, sine)
+                rear = handle - chain.sizes[k].chord * along
+                if k in (a, b):
+                    pair.centres.append((handle + rear) / 2)
+                    pair.along.append(along)
+                handle = rear
+        if not pair.overlapping(1):
+            raise Unproven(f"benches {a} and {b} are not shown to overlap in the pose")
+        return [a, b]
+
+
+def recorded_pose(exhibit: Exhibit) -> tuple[dict[str, Any], float]:
+    """A pose by its headings, so that every chord is exact (17.), and its strays, rounded up [m].
+
+    raises: InvalidValue for a pose of a bench and an edge of a venue
+    """
+    if exhibit.benches[1] is None:
+        raise InvalidValue("exhibit", "exhibit must be a pose of two benches: a venue is not part of a proof")
+    links = exhibit.handles[:-1] - exhibit.handles[1:]
+    record = {
+        "benches": list(exhibit.benches),
+        "time": exhibit.time,
+        "head": exhibit.handles[0].tolist(),
+        "headings": np.arctan2(links[:, 1], links[:, 0]).tolist(),
+    }
+    return record, exhibit.stray + SHOWN_ROUNDING

@@ -1,0 +1,82 @@
+"""The ground of a bench in balls: it holds all places, as tightly as the search's, and its sides keep others off."""
+
+from __future__ import annotations
+
+import cmath
+import math
+
+import numpy as np
+import pytest
+import shapely
+from flint import acb, arb, ctx
+
+from core.proof.ground import AT_ONCE, ONE_BY_ONE, SIDES, WHOLE, Ground, Side, best_side
+from core.tolerance.reach import bench_hulls, directions
+from tests.core.tolerance.places import moved_points, random_strays
+
+# Rounding of places and supports in doubles [m].
+ROUNDING = 1e-11
+SHAPES = [(1.65, 0.275, 0.3, 0.05), (2.86, 0.275, 0.3, 0.26), (1.65, 0.275, 0.3, 0.82), (1.0, 0.0, 0.2, 0.3)]
+IDS = ["body", "head", "half a chord", "no overhang"]
+
+
+def ground_of(chord: float, overhang: float, width: float, stray: float) -> Ground:
+    half = arb(chord) / 2
+    with ctx.workprec(96):
+        return Ground(half, half + arb(overhang), arb(width) / 2, arb(stray))
+
+
+@pytest.mark.parametrize(("chord", "overhang", "width", "stray"), SHAPES, ids=IDS)
+def test_every_place_lies_in_one_of_the_parts_and_in_the_whole(
+    chord: float, overhang: float, width: float, stray: float
+) -> None:
+    ground = ground_of(chord, overhang, width, stray)
+    strays = random_strays(np.random.default_rng(2), chord, stray, 1000)
+    along = [*np.linspace(-0.5 * chord - overhang, 0.5 * chord + overhang, 9), -0.5 * chord, 0.5 * chord]
+    for point in [(x, y) for x in along for y in (-0.5 * width, 0.5 * width)]:
+        moved = moved_points(np.array([point]), strays, chord)[:, 0]
+        within = (moved @ directions().T <= ground.rough_supports[:, None] + ROUNDING).all(axis=-1)
+        assert within[:WHOLE].any(axis=0).all()
+        assert within[WHOLE].all()
+
+
+@pytest.mark.parametrize(("chord", "overhang", "width", "stray"), SHAPES, ids=IDS)
+def test_two_derivations_of_the_ground_agree(chord: float, overhang: float, width: float, stray: float) -> None:
+    ground = ground_of(chord, overhang, width, stray)
+    hulls = bench_hulls(chord, overhang, 0.5 * width, stray)
+    supports = (hulls * directions()).sum(axis=-1)
+    assert ground.rough_supports[:WHOLE] == pytest.approx(supports, rel=0.0, abs=ROUNDING)
+    assert ground.rough_corners[:WHOLE] == pytest.approx(hulls @ [1.0, 1.0j], rel=0.0, abs=ROUNDING)
+    assert max(float(value.rad()) for row in ground.supports for value in row) < 1e-24
+
+
+@pytest.mark.parametrize("spread", [0.001, 0.05, 0.4, 2.0])
+def test_corners_of_a_side_are_all_that_can_be_nearest_while_a_bench_turns(spread: float) -> None:
+    ground = ground_of(1.65, 0.275, 0.3, 0.05)
+    rng = np.random.default_rng(5)
+    for number, hulls in [(3, AT_ONCE[0]), (40, ONE_BY_ONE[1]), (70, ONE_BY_ONE[3]), (100, ONE_BY_ONE[8])]:
+        heading = rng.uniform(-math.pi, math.pi)
+        side = Side(number, hulls, ground, ground)
+        ends = [acb(cmath.rect(1.0, heading + off)) for off in (-spread, 0.0, spread)]
+        corners = [complex(corner) for corner in side.corners(ends[0].union(ends[1]).union(ends[2]))]
+        everyone = ground.rough_corners[hulls[0] if number >= SIDES else hulls[1]]
+        for turn in np.linspace(-spread, spread, 21):
+            axis = cmath.rect(1.0, heading + turn)
+            nearest = min((axis * corner).real for corner in corners)
+            assert nearest == pytest.approx((axis * everyone).real.min(), abs=ROUNDING)
+        assert len(corners) <= 3 + 2.5 * spread * SIDES / math.tau or spread > 1.0
+
+
+def test_a_side_is_found_exactly_where_two_polygons_are_apart() -> None:
+    first, second = ground_of(2.86, 0.275, 0.3, 0.05), ground_of(1.65, 0.275, 0.3, 0.05)
+    rng, apart = np.random.default_rng(6), 0
+    for x, y, heading in rng.uniform([-3.0, -1.2, -3.2], [3.0, 1.2, 3.2], (200, 3)).tolist():
+        to, axis = complex(x, y), cmath.rect(1.0, heading)
+        a, b = rng.integers(4, size=2).tolist()
+        placed = [first.rough_corners[a], to + axis * second.rough_corners[b]]
+        one, other = (shapely.Polygon(np.stack([z.real, z.imag], axis=-1)).convex_hull for z in placed)
+        gap = best_side(first, second, (a, b), [(to, axis)])[1]
+        assert (gap > 0.0) == (one.distance(other) > 0.0)
+        assert gap <= one.distance(other) + ROUNDING
+        apart += gap > 0.0
+    assert 20 < apart < 180

@@ -1,0 +1,79 @@
+"""A stray for sizes that are known only to within an error: safe for every draw of them, and not far too small."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from core import Dance, Dragon, InvalidValue, Spiral, tolerance, uncertain_tolerance
+from core.tolerance.curve import time_on_circle
+
+CIRCLE = 4.5  # radius of the turning circle [m]
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_no_benches_and_no_pitch_within_their_errors_allow_less(seed: int) -> None:
+    """Half of the draws have benches that are as long or as short as can be, and the narrowest spiral."""
+    rng = np.random.default_rng(seed)
+    dragon, pitch = Dragon(70, width=rng.uniform(0.2, 0.4), overhang=rng.uniform(0.1, 0.3)), rng.uniform(0.7, 1.0)
+    error, spread = rng.uniform(0.0, 0.2), rng.uniform(0.0, 0.05)
+    safe = uncertain_tolerance(dragon, pitch, length_error=error, pitch_error=spread, turning_radius=CIRCLE)
+    off = rng.uniform(-1.0, 1.0, 71)
+    if seed % 2:
+        off = np.append(rng.choice([-1.0, 1.0], 70), -1.0)
+    drawn = Dragon.of(dragon.lengths + error * off[:70], dragon.widths, dragon.overhangs)
+    dance = Dance(drawn, Spiral(pitch + spread * off[70], 9.0))
+    known = tolerance(dance, stop=time_on_circle(dance, CIRCLE)).stray
+    assert 0.0 < safe < known < 2.5 * safe
+
+
+@pytest.mark.parametrize(
+    ("pitch", "radius", "error", "spread"),
+    [(0.7, CIRCLE, 0.1, 0.0), (0.7, CIRCLE, 0.0, 0.03), (0.7, CIRCLE, 0.1, 0.03), (9.0, 50.0, 0.1, 0.0)],
+    ids=["lengths", "pitch", "both", "benches next but one"],
+)
+def test_errors_allow_no_more_than_the_dragons_and_spirals_at_their_ends(
+    pitch: float, radius: float, error: float, spread: float
+) -> None:
+    dragon = Dragon()
+    safe = uncertain_tolerance(dragon, pitch, length_error=error, pitch_error=spread, turning_radius=radius)
+    ends = [
+        uncertain_tolerance(
+            Dragon.of(dragon.lengths + off, dragon.widths, dragon.overhangs), pitch + more, turning_radius=radius
+        )
+        for off in (-error, error)
+        for more in (-spread, spread)
+    ]
+    assert 0.9 * min(ends) < safe <= min(ends) < uncertain_tolerance(dragon, pitch, turning_radius=radius)
+
+
+def test_where_nothing_is_proven_the_stray_is_none() -> None:
+    assert uncertain_tolerance(Dragon(), 0.6, pitch_error=0.2) == 0.0
+    assert uncertain_tolerance(Dragon(), 0.45) == 0.0
+
+
+def test_all_lengths_times_k_make_it_k_times_as_large() -> None:
+    small = uncertain_tolerance(Dragon(), 0.7, length_error=0.02, pitch_error=0.01)
+    large = uncertain_tolerance(
+        Dragon(223, 6.82, 4.40, 0.60, 0.55), 1.4, length_error=0.04, pitch_error=0.02, turning_radius=9.0
+    )
+    assert large == pytest.approx(2.0 * small, rel=1e-9)
+
+
+def test_no_stray_is_longer_than_half_a_chord() -> None:
+    dragon = Dragon(20, head_length=0.5, width=0.1, overhang=0.05)
+    assert uncertain_tolerance(dragon, 9.0, length_error=0.02, turning_radius=50.0) == pytest.approx(0.5 * (0.4 - 0.02))
+
+
+@pytest.mark.parametrize(
+    ("given", "message"),
+    [
+        ({"length_error": -0.01}, "length_error must be zero or more"),
+        ({"length_error": 0.83}, "length_error must be at most 0.825 m"),
+        ({"pitch_error": 0.4}, "pitch_error must be at most 0.35 m"),
+        ({"turning_radius": 0.0}, "turning_radius must be positive"),
+    ],
+)
+def test_errors_beyond_all_reason_are_refused(given: dict[str, float], message: str) -> None:
+    with pytest.raises(InvalidValue, match=message):
+        uncertain_tolerance(Dragon(), 0.7, **given)
