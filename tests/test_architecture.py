@@ -206,6 +206,7 @@ ORDER = (
     "app.service.examples",
     "app.service.logs",
     "app.service.lanes",
+    "app.service.answers",
     "app.service.watch",
     "app.service.reply",
     "app.service.middleware",
