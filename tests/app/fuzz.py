@@ -114,7 +114,7 @@ def ask_described(url: str, count: int) -> Tally:
         seconds = time.monotonic() - begun
         case.validate_response(answer, checks=CHECKED)
         asked = f"{case.method} {case.path} {case.query} {case.body}"
-        tally.add(answer.status_code, answer.headers, answer.text, seconds, asked)
+        tally.add(answer.status_code, answer.headers, answer.content.decode(errors="replace"), seconds, asked)
 
     for call, mode in asked:
         cases = CALLS[call].as_strategy(generation_mode=mode)

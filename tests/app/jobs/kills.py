@@ -75,7 +75,7 @@ def survive(folder: Path, kills: int, seed: int, pause: float = PAUSE, busy: int
     """
     chance, done = random.Random(seed), dict.fromkeys(ROLES, 0)
     asked: dict[str, Any] = {}
-    with Service(folder, workers=2, jobs_client_max=1000) as service:
+    with Service(folder, workers=2, jobs_client_max=1000, deadline_seconds=600) as service:
         while sum(done.values()) < kills:
             while sum(not job.is_finished for job in Store(folder).all()) < busy:
                 call = wanted(chance)
@@ -87,7 +87,9 @@ def survive(folder: Path, kills: int, seed: int, pause: float = PAUSE, busy: int
         for address, call in asked.items():
             status = service.status(address)
             assert status["status"] == "successful", status
-            assert service.client.get(f"{address}/result").content == direct(service.client, call).content, call
+            told = direct(service.client, call)
+            assert told.status_code == httpx.codes.OK, told.text
+            assert service.client.get(f"{address}/result").content == told.content, call
         kept = {file.name for file in (folder / "results").iterdir()}
         assert kept == {job.id for job in Store(folder).all()}
     print(f"{len(asked)} jobs, kills: {done}")
