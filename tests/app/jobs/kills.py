@@ -54,8 +54,9 @@ def post(service: Service, asked: Any) -> str:
 def kill_one(service: Service, chance: random.Random) -> str:
     """Kills one process and says what it was; the parent is started again."""
     role = chance.choice(ROLES)
-    if role == "child" and any(job.deaths for job in Store(service.folder).all() if not job.is_finished):
-        role = "runner"  # A job whose process dies three times has failed.
+    # A spare process may have become a job's by the time it is killed, and a job whose process dies three times has failed.
+    if role in ("child", "spare") and any(job.deaths for job in Store(service.folder).all() if not job.is_finished):
+        role = "runner"
     found = service.of(role)
     if not found:
         return ""
