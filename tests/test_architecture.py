@@ -136,6 +136,8 @@ ORDER = (
     "app.files.disk",
     "app.grade",
     "app.grade.words",
+    "app.grade.grid",
+    "app.grade.workbook",
     "app.grade.reading",
     "app.grade.layout",
     "app.grade.expected",

@@ -14,7 +14,8 @@ from enum import StrEnum
 import numpy as np
 from numpy.typing import NDArray
 
-from app.grade.reading import Cell, Grid, plain
+from app.files.workbooks import letters_of
+from app.grade.grid import Cell, Grid, plain
 from app.grade.words import Note, note
 from core.values import Floats
 
@@ -358,8 +359,4 @@ def cell_name(row: int, column: int) -> str:
     >>> cell_name(1, 27)
     'AB2'
     """
-    letters, left = "", column + 1
-    while left:
-        left, letter = divmod(left - 1, 26)
-        letters = chr(ord("A") + letter) + letters
-    return f"{letters}{row + 1}"
+    return f"{letters_of(column)}{row + 1}"

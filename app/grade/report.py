@@ -10,8 +10,9 @@ from pydantic import Field
 from app.files.tables import Language, handle_names
 from app.grade.diagnosis import diagnosed
 from app.grade.expected import cells_of
+from app.grade.grid import Unreadable
 from app.grade.layout import BENCHES, COMPONENTS, HANDLES, Kind, cell_name, tables_of
-from app.grade.reading import Unreadable, grids_of
+from app.grade.reading import grids_of
 from app.grade.rubric import Criterion, rubric_of
 from app.grade.shortcuts import UNITS, Finding, explained, is_right, right_answer
 from app.grade.verdict import Judgement, Rating, judged, lacking, workbook_of, worst_of

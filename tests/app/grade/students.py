@@ -12,11 +12,15 @@ import xlsxwriter
 from openpyxl import Workbook
 from scipy.optimize import brentq
 
+from app.files.workbooks import Sheet
+from app.files.workbooks import workbook as written
 from core import Dance, Dragon, Spiral, Turn, trajectory
 
 Floats = np.ndarray[Any, np.dtype[np.float64]]
 # Positions (T, 224, 2) [m] and speeds (T, 224) [m/s].
 Results = tuple[Floats, Floats]
+# Rows of sheets by their titles.
+Sheets = dict[str, list[list[Any]]]
 SPIRAL_TIMES, TURN_TIMES = np.arange(301.0), np.arange(-100.0, 101.0)
 B, START = 0.55 / (2.0 * math.pi), 32.0 * math.pi
 CONTACT = 412.47383768211466  # [s]
@@ -167,17 +171,15 @@ def sheets(results: Results) -> tuple[Floats, Floats]:
 
 
 def workbook(results: Results, times: Floats, decimals: int = 6) -> bytes:
-    """result1 or result4 as XlsxWriter writes it."""
-    sink = io.BytesIO()
-    with xlsxwriter.Workbook(sink, {"in_memory": True}) as book:
-        for title, kind, rows in zip(("位置", "速度"), ("position", "speed"), sheets(results), strict=True):
-            sheet = book.add_worksheet(title)
-            sheet.write_row(0, 1, [f"{t:g} s" for t in times])
-            for k, (label, row) in enumerate(zip(labels(kind), np.round(rows, decimals).tolist(), strict=True), 1):
-                sheet.write_string(k, 0, label)
-                for n, value in enumerate(row, 1):
-                    sheet.write_number(k, n, value)
-    return sink.getvalue()
+    """result1 or result4 with labels that are nearly the contest's."""
+    columns = [f"{t:g} s" for t in times]
+    return written(
+        [
+            Sheet(title, columns, labels(kind), rows)
+            for title, kind, rows in zip(("位置", "速度"), ("position", "speed"), sheets(results), strict=True)
+        ],
+        decimals,
+    )
 
 
 def contact_workbook(results: Results) -> bytes:
@@ -191,3 +193,26 @@ def contact_workbook(results: Results) -> bytes:
     sink = io.BytesIO()
     book.save(sink)
     return sink.getvalue()
+
+
+def rows_of(results: Results, times: Floats) -> Sheets:
+    found = {}
+    for title, kind, rows in zip(("位置", "速度"), ("position", "speed"), sheets(results), strict=True):
+        named = [[label, *row] for label, row in zip(labels(kind), rows.tolist(), strict=True)]
+        found[title] = [[None, *(f"{t:g} s" for t in times)], *named]
+    return found
+
+
+def by_xlsxwriter(sheets: Sheets) -> bytes:
+    sink = io.BytesIO()
+    with xlsxwriter.Workbook(sink, {"in_memory": True}) as book:
+        for title, rows in sheets.items():
+            sheet = book.add_worksheet(title)
+            for k, row in enumerate(rows):
+                sheet.write_row(k, 0, row)
+    return sink.getvalue()
+
+
+def few() -> Sheets:
+    """A result1 of a few instants."""
+    return rows_of(spiral(SPIRAL_TIMES[:4]), SPIRAL_TIMES[:4])
