@@ -210,6 +210,7 @@ ORDER = (
     "app.service.bodies",
     "app.service.protocol",
     "app.service.routes",
+    "app.service.graders",
     "app.service.grading",
     "app.jobs.wire",
     "app.jobs.metrics",

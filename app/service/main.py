@@ -10,7 +10,7 @@ import os
 import sqlite3
 import warnings
 from collections.abc import AsyncIterator
-from contextlib import asynccontextmanager
+from contextlib import asynccontextmanager, closing
 from pathlib import Path
 from typing import Any
 
@@ -29,6 +29,7 @@ from app.jobs.keeper import kept
 from app.jobs.metrics import JobMetrics
 from app.service import grading, problems, routes
 from app.service.examples import EXAMPLES
+from app.service.graders import Graders
 from app.service.lanes import Lanes
 from app.service.middleware import HeadAsGet, Metrics, Mistakes, RequestId, RequestLimits, SafetyHeaders
 from app.service.reply import VERSION, build, refuse_query
@@ -112,7 +113,7 @@ def _difference() -> str:
 async def _lifespan(app: FastAPI) -> AsyncIterator[None]:
     app.state.fault = fault()
     build()
-    with kept(app.state.settings) as app.state.jobs:
+    with kept(app.state.settings) as app.state.jobs, closing(Graders()) as app.state.graders:
         yield
 
 
