@@ -34,7 +34,7 @@ from app.service.lanes import Lanes
 from app.service.middleware import HeadAsGet, Metrics, Mistakes, RequestId, RequestLimits, SafetyHeaders
 from app.service.reply import VERSION, build, refuse_query
 from app.settings import SHARED_COUNTS, Settings
-from app.wire.models import Answer
+from app.wire.models import JSON, Answer
 from app.wire.problem import Problem
 from core import Dragon, Spiral, first_contact, trajectory
 from core.dance import Dance
@@ -166,8 +166,9 @@ def _openapi(app: FastAPI) -> dict[str, Any]:
         schema["components"]["schemas"] |= problem.pop("$defs") | {"Problem": problem}
         for name, example in EXAMPLES.items():  # FastAPI drops every null in an example.
             method, path = name.split()
-            call = schema["paths"][path][method.lower()]
-            call["responses"]["200"]["content"]["application/json"]["example"] = example.answer
+            forms = schema["paths"][path][method.lower()]["responses"]["200"]["content"]
+            if JSON in forms:
+                forms[JSON]["example"] = example.answer
         schema["components"]["securitySchemes"] = jobs.TOKEN_SCHEME
         _state_benches(schema, app.state.settings.benches_max)
     return app.openapi_schema or {}
