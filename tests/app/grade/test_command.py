@@ -67,6 +67,15 @@ def test_wrong_usage_is_one_line(arguments: tuple[str, ...], words: str) -> None
     assert done.stderr.count("\n") == 1
 
 
+@pytest.mark.parametrize("ending", ["xlsx", "csv"])
+def test_the_turn_that_the_command_writes_is_graded_right(tmp_path: Path, ending: str) -> None:
+    file = tmp_path / f"result4.{ending}"
+    done = run("trajectory", "--path", "turn", "--start", "-100", "--stop", "100", "--output", str(file))
+    assert (done.returncode, done.stderr) == (0, f"{file}: 224 handles at 201 instants\n")
+    [found] = json.loads(run("grade", str(file), "--json").stdout)["files"]
+    assert (found["workbook"], found["verdict"]) == ("result4", "right")
+
+
 # Number, as it is typed, and the shortcut that gives it; empty: none is known.
 TYPED = [
     ("collision_time", 412.47, 2, ""),
