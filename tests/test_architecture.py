@@ -145,6 +145,7 @@ ORDER = (
     "app.grade.chains",
     "app.grade.geometry",
     "app.grade.shortcuts",
+    "app.grade.rings",
     "app.grade.diagnosis",
     "app.grade.rubric",
     "app.grade.report",

@@ -236,9 +236,13 @@ WORDS = {
         "{sheet}: recomputed with this error, {share} % of the {count} wrong cells agree within {tolerance} {unit}; they are up to {worst} {unit} off the right ones.",
         "{sheet}：按此错误重新计算，{count} 个错误单元格中 {share} % 在 {tolerance} {unit} 内吻合；与正确值最多相差 {worst} {unit}。",
     ),
-    "evidence_ring": (
-        "At {time} s handle {handle} is {chord} m from the one before, as it should be, and {turns} turns further along the spiral instead of {right}; so are {count} links in all.",
-        "{time} s 时，{handle} 号把手与前一把手相距 {chord} m（正确），但沿螺线相差 {turns} 圈，应为 {right} 圈；共 {count} 处。",
+    "evidence_behind": (
+        "At {time} s handle {handle} is {chord} m from the one before, as it should be, but {way} m behind it along the path instead of {right} m; {count} links in all are wrong.",
+        "{time} s 时，{handle} 号把手与前一把手相距 {chord} m（正确），但沿曲线落后 {way} m，应为 {right} m；共 {count} 处有误。",
+    ),
+    "evidence_in_front": (
+        "At {time} s handle {handle} is {chord} m from the one before, as it should be, but {way} m in front of it along the path instead of {right} m behind; {count} links in all are wrong.",
+        "{time} s 时，{handle} 号把手与前一把手相距 {chord} m（正确），但沿曲线超前 {way} m，应落后 {right} m；共 {count} 处有误。",
     ),
     "gives_on_grid": (
         "Recomputed with this error the number is {gives} {unit}, and the next in steps of {grid} {unit} is {value} {unit}; {right} {unit} is right.",

@@ -95,24 +95,55 @@ def gradient() -> Results:
     return with_speeds((position, velocity), np.hypot(velocity[..., 0], velocity[..., 1]))
 
 
+def bisected(excess: Callable[[Floats], Floats], low: Floats, high: Floats) -> Floats:
+    """Where excess changes its sign between low and high, for each instant."""
+    sign = np.sign(excess(low))
+    for _ in range(60):
+        middle = 0.5 * (low + high)
+        same = np.sign(excess(middle)) == sign
+        low, high = np.where(same, middle, low), np.where(same, high, middle)
+    return high
+
+
 def wrong_ring(handle: int) -> Results:
     """One handle takes the next root of the chord equation; those behind it follow on that ring."""
     right = spiral()
     theta = np.hypot(right[0][..., 0], right[0][..., 1]) / B
-    chords = Dragon().chords
-    for t in range(301):
-        for k in range(handle, 224):
-            before, chord = theta[t, k - 1], chords[k - 1]
+    for k, chord in enumerate(Dragon().chords[handle - 1 :], start=handle):
+        before = theta[:, k - 1]
 
-            def excess(delta: float, before: float = before, chord: float = chord) -> float:
-                after = before + delta
-                gap = before**2 + after**2 - 2.0 * before * after * math.cos(delta)
-                return B * math.sqrt(max(gap, 0.0)) - chord
+        def excess(delta: Floats, before: Floats = before, chord: float = chord) -> Floats:
+            after = before + delta
+            return before**2 + after**2 - 2.0 * before * after * np.cos(delta) - (chord / B) ** 2
 
-            low, high = (math.pi, 2.0 * math.pi) if k == handle else (1e-6, 1.5)
-            theta[t, k] = before + brentq(excess, low, high, xtol=1e-13)
+        ends = (math.pi, 2.0 * math.pi) if k == handle else (1e-6, 1.5)
+        theta[:, k] = before + bisected(excess, *(np.full(before.shape, end) for end in ends))
     position = B * theta[..., None] * np.stack([np.cos(theta), np.sin(theta)], axis=-1)
     return position, right[1]
+
+
+def wrong_coil(handle: int) -> Results:
+    """While the handle before is outside the turn, one is put on the other coil; those behind follow from there."""
+    path, (position, speed) = Turn(1.7), turn()
+    growth, s = 1.7 / (2.0 * math.pi), TURN_TIMES
+    position = position.copy()
+    for k, chord in enumerate(Dragon().chords, start=1):
+        point = position[:, k - 1]
+
+        def excess(u: Floats, point: Floats = point, chord: float = chord) -> Floats:
+            return np.linalg.norm(path.position(u) - point, axis=-1) - chord
+
+        low, high = s - 1.6 * chord, s - 0.9 * chord
+        if k == handle:
+            # In the same direction from the centre the other coil is half a ring further out.
+            theta = np.linalg.norm(point, axis=-1) / growth + math.pi
+            first = 4.5 / growth
+            outside = [0.5 * growth * (t * np.hypot(1.0, t) + np.arcsinh(t)) for t in (theta, first)]
+            near = path.length + outside[0] - outside[1]
+            low, high = np.where(s < -3.0, near + 2.5, low), np.where(s < -3.0, near, high)
+        s = bisected(excess, low, high)
+        position[:, k] = path.position(s)
+    return position, speed
 
 
 def semicircles() -> Results:

@@ -113,6 +113,16 @@ def test_the_step_of_a_difference_quotient_is_told() -> None:
     assert one.words == "The speeds are forward difference quotients with a step of 0.1 s."
 
 
+def test_a_handle_on_the_wrong_coil_of_the_turn_is_told() -> None:
+    found = grade(fourth(students.wrong_coil(7)))
+    [one] = found.diagnosis
+    assert (found.workbook, one.error) == ("result4", "wrong_ring")
+    assert one.evidence.startswith(
+        "At -100 s handle 7 is 1.650000 m from the one before, as it should be, but 266.853 m in front"
+    )
+    assert {point.criterion: point.met for point in found.rubric}["branch"] is False
+
+
 def test_a_wrong_instant_is_traced_to_its_steps() -> None:
     found = known("contact: other_instant").diagnosis
     assert [one.error for one in found] == ["other_instant", "time_steps"]
