@@ -139,6 +139,7 @@ ORDER = (
     "app.grade.grid",
     "app.grade.workbook",
     "app.grade.reading",
+    "app.grade.labels",
     "app.grade.layout",
     "app.grade.expected",
     "app.grade.verdict",

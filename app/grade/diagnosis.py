@@ -16,7 +16,8 @@ import numpy as np
 from app.grade.chains import Motion
 from app.grade.expected import Workbook, contact_time, dance_of
 from app.grade.geometry import Model, geometries, of_dance, time_at
-from app.grade.layout import COMPONENTS, HANDLES, SPEED, Ints, Kind
+from app.grade.labels import SPEED
+from app.grade.layout import COMPONENTS, HANDLES, Ints, Kind
 from app.grade.rings import places, wrong_ring
 from app.grade.shortcuts import Finding, explained
 from app.grade.verdict import RIGHT, ROUNDED, Judgement

@@ -14,7 +14,8 @@ import numpy as np
 
 from app.grade.expected import dance_of
 from app.grade.geometry import arcs_of
-from app.grade.layout import HANDLES, X, Y
+from app.grade.labels import X, Y
+from app.grade.layout import HANDLES
 from app.grade.shortcuts import Finding
 from app.grade.verdict import RIGHT, Judgement
 from app.grade.words import note
