@@ -26,7 +26,7 @@ from app.jobs.work import NICENESS
 from app.sweeps.worker import receive, send
 from core import Budget
 
-# Processes that wait for a file, each with 60 to 90 MB; and how often a file is tried whose process is killed by others.
+# Processes that wait for a file, of 60 to 90 MB each; and how often a file is tried whose process others kill.
 WAITING, TRIES = 1, 2
 # Between two looks at a budget [s].
 LOOK_SECONDS = 0.05

@@ -11,6 +11,7 @@ import schemathesis
 from hypothesis import HealthCheck, assume, given, settings
 from schemathesis import GenerationMode
 from schemathesis.checks import CHECKS
+from schemathesis.core import NOT_SET
 
 from app.questions import QUESTIONS
 from app.service.examples import EXAMPLES, FILE
@@ -72,6 +73,10 @@ def test_every_call_conforms_to_its_description(server: str, call: str, mode: Ge
     )
     def conforms(case: Any) -> None:
         assume(not (mode.is_negative and is_a_spiral_that_does_not_say_so(case.body)))
+        if call == "POST /films":  # One that is 1080 pixels high takes 18 s of computing.
+            assume(case.body is not NOT_SET)
+            if isinstance(case.body, dict):
+                case.body.setdefault("height", 90)
         case.call_and_validate(base_url=server, checks=CHECKED, timeout=ANSWER_TIMEOUT)
 
     conforms()
