@@ -197,7 +197,7 @@ from matplotlib import font_manager
 font_manager.findSystemFonts = lambda *_, **__: []
 own = font_manager.fontManager
 own.ttflist = [font for font in own.ttflist if "matplotlib" in font.fname]
-sys.argv = ["bench-dragon", "contest", sys.argv[1], "--language", sys.argv[2], "--no-films"]
+sys.argv = ["bench-dragon", "contest", sys.argv[1], "--language", sys.argv[2], "--no-films", "--benches", "30"]
 from app.command.main import app
 app()
 """
