@@ -17,8 +17,9 @@ import pytest
 from app.settings import Settings
 
 ROOT = Path(__file__).parents[1]
-README, DOCS = ROOT / "README.md", ROOT / "docs"
-PAGES = {path.relative_to(ROOT).as_posix(): path.read_text(encoding="utf-8") for path in [README, *DOCS.glob("*.md")]}
+DOCS = ROOT / "docs"
+FILES = [ROOT / "README.md", ROOT / "README.zh.md", *sorted(DOCS.glob("*.md"))]
+PAGES = {path.relative_to(ROOT).as_posix(): path.read_text(encoding="utf-8") for path in FILES}
 README_LINES_MOST = 250
 PATIENCE = 300.0  # [s]: only against a command that would hang
 WIDTH = "120"  # of the terminal for which the outputs are shown [characters]
@@ -36,13 +37,13 @@ NUMBER = re.compile(r"-?\d+\.\d+(?:e-?\d+)?")
 
 
 def blocks(language: str) -> list[tuple[str, str]]:
-    """Every fenced block of a language, also in a list, with its page and line."""
+    """Every fenced block of a language, also in a list, with its page and line; the first of equal ones."""
     fences = re.compile(rf"^( *)```{language}\n(.*?)^\1```", re.DOTALL | re.MULTILINE)
-    return [
-        (f"{page}:{text.count(chr(10), 0, found.start()) + 2}", textwrap.dedent(found[2]))
-        for page, text in PAGES.items()
-        for found in fences.finditer(text)
-    ]
+    places: dict[str, str] = {}
+    for page, text in PAGES.items():
+        for found in fences.finditer(text):
+            places.setdefault(textwrap.dedent(found[2]), f"{page}:{text.count(chr(10), 0, found.start()) + 2}")
+    return [(place, block) for block, place in places.items()]
 
 
 SNIPPETS, SESSIONS = blocks("python"), blocks("console")
@@ -54,7 +55,8 @@ def test_readme_is_short() -> None:
     assert PAGES["README.md"].count("\n") < README_LINES_MOST
 
 
-def test_readme_leads_to_every_page() -> None:
+def test_each_readme_leads_to_the_other_and_the_english_one_to_every_page() -> None:
+    assert ("README.zh.md", "README.md") in LINKS
     linked = {link for page, link in LINKS if page == "README.md"}
     assert set(PAGES) - {"README.md"} <= linked
 

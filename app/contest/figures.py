@@ -54,6 +54,9 @@ def figures(solved: Solved, say: Say, progress: Callable[[float], None]) -> Iter
     for k, draw in enumerate(kinds):
         with matplotlib.rc_context({"font.family": family, "svg.hashsalt": "bench-dragon"}):
             figure, caption = draw(solved, say)
+            # The layout takes as long as a file, and is the same for all three.
+            figure.draw_without_rendering()
+            figure.set_layout_engine("none")
             files = {kind: _bytes(figure, kind) for kind in FORMATS}
         progress((k + 1) / len(kinds))
         yield Drawn(draw.__name__, caption, files)
@@ -260,7 +263,8 @@ def amplification(solved: Solved, say: Say) -> tuple[Figure, str]:
     names = handle_names(solved.dragon.benches, say.language)
     for k, colour in zip((1, 2, 3, 8, 20), COLOURS[1:], strict=False):
         if k <= solved.dragon.benches:
-            axes.plot(travel, rates[:, k], color=colour, linewidth=1.0, label=names[k])
+            # The nearer to the head, the further in front: handles behind move as that one did, only later.
+            axes.plot(travel, rates[:, k], color=colour, linewidth=1.0, label=names[k], zorder=2.0 + 1.0 / k)
     axes.plot(
         travel,
         rates.max(axis=1),
@@ -285,20 +289,23 @@ def amplification(solved: Solved, say: Say) -> tuple[Figure, str]:
 
 def sensitivity(solved: Solved, say: Say) -> tuple[Figure, str]:
     """How the answers change with the numbers of the problem."""
-    figure = canvas(10.0, 7.4)
-    for axes, panel in zip(figure.subplots(2, 2).flat, panels(solved, say), strict=True):
+    shown = panels(solved, say)
+    figure = canvas(4.5 * (len(shown) // 2), 7.0)
+    for axes, panel in zip(figure.subplots(2, len(shown) // 2).flat, shown, strict=True):
         _draw_panel(axes, panel)
     caption = say(
-        "Sensitivity: minimum pitch against width, turning diameter and length of the bodies; maximum head speed "
-        "against the ratio of the arcs. The dots are the values of the problem.",
-        "灵敏度：最小螺距随板宽、调头圆直径和龙身板长的变化；龙头最大速度随圆弧半径之比的变化。圆点为题目给定值。",
+        "Sensitivity: minimum pitch against width, turning diameter and length of the bodies; first contact against "
+        "width and length; maximum head speed against the ratio of the arcs. The dots are the values of the problem.",
+        "灵敏度：最小螺距随板宽、调头圆直径和龙身板长的变化；首次碰撞时刻随板宽和龙身板长的变化；"
+        "龙头最大速度随圆弧半径之比的变化。圆点为题目给定值。",
     )
     return figure, caption
 
 
 def _draw_panel(axes: Axes, panel: Panel) -> None:
     x, y = np.array(panel.points, dtype=np.float64).T if panel.points else np.empty((2, 0))
-    axes.plot(x, y, color=BLUE, linewidth=1.4, marker=".", markersize=4)
+    axes.plot(x, y, color=BLUE, linewidth=1.2, marker=".", markersize=4)
+    axes.ticklabel_format(useOffset=False)
     axes.plot(*panel.own, "o", color=VERMILION, markersize=7)
     axes.set(xlabel=panel.varied, ylabel=panel.answer)
     axes.grid(color=PALE, linewidth=0.6)

@@ -14,9 +14,11 @@ from app.contest.words import Say
 from core import BenchDragonError, Dance, Turn
 
 # Values on each curve.
-VALUES = 13
+VALUES = 25
 # Ranges of the width [m], of the turning diameter [m], of the length of a body [m] and of the ratio of the arcs [1].
 WIDTHS, DIAMETERS, LENGTHS, RATIOS = (0.26, 0.38), (7.0, 11.0), (1.8, 2.6), (0.5, 2.1)
+
+Answer = Callable[[ContestRequest], float | None]
 
 
 @dataclass(frozen=True)
@@ -33,41 +35,51 @@ class Panel:
 
 
 def panels(solved: Solved, say: Say) -> list[Panel]:
-    """Minimum pitch against width, turning diameter and length of a body; head speed against the ratio of the arcs."""
-    asked, pitch = solved.asked, solved.pitch.pitch
-    shown = say("minimum pitch [m]", "最小螺距 [m]")
-    limits = (
-        ("width", WIDTHS, say("width of the benches [m]", "板宽 [m]")),
-        ("turning_diameter", DIAMETERS, say("turning diameter [m]", "调头圆直径 [m]")),
-        ("body_length", LENGTHS, say("length of a body bench [m]", "龙身板长 [m]")),
-    )
-    found = [
-        Panel(words, shown, _curve(asked, name, limit, _pitch), (getattr(asked, name), pitch))
-        for name, limit, words in limits
+    """How the answers to questions 2, 3 and 5 change, an even number of panels.
+
+    Minimum pitch against width, turning diameter and length of a body; first contact, if there is any, against width
+    and length; head speed against the ratio of the arcs.
+    """
+    asked, met = solved.asked, solved.contact.time
+    pitch, contact = say("minimum pitch [m]", "最小螺距 [m]"), say("first contact [s]", "首次碰撞时刻 [s]")
+    speed = say("maximum head speed [m/s]", "龙头最大速度 [m/s]")
+    width, length = say("width of the benches [m]", "板宽 [m]"), say("length of a body bench [m]", "龙身板长 [m]")
+    diameter, ratio = say("turning diameter [m]", "调头圆直径 [m]"), say("ratio of the arcs", "圆弧半径之比")
+    wanted: list[tuple[str, str, str, tuple[float, float], Answer, float | None]] = [
+        (width, pitch, "width", WIDTHS, _pitch, solved.pitch.pitch),
+        (diameter, pitch, "turning_diameter", DIAMETERS, _pitch, solved.pitch.pitch),
+        (length, pitch, "body_length", LENGTHS, _pitch, solved.pitch.pitch),
+        (width, contact, "width", WIDTHS, _contact, met),
+        (length, contact, "body_length", LENGTHS, _contact, met),
+        (ratio, speed, "ratio", RATIOS, _speed, solved.fastest.head_speed),
     ]
-    ratio, speed = say("ratio of the arcs", "圆弧半径之比"), say("maximum head speed [m/s]", "龙头最大速度 [m/s]")
     return [
-        *found,
-        Panel(ratio, speed, _curve(asked, "ratio", RATIOS, _speed), (asked.ratio, solved.fastest.head_speed)),
+        Panel(words, shown, _curve(asked, name, limits, answer), (getattr(asked, name), own))
+        for words, shown, name, limits, answer, own in wanted
+        if own is not None
     ]
 
 
-def _curve(
-    asked: ContestRequest, name: str, limits: tuple[float, float], answer: Callable[[ContestRequest], float]
-) -> list[tuple[float, float]]:
+def _curve(asked: ContestRequest, name: str, limits: tuple[float, float], answer: Answer) -> list[tuple[float, float]]:
     found = []
     for value in np.linspace(*limits, VALUES).tolist():
         other: dict[str, Any] = {name: value}
         try:
-            found.append((value, answer(asked.model_copy(update=other))))
+            given = answer(asked.model_copy(update=other))
         except BenchDragonError:
             continue  # these benches fit on no such spiral or turn
+        if given is not None:
+            found.append((value, given))
     return found
 
 
 def _pitch(asked: ContestRequest) -> float:
     dragon = asked.to_dragon(asked.benches)
     return core.minimum_pitch(dragon, turning_radius=asked.turning_diameter / 2, start_turns=asked.start_turns).pitch
+
+
+def _contact(asked: ContestRequest) -> float | None:
+    return core.first_contact(Dance(asked.to_dragon(asked.benches), asked.to_path(), asked.head_speed)).time
 
 
 def _speed(asked: ContestRequest) -> float:

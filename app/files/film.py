@@ -12,6 +12,8 @@ from collections import deque
 from collections.abc import Callable, Iterator
 from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import contextmanager
+from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any
 
 import matplotlib
@@ -20,7 +22,7 @@ from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.patches import PathPatch
-from matplotlib.path import Path
+from matplotlib.path import Path as Outline
 from numpy.typing import NDArray
 
 from app.files.drawing import draw_venue
@@ -44,6 +46,7 @@ WAITING = 4
 # H.264: quality (crf, smaller is better), effort and threads, whose number changes the bytes. Slower presets halve the
 # file and take twice the time (measured 2026-11-22).
 OPTIONS, THREADS = {"crf": "24", "preset": "superfast", "x264-params": "bframes=0:subme=0"}, 2
+FAST_START = {"movflags": "faststart"}
 # A GIF shows every frame for whole hundredths of a second.
 GIF_TICK = 100
 WORDS = {Language.ENGLISH: "{time:.2f} s", Language.CHINESE: "时间 {time:.2f} 秒"}
@@ -127,8 +130,8 @@ class Stage:
         scale_bar(self.axes, middle - np.array([shape * tall, tall]), tall)
 
     def _benches(self, count: int, face: str, edge: str) -> PathPatch:
-        codes = np.tile([Path.MOVETO, Path.LINETO, Path.LINETO, Path.LINETO, Path.CLOSEPOLY], count)
-        path = Path(np.zeros((5 * count, 2)), codes.astype(Path.code_type))
+        codes = np.tile([Outline.MOVETO, Outline.LINETO, Outline.LINETO, Outline.LINETO, Outline.CLOSEPOLY], count)
+        path = Outline(np.zeros((5 * count, 2)), codes.astype(Outline.code_type))
         patch = PathPatch(path, facecolor=face, edgecolor=edge, linewidth=0.8, animated=True, zorder=3)
         self.axes.add_patch(patch)
         return patch
@@ -164,20 +167,27 @@ Take = Callable[[NDArray[np.uint8]], None]
 
 @contextmanager
 def encoded_mp4(sink: io.BytesIO, shooting: Shooting) -> Iterator[Take]:
-    """Context that writes frames as H.264 in a second thread; yields the function that takes one."""
+    """Context that writes frames as H.264 in a second thread; yields the function that takes one.
+
+    A player can begin before it has the whole film: its table (moov) stands first. libav puts it there in a file only.
+    """
     import av
     from av.video.reformatter import ColorRange, Colorspace
 
     waiting: deque[Future[None]] = deque()
     # The encoder is left first: a file that closes while a frame is written to it would end the process.
-    with av.open(sink, "w", format="mp4") as file, ThreadPoolExecutor(1) as encoder:
+    with (
+        TemporaryDirectory() as folder,
+        av.open(path := f"{folder}/film.mp4", "w", options=FAST_START) as file,
+        ThreadPoolExecutor(1) as encoder,
+    ):
         stream = file.add_stream("libx264", rate=round(shooting.rate), options=OPTIONS)
         stream.width, stream.height, stream.pix_fmt = shooting.width, shooting.height, "yuv420p"
         stream.codec_context.thread_count = THREADS
         stream.codec_context.colorspace, stream.codec_context.color_range = Colorspace.ITU709, ColorRange.MPEG
 
         def encode(picture: NDArray[np.uint8]) -> None:
-            frame = av.VideoFrame.from_ndarray(picture, format="rgba")
+            frame = av.VideoFrame.from_numpy_buffer(picture, format="rgba")
             file.mux(stream.encode(frame.reformat(format="yuv420p", dst_colorspace=Colorspace.ITU709)))
 
         def take(picture: NDArray[np.uint8]) -> None:
@@ -190,6 +200,8 @@ def encoded_mp4(sink: io.BytesIO, shooting: Shooting) -> Iterator[Take]:
             while waiting:
                 waiting.popleft().result()
             file.mux(stream.encode(None))
+            file.close()
+            sink.write(Path(path).read_bytes())
         finally:
             for one in waiting:
                 one.cancel()

@@ -16,11 +16,13 @@ import numpy as np
 from app.grade.chains import Motion
 from app.grade.expected import Workbook, contact_time, dance_of
 from app.grade.geometry import Model, geometries, of_dance, time_at
-from app.grade.layout import COMPONENTS, HANDLES, SPEED, Ints, Kind, X, Y
+from app.grade.labels import SPEED
+from app.grade.layout import COMPONENTS, HANDLES, Ints, Kind
+from app.grade.rings import places, wrong_ring
 from app.grade.shortcuts import Finding, explained
 from app.grade.verdict import RIGHT, ROUNDED, Judgement
 from app.grade.words import note
-from core import Budget, Spiral
+from core import Budget
 from core.values import Floats
 
 # A model must give so large a share of the wrong cells, and of all cells [1].
@@ -33,10 +35,6 @@ ARITHMETIC = 2e-6
 DECIMALS_LEAST = 2
 # Steps of difference quotients that are tried [s].
 STEPS = (1.0, 0.5, 0.2, 0.1, 0.05, 0.02, 0.01, 0.001)
-# Links to wrong handles that must be whole: the seams of what was only moved about are not [1].
-RING_SHARE = 0.995
-# A handle is on the spiral, and a chord has its length, within this [m].
-ON_SPIRAL = 1e-4
 
 
 @dataclass(frozen=True)
@@ -123,7 +121,7 @@ def _over_time(position: Judgement | None, speed: Judgement | None, budget: Budg
         base = found[0] if found else None
         if found:
             findings.append(_finding(*found, position))
-        elif ring := _wrong_ring(position):
+        elif ring := wrong_ring(position):
             findings.append(ring)
     if speed is None or not speed.is_off:
         return findings
@@ -189,58 +187,8 @@ def _of_contact(one: Judgement, budget: Budget) -> list[Finding]:
 
 def _instants(head: Floats) -> Iterator[float]:
     """Times at which the head is at the place where it was put [s], also on the mirrored spiral."""
+    dance = dance_of(Workbook.RESULT2)
     for point in (head[0], head[0] * [1.0, -1.0]):
-        if not np.isfinite(point).all():
-            continue
-        dance = dance_of(Workbook.RESULT2)
-        path = dance.path
-        assert isinstance(path, Spiral)
-        theta = float(np.hypot(*point)) / path.growth
-        place = path.growth * theta * np.array([np.cos(theta), np.sin(theta)])
-        if np.linalg.norm(place - point) < ON_SPIRAL:
-            arc = 0.5 * path.growth * (theta * np.hypot(1.0, theta) + np.arcsinh(theta))
-            yield time_at(dance, path.length - float(arc), point)
-
-
-def _wrong_ring(one: Judgement) -> Finding | None:
-    """A handle that is a chord away from the one before, on the curve, but on another ring.
-
-    Argument: a point of the spiral has the polar angle radius / growth. If every handle of the sheet is on the spiral
-    and every chord has its length, and still a handle's angle is less than that of the one before, or larger by more
-    than half a turn, then another root of the chord equation was taken there.
-    """
-    dance = dance_of(one.workbook)
-    path = dance.path
-    order = np.argsort(one.handles)
-    if not isinstance(path, Spiral) or not np.array_equal(one.handles[order], np.arange(HANDLES)):
-        return None
-    points = one.values[:, order]
-    radius = np.linalg.norm(points, axis=-1)
-    theta = radius / path.growth
-    place = radius[..., None] * np.stack([np.cos(theta), np.sin(theta)], axis=-1)
-    on_curve = np.linalg.norm(place - points, axis=-1) < ON_SPIRAL
-    chords = np.linalg.norm(np.diff(points, axis=1), axis=-1)
-    kept = (np.abs(chords - dance.dragon.chords) < ON_SPIRAL) & on_curve[:, 1:] & on_curve[:, :-1]
-    wrong = np.any(one.off[:, order] > RIGHT, axis=-1)[:, 1:]
-    if not wrong.any() or kept[wrong].mean() < RING_SHARE:
-        return None
-    step = np.diff(theta, axis=1)
-    other = np.argwhere((step < 0.0) | (step > np.pi))
-    if not other.size:
-        return None
-    t, k = min((tuple(map(int, at)) for at in other), key=lambda at: (at[1], at[0]))
-    values = {
-        "handle": k + 1,
-        "time": f"{one.times[t]:g}",
-        "chord": f"{chords[t, k]:.6f}",
-        "turns": f"{step[t, k] / (2 * np.pi):+.3f}",
-        "right": f"{_right_step(one, order, t, k, path):+.3f}",
-        "count": len(other),
-    }
-    return Finding("wrong_ring", note("error_wrong_ring"), note("evidence_ring", **values))
-
-
-def _right_step(one: Judgement, order: np.ndarray, t: int, k: int, path: Spiral) -> float:
-    """Turns from one handle to the next where they belong."""
-    wanted = np.linalg.norm(one.wanted[t, order[k : k + 2]][:, [X, Y]], axis=-1) / path.growth
-    return float(np.diff(wanted)[0] / (2.0 * np.pi))
+        s = float(places(dance.path, point))
+        if np.isfinite(s):
+            yield time_at(dance, s / dance.head_speed, point)

@@ -79,7 +79,7 @@ def _other_dragons(dance: Dance) -> Iterator[Model]:
             yield Model(error, of_dance(Dance(dragon, dance.path)))
         except BenchDragonError:  # The arcs are too tight for such a chord to be followed without a jump.
             assert isinstance(dance.path, Turn)
-            yield Model(error, on_bent(dragon, Bent(dance.path, tuple(_arcs_of(dance.path)))))
+            yield Model(error, on_bent(dragon, Bent(dance.path, tuple(arcs_of(dance.path)))))
 
 
 def _other_angles(dance: Dance, path: Spiral) -> Iterator[Model]:
@@ -139,7 +139,7 @@ def _rounded_spirals(dance: Dance, path: Spiral) -> Iterator[Model]:
 def _other_turns(dance: Dance, path: Turn) -> Iterator[Model]:
     """Turns of another shape."""
     for ratio in (1.0 / path.ratio, 1.0):
-        error = "ratio_inverted" if ratio < 1.0 else "equal_arcs_of_turn"
+        error = "ratio_inverted" if ratio < 1.0 else "equalarcs_of_turn"
         yield Model(error, of_dance(Dance(dance.dragon, Turn(PITCH, ratio=ratio))))
     entry, leaving = complex(*path.entry), complex(*path.exit)
     # Semicircles on the line from the entry to the exit: tangent to the turning circle instead of the spiral.
@@ -153,12 +153,12 @@ def _other_turns(dance: Dance, path: Turn) -> Iterator[Model]:
     yield Model("arcs_not_tangent", on_bent(dance.dragon, Bent(path, arcs)))
     mirrored = tuple(
         (along * (centre / along).conjugate(), radius, 2.0 * cmath.phase(along) - start, -angle)
-        for centre, radius, start, angle in _arcs_of(path)
+        for centre, radius, start, angle in arcs_of(path)
     )
     yield Model("wrong_centre", on_bent(dance.dragon, Bent(path, mirrored)))
 
 
-def _arcs_of(path: Turn) -> list[tuple[complex, float, float, float]]:
+def arcs_of(path: Turn) -> list[tuple[complex, float, float, float]]:
     """Centre, radius, angle of the beginning and angle turned of the right arcs."""
     points = (complex(*path.entry), complex(*path.tangent_point))
     found = []

@@ -7,14 +7,15 @@ does.
 
 from __future__ import annotations
 
-import re
 from dataclasses import dataclass, field, replace
 from enum import StrEnum
 
 import numpy as np
 from numpy.typing import NDArray
 
-from app.grade.reading import Cell, Grid, plain
+from app.files.workbooks import letters_of
+from app.grade.grid import Cell, Grid, plain
+from app.grade.labels import HANDLE_WORD, SPEED, SPEED_WORD, TIME_WORD, Label, X, Y, instant_of, label_of
 from app.grade.words import Note, note
 from core.values import Floats
 
@@ -27,18 +28,6 @@ HANDLES = BENCHES + 1
 MARGIN = 8
 # Fewer labels than this are taken for chance.
 LABELS_LEAST = 3
-UNITS = {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "米": 1.0, "厘米": 1e-2, "毫米": 1e-3}
-TIME = re.compile(r"(?:t\s*=?\s*)?([-+]?\d+(?:\.\d+)?)\s*(s|sec|seconds?|秒)?", re.IGNORECASE)
-UNIT = re.compile(r"[(\[]\s*([a-zμ米厘毫]+)\s*(/\s*(?:s|秒))?\s*[)\]]?$", re.IGNORECASE)
-HEAD, REAR = re.compile(r"龙头|head", re.IGNORECASE), re.compile(r"[(（]\s*后|后把手|rear", re.IGNORECASE)
-TAIL, BODY = (
-    re.compile(r"龙尾|tail", re.IGNORECASE),
-    re.compile(r"第?\s*(\d+)\s*节|body\D*(\d+)|龙身\D*(\d+)", re.IGNORECASE),
-)
-SPEED_WORD = re.compile(r"速度|速率|speed|velocity|^v$", re.IGNORECASE)
-TIME_WORD, HANDLE_WORD = re.compile(r"时间|time|^t$", re.IGNORECASE), re.compile(r"把手|handle", re.IGNORECASE)
-# Components of a number, in the order of the last axis of a table.
-X, Y, SPEED = 0, 1, 2
 
 
 class Kind(StrEnum):
@@ -78,47 +67,6 @@ class Table:
         return int(self.row[at]), int(self.column[at])
 
 
-@dataclass(frozen=True)
-class _Label:
-    """handle: None where the label names none; -1: the tail, -2: its rear; component: None where it names none."""
-
-    handle: int | None
-    component: int | None
-    unit: float
-
-
-def _label(cell: Cell) -> _Label | None:
-    """What a text says of a line of numbers; None where it says nothing."""
-    if not isinstance(cell, str):
-        return None
-    text = plain(cell)
-    unit, component = 1.0, None
-    if found := UNIT.search(text):
-        unit = UNITS.get(found[1].lower(), 1.0)
-        component = SPEED if found[2] else None
-        text = text[: found.start()].rstrip() if found[2] or found[1].lower() in UNITS else text
-    if component is None and (axis := re.search(r"([xy])\s*(?:坐标|轴)?$", text, re.IGNORECASE)):
-        component = "xy".index(axis[1].lower())
-    elif component is None and SPEED_WORD.search(text):
-        component = SPEED
-    handle = None
-    if HEAD.search(text):
-        handle = 0
-    elif TAIL.search(text):
-        handle = -2 if REAR.search(text) else -1
-    elif body := BODY.search(text):
-        handle = int(next(filter(None, body.groups())))
-    return None if handle is None and component is None else _Label(handle, component, unit)
-
-
-def _instant(cell: Cell) -> float | None:
-    """The time that a cell names [s]: text with or without a unit, or a number."""
-    if isinstance(cell, float):
-        return cell
-    found = TIME.fullmatch(plain(cell)) if isinstance(cell, str) else None
-    return float(found[1]) if found else None
-
-
 def tables_of(grid: Grid) -> list[Table]:
     """The tables of a sheet; none where it holds no numbers that this program knows."""
     cells = _trimmed(grid)
@@ -144,7 +92,7 @@ def _long(grid: Grid, cells: list[list[Cell]]) -> list[Table]:
     names = [plain(cell).lower() if isinstance(cell, str) else "" for cell in cells[0]]
     columns = {}
     for k, name in enumerate(names):
-        label = _label(cells[0][k])
+        label = label_of(cells[0][k])
         if TIME_WORD.search(name):
             columns["time"] = k
         elif HANDLE_WORD.search(name):
@@ -183,7 +131,7 @@ def _long(grid: Grid, cells: list[list[Cell]]) -> list[Table]:
 
 def _wide(grid: Grid, cells: list[list[Cell]], *, turned: bool) -> Table | None:
     """The table of a sheet with a line for each handle. turned: the cells are the sheet's, columns for rows"""
-    labels = [[_label(row[k]) for row in cells] for k in range(min(MARGIN, len(cells[0])))]
+    labels = [[label_of(row[k]) for row in cells] for k in range(min(MARGIN, len(cells[0])))]
     counts = [sum(label is not None and label.handle is not None for label in column) for column in labels]
     aside = int(np.argmax(counts))
     if counts[aside] < LABELS_LEAST:
@@ -197,20 +145,20 @@ def _wide(grid: Grid, cells: list[list[Cell]], *, turned: bool) -> Table | None:
     return _over_time(grid, cells, lines, _times(heads, cells, aside), turned)
 
 
-def _head_labels(heads: list[list[Cell]], aside: int) -> dict[int, _Label]:
+def _head_labels(heads: list[list[Cell]], aside: int) -> dict[int, Label]:
     """Columns whose head names x, y or a speed and no handle."""
     found = {}
     for row in heads:
         for k, cell in enumerate(row):
-            label = _label(cell)
+            label = label_of(cell)
             if k != aside and label and label.component is not None and label.handle is None:
                 found[k] = label
     return found
 
 
-def _lines(labels: list[_Label | None]) -> list[tuple[int, _Label]]:
+def _lines(labels: list[Label | None]) -> list[tuple[int, Label]]:
     """The lines that a label names; one without a label below one without an axis is its y, as in merged cells."""
-    found: list[tuple[int, _Label]] = []
+    found: list[tuple[int, Label]] = []
     for k, label in enumerate(labels):
         if label is not None and label.handle is not None:
             found.append((k, label))
@@ -224,7 +172,7 @@ def _times(heads: list[list[Cell]], cells: list[list[Cell]], aside: int) -> dict
     """Columns and the instants that they are for; by their order where no head tells."""
     best: dict[int, float] = {}
     for row in heads:
-        told = {k: t for k, cell in enumerate(row) if k > aside and (t := _instant(cell)) is not None}
+        told = {k: t for k, cell in enumerate(row) if k > aside and (t := instant_of(cell)) is not None}
         best = told if len(told) > len(best) else best
     if best and np.all(np.diff(list(best.values())) > 0):
         return best
@@ -233,7 +181,7 @@ def _times(heads: list[list[Cell]], cells: list[list[Cell]], aside: int) -> dict
     return {k: start + n for n, k in enumerate(columns)}
 
 
-def _numbered(lines: list[tuple[int, _Label]]) -> tuple[dict[int, int], dict[int, int]]:
+def _numbered(lines: list[tuple[int, Label]]) -> tuple[dict[int, int], dict[int, int]]:
     """Handle of every line, by its label and by its order. The tail follows the last body bench that is named."""
     last = max([BENCHES - 2, *(label.handle for _, label in lines if label.handle is not None)])
     by_label: dict[int, int] = {}
@@ -247,7 +195,7 @@ def _numbered(lines: list[tuple[int, _Label]]) -> tuple[dict[int, int], dict[int
 
 
 def _over_time(
-    grid: Grid, cells: list[list[Cell]], lines: list[tuple[int, _Label]], times: dict[int, float], turned: bool
+    grid: Grid, cells: list[list[Cell]], lines: list[tuple[int, Label]], times: dict[int, float], turned: bool
 ) -> Table | None:
     """Positions or speeds of handles at instants."""
     components = {label.component for _, label in lines}
@@ -265,7 +213,7 @@ def _over_time(
 
 
 def _contact(
-    grid: Grid, cells: list[list[Cell]], lines: list[tuple[int, _Label]], heads: dict[int, _Label], turned: bool
+    grid: Grid, cells: list[list[Cell]], lines: list[tuple[int, Label]], heads: dict[int, Label], turned: bool
 ) -> Table:
     """x, y and speed of handles at one instant."""
     by_label, by_order = _numbered(lines)
@@ -288,7 +236,7 @@ def _filled(
     grid: Grid,
     cells: list[list[Cell]],
     kind: Kind,
-    lines: list[tuple[int, _Label]],
+    lines: list[tuple[int, Label]],
     times: dict[int, float],
     turned: bool,
 ) -> Table | None:
@@ -344,10 +292,10 @@ def _bare(grid: Grid, cells: list[list[Cell]]) -> Table | None:
     rows = range(first, len(cells))
     twice = len(rows) == 2 * HANDLES
     kind = Kind.POSITION if twice else Kind.SPEED
-    lines = [(k, _Label(n // 2 if twice else n, n % 2 if twice else SPEED, 1.0)) for n, k in enumerate(rows)]
+    lines = [(k, Label(n // 2 if twice else n, n % 2 if twice else SPEED, 1.0)) for n, k in enumerate(rows)]
     aside = next(k for k, cell in enumerate(cells[first]) if isinstance(cell, float)) - 1
     if not twice and len(cells[first]) - aside - 1 == len(COMPONENTS[Kind.CONTACT]):
-        heads = {aside + 1 + c: _Label(None, c, 1.0) for c in COMPONENTS[Kind.CONTACT]}
+        heads = {aside + 1 + c: Label(None, c, 1.0) for c in COMPONENTS[Kind.CONTACT]}
         return _contact(grid, cells, lines, heads, False)
     return _filled(grid, cells, kind, lines, _times(cells[:first], cells, aside), False)
 
@@ -358,8 +306,4 @@ def cell_name(row: int, column: int) -> str:
     >>> cell_name(1, 27)
     'AB2'
     """
-    letters, left = "", column + 1
-    while left:
-        left, letter = divmod(left - 1, 26)
-        letters = chr(ord("A") + letter) + letters
-    return f"{letters}{row + 1}"
+    return f"{letters_of(column)}{row + 1}"

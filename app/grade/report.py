@@ -10,14 +10,15 @@ from pydantic import Field
 from app.files.tables import Language, handle_names
 from app.grade.diagnosis import diagnosed
 from app.grade.expected import cells_of
+from app.grade.grid import Unreadable
 from app.grade.layout import BENCHES, COMPONENTS, HANDLES, Kind, cell_name, tables_of
-from app.grade.reading import Unreadable, grids_of
+from app.grade.reading import grids_of
 from app.grade.rubric import Criterion, rubric_of
 from app.grade.shortcuts import UNITS, Finding, explained, is_right, right_answer
 from app.grade.verdict import Judgement, Rating, judged, lacking, workbook_of, worst_of
 from app.grade.words import note, say
 from app.wire.models import Answer
-from core import Budget, InvalidValue
+from core import Budget, InvalidValue, TooMuchWork
 from core.budget import Halted
 
 # Words for a sheet by what it holds.
@@ -114,9 +115,12 @@ def graded(name: str, data: bytes, language: Language, budget: Budget) -> FileAn
             notes=[error.said.said(language)],
         )  # fmt: skip
     except Halted as error:
-        raise budget.too_much(
-            "name", "must name a smaller file: it was not graded {then}", len(data), "bytes"
-        ) from error
+        raise too_long(data, budget) from error
+
+
+def too_long(data: bytes, budget: Budget) -> TooMuchWork:
+    """The error of a file that was not graded before its budget was stopped."""
+    return budget.too_much("name", "must name a smaller file: it was not graded {then}", len(data), "bytes")
 
 
 def _graded(name: str, data: bytes, language: Language, budget: Budget) -> FileAnswer:

@@ -16,7 +16,7 @@ import numpy as np
 from app.grade.chains import Motion
 from app.grade.expected import PITCH, Workbook, contact_time, dance_of
 from app.grade.geometry import geometries, of_dance
-from app.grade.layout import SPEED
+from app.grade.labels import SPEED
 from app.grade.words import Note, note
 from core import (
     BenchDragonError,

@@ -35,14 +35,8 @@ WORDS = {
         "文件为 {size} MB，最多读取 {most} MB：竞赛工作簿约 2 MB。",
     ),
     "empty": ("The file is empty.", "文件为空。"),
-    "encrypted": (
-        "The workbook is encrypted: save it without a password.",
-        "工作簿已加密：请取消密码后另存。",
-    ),
-    "old_format": (
-        "The workbook has the old format .xls: save it as .xlsx.",
-        "工作簿为旧格式 .xls：请另存为 .xlsx。",
-    ),
+    "encrypted": ("The workbook is encrypted: save it without a password.", "工作簿已加密：请取消密码后另存。"),
+    "old_format": ("The workbook has the old format .xls: save it as .xlsx.", "工作簿为旧格式 .xls：请另存为 .xlsx。"),
     "truncated": (
         "The workbook is damaged: its archive ends early or does not unpack. Save or upload it again.",
         "工作簿已损坏：压缩包不完整或无法解压。请重新保存或上传。",
@@ -236,9 +230,13 @@ WORDS = {
         "{sheet}: recomputed with this error, {share} % of the {count} wrong cells agree within {tolerance} {unit}; they are up to {worst} {unit} off the right ones.",
         "{sheet}：按此错误重新计算，{count} 个错误单元格中 {share} % 在 {tolerance} {unit} 内吻合；与正确值最多相差 {worst} {unit}。",
     ),
-    "evidence_ring": (
-        "At {time} s handle {handle} is {chord} m from the one before, as it should be, and {turns} turns further along the spiral instead of {right}; so are {count} links in all.",
-        "{time} s 时，{handle} 号把手与前一把手相距 {chord} m（正确），但沿螺线相差 {turns} 圈，应为 {right} 圈；共 {count} 处。",
+    "evidence_behind": (
+        "At {time} s handle {handle} is {chord} m from the one before, as it should be, but {way} m behind it along the path instead of {right} m; {count} links in all are wrong.",
+        "{time} s 时，{handle} 号把手与前一把手相距 {chord} m（正确），但沿曲线落后 {way} m，应为 {right} m；共 {count} 处有误。",
+    ),
+    "evidence_in_front": (
+        "At {time} s handle {handle} is {chord} m from the one before, as it should be, but {way} m in front of it along the path instead of {right} m behind; {count} links in all are wrong.",
+        "{time} s 时，{handle} 号把手与前一把手相距 {chord} m（正确），但沿曲线超前 {way} m，应落后 {right} m；共 {count} 处有误。",
     ),
     "gives_on_grid": (
         "Recomputed with this error the number is {gives} {unit}, and the next in steps of {grid} {unit} is {value} {unit}; {right} {unit} is right.",
@@ -257,38 +255,20 @@ WORDS = {
         "A handle is on the wrong branch: it must be the first root behind the one before.",
         "有把手取错分支：应为前一把手之后的第一个根。",
     ),
-    "rubric_branch_unknown": (
-        "The branch of the next handle: not shown.",
-        "下一把手的分支：未能判断。",
-    ),
-    "rubric_speeds_yes": (
-        "The speeds belong to the positions.",
-        "速度与位置相符。",
-    ),
-    "rubric_speeds_no": (
-        "The speeds do not belong to the positions.",
-        "速度与位置不符。",
-    ),
+    "rubric_branch_unknown": ("The branch of the next handle: not shown.", "下一把手的分支：未能判断。"),
+    "rubric_speeds_yes": ("The speeds belong to the positions.", "速度与位置相符。"),
+    "rubric_speeds_no": ("The speeds do not belong to the positions.", "速度与位置不符。"),
     "rubric_speeds_unknown": (
         "Speeds consistent with the positions: not shown, that takes both sheets.",
         "速度与位置是否相符：需要两张工作表。",
     ),
-    "rubric_overhang_yes": (
-        "Benches are rectangles with their overhang.",
-        "板凳按含伸出部分的矩形处理。",
-    ),
-    "rubric_overhang_no": (
-        "Benches lack their overhang.",
-        "板凳缺少伸出部分。",
-    ),
+    "rubric_overhang_yes": ("Benches are rectangles with their overhang.", "板凳按含伸出部分的矩形处理。"),
+    "rubric_overhang_no": ("Benches lack their overhang.", "板凳缺少伸出部分。"),
     "rubric_overhang_unknown": (
         "Rectangles with overhang: not shown here.",
         "是否按含伸出部分的矩形处理：此处未体现。",
     ),
-    "rubric_refined_yes": (
-        "First contact was refined.",
-        "首次碰撞时刻经过细化求解。",
-    ),
+    "rubric_refined_yes": ("First contact was refined.", "首次碰撞时刻经过细化求解。"),
     "rubric_refined_no": (
         "First contact was only stepped over: refine it, by bisection for example.",
         "首次碰撞只按固定步长搜索：应细化，例如用二分法。",
@@ -297,18 +277,12 @@ WORDS = {
         "First contact refined instead of stepped: not shown here.",
         "首次碰撞是否细化：此处未体现。",
     ),
-    "rubric_tangents_yes": (
-        "The path is smooth where the arcs begin and end.",
-        "圆弧与螺线相切，路径光滑。",
-    ),
+    "rubric_tangents_yes": ("The path is smooth where the arcs begin and end.", "圆弧与螺线相切，路径光滑。"),
     "rubric_tangents_no": (
         "The path has kinks where the arcs begin or end: the arcs must be tangent to the spirals and to each other.",
         "路径在圆弧端点处有折角：圆弧应与螺线相切，且两弧相切。",
     ),
-    "rubric_tangents_unknown": (
-        "Continuity at the tangents: not shown here.",
-        "切点处的连续性：此处未体现。",
-    ),
+    "rubric_tangents_unknown": ("Continuity at the tangents: not shown here.", "切点处的连续性：此处未体现。"),
     "rubric_speeds_share": (
         "{share} % of the speeds agree with the way from one instant to the next.",
         "{share} % 的速度与相邻时刻的位移相符。",

@@ -16,7 +16,7 @@ FILE = Path(__file__).with_suffix(".json")
 
 @dataclass(frozen=True, slots=True)
 class Example:
-    """Query parameters and body of a call, and its answer."""
+    """Query parameters and body of a call, and its answer; null where that is a file."""
 
     answer: Any
     query: dict[str, float] = field(default_factory=dict)

@@ -1,4 +1,4 @@
-"""POST /grade: a workbook or CSV as the body, graded in memory; nothing of it is kept or logged.
+"""POST /grade: a workbook or CSV as the body, graded in the memory of a process; nothing of it is kept or logged.
 
 The file is the whole body, not a part of a form: its length is limited before it is read, and any HTTP client sends it
 with one option. Further numbers stand in the query.
@@ -12,10 +12,12 @@ from fastapi import APIRouter, Depends, Query, Request, Response
 from pydantic import Field
 
 from app.files.tables import CSV_TYPE, XLSX_TYPE, Language
-from app.grade.report import GradeAnswer, graded, typed
+from app.grade.report import GradeAnswer, typed
 from app.grade.shortcuts import UNITS
+from app.service.graders import Graders
 from app.service.lanes import Lanes
 from app.service.problems import Refused
+from app.service.reply import client_of
 from app.service.routes import PROBLEM, PROBLEMS
 from app.service.watch import WatchedRoute
 from app.settings import Settings
@@ -25,8 +27,8 @@ from app.wire.problem import ErrorItem
 FILE_TYPE = "application/octet-stream"
 TYPES = (FILE_TYPE, XLSX_TYPE, CSV_TYPE)
 # How long a file takes, as far as a full lane may say [s].
-COST = 3.0
-STATUSES = (413, 414, 415, 422, 500, 503)
+COST = 1.0
+STATUSES = (413, 414, 415, 422, 429, 500, 503)
 # A number as it was typed: its digits tell how far it is rounded.
 TYPED = r"^[0-9]{1,6}(\.[0-9]{1,15})?$"
 
@@ -86,8 +88,9 @@ def grade(
         detail = "Send a workbook or CSV as the body, or a number such as pitch in the query."
         raise Refused(422, detail, [ErrorItem(name="name", detail=detail)])
     lanes: Lanes = request.app.state.lanes
-    with lanes.of(COST, JSON).taken(COST):
+    graders: Graders = request.app.state.graders
+    with lanes.of(COST, JSON).taken(COST, client_of(request)):
         answers = [typed(name, text, wanted.language) for name, text in given.items()]
-        files = [graded(wanted.name, data, wanted.language, request.state.budget)] if data else []
+        files = [graders.graded(wanted.name, data, wanted.language, request.state.budget)] if data else []
     answer = GradeAnswer(files=files, answers=answers)
     return Response(answer.to_json(), headers={"Cache-Control": "no-store"}, media_type=JSON)

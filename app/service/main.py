@@ -11,7 +11,7 @@ import sqlite3
 import sys
 import warnings
 from collections.abc import AsyncIterator
-from contextlib import asynccontextmanager
+from contextlib import asynccontextmanager, closing
 from pathlib import Path
 from typing import Any
 
@@ -31,12 +31,13 @@ from app.jobs.metrics import JobMetrics
 from app.service import grading, problems, routes
 from app.service.answers import KeptAnswers
 from app.service.examples import EXAMPLES
+from app.service.graders import Graders
 from app.service.lanes import Lanes
 from app.service.middleware import HeadAsGet, Metrics, Mistakes, RequestId, RequestLimits, SafetyHeaders
 from app.service.reply import VERSION, build, refuse_query
 from app.service.watch import Glances
 from app.settings import SHARED_COUNTS, Settings
-from app.wire.models import Answer
+from app.wire.models import JSON, Answer
 from app.wire.problem import Problem
 from core import Dragon, Spiral, first_contact, trajectory
 from core.dance import Dance
@@ -115,7 +116,7 @@ def _difference() -> str:
 async def _lifespan(app: FastAPI) -> AsyncIterator[None]:
     app.state.fault = fault()
     build()
-    with kept(app.state.settings) as app.state.jobs:
+    with kept(app.state.settings) as app.state.jobs, closing(Graders()) as app.state.graders:
         yield
 
 
@@ -176,8 +177,9 @@ def _openapi(app: FastAPI) -> dict[str, Any]:
         schema["components"]["schemas"] |= problem.pop("$defs") | {"Problem": problem}
         for name, example in EXAMPLES.items():  # FastAPI drops every null in an example.
             method, path = name.split()
-            call = schema["paths"][path][method.lower()]
-            call["responses"]["200"]["content"]["application/json"]["example"] = example.answer
+            forms = schema["paths"][path][method.lower()]["responses"]["200"]["content"]
+            if JSON in forms:
+                forms[JSON]["example"] = example.answer
         schema["components"]["securitySchemes"] = jobs.TOKEN_SCHEME
         _state_benches(schema, app.state.settings.benches_max)
     return app.openapi_schema or {}

@@ -24,7 +24,6 @@ from app.files.tables import XLSX_TYPE
 
 Attack = Callable[[str, float], None]  # base URL and how long to go on [s]
 ATTACKS: dict[str, Attack] = {}
-JSON = {"Content-Type": "application/json"}
 # An error is short [bytes].
 ERROR_BYTES = 20_000
 
@@ -35,12 +34,20 @@ def attack(found: Attack) -> Attack:
 
 
 def ask(
-    url: str, method: str, path: str, body: bytes | None = None, timeout: float = 30.0, accept: str = "*/*"
+    url: str,
+    method: str,
+    path: str,
+    body: bytes | None = None,
+    timeout: float = 30.0,
+    accept: str = "*/*",
+    kind: str = "application/json",
 ) -> tuple[int, bytes]:
     """Status and body of one answer."""
     connection = http.client.HTTPConnection(urlsplit(url).netloc, timeout=timeout)
     try:
-        connection.request(method, path, body, {"Accept": accept} | (JSON if body is not None else {}))
+        connection.request(
+            method, path, body, {"Accept": accept} | ({"Content-Type": kind} if body is not None else {})
+        )
         response = connection.getresponse()
         return response.status, response.read()
     finally:
@@ -168,6 +175,14 @@ def large_csv(url: str, seconds: float) -> None:
 def workbooks(url: str, seconds: float) -> None:
     """A second of pure Python each."""
     at_once([lambda: ask(url, "POST", "/trajectory", b"{}", timeout=60.0, accept=XLSX_TYPE)] * 8)
+
+
+@attack
+def files_to_grade(url: str, seconds: float) -> None:
+    """Texts of 20 MB, each read by Python code for a second."""
+    text = b"word " * 3_999_000
+    kind = "application/octet-stream"
+    at_once([lambda: ask(url, "POST", "/grade", text, timeout=60.0, kind=kind)] * 4)
 
 
 @attack

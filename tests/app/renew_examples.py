@@ -11,6 +11,7 @@ import httpx
 from app.service.examples import FILE
 from app.service.main import create_app
 from app.settings import Settings
+from app.wire.models import JSON
 
 # Values that fit into a line of so many characters stay on one.
 WIDTH = 120
@@ -27,7 +28,7 @@ async def renewed(examples: dict[str, Any]) -> dict[str, Any]:
 async def answer(client: httpx.AsyncClient, call: str, asked: dict[str, Any]) -> Any:
     method, path = call.split()
     response = await client.request(method, path, params=asked.get("query"), json=asked.get("body"))
-    return response.raise_for_status().json()
+    return response.raise_for_status().json() if response.headers["content-type"] == JSON else None
 
 
 def text(value: Any, used: int = 0, depth: int = 0) -> str:

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import csv
 import json
 import re
 from pathlib import Path
 from typing import Any
 
 import httpx
+import openpyxl
 import pytest
 
 from tests.app.command import run
@@ -167,6 +169,21 @@ def test_the_dance_is_drawn_in_its_venue(dance: Path) -> None:
     done = run("check", str(dance), "--figure", str(figure), "--time", "59", "--json")
     assert (done.returncode, done.stderr) == (0, f"{figure}\n")
     assert " square -->" in figure.read_text()
+
+
+def test_the_dance_that_is_judged_is_written_as_a_table(dance: Path) -> None:
+    tables = {ending: dance.with_name(f"dance.{ending}") for ending in ("json", "csv", "xlsx")}
+    for table in tables.values():
+        done = run("check", str(dance), "--output", str(table))
+        assert (done.returncode, done.stderr) == (0, f"{table}\n")
+    plain = dance.with_name("plain.json")
+    plain.write_text(json.dumps({name: BODY[name] for name in ("dragon", "path")}))
+    told = json.loads(answer_of("trajectory", str(plain), "--start", "15", "--stop", "60", "--json"))
+    assert json.loads(tables["json"].read_text()) == told
+    rows = list(csv.DictReader(tables["csv"].read_text().splitlines()))
+    assert [float(row["x"]) for row in rows] == [x for line in told["x"] for x in line]
+    sheet = openpyxl.load_workbook(tables["xlsx"]).worksheets[0]
+    assert (sheet.max_row - 1, sheet.max_column - 1) == (2 * 5, len(told["time"]))
 
 
 # The last digit of a distance in a report [m].

@@ -57,6 +57,7 @@ def plain(*arguments: str, folder: Path = ROOT) -> subprocess.CompletedProcess[s
         "shortest-turn --benches 20",
         "maximum-head-speed --benches 20",
         "overlaps --time 412.48",
+        "grade --pitch 0.4503",
     ],
 )
 def test_every_question_is_answered_without_an_extra(line: str) -> None:

@@ -11,11 +11,13 @@ import schemathesis
 from hypothesis import HealthCheck, assume, given, settings
 from schemathesis import GenerationMode
 from schemathesis.checks import CHECKS
+from schemathesis.core import NOT_SET
 
 from app.questions import QUESTIONS
 from app.service.examples import EXAMPLES, FILE
 from app.service.main import create_app
 from app.settings import Settings
+from app.wire.models import JSON
 from tests.app.conftest import ANSWER_TIMEOUT
 from tests.app.renew_examples import text
 
@@ -71,6 +73,10 @@ def test_every_call_conforms_to_its_description(server: str, call: str, mode: Ge
     )
     def conforms(case: Any) -> None:
         assume(not (mode.is_negative and is_a_spiral_that_does_not_say_so(case.body)))
+        if call == "POST /films":  # One that is 1080 pixels high takes 18 s of computing.
+            assume(case.body is not NOT_SET)
+            if isinstance(case.body, dict):
+                case.body.setdefault("height", 90)
         case.call_and_validate(base_url=server, checks=CHECKED, timeout=ANSWER_TIMEOUT)
 
     conforms()
@@ -149,9 +155,13 @@ def test_the_most_benches_stated_are_the_most_taken() -> None:
 def test_the_example_of_every_call_is_true(client: httpx.Client, document: Any, call: str) -> None:
     example = EXAMPLES[call]
     method, path = call.split()
-    got = client.request(method, path, params=example.query, json=example.body).raise_for_status().json()
-    told = document["paths"][path][method.lower()]["responses"]["200"]["content"]["application/json"]["example"]
-    assert same(got, told), got
+    got = client.request(method, path, params=example.query, json=example.body).raise_for_status()
+    forms = document["paths"][path][method.lower()]["responses"]["200"]["content"]
+    if got.headers["content-type"] == JSON:
+        assert same(got.json(), forms[JSON]["example"]), got.text
+    else:
+        assert got.headers["content-type"] in forms
+        assert example.answer is None
 
 
 def test_the_examples_stand_as_make_examples_writes_them() -> None:

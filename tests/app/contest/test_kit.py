@@ -14,6 +14,11 @@ import openpyxl
 import pytest
 from PIL import Image
 
+from app.contest.sensitivity import panels
+from app.contest.solved import ContestRequest, solve
+from app.contest.words import Say
+from app.files.tables import Language
+from app.questions.question import Terms
 from tests.app.command import COMMAND, run
 
 REFERENCE = Path(__file__).parents[2] / "reference"
@@ -192,7 +197,7 @@ from matplotlib import font_manager
 font_manager.findSystemFonts = lambda *_, **__: []
 own = font_manager.fontManager
 own.ttflist = [font for font in own.ttflist if "matplotlib" in font.fname]
-sys.argv = ["bench-dragon", "contest", sys.argv[1], "--language", sys.argv[2], "--no-films"]
+sys.argv = ["bench-dragon", "contest", sys.argv[1], "--language", sys.argv[2], "--no-films", "--benches", "30"]
 from app.command.main import app
 app()
 """
@@ -209,3 +214,14 @@ def test_without_a_chinese_font_all_but_pictures_is_written(tmp_path: Path, lang
     assert (tmp_path / "report.md").is_file()
     assert ("fonts-wqy-microhei" in done.stderr) is (code == 1)
     assert bool(list((tmp_path / "figures").iterdir())) is (code == 0)
+
+
+@pytest.mark.parametrize(("pitch", "count"), [(0.55, 6), (0.8, 4)])
+def test_sensitivity_shows_first_contact_where_there_is_one(pitch: float, count: int) -> None:
+    asked = ContestRequest(benches=40, pitch=pitch, stop=10.0, span=10.0)
+    shown = panels(solve(asked, Terms(), lambda share: None), Say(Language.ENGLISH))
+    assert len(shown) == count
+    for panel in shown:
+        given, found = zip(*panel.points, strict=True)
+        assert min(given) < panel.own[0] < max(given), panel.varied
+        assert min(found) < panel.own[1] < max(found), panel.answer

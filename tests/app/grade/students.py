@@ -12,11 +12,15 @@ import xlsxwriter
 from openpyxl import Workbook
 from scipy.optimize import brentq
 
+from app.files.workbooks import Sheet
+from app.files.workbooks import workbook as written
 from core import Dance, Dragon, Spiral, Turn, trajectory
 
 Floats = np.ndarray[Any, np.dtype[np.float64]]
 # Positions (T, 224, 2) [m] and speeds (T, 224) [m/s].
 Results = tuple[Floats, Floats]
+# Rows of sheets by their titles.
+Sheets = dict[str, list[list[Any]]]
 SPIRAL_TIMES, TURN_TIMES = np.arange(301.0), np.arange(-100.0, 101.0)
 B, START = 0.55 / (2.0 * math.pi), 32.0 * math.pi
 CONTACT = 412.47383768211466  # [s]
@@ -91,24 +95,55 @@ def gradient() -> Results:
     return with_speeds((position, velocity), np.hypot(velocity[..., 0], velocity[..., 1]))
 
 
+def bisected(excess: Callable[[Floats], Floats], low: Floats, high: Floats) -> Floats:
+    """Where excess changes its sign between low and high, for each instant."""
+    sign = np.sign(excess(low))
+    for _ in range(60):
+        middle = 0.5 * (low + high)
+        same = np.sign(excess(middle)) == sign
+        low, high = np.where(same, middle, low), np.where(same, high, middle)
+    return high
+
+
 def wrong_ring(handle: int) -> Results:
     """One handle takes the next root of the chord equation; those behind it follow on that ring."""
     right = spiral()
     theta = np.hypot(right[0][..., 0], right[0][..., 1]) / B
-    chords = Dragon().chords
-    for t in range(301):
-        for k in range(handle, 224):
-            before, chord = theta[t, k - 1], chords[k - 1]
+    for k, chord in enumerate(Dragon().chords[handle - 1 :], start=handle):
+        before = theta[:, k - 1]
 
-            def excess(delta: float, before: float = before, chord: float = chord) -> float:
-                after = before + delta
-                gap = before**2 + after**2 - 2.0 * before * after * math.cos(delta)
-                return B * math.sqrt(max(gap, 0.0)) - chord
+        def excess(delta: Floats, before: Floats = before, chord: float = chord) -> Floats:
+            after = before + delta
+            return before**2 + after**2 - 2.0 * before * after * np.cos(delta) - (chord / B) ** 2
 
-            low, high = (math.pi, 2.0 * math.pi) if k == handle else (1e-6, 1.5)
-            theta[t, k] = before + brentq(excess, low, high, xtol=1e-13)
+        ends = (math.pi, 2.0 * math.pi) if k == handle else (1e-6, 1.5)
+        theta[:, k] = before + bisected(excess, *(np.full(before.shape, end) for end in ends))
     position = B * theta[..., None] * np.stack([np.cos(theta), np.sin(theta)], axis=-1)
     return position, right[1]
+
+
+def wrong_coil(handle: int) -> Results:
+    """While the handle before is outside the turn, one is put on the other coil; those behind follow from there."""
+    path, (position, speed) = Turn(1.7), turn()
+    growth, s = 1.7 / (2.0 * math.pi), TURN_TIMES
+    position = position.copy()
+    for k, chord in enumerate(Dragon().chords, start=1):
+        point = position[:, k - 1]
+
+        def excess(u: Floats, point: Floats = point, chord: float = chord) -> Floats:
+            return np.linalg.norm(path.position(u) - point, axis=-1) - chord
+
+        low, high = s - 1.6 * chord, s - 0.9 * chord
+        if k == handle:
+            # In the same direction from the centre the other coil is half a ring further out.
+            theta = np.linalg.norm(point, axis=-1) / growth + math.pi
+            first = 4.5 / growth
+            outside = [0.5 * growth * (t * np.hypot(1.0, t) + np.arcsinh(t)) for t in (theta, first)]
+            near = path.length + outside[0] - outside[1]
+            low, high = np.where(s < -3.0, near + 2.5, low), np.where(s < -3.0, near, high)
+        s = bisected(excess, low, high)
+        position[:, k] = path.position(s)
+    return position, speed
 
 
 def semicircles() -> Results:
@@ -167,17 +202,15 @@ def sheets(results: Results) -> tuple[Floats, Floats]:
 
 
 def workbook(results: Results, times: Floats, decimals: int = 6) -> bytes:
-    """result1 or result4 as XlsxWriter writes it."""
-    sink = io.BytesIO()
-    with xlsxwriter.Workbook(sink, {"in_memory": True}) as book:
-        for title, kind, rows in zip(("位置", "速度"), ("position", "speed"), sheets(results), strict=True):
-            sheet = book.add_worksheet(title)
-            sheet.write_row(0, 1, [f"{t:g} s" for t in times])
-            for k, (label, row) in enumerate(zip(labels(kind), np.round(rows, decimals).tolist(), strict=True), 1):
-                sheet.write_string(k, 0, label)
-                for n, value in enumerate(row, 1):
-                    sheet.write_number(k, n, value)
-    return sink.getvalue()
+    """result1 or result4 with labels that are nearly the contest's."""
+    columns = [f"{t:g} s" for t in times]
+    return written(
+        [
+            Sheet(title, columns, labels(kind), rows)
+            for title, kind, rows in zip(("位置", "速度"), ("position", "speed"), sheets(results), strict=True)
+        ],
+        decimals,
+    )
 
 
 def contact_workbook(results: Results) -> bytes:
@@ -191,3 +224,26 @@ def contact_workbook(results: Results) -> bytes:
     sink = io.BytesIO()
     book.save(sink)
     return sink.getvalue()
+
+
+def rows_of(results: Results, times: Floats) -> Sheets:
+    found = {}
+    for title, kind, rows in zip(("位置", "速度"), ("position", "speed"), sheets(results), strict=True):
+        named = [[label, *row] for label, row in zip(labels(kind), rows.tolist(), strict=True)]
+        found[title] = [[None, *(f"{t:g} s" for t in times)], *named]
+    return found
+
+
+def by_xlsxwriter(sheets: Sheets) -> bytes:
+    sink = io.BytesIO()
+    with xlsxwriter.Workbook(sink, {"in_memory": True}) as book:
+        for title, rows in sheets.items():
+            sheet = book.add_worksheet(title)
+            for k, row in enumerate(rows):
+                sheet.write_row(k, 0, row)
+    return sink.getvalue()
+
+
+def few() -> Sheets:
+    """A result1 of a few instants."""
+    return rows_of(spiral(SPIRAL_TIMES[:4]), SPIRAL_TIMES[:4])

@@ -35,20 +35,20 @@ def test_a_folder_is_graded_by_path_with_exit_code_0(class_of_three: Path, tmp_p
     assert [Path(file["file"]).parent.name for file in files] == ["li", "wang", "zhao"]
     assert [file["verdict"] for file in files] == ["wrong", "right", "unreadable"]
     assert [one["error"] for one in files[0]["diagnosis"]] == ["other_instant", "time_steps"]
+    assert "looked for in steps of 0.02 s" in files[0]["diagnosis"][1]["words"]
     with summary.open(encoding="utf-8-sig", newline="") as lines:
         assert [row["verdict"] for row in csv.DictReader(lines)] == ["wrong", "right", "unreadable"]
 
 
 def test_files_stand_in_the_order_given(class_of_three: Path) -> None:
-    given = [str(class_of_three / name / "result2.xlsx") for name in ("zhao", "li")]
+    given = [str(class_of_three / name / "result2.xlsx") for name in ("zhao", "wang")]
     files = json.loads(run("grade", *given, "--json").stdout)["files"]
     assert [file["file"] for file in files] == given
 
 
 def test_the_words_are_in_the_language_chosen(class_of_three: Path) -> None:
-    file = str(class_of_three / "li" / "result2.xlsx")
-    assert "以 0.02 s 为步长搜索" in run("grade", file, "--language", "zh").stdout
-    assert "looked for in steps of 0.02 s" in run("grade", file).stdout
+    done = run("grade", str(class_of_three / "li" / "result2.xlsx"), "--language", "zh")
+    assert "以 0.02 s 为步长搜索" in done.stdout
 
 
 @pytest.mark.parametrize(
@@ -65,6 +65,15 @@ def test_wrong_usage_is_one_line(arguments: tuple[str, ...], words: str) -> None
     assert (done.returncode, done.stdout) == (2, "")
     assert words in done.stderr
     assert done.stderr.count("\n") == 1
+
+
+@pytest.mark.parametrize("ending", ["xlsx", "csv"])
+def test_the_turn_that_the_command_writes_is_graded_right(tmp_path: Path, ending: str) -> None:
+    file = tmp_path / f"result4.{ending}"
+    done = run("trajectory", "--path", "turn", "--start", "-100", "--stop", "100", "--output", str(file))
+    assert (done.returncode, done.stderr) == (0, f"{file}: 224 handles at 201 instants\n")
+    [found] = json.loads(run("grade", str(file), "--json").stdout)["files"]
+    assert (found["workbook"], found["verdict"]) == ("result4", "right")
 
 
 # Number, as it is typed, and the shortcut that gives it; empty: none is known.

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import cache
+
 import numpy as np
 import pytest
 
@@ -82,9 +84,18 @@ def grade(data: bytes) -> FileAnswer:
     return graded("upload.xlsx", data, Language.ENGLISH, Budget())
 
 
+@cache
+def known(name: str) -> FileAnswer:
+    return grade(KNOWN[name]())
+
+
+def test_there_are_twenty_known_errors_and_five_unknown_ones() -> None:
+    assert (len(KNOWN), len(UNKNOWN)) == (20, 5)
+
+
 @pytest.mark.parametrize("name", KNOWN)
 def test_a_known_error_is_diagnosed_with_its_numbers(name: str) -> None:
-    found = grade(KNOWN[name]())
+    found = known(name)
     # Speeds hardly differ from one another, so that wrong ones may count as rounded.
     assert found.verdict in ("wrong", "rounded")
     assert found.diagnosis[0].error == name.rpartition(" ")[2]
@@ -98,12 +109,22 @@ def test_an_error_of_no_known_kind_is_not_diagnosed(name: str) -> None:
 
 
 def test_the_step_of_a_difference_quotient_is_told() -> None:
-    [one] = grade(KNOWN["forward_difference"]()).diagnosis
+    [one] = known("forward_difference").diagnosis
     assert one.words == "The speeds are forward difference quotients with a step of 0.1 s."
 
 
+def test_a_handle_on_the_wrong_coil_of_the_turn_is_told() -> None:
+    found = grade(fourth(students.wrong_coil(7)))
+    [one] = found.diagnosis
+    assert (found.workbook, one.error) == ("result4", "wrong_ring")
+    assert one.evidence.startswith(
+        "At -100 s handle 7 is 1.650000 m from the one before, as it should be, but 266.853 m in front"
+    )
+    assert {point.criterion: point.met for point in found.rubric}["branch"] is False
+
+
 def test_a_wrong_instant_is_traced_to_its_steps() -> None:
-    found = grade(KNOWN["contact: other_instant"]()).diagnosis
+    found = known("contact: other_instant").diagnosis
     assert [one.error for one in found] == ["other_instant", "time_steps"]
 
 

@@ -3,14 +3,20 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Iterator
+from contextlib import closing
 from pathlib import Path
 
 import httpx
 import numpy as np
+import psutil
 import pytest
 
+from app.files.tables import Language
+from app.service.graders import Graders
+from core import Budget
 from tests.app.grade.students import CONTACT, SPIRAL_TIMES, contact_workbook, spiral, workbook
-from tests.app.serving import serving
+from tests.app.serving import Service, serving
 
 FILE = {"Content-Type": "application/octet-stream"}
 
@@ -24,6 +30,11 @@ def graded(client: httpx.Client, data: bytes, **query: str) -> dict[str, object]
 @pytest.fixture(scope="module")
 def second() -> bytes:
     return contact_workbook(spiral(np.array([CONTACT])))
+
+
+@pytest.fixture(scope="module")
+def first() -> bytes:
+    return workbook(spiral(), SPIRAL_TIMES)
 
 
 def test_the_service_answers_what_the_command_answers(client: httpx.Client, second: bytes, tmp_path: Path) -> None:
@@ -45,27 +56,46 @@ def test_a_file_longer_than_other_bodies_is_taken(client: httpx.Client) -> None:
     assert file["verdict"] == "unreadable"
 
 
-def test_a_file_beyond_the_limit_is_refused(tmp_path: Path) -> None:
-    with serving(tmp_path / "log", grade_bytes_max=1000) as service:
-        for size, status in ((1000, 200), (1001, 413)):
-            answer = httpx.post(f"{service.url}/grade", content=b"x" * size, headers=FILE, timeout=60)
-            assert answer.status_code == status
-        assert answer.json()["detail"] == "The body must be at most 1000 bytes: ask for less in one request."
+@pytest.fixture(scope="module")
+def strict(tmp_path_factory: pytest.TempPathFactory, first: bytes) -> Iterator[Service]:
+    """A service that takes files of one length at most, and grades for a moment only."""
+    log = tmp_path_factory.mktemp("strict") / "log"
+    with serving(log, grade_bytes_max=len(first), grade_seconds=0.2) as service:
+        yield service
 
 
-def test_the_deadline_ends_the_grading(tmp_path: Path) -> None:
-    data = workbook(spiral(), SPIRAL_TIMES)
-    with serving(tmp_path / "log", grade_seconds=0.2) as service:
-        answer = httpx.post(f"{service.url}/grade", content=data, headers=FILE, timeout=60)
+def test_a_file_beyond_the_limit_is_refused(strict: Service, first: bytes) -> None:
+    answer = httpx.post(f"{strict.url}/grade", content=first + b"x", headers=FILE, timeout=60)
+    assert answer.status_code == 413
+    assert answer.json()["detail"] == f"The body must be at most {len(first)} bytes: ask for less in one request."
+
+
+def test_the_deadline_ends_the_grading(strict: Service, first: bytes) -> None:
+    answer = httpx.post(f"{strict.url}/grade", content=first, headers=FILE, timeout=60)
     assert answer.status_code == 422
     assert "it was not graded within 0.2 s" in answer.json()["detail"]
 
 
-def test_nothing_of_the_file_is_logged(tmp_path: Path, second: bytes) -> None:
-    with serving(tmp_path / "log") as service:
-        httpx.post(f"{service.url}/grade?name=secret.xlsx", content=second, headers=FILE, timeout=60).raise_for_status()
-        httpx.post(f"{service.url}/grade", content=b"secret,words", headers=FILE, timeout=60).raise_for_status()
-    assert "words" not in (tmp_path / "log").read_text()
+def test_nothing_of_the_file_is_logged(strict: Service) -> None:
+    httpx.post(f"{strict.url}/grade?name=secret.xlsx", content=b"secret,words", headers=FILE, timeout=60)
+    log = strict.log.read_text()
+    assert "POST /grade" in log
+    assert "words" not in log
+
+
+def test_a_process_that_is_killed_costs_no_answer_and_none_is_left() -> None:
+    def processes() -> list[psutil.Process]:
+        return [child for child in psutil.Process().children() if "app.service.graders" in child.cmdline()]
+
+    with closing(Graders()) as graders:
+        for _ in range(2):
+            answer = graders.graded("result1.csv", b"a,b", Language.ENGLISH, Budget())
+            assert answer.verdict == "unreadable"
+            [process] = processes()
+            process.kill()
+            process.wait()
+        graders.graded("result1.csv", b"a,b", Language.ENGLISH, Budget())
+    assert processes() == []
 
 
 @pytest.mark.parametrize(

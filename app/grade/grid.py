@@ -1,0 +1,36 @@
+"""Plain grids of cells: what is left of a file once it has been read."""
+
+from __future__ import annotations
+
+import unicodedata
+from dataclasses import dataclass, field
+
+from app.grade.words import Note
+
+Cell = float | str | None
+
+
+class Unreadable(Exception):
+    """A file that cannot be graded. said: why, and what to change"""
+
+    def __init__(self, said: Note) -> None:
+        super().__init__(said.code)
+        self.said = said
+
+
+@dataclass
+class Grid:
+    """Cells of one sheet, row by row; rows may differ in length. notes: what a reader should know of them"""
+
+    title: str
+    rows: list[list[Cell]]
+    notes: list[Note] = field(default_factory=list)
+
+
+def plain(text: str) -> str:
+    """Text without blanks at its ends, with half-width brackets, letters and digits, and the plain minus sign.
+
+    >>> plain(" 龙尾（后） ")
+    '龙尾(后)'
+    """
+    return unicodedata.normalize("NFKC", text).replace("\u2212", "-").strip()

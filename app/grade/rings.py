@@ -1,0 +1,92 @@
+"""Was a handle put on the wrong ring?
+
+Input: the judgement of positions. Output: a finding, or none. State: none. Argument: no two places of a spiral, or of
+the turn, are the same point, so every handle on the path has one arc length. Where each is a chord away from the one
+before, and yet one stands in front of it, or much further behind along the path than the chord is long, another root of
+the chord equation was taken.
+"""
+
+from __future__ import annotations
+
+import cmath
+
+import numpy as np
+
+from app.grade.expected import dance_of
+from app.grade.geometry import arcs_of
+from app.grade.labels import X, Y
+from app.grade.layout import HANDLES
+from app.grade.shortcuts import Finding
+from app.grade.verdict import RIGHT, Judgement
+from app.grade.words import note
+from core import Spiral, Turn
+from core.paths.path import Path
+from core.values import Floats
+
+# Links to wrong handles that must be whole: the seams of what was only moved about are not [1].
+RING_SHARE = 0.995
+# A handle is on the path, and a chord has its length, within this [m].
+ON_PATH = 1e-4
+# Along the path a handle is at most half a circle behind, pi / 2 chords; the next root is beyond so many [1].
+CHORDS_MOST = 2.0
+
+
+def wrong_ring(one: Judgement) -> Finding | None:
+    """The first handle on another ring, and how many are."""
+    dance = dance_of(one.workbook)
+    order = np.argsort(one.handles)
+    if not np.array_equal(one.handles[order], np.arange(HANDLES)):
+        return None
+    points, chords = one.values[:, order], dance.dragon.chords
+    behind = -np.diff(places(dance.path, points), axis=1)
+    found = np.linalg.norm(np.diff(points, axis=1), axis=-1)
+    kept = (np.abs(found - chords) < ON_PATH) & np.isfinite(behind)
+    wrong = np.any(one.off[:, order] > RIGHT, axis=-1)[:, 1:]
+    other = np.argwhere((behind < 0.0) | (behind > CHORDS_MOST * chords))
+    if not wrong.any() or kept[wrong].mean() < RING_SHARE or not other.size:
+        return None
+    t, k = min((tuple(map(int, at)) for at in other), key=lambda at: (at[1], at[0]))
+    right = places(dance.path, one.wanted[t, order[k : k + 2]][:, [X, Y]])
+    values = {
+        "handle": k + 1,
+        "time": f"{one.times[t]:g}",
+        "chord": f"{found[t, k]:.6f}",
+        "way": f"{abs(behind[t, k]):.3f}",
+        "right": f"{right[0] - right[1]:.3f}",
+        "count": len(other),
+    }
+    words = "evidence_behind" if behind[t, k] > 0.0 else "evidence_in_front"
+    return Finding("wrong_ring", note("error_wrong_ring"), note(words, **values))
+
+
+def places(path: Path, points: Floats) -> Floats:
+    """Arc lengths of points on a spiral or a turn, (...) [m], NaN for others. points: (..., 2) [m]"""
+    found = np.full(points.shape[:-1], np.nan)
+    for s in _candidates(path, points):
+        inside = np.clip(np.nan_to_num(s), path.begin if isinstance(path, Turn) else -np.inf, path.end)
+        on_path = np.linalg.norm(path.position(inside) - points, axis=-1) < ON_PATH
+        found = np.where(on_path, inside, found)
+    return found
+
+
+def _candidates(path: Path, points: Floats) -> list[Floats]:
+    """Where points would be on each piece of a path [m]."""
+    radius = np.linalg.norm(points, axis=-1)
+    if isinstance(path, Spiral):
+        return [path.length - _arc(radius, path.growth)]
+    assert isinstance(path, Turn)
+    growth = path.pitch / (2.0 * np.pi)
+    outside = _arc(radius, growth) - _arc(np.array(path.entry_radius), growth)
+    found, begun = [-outside, path.length + outside], 0.0
+    for centre, size, start, turned in arcs_of(path):
+        away = points[..., 0] + 1j * points[..., 1] - centre
+        angle = np.angle(away * cmath.exp(-1j * start)) * np.sign(turned)
+        found.append(begun + size * (angle % (2.0 * np.pi)))
+        begun += size * abs(turned)
+    return found
+
+
+def _arc(radius: Floats, growth: float) -> Floats:
+    """Arc length of a spiral from its centre to a radius [m]."""
+    theta = radius / growth
+    return np.asarray(0.5 * growth * (theta * np.hypot(1.0, theta) + np.arcsinh(theta)))

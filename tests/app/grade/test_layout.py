@@ -1,0 +1,128 @@
+"""Sheets in other layouts, units and formats are recognised."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from app.files.tables import Language
+from app.grade.report import FileAnswer, graded
+from core import Budget
+from tests.app.grade import students
+from tests.app.grade.students import SPIRAL_TIMES, by_xlsxwriter, few, spiral
+
+ROOT = Path(__file__).parents[3]
+
+
+def grade(data: bytes, name: str = "result1.xlsx") -> FileAnswer:
+    return graded(name, data, Language.ENGLISH, Budget())
+
+
+def changed(change: Callable[[list[list[Any]]], list[list[Any]]]) -> bytes:
+    return by_xlsxwriter({title: change(rows) for title, rows in few().items()})
+
+
+def transposed(rows: list[list[Any]]) -> list[list[Any]]:
+    return [list(row) for row in zip(*rows, strict=True)]
+
+
+def full_width(rows: list[list[Any]]) -> list[list[Any]]:
+    return [[str(row[0] or "").replace("(", "（ ").replace(")", " ）"), *row[1:]] for row in rows]
+
+
+def in_centimetres(rows: list[list[Any]]) -> list[list[Any]]:
+    return [rows[0], *([row[0], *(100.0 * value for value in row[1:])] for row in rows[1:])]
+
+
+def bare_times(rows: list[list[Any]]) -> list[list[Any]]:
+    return [[None, *range(len(rows[0]) - 1)], *rows[1:]]
+
+
+def below_a_title(rows: list[list[Any]]) -> list[list[Any]]:
+    return [["问题一的结果"], [], *rows]
+
+
+LAYOUTS = [transposed, full_width, bare_times, below_a_title]
+
+
+@pytest.mark.parametrize("change", LAYOUTS, ids=lambda change: change.__name__)
+def test_other_layouts_are_recognised(change: Any) -> None:
+    found = grade(changed(change))
+    assert [sheet.right for sheet in found.sheets] == [4 * 448, 4 * 224], found
+
+
+def test_positions_in_centimetres_are_read_as_such() -> None:
+    sheets = few()
+    found = grade(by_xlsxwriter({**sheets, "位置": in_centimetres(sheets["位置"])}))
+    assert found.sheets[0].right == 4 * 448
+    assert "The numbers are in cm: they were read as such." in found.sheets[0].notes
+
+
+def test_a_handle_too_many_is_told_and_the_others_are_graded() -> None:
+    sheets = few()
+    for title, lines in (("位置", 2), ("速度", 1)):
+        rows = sheets[title]
+        extra = [[label.replace("龙尾（后）", "龙尾（后）（后）"), *row] for label, *row in rows[-lines:]]
+        sheets[title] = rows + extra
+    found = grade(by_xlsxwriter(sheets))
+    assert [sheet.right for sheet in found.sheets] == [4 * 448, 4 * 224]
+
+
+def test_a_handle_too_few_is_missing_and_the_others_are_right() -> None:
+    sheets = few()
+    found = grade(by_xlsxwriter({"位置": sheets["位置"][:101] + sheets["位置"][103:], "速度": sheets["速度"]}))
+    position = found.sheets[0]
+    assert (position.verdict, position.right) == ("incomplete", 4 * 446)
+
+
+def test_a_missing_sheet_makes_the_workbook_incomplete() -> None:
+    sheets = few()
+    found = grade(by_xlsxwriter({"位置": sheets["位置"]}))
+    assert found.sheets[1].notes == ["The sheet of the speeds is missing."]
+    assert found.verdict == "incomplete"
+
+
+@pytest.mark.parametrize("coding", ["utf-8-sig", "gb18030", "utf-16"])
+def test_csv_of_a_sheet_is_graded(coding: str) -> None:
+    [sheet] = grade(wide_csv().encode(coding), "result1.csv").sheets
+    assert (sheet.verdict, sheet.right) == ("right", 301 * 448)
+
+
+def test_csv_with_a_line_for_each_handle_and_instant_is_graded() -> None:
+    position, speed = spiral(SPIRAL_TIMES[:3])
+    lines = ["time,handle,x,y,speed"]
+    lines += [f"{t},{h},{position[t, h, 0]},{position[t, h, 1]},{speed[t, h]}" for t in range(3) for h in range(224)]
+    found = grade("\n".join(lines).encode(), "dance.csv")
+    assert [(sheet.holds, sheet.right) for sheet in found.sheets] == [("position", 3 * 448), ("speed", 3 * 224)]
+
+
+def wide_csv(decimals: int = 6) -> str:
+    """The positions of result1 as CSV."""
+    lines = [",".join(["", *(f"{t:g} s" for t in SPIRAL_TIMES)])]
+    points = spiral()[0].transpose(1, 2, 0).reshape(-1, 301)
+    rows = zip(students.labels("position"), points, strict=True)
+    return "\r\n".join(lines + [",".join([label, *(f"{value:.{decimals}f}" for value in row)]) for label, row in rows])
+
+
+@pytest.mark.parametrize("decimals", [5, 4, 3, 2])
+def test_rounded_results_are_named_with_their_decimals(decimals: int) -> None:
+    found = grade(wide_csv(decimals).encode(), "result1.csv")
+    [sheet] = found.sheets
+    assert (sheet.verdict, sheet.decimals, found.diagnosis) == ("rounded", decimals, [])
+
+
+def test_results_with_one_decimal_are_wrong() -> None:
+    assert grade(wide_csv(1).encode(), "result1.csv").verdict == "wrong"
+
+
+def test_the_labels_of_the_contest_are_recognised() -> None:
+    labels = json.loads((ROOT / "tests/reference/contest_workbooks.json").read_text())["workbooks"]
+    for title, rows in few().items():
+        [told] = [sheet for sheet in labels["result1"] if sheet["title"] == title]
+        exact = [[label, *row[1:]] for label, row in zip(told["first_column"], rows, strict=True)]
+        [sheet, *_] = grade(by_xlsxwriter({title: exact})).sheets
+        assert sheet.right == 4 * (len(rows) - 1)
