@@ -54,7 +54,7 @@ def post(service: Service, asked: Any) -> str:
 def kill_one(service: Service, chance: random.Random) -> str:
     """Kills one process and says what it was; the parent is started again."""
     role = chance.choice(ROLES)
-    # A spare process may have become a job's by the time it is killed, and a job whose process dies three times has failed.
+    # A spare process may be a job's by the time it is killed, and a job whose process dies three times has failed.
     if role in ("child", "spare") and any(job.deaths for job in Store(service.folder).all() if not job.is_finished):
         role = "runner"
     found = service.of(role)
