@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from core import kernels
-from core.budget import Budget, bounded
+from core.budget import Budget, Halted
 from core.dance import Dance
 from core.errors import InvalidValue
 from core.motion.trajectory import trajectory
@@ -34,7 +34,7 @@ INSTANTS_PER_TIME = 5
 # Instants whose numbers come from one counter. It is a part of what a sample is: with another value samples change [1].
 INSTANTS_PER_COUNTER = 32
 # Most instants of a dance, and most samples [1].
-INSTANTS_MAX, SAMPLES_MAX = 10_000_000, 1_000_000_000
+INSTANTS_MAX, SAMPLES_MAX = 10_000_000, 10_000_000
 # Largest seed that every JSON and every spreadsheet holds exactly [1].
 SEED_MAX = 2**53 - 1
 # Handles of all samples that are danced side by side [1]: the nominal dance is laid out once for all of them.
@@ -86,7 +86,6 @@ class ContactProbability(Shown):
 
 
 @asked_of("dance", Dance)
-@bounded("the probability of a contact was not found")
 def contact_probability(
     dance: Dance,
     model: Wobble,
@@ -102,7 +101,7 @@ def contact_probability(
 
     samples: how many; or which, so that others may be drawn elsewhere; seed: from 0 to SEED_MAX
     start, stop: [s], by default from when the whole dragon is on the path, or 0, to the end of the run
-    budget: its work is one for each handle of each instant of each sample
+    budget: of all work, which is one for each handle of each instant of each sample; by default no limit
     progress: called with the share of the work that is done
     raises: InvalidValue; OutsideRun; TooMuchWork
 
@@ -120,19 +119,21 @@ def contact_probability(
         rule = f"must be at least {least:.3g} s: a dance has at most {INSTANTS_MAX} instants"
         raise InvalidValue.of("model.correlation_time", rule, model.correlation_time, "s")
     budget = budget or Budget()
-    step = (until - begin) / max(1, count - 1)
+    step = (until - begin) / (count - 1)
     times = np.linspace(begin, until, count)
     sampled = _Sampled(dance, model, times, math.exp(-step / model.correlation_time), seed, budget)
     handles = dance.dragon.benches + 1
     together = max(1, HANDLES_TOGETHER // handles)
     found = _Found(len(which))
-    safe = None
-    if model.pitch_error == 0.0:
-        safe = tolerance(dance, start=begin, stop=until, budget=budget).stray
-    for first in range(0, len(which), together):
-        batch = which[first : first + together]
-        for share in sampled.dance(batch, found, first):
-            progress((first + share * len(batch)) / len(which))
+    try:
+        for first in range(0, len(which), together):
+            batch = which[first : first + together]
+            for share in sampled.dance(batch, found, first):
+                progress((first + share * len(batch)) / len(which))
+    except Halted as halted:
+        rule = "must be fewer, or the time asked about shorter: the probability of a contact was not found {then}"
+        raise halted.budget.too_much("samples", rule, len(which), "") from halted
+    safe = None if model.pitch_error else tolerance(dance, start=begin, stop=until, budget=budget).stray
     touched = np.flatnonzero(found.instant < count)
     contacts, total = touched.size, len(which)
     return ContactProbability(
