@@ -160,6 +160,7 @@ ORDER = (
     "app.questions.maximum_head_speed",
     "app.questions.check",
     "app.questions.tolerance",
+    "app.questions.contact_probability",
     "app.questions.figures",
     "app.questions.films",
     "app.questions.overlaps",

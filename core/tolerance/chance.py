@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 from core import kernels
 from core.budget import Budget, Halted
 from core.dance import Dance
-from core.errors import InvalidValue
+from core.errors import InvalidValue, said
 from core.motion.trajectory import trajectory
 from core.paths.spiral import Spiral
 from core.shown import Shown, counted, worded
@@ -78,6 +78,22 @@ class ContactProbability(Shown):
     def strayed(self) -> int | None:
         """Number of samples in which a hole was further from its place than the tolerance; no other one can touch."""
         return None if self.tolerance is None else int((self.strays > self.tolerance).sum())
+
+    @property
+    def method(self) -> str:
+        """How this is known, in sentences."""
+        told = (
+            f"In {self.contacts} of {self.samples} dances drawn from the model two benches that share no handle touch "
+            f"at one of {self.instants} instants {said(self.step)} s apart; what happens between two of them is not "
+            f"judged. The limits are Clopper and Pearson's: whatever the probability of the model is, it lies outside "
+            f"them for at most {100.0 * (1.0 - CONFIDENCE):.3g} % of all seeds."
+        )
+        if self.tolerance is None:
+            return told
+        return (
+            f"{told} While no hole is further than {said(self.tolerance)} m from its place, nothing touches at any "
+            f"time, which is proven; in {self.samples - (self.strayed or 0)} samples none is at these instants."
+        )
 
     def _line(self) -> str:
         low, high = self.limits

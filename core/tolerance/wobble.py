@@ -52,8 +52,8 @@ class Wobble(Shown):
             value = checked_number(f"model.{name}", getattr(self, name), unit, 0.0, CORRELATION_MAX, open_low=True)
             object.__setattr__(self, name, value)
         if self.pin > self.hole:
-            rule = f"must be no wider than its hole (model.hole = {said(self.hole)} m)"
-            raise InvalidValue.of("model.pin", rule, self.pin, "m")
+            rule = f"{{field}} must be no wider than its {{hole}} ({said(self.hole)} m), got {said(self.pin)} m"
+            raise InvalidValue("model.pin", rule, hole="model.hole")
 
     @property
     def play(self) -> float:
