@@ -80,6 +80,7 @@ UNITS = {
     "time_at_unit_head_speed": "s",
     "time_bracket": "s",
     "tolerance": "m",
+    "union_bound": "",
     "velocity": "m/s",
     "wall": "m",
     "widths": "m",

@@ -95,6 +95,7 @@ ORDER = (
     "core.tolerance.tolerance",
     "core.tolerance.curve",
     "core.tolerance.wobble",
+    "core.tolerance.union_bound",
     "core.tolerance.chance",
     "core.verdict",
     "core",

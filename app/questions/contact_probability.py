@@ -82,6 +82,10 @@ class ContactProbability(Answer):
         description="Number of samples in which a hole is further from its place than that before anything touches, or "
         "as it does; null with a pitch error"
     )
+    union_bound: float | None = Field(
+        description="Proven without samples: the probability of the model is no larger at these instants; null with "
+        "play or a pitch error"
+    )
     step: float = measure("s", "Time between two instants; contacts between them are not seen")
     instants: int = Field(description="Number of instants of each sample")
     start: float = measure("s", "First instant")

@@ -26,6 +26,7 @@ from core.motion.trajectory import trajectory
 from core.paths.spiral import Spiral
 from core.shown import Shown, counted, worded
 from core.tolerance.tolerance import tolerance
+from core.tolerance.union_bound import union_bound
 from core.tolerance.wobble import Wobble, check_sizes, gains
 from core.values import Floats, asked_of, checked_type
 
@@ -56,6 +57,8 @@ class ContactProbability(Shown):
     strays: (samples,) how far the furthest hole was from its place up to then [m]
     tolerance: the stray within which nothing can touch at any time, proven (core.tolerance) [m]: a sample whose strays
         are smaller has no contact. None with a pitch error, which moves the places themselves
+    union_bound: no larger is the probability of the model, whatever the samples say (core/tolerance/union_bound.py);
+        None with play or a pitch error
     step: between two instants [s]; instants: their number, from start to stop [s]; seed: as given
     """
 
@@ -68,6 +71,7 @@ class ContactProbability(Shown):
     benches: NDArray[np.int64]
     strays: Floats
     tolerance: float | None
+    union_bound: float | None
     step: float
     instants: int
     start: float
@@ -88,6 +92,12 @@ class ContactProbability(Shown):
             f"judged. The limits are Clopper and Pearson's: whatever the probability of the model is, it lies outside "
             f"them for at most {100.0 * (1.0 - CONFIDENCE):.3g} % of all seeds."
         )
+        if self.union_bound is not None:
+            told += (
+                f" The probability of the model is at most {said(self.union_bound)} at these instants, whatever the "
+                "samples say: a union bound over all pairs and instants, in first order with bounds of the rest, "
+                "computed in doubles."
+            )
         if self.tolerance is None:
             return told
         return (
@@ -146,6 +156,7 @@ def contact_probability(
             batch = which[first : first + together]
             for share in sampled.dance(batch, found, first):
                 progress((first + share * len(batch)) / len(which))
+        bound = None if model.pitch_error or model.play else union_bound(dance, model, times, budget)
     except Halted as halted:
         rule = "must be fewer, or the time asked about shorter: the probability of a contact was not found {then}"
         raise halted.budget.too_much("samples", rule, len(which), "") from halted
@@ -154,7 +165,7 @@ def contact_probability(
     contacts, total = touched.size, len(which)
     return ContactProbability(
         contacts / total, clopper_pearson(contacts, total), contacts, total, times[found.instant[touched]],
-        np.asarray(which)[touched], found.benches[touched], found.strays, safe, step, count, begin, until, seed,
+        np.asarray(which)[touched], found.benches[touched], found.strays, safe, bound, step, count, begin, until, seed,
     )  # fmt: skip
 
 

@@ -62,14 +62,17 @@ def test_the_command_asks_for_the_way_to_the_circle(client: httpx.Client) -> Non
     same = {"dragon": {"benches": 12}, "path": {"kind": "spiral", "pitch": 0.5, "start_turns": 7}, "lateral": 0.03}
     body = same | {"samples": 20, "stop": got["stop"]}
     assert client.post("/contact-probability", json=body).raise_for_status().json() == got
+    assert got["union_bound"] == 1.0
 
 
 def test_without_a_contact_or_with_a_pitch_error_some_fields_are_null(client: httpx.Client) -> None:
     still = {"dragon": {"benches": 20}, "lateral": 0, "forward": 0, "samples": 2, "stop": 10}
     clear = client.post("/contact-probability", json=still).raise_for_status().json()
     assert (clear["contacts"], clear["time_quantiles"], clear["benches"], clear["strayed"]) == (0, None, None, 0)
+    assert 0.0 < clear["union_bound"] < 1e-9
     other = client.post("/contact-probability", json=still | {"pitch_error": 0.01}).raise_for_status().json()
-    assert (other["contacts"], other["tolerance"], other["strayed"]) == (0, None, None)
+    assert other["contacts"] == 0
+    assert other["tolerance"] is other["strayed"] is other["union_bound"] is None
 
 
 @pytest.mark.parametrize(

@@ -96,6 +96,7 @@ def test_every_field_is_described_and_every_measure_has_its_unit(document: Any) 
         "probability",
         "limits",
         "confidence",
+        "union_bound",
         "correlation_benches",
         "normal",
         "ratio",
