@@ -34,6 +34,9 @@ class Wobbling(Wire):
         "Time after which a person has kept 1 / e of where they stood; at two steps a second 5 s are ten steps",
         5.0,
     )
+    step: Correlation | None = measure(
+        "s", "Time between two instants, at most a fifth of the correlation time; null: that fifth", None
+    )
     correlation_benches: Correlation = Field(
         2.0, description="Number of benches between two people who share 1 / e of where they stand"
     )

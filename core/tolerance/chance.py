@@ -27,11 +27,9 @@ from core.paths.spiral import Spiral
 from core.shown import Shown, counted, worded
 from core.tolerance.tolerance import tolerance
 from core.tolerance.union_bound import union_bound
-from core.tolerance.wobble import Wobble, check_sizes, gains
+from core.tolerance.wobble import INSTANTS_PER_TIME, Wobble, check_sizes, gains
 from core.values import Floats, asked_of, checked_type
 
-# Instants in a correlation time [1].
-INSTANTS_PER_TIME = 5
 # Instants whose numbers come from one counter. It is a part of what a sample is: with another value samples change [1].
 INSTANTS_PER_COUNTER = 32
 # Most instants of a dance, and most samples [1].
@@ -139,11 +137,13 @@ def contact_probability(
     which, seed = _checked_samples(samples), _checked_seed(seed)
     check_sizes(dance, model)
     begin, until = dance.span(dance.begin if start is None else start, stop)
-    count = math.ceil((until - begin) * INSTANTS_PER_TIME / model.correlation_time) + 1
+    widest = model.correlation_time / INSTANTS_PER_TIME if model.step is None else model.step
+    count = math.ceil((until - begin) / widest) + 1
     if count > INSTANTS_MAX:
-        least = INSTANTS_PER_TIME * (until - begin) / (INSTANTS_MAX - 1)
+        field, factor = ("step", 1) if model.step else ("correlation_time", INSTANTS_PER_TIME)
+        least = factor * (until - begin) / (INSTANTS_MAX - 1)
         rule = f"must be at least {least:.3g} s: a dance has at most {INSTANTS_MAX} instants"
-        raise InvalidValue.of("model.correlation_time", rule, model.correlation_time, "s")
+        raise InvalidValue.of(f"model.{field}", rule, factor * widest, "s")
     budget = budget or Budget()
     step = (until - begin) / (count - 1)
     times = np.linspace(begin, until, count)

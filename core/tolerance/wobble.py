@@ -14,6 +14,8 @@ from core.paths.spiral import Spiral
 from core.shown import Shown
 from core.values import SIZE_MAX, Floats, checked_number
 
+# Instants in a correlation time, at least [1].
+INSTANTS_PER_TIME = 5
 # Longest correlation, in seconds and in benches [1].
 CORRELATION_MAX = 1e9
 # Sizes of what people want, and the play, are at most this part of the shortest chord, and the size of a pitch error
@@ -29,6 +31,8 @@ class Wobble(Shown):
         these standard deviations, so at one step in twenty further than twice as far. Chords are rigid: what comes of
         the latter is the first person's, and what the bends of the chain make of the former
     correlation_time: [s] after it a person has kept 1 / e of where they stood, and the rest is new
+    step: [s] between two instants, at most 1 / INSTANTS_PER_TIME of the correlation time, which None stands for. The
+        path of a person is as rough as that of a random walk, so at closer instants there are more contacts
     correlation_benches: [1] two people so many benches apart share 1 / e of where they stand, who carry the same bench
         exp(-1 / correlation_benches) of it
     hole, pin: diameters in a joint [m]. Where a pin lies in each of its two holes is drawn once for a dance, uniformly
@@ -44,6 +48,7 @@ class Wobble(Shown):
     hole: float = 0.0
     pin: float = 0.0
     pitch_error: float = 0.0
+    step: float | None = None
 
     def __post_init__(self) -> None:
         for name in ("lateral", "forward", "hole", "pin", "pitch_error"):
@@ -51,9 +56,19 @@ class Wobble(Shown):
         for name, unit in (("correlation_time", "s"), ("correlation_benches", "")):
             value = checked_number(f"model.{name}", getattr(self, name), unit, 0.0, CORRELATION_MAX, open_low=True)
             object.__setattr__(self, name, value)
+        if self.step is not None:
+            object.__setattr__(self, "step", self._checked_step(self.step))
         if self.pin > self.hole:
             rule = f"{{field}} must be no wider than its {{hole}} ({said(self.hole)} m), got {said(self.pin)} m"
             raise InvalidValue("model.pin", rule, hole="model.hole")
+
+    def _checked_step(self, given: object) -> float:
+        step = checked_number("model.step", given, "s", 0.0, CORRELATION_MAX, open_low=True)
+        most = self.correlation_time / INSTANTS_PER_TIME
+        if step > most and not math.isclose(step, most):
+            rule = f"{{field}} must be at most {said(most)} s, 1 / {INSTANTS_PER_TIME} of {{time}}, got {said(step)} s"
+            raise InvalidValue("model.step", rule, time="model.correlation_time")
+        return step
 
     @property
     def play(self) -> float:

@@ -15,7 +15,7 @@ import pytest
 import core
 
 ROOT = Path(__file__).parent.parent.parent
-MODEL = {"lateral": 0.02, "forward": 0.005, "correlation_time": 4.0, "hole": 0.055, "pin": 0.05}
+MODEL = {"lateral": 0.02, "forward": 0.005, "correlation_time": 4.0, "step": 0.5, "hole": 0.055, "pin": 0.05}
 ASKED = {"dragon": {"benches": 20}, **MODEL, "samples": 60, "seed": 3, "start": 395.0, "stop": 405.0}
 
 
@@ -81,6 +81,7 @@ def test_without_a_contact_or_with_a_pitch_error_some_fields_are_null(client: ht
         ({"samples": 1_000_000}, "/samples", "samples must be at most 100000 here, got 1000000"),
         ({"samples": 0}, "/samples", "1"),
         ({"correlation_time": 0}, "/correlation_time", "0"),
+        ({"step": 0.9}, "/step", "step must be at most 0.8 s, 1 / 5 of correlation_time, got 0.9 s"),
         ({"correlation_benches": 0}, "/correlation_benches", "0"),
         ({"lateral": -0.01}, "/lateral", "-0.01"),
         ({"lateral": 0.5}, "/lateral", "lateral must be at most 0.1 of the chord of bench 1"),

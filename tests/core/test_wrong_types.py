@@ -102,7 +102,7 @@ WRONG = {
 # None stands for a default there, and these are right there.
 ALLOWED = {
     ("nothing", name)
-    for name in ("venue", "speed_limit", "start", "stop", "entry_radius", "start_heading", "end_heading")
+    for name in ("venue", "speed_limit", "start", "step", "stop", "entry_radius", "start_heading", "end_heading")
 }
 ALLOWED |= {("path", "path"), ("dragon", "dragon"), ("text", "name")}
 CASES = [

@@ -29,8 +29,9 @@ from core import (
     trajectory,
 )  # fmt: skip
 from core.sampling import bisected
-from core.tolerance.chance import CONFIDENCE, INSTANTS_PER_TIME, clopper_pearson
+from core.tolerance.chance import CONFIDENCE, clopper_pearson
 from core.tolerance.union_bound import union_bound
+from core.tolerance.wobble import INSTANTS_PER_TIME
 from core.values import Floats
 from tests.core.every_digit import every_digit
 
@@ -167,11 +168,13 @@ def test_only_those_who_stray_beyond_the_tolerance_touch() -> None:
     assert found.strays[found.sample].min() > found.tolerance
 
 
-def test_instants_are_a_fifth_of_the_correlation_time_apart_at_most() -> None:
-    for time in (0.7, 4.0, 100.0):
-        found = contact_probability(SPIRAL, Wobble(correlation_time=time), 1, 1, **LATE)
-        assert found.step <= time / INSTANTS_PER_TIME
-        assert found.step * (found.instants - 1) == pytest.approx(8.0, abs=1e-12)
+@pytest.mark.parametrize(("time", "step"), [(0.7, None), (4.0, None), (100.0, None), (4.0, 0.3), (0.35, 0.07)])
+def test_instants_are_a_fifth_of_the_correlation_time_apart_or_as_asked(time: float, step: float | None) -> None:
+    found = contact_probability(SPIRAL, Wobble(correlation_time=time, step=step), 1, 1, **LATE)
+    widest = step or time / INSTANTS_PER_TIME
+    assert found.step <= widest
+    assert found.instants == 2 or found.step > 0.9 * widest
+    assert found.step * (found.instants - 1) == pytest.approx(8.0, abs=1e-12)
 
 
 def test_clopper_and_pearson_leave_as_much_beyond_either_limit() -> None:
@@ -203,9 +206,23 @@ def test_a_dance_is_sampled_to_its_fold_also_on_other_pitches() -> None:
         ({"seed": -1}, "seed must be a whole number from 0 to"),
         ({"model": 0.01}, "model must be a Wobble, got 0.01"),
         ({"model": Wobble(correlation_time=1e-7)}, "model.correlation_time must be at least 4e-06 s"),
+        (
+            {"model": Wobble(step=1e-7)},
+            "model.step must be at least 8e-07 s, got 1e-07 s: a dance has at most 10000000 instants",
+        ),
         ({"model": Wobble(lateral=0.3)}, "model.lateral must be at most 0.1 of the chord"),
     ],
-    ids=["none", "too many", "negative number", "half a sample", "seed", "no model", "too many instants", "too wide"],
+    ids=[
+        "none",
+        "too many",
+        "negative number",
+        "half a sample",
+        "seed",
+        "no model",
+        "too many instants",
+        "too close instants",
+        "too wide",
+    ],
 )
 def test_what_cannot_be_is_refused(given: dict[str, Any], message: str) -> None:
     asked: dict[str, Any] = {"model": MODEL, "samples": 1, "seed": 1} | given

@@ -19,6 +19,8 @@ DANCE = Dance(Dragon(5), Spiral())
     [
         ({"lateral": -0.01}, "model.lateral must be zero or more, got -0.01 m"),
         ({"correlation_time": 0.0}, "model.correlation_time must be positive, got 0 s"),
+        ({"step": 1.01}, "model.step must be at most 1 s, 1 / 5 of model.correlation_time, got 1.01 s"),
+        ({"step": 0}, "model.step must be positive, got 0 s"),
         ({"correlation_benches": 0}, "model.correlation_benches must be positive, got 0"),
         ({"hole": 0.05, "pin": 0.06}, "model.pin must be no wider than its model.hole (0.05 m), got 0.06 m"),
         ({"pitch_error": float("nan")}, "model.pitch_error must be a finite number, got nan m"),
