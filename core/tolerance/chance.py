@@ -236,7 +236,7 @@ class _Sampled:
 
     def _as_it_should_be(self, rows: slice) -> tuple[Floats, Floats, Floats]:
         """Places and tangents (T, n + 1, 2) of all handles as they should be, and room of every bench (T, n) [m]."""
-        placed = trajectory(self.nominal, self.times[rows], budget=Budget())
+        placed = trajectory(self.nominal, self.times[rows])
         places, tangents = placed.position, placed.velocity / placed.speed[..., None]
         rooms = np.empty((len(places), places.shape[1] - 1))
         self.wobbler.measure(self.most_room, self.gains, places, rooms)

@@ -38,6 +38,7 @@ from numpy.typing import NDArray
 from core.budget import Budget
 from core.dance import Dance
 from core.dragon import Dragon
+from core.errors import TooLarge
 from core.motion.trajectory import bench_poses, trajectory
 from core.shapes.broad_phase import meeting_pairs
 from core.shapes.rectangles import CORNER_SIDES, frames, frames_separation
@@ -80,7 +81,8 @@ def union_bound(dance: Dance, model: Wobble, times: Floats, budget: Budget) -> f
         if bound >= least:
             break
         for first in range(0, times.size, together):
-            placed = trajectory(dance, times[first : first + together], budget=budget)
+            placed = trajectory(dance, times[first : first + together])
+            budget.afford(float(placed.speed.size))
             laid = first_order(dance.dragon, model, placed.position, placed.velocity / placed.speed[..., None])
             bound += _meeting(dance.dragon, placed.position, laid, deviations, budget)
             if bound >= least:
@@ -163,7 +165,10 @@ def _meeting(dragon: Dragon, places: Floats, laid: FirstOrder, deviations: float
     sizes, chance = np.stack([dragon.lengths, dragon.widths], axis=1), 0.0
     for t, handles in enumerate(places):
         frame = frames(bench_poses(handles), sizes)
-        pairs = meeting_pairs(frame, 2.0 * float(furthest[t]), True, exact=True, budget=budget)
+        try:
+            pairs = meeting_pairs(frame, 2.0 * float(furthest[t]), True, exact=True, budget=budget)
+        except TooLarge:  # so many pairs that their sum would say nothing
+            return 1.0
         budget.afford(float(len(handles) + len(pairs)))
         found = frames_separation(frame[pairs[:, 0]], frame[pairs[:, 1]])
         if (found.separation <= 0.0).any():
