@@ -131,7 +131,7 @@ def contact_probability(
 
     >>> from core import Dragon, Spiral
     >>> contact_probability(Dance(Dragon(20), Spiral()), Wobble(), 100, 1, start=380.0, stop=400.0).contacts
-    0
+    9
     """
     checked_type("model", model, Wobble)
     which, seed = _checked_samples(samples), _checked_seed(seed)
