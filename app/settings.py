@@ -43,6 +43,7 @@ class Settings(BaseSettings):
     film_megapixels_max: int = Field(
         4_000, ge=1, description="Largest film: millions of pixels of all frames; 20 s at 1080p have 1,244"
     )
+    samples_max: int = Field(100_000, ge=1, description="Most samples of one contact probability")
     cells_max: int = Field(1_000_000, ge=1, description="Largest table: instants x handles")
     workbook_cells_max: int = Field(200_000, ge=1, description="Largest xlsx table, which is slow to write")
     poses_max: int = Field(20_000, ge=1, description="Largest number of benches in one /overlaps request")

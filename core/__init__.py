@@ -36,11 +36,13 @@ from core.paths.turn import Turn
 from core.shapes.engines import Engine
 from core.shapes.overlaps import CrossCheck, Overlaps, Verdict, cross_check, overlaps, verdicts
 from core.shapes.rectangles import Separation, separation
+from core.tolerance.chance import ContactProbability, contact_probability
 from core.tolerance.curve import ToleranceCurve, tolerance_curve
 from core.tolerance.exhibit import Exhibit
 from core.tolerance.stray import Stray
 from core.tolerance.tolerance import Limit, StrayProof, Tolerance, tolerance
 from core.tolerance.uncertain import uncertain_tolerance
+from core.tolerance.wobble import Wobble
 from core.venue import Area, AreaClearance, Misplaced, Nearest, Venue, VenueClearance, venue_clearance
 from core.verdict import Failure, FailureKind, Judgement, Report, check
 
@@ -53,6 +55,7 @@ __all__ = [
     "ClearanceProfile",
     "Coil",
     "ContactCheck",
+    "ContactProbability",
     "CrossCheck",
     "Dance",
     "Dragon",
@@ -104,11 +107,13 @@ __all__ = [
     "VenueClearance",
     "Verdict",
     "Waypoints",
+    "Wobble",
     "bench_outlines",
     "bench_poses",
     "check",
     "clearance_profile",
     "contact_check",
+    "contact_probability",
     "cross_check",
     "first_contact",
     "first_excess",

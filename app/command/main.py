@@ -37,6 +37,7 @@ from app.files.tables import Language
 from app.questions.check import CheckRequest
 from app.questions.clearance import ClearanceQuery, ClearanceRequest
 from app.questions.collision_time import CollisionQuery, CollisionRequest
+from app.questions.contact_probability import ContactProbabilityQuery, ContactProbabilityRequest
 from app.questions.figures import Format, InstantQuery, TrajectoryFigureRequest
 from app.questions.films import FilmQuery, FilmRequest
 from app.questions.maximum_head_speed import MaximumHeadSpeedQuery, MaximumHeadSpeedRequest
@@ -192,6 +193,15 @@ def tolerance_curve(asked: ToleranceCurveQuery, json: Json = False) -> None:
         show.print_json(answer.to_json())
     else:
         show.print_parts(show.curve_table(answer.columns))
+
+
+@app.command()
+@asks(ContactProbabilityQuery, ContactProbabilityRequest)
+def contact_probability(asked: ContactProbabilityQuery | ContactProbabilityRequest, json: Json = False) -> None:
+    """How likely it is that benches touch when people wobble, from dances drawn at random."""
+    with show.waiting("dances drawn at random") as progress:
+        answer = questions.contact_probability.contact_probability(asked, Terms(progress=progress))
+    show.print_answer("How likely a contact is when people wobble", answer, json)
 
 
 @app.command()

@@ -89,6 +89,7 @@ _ALL = {
     "least_clearance": _ways(_LEAST, 2e-2, "distance"),
     "check": _ways(_known("check"), 0.1, "least_clearance.distance", "first_contact.certificate.method"),
     "tolerance": _ways(_known("tolerance"), 0.3, "stray", "certificate.method"),
+    "contact_probability": _ways(_known("contact_probability"), 3.0, "probability", "method"),
     "clearance": _ways(_row(clearance_row, ClearanceRow, "clearance"), 0.2, "clearance"),
     "trajectory": _ways(_row(trajectory_row, TrajectoryRow, "trajectory"), 2e-3, "greatest_speed"),
     "overlaps": _ways(_row(overlaps_row, OverlapsRow, "overlaps"), 1e-2, "separation"),

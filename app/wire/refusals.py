@@ -21,7 +21,7 @@ from core.dragon import BENCHES_MAX
 from core.errors import said
 
 # A request without an object of this name holds the object's fields itself.
-OUTER = re.compile(r"^(dragon|path|times)\.(?=[a-z])")
+OUTER = re.compile(r"^(dragon|model|path|times)\.(?=[a-z])")
 # Fields of a turn that can make it too tight although their defaults would do; otherwise its circle is too small.
 MEND_A_TURN = ("entry_radius", "ratio", "pitch")
 INSTANT = re.compile(r"times(?:\.(\d+))?")

@@ -19,7 +19,7 @@ nearest      how near any two come                             rings       bench
 repeats      benches that repeat what others met               clearance   at one instant
 marching     to first contact                                  strips      all pitches between two at once
 rates        how fast handles are at most                      speed       the highest speed
-excess       when a limit is first exceeded
+excess       when a limit is first exceeded                   wobble      who touches when people wobble
 """
 
 from core.kernels.bends import axis_bend, pair_bends
@@ -63,3 +63,4 @@ from core.kernels.spiral import (
     steepest_bend,
 )
 from core.kernels.strips import Strip
+from core.kernels.wobble import Wobbler

@@ -233,3 +233,26 @@ class Excess:
         rounding: float,
         budget: int,
     ) -> int: ...
+
+# -- chance --
+
+class Wobbler:
+    lateral: float
+    forward: float
+    along: float
+    chain: Floats
+    first: int
+    second: int
+    furthest: float
+    def __init__(self, sizes: Floats, halt: Halt, chain: Floats, boxes: Floats, loud: NDArray[np.int8]) -> None: ...
+    def dance(
+        self,
+        memory: Floats,
+        numbers: Floats,
+        play: Floats,
+        places: Floats,
+        tangents: Floats,
+        rooms: Floats,
+        state: Floats,
+    ) -> int: ...
+    def measure(self, most: float, gains: Floats, places: Floats, rooms: Floats) -> None: ...

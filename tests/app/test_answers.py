@@ -15,6 +15,7 @@ TOUCHING = re.compile(r"\b(touch|overlap|meet)", re.IGNORECASE)
 APART_FROM_MARGINS = {
     ("Turn", "tangent_point"), ("ShortestTurn", "tangent_point"), ("Overlap", "separation"), ("Nearest", "distance"),
     ("LeastClearance", "distance"), ("Shown", "depth"),
+    *(("ContactProbability", name) for name in ("probability", "contacts", "benches", "tolerance", "strayed")),
     *(("Tolerance", name) for name in ("stray", "stray_bracket", "limited_by", "time", "exhibit")),
     *(("CollisionTime", name) for name in ("margin", "corner", "edge")),
 }  # fmt: skip

@@ -59,6 +59,7 @@ def results() -> Iterator[Any]:
     strays = core.tolerance(DANCE, stop=10.0)
     yield from (strays, strays.exhibit, strays.certificate)
     yield core.tolerance_curve(Dragon(30), [0.6], start_turns=9.0)
+    yield core.contact_probability(DANCE, core.Wobble(), 2, 1, start=400.0, stop=410.0)
     yield core.Misplaced("well", 3, (1.0, 2.0))
     overlaps = core.overlaps(*THREE)
     checked = core.cross_check(*THREE)
@@ -72,6 +73,7 @@ INPUTS = [
     Dragon.of([3.0, 2.0, 4.0], [0.3, 0.2, 0.3], [0.2, 0.1, 0.2]),
     Spiral(pitch=0.8),
     core.Stray(0.02, 0.055, 0.05),
+    core.Wobble(lateral=0.02, pitch_error=0.001),
     Line((0.0, 1.0), (2.0, 3.0)),
     Arc((0.0, 0.0), 4.5, 0.25, -1.5),
     Coil(0.55, 3.0, 2.0),

@@ -23,6 +23,14 @@ CALLS: dict[Callable[..., Any], dict[str, Any]] = {
     core.check: {"dance": DANCE, "venue": SQUARE, "margin": 0.0, "speed_limit": 2.0, "stop": 9.0},
     core.clearance_profile: {"dance": DANCE, "times": [0.0]},
     core.contact_check: {"contact": CONTACT, "dance": DANCE, "margin": 0.0},
+    core.contact_probability: {
+        "dance": DANCE,
+        "model": core.Wobble(),
+        "samples": 1,
+        "seed": 1,
+        "start": 0.0,
+        "stop": 9.0,
+    },
     core.cross_check: {"poses": POSES, "lengths": COLUMN, "widths": COLUMN, "margin": 0.0},
     core.first_contact: {"dance": DANCE, "margin": 0.0, "stray": 0.0, "start": 0.0, "stop": 9.0},
     core.first_excess: {"dance": DANCE, "speed_limit": 2.0, "start": 0.0, "stop": 9.0},
@@ -49,6 +57,7 @@ CALLS: dict[Callable[..., Any], dict[str, Any]] = {
     core.uncertain_tolerance: {"dragon": DRAGON, "pitch": 0.9, "length_error": 0.01, "pitch_error": 0.01},
     core.venue_clearance: {"dance": DANCE, "venue": SQUARE, "margin": 0.0, "stop": 9.0},
     core.verdicts: {"before": POSES, "after": POSES, "lengths": COLUMN, "widths": COLUMN, "margin": 0.0},
+    core.Wobble: {name: getattr(core.Wobble(), name) for name in core.Wobble.__slots__},
     core.Arc: {"centre": (0, 0), "radius": 3.0, "start_angle": 0.0, "sweep": 1.0},
     core.Area: {"name": "square", "rings": SQUARE.square.rings},
     core.Coil: {"pitch": 0.5, "start_turns": 5.0, "end_turns": 3.0, "centre": (0, 0), "rotation": 0.0},
@@ -73,6 +82,7 @@ SPOKEN = {
     core.Spiral: {"pitch": "path.pitch", "start_turns": "path.start_turns"},
     core.Venue: {"square": "venue", "obstacles": "venue"},
     core.Waypoints: dict.fromkeys(CALLS[core.Waypoints], "waypoints."),
+    core.Wobble: dict.fromkeys(CALLS[core.Wobble], "model."),
     core.cross_check: {"poses": "benches"},
     core.overlaps: {"poses": "benches"},
     core.pitch_scan: {"start_turns": "path.start_turns"},
@@ -94,7 +104,7 @@ WRONG = {
 # None stands for a default there, and these are right there.
 ALLOWED = {
     ("nothing", name)
-    for name in ("venue", "speed_limit", "start", "stop", "entry_radius", "start_heading", "end_heading")
+    for name in ("venue", "speed_limit", "start", "step", "stop", "entry_radius", "start_heading", "end_heading")
 }
 ALLOWED |= {("path", "path"), ("dragon", "dragon"), ("text", "name")}
 CASES = [

@@ -1,0 +1,124 @@
+"""How likely is it that benches touch when people wobble?"""
+
+from __future__ import annotations
+
+from typing import Annotated, Self
+
+import numpy as np
+from pydantic import Field
+
+import core
+from app.questions.question import Question, Terms
+from app.questions.tolerance import ToleranceQuery
+from app.wire.answers import Pair
+from app.wire.dances import DanceFields
+from app.wire.models import Answer, Instant, Wire, check_limit, measure
+from core.tolerance.chance import CONFIDENCE, SEED_MAX
+from core.tolerance.curve import time_on_circle
+
+# Quantiles of the times of first contact that are told [1].
+QUANTILES = (0.05, 0.5, 0.95)
+
+Spread = Annotated[float, Field(ge=0, le=5)]
+Diameter = Annotated[float, Field(ge=0, le=1)]
+Correlation = Annotated[float, Field(gt=0, le=1e9)]
+
+
+class Wobbling(Wire):
+    """How people wobble, and how many dances are drawn."""
+
+    lateral: Spread = measure("m", "Standard deviation of where a person wants to stand, across the path", 0.01)
+    forward: Spread = measure("m", "The same along the path", 0.01)
+    correlation_time: Correlation = measure(
+        "s",
+        "Time after which a person has kept 1 / e of where they stood; at two steps a second 5 s are ten steps",
+        5.0,
+    )
+    step: Correlation | None = measure(
+        "s", "Time between two instants, at most a fifth of the correlation time; null: that fifth", None
+    )
+    correlation_benches: Correlation = Field(
+        2.0, description="Number of benches between two people who share 1 / e of where they stand"
+    )
+    hole: Diameter = measure("m", "Diameter of the holes in the benches, if the play of the pins is to count", 0.0)
+    pin: Diameter = measure("m", "Diameter of the pins in these holes, each of which lies anywhere in its holes", 0.0)
+    pitch_error: Spread = measure("m", "Standard deviation of the pitch of the painted spiral", 0.0)
+    samples: int = Field(500, ge=1, description="Number of dances drawn at random")
+    seed: int = Field(
+        1, ge=0, le=SEED_MAX, description="Seed of the random numbers: the same dances come of the same seed"
+    )
+
+    def to_model(self) -> core.Wobble:
+        """raises: InvalidValue"""
+        return core.Wobble(**{name: getattr(self, name) for name in core.Wobble.__slots__})
+
+
+class ContactProbabilityQuery(Wobbling, ToleranceQuery):
+    """How likely is it that benches touch on the way to a turning circle?"""
+
+
+class ContactProbabilityRequest(Wobbling, DanceFields, strict=True):
+    """How likely is it that benches touch when people wobble in any dance?"""
+
+    start: Instant | None = measure(
+        "s", "Start time; null: the start of the dance, or when the whole dragon is on the path", None
+    )
+    stop: Instant | None = measure("s", "End time; null: the end of the run", None)
+
+
+class ContactProbability(Answer):
+    """How likely it is that two benches that share no handle touch at one of some instants."""
+
+    probability: float = Field(description="Share of the samples in which two benches touch")
+    limits: tuple[float, float] = Field(description="Limits of the probability of the model, after Clopper and Pearson")
+    confidence: float = Field(description="Probability that it lies between these limits")
+    contacts: int = Field(description="Number of samples in which two benches touch")
+    samples: int = Field(description="Number of samples")
+    time_quantiles: tuple[float, float, float] | None = measure(
+        "s", "Times up to which 5, 50 and 95 % of these contacts have come about; null without a contact"
+    )
+    benches: Pair | None = Field(description="The pair that is most often the first to touch; null without a contact")
+    tolerance: float | None = measure(
+        "m", "Proven: while no hole is further from its place, nothing touches at any time; null with a pitch error"
+    )
+    strayed: int | None = Field(
+        description="Number of samples in which a hole is further from its place than that before anything touches, or "
+        "as it does; null with a pitch error"
+    )
+    union_bound: float | None = Field(
+        description="Proven without samples: the probability of the model is no larger at these instants; null with "
+        "play or a pitch error"
+    )
+    step: float = measure("s", "Time between two instants; contacts between them are not seen")
+    instants: int = Field(description="Number of instants of each sample")
+    start: float = measure("s", "First instant")
+    stop: float = measure("s", "Last instant")
+    seed: int = Field(description="Seed of the random numbers")
+    method: str = Field(description="How this is known, in sentences")
+
+    @classmethod
+    def of(cls, found: core.ContactProbability) -> Self:
+        quantiles = benches = None
+        if found.contacts:
+            quantiles = tuple(np.quantile(found.time, QUANTILES).tolist())
+            pairs, counts = np.unique(found.benches, axis=0, return_counts=True)
+            benches = tuple(pairs[counts.argmax()].tolist())
+        return cls.known(found, confidence=CONFIDENCE, time_quantiles=quantiles, benches=benches)
+
+
+def contact_probability(asked: ContactProbabilityQuery | ContactProbabilityRequest, terms: Terms) -> ContactProbability:
+    """How likely it is that two benches touch when people wobble, from dances drawn at random, and limits of that."""
+    settings = terms.settings
+    check_limit("samples", "samples", asked.samples, settings.samples_max, "fewer samples already tell a probability")
+    dance, model = asked.to_dance(settings.checked_benches_max), asked.to_model()
+    if isinstance(asked, ContactProbabilityRequest):
+        start, stop = asked.start, asked.stop
+    else:
+        start, stop = None, time_on_circle(dance, asked.turning_diameter / 2)
+    found = core.contact_probability(
+        dance, model, asked.samples, asked.seed, start=start, stop=stop, budget=terms.budget, progress=terms.progress
+    )
+    return ContactProbability.of(found)
+
+
+QUESTION = Question(contact_probability, ContactProbability, body=ContactProbabilityRequest)

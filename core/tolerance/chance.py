@@ -1,0 +1,321 @@
+"""How likely is it that benches touch when people wobble? Dances drawn at random, each to its first contact.
+
+The model is Wobble; how a wobbling dragon is laid out stands above the code of core/kernels/wobble.py. The instants are
+the same for all samples, at most a fifth of the correlation time apart, and contacts between two instants are not seen.
+
+Numbers. Those of a sample depend on the seed, on the number of the sample, and on nothing else: Philox, the generator,
+turns a counter into random bits, and the counter holds the sample and which part of its numbers is wanted. So a sample
+is the same on any machine with the same release of NumPy, in any order, and beside any other samples.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from numbers import Integral
+
+import numpy as np
+from numpy.typing import NDArray
+
+from core import kernels
+from core.budget import Budget, Halted
+from core.dance import Dance
+from core.errors import InvalidValue, said
+from core.motion.trajectory import trajectory
+from core.paths.spiral import Spiral
+from core.shown import Shown, counted, worded
+from core.tolerance.tolerance import tolerance
+from core.tolerance.union_bound import union_bound
+from core.tolerance.wobble import INSTANTS_PER_TIME, Wobble, check_sizes, gains
+from core.values import Floats, asked_of, checked_type
+
+# Instants whose numbers come from one counter. It is a part of what a sample is: with another value samples change [1].
+INSTANTS_PER_COUNTER = 32
+# Most instants of a dance, and most samples [1].
+INSTANTS_MAX, SAMPLES_MAX = 10_000_000, 10_000_000
+# Largest seed that every JSON and every spreadsheet holds exactly [1].
+SEED_MAX = 2**53 - 1
+# Handles of all samples that are danced side by side [1]: the nominal dance is laid out once for all of them.
+HANDLES_TOGETHER = 1_000_000
+# No bench is given more room than this part of the shortest chord, see core/kernels/wobble.py [1].
+ROOM_PART = 0.25
+# The probability lies between its limits with this probability [1].
+CONFIDENCE = 0.95
+
+
+@dataclass(frozen=True, slots=True, repr=False)
+class ContactProbability(Shown):
+    """How likely it is that two benches touch at one of some instants when people wobble.
+
+    probability: the share of the samples with a contact; limits: Clopper and Pearson's, the probability of the model
+        lies between them with CONFIDENCE; contacts, samples: how many
+    time: (contacts,) of the first contact of each sample that has one [s]; sample: (contacts,) their numbers; benches:
+        (contacts, 2) the pair
+    strays: (samples,) how far the furthest hole was from its place up to then [m]
+    tolerance: the stray within which nothing can touch at any time, proven (core.tolerance) [m]: a sample whose strays
+        are smaller has no contact. None with a pitch error, which moves the places themselves
+    union_bound: no larger is the probability of the model, whatever the samples say (core/tolerance/union_bound.py);
+        None with play or a pitch error
+    step: between two instants [s]; instants: their number, from start to stop [s]; seed: as given
+    """
+
+    probability: float
+    limits: tuple[float, float]
+    contacts: int
+    samples: int
+    time: Floats
+    sample: NDArray[np.int64]
+    benches: NDArray[np.int64]
+    strays: Floats
+    tolerance: float | None
+    union_bound: float | None
+    step: float
+    instants: int
+    start: float
+    stop: float
+    seed: int
+
+    @property
+    def strayed(self) -> int | None:
+        """Number of samples in which a hole was further from its place than the tolerance; no other one can touch."""
+        return None if self.tolerance is None else int((self.strays > self.tolerance).sum())
+
+    @property
+    def method(self) -> str:
+        """How this is known, in sentences."""
+        told = (
+            f"In {self.contacts} of {self.samples} dances drawn from the model two benches that share no handle touch "
+            f"at one of {self.instants} instants {said(self.step)} s apart; what happens between two of them is not "
+            f"judged. The limits are Clopper and Pearson's: whatever the probability of the model is, it lies outside "
+            f"them for at most {100.0 * (1.0 - CONFIDENCE):.3g} % of all seeds."
+        )
+        if self.union_bound is not None:
+            told += (
+                f" The probability of the model is at most {said(self.union_bound)} at these instants, whatever the "
+                "samples say: a union bound over all pairs and instants, in first order with bounds of the rest, "
+                "computed in doubles."
+            )
+        if self.tolerance is None:
+            return told
+        return (
+            f"{told} While no hole is further than {said(self.tolerance)} m from its place, nothing touches at any "
+            f"time, which is proven; in {self.samples - (self.strayed or 0)} samples none is at these instants."
+        )
+
+    def _line(self) -> str:
+        low, high = self.limits
+        count = f"{counted(self.contacts, 'contact')} in {counted(self.samples, 'sample')}"
+        return f"{worded(self.probability)}, between {low:.6g} and {high:.6g}: {count}"
+
+
+@asked_of("dance", Dance)
+def contact_probability(
+    dance: Dance,
+    model: Wobble,
+    samples: int | range,
+    seed: int,
+    *,
+    start: float | None = None,
+    stop: float | None = None,
+    budget: Budget | None = None,
+    progress: Callable[[float], None] = lambda share: None,
+) -> ContactProbability:
+    """How likely it is that two benches touch when people wobble, from so many dances drawn at random.
+
+    samples: how many; or which, so that others may be drawn elsewhere; seed: from 0 to SEED_MAX
+    start, stop: [s], by default from when the whole dragon is on the path, or 0, to the end of the run
+    budget: of all work, which is one for each handle of each instant of each sample; by default no limit
+    progress: called with the share of the work that is done
+    raises: InvalidValue; OutsideRun; TooMuchWork
+
+    >>> from core import Dragon, Spiral
+    >>> contact_probability(Dance(Dragon(20), Spiral()), Wobble(), 100, 1, start=380.0, stop=400.0).contacts
+    9
+    """
+    checked_type("model", model, Wobble)
+    which, seed = _checked_samples(samples), _checked_seed(seed)
+    check_sizes(dance, model)
+    begin, until = dance.span(dance.begin if start is None else start, stop)
+    widest = model.correlation_time / INSTANTS_PER_TIME if model.step is None else model.step
+    count = math.ceil((until - begin) / widest) + 1
+    if count > INSTANTS_MAX:
+        field, factor = ("step", 1) if model.step else ("correlation_time", INSTANTS_PER_TIME)
+        least = factor * (until - begin) / (INSTANTS_MAX - 1)
+        rule = f"must be at least {least:.3g} s: a dance has at most {INSTANTS_MAX} instants"
+        raise InvalidValue.of(f"model.{field}", rule, factor * widest, "s")
+    budget = budget or Budget()
+    step = (until - begin) / (count - 1)
+    times = np.linspace(begin, until, count)
+    sampled = _Sampled(dance, model, times, math.exp(-step / model.correlation_time), seed, budget)
+    handles = dance.dragon.benches + 1
+    together = max(1, HANDLES_TOGETHER // handles)
+    found = _Found(len(which))
+    try:
+        for first in range(0, len(which), together):
+            batch = which[first : first + together]
+            for share in sampled.dance(batch, found, first):
+                progress((first + share * len(batch)) / len(which))
+        bound = None if model.pitch_error or model.play else union_bound(dance, model, times, budget)
+    except Halted as halted:
+        rule = "must be fewer, or the time asked about shorter: the probability of a contact was not found {then}"
+        raise halted.budget.too_much("samples", rule, len(which), "") from halted
+    safe = None if model.pitch_error else tolerance(dance, start=begin, stop=until, budget=budget).stray
+    touched = np.flatnonzero(found.instant < count)
+    contacts, total = touched.size, len(which)
+    return ContactProbability(
+        contacts / total, clopper_pearson(contacts, total), contacts, total, times[found.instant[touched]],
+        np.asarray(which)[touched], found.benches[touched], found.strays, safe, bound, step, count, begin, until, seed,
+    )  # fmt: skip
+
+
+class _Found:
+    """What became of each sample: the instant of its first contact, or one past the last; the pair; largest stray."""
+
+    def __init__(self, samples: int) -> None:
+        self.instant = np.zeros(samples, dtype=np.int64)
+        self.benches = np.zeros((samples, 2), dtype=np.int64)
+        self.strays = np.zeros(samples)
+
+
+class _Sampled:
+    """A dance whose people wobble: at some instants (T,) [s], with a memory of each for the one before [1]."""
+
+    def __init__(self, dance: Dance, model: Wobble, times: Floats, memory: float, seed: int, budget: Budget) -> None:
+        self.nominal, self.model, self.times, self.budget = dance, model, times, budget
+        dragon = dance.dragon
+        benches = dragon.benches
+        sizes = np.zeros((benches + 1, kernels.SIZE_COLUMNS))
+        sizes[:benches] = np.stack(
+            [dragon.chords, 0.5 * dragon.lengths, 0.5 * dragon.widths, 0.5 * np.hypot(dragon.lengths, dragon.widths)],
+            axis=1,
+        )
+        chain, boxes = (np.zeros((benches + 1, columns)) for columns in (kernels.UY + 1, kernels.BOX_COLUMNS))
+        loud = np.zeros(2 * benches + 2, dtype=np.int8)
+        self.wobbler = kernels.Wobbler(sizes, budget.halt, chain, boxes, loud)
+        self.wobbler.lateral, self.wobbler.forward, self.wobbler.along = model.lateral, model.forward, model.along
+        self.gains = gains(dragon)
+        self.most_room = ROOM_PART * float(dragon.chords.min())
+        self.memory = np.full(times.size, memory)
+        self.memory[0] = 0.0
+        self.numbers = _Numbers(seed)
+
+    def dance(self, batch: range, found: _Found, first: int) -> Iterator[float]:
+        """Let some samples dance side by side, the first of them `first` in what is found; yields the share done."""
+        handles = self.nominal.dragon.benches + 1
+        state = np.zeros((len(batch), handles, 2))
+        play = self._play(batch)
+        pitches = self._pitches(batch)
+        going = list(range(len(batch)))
+        count = self.times.size
+        found.instant[first : first + len(batch)] = count
+        for part, low in enumerate(range(0, count, INSTANTS_PER_COUNTER), 2):
+            if not going:
+                break
+            rows = slice(low, min(low + INSTANTS_PER_COUNTER, count))
+            shared = self._as_it_should_be(rows) if self.model.pitch_error == 0.0 else None
+            still = []
+            for k in going:
+                places, tangents, rooms = shared or self._on_pitch(rows, pitches[k])
+                length = len(places)
+                self.budget.afford(float(length * handles))
+                drawn = self.numbers.of(batch[k], part).standard_normal((length, handles, 2))
+                self.wobbler.furthest = found.strays[first + k]
+                clear = self.wobbler.dance(
+                    self.memory[low : low + length], drawn, play[k], places, tangents, rooms, state[k]
+                )
+                found.strays[first + k] = self.wobbler.furthest
+                if clear < length:
+                    found.instant[first + k] = low + clear
+                    found.benches[first + k] = self.wobbler.first, self.wobbler.second
+                elif length == rows.stop - low:
+                    still.append(k)
+            self.budget.look()
+            going = still
+            yield rows.stop / count
+
+    def _as_it_should_be(self, rows: slice) -> tuple[Floats, Floats, Floats]:
+        """Places and tangents (T, n + 1, 2) of all handles as they should be, and room of every bench (T, n) [m]."""
+        placed = trajectory(self.nominal, self.times[rows])
+        places, tangents = placed.position, placed.velocity / placed.speed[..., None]
+        rooms = np.empty((len(places), places.shape[1] - 1))
+        self.wobbler.measure(self.most_room, self.gains, places, rooms)
+        return places, tangents, rooms
+
+    def _play(self, batch: range) -> Sequence[Floats]:
+        """Where the holes of every bench are from their pins, for every sample (n, 4) [m]."""
+        benches, most = self.nominal.dragon.benches, self.model.play
+        if most == 0.0:
+            return [np.zeros((benches, 4))] * len(batch)
+        drawn = np.stack([self.numbers.of(sample, 0).random((2, benches, 2)) for sample in batch])
+        radius, angle = most * np.sqrt(drawn[:, 0]), 2.0 * math.pi * drawn[:, 1]
+        play: Floats = np.stack([radius * np.cos(angle), radius * np.sin(angle)], axis=-1)
+        return list(play.reshape(len(batch), benches, 4))
+
+    def _pitches(self, batch: range) -> list[float]:
+        """The pitch of each sample [m]."""
+        path, size = self.nominal.path, self.model.pitch_error
+        if size == 0.0 or not isinstance(path, Spiral):
+            return []
+        return [path.pitch + size * float(self.numbers.of(sample, 1).standard_normal()) for sample in batch]
+
+    def _on_pitch(self, rows: slice, pitch: float) -> tuple[Floats, Floats, Floats]:
+        """As _as_it_should_be(), on a spiral of another pitch [m], up to its fold at most; no bench has room."""
+        path, chords = self.nominal.path, self.nominal.dragon.chords
+        assert isinstance(path, Spiral)
+        theta = path.theta(self.times[rows] * self.nominal.head_speed) * (path.pitch / pitch)
+        shape = (theta.size, chords.size + 1)
+        places, velocity, speed = np.empty((*shape, 2)), np.empty((*shape, 2)), np.empty(shape)
+        growth = pitch / (2.0 * math.pi)
+        length = kernels.spiral_trajectory(growth, theta, chords, 1.0, places, velocity, speed, self.budget.halt)
+        tangents = velocity[:length] / speed[:length, :, None]
+        return places[:length], tangents, np.zeros((length, chords.size))
+
+
+class _Numbers:
+    """The random numbers of every sample, in parts; see the top of this file. Part 0 is of its play, part 1 of its
+    pitch, each further one of INSTANTS_PER_COUNTER instants."""
+
+    def __init__(self, seed: int) -> None:
+        self._bits = np.random.Philox(key=seed)
+        self._state = self._bits.state
+        self._generator = np.random.Generator(self._bits)
+
+    def of(self, sample: int, part: int) -> np.random.Generator:
+        """A generator at the beginning of a part of the numbers of a sample."""
+        # Philox counts up from here, in the lowest of the four words.
+        self._state["state"]["counter"][:] = (0, part, sample, 0)
+        self._bits.state = self._state
+        return self._generator
+
+
+def clopper_pearson(contacts: int, samples: int) -> tuple[float, float]:
+    """Limits between which the probability of a contact lies with CONFIDENCE, for so many contacts among samples.
+
+    source: Clopper and Pearson, Biometrika 26 (1934), 404-413: at the lower limit so many contacts or more would have
+    half of the probability that is left, and at the upper one so many or fewer
+
+    >>> [round(limit, 6) for limit in clopper_pearson(0, 100)]
+    [0.0, 0.036217]
+    """
+    from scipy.special import betaincinv  # type: ignore[import-untyped]
+
+    tail = 0.5 * (1.0 - CONFIDENCE)
+    low = float(betaincinv(contacts, samples - contacts + 1, tail)) if contacts else 0.0
+    high = float(betaincinv(contacts + 1, samples - contacts, 1.0 - tail)) if contacts < samples else 1.0
+    return low, high
+
+
+def _checked_samples(samples: object) -> range:
+    if isinstance(samples, Integral) and not isinstance(samples, bool) and 1 <= int(samples) <= SAMPLES_MAX:
+        return range(int(samples))
+    if isinstance(samples, range) and samples and min(samples) >= 0 and max(samples) < SAMPLES_MAX:
+        return samples
+    rule = f"samples must be a whole number from 1 to {SAMPLES_MAX}, or a range of numbers below {SAMPLES_MAX}"
+    raise InvalidValue("samples", f"{rule}, got {samples!r:.60}")
+
+
+def _checked_seed(seed: object) -> int:
+    if isinstance(seed, Integral) and not isinstance(seed, bool) and 0 <= int(seed) <= SEED_MAX:
+        return int(seed)
+    raise InvalidValue("seed", f"seed must be a whole number from 0 to {SEED_MAX}, got {seed!r:.60}")

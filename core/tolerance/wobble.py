@@ -1,0 +1,112 @@
+"""How people wobble: the model of contact_probability() (core/tolerance/chance.py)."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from core.dance import Dance
+from core.dragon import Dragon
+from core.errors import InvalidValue, said
+from core.paths.spiral import Spiral
+from core.shown import Shown
+from core.values import SIZE_MAX, Floats, checked_number
+
+# Instants in a correlation time, at least [1].
+INSTANTS_PER_TIME = 5
+# Longest correlation, in seconds and in benches [1].
+CORRELATION_MAX = 1e9
+# Sizes of what people want, and the play, are at most this part of the shortest chord, and the size of a pitch error
+# this part of the pitch [1]: no person ever wants to stand on the far side of the next, no pitch is ever negative.
+SIZE_PART, PITCH_PART = 0.1, 0.1
+
+
+@dataclass(frozen=True, slots=True)
+class Wobble(Shown):
+    """How people wobble. Think of two steps a second: a correlation time of 5 s is that of ten steps.
+
+    lateral, forward: how far a person wants to stand from their place, across the path and along it [m]: normal, with
+        these standard deviations, so at one step in twenty further than twice as far. Chords are rigid: what comes of
+        the latter is the first person's, and what the bends of the chain make of the former
+    correlation_time: [s] after it a person has kept 1 / e of where they stood, and the rest is new
+    step: [s] between two instants, at most 1 / INSTANTS_PER_TIME of the correlation time, which None stands for. The
+        path of a person is as rough as that of a random walk, so at closer instants there are more contacts
+    correlation_benches: [1] two people so many benches apart share 1 / e of where they stand, who carry the same bench
+        exp(-1 / correlation_benches) of it
+    hole, pin: diameters in a joint [m]. Where a pin lies in each of its two holes is drawn once for a dance, uniformly
+        over the hole
+    pitch_error: [m] standard deviation of the pitch of the painted spiral, drawn once for a dance. The head is as far
+        from the centre at every instant as it would be without
+    """
+
+    lateral: float = 0.01
+    forward: float = 0.01
+    correlation_time: float = 5.0
+    correlation_benches: float = 2.0
+    hole: float = 0.0
+    pin: float = 0.0
+    pitch_error: float = 0.0
+    step: float | None = None
+
+    def __post_init__(self) -> None:
+        for name in ("lateral", "forward", "hole", "pin", "pitch_error"):
+            object.__setattr__(self, name, checked_number(f"model.{name}", getattr(self, name), "m", 0.0, SIZE_MAX))
+        for name, unit in (("correlation_time", "s"), ("correlation_benches", "")):
+            value = checked_number(f"model.{name}", getattr(self, name), unit, 0.0, CORRELATION_MAX, open_low=True)
+            object.__setattr__(self, name, value)
+        if self.step is not None:
+            object.__setattr__(self, "step", self._checked_step(self.step))
+        if self.pin > self.hole:
+            rule = f"{{field}} must be no wider than its {{hole}} ({said(self.hole)} m), got {said(self.pin)} m"
+            raise InvalidValue("model.pin", rule, hole="model.hole")
+
+    def _checked_step(self, given: object) -> float:
+        step = checked_number("model.step", given, "s", 0.0, CORRELATION_MAX, open_low=True)
+        most = self.correlation_time / INSTANTS_PER_TIME
+        if step > most and not math.isclose(step, most):
+            rule = f"{{field}} must be at most {said(most)} s, 1 / {INSTANTS_PER_TIME} of {{time}}, got {said(step)} s"
+            raise InvalidValue("model.step", rule, time="model.correlation_time")
+        return step
+
+    @property
+    def play(self) -> float:
+        """How far a hole may be from its pin [m]."""
+        return 0.5 * (self.hole - self.pin)
+
+    @property
+    def along(self) -> float:
+        """Correlation of two people who carry the same bench [1]."""
+        return math.exp(-1.0 / self.correlation_benches)
+
+
+def check_sizes(dance: Dance, model: Wobble) -> None:
+    """raises: InvalidValue for a model whose sizes do not fit a dance"""
+    bench = int(dance.dragon.chords.argmin())
+    most = SIZE_PART * float(dance.dragon.chords[bench])
+    for name, size in (("lateral", model.lateral), ("forward", model.forward), ("hole", model.play)):
+        if size > most:
+            what = "leave a play of at most" if name == "hole" else "be at most"
+            rule = f"must {what} {SIZE_PART} of the chord of bench {bench} ({said(most)} m)"
+            raise InvalidValue.of(f"model.{name}", rule, size, "m")
+    if model.pitch_error > 0.0:
+        if not isinstance(dance.path, Spiral):
+            rule = "must be 0 on a path that is no spiral"
+            raise InvalidValue.of("model.pitch_error", rule, model.pitch_error, "m")
+        most = PITCH_PART * dance.path.pitch
+        if model.pitch_error > most:
+            rule = f"must be at most {PITCH_PART} of the pitch ({said(most)} m)"
+            raise InvalidValue.of("model.pitch_error", rule, model.pitch_error, "m")
+
+
+def gains(dragon: Dragon) -> Floats:
+    """How far a point of each bench (n,) goes at most where both of its holes go 1 m [1].
+
+    A point with the complex coordinate z from the middle of the chord l, along it, goes by d0 (1/2 + z/l) + d1 (1/2 -
+    z/l) where the holes go by d0 and d1 (core/tolerance/reach.py), so at most by (|l/2 + z| + |l/2 - z|) / l of the
+    larger: that is largest in a corner.
+    """
+    chords, overhangs, half_widths = dragon.chords, dragon.overhangs, 0.5 * dragon.widths
+    gain: Floats = (np.hypot(overhangs, half_widths) + np.hypot(chords + overhangs, half_widths)) / chords
+    return gain

@@ -1,0 +1,86 @@
+"""The bound without samples: its first order and what that leaves out, against chains drawn at random."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from core import Budget, Dance, Dragon, Spiral, Wobble, contact_probability, trajectory
+from core.tolerance.union_bound import FirstOrder, first_order, left_out, union_bound
+from core.values import Floats
+
+DANCE = Dance(Dragon(12), Spiral())
+TIMES = np.array([300.0, 340.0])
+PLACED = trajectory(DANCE, TIMES)
+TANGENTS = PLACED.velocity / PLACED.speed[..., None]
+COUNT = 10_000
+
+
+def chains(model: Wobble) -> tuple[FirstOrder, Floats, Floats, Floats]:
+    """The first order, then of COUNT chains drawn at random at the last instant: e_k, its first order (COUNT, n + 1, 2)
+    and, in first order, the four numbers of every bench that are assumed to be small (COUNT, n, 4) [m]."""
+    rng, chords = np.random.default_rng(1), DANCE.dragon.chords
+    places, ahead = PLACED.position[-1], TANGENTS[-1]
+    left = np.stack([-ahead[:, 1], ahead[:, 0]], axis=-1)
+    z = rng.standard_normal((COUNT, len(places), 2))
+    for k in range(1, len(places)):
+        z[:, k] = model.along * z[:, k - 1] + np.sqrt(1.0 - model.along**2) * z[:, k]
+    wants = model.lateral * z[..., :1] * left + model.forward * z[..., 1:] * ahead
+    pins, linear, small = [places[0] + wants[:, 0]], [wants[:, 0]], []
+    for k, chord in enumerate(chords.tolist()):
+        way = places[k + 1] + wants[:, k + 1] - pins[-1]
+        pins.append(pins[-1] + way * (chord / np.hypot(*way.T))[:, None])
+        u = (places[k] - places[k + 1]) / chord
+        n = np.array([-u[1], u[0]])
+        e, v = linear[-1], wants[:, k + 1] - linear[-1]
+        small.append(np.stack([e @ u, e @ n, v @ u, v @ n], axis=1))
+        linear.append((e @ u)[:, None] * u + (wants[:, k + 1] @ n)[:, None] * n)
+    laid = first_order(DANCE.dragon, model, PLACED.position, TANGENTS)
+    return laid, np.stack(pins, axis=1) - places, np.stack(linear, axis=1), np.stack(small, axis=1)
+
+
+def test_chains_drawn_at_random_have_the_covariances_of_the_first_order() -> None:
+    model = Wobble(2e-5, 1e-5)
+    laid, strays, linear, small = chains(model)
+    assert strays == pytest.approx(linear, abs=1e-8)  # so small that the first order is nearly all
+    both = np.concatenate([strays[:, :-1], strays[:, 1:]], axis=2)
+    drawn = np.einsum("ski,skj->kij", both, both) / COUNT
+    size = np.sqrt(np.einsum("kii->ki", laid.joint[-1]))
+    relative = (drawn - laid.joint[-1]) / (size[:, :, None] * size[:, None])
+    assert np.abs(relative).max() < 6.0 / np.sqrt(COUNT)
+    assert small.std(axis=0) == pytest.approx(laid.deviations[-1], rel=6.0 / np.sqrt(2 * COUNT))
+
+
+@pytest.mark.parametrize("size", [0.002, 0.01])
+def test_no_chain_within_the_assumption_leaves_its_first_order_by_more_than_the_bounds(size: float) -> None:
+    laid, strays, linear, small = chains(Wobble(size, size))
+    deviations = 2.5
+    bounds = left_out(DANCE.dragon, laid, deviations)
+    assert bounds is not None
+    rest = strays - linear
+    ways = np.stack([laid.along[-1], laid.across[-1]], axis=1)
+    front, rear = (np.einsum("ski,kfi->skf", part, ways) for part in (rest[:, :-1], rest[:, 1:]))
+    beyond = np.abs(np.concatenate([front, rear], axis=2)) / np.maximum(bounds[-1], 1e-15)
+    held = (np.abs(small) <= deviations * laid.deviations[-1]).all(axis=(1, 2))
+    assert 0.1 < held.mean() < 0.9
+    assert 0.2 < beyond[held].max() <= 1.0
+    assert beyond.max() > 1.0  # others do leave it
+
+
+def test_nothing_is_said_of_steep_turns() -> None:
+    laid = chains(Wobble(0.1, 0.1))[0]
+    assert left_out(DANCE.dragon, laid, 8.0) is None
+    assert union_bound(DANCE, Wobble(0.1, 0.1), TIMES, Budget()) == 1.0
+
+
+def test_the_bound_grows_with_the_wobble_and_holds_of_every_sample() -> None:
+    span, bounds = {"start": 384.0, "stop": 394.0}, []
+    for size in (0.0003, 0.001, 0.002, 0.004, 0.03):
+        found = contact_probability(DANCE, Wobble(size, size), 200, 1, **span)
+        assert found.union_bound is not None
+        assert found.limits[0] <= found.union_bound
+        bounds.append(found.union_bound)
+    assert bounds[0] < 1e-9
+    assert bounds == sorted(bounds)
+    assert bounds[-1] == 1.0
+    assert 1e-6 < bounds[3] < 1e-3

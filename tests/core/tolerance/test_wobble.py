@@ -1,0 +1,61 @@
+"""The model of how people wobble: what it refuses, and how far a bench follows its holes."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+from core import Dance, Dragon, InvalidValue, Spiral, Turn, Wobble
+from core.tolerance.wobble import check_sizes, gains
+from tests.core.tolerance.places import moved_points, random_strays
+
+DANCE = Dance(Dragon(5), Spiral())
+
+
+@pytest.mark.parametrize(
+    ("given", "message"),
+    [
+        ({"lateral": -0.01}, "model.lateral must be zero or more, got -0.01 m"),
+        ({"correlation_time": 0.0}, "model.correlation_time must be positive, got 0 s"),
+        ({"step": 1.01}, "model.step must be at most 1 s, 1 / 5 of model.correlation_time, got 1.01 s"),
+        ({"step": 0}, "model.step must be positive, got 0 s"),
+        ({"correlation_benches": 0}, "model.correlation_benches must be positive, got 0"),
+        ({"hole": 0.05, "pin": 0.06}, "model.pin must be no wider than its model.hole (0.05 m), got 0.06 m"),
+        ({"pitch_error": float("nan")}, "model.pitch_error must be a finite number, got nan m"),
+    ],
+    ids=lambda given: next(iter(given)) if isinstance(given, dict) else "",
+)
+def test_a_model_that_cannot_be_is_refused(given: dict[str, Any], message: str) -> None:
+    with pytest.raises(InvalidValue) as refused:
+        Wobble(**given)
+    assert refused.value.message == message
+
+
+@pytest.mark.parametrize(
+    ("dance", "model", "words"),
+    [
+        (DANCE, Wobble(lateral=0.2), "model.lateral must be at most 0.1 of the chord of bench 1 (0.165"),
+        (DANCE, Wobble(hole=0.5), "model.hole must leave a play of at most 0.1 of the chord of bench 1"),
+        (DANCE, Wobble(pitch_error=0.06), "model.pitch_error must be at most 0.1 of the pitch (0.055"),
+        (Dance(Dragon(5), Turn(1.7)), Wobble(pitch_error=0.01), "model.pitch_error must be 0 on a path that is no"),
+    ],
+    ids=["lateral", "play", "pitch error", "no spiral"],
+)
+def test_a_model_that_does_not_fit_a_dance_is_refused(dance: Dance, model: Wobble, words: str) -> None:
+    check_sizes(dance, Wobble())
+    with pytest.raises(InvalidValue) as refused:
+        check_sizes(dance, model)
+    assert refused.value.message.startswith(words)
+
+
+def test_a_corner_goes_as_far_as_the_gain_says_and_no_point_further() -> None:
+    dragon, stray = Dragon(2), 0.01
+    for k, gain in enumerate(gains(dragon).tolist()):
+        chord, x, y = float(dragon.chords[k]), 0.5 * float(dragon.lengths[k]), 0.15
+        corners = np.array([[x, y], [x, -y], [-x, y], [-x, -y]])
+        strays = random_strays(np.random.default_rng(k), chord, stray, 20_000)
+        moved = moved_points(corners, strays, chord)
+        furthest = np.hypot(*np.moveaxis(moved - corners, -1, 0)).max()
+        assert 0.99 * gain * stray < furthest <= gain * stray * (1.0 + 1e-12)
