@@ -6,13 +6,15 @@ writes them. Whatever is lost on the way, with a worker, a future or the schedul
 
 from __future__ import annotations
 
+import asyncio
 import logging
 import queue
 import time
-from concurrent.futures import CancelledError
+from concurrent.futures import CancelledError, ThreadPoolExecutor
 from contextlib import suppress
 
 from distributed import Client, Future, KilledWorker, LocalCluster
+from distributed.comm.core import connect
 
 from app.sweeps.engines import Done, NoAnswer, NoScheduler, arrived, attempt
 from app.sweeps.shards import Piece
@@ -37,6 +39,13 @@ def _local(workers: int | None) -> LocalCluster:
         silence_logs=logging.ERROR,
         scheduler_kwargs={"allowed_failures": 0},
     )
+
+
+async def _greet(address: str) -> None:
+    """Connect once: a Client waits for ever for who never answers. raises: OSError, TimeoutError"""
+    if address.startswith("tcp://"):
+        async with asyncio.timeout(CONNECT):
+            await (await connect(address, timeout=CONNECT)).close()
 
 
 class Cluster:
@@ -145,6 +154,8 @@ class Cluster:
         until = time.monotonic() + patience
         while True:
             try:
+                with ThreadPoolExecutor(1) as thread:  # Who asks may have an event loop, as in a notebook.
+                    thread.submit(asyncio.run, _greet(self._address)).result()
                 client = Client(self._address, timeout=CONNECT, set_as_default=False)
                 self._workers = max(sum(client.nthreads().values()), 1)
                 return client

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import socket
 from pathlib import Path
 
 import psutil
@@ -52,3 +53,11 @@ def test_an_address_where_nobody_answers_is_named(monkeypatch: pytest.MonkeyPatc
     address = f"tcp://127.0.0.1:{free_port()}"
     with pytest.raises(NoScheduler, match=f"no Dask scheduler answers at {address}"):
         Cluster(address)
+
+
+def test_a_port_that_takes_connections_and_never_answers_is_no_scheduler(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("app.sweeps.cluster.CONNECT", 1.0)
+    with socket.create_server(("127.0.0.1", 0)) as silent:
+        address = f"tcp://127.0.0.1:{silent.getsockname()[1]}"
+        with pytest.raises(NoScheduler, match=f"no Dask scheduler answers at {address}"):
+            Cluster(address)
