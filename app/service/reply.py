@@ -29,8 +29,8 @@ from app.service.watch import GLANCE, Glances, watched
 from app.settings import Settings
 from app.wire.models import JSON, Wire
 from app.wire.problem import ERRORS_MAX, ErrorItem
-from app.wire.refusals import reworded
-from core import BenchDragonError, TooMuchWork
+from app.wire.refusals import refusing
+from core import TooMuchWork
 
 VERSION = version("bench-dragon")
 RESPOND_ASYNC = "respond-async"
@@ -69,8 +69,7 @@ class Reply:
 
     async def to_query(self, call: Call, asked: Wire, *form: Format) -> Response:
         """The answer to a request without a body: at once where it is expected to be quick, else from a thread."""
-        one_form = not form and len(call.question.forms) == 1
-        if one_form and call.question.estimate(asked, call.question.forms[0]) <= GLANCE:
+        if not form and len(call.question.forms) == 1 and self._cost(call, asked, call.question.forms[0]) <= GLANCE:
             async with self._glances.turn:
                 with suppress(TooMuchWork), self._glances.budget() as budget:
                     self.request.state.budget = budget
@@ -117,12 +116,15 @@ class Reply:
 
     def _computed(self, call: Call, asked: Wire, media_type: str) -> bytes | Iterator[bytes]:
         """The answer, computed in its lane."""
-        try:
-            cost = max(call.question.estimate(asked, media_type), self._least_cost)
-            with self._lanes.of(cost, media_type).taken(cost, client_of(self.request)):
-                return call.question.told(asked, Terms(self.settings, self.request.state.budget), media_type)
-        except BenchDragonError as error:
-            raise reworded(error, asked) from error
+        cost = max(self._cost(call, asked, media_type), self._least_cost)
+        with self._lanes.of(cost, media_type).taken(cost, client_of(self.request)), refusing(asked):
+            return call.question.told(asked, Terms(self.settings, self.request.state.budget), media_type)
+
+    @staticmethod
+    def _cost(call: Call, asked: Wire, media_type: str) -> float:
+        """Estimated time of the answer [s]. raises: InvalidValue for times that end before they begin"""
+        with refusing(asked):
+            return call.question.estimate(asked, media_type)
 
     def _zips(self, data: bytes | Iterator[bytes]) -> bool:
         """Is the answer worth compressing, and does the client accept gzip?"""

@@ -17,6 +17,7 @@ APART_FROM_MARGINS = {
     ("LeastClearance", "distance"), ("Shown", "depth"),
     *(("ContactProbability", name) for name in ("probability", "contacts", "benches", "tolerance", "strayed")),
     *(("Tolerance", name) for name in ("stray", "stray_bracket", "limited_by", "time", "exhibit")),
+    *(("ToleranceCurve", name) for name in ("stray", "touching", "limited_by")),
     *(("CollisionTime", name) for name in ("margin", "corner", "edge")),
 }  # fmt: skip
 
