@@ -18,6 +18,7 @@ from core.design.pitch_scan import PitchScan, pitch_scan
 from core.design.shortest_turn import ShortestTurn, TurnLimit, shortest_turn
 from core.dragon import Dragon
 from core.errors import BenchDragonError, InvalidValue, OutsideRun, ProofRefused, TooLarge, TooMuchWork
+from core.ground.envelope import Envelope, SweepProof, envelope
 from core.motion.joints import SharpestBend, sharpest_bend
 from core.motion.speed import (
     FirstExcess,
@@ -57,6 +58,7 @@ __all__ = [
     "Dragon",
     "EndReason",
     "Engine",
+    "Envelope",
     "Evidence",
     "Exhibit",
     "Failure",
@@ -92,6 +94,7 @@ __all__ = [
     "Spiral",
     "Stray",
     "StrayProof",
+    "SweepProof",
     "Tolerance",
     "ToleranceCurve",
     "TooLarge",
@@ -109,6 +112,7 @@ __all__ = [
     "clearance_profile",
     "contact_check",
     "cross_check",
+    "envelope",
     "first_contact",
     "first_excess",
     "highest_speed",

@@ -1,10 +1,11 @@
-"""Four independent ways to find overlapping benches, and shapely's tests of polygons at rest.
+"""Four independent ways to find overlapping benches; shapely's tests of polygons at rest, and their union.
 
 The only file that knows FCL and shapely; it imports them on demand.
 """
 
 from __future__ import annotations
 
+import math
 from collections import deque
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
@@ -28,6 +29,12 @@ ANGLE_BATCH = 50_000
 # Number of dragons whose FCL objects are kept, and their largest number of benches: 8 MB in all.
 KEPT_DRAGONS = 8
 KEPT_BENCHES = 2_000
+# Chords of a quarter of a circle where polygons are grown, how far that takes a point at most, as a multiple of the
+# growth, and how many polygons are united between two looks at the budget [1].
+ARC_CHORDS, GROWTH_MOST, UNITED = 4, 1.01 / math.cos(math.pi / 16.0), 32
+
+# Of each polygon its rings (points, 2) [m], closed: the outer one counter-clockwise, then the holes, clockwise.
+Polygons = tuple[tuple[Floats, ...], ...]
 
 
 class Engine(StrEnum):
@@ -246,6 +253,44 @@ def inside(rings: Sequence[ArrayLike], points: Floats) -> NDArray[np.bool_]:
 
     found: NDArray[np.bool_] = shapely.contains_xy(shapely.Polygon(rings[0], rings[1:]), points)
     return found
+
+
+# GEOS makes arcs of chords, and leaves dents of up to a hundredth of the growth out of what it grows.
+def united(core: Sequence[Floats], rest: Sequence[Floats], grown: float, left_out: float, budget: Budget) -> Polygons:
+    """The union of convex polygons, grown: all within `grown` of it, nothing further than GROWTH_MOST times that [m].
+
+    core, rest: arrays (N, corners, 2) [m]; of the rest only those count that go further than `left_out` out of the core
+    """
+    import shapely
+
+    kernel, others = (shapely.convex_hull([q for p in some for q in shapely.polygons(p)]) for some in (core, rest))
+    ground = _union(kernel, budget)
+    roomy = shapely.buffer(ground, left_out / GROWTH_MOST)
+    shapely.prepare(roomy)
+    ground = _union(np.array([ground, *others[~shapely.covers(roomy, others)]]), budget)
+    ground = shapely.buffer(ground, grown / math.cos(0.25 * math.pi / ARC_CHORDS), quad_segs=ARC_CHORDS)
+    polygons = [shapely.geometry.polygon.orient(polygon) for polygon in shapely.get_parts(ground)]
+    return tuple(tuple(map(shapely.get_coordinates, (some.exterior, *some.interiors))) for some in polygons)
+
+
+def _union(parts: NDArray[np.object_], budget: Budget) -> object:
+    import shapely
+
+    while parts.size > 1:
+        merged = []
+        for first in range(0, parts.size, UNITED):
+            budget.look()
+            merged.append(shapely.union_all(parts[first : first + UNITED]))
+        parts = np.array(merged)
+    return parts[0]
+
+
+def distance_from(polygons: Polygons, line: Floats) -> float:
+    """Least distance between polygons and a line through points (P, 2), or a single one [m]."""
+    import shapely
+
+    ground = shapely.MultiPolygon([(rings[0], rings[1:]) for rings in polygons])
+    return float(shapely.distance(ground, shapely.LineString(line) if len(line) > 1 else shapely.Point(line[0])))
 
 
 # -- the paper's angle-sum rule -------------------------------------------------------------------------------
