@@ -29,9 +29,14 @@ ANGLE_BATCH = 50_000
 # Number of dragons whose FCL objects are kept, and their largest number of benches: 8 MB in all.
 KEPT_DRAGONS = 8
 KEPT_BENCHES = 2_000
-# Chords of a quarter of a circle where polygons are grown, how far that takes a point at most, as a multiple of the
-# growth, and how many polygons are united between two looks at the budget [1].
-ARC_CHORDS, GROWTH_MOST, UNITED = 4, 1.01 / math.cos(math.pi / 16.0), 32
+# Polygons are grown with arcs of chords, of which a quarter of a circle has so many; GEOS rounds their number, so that a
+# chord may span half as much more, and leaves dents of up to a hundredth of the growth out: by what it is told to grow,
+# and how far that takes a point, both as a multiple of the growth asked for [1].
+ARC_CHORDS = 8
+ARC_RADIUS = 1.0 / math.cos(1.5 * 0.25 * math.pi / ARC_CHORDS)
+GROWTH_MOST = 1.01 * ARC_RADIUS
+# Polygons united between two looks at the budget [1].
+UNITED = 32
 
 # Of each polygon its rings (points, 2) [m], closed: the outer one counter-clockwise, then the holes, clockwise.
 Polygons = tuple[tuple[Floats, ...], ...]
@@ -255,7 +260,6 @@ def inside(rings: Sequence[ArrayLike], points: Floats) -> NDArray[np.bool_]:
     return found
 
 
-# GEOS makes arcs of chords, and leaves dents of up to a hundredth of the growth out of what it grows.
 def united(core: Sequence[Floats], rest: Sequence[Floats], grown: float, left_out: float, budget: Budget) -> Polygons:
     """The union of convex polygons, grown: all within `grown` of it, nothing further than GROWTH_MOST times that [m].
 
@@ -268,7 +272,7 @@ def united(core: Sequence[Floats], rest: Sequence[Floats], grown: float, left_ou
     roomy = shapely.buffer(ground, left_out / GROWTH_MOST)
     shapely.prepare(roomy)
     ground = _union(np.array([ground, *others[~shapely.covers(roomy, others)]]), budget)
-    ground = shapely.buffer(ground, grown / math.cos(0.25 * math.pi / ARC_CHORDS), quad_segs=ARC_CHORDS)
+    ground = shapely.buffer(ground, ARC_RADIUS * grown, quad_segs=ARC_CHORDS)
     polygons = [shapely.geometry.polygon.orient(polygon) for polygon in shapely.get_parts(ground)]
     return tuple(tuple(map(shapely.get_coordinates, (some.exterior, *some.interiors))) for some in polygons)
 

@@ -73,8 +73,8 @@ def test_a_union_is_grown_by_what_was_asked_and_hardly_more() -> None:
         [[[-2.0, 0.0], [2.0, 0.0], [2.0, 0.1], [-2.0, 0.1]], [[5.0, 5.0], [6.0, 5.0], [6.0, 6.0], [5.0, 6.0]]]
     )
     grown = 0.02
-    polygons = united([fan, bars], [0.5 * fan, bars[1:] + 0.25], grown, 0.3, Budget())
-    own = shapely.union_all([*shapely.polygons(fan), *shapely.polygons(bars)])  # what is left out is within 0.3 of it
+    polygons = united([fan, bars], [bars[1:] + 0.2], grown, 0.3, Budget())
+    own = shapely.union_all([*shapely.polygons(fan), *shapely.polygons(bars)])
     found = shapely.MultiPolygon([(rings[0], rings[1:]) for rings in polygons])
     assert found.is_valid
     assert found.covers(own)
