@@ -61,15 +61,15 @@ from core.motion.trajectory import bench_outlines
 from core.paths.pieces import checked_point, listed
 from core.paths.route import Route
 from core.paths.spiral import Spiral
-from core.shapes.engines import GROWTH_MOST, Polygons, distance_from, united
+from core.shapes.engines import GRID, GROWTH_MOST, Polygons, distance_from, united
 from core.shown import Shown, counted
 from core.values import Floats, asked_of, checked_number
 
 # Least and largest excess that may be asked for [m].
-EXCESS_MIN, EXCESS_MAX = 1e-4, 1.0
+EXCESS_MIN, EXCESS_MAX = 5e-4, 1.0
 # As parts of the excess: what bow and slip may come to together, bow alone when cells are laid out, and how far a
 # polygon that is left out of the union may be outside of it. The union is grown by the first and the last of these,
-# 0.94 of the excess with what it is for; the rest is for the ends of stretches [1].
+# 0.93 of the excess with what it is for; the rest is for the grid of the union and for ends of stretches [1].
 BENT, BOW, LEFT_OUT = 0.4, 0.125, 0.12
 # The convex hull of an edge's places serves where it has no more than this part of the excess besides [1].
 FLAT = 0.02
@@ -160,9 +160,9 @@ def envelope(
     parts = [part for track in found for part in _Lone(dance, track, excess, budget).sweep()]
     core = [polygons for part in parts for polygons in part.core]
     rest = [polygons for part in parts for polygons in part.rest]
-    added = (BENT + LEFT_OUT) * excess + ROUNDING
+    added = (BENT + LEFT_OUT) * excess + GRID + ROUNDING
     polygons = united(core, rest, added, LEFT_OUT * excess, budget)
-    most = GROWTH_MOST * added + BENT * excess + max(part.over for part in parts) + ROUNDING
+    most = GROWTH_MOST * added + GRID + BENT * excess + max(part.over for part in parts) + ROUNDING
     cells = sum(part.cells for part in parts)
     proof = SweepProof(_method(found, cells, (begin, until), most), cells)
     area = sum(0.5 * float(_cross(ring[:-1], ring[1:]).sum()) for rings in polygons for ring in rings)

@@ -29,14 +29,15 @@ ANGLE_BATCH = 50_000
 # Number of dragons whose FCL objects are kept, and their largest number of benches: 8 MB in all.
 KEPT_DRAGONS = 8
 KEPT_BENCHES = 2_000
-# Polygons are grown with arcs of chords, of which a quarter of a circle has so many; GEOS rounds their number, so that a
-# chord may span half as much more, and leaves dents of up to a hundredth of the growth out: by what it is told to grow,
-# and how far that takes a point, both as a multiple of the growth asked for [1].
+# Polygons grow by arcs of chords, so many to a quarter of a circle. GEOS rounds their number, so that one may span half
+# as much more, and it leaves dents of up to a hundredth of the growth out: what it is told to grow by, and how far that
+# takes a point, both as a multiple of the growth asked for [1].
 ARC_CHORDS = 8
 ARC_RADIUS = 1.0 / math.cos(1.5 * 0.25 * math.pi / ARC_CHORDS)
 GROWTH_MOST = 1.01 * ARC_RADIUS
-# Polygons united between two looks at the budget [1].
-UNITED = 32
+# Points of a union lie on a grid, which moves no side by more than a step [m]; and how many polygons are united between
+# two looks at the budget [1].
+GRID, UNITED = 1e-5, 32
 
 # Of each polygon its rings (points, 2) [m], closed: the outer one counter-clockwise, then the holes, clockwise.
 Polygons = tuple[tuple[Floats, ...], ...]
@@ -261,7 +262,8 @@ def inside(rings: Sequence[ArrayLike], points: Floats) -> NDArray[np.bool_]:
 
 
 def united(core: Sequence[Floats], rest: Sequence[Floats], grown: float, left_out: float, budget: Budget) -> Polygons:
-    """The union of convex polygons, grown: all within `grown` of it, nothing further than GROWTH_MOST times that [m].
+    """The union of convex polygons, grown: with all within `grown` of it, nothing further than GROWTH_MOST times that,
+    both to within GRID [m].
 
     core, rest: arrays (N, corners, 2) [m]; of the rest only those count that go further than `left_out` out of the core
     """
@@ -272,7 +274,7 @@ def united(core: Sequence[Floats], rest: Sequence[Floats], grown: float, left_ou
     roomy = shapely.buffer(ground, left_out / GROWTH_MOST)
     shapely.prepare(roomy)
     ground = _union(np.array([ground, *others[~shapely.covers(roomy, others)]]), budget)
-    ground = shapely.buffer(ground, ARC_RADIUS * grown, quad_segs=ARC_CHORDS)
+    ground = shapely.set_precision(shapely.buffer(ground, ARC_RADIUS * grown, quad_segs=ARC_CHORDS), GRID)
     polygons = [shapely.geometry.polygon.orient(polygon) for polygon in shapely.get_parts(ground)]
     return tuple(tuple(map(shapely.get_coordinates, (some.exterior, *some.interiors))) for some in polygons)
 

@@ -49,7 +49,7 @@ def can_be_asked(call: str, mode: GenerationMode) -> bool:
 
 
 def examples(call: str, mode: GenerationMode) -> int:
-    is_slow = "/figures/" in call or call in ("POST /minimum-pitch", "POST /films")
+    is_slow = "/figures/" in call or call in ("POST /minimum-pitch", "POST /films", "POST /envelope")
     return EXAMPLES_OF_SLOW if is_slow and mode.is_positive else EXAMPLES_PER_CALL
 
 
