@@ -39,17 +39,17 @@ def document(client: httpx.Client) -> Any:
 
 
 def can_be_asked(call: str, mode: GenerationMode) -> bool:
-    """Every call with right values, but for the scans and curves of arbitrary dragons, which take up to ten
+    """Every call with right values, but for the scans, curves and envelopes of arbitrary dragons, which take up to ten
     seconds each; with wrong ones if it takes any."""
     method, path = call.split()
     if mode.is_positive:
-        return not path.endswith(("pitch-scan", "pitch-scan.{format}", "tolerance-curve"))
+        return not path.endswith(("pitch-scan", "pitch-scan.{format}", "tolerance-curve", "envelope"))
     description = SCHEMA.raw_schema["paths"][path][method.lower()]
     return "requestBody" in description or "parameters" in description
 
 
 def examples(call: str, mode: GenerationMode) -> int:
-    is_slow = "/figures/" in call or call in ("POST /minimum-pitch", "POST /films", "POST /envelope")
+    is_slow = "/figures/" in call or call in ("POST /minimum-pitch", "POST /films")
     return EXAMPLES_OF_SLOW if is_slow and mode.is_positive else EXAMPLES_PER_CALL
 
 
