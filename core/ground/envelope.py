@@ -25,7 +25,8 @@ goes from theta_a in to theta_b, the rear one stays between theta_b + delta(thet
 point of the bench moves with its handles, by 1/2 + z / chord and 1/2 - z / chord of each (core/tolerance/reach.py): by
 (1/2 + radius / chord) times both arcs together at most. Where this is small, the bench stays near its first place.
 
-The union of it all, grown by bow + slip or more, holds every pose. Polygons that lie within a little of the union of
+The union of it all, grown by the largest bow of any cell and the largest slip of any, or more, holds every pose, as a
+point may have come into R_t in a cell before. Polygons that lie within a little of the union of
 the others are left out of it, and it is grown by that little more. No point of it is further from ground that a bench
 covers than it is grown, and bow + slip; and, at the ends of a stretch, as the bench moves on what they have to spare.
 """
@@ -67,7 +68,7 @@ from core.values import Floats, asked_of, checked_number
 
 # Least and largest excess that may be asked for [m].
 EXCESS_MIN, EXCESS_MAX = 5e-4, 1.0
-# As parts of the excess: what bow and slip may come to together, bow alone when cells are laid out, and how far a
+# As parts of the excess: what the largest bow and the largest slip may come to together, the bow alone, and how far a
 # polygon that is left out of the union may be outside of it. The union is grown by the first and the last of these,
 # 0.93 of the excess with what it is for; the rest is for the grid of the union and for ends of stretches [1].
 BENT, BOW, LEFT_OUT = 0.4, 0.125, 0.12
@@ -227,7 +228,7 @@ class _Lone:
             while True:
                 corners, bows = self.corners(nodes), 0.125 * pulls * np.diff(nodes) ** 2
                 core, rest, slips = _swept(corners, pulls > 0.0, FLAT * self.excess)
-                wide = np.flatnonzero(bows + slips > BENT * self.excess)
+                wide = np.flatnonzero(slips > (BENT - BOW) * self.excess)
                 if not wide.size:
                     break
                 self.budget.afford(CELL_WORK * wide.size)
@@ -244,7 +245,7 @@ class _Lone:
             pull, count = self.pull(s, h), CELLS + 1
             if pull < FREE:
                 count = max(1, math.ceil(min(h * math.sqrt(0.125 * pull / (BOW * self.excess)), count)))
-            if count > CELLS and self.moved(s, h) <= BENT * self.excess:
+            if count > CELLS and self.moved(s, h) <= (BENT - BOW) * self.excess:
                 count, pull = 1, 0.0
             if count > CELLS:
                 h *= 0.5

@@ -40,9 +40,10 @@ from core.paths.spiral import Spiral
 from core.values import Floats
 
 # Width to which places are found where a handle turns back [m].
-TURNS = 1e-7
-# Rounding of places: absolute [m], far more than the 1e-12 m of a dance in a square; relative to the longest way [1].
-PLACE_ROUNDING, WAY_ROUNDING = 1e-9, 1e-14
+TURNS = 1e-8
+# Rounding of places besides that of the chain: absolute [m], and relative to the longest way [1], above
+# TRAVEL_ROUNDING of core/contact/search.py.
+PLACE_ROUNDING, WAY_ROUNDING = 1e-11, 1e-14
 
 
 @dataclass(frozen=True, slots=True)

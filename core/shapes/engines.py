@@ -269,14 +269,23 @@ def united(core: Sequence[Floats], rest: Sequence[Floats], grown: float, left_ou
     """
     import shapely
 
-    kernel, others = (shapely.convex_hull([q for p in some for q in shapely.polygons(p)]) for some in (core, rest))
-    ground = _union(kernel, budget)
+    ground, others = _union(_hulls(core, budget), budget), _hulls(rest, budget)
     roomy = shapely.buffer(ground, left_out / GROWTH_MOST)
     shapely.prepare(roomy)
     ground = _union(np.array([ground, *others[~shapely.covers(roomy, others)]]), budget)
     ground = shapely.set_precision(shapely.buffer(ground, ARC_RADIUS * grown, quad_segs=ARC_CHORDS), GRID)
     polygons = [shapely.geometry.polygon.orient(polygon) for polygon in shapely.get_parts(ground)]
     return tuple(tuple(map(shapely.get_coordinates, (some.exterior, *some.interiors))) for some in polygons)
+
+
+def _hulls(polygons: Sequence[Floats], budget: Budget) -> NDArray[np.object_]:
+    import shapely
+
+    found = []
+    for some in polygons:
+        budget.look()
+        found.append(shapely.convex_hull(shapely.polygons(some)))
+    return np.concatenate(found)
 
 
 def _union(parts: NDArray[np.object_], budget: Budget) -> object:
