@@ -6,12 +6,13 @@ from importlib.util import find_spec
 
 from core import BenchDragonError
 
-_FIGURES, _SWEEP, _XLSX = ("matplotlib",), ("pyarrow",), ("xlsxwriter",)
+_DXF, _FIGURES, _SWEEP, _XLSX = ("ezdxf",), ("matplotlib",), ("pyarrow",), ("xlsxwriter", "openpyxl")
 # Modules that each extra of pyproject.toml installs and that its use needs.
 MODULES = {
     "arrow": ("pyarrow",),
     "dask": ("dask", "distributed", *_SWEEP),
     "data": ("pandas", "xarray"),
+    "dxf": _DXF,
     "figures": _FIGURES,
     "film": ("av", *_FIGURES),
     "proof": ("flint",),
@@ -22,6 +23,7 @@ MODULES = {
         "uplot",
         "uvicorn",
         "av",
+        *_DXF,
         *_FIGURES,
         *_SWEEP,
         *_XLSX,

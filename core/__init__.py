@@ -18,6 +18,7 @@ from core.design.pitch_scan import PitchScan, pitch_scan
 from core.design.shortest_turn import ShortestTurn, TurnLimit, shortest_turn
 from core.dragon import Dragon
 from core.errors import BenchDragonError, InvalidValue, OutsideRun, ProofRefused, TooLarge, TooMuchWork
+from core.ground.envelope import Envelope, SweepProof, envelope
 from core.motion.joints import SharpestBend, sharpest_bend
 from core.motion.speed import (
     FirstExcess,
@@ -61,6 +62,7 @@ __all__ = [
     "Dragon",
     "EndReason",
     "Engine",
+    "Envelope",
     "Evidence",
     "Exhibit",
     "Failure",
@@ -96,6 +98,7 @@ __all__ = [
     "Spiral",
     "Stray",
     "StrayProof",
+    "SweepProof",
     "Tolerance",
     "ToleranceCurve",
     "TooLarge",
@@ -115,6 +118,7 @@ __all__ = [
     "contact_check",
     "contact_probability",
     "cross_check",
+    "envelope",
     "first_contact",
     "first_excess",
     "highest_speed",

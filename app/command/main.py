@@ -19,7 +19,7 @@ from typer.core import TyperGroup
 
 import core
 from app import questions
-from app.command import contest, figures, film, grade, jobs, prove, show, sweep, trajectory
+from app.command import contest, envelope, figures, film, grade, jobs, prove, show, sweep, trajectory
 from app.command.options import Json, asks, unused
 from app.command.usage import Misuse, told
 from app.contest.solved import ContestRequest
@@ -38,6 +38,7 @@ from app.questions.check import CheckRequest
 from app.questions.clearance import ClearanceQuery, ClearanceRequest
 from app.questions.collision_time import CollisionQuery, CollisionRequest
 from app.questions.contact_probability import ContactProbabilityQuery, ContactProbabilityRequest
+from app.questions.envelope import EnvelopeQuery, EnvelopeRequest
 from app.questions.figures import Format, InstantQuery, TrajectoryFigureRequest
 from app.questions.films import FilmQuery, FilmRequest
 from app.questions.maximum_head_speed import MaximumHeadSpeedQuery, MaximumHeadSpeedRequest
@@ -117,6 +118,7 @@ def bench_dragon(
 
 app.command("trajectory")(asks(trajectory.TrajectoryOptions, TrajectoryRequest)(trajectory.trajectory))
 app.command()(figures.figures)
+app.command("envelope")(asks(EnvelopeQuery, EnvelopeRequest)(envelope.envelope))
 app.command("film")(asks(FilmQuery, FilmRequest)(film.film))
 app.command("contest")(asks(ContestRequest)(contest.contest))
 app.command()(grade.grade)

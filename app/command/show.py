@@ -108,6 +108,13 @@ def print_answer(title: str, answer: Answer, json: bool, *, margin: float = 0.0,
     print_parts(table)
 
 
+def _polygon_words(value: answers.Polygon | answers.MultiPolygon) -> str:
+    several = [value.coordinates] if isinstance(value, answers.Polygon) else value.coordinates
+    rings = [ring for polygon in several for ring in polygon]
+    holes, points = len(rings) - len(several), sum(map(len, rings))
+    return f"{len(several)} {plural('polygon', several)}, {holes} {plural('hole', range(holes))}, {points} points"
+
+
 def _near(word: str, margin: float) -> str:
     """The words for an outcome, because with a margin a contact need not be a touch."""
     near = f"nearer than {said(margin)} m"
@@ -123,6 +130,8 @@ def _flat(answer: BaseModel, prefix: str = "", *, benches: int) -> Iterator[tupl
             yield label, ", ".join(f"{word} {_shown(said)}" for word, said in value)
         elif isinstance(value, answers.PairCheck):
             yield from ((f"{label}: {word}", said) for word, said in _check_words(value, benches))
+        elif isinstance(value, answers.Polygon | answers.MultiPolygon):
+            yield label, _polygon_words(value)
         elif isinstance(value, list) and len(value) > LISTED_MOST:
             yield label, f"{len(value)}, listed by --json"
         elif isinstance(value, BaseModel):

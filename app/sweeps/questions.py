@@ -100,6 +100,7 @@ PICTURE = "it answers with a picture: sweep the question whose numbers it draws"
 NO_ROWS = {
     "pitch_scan": "it is a sweep itself: sweep collision_time over pitch",
     "tolerance_curve": "it is a sweep itself: sweep tolerance over pitch",
+    "envelope": "it answers with polygons: sweep check with a venue",
     "paper": "it takes no parameters",
     **{name: PICTURE for name, question in questions.QUESTIONS.items() if question.model is None},
 }

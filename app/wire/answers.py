@@ -6,7 +6,7 @@ A trajectory has 200,000 numbers, so orjson writes tables as whole numpy columns
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 import orjson
@@ -60,6 +60,20 @@ class Graze(Answer):
     time: float = measure("s")
     clearance: float = measure("m")
     benches: Pair = Field(description="The pair")
+
+
+class Polygon(Answer):
+    """A polygon as in GeoJSON."""
+
+    type: Literal["Polygon"] = Field(description="Polygon")
+    coordinates: list[list[Point]] = measure("m", "Its outer ring, then its holes: closed, points x and y")
+
+
+class MultiPolygon(Answer):
+    """Several polygons as in GeoJSON."""
+
+    type: Literal["MultiPolygon"] = Field(description="MultiPolygon")
+    coordinates: list[list[list[Point]]] = measure("m", "The rings of each polygon: closed, points x and y")
 
 
 class Verdict(Answer):

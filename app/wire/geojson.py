@@ -1,4 +1,4 @@
-"""GeoJSON: the polygons of a venue by name, in any nesting of features and collections.
+"""GeoJSON: the polygons of a venue by name, in any nesting of features and collections; and polygons written.
 
 Read by hand and not by geojson-pydantic (2.2.0, measured 2026-11-22). That package names three places for one missing
 number, with its own classes in them (`FeatureCollection.features.0.geometry.Polygon.coordinates.0.1.Position2D.1`).
@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from core import Area, InvalidValue, Venue
+from core import Area, Envelope, InvalidValue, Venue
 from core.paths.pieces import COORDINATE_MAX, Point
 from core.values import checked_number
 from core.venue import Ring, checked_name, refuse_many_edges
@@ -56,6 +56,14 @@ def venue_of(polygons: Sequence[Polygon]) -> Venue:
     """
     square, *obstacles = (Area(*polygon) for polygon in polygons)
     return Venue(square, tuple(obstacles))
+
+
+def geometry_of(found: Envelope) -> dict[str, object]:
+    """The polygons of an envelope as a geometry, in metres."""
+    several = [[ring.tolist() for ring in rings] for rings in found.polygons]
+    if len(several) == 1:
+        return {"type": "Polygon", "coordinates": several[0]}
+    return {"type": "MultiPolygon", "coordinates": several}
 
 
 def _polygons(field: str, geometry: object, depth: int = 0) -> list[Found]:

@@ -1,10 +1,11 @@
-"""Four independent ways to find overlapping benches, and shapely's tests of polygons at rest.
+"""Four independent ways to find overlapping benches; shapely's tests of polygons at rest, and their union.
 
 The only file that knows FCL and shapely; it imports them on demand.
 """
 
 from __future__ import annotations
 
+import math
 from collections import deque
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
@@ -28,6 +29,18 @@ ANGLE_BATCH = 50_000
 # Number of dragons whose FCL objects are kept, and their largest number of benches: 8 MB in all.
 KEPT_DRAGONS = 8
 KEPT_BENCHES = 2_000
+# Polygons grow by arcs of chords, so many to a quarter of a circle. GEOS rounds their number, so that one may span half
+# as much more, and it leaves dents of up to a hundredth of the growth out: what it is told to grow by, and how far that
+# takes a point, both as a multiple of the growth asked for [1].
+ARC_CHORDS = 8
+ARC_RADIUS = 1.0 / math.cos(1.5 * 0.25 * math.pi / ARC_CHORDS)
+GROWTH_MOST = 1.01 * ARC_RADIUS
+# Points of a union lie on a grid, which moves no side by more than a step [m]; and how many polygons are united between
+# two looks at the budget [1].
+GRID, UNITED = 1e-5, 32
+
+# Of each polygon its rings (points, 2) [m], closed: the outer one counter-clockwise, then the holes, clockwise.
+Polygons = tuple[tuple[Floats, ...], ...]
 
 
 class Engine(StrEnum):
@@ -246,6 +259,53 @@ def inside(rings: Sequence[ArrayLike], points: Floats) -> NDArray[np.bool_]:
 
     found: NDArray[np.bool_] = shapely.contains_xy(shapely.Polygon(rings[0], rings[1:]), points)
     return found
+
+
+def united(core: Sequence[Floats], rest: Sequence[Floats], grown: float, left_out: float, budget: Budget) -> Polygons:
+    """The union of convex polygons, grown: with all within `grown` of it, nothing further than GROWTH_MOST times that,
+    both to within GRID [m].
+
+    core, rest: arrays (N, corners, 2) [m]; of the rest only those count that go further than `left_out` out of the core
+    """
+    import shapely
+
+    ground, others = _union(_hulls(core, budget), budget), _hulls(rest, budget)
+    roomy = shapely.buffer(ground, left_out / GROWTH_MOST)
+    shapely.prepare(roomy)
+    ground = _union(np.array([ground, *others[~shapely.covers(roomy, others)]]), budget)
+    ground = shapely.set_precision(shapely.buffer(ground, ARC_RADIUS * grown, quad_segs=ARC_CHORDS), GRID)
+    polygons = [shapely.geometry.polygon.orient(polygon) for polygon in shapely.get_parts(ground)]
+    return tuple(tuple(map(shapely.get_coordinates, (some.exterior, *some.interiors))) for some in polygons)
+
+
+def _hulls(polygons: Sequence[Floats], budget: Budget) -> NDArray[np.object_]:
+    import shapely
+
+    found = []
+    for some in polygons:
+        budget.look()
+        found.append(shapely.convex_hull(shapely.polygons(some)))
+    return np.concatenate(found)
+
+
+def _union(parts: NDArray[np.object_], budget: Budget) -> object:
+    import shapely
+
+    while parts.size > 1:
+        merged = []
+        for first in range(0, parts.size, UNITED):
+            budget.look()
+            merged.append(shapely.union_all(parts[first : first + UNITED]))
+        parts = np.array(merged)
+    return parts[0]
+
+
+def distance_from(polygons: Polygons, line: Floats) -> float:
+    """Least distance between polygons and a line through points (P, 2), or a single one [m]."""
+    import shapely
+
+    ground = shapely.MultiPolygon([(rings[0], rings[1:]) for rings in polygons])
+    return float(shapely.distance(ground, shapely.LineString(line) if len(line) > 1 else shapely.Point(line[0])))
 
 
 # -- the paper's angle-sum rule -------------------------------------------------------------------------------

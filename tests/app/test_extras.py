@@ -58,6 +58,7 @@ def plain(*arguments: str, folder: Path = ROOT) -> subprocess.CompletedProcess[s
         "maximum-head-speed --benches 20",
         "overlaps --time 412.48",
         "grade --pitch 0.4503",
+        "envelope --benches 5 --stop 5",
     ],
 )
 def test_every_question_is_answered_without_an_extra(line: str) -> None:
@@ -85,6 +86,10 @@ def test_every_question_is_answered_without_an_extra(line: str) -> None:
         (
             "trajectory --output dance.arrow",
             "Arrow needs the package pyarrow, which is not installed: pip install 'bench-dragon[arrow]'",
+        ),
+        (
+            "envelope --output ground.dxf",
+            "DXF needs the package ezdxf, which is not installed: pip install 'bench-dragon[dxf]'",
         ),
         (
             "sweep run no-such-spec.toml --output folder",

@@ -58,6 +58,8 @@ def results() -> Iterator[Any]:
     yield from (square, *square.areas, square.areas[0].nearest)
     strays = core.tolerance(DANCE, stop=10.0)
     yield from (strays, strays.exhibit, strays.certificate)
+    swept = core.envelope(DANCE, stop=1.0)
+    yield from (swept, swept.certificate)
     yield core.tolerance_curve(Dragon(30), [0.6], start_turns=9.0)
     yield core.contact_probability(DANCE, core.Wobble(), 2, 1, start=400.0, stop=410.0)
     yield core.Misplaced("well", 3, (1.0, 2.0))

@@ -32,6 +32,7 @@ CALLS: dict[Callable[..., Any], dict[str, Any]] = {
         "stop": 9.0,
     },
     core.cross_check: {"poses": POSES, "lengths": COLUMN, "widths": COLUMN, "margin": 0.0},
+    core.envelope: {"dance": DANCE, "start": 0.0, "stop": 9.0, "excess": 1e-3},
     core.first_contact: {"dance": DANCE, "margin": 0.0, "stray": 0.0, "start": 0.0, "stop": 9.0},
     core.first_excess: {"dance": DANCE, "speed_limit": 2.0, "start": 0.0, "stop": 9.0},
     core.highest_speed: {"dance": DANCE, "start": 0.0, "stop": 9.0},

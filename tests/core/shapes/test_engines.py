@@ -6,9 +6,11 @@ from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import pytest
+import shapely
 from numpy.typing import NDArray
 
-from core.shapes.engines import KEPT_DRAGONS, Engine, found_pairs
+from core.budget import Budget
+from core.shapes.engines import GRID, GROWTH_MOST, KEPT_DRAGONS, Engine, found_pairs, united
 from core.shapes.rectangles import separation
 
 Floats = NDArray[np.float64]
@@ -60,3 +62,25 @@ def test_many_instants_at_once_are_as_one_by_one(engine: Engine) -> None:
             for instant, pairs in enumerate(together):
                 (alone,) = found_pairs(engine, poses[instant : instant + 1], size, 0.0, chained=chained)
                 np.testing.assert_array_equal(pairs, alone)
+
+
+def test_a_union_is_grown_by_what_was_asked_and_hardly_more() -> None:
+    random = np.random.default_rng(4)
+    angles = np.linspace(0.0, 2.0 * np.pi, 60, endpoint=False)[:, None] + [0.0, 0.11, 0.12]  # with shallow dents
+    fan = np.stack([np.cos(angles), np.sin(angles)], axis=-1) * (1.0 + 1e-3 * random.uniform(size=(60, 1, 1)))
+    fan[:, 0] *= 0.4
+    bars = np.array(
+        [[[-2.0, 0.0], [2.0, 0.0], [2.0, 0.1], [-2.0, 0.1]], [[5.0, 5.0], [6.0, 5.0], [6.0, 6.0], [5.0, 6.0]]]
+    )
+    grown = 0.02
+    polygons = united([fan, bars], [bars[1:] + 0.2], grown, 0.3, Budget())
+    own = shapely.union_all([*shapely.polygons(fan), *shapely.polygons(bars)])
+    found = shapely.MultiPolygon([(rings[0], rings[1:]) for rings in polygons])
+    assert found.is_valid
+    assert found.covers(own)
+    border = shapely.segmentize(found.boundary, 1e-3)
+    away = shapely.distance(own, shapely.points(shapely.get_coordinates(border)))
+    assert grown - GRID <= away.min()
+    assert away.max() <= GROWTH_MOST * grown + GRID
+    rest = united([bars], [bars[1:] + 0.4], grown, 0.3, Budget())
+    assert shapely.MultiPolygon([(rings[0], rings[1:]) for rings in rest]).covers(shapely.box(5.4, 5.4, 6.4, 6.4))

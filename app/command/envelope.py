@@ -1,0 +1,37 @@
+"""The command bench-dragon envelope: the ground that benches sweep, as a table or a file."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from app.command import show
+from app.command.options import Json
+from app.extras import require
+from app.files.disk import checked_output, write_whole
+from app.files.outlines import WRITERS
+from app.questions.envelope import Envelope, EnvelopeQuery, EnvelopeRequest, swept
+from app.questions.question import Terms
+
+
+def envelope(
+    asked: EnvelopeQuery | EnvelopeRequest,
+    output: Annotated[
+        Path | None, typer.Option(help="Write the polygons to a .geojson, .json or .dxf file (extra dxf), in metres.")
+    ] = None,
+    json: Json = False,
+) -> None:
+    """The ground that benches sweep: polygons proven to hold every pose, and at most 1 mm larger."""
+    write = WRITERS[checked_output("output", output, tuple(WRITERS))] if output else None
+    if output and output.suffix.lower() == ".dxf":
+        require("dxf", "output", "DXF")
+    with show.waiting("envelope"):
+        found = swept(asked, Terms())
+        answer, data = Envelope.of(found, asked), write(found) if write else b""
+    if output:
+        write_whole(output, data)
+        print(output, file=sys.stderr)
+    show.print_answer("Ground that benches sweep", answer, json)

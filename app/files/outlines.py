@@ -1,0 +1,54 @@
+"""The envelope of a dance as a file: GeoJSON, and DXF for drawing programs, both in metres.
+
+The same envelope gives the same bytes, so an answer may carry a strong ETag.
+"""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Callable
+from importlib import import_module
+
+import orjson
+
+from app.extras import require
+from app.wire.geojson import geometry_of
+from core import Envelope
+
+GEOJSON_TYPE, DXF_TYPE = "application/geo+json", "image/vnd.dxf"
+# Layers of outer rings and of holes, each with its number in the colour index of AutoCAD: red, blue.
+LAYERS = (("ENVELOPE", 1), ("ENVELOPE_HOLES", 5))
+# $INSUNITS of metres, and the version of the format that programs have read since the year 2000.
+METRES, VERSION = 6, "R2000"
+
+
+def envelope_geojson(found: Envelope) -> bytes:
+    """A GeoJSON feature: the polygons, what is known of them as its properties."""
+    known = {"name": "envelope", "excess": found.excess, "area": found.area, "start": found.start, "stop": found.stop}
+    properties = known | {"certificate": found.certificate.method}
+    return orjson.dumps({"type": "Feature", "properties": properties, "geometry": geometry_of(found)})
+
+
+def envelope_dxf(found: Envelope) -> bytes:
+    """A DXF drawing: each ring a closed polyline, holes on a layer of their own. raises: MissingPackage"""
+    require("dxf", "output", "DXF")
+    ezdxf = import_module("ezdxf")
+    ezdxf.options.write_fixed_meta_data_for_testing = True  # no date and no random names
+    drawing = ezdxf.new(VERSION, units=METRES)
+    for name, colour in LAYERS:
+        drawing.layers.add(name, color=colour)
+    space = drawing.modelspace()
+    for rings in found.polygons:
+        for k, ring in enumerate(rings):
+            space.add_lwpolyline(ring[:-1].tolist(), close=True, dxfattribs={"layer": LAYERS[k > 0][0]})
+    sink = io.StringIO()
+    drawing.write(sink)
+    return sink.getvalue().encode()
+
+
+# Functions of an envelope by the ending of the file.
+WRITERS: dict[str, Callable[[Envelope], bytes]] = {
+    ".geojson": envelope_geojson,
+    ".json": envelope_geojson,
+    ".dxf": envelope_dxf,
+}

@@ -1,0 +1,104 @@
+"""Which ground do benches sweep?"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from importlib.util import find_spec
+from typing import Annotated, Self
+
+from pydantic import Field
+
+import core
+from app.files.outlines import DXF_TYPE, GEOJSON_TYPE, envelope_dxf, envelope_geojson
+from app.questions.question import Question, Terms
+from app.wire.answers import MultiPolygon, Polygon
+from app.wire.dances import DanceFields, DanceQuery
+from app.wire.geojson import geometry_of
+from app.wire.models import JSON, Answer, Instant, Wire, measure
+from app.wire.paths import Point
+
+# Largest number of points of a line of spectators.
+LINE_MOST = 1_000
+# Time of the default dance up to its contact, measured 2026-11-22 [s].
+SECONDS = 2.5
+
+
+class SpanFields(Wire):
+    """A stretch of a dance."""
+
+    start: Instant | None = measure(
+        "s", "Start time; null: the start of the dance, or when the whole dragon is on the path", None
+    )
+    stop: Instant | None = measure("s", "End time; null: the end of the run, also if benches touch before", None)
+
+
+class EnvelopeQuery(SpanFields, DanceQuery):
+    """The ground that a uniform dragon sweeps on a spiral."""
+
+
+class EnvelopeRequest(SpanFields, DanceFields, strict=True):
+    """The ground that benches sweep in any dance."""
+
+    spectators: list[Point] | None = measure(
+        "m",
+        "Points of a line along which spectators stand, x and y; null: their distance is not asked for",
+        None,
+        min_length=1,
+        max_length=LINE_MOST,
+        fail_fast=True,
+    )
+
+
+class SweepProof(Answer):
+    """How the envelope is known."""
+
+    method: str = Field(description="The claim and its proof, in sentences")
+    cells: int = Field(description="Number of stretches of the path, each with a bound on the motion")
+
+
+class Envelope(Answer):
+    """The ground that benches sweep."""
+
+    envelope: Annotated[Polygon | MultiPolygon, Field(discriminator="type")] = Field(
+        description="GeoJSON geometry in metres that is proven to hold every pose of every bench, holes kept"
+    )
+    excess: float = measure("m", "Proven: no point of it is further than this from ground that a bench covers")
+    area: float = measure("m2", "Area of it")
+    start: float = measure("s", "Start of the time asked about")
+    stop: float = measure("s", "End of the time asked about")
+    distance: float | None = measure(
+        "m",
+        "Least distance of the spectators' line from it, 0 where they meet: no bench comes nearer; null without them",
+    )
+    certificate: SweepProof = Field(description="How it is known")
+
+    @classmethod
+    def of(cls, found: core.Envelope, asked: EnvelopeQuery | EnvelopeRequest) -> Self:
+        line = asked.spectators if isinstance(asked, EnvelopeRequest) else None
+        distance = None if line is None else found.distance(line)
+        return cls.known(found, envelope=geometry_of(found), distance=distance)
+
+
+# Forms of an envelope besides JSON: media type -> function of it.
+FORMS: dict[str, Callable[[core.Envelope], bytes]] = {GEOJSON_TYPE: envelope_geojson}
+if find_spec("ezdxf"):
+    FORMS[DXF_TYPE] = envelope_dxf
+
+
+def swept(asked: EnvelopeQuery | EnvelopeRequest, terms: Terms) -> core.Envelope:
+    """The envelope as core has it. raises: TooLarge, InvalidValue"""
+    dance = asked.to_dance(terms.settings.checked_benches_max)
+    return core.envelope(dance, start=asked.start, stop=asked.stop, budget=terms.budget)
+
+
+def envelope(asked: EnvelopeRequest, terms: Terms, form: str = JSON) -> Envelope | bytes:
+    """The ground that benches sweep, as polygons proven to hold every pose and to be at most 1 mm larger."""
+    found = swept(asked, terms)
+    return FORMS[form](found) if form in FORMS else Envelope.of(found, asked)
+
+
+def _cost(asked: EnvelopeRequest, form: str = JSON) -> float:
+    return SECONDS
+
+
+QUESTION = Question(envelope, Envelope, body=EnvelopeRequest, forms=(JSON, *FORMS), cost=_cost)

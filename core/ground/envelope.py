@@ -1,0 +1,326 @@
+"""The ground that benches sweep: polygons proven to hold every pose of every bench, and hardly more.
+
+A lone bench of each size sweeps, over the places of its front handle, what all benches of that size do (tracks.py).
+
+A cell [s_a, s_b] of those places, h wide. A point of the bench is fixed in it, so where it is, p(s), has |p''| <= K,
+which bounds a corner's (CORNER_PULL of core/kernels/bounds.py), and for s = (1 - t) s_a + t s_b
+    |p(s) - (1 - t) p(s_a) - t p(s_b)| <= K h^2 / 8 =: bow.
+So up to the bow the bench sweeps what the quadrilateral R_t with the corners (1 - t) a_i + t b_i sweeps: R_0, and what
+each of its four edges sweeps, as R_t takes in a point only through an edge. Let an edge go from p to q, e = q - p, and
+let the lines of its first and its last place cross at X = p_a + m_a e_a = p_b + m_b e_b.
+    m_a, m_b < 0 or both > 1:   the ends make a convex quadrilateral, which is what the edge sweeps.
+    |e_b - e_a| / 4 small:      the convex hull of the ends, which is no further than that from what the edge sweeps, as
+                                it holds points like (1 - t) p_a + t q_b beside (1 - t) (p_a, q_a) + t (p_b, q_b).
+    else:                       the triangles (X, p_a, p_b) and (X, q_a, q_b). All that the edge sweeps is within
+        slip = |m_b - m_a| |e_b - e_a| / 4
+    of them. For the point Z at (1 - t) m_a + t m_b of its line is X + t (1 - t) (m_b - m_a) (e_a - e_b); the edge is
+    the broken line p, Z, q, or is part of one half of that; and no point of this moves further than Z does to X.
+        m_a, m_b in [0, 1]: then Z is on the edge, and all of the triangles is within slip of what the edge sweeps.
+        one outside, |m_b - m_a| <= 1/2: X is on the other of the edge's two places. What the triangles have besides is
+            within |m_b - m_a| |e_b - e_a| = 4 slip of that place, after 2 slip for Z: 6 slip in all.
+Both bow and slip are of the second order in h.
+
+Towards the fold of a spiral K grows without bound. There delta(theta) bounds the motion itself: while the front handle
+goes from theta_a in to theta_b, the rear one stays between theta_b + delta(theta_a) and theta_a + delta(theta_b). Every
+point of the bench moves with its handles, by 1/2 + z / chord and 1/2 - z / chord of each (core/tolerance/reach.py): by
+(1/2 + radius / chord) times both arcs together at most. Where this is small, the bench stays near its first place.
+
+The union of it all, grown by the largest bow of any cell and the largest slip of any, or more, holds every pose, as a
+point may have come into R_t in a cell before. Polygons that lie within a little of the union of
+the others are left out of it, and it is grown by that little more. No point of it is further from ground that a bench
+covers than it is grown, and bow + slip; and, at the ends of a stretch, as the bench moves on what they have to spare.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from core import kernels
+from core.budget import Budget, bounded, within
+from core.dance import Dance
+from core.dragon import Dragon
+from core.errors import InvalidValue, said
+from core.ground.tracks import Track, last_theta, tracks
+from core.kernels.constants import (
+    CHAIN_COLUMNS,
+    CHORD,
+    CORNER_PULL,
+    FREE,
+    HALF_LENGTH,
+    HALF_WIDTH,
+    MOTION_COLUMNS,
+    NO_ROOT,
+    RADIUS,
+    SIZE_COLUMNS,
+)
+from core.motion.trajectory import bench_outlines
+from core.paths.pieces import checked_point, listed
+from core.paths.route import Route
+from core.paths.spiral import Spiral
+from core.shapes.engines import GRID, GROWTH_MOST, Polygons, distance_from, united
+from core.shown import Shown, counted
+from core.values import Floats, asked_of, checked_number
+
+# Least and largest excess that may be asked for [m].
+EXCESS_MIN, EXCESS_MAX = 5e-4, 1.0
+# As parts of the excess: what the largest bow and the largest slip may come to together, the bow alone, and how far a
+# polygon that is left out of the union may be outside of it. The union is grown by the first and the last of these,
+# 0.93 of the excess with what it is for; the rest is for the grid of the union and for ends of stretches [1].
+BENT, BOW, LEFT_OUT = 0.4, 0.125, 0.12
+# The convex hull of an edge's places serves where it has no more than this part of the excess besides [1].
+FLAT = 0.02
+# What the two triangles have besides where one crossing is outside of the edge, in slips; and how far apart the two
+# crossings may then be along the edge [1].
+BESIDES, MIXED = 6.0, 0.5
+# Rounding of points and of the union [m]; places in a square are good to 1e-11 m.
+ROUNDING = 1e-8
+# Most cells that share one bound on the motion [1].
+CELLS = 16
+# Work of one cell, 0.1 to 0.2 ms with its share of the union, and what one question may take, 30 to 60 s [1].
+CELL_WORK, ENVELOPE_WORK = 300.0, 1e8
+
+
+@dataclass(frozen=True, slots=True, repr=False)
+class SweepProof(Shown):
+    """How the envelope is known: the claim in sentences, and the number of cells."""
+
+    method: str
+    cells: int
+
+
+@dataclass(frozen=True, slots=True, repr=False)
+class Envelope(Shown):
+    """The ground that benches sweep.
+
+    polygons: of each its outer ring, counter-clockwise, then its holes, clockwise; rings are closed, (points, 2) [m]
+    excess: no point of them is further than this from ground that a bench covers [m]; area: of all [m2]
+    start, stop: of the stretch asked about [s]
+    """
+
+    polygons: Polygons
+    excess: float
+    area: float
+    start: float
+    stop: float
+    certificate: SweepProof
+    _units = {"area": "m2", "excess": "m", "polygons": "m"}  # noqa: RUF012 - a field of a dataclass may not be annotated here
+
+    def _line(self) -> str:
+        return f"{self.area:.6g} m2 from {self.start:.6g} to {self.stop:.6g} s, at most {self.excess:.3g} m too far"
+
+    def _rows(self) -> list[tuple[str, str]]:
+        points = sum(len(ring) for rings in self.polygons for ring in rings)
+        words = f"{counted(len(self.polygons), 'polygon')}, {points} points"
+        return [("polygons", words), *((name, text) for name, text in Shown._rows(self) if name != "polygons")]
+
+    def distance(self, line: object) -> float:
+        """Least distance of a line through points, or of a single point, from the envelope; 0 where they meet [m].
+
+        line: [(x, y), ...] [m]. No bench comes nearer to it, and one comes as near as this and the excess together.
+        raises: InvalidValue (line)
+        """
+        points = [checked_point(f"line.{k}", point) for k, point in enumerate(listed("line", line, "a list of points"))]
+        if not points:
+            raise InvalidValue("line", "line must have at least one point")
+        return distance_from(self.polygons, np.array(points))
+
+
+@asked_of("dance", Dance)
+@bounded("the ground that benches sweep was not found")
+def envelope(
+    dance: Dance,
+    *,
+    start: float | None = None,
+    stop: float | None = None,
+    excess: float = 1e-3,
+    budget: Budget | None = None,
+) -> Envelope:
+    """The ground that benches sweep, as polygons that are proven to hold every pose of every bench.
+
+    start, stop: [s], by default from 0 (on a route: from when the whole dragon is on it) to the end of the run
+    excess: how far a point of the polygons may be from ground that a bench covers [m]; more of it costs less. A run
+        to its fold may exceed this; see Envelope.excess
+    A contact does not end the dance: give its time as the stop.
+    raises: InvalidValue; OutsideRun; TooMuchWork
+
+    >>> from core import Spiral
+    >>> found = envelope(Dance(Dragon(3), Spiral()), stop=10.0)
+    >>> len(found.polygons), round(found.area, 1)
+    (1, 7.2)
+    """
+    excess = checked_number("excess", excess, "m", EXCESS_MIN, EXCESS_MAX)
+    begin, until = dance.span(dance.begin if start is None else start, stop)
+    budget = within(budget, ENVELOPE_WORK)
+    found = tracks(dance, begin * dance.head_speed, until * dance.head_speed)
+    budget.look()
+    parts = [part for track in found for part in _Lone(dance, track, excess, budget).sweep()]
+    core = [polygons for part in parts for polygons in part.core]
+    rest = [polygons for part in parts for polygons in part.rest]
+    added = (BENT + LEFT_OUT) * excess + GRID + ROUNDING
+    polygons = united(core, rest, added, LEFT_OUT * excess, budget)
+    most = GROWTH_MOST * added + GRID + BENT * excess + max(part.over for part in parts) + ROUNDING
+    cells = sum(part.cells for part in parts)
+    proof = SweepProof(_method(found, cells, (begin, until), most), cells)
+    area = sum(0.5 * float(_cross(ring[:-1], ring[1:]).sum()) for rings in polygons for ring in rings)
+    return Envelope(polygons, most, area, begin, until, proof)
+
+
+def _method(found: list[Track], cells: int, span: tuple[float, float], most: float) -> str:
+    length = sum(track.length for track in found)
+    over = f"{counted(len(found), 'size')}, {length:.6g} m of the path, {counted(cells, 'cell')}"
+    return (
+        f"From {said(span[0])} to {said(span[1])} s no bench leaves the polygons, and no point of theirs is more than "
+        f"{most:.3g} m from ground that a bench covers. Benches of one size sweep together what one of them sweeps "
+        f"over all their places: {over}. In each cell a bound on the second derivative shows how far a point of a "
+        "bench can be from the straight line between its first and its last place. The polygons are the union of what "
+        "edges sweep along such lines, grown by more than that."
+    )
+
+
+@dataclass(frozen=True, slots=True)
+class _Part:
+    """What a lone bench sweeps over one stretch, but for `BENT` of the excess.
+
+    core: arrays of convex polygons (N, corners, 2) that hold nearly all of it; rest: the others
+    over: how far the bench moves at its ends, on what they have to spare [m]
+    """
+
+    core: list[Floats]
+    rest: list[Floats]
+    cells: int
+    over: float
+
+
+# Input:  a path, the size of a bench, and the stretches of places of its front handle.
+# State:  `interval`, a stretch of the path with bounds on the motion; for each stretch `nodes`, the places between
+#         cells, and `pulls`, K of each cell, or 0 where the bench stays near its first place.
+# Output: a part for each stretch.
+
+
+class _Lone:
+    """A lone bench, by the place of its front handle."""
+
+    def __init__(self, dance: Dance, track: Track, excess: float, budget: Budget) -> None:
+        dragon, path, bench = dance.dragon, dance.path, slice(track.bench, track.bench + 1)
+        self.dragon = Dragon.of(dragon.lengths[bench], dragon.widths[bench], dragon.overhangs[bench])
+        self.path, self.stretches, self.excess, self.budget = path, track.stretches, excess, budget
+        length, width, self.chord = (
+            float(column[0]) for column in (self.dragon.lengths, self.dragon.widths, self.dragon.chords)
+        )
+        self.last = last_theta(path, self.chord) if isinstance(path, Spiral) else 0.0
+        self.radius = 0.5 * math.hypot(length, width)
+        self.sizes, self.motion = np.zeros((2, SIZE_COLUMNS)), np.zeros((2, MOTION_COLUMNS))
+        columns = [CHORD, HALF_LENGTH, HALF_WIDTH, RADIUS]
+        self.sizes[0, columns] = self.chord, 0.5 * length, 0.5 * width, self.radius
+        scene = kernels.Scene(path.curve, path.place, kernels.Rings(), self.sizes, 1, 0)
+        before, after = np.zeros((2, 2, CHAIN_COLUMNS))
+        self.interval = kernels.Interval(scene, before, after, self.motion)
+
+    def sweep(self) -> Iterator[_Part]:
+        """What it sweeps, stretch by stretch."""
+        for low, high, spare in self.stretches:
+            nodes, pulls = self.laid_out(low, high, spare)
+            while True:
+                corners, bows = self.corners(nodes), 0.125 * pulls * np.diff(nodes) ** 2
+                core, rest, slips = _swept(corners, pulls > 0.0, FLAT * self.excess)
+                wide = np.flatnonzero(slips > (BENT - BOW) * self.excess)
+                if not wide.size:
+                    break
+                self.budget.afford(CELL_WORK * wide.size)
+                nodes = np.insert(nodes, wide + 1, 0.5 * (nodes[wide] + nodes[wide + 1]))
+                pulls = np.insert(pulls, wide, pulls[wide])
+            ends = np.linalg.norm(corners[[0, -1]] - corners[[1, -2]], axis=-1).max(axis=1)
+            yield _Part(core, rest, pulls.size, float((ends + bows[[0, -1]]).max()))
+
+    def laid_out(self, low: float, high: float, spare: float) -> tuple[Floats, Floats]:
+        """Nodes and pulls of a stretch, its spares cells of their own."""
+        nodes, pulls, s, h = [low], [], low, spare
+        while s < high:
+            h = min(h, high - spare - s) if s < high - 1.5 * spare else high - s
+            pull, count = self.pull(s, h), CELLS + 1
+            if pull < FREE:
+                count = max(1, math.ceil(min(h * math.sqrt(0.125 * pull / (BOW * self.excess)), count)))
+            if count > CELLS and self.moved(s, h) <= (BENT - BOW) * self.excess:
+                count, pull = 1, 0.0
+            if count > CELLS:
+                h *= 0.5
+                assert s + h > s, "a bench has a bound on its motion over short ways"
+                continue
+            self.budget.afford(CELL_WORK * count)
+            nodes += (s + h / count * np.arange(1, count + 1)).tolist()
+            pulls += [pull] * count
+            h = max(2.0 * h, self.chord if s == low else 0.0)
+            s = nodes[-1]
+        return np.array(nodes), np.array(pulls)
+
+    def pull(self, s: float, h: float) -> float:
+        """K over [s, s + h] [1/m]; FREE where none is known."""
+        known = self.interval.lay_out(self.path.place - s, h, 1)
+        return float(self.motion[0, CORNER_PULL]) if known else FREE
+
+    def moved(self, s: float, h: float) -> float:
+        """No point is further than this from its place at s until s + h, on a spiral [m]."""
+        if isinstance(self.path, Route):
+            return FREE
+        growth, chord2 = self.path.growth, (self.chord / self.path.growth) ** 2
+        outer, inner = (max(float(self.path.theta(place)), self.last) for place in (s, s + h))
+        least, most = (float(kernels.first_root(theta, chord2)) for theta in (outer, inner))
+        if most == NO_ROOT:
+            return FREE
+        rear = growth * float(kernels.spiral_arc(outer + most) - kernels.spiral_arc(inner + least))
+        return (h + rear) * (0.5 + self.radius / self.chord)
+
+    def corners(self, s: Floats) -> Floats:
+        """Corners (N, 4, 2) at places (N,) [m]."""
+        shape = (s.size, 2)
+        position, velocity, speed = np.empty((*shape, 2)), np.empty((*shape, 2)), np.empty(shape)
+        if isinstance(self.path, Route):
+            chain = np.empty((2, CHAIN_COLUMNS))
+            kernels.route_trajectory(self.path.table, s, 1.0, self.sizes, chain, position, velocity, speed)
+        else:
+            head, chords = np.maximum(self.path.theta(s), self.last), self.dragon.chords
+            kernels.spiral_trajectory(self.path.growth, head, chords, 1.0, position, velocity, speed, self.budget.halt)
+            self.budget.look()
+        outlines: Floats = bench_outlines(self.dragon, position)[:, 0]
+        return outlines
+
+
+def _swept(corners: Floats, moves: NDArray[np.bool_], flat: float) -> tuple[list[Floats], list[Floats], Floats]:
+    """What a bench sweeps between rows of corners (N, 4, 2): polygons that hold nearly all of it, others; slips.
+
+    moves: (N - 1,) cells in which it does not stay near its first place; flat: largest quarter of an edge's change with
+    which the convex hull of its ends serves [m]
+    The front edge and those triangles of the sides that its ends leave behind hold nearly all.
+    """
+    core, rest, slips = [corners[:1], corners[:-1][~moves]], [corners[-1:]], np.zeros(len(corners) - 1)
+    for i in range(4):
+        p, q = corners[:, i], corners[:, (i + 1) % 4]
+        (e_a, e_b), (p_a, p_b), (q_a, q_b) = ((row[:-1], row[1:]) for row in (q - p, p, q))
+        twist, cross = 0.25 * np.linalg.norm(e_b - e_a, axis=1), _cross(e_a, e_b)
+        straight = (twist <= flat) | (cross == 0.0)
+        cross = np.where(straight, 1.0, cross)
+        m_a, m_b = _cross(p_b - p_a, e_b) / cross, _cross(p_b - p_a, e_a) / cross
+        convex = (np.maximum(m_a, m_b) < 0.0) | (np.minimum(m_a, m_b) > 1.0)
+        inside = (np.minimum(m_a, m_b) >= 0.0) & (np.maximum(m_a, m_b) <= 1.0)
+        apart = np.abs(m_b - m_a)
+        slip = apart * twist * np.where(inside, 1.0, np.where(apart <= MIXED, BESIDES, np.inf))
+        slip = np.where(straight, twist, np.where(convex, 0.0, slip))
+        slips = np.maximum(slips, np.where(moves, slip, 0.0))
+        whole, crossed = moves & (straight | convex), moves & ~(straight | convex)
+        (rest if i else core).append(np.stack([p_a, q_a, q_b, p_b], axis=1)[whole])
+        x = p_a + m_a[:, None] * e_a
+        for front, a, b in ((i <= 1, p_a, p_b), (i == 3, q_a, q_b)):
+            triangles, left = np.stack([x, a, b], axis=1), front & (_cross(e_a, b - a) > 0.0)
+            core.append(triangles[crossed & left])
+            rest.append(triangles[crossed & ~left])
+    return core, rest, slips
+
+
+def _cross(a: Floats, b: Floats) -> Floats:
+    crossed: Floats = a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0]
+    return crossed

@@ -1,0 +1,162 @@
+"""Over which places benches go: the stretches of a path that benches of one size sweep together.
+
+Where a bench stands is known from its chord and from the place s of its front handle, for its rear handle is the first
+point of the path behind that at the chord. So bench k sweeps what a lone bench of its size sweeps while its front
+handle goes over all places that handle k has, and benches of one size sweep together what a lone one sweeps over the
+union of those stretches. In a dance each bench follows where the one before it was: the stretches of a uniform body are
+one, as long as the dragon and its way together. What a sweep costs follows from that length, not from the number of
+benches times the time.
+
+The places of handle k + 1 are those one chord behind the places of handle k, an interval like them. On a route no
+handle turns back, nor on a spiral while half of the chord times the curvature is at most BEND_LIMIT
+(core/kernels/bounds.py): so the ends of one interval give those of the next. Nearer to the centre of a spiral let
+g(theta) = theta + delta(theta) be the rear handle's angle. As delta falls with theta (core/kernels/spiral.py), on
+[a, b]
+    a + delta(b) <= g <= b + delta(a),
+both within b - a of values of g. Intervals that may hold the least or the largest value are halved down to TURNS.
+"""
+
+from __future__ import annotations
+
+import heapq
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+
+from core import kernels
+from core.dance import FOLD_ROUNDING, Dance
+from core.kernels.constants import (
+    BEND_LIMIT,
+    CHAIN_COLUMNS,
+    CHORD,
+    FREE,
+    PLACE,
+    SIZE_COLUMNS,
+    SLIP,
+)
+from core.paths.route import Route
+from core.paths.spiral import Spiral
+from core.values import Floats
+
+# Width to which places are found where a handle turns back [m].
+TURNS = 1e-8
+# Rounding of places besides that of the chain: absolute [m], and relative to the longest way [1], above
+# TRAVEL_ROUNDING of core/contact/search.py.
+PLACE_ROUNDING, WAY_ROUNDING = 1e-11, 1e-14
+
+
+@dataclass(frozen=True, slots=True)
+class Track:
+    """The places at which the front handles of all benches of one size are.
+
+    bench: the first of them; stretches: (low, high, spare) [m], in order and apart: every place from low to high, both
+    of which are at most `spare` outside of what the handles reach
+    """
+
+    bench: int
+    stretches: tuple[tuple[float, float, float], ...]
+
+    @property
+    def length(self) -> float:
+        """Of all stretches [m]."""
+        return sum(high - low for low, high, _ in self.stretches)
+
+
+def tracks(dance: Dance, begin: float, until: float) -> list[Track]:
+    """The tracks of all sizes of benches between two travels of the head [m]."""
+    dragon = dance.dragon
+    lows, highs, spares = _stretches(dance, begin, until)
+    sizes = np.stack([dragon.chords, dragon.lengths, dragon.widths], axis=1)
+    _, firsts, kinds = np.unique(sizes, axis=0, return_index=True, return_inverse=True)
+    found = []
+    for kind, bench in enumerate(firsts.tolist()):
+        alike = np.flatnonzero(kinds.reshape(-1) == kind)
+        alike = alike[np.argsort(lows[alike])]
+        furthest = np.maximum.accumulate(highs[alike])
+        apart = np.flatnonzero(lows[alike[1:]] > furthest[:-1]) + 1
+        parts = [slice(a, b) for a, b in pairwise([0, *apart.tolist(), alike.size])]
+        ends = ((lows[alike[part]].min(), highs[alike[part]].max(), spares[alike[part]].max()) for part in parts)
+        found.append(Track(bench, tuple((float(low), float(high), float(spare)) for low, high, spare in ends)))
+    return found
+
+
+def _stretches(dance: Dance, begin: float, until: float) -> tuple[Floats, Floats, Floats]:
+    """Least and largest place s of the front handle of every bench (n,), with the spare that both have (n,) [m]."""
+    path, chords = dance.path, dance.dragon.chords
+    spares = np.full(chords.size, PLACE_ROUNDING + path.slide)
+    if isinstance(path, Route):
+        ends = [_chain(path, -s, chords) for s in (begin, until)]
+        lows, highs = (-places for places, _ in ends)
+    else:
+        inner = max(float(path.theta(until)), dance.end.theta or 0.0)
+        angles = [(inner, float(path.theta(begin)))]
+        gentle = path.gentle_theta(2.0 * BEND_LIMIT / float(chords.max()))
+        while len(angles) <= chords.size and angles[-1][0] < gentle:
+            angles.append(_behind(path, *angles[-1], float(chords[len(angles) - 1]), gentle))
+        turned = len(angles) - 1
+        spares[1:] += TURNS if turned else 0.0
+        ends = [_chain(path, theta, chords[turned:]) for theta in angles[-1]]
+        front = np.array(angles[:turned]).reshape(-1, 2).T
+        highs, lows = (
+            path.length - path.growth * _arcs(np.concatenate([some, rest]))
+            for some, (rest, _) in zip(front, ends, strict=True)
+        )
+    spares += max(slip for _, slip in ends) + WAY_ROUNDING * max(np.abs([lows, highs]).max(), path.place)
+    return lows - spares, highs + spares, 2.0 * spares
+
+
+def _arcs(theta: Floats) -> Floats:
+    """kernels.spiral_arc() of many."""
+    arcs: Floats = 0.5 * (theta * np.sqrt(1.0 + theta * theta) + np.arcsinh(theta))
+    return arcs
+
+
+def _chain(path: Spiral | Route, place: float, chords: Floats) -> tuple[Floats, float]:
+    """The front handles of benches (n,), polar angles on a spiral and minus s on a route, as `place` gives the first;
+    and how far they may be from the true ones [m]."""
+    last = chords.size
+    sizes, chain = np.zeros((last + 1, SIZE_COLUMNS)), np.zeros((last + 1, CHAIN_COLUMNS))
+    sizes[:last, CHORD] = chords
+    if isinstance(path, Route):
+        kernels.place_chain(path.curve, place, last, sizes, chain)
+    else:
+        kernels.start_chain(place, chain)
+        kernels.extend_chain(path.growth, 0, last, FREE, sizes, chain)
+    kernels.chain_rounding(path.curve, last, sizes, chain)
+    return chain[:last, PLACE], float(chain[:last, SLIP].max(initial=0.0))
+
+
+def _behind(path: Spiral, low: float, high: float, chord: float, gentle: float) -> tuple[float, float]:
+    """Least and largest polar angle of a rear handle, within TURNS, while the front one is between two angles.
+
+    gentle: from here on it does not turn back; low is further in
+    """
+    chord2 = (chord / path.growth) ** 2
+    low = max(low, last_theta(path, chord))
+    bent = min(high, gentle)
+
+    def delta(theta: float) -> float:
+        return float(kernels.first_root(theta, chord2))
+
+    def bound(sign: float) -> float:
+        """No less than the largest value of sign g up to `bent`, and at most the width of an interval more."""
+        width = TURNS / (path.growth * (bent + 1.0))
+        heap = [(0.0, low, bent, delta(low), delta(bent))]
+        while True:
+            least, a, b, at_a, at_b = heapq.heappop(heap)
+            if b - a <= width:
+                return -least
+            middle = 0.5 * (a + b)
+            at = delta(middle)
+            for part in ((a, middle, at_a, at), (middle, b, at, at_b)):
+                most = part[1] + part[2] if sign > 0.0 else -(part[0] + part[3])
+                heapq.heappush(heap, (-most, *part))
+
+    outer = bound(1.0)
+    return -bound(-1.0), max(outer, high + delta(high)) if high > gentle else outer
+
+
+def last_theta(path: Spiral, chord: float) -> float:
+    """Polar angle of the front handle just before a lone bench folds; 0 if it reaches the centre."""
+    return float(kernels.fold_theta((chord / path.growth) ** 2)) * (1.0 + FOLD_ROUNDING)
