@@ -41,8 +41,8 @@ def document(client: httpx.Client) -> Any:
 
 
 def can_be_asked(call: str, mode: GenerationMode) -> bool:
-    """Every call with right values, but for scans, curves, samples and envelopes of arbitrary dragons and films of any size,
-    which take up to ten seconds each; with wrong ones if it takes any."""
+    """Every call with right values, but for scans, curves, samples and envelopes of arbitrary dragons and films of any
+    size, which take up to ten seconds each; with wrong ones if it takes any."""
     method, path = call.split()
     if mode.is_positive:
         return not path.endswith(
