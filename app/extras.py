@@ -6,7 +6,7 @@ from importlib.util import find_spec
 
 from core import BenchDragonError
 
-_FIGURES, _SWEEP, _XLSX = ("matplotlib",), ("pyarrow",), ("xlsxwriter",)
+_FIGURES, _SWEEP, _XLSX = ("matplotlib",), ("pyarrow",), ("xlsxwriter", "openpyxl")
 # Modules that each extra of pyproject.toml installs and that its use needs.
 MODULES = {
     "arrow": ("pyarrow",),
