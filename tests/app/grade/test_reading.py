@@ -7,7 +7,8 @@ import re
 import shutil
 import subprocess
 import zipfile
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
+from functools import cache
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from threading import Timer
@@ -45,14 +46,14 @@ def grade(data: bytes, name: str = "result1.xlsx") -> FileAnswer:
     return graded(name, data, Language.ENGLISH, Budget())
 
 
-def three() -> Iterator[Sheets]:
+@cache
+def three() -> list[Sheets]:
     """Rows of the contest's workbooks, by the titles of their sheets."""
-    yield rows_of(spiral(), SPIRAL_TIMES)
     [[position], [speed]] = spiral(np.array([CONTACT]))
     lines = zip(students.labels("speed"), position.tolist(), speed.tolist(), strict=True)
     contact = [[label.removesuffix(" (m/s)"), *(round(value, 6) for value in (*p, v))] for label, p, v in lines]
-    yield {"Sheet1": [[None, "横坐标x (m)", "纵坐标y (m)", "速度 (m/s)"], *contact]}
-    yield rows_of(turn(), TURN_TIMES)
+    second = {"Sheet1": [[None, "横坐标x (m)", "纵坐标y (m)", "速度 (m/s)"], *contact]}
+    return [rows_of(spiral(), SPIRAL_TIMES), second, rows_of(turn(), TURN_TIMES)]
 
 
 def by_openpyxl(sheets: Sheets) -> bytes:
@@ -87,8 +88,9 @@ def test_workbooks_of_other_tools_are_right_in_all_cells(writer: Callable[[Sheet
     assert sum(sheet.right for sheet in sheets) == sum(sheet.cells for sheet in sheets) == ALL_CELLS
 
 
+@cache
 def small(change: Callable[[Any], None] = lambda book: None) -> bytes:
-    """The same as openpyxl writes it, with a change to it."""
+    """A result1 of a few instants as openpyxl writes it, with a change to it."""
     book, sink = openpyxl.load_workbook(io.BytesIO(by_openpyxl(few()))), io.BytesIO()
     change(book)
     book.save(sink)
