@@ -54,6 +54,14 @@ WORDS = {
         "The workbook declares a document type in {part}, which no spreadsheet program writes: it was not read.",
         "工作簿的 {part} 含有文档类型声明，电子表格软件不会写入：未读取。",
     ),
+    "strict": (
+        "The workbook has the format Strict Open XML: save it as an ordinary .xlsx.",
+        "工作簿为“Strict Open XML”格式：请另存为普通 .xlsx。",
+    ),
+    "too_many_elements": (
+        "The workbook has more than {most} elements of XML, such as cells and values: delete what nobody asked for.",
+        "工作簿的 XML 元素（单元格、数值等）超过 {most} 个：请删除多余内容。",
+    ),
     "too_many_cells": ("The table has more than {most} cells.", "表格超过 {most} 个单元格。"),
     "no_csv": (
         "The file is neither a workbook nor a table of text (CSV).",

@@ -104,6 +104,13 @@ def test_what_needs_an_extra_names_it_in_one_line_and_leaves_nothing(line: str, 
     assert list(tmp_path.iterdir()) == []
 
 
+def test_a_workbook_is_graded_with_the_extra_only(tmp_path: Path) -> None:
+    (tmp_path / "result2.xlsx").write_bytes(b"PK")
+    done = plain("grade", "result2.xlsx", folder=tmp_path)
+    words = "A workbook needs the package xlsxwriter, which is not installed: pip install 'bench-dragon[xlsx]'"
+    assert (done.returncode, done.stdout, done.stderr) == (2, "", f"Error: {words}\n")
+
+
 def test_the_command_starts_without_what_only_an_extra_brings() -> None:
     names = sorted({*sum(MODULES.values(), ()), *DISPENSABLE, "starlette"})
     code = f"import sys, app.command.main; print(*(name for name in {names} if name in sys.modules))"

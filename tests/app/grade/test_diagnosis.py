@@ -1,4 +1,4 @@
-"""Twenty workbooks with one known error each are diagnosed; five with errors of no known kind are not."""
+"""Twenty results with one known error each are diagnosed; five with errors of no known kind are not."""
 
 from __future__ import annotations
 
@@ -18,14 +18,14 @@ ONCE = Dragon(overhang=0.1375)
 
 
 def first(results: students.Results) -> bytes:
-    return students.workbook(results, SPIRAL_TIMES)
+    return students.lines(results, SPIRAL_TIMES)
 
 
 def fourth(results: students.Results) -> bytes:
-    return students.workbook(results, TURN_TIMES)
+    return students.lines(results, TURN_TIMES)
 
 
-# Error -> the workbook.
+# Error -> the file.
 KNOWN = {
     "anticlockwise": lambda: first(students.mirrored(spiral())),
     "equal_arcs": lambda: first(students.equal_arcs()),

@@ -7,9 +7,11 @@ import re
 import shutil
 import subprocess
 import zipfile
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
+from functools import cache
 from pathlib import Path
 from tempfile import TemporaryDirectory
+from threading import Timer
 from typing import Any
 
 import numpy as np
@@ -19,7 +21,7 @@ import pytest
 from app.files.tables import Language
 from app.grade.reading import FILE_MAX
 from app.grade.report import FileAnswer, graded
-from app.grade.workbook import UNPACKED_MAX
+from app.grade.workbook import ELEMENTS_MAX, UNPACKED_MAX
 from core import Budget, TooMuchWork
 from tests.app.grade import students
 from tests.app.grade.students import (
@@ -44,14 +46,14 @@ def grade(data: bytes, name: str = "result1.xlsx") -> FileAnswer:
     return graded(name, data, Language.ENGLISH, Budget())
 
 
-def three() -> Iterator[Sheets]:
+@cache
+def three() -> list[Sheets]:
     """Rows of the contest's workbooks, by the titles of their sheets."""
-    yield rows_of(spiral(), SPIRAL_TIMES)
     [[position], [speed]] = spiral(np.array([CONTACT]))
     lines = zip(students.labels("speed"), position.tolist(), speed.tolist(), strict=True)
     contact = [[label.removesuffix(" (m/s)"), *(round(value, 6) for value in (*p, v))] for label, p, v in lines]
-    yield {"Sheet1": [[None, "横坐标x (m)", "纵坐标y (m)", "速度 (m/s)"], *contact]}
-    yield rows_of(turn(), TURN_TIMES)
+    second = {"Sheet1": [[None, "横坐标x (m)", "纵坐标y (m)", "速度 (m/s)"], *contact]}
+    return [rows_of(spiral(), SPIRAL_TIMES), second, rows_of(turn(), TURN_TIMES)]
 
 
 def by_openpyxl(sheets: Sheets) -> bytes:
@@ -86,8 +88,9 @@ def test_workbooks_of_other_tools_are_right_in_all_cells(writer: Callable[[Sheet
     assert sum(sheet.right for sheet in sheets) == sum(sheet.cells for sheet in sheets) == ALL_CELLS
 
 
+@cache
 def small(change: Callable[[Any], None] = lambda book: None) -> bytes:
-    """The same as openpyxl writes it, with a change to it."""
+    """A result1 of a few instants as openpyxl writes it, with a change to it."""
     book, sink = openpyxl.load_workbook(io.BytesIO(by_openpyxl(few()))), io.BytesIO()
     change(book)
     book.save(sink)
@@ -136,6 +139,19 @@ def wide_entities() -> bytes:
     return repacked(small(), lambda part, content: trap if part == SHEETS[1] else content)
 
 
+def filled(element: bytes, times: int) -> bytes:
+    """A workbook whose sheets are the same element again and again."""
+    start = b'<worksheet xmlns="http://schemas.openxmlformats.org/spreadsheetml/2006/main"><sheetData>'
+    sheet = start + times * element + b"</sheetData></worksheet>"
+    return repacked(small(), lambda part, content: sheet if part in SHEETS else content)
+
+
+def strict() -> bytes:
+    """As Excel writes Strict Open XML."""
+    old, new = b"http://schemas.openxmlformats.org/spreadsheetml/2006", b"http://purl.oclc.org/ooxml/spreadsheetml"
+    return repacked(small(), lambda part, content: content.replace(old, new))
+
+
 UNREADABLE = {
     "nothing": (lambda: b"", "The file is empty."),
     "100 MB": (lambda: b"PK" + bytes(FILE_MAX), "at most 20 MB are read"),
@@ -145,6 +161,8 @@ UNREADABLE = {
     "truncated": (lambda: small()[:-3000], "ends early or does not unpack"),
     "entities": (entities, "declares a document type in xl/worksheets/sheet1.xml"),
     "entities in UTF-16": (wide_entities, "declares a document type in xl/worksheets/sheet2.xml"),
+    "too many elements": (lambda: filled(b"<c/>", ELEMENTS_MAX), "more than 2,000,000 elements"),
+    "strict": (strict, "Strict Open XML: save it as an ordinary .xlsx"),
     "another archive": (lambda: zipped("essay.txt", b"words"), "an archive but no .xlsx workbook"),
     "no sheets": (lambda: repacked(small(), lambda part, content: b"<nonsense/>"), "damaged and cannot be opened"),
     "a picture": (lambda: b"\x89PNG\r\n\x1a\n" + bytes(200), "neither a workbook nor a table"),
@@ -231,6 +249,15 @@ def test_text_in_number_cells_is_told_with_its_place() -> None:
     assert sheet.right == 4 * 448 - 1
 
 
+def test_a_date_is_no_number() -> None:
+    def change(book: Any) -> None:
+        book["位置"]["C2"].number_format = "yyyy-mm-dd"
+
+    sheet = grade(small(change)).sheets[0]
+    assert any(note.startswith("C2 should hold a number and holds the text “1900-01-") for note in sheet.notes)
+    assert sheet.right == 4 * 448 - 1
+
+
 def test_a_sheet_without_end_is_cut_and_graded() -> None:
     def change(book: Any) -> None:
         book["位置"].cell(1_048_576, 16_384, 1.0)
@@ -243,3 +270,13 @@ def test_a_budget_ends_the_reading() -> None:
     budget.stop("now")
     with pytest.raises(TooMuchWork):
         graded("result1.xlsx", small(), Language.ENGLISH, budget)
+
+
+def test_a_budget_ends_a_reading_that_has_begun() -> None:
+    # There are no rows between which the budget is looked at, and openpyxl takes seconds for all the rest.
+    data, budget = filled(b"<x/>", 500_000), Budget()
+    timer = Timer(0.1, budget.stop)
+    timer.start()
+    with pytest.raises(TooMuchWork):
+        graded("result1.xlsx", data, Language.ENGLISH, budget)
+    timer.join()
