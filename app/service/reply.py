@@ -29,8 +29,8 @@ from app.service.watch import GLANCE, Glances, watched
 from app.settings import Settings
 from app.wire.models import JSON, Wire
 from app.wire.problem import ERRORS_MAX, ErrorItem
-from app.wire.refusals import refusing
-from core import TooMuchWork
+from app.wire.refusals import reworded
+from core import BenchDragonError, TooMuchWork
 
 VERSION = version("bench-dragon")
 RESPOND_ASYNC = "respond-async"
@@ -117,14 +117,19 @@ class Reply:
     def _computed(self, call: Call, asked: Wire, media_type: str) -> bytes | Iterator[bytes]:
         """The answer, computed in its lane."""
         cost = max(self._cost(call, asked, media_type), self._least_cost)
-        with self._lanes.of(cost, media_type).taken(cost, client_of(self.request)), refusing(asked):
-            return call.question.told(asked, Terms(self.settings, self.request.state.budget), media_type)
+        try:
+            with self._lanes.of(cost, media_type).taken(cost, client_of(self.request)):
+                return call.question.told(asked, Terms(self.settings, self.request.state.budget), media_type)
+        except BenchDragonError as error:
+            raise reworded(error, asked) from error
 
     @staticmethod
     def _cost(call: Call, asked: Wire, media_type: str) -> float:
         """Estimated time of the answer [s]. raises: InvalidValue for times that end before they begin"""
-        with refusing(asked):
+        try:
             return call.question.estimate(asked, media_type)
+        except BenchDragonError as error:
+            raise reworded(error, asked) from error
 
     def _zips(self, data: bytes | Iterator[bytes]) -> bool:
         """Is the answer worth compressing, and does the client accept gzip?"""
