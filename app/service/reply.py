@@ -69,7 +69,7 @@ class Reply:
 
     async def to_query(self, call: Call, asked: Wire, *form: Format) -> Response:
         """The answer to a request without a body: at once where it is expected to be quick, else from a thread."""
-        if not form and len(call.question.forms) == 1 and self._cost(call, asked, call.question.forms[0]) <= GLANCE:
+        if not form and self._is_quick(call, asked):
             async with self._glances.turn:
                 with suppress(TooMuchWork), self._glances.budget() as budget:
                     self.request.state.budget = budget
@@ -116,18 +116,24 @@ class Reply:
 
     def _computed(self, call: Call, asked: Wire, media_type: str) -> bytes | Iterator[bytes]:
         """The answer, computed in its lane."""
-        cost = max(self._cost(call, asked, media_type), self._least_cost)
+        cost = self._cost(call, asked, media_type)
         try:
             with self._lanes.of(cost, media_type).taken(cost, client_of(self.request)):
                 return call.question.told(asked, Terms(self.settings, self.request.state.budget), media_type)
         except BenchDragonError as error:
             raise reworded(error, asked) from error
 
-    @staticmethod
-    def _cost(call: Call, asked: Wire, media_type: str) -> float:
+    def _is_quick(self, call: Call, asked: Wire) -> bool:
+        """May the event loop make the answer itself? A job it may not: that is written to the disk first."""
+        forms = call.question.forms
+        if len(forms) > 1 or prefers_later(self.request.headers):
+            return False
+        return self._cost(call, asked, forms[0]) <= GLANCE
+
+    def _cost(self, call: Call, asked: Wire, media_type: str) -> float:
         """Estimated time of the answer [s]. raises: InvalidValue for times that end before they begin"""
         try:
-            return call.question.estimate(asked, media_type)
+            return max(call.question.estimate(asked, media_type), self._least_cost)
         except BenchDragonError as error:
             raise reworded(error, asked) from error
 

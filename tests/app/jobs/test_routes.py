@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 import json
+import sqlite3
 import time
 from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import closing
 from pathlib import Path
 from typing import Any
 
@@ -20,6 +23,9 @@ ANSWERED = [
     {"question": "check", "request": {"path": {"kind": "spiral", "pitch": 0.8}, "stop": 20}},
     {"question": "trajectory_figure", "request": {"format": "svg", "time": 30, "benches": 20}},
 ]
+
+# How long another process writes to the store, twice this, less than a change of it may wait [s].
+HELD = 1.0
 
 
 @pytest.fixture(scope="module")
@@ -224,3 +230,18 @@ def test_a_service_without_a_data_folder_keeps_jobs_while_it_lives(server: str) 
         wait_for(lambda: client.get(address).json()["status"] == "successful")
         assert client.get(f"{address}/result").content == direct(client, SHORT).content
         assert client.delete(address).status_code == 204
+
+
+def test_a_store_that_is_slow_keeps_nobody_else_waiting(tmp_path: Path) -> None:
+    """Another process writes to the store; a quick question that is to become a job waits for it, and no one else."""
+    with Service(tmp_path, workers=1) as service, ThreadPoolExecutor(1) as thread:
+        with closing(sqlite3.connect(tmp_path / "jobs.sqlite", isolation_level=None)) as other:
+            other.execute("BEGIN IMMEDIATE")
+            query = {"cross_check": "none", "pitch": 0.52}
+            url, headers = f"http://127.0.0.1:{service.port}/collision-time", {"Prefer": "respond-async"}
+            later = thread.submit(httpx.get, url, params=query, headers=headers, timeout=PATIENCE)
+            time.sleep(HELD)
+            assert service.client.get("/healthz", timeout=HELD).status_code == 200
+            assert not later.done()
+            other.execute("ROLLBACK")
+        assert later.result().status_code == 202
