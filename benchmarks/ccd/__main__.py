@@ -1,0 +1,65 @@
+"""python -m benchmarks.ccd: make the queries, ask every engine, and write the table and the figures into docs/.
+
+A run that was interrupted goes on where it was: what stands in its folder is not made again.
+"""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Iterable
+from pathlib import Path
+
+from benchmarks.ccd.files import load_shard, save_csv, save_shard, shard_of
+from benchmarks.ccd.queries import dance_queries
+from benchmarks.ccd.report import SAMPLE, SAMPLED, collected, report
+from benchmarks.ccd.running import Worker, answers_path, installed, save_answers
+
+ROOT = Path(__file__).parents[2]
+# Dances in one file of queries.
+DANCES = 10
+
+
+def run(folder: Path, seed: int, count: int, names: Iterable[str]) -> None:
+    """Make at least so many queries, file by file, and have these engines answer them."""
+    folder.mkdir(parents=True, exist_ok=True)
+    workers, found, number = {name: Worker(name) for name in names}, 0, 0
+    while found < count:
+        path = folder / f"queries-{number:04}.npz"
+        if not path.exists():
+            made = {k: dance_queries(seed, k) for k in range(DANCES * number, DANCES * (number + 1))}
+            known = [one for _, queries in made.values() for one in queries]
+            save_shard(path, shard_of({k: record for k, (record, _) in made.items()}, known))
+        here = len(load_shard(path))
+        for name, worker in workers.items():
+            answered = answers_path(path, name)
+            if not answered.exists():
+                save_answers(answered, worker.answered(path, here))
+        found, number = found + here, number + 1
+        print(f"{path}: {found} queries answered", flush=True)
+    for worker in workers.values():
+        worker.stop()
+
+
+def main() -> None:
+    """Run, then write what was found."""
+    parser = argparse.ArgumentParser(prog="python -m benchmarks.ccd", description=__doc__)
+    parser.add_argument("--queries", type=int, default=100_000, help="how many at least (100,000)")
+    parser.add_argument("--seed", type=int, default=2026, help="of the random dances (2026)")
+    parser.add_argument("--folder", type=Path, default=ROOT / "build" / "ccd", help="of the files (build/ccd)")
+    parser.add_argument("--docs", type=Path, default=ROOT / "docs", help="where the page and the figures are (docs)")
+    parser.add_argument("--sample", action="store_true", help=f"also write {SAMPLED} of the queries to {SAMPLE.name}")
+    parser.add_argument("--only-report", action="store_true", help="ask nothing, write what the folder has")
+    asked = parser.parse_args()
+    folder = asked.folder / f"seed-{asked.seed}"
+    if not asked.only_report:
+        run(folder, asked.seed, asked.queries, installed())
+    results = collected(folder)
+    if asked.sample:
+        sample = results.sample(SAMPLED)
+        save_shard(SAMPLE, sample)
+        save_csv(SAMPLE.with_suffix(".csv"), sample)
+    print(report(results, asked.docs))
+
+
+if __name__ == "__main__":
+    main()

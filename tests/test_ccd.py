@@ -1,0 +1,205 @@
+"""Engines of continuous collision detection on the committed sample, whose truth stands on ball arithmetic alone."""
+
+from __future__ import annotations
+
+import importlib
+import math
+import os
+import signal
+from pathlib import Path
+
+import numpy as np
+import pytest
+from flint import arb
+
+from benchmarks.ccd.__main__ import run
+from benchmarks.ccd.dances import KINDS, dance_of
+from benchmarks.ccd.engines import ENGINES, Engine
+from benchmarks.ccd.files import COLUMNS, ENDS, Shard, load, load_shard, save, save_shard
+from benchmarks.ccd.march import least_between
+from benchmarks.ccd.motion import Stage
+from benchmarks.ccd.pieces import pieces_of
+from benchmarks.ccd.queries import CONTACT, EXACT, FAR, GRAZE, SAMPLES, dance_queries
+from benchmarks.ccd.report import SAMPLE, SAMPLED, Results, by_depth, score
+from benchmarks.ccd.running import Worker, answers, answers_path, installed, save_answers
+from benchmarks.ccd.series import Expansion
+from benchmarks.ccd.truth import covered, track
+from core import Spiral
+from core.proof.paths import chain_on, recorded_path
+
+SHARD = load_shard(SAMPLE)
+EVERYTHING = np.ones(len(SHARD), dtype=bool)
+# Largest errors of our own times of contact [s]: the corner comes to a graze of 1e-9 m at 1e-5 m/s, so slowly that what
+# doubles leave of its place, 1e-14 m and more, is 1e-9 s and more.
+OURS, OURS_AT_GRAZES = 1e-9, 1e-8
+# Every engine answers so many queries of the sample, spread over all of it, in the time that it takes on them: those
+# that take milliseconds answer fewer.
+ASKED = {"ours": SAMPLED, "ipctk": SAMPLED, "Box2D": SAMPLED, "ipctk 0.9999": 40}
+ASKED_ELSE = 200
+# Largest difference of two computations in balls of the same point [m].
+SAME = 1e-11
+
+
+def part(count: int) -> Shard:
+    """So many queries spread over the sample."""
+    return SHARD.taken(np.linspace(0, len(SHARD) - 1, count).astype(int))
+
+
+@pytest.fixture(scope="module")
+def results(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Results]:
+    """The answers of every engine to its part of the sample, read back from the files that a run writes."""
+    folder, found = tmp_path_factory.mktemp("answers"), {}
+    for engine in ENGINES:  # the last one answers as its process has it: docs/dragon-ccd.md
+        shard = part(ASKED.get(engine.name, ASKED_ELSE))
+        save_answers(folder / "answers.npz", list(answers(engine, shard)))
+        found[engine.name] = Results(shard, {engine.name: load(folder / "answers.npz")})
+    return found
+
+
+def test_the_sample_has_every_class_kind_and_depth() -> None:
+    kinds = SHARD.columns["kind"]
+    assert len(SHARD) == SAMPLED
+    assert all((kinds == kind).sum() > 0.3 * SAMPLED for kind in (CONTACT, GRAZE, FAR))
+    assert {record["kind"] for record in SHARD.dances.values()} == set(KINDS)
+    depths = np.round(np.log10(np.abs(SHARD.columns["depth"][kinds == GRAZE]))).astype(int)
+    assert set(depths) == set(range(-9, -2))
+    assert sum(path.stat().st_size for path in SAMPLE.parent.glob("sample.*")) < 400_000
+
+
+def test_contacts_lie_anywhere_between_the_instants_at_which_distances_were_looked_at() -> None:
+    columns = SHARD.columns
+    for kind in (CONTACT, GRAZE):
+        rows = (columns["kind"] == kind) & np.isfinite(columns["low"])
+        steps = columns["high"][rows] / columns["span"][rows] * (SAMPLES - 1)
+        quarters = np.bincount((4.0 * (steps % 1.0)).astype(int), minlength=4)
+        assert (quarters > 0.15 * rows.sum()).all()
+
+
+def test_every_engine_is_installed() -> None:
+    assert list(installed()) == [engine.name for engine in ENGINES]
+
+
+def test_our_own_engine_misses_nothing_invents_nothing_and_is_exact(results: dict[str, Results]) -> None:
+    found = score(results["ours"], "ours", EVERYTHING)
+    assert (found.missed, found.invented, found.other) == (0, 0, (0, 0, 0))
+    assert max(found.late, found.early) < OURS_AT_GRAZES
+    contacts = score(results["ours"], "ours", SHARD.columns["kind"] == CONTACT)
+    assert max(contacts.late, contacts.early) < OURS
+
+
+@pytest.mark.parametrize("name", [engine.name for engine in ENGINES if not engine.afresh])
+def test_every_engine_answers_and_sees_far_corners_as_clear(name: str, results: dict[str, Results]) -> None:
+    asked = results[name]
+    rows = np.ones(len(asked.queries), dtype=bool)
+    assert score(asked, name, rows).other == (0, 0, 0)
+    assert score(asked, name, asked.queries.columns["kind"] == FAR).invented == 0
+
+
+@pytest.mark.parametrize("name", ["ipctk", "ipctk 0.9999"])
+def test_ipctk_keeps_its_promise_to_be_early_rather_than_late(name: str, results: dict[str, Results]) -> None:
+    found = score(results[name], name, np.ones(len(results[name].queries), dtype=bool))
+    assert found.missed == 0
+    assert found.late <= OURS < found.early
+
+
+def test_the_truth_of_the_sample_is_shown_again_in_balls() -> None:
+    shown = 0
+    for kind, sign in ((CONTACT, 0), (GRAZE, -1), (GRAZE, 1), (FAR, 1)):
+        columns = SHARD.columns
+        rows = np.flatnonzero((columns["kind"] == kind) & ((sign == 0) | (np.sign(columns["depth"]) == sign)))
+        for k in rows[:: max(1, len(rows) // 2)][:2].tolist():
+            query, stage = SHARD.query(k), Stage(SHARD.dances[int(columns["dance"][k])])
+            last = max(query.corner_bench, query.edge_bench) + 1
+            seen = track(covered(stage, pieces_of(stage), query.place, query.span, last), query, stage)
+            low, high, depth = (columns[name][k].item() for name in ("low", "high", "depth"))
+            if math.isfinite(low):
+                assert seen.clear(arb(query.margin), 0.0, low)
+                assert seen.within(arb(query.margin), high)
+                assert not seen.clear(arb(query.margin), 0.0, high)
+            else:
+                assert seen.clear(arb(query.margin + depth * (1.0 - EXACT) - 1e-14), 0.0, query.span)
+                assert not seen.clear(arb(query.margin + depth * (1.0 + 2.0 * EXACT) + 1e-13), 0.0, query.span)
+            shown += 1
+    assert shown == 8
+
+
+@pytest.mark.parametrize("kind", ["spiral", "turn", "arcs"])
+def test_handles_lie_where_the_proofs_of_this_library_have_them(kind: str) -> None:
+    record = next(record for record in SHARD.dances.values() if record["kind"] == kind)
+    stage, dance, count = Stage(record), dance_of(record), 6
+    chain = chain_on(dance.dragon, recorded_path(dance.path), 0.0)
+    spiral = isinstance(dance.path, Spiral)
+    travel = 0.5 * (max(dance.begin, 0.0) + dance.end.time) + 0.123
+    place = float(stage.search.place - travel)
+    expansion = Expansion(stage, pieces_of(stage), place, 0.005, count)
+    for shift in (0.0, 0.004):
+        way = arb(stage.search.place if not spiral else chain.arc(chain.start)) - (arb(place) - arb(shift))
+        pose = chain.pose_at(0, chain.place_after(way if spiral else -(arb(place) - arb(shift))))
+        pose.grow_to(count)
+        points = [expansion.handles[k].point for k in range(count + 1)]
+        own = [
+            (sum(p.x[k] * arb(shift) ** k for k in range(12)), sum(p.y[k] * arb(shift) ** k for k in range(12)))
+            for p in points
+        ]
+        for k in range(1, count + 1):  # distances of handles: the frame of a spiral's pose turns with its head
+            ours = ((own[k][0] - own[0][0]) ** 2 + (own[k][1] - own[0][1]) ** 2).sqrt()
+            assert abs(float(ours) - float(abs(pose.points[k] - pose.points[0]))) < SAME
+
+
+def test_queries_of_a_dance_are_the_same_again() -> None:
+    number = int(SHARD.columns["dance"][0])
+    record, known = dance_queries(2026, number)
+    rows = np.flatnonzero(SHARD.columns["dance"] == number)
+    assert record == SHARD.dances[number]
+    assert {SHARD.query(k) for k in rows.tolist()} <= {one.query for one in known}
+
+
+def test_a_missing_engine_is_named_and_left_out(capsys: pytest.CaptureFixture[str]) -> None:
+    absent = Engine("nobody", "no-such-package", "", lambda: importlib.import_module("no_such_package"))
+    assert list(installed((*ENGINES[:2], absent))) == ["ours", "ipctk"]
+    assert capsys.readouterr().out == "nobody is left out: the package no-such-package is not installed\n"
+
+
+def test_a_crash_and_a_hang_are_rows_and_a_run_goes_on_where_it_was(tmp_path: Path) -> None:
+    shard, worker = part(6), Worker("ours")
+    save_shard(tmp_path / "queries-0000.npz", shard)
+    rows = []
+    for end in (signal.SIGKILL, signal.SIGPROF):
+        worker.start()
+        os.kill(worker.process.pid, end)
+        rows.append(worker.answered(tmp_path / "queries-0000.npz", len(shard)))
+    worker.stop()
+    assert [ENDS[row[-1]] for row in rows[0]] == ["crash", *["answered"] * 5]
+    assert [ENDS[row[-1]] for row in rows[1]] == ["hang", *["answered"] * 5]
+    told = {"touches": np.ones(6, dtype=np.int8), "travel": np.arange(6.0)}
+    save(kept := answers_path(tmp_path / "queries-0000.npz", "ipctk"), told)
+    run(tmp_path, 0, len(shard), ("ours", "ipctk"))
+    assert load(kept)["travel"].tolist() == told["travel"].tolist()
+    assert load(answers_path(tmp_path / "queries-0000.npz", "ours"))["end"].tolist() == [0] * 6
+
+
+def test_scores_count_what_differs_from_the_truth() -> None:
+    columns = dict.fromkeys(COLUMNS, np.zeros(5)) | {"kind": np.full(5, GRAZE), "depth": np.full(5, 1e-3)}
+    columns |= {"low": np.array([0.1, 0.1, 0.1, np.nan, np.nan]), "high": np.array([0.2, 0.2, 0.2, np.nan, np.nan])}
+    told = {
+        "touches": np.array([1, 1, 0, 1, 0]),
+        "travel": np.array([0.15, 0.5, np.nan, 0.3, np.nan]),
+        "microseconds": np.array([1.0, 2.0, 3.0, 4.0, np.nan]),
+        "evaluations": np.arange(5),
+        "end": np.array([0, 0, 0, 0, ENDS.index("hang")]),
+    }
+    results = Results(Shard({}, columns), {"one": told})
+    found = score(results, "one", np.ones(5, dtype=bool))
+    assert (found.missed, found.invented, found.other, found.early) == (1, 1, (0, 0, 1), 0.0)
+    assert found.late == pytest.approx(0.3)
+    assert found.microseconds[0] == 2.5
+    assert by_depth(results)[-2:] == ["| one | 1 / 1 |", "| *of contacts / clear* | 3 / 2 |"]
+
+
+@pytest.mark.parametrize(
+    ("start", "end", "bend", "h"), [(1.0, 1.0, 8.0, 1.0), (1.0, 3.0, 1.0, 1.0), (2.0, 1.5, 8.0, 1.0)]
+)
+def test_the_least_between_two_ends_is_that_of_the_parabola(start: float, end: float, bend: float, h: float) -> None:
+    x = np.linspace(0.0, h, 100_001)
+    parabola = start + (end - start) * x / h - 0.5 * bend * x * (h - x)
+    assert least_between(start, end, bend, h) == pytest.approx(parabola.min(), abs=1e-9)
