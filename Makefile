@@ -1,7 +1,7 @@
 # The first `make` in a fresh clone creates .venv, installs the locked versions and compiles core/kernels.
 SHELL := /bin/bash
 .DEFAULT_GOAL := help
-.PHONY: help setup serve test rounding lint sweep-pitch sweep-kills job-kills soak fuzz bench examples figures dist lock clean
+.PHONY: help setup serve test rounding lint sweep-pitch sweep-kills job-kills soak fuzz bench ccd examples figures dist lock clean
 
 VENV := .venv
 BIN := $(VENV)/bin
@@ -24,6 +24,8 @@ help:
 	@echo 'make soak     64 clients and all attacks at once, 5 minutes (SECONDS=)'
 	@echo 'make fuzz     10,000 requests by the description of the service and 12,000 odd ones (CASES=, MUTANTS=, SEED=)'
 	@echo 'make bench    benchmarks against a plain SciPy baseline, into docs/performance.md'
+	@echo 'make ccd      100,000 queries of continuous collision detection to every engine, into docs/dragon-ccd.md; it goes'
+	@echo '              on where it was interrupted, some hours in all (QUERIES=, SEED=)'
 	@echo 'make examples new answers for the examples in /docs'
 	@echo 'make figures  the figures of README.md and docs/'
 	@echo 'make dist     the sdist and the wheel in dist/, checked'
@@ -34,7 +36,7 @@ setup: $(VENV)/compiled
 
 $(VENV)/installed: requirements.lock
 	@PYTHON='$(PYTHON)' bash .ci/make-venv $(VENV)
-	@echo 'Installing the locked packages into $(VENV) (about a minute, once)'
+	@echo 'Installing the locked packages into $(VENV) (some minutes, once)'
 	@$(PIP) install -r requirements.lock
 	@touch $@
 
@@ -79,6 +81,9 @@ fuzz: setup
 
 bench: setup
 	@$(BIN)/python -m benchmarks.report docs/performance.md
+
+ccd: setup
+	@$(BIN)/python -m benchmarks.ccd --queries $(or $(QUERIES),100000) --seed $(or $(SEED),2026)
 
 examples: setup
 	@$(BIN)/python -m tests.app.renew_examples

@@ -10,6 +10,7 @@ _DXF, _FIGURES, _SWEEP, _XLSX = ("ezdxf",), ("matplotlib",), ("pyarrow",), ("xls
 # Modules that each extra of pyproject.toml installs and that its use needs.
 MODULES = {
     "arrow": ("pyarrow",),
+    "ccd": ("Box2D", "ipctk", "flint", *_FIGURES),
     "dask": ("dask", "distributed", *_SWEEP),
     "data": ("pandas", "xarray"),
     "dxf": _DXF,

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import os
 from pathlib import Path
+from typing import Any
 
-from pydantic import Field
-from pydantic_settings import BaseSettings, SettingsConfigDict
+from pydantic import BaseModel, ConfigDict, Field, ValidationError
+
+from core.errors import InvalidValue
 
 # Folder in which prometheus_client adds up the counts of several processes; app/service/workers.py sets it for them.
 SHARED_COUNTS = "PROMETHEUS_MULTIPROC_DIR"
@@ -21,17 +23,32 @@ def usable_cores() -> int:
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
-class Settings(BaseSettings):
+class Settings(BaseModel):
     """Limits of one process for a single request and for requests at the same time.
 
     Each field is set by BENCH_DRAGON_ followed by its name in capitals, such as BENCH_DRAGON_BENCHES_MAX.
     """
 
-    model_config = SettingsConfigDict(env_prefix="BENCH_DRAGON_", frozen=True)
+    model_config = ConfigDict(frozen=True, defer_build=True)
+
+    def __init__(self, **given: Any) -> None:
+        """raises: InvalidValue naming the variable"""
+        # pydantic-settings does the same and takes a fifth of a cold command to import (measured 2026-11-22).
+        variables = {name: f"BENCH_DRAGON_{name.upper()}" for name in type(self).model_fields}
+        told = {name: os.environ[key] for name, key in variables.items() if key in os.environ}
+        try:
+            super().__init__(**told | given)
+        except ValidationError as error:
+            first = error.errors()[0]
+            name = variables[str(first["loc"][0])]
+            rule = first["msg"].replace("Input should", "must")
+            raise InvalidValue(name, f"{name} {rule}, got {first['input']!r:.60}") from error
 
     body_bytes_max: int = Field(4_000_000, ge=1, description="Longest request body [bytes]")
     grade_bytes_max: int = Field(20_000_000, ge=1, description="Longest file in POST /grade [bytes]")
     grade_seconds: float = Field(60.0, gt=0, description="Longest grading of one file [s]")
+    places_bytes_max: int = Field(20_000_000, ge=1, description="Longest map in POST /places [bytes]")
+    places_seconds: float = Field(20.0, gt=0, description="Longest reading of one map [s]")
     benches_max: int = Field(100_000, ge=1, description="Longest dragon [benches]")
     scanned_benches_max: int = Field(10_000, ge=1, description="Longest dragon whose pitches are scanned [benches]")
     checked_benches_max: int = Field(

@@ -32,6 +32,7 @@ ROWS = (
     ("the same without a cross-check (`cross_check=none`)", "get_collision_time[none]", None, "1.5 ms", "1 ms"),
     ("`POST /trajectory`, p50", "post_trajectory", "trajectory_baseline", "40 ms", "15 ms"),
     ("import of `core` and first contact, cold process", "cold_start", "cold_start_baseline", "1.5 s", "0.6 s"),
+    ("`bench-dragon collision-time`, cold process", "cold_command", "cold_start_baseline", "0.30 s", "0.15 s"),
 )
 BENCHES = (223, 1_000, 10_000, 100_000)
 # Required ratio of requests per second on two cores to those on one.
@@ -90,6 +91,16 @@ def growth(results: Results) -> list[str]:
     ]
 
 
+def strays(results: Results) -> list[str]:
+    """Rows on what a stray costs beside a margin of the same size."""
+    lines = ["| with 2 cm | must | as a margin | as a stray | ratio |", "|---|---|---|---|---|"]
+    for work in ("first contact", "minimum pitch"):
+        name = f"{work.replace(' ', '_')}_within"
+        margin, stray = (seconds(results, f"{name}[{kept}]") for kept in ("margin", "stray"))
+        lines.append(f"| {work} | 1.5x | {shown(margin)} | {shown(stray)} | {stray / margin:.2f}x |")
+    return lines
+
+
 def throughput(results: Results) -> list[str]:
     """Rows on requests per second: one process on one core, one process on two cores, two processes on two cores."""
     rates = {
@@ -130,6 +141,8 @@ def section(results: Results) -> str:
             "the instants, and scaled to the whole; its cold start is only `import numpy, scipy.optimize, shapely`.",
             "",
             *growth(results),
+            "",
+            *strays(results),
             "",
             *throughput(results),
         ]

@@ -63,6 +63,20 @@ def test_minimum_pitch(benchmark: BenchmarkFixture) -> None:
     assert benchmark(core.minimum_pitch, DRAGON).limited_by is core.LimitedBy.GRAZE
 
 
+@pytest.mark.parametrize("kept", ["margin", "stray"])
+def test_first_contact_within(benchmark: BenchmarkFixture, kept: str) -> None:
+    benchmark.group = "first contact within 2 cm"
+    contact = benchmark(lambda: core.first_contact(core.Dance(DRAGON, SPIRAL), **{kept: 0.02}))
+    assert contact.outcome is core.Outcome.CONTACT
+
+
+@pytest.mark.parametrize("kept", ["margin", "stray"])
+def test_minimum_pitch_within(benchmark: BenchmarkFixture, kept: str) -> None:
+    benchmark.group = "minimum pitch within 2 cm"
+    found = benchmark(lambda: core.minimum_pitch(DRAGON, **{kept: 0.02}))
+    assert found.limited_by is core.LimitedBy.GRAZE
+
+
 def test_minimum_pitch_baseline(benchmark: BenchmarkFixture) -> None:
     pitch = core.minimum_pitch(DRAGON).pitch
     benchmark.group = "minimum pitch"
@@ -92,7 +106,7 @@ def test_overlaps_baseline(benchmark: BenchmarkFixture, long_dragon: tuple[core.
 
 
 def run_cold(code: str) -> None:
-    subprocess.run([sys.executable, "-c", code], cwd=ROOT, check=True)
+    subprocess.run([sys.executable, "-c", code], cwd=ROOT, check=True, stdout=subprocess.DEVNULL)
 
 
 def test_cold_start(benchmark: BenchmarkFixture) -> None:
@@ -106,3 +120,10 @@ def test_cold_start_baseline(benchmark: BenchmarkFixture) -> None:
     """Imports alone, without any search."""
     benchmark.group = "cold start"
     benchmark.pedantic(run_cold, ("import numpy, scipy.optimize, shapely",), rounds=7)
+
+
+def test_cold_command(benchmark: BenchmarkFixture) -> None:
+    """bench-dragon collision-time, with its check by four engines and its table."""
+    benchmark.group = "cold start"
+    code = "import sys; sys.argv[1:] = ['collision-time']; from app.command.main import app; app()"
+    benchmark.pedantic(run_cold, (code,), rounds=7)

@@ -11,6 +11,7 @@ from functools import cached_property
 import numpy as np
 
 from core import kernels
+from core.clock import HEAD_SPEED_MAX, HEAD_SPEED_MIN, TIME_MAX, Clock, Passage, checked_passages
 from core.dragon import Dragon
 from core.errors import InvalidValue, OutsideRun, said, said_bound
 from core.paths.route import Route
@@ -19,9 +20,6 @@ from core.sampling import bisected
 from core.shown import Shown
 from core.values import Floats, checked_number, checked_type
 
-HEAD_SPEED_MIN = 1e-6  # [m/s]
-HEAD_SPEED_MAX = 1e4  # [m/s]
-TIME_MAX = 1e12  # [s]
 # Length of the default table of whole seconds, that of the contest [s].
 DEFAULT_SPAN = 300
 # A run ends this much before its fold, so that every chord has a place there in spite of rounding; 1e-14 was enough for
@@ -61,11 +59,12 @@ class RunEnd(Shown):
         return "the head is at the centre" if self.reason is EndReason.CENTRE else "the path ends"
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Dance(Shown):
-    """A dragon that follows a path with its head at a constant speed. Every question about a given path takes a dance.
+    """A dragon that follows a path. Every question about a given path takes a dance.
 
-    head_speed: [m/s]
+    head_speed: of the head, constant but for the passages [m/s]
+    passages: stretches from time 0 on that it goes at other speeds, one after the other
     end: end of the run: the fold or the centre of a spiral, the end of a route
     raises: InvalidValue for values of other types, for a dragon that cannot stand at the start of a spiral
         (path.start_turns), and for a bend of a route too tight for a chord (path)
@@ -78,20 +77,51 @@ class Dance(Shown):
     dragon: Dragon
     path: Spiral | Route
     head_speed: float = 1.0
+    passages: Sequence[Passage] = ()
 
     def __post_init__(self) -> None:
         checked_type("dragon", self.dragon, Dragon)
         checked_type("path", self.path, (Spiral, Route))
         object.__setattr__(self, "head_speed", checked_head_speed(self.head_speed))
+        object.__setattr__(self, "passages", checked_passages(self.passages))
         _ = self.end
+
+    def __repr__(self) -> str:
+        more = f", passages={self.passages!r}" if self.passages else ""
+        return f"Dance(dragon={self.dragon!r}, path={self.path!r}, head_speed={self.head_speed!r}{more})"
+
+    @cached_property
+    def clock(self) -> Clock:
+        """When the head is where."""
+        return Clock(self.head_speed, self.passages)
+
+    @property
+    def steady(self) -> Dance:
+        """The same dance without passages, its path in its own frame: it meets the same, at clock.steady() times."""
+        path = self.path.standard
+        return Dance(self.dragon, path, self.head_speed) if self.passages or path is not self.path else self
+
+    def steady_times(self, times: Floats) -> Floats:
+        """Times (...) of the run at which the steady dance is at the same places [s]; rounding never leaves its run."""
+        found: Floats = np.clip(self.clock.steady(times), self.steady.earliest, self.steady.end.time)
+        return found
+
+    def played(self, head_speed: float) -> Dance:
+        """The dance played faster or slower as a whole, until its head speed is this [m/s]; every place stays."""
+        faster = head_speed / self.head_speed
+        passages = [
+            Passage(one.speed * faster, one.until_s, None if one.until_time is None else one.until_time / faster)
+            for one in self.passages
+        ]
+        return Dance(self.dragon, self.path, head_speed, passages)
 
     @cached_property
     def end(self) -> RunEnd:
         """End of the run."""
         if isinstance(self.path, Route):
             _refuse_tight_bends(self.dragon, self.path)
-            return RunEnd(EndReason.END, self.path.end / self.head_speed, None, None)
-        return _spiral_end(self.dragon, self.path, self.head_speed)
+            return RunEnd(EndReason.END, self.clock.time(self.path.end), None, None)
+        return _spiral_end(self.dragon, self.path, self.clock)
 
     @cached_property
     def earliest(self) -> float:
@@ -101,7 +131,7 @@ class Dance(Shown):
         """
         if not isinstance(self.path, Route) or self.path.tail_begin is None:
             return -TIME_MAX
-        return _earliest_place(self.dragon, self.path, self.path.tail_begin) / self.head_speed
+        return self.clock.time(_earliest_place(self.dragon, self.path, self.path.tail_begin))
 
     @property
     def begin(self) -> float:
@@ -109,7 +139,7 @@ class Dance(Shown):
 
         raises: InvalidValue (path) for a route too short for the dragon
         """
-        return max(self.path.begin / self.head_speed, self.earliest)
+        return max(self.clock.time(self.path.begin), self.earliest)
 
     @property
     def default_start(self) -> float:
@@ -191,7 +221,7 @@ class Dance(Shown):
 
     def nears_fold(self, stop: float) -> bool:
         """Does a run until `stop` [s] end at a fold or within NEAR_FOLD of it?"""
-        return self.ends_by(stop + NEAR_FOLD / self.head_speed)
+        return self.ends_by(self.clock.time(self.clock.place(stop) + NEAR_FOLD))
 
     def after_the_end(self, time: Floats, index: int) -> OutsideRun:
         """The error for a time after the end of the run."""
@@ -226,7 +256,7 @@ def end_theta(dragon: Dragon, path: Spiral) -> tuple[float, int | None]:
     return (limit * (1.0 + FOLD_ROUNDING), bench) if limit > 0.0 else (0.0, None)
 
 
-def _spiral_end(dragon: Dragon, path: Spiral, head_speed: float) -> RunEnd:
+def _spiral_end(dragon: Dragon, path: Spiral, clock: Clock) -> RunEnd:
     theta, bench = end_theta(dragon, path)
     if theta >= path.start_theta:
         raise InvalidValue(
@@ -234,7 +264,7 @@ def _spiral_end(dragon: Dragon, path: Spiral, head_speed: float) -> RunEnd:
             f"path.start_turns must be more than {theta / (2 * math.pi):.6g} turns, where bench {bench} of this "
             f"dragon folds, got {said(path.start_turns)} turns",
         )
-    time = (path.length - path.growth * kernels.spiral_arc(theta)) / head_speed
+    time = clock.time(path.length - path.growth * float(kernels.spiral_arc(theta)))
     return RunEnd(EndReason.CENTRE if bench is None else EndReason.FOLD, time, theta, bench)
 
 

@@ -10,7 +10,7 @@ import numpy as np
 
 from core.errors import InvalidValue, said
 from core.shown import REPR_MOST, TABLE_DIGITS, Shown, extent
-from core.values import SIZE_MAX, SIZE_MIN, Floats, checked_number, checked_size
+from core.values import SIZE_MAX, SIZE_MIN, Floats, checked_name, checked_number, checked_size
 
 BENCHES_MAX = 10_000_000
 
@@ -40,6 +40,7 @@ class Dragon(Shown):
 
     lengths, widths, overhangs, chords: (n,) [m], read-only; chord = length - 2 overhang > 0
     uniform_from: index of the bench from which all benches to the tail are equal (0 or 1 for a uniform body)
+    names: of all benches, empty for one without; none where no bench has any
 
     >>> dragon = Dragon()
     >>> dragon.benches, dragon.chords[0].round(3), dragon.chords[1].round(3)
@@ -51,6 +52,7 @@ class Dragon(Shown):
     overhangs: Floats
     chords: Floats = field(repr=False)
     uniform_from: int = field(repr=False)
+    names: tuple[str, ...] = field(repr=False)
 
     def __init__(
         self,
@@ -106,7 +108,7 @@ class Dragon(Shown):
         dragon._freeze(length_column, width_column, overhang_column)
         return dragon
 
-    def _freeze(self, lengths: Floats, widths: Floats, overhangs: Floats) -> None:
+    def _freeze(self, lengths: Floats, widths: Floats, overhangs: Floats, names: tuple[str, ...] = ()) -> None:
         chords = lengths - 2.0 * overhangs
         same = (lengths == lengths[-1]) & (widths == widths[-1]) & (overhangs == overhangs[-1])
         different = np.flatnonzero(~same)
@@ -119,17 +121,42 @@ class Dragon(Shown):
             column.flags.writeable = False
             object.__setattr__(self, name, column)
         object.__setattr__(self, "uniform_from", int(different[-1]) + 1 if different.size else 0)
+        object.__setattr__(self, "names", names)
+
+    def named(self, names: Sequence[str]) -> Dragon:
+        """The same benches with names: one for each, empty for a bench without; or none at all.
+
+        raises: InvalidValue
+
+        >>> Dragon(2).named(["Zhou", ""]).called(0)
+        '0 (Zhou)'
+        """
+        if isinstance(names, str) or not isinstance(names, Sequence):
+            raise InvalidValue("dragon.names", f"dragon.names must be a list of texts, got {names!r:.60}")
+        if names and len(names) != self.benches:
+            rule = f"must have {self.benches} entries, one for each bench, got {len(names)}"
+            raise InvalidValue("dragon.names", f"dragon.names {rule}")
+        for k, name in enumerate(names):
+            checked_name(f"dragon.names[{k}]", name, f"dragon.names.{k}")
+        dragon = Dragon.__new__(Dragon)
+        dragon._freeze(self.lengths, self.widths, self.overhangs, tuple(names))
+        return dragon
+
+    def called(self, bench: int) -> str:
+        """A bench in sentences: its number, and its name if it has one."""
+        name = self.names[bench] if self.names else ""
+        return f"{bench} ({name})" if name else str(bench)
 
     def leading(self, benches: int) -> Dragon:
         """The dragon of the first `benches` benches, from 1 to all of them."""
         dragon = Dragon.__new__(Dragon)
-        dragon._freeze(self.lengths[:benches], self.widths[:benches], self.overhangs[:benches])
+        dragon._freeze(self.lengths[:benches], self.widths[:benches], self.overhangs[:benches], self.names[:benches])
         return dragon
 
     def outlined(self, overhangs: Floats, widths: Floats) -> Dragon:
         """The same chords, to the last bit, in benches of other overhangs and widths (n,) [m]."""
         dragon = Dragon.__new__(Dragon)
-        dragon._freeze(self.chords + 2.0 * overhangs, widths, overhangs)
+        dragon._freeze(self.chords + 2.0 * overhangs, widths, overhangs, self.names)
         object.__setattr__(dragon, "chords", self.chords)
         object.__setattr__(dragon, "uniform_from", self.uniform_from)
         return dragon
@@ -141,11 +168,12 @@ class Dragon(Shown):
 
     def __repr__(self) -> str:
         sizes = [self.lengths, self.widths, self.overhangs]
-        if self.uniform_from <= 1 and all((column[1:] == column[0]).all() for column in sizes[1:]):
+        if not self.names and self.uniform_from <= 1 and all((column[1:] == column[0]).all() for column in sizes[1:]):
             sizes_given = f"head_length={self.lengths[0]}, body_length={self.lengths[-1]}"
             numbers = f"{sizes_given}, width={self.widths[0]}, overhang={self.overhangs[0]}"
             return f"Dragon(benches={self.benches}, {numbers})"
         listed = f"Dragon.of({', '.join(str(column.tolist()) for column in sizes)})"
+        listed += f".named({list(self.names)})" if self.names else ""
         return listed if len(listed) <= REPR_MOST else super().__repr__()
 
     def _line(self) -> str:
@@ -157,7 +185,8 @@ class Dragon(Shown):
         return [("benches", str(self.benches)), *rows]
 
     def __eq__(self, other: object) -> bool:
-        return isinstance(other, Dragon) and all(
+        same = isinstance(other, Dragon) and self.names == other.names
+        return same and all(
             np.array_equal(getattr(self, name), getattr(other, name)) for name in ("lengths", "widths", "overhangs")
         )
 

@@ -63,7 +63,7 @@ def draw_dance(axes: Axes, path: Spiral | Route, handles: Floats, outlines: Floa
     handles: (n + 1, 2) [m]; outlines: corners (n, 4, 2) [m]
     """
     plan(axes)
-    axes.plot(*path.drawn(float(np.hypot(*handles.T).max())).T, color=PALE, linewidth=0.6, zorder=1)
+    axes.plot(*path.drawn(handles).T, color=PALE, linewidth=0.6, zorder=1)
     _draw_benches(axes, outlines, facecolor="none", edgecolor=GREY, linewidth=linewidth, zorder=2)
     axes.autoscale_view()
 
@@ -87,10 +87,10 @@ def draw_speeds(axes: Axes, handles: Floats, speed: Floats) -> None:
     bar.ax.ticklabel_format(useOffset=False)
 
 
-def mark_head(axes: Axes, head: Floats, velocity: Floats) -> None:
-    """Draw a ring around the head, an arrow in its direction of travel, and its label on the inner side."""
-    ahead = head + HEAD_ARROW * velocity / np.hypot(*velocity)
-    inwards = head - HEAD_LABEL * head / max(float(np.hypot(*head)), HEAD_LABEL)
+def mark_head(axes: Axes, head: Floats, tangent: Floats, centre: tuple[float, float]) -> None:
+    """Draw a ring around the head, an arrow in its direction of travel, and its label on the side of the centre."""
+    ahead, out = head + HEAD_ARROW * tangent, head - np.array(centre)
+    inwards = head - HEAD_LABEL * out / max(float(np.hypot(*out)), HEAD_LABEL)
     arrow = {"arrowstyle": "->", "color": VERMILION, "shrinkA": 5, "linewidth": 1.5}
     axes.plot(*head, marker="o", markersize=9, markerfacecolor="none", markeredgecolor=VERMILION, zorder=4)
     axes.annotate("", (ahead[0], ahead[1]), xytext=(head[0], head[1]), arrowprops=arrow, zorder=5)
@@ -109,17 +109,18 @@ def mark_pair(axes: Axes, outlines: Floats, benches: Sequence[int]) -> None:
 
 def draw_enlarged(
     axes: Axes, outlines: Floats, benches: Sequence[int], point: Sequence[float], half: float,
-    corner: Named | None, edge: Named | None,
+    corner: Named | None, edge: Named | None, centre: tuple[float, float],
 ) -> None:  # fmt: skip
     """Draw the neighbourhood of a contact: both benches, corner, edge, point; two corners or two edges may meet too.
 
     outlines: corners (n, 4, 2) [m]; point: x, y [m]; half: half the side of the view [m]
+    centre: of the path (x, y) [m], on the side of inner edges
     """
     plan(axes)
     _draw_benches(axes, outlines, facecolor="white", edgecolor=GREY, linewidth=0.8, zorder=2)
     mark_pair(axes, outlines, benches)
     if edge:
-        sides = _edge(outlines[edge.bench], edge.name)
+        sides = _edge(outlines[edge.bench], edge.name, centre)
         axes.plot(*sides.T, color="black", linewidth=2.5, zorder=6, label=f"{edge.name} edge of bench {edge.bench}")
     nearest = f"{corner.name} corner of bench {corner.bench}" if corner else "nearest point"
     axes.plot(
@@ -130,9 +131,9 @@ def draw_enlarged(
     axes.set(xlim=(x - half, x + half), ylim=(y - half, y + half))
 
 
-def _edge(outline: Floats, name: str) -> Floats:
+def _edge(outline: Floats, name: str, centre: tuple[float, float]) -> Floats:
     """The two ends of a named edge of one bench; outline: (4, 2) front-left, front-right, rear-right, rear-left."""
-    sides = sorted((outline[[0, 3]], outline[[1, 2]]), key=lambda side: float(np.hypot(*side.mean(axis=0))))
+    sides = sorted((outline[[0, 3]], outline[[1, 2]]), key=lambda side: float(np.hypot(*(side.mean(axis=0) - centre))))
     return {"front": outline[[0, 1]], "rear": outline[[2, 3]], "inner": sides[0], "outer": sides[1]}[name]
 
 

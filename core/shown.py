@@ -81,6 +81,8 @@ UNITS = {
     "time_bracket": "s",
     "tolerance": "m",
     "union_bound": "",
+    "until_s": "m",
+    "until_time": "s",
     "velocity": "m/s",
     "wall": "m",
     "widths": "m",

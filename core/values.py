@@ -6,6 +6,7 @@ from collections.abc import Callable
 from functools import wraps
 from numbers import Real
 from typing import ParamSpec, TypeVar
+from unicodedata import category
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,6 +20,10 @@ R = TypeVar("R")
 # Sizes outside these lose digits in c^2 / b^2 without describing any dance [m].
 SIZE_MIN = 1e-3
 SIZE_MAX = 1e4
+# Longest name of a bench or an area [characters].
+NAME_MAX = 200
+# Unicode's categories of control characters, half characters, and ends of lines and paragraphs.
+NOT_PLAIN = ("Cc", "Cs", "Zl", "Zp")
 
 
 def checked_number(name: str, value: object, unit: str, low: float, high: float, *, open_low: bool = False) -> float:
@@ -81,3 +86,17 @@ def checked_size(name: str, value: object) -> float:
     if isinstance(value, Real) and not isinstance(value, bool) and value <= 0.0:
         raise InvalidValue(name, f"{name} must be positive, got {said(float(value))} m")
     return checked_number(name, value, "m", SIZE_MIN, SIZE_MAX)
+
+
+def checked_name(what: str, name: object, field: str) -> None:
+    """Refuse a name that is no line of plain text: it stands in sentences and figures.
+
+    what: the beginning of the message; field: where the name stands
+    raises: InvalidValue
+    """
+    if not isinstance(name, str):
+        raise InvalidValue(field, f"{what} must be a text, got {name!r:.60}")
+    if len(name) > NAME_MAX:
+        raise InvalidValue(field, f"{what} must have at most {NAME_MAX} characters, got {len(name)}")
+    if any(category(character) in NOT_PLAIN for character in name):
+        raise InvalidValue(field, f"{what} must be one line of plain text, got {name!a:.60}")

@@ -7,12 +7,12 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import pairwise
-from unicodedata import category
 
 import numpy as np
 
 from core import kernels
 from core.budget import Budget, bounded
+from core.clock import Clock
 from core.contact.clearance import Pair, least_over
 from core.contact.first_contact import Outcome
 from core.contact.fold import moved_until
@@ -20,22 +20,19 @@ from core.contact.search import MARGIN_MAX, NEAR_WORK_BUDGET, Ended, Search
 from core.dance import Dance
 from core.errors import InvalidValue
 from core.motion.trajectory import bench_poses, trajectory
+from core.paths.frame import Frame
 from core.paths.pieces import Coil, Point, checked_point, listed
 from core.paths.route import Route
 from core.paths.spiral import Spiral
 from core.shapes.engines import inside, polygon_fault
 from core.shown import Shown, extent, worded
 from core.tolerance.stray import Stray, checked_stray
-from core.values import Floats, asked_of, checked_number, checked_type
+from core.values import Floats, asked_of, checked_name, checked_number, checked_type
 
 Ring = tuple[Point, ...]
 
 # Largest number of edges in a venue: each is followed like a bench at rest. Edges between repeated points count too.
 EDGES_MAX = 2_000
-# Longest name of an area [characters].
-NAME_MAX = 200
-# Unicode's categories of control characters, half characters, and ends of lines and paragraphs.
-NOT_PLAIN = ("Cc", "Cs", "Zl", "Zp")
 # Form of the rings of an area, for messages.
 WORDS = "a list of rings of points [x, y] in metres"
 # A spiral is laid out this far beyond the last instant, so that rounding cannot put that instant outside it [m].
@@ -63,20 +60,6 @@ def refuse_many_edges(rings: Iterable[Sequence[object]]) -> None:
         raise InvalidValue("venue", f"venue must have at most {EDGES_MAX} edges, got {edges}")
 
 
-def checked_name(what: str, name: object, field: str = "venue") -> None:
-    """Refuse a name that is no line of plain text: it stands in sentences and figures.
-
-    what: the beginning of the message; field: where the name stands
-    raises: InvalidValue
-    """
-    if not isinstance(name, str):
-        raise InvalidValue(field, f"{what} must be a text, got {name!r:.60}")
-    if len(name) > NAME_MAX:
-        raise InvalidValue(field, f"{what} must have at most {NAME_MAX} characters, got {len(name)}")
-    if any(category(character) in NOT_PLAIN for character in name):
-        raise InvalidValue(field, f"{what} must be one line of plain text, got {name!a:.60}")
-
-
 @dataclass(frozen=True, repr=False)
 class Area(Shown):
     """A polygon: the square, or an obstacle in it.
@@ -90,7 +73,7 @@ class Area(Shown):
     rings: tuple[Ring, ...]
 
     def __post_init__(self) -> None:
-        checked_name("venue: the name of a polygon", self.name)
+        checked_name("venue: the name of a polygon", self.name, "venue")
         rings = [listed(f"venue.{k}", ring, WORDS) for k, ring in enumerate(listed("venue", self.rings, WORDS))]
         if not rings:
             raise InvalidValue("venue", f"venue: {self.name!r} must have at least one ring")
@@ -181,6 +164,7 @@ class AreaClearance(Shown):
         start
     bench, point (x, y) [m]: the first one within the margin, and where it is nearest
     gap: between that bench and the edge at that time [m]: the margin to rounding, but for contact_at_start
+    nearest: None if it was not asked for
     """
 
     name: str
@@ -189,11 +173,12 @@ class AreaClearance(Shown):
     time_bracket: tuple[float, float] | None
     bench: int | None
     point: Point | None
-    nearest: Nearest
+    nearest: Nearest | None
     gap: float | None = None
 
     def _line(self) -> str:
-        return f"{self.name!r} {self.outcome.value}, nearest {self.nearest._line()}"
+        nearest = f", nearest {self.nearest._line()}" if self.nearest else ""
+        return f"{self.name!r} {self.outcome.value}{nearest}"
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -214,9 +199,12 @@ class VenueClearance(Shown):
 
     def _line(self) -> str:
         misplaced = f"{self.misplaced!r}; " if self.misplaced else ""
-        near = min(self.areas, key=lambda area: area.nearest.distance)
-        distance, time = worded(near.nearest.distance, "m"), worded(near.nearest.time, "s")
-        return f"{misplaced}nearest to {near.name!r}: bench {near.nearest.bench}, {distance} at {time}"
+        known = [(area.nearest, area.name) for area in self.areas if area.nearest]
+        if not known:
+            return misplaced + "; ".join(area._line() for area in self.areas)
+        near, name = min(known, key=lambda one: one[0].distance)
+        distance, time = worded(near.distance, "m"), worded(near.time, "s")
+        return f"{misplaced}nearest to {name!r}: bench {near.bench}, {distance} at {time}"
 
     def _rows(self) -> list[tuple[str, str]]:
         misplaced = self.misplaced._line() if self.misplaced else "none"
@@ -233,6 +221,7 @@ def venue_clearance(
     stray: float | Stray = 0.0,
     start: float = 0.0,
     stop: float | None = None,
+    nearest: bool = True,
     budget: Budget | None = None,
 ) -> VenueClearance:
     """Distance of the benches from the square's edges and from each obstacle, and the first time within the margin.
@@ -240,32 +229,38 @@ def venue_clearance(
     An edge counts as a rectangle of no width at rest: benches and edges are marched like pairs of benches, with the
     same proof. The centre of a bench that touches no edge stays inside an area, or outside, as it started.
     margin: [m]; stray: how far every hole may be from its place [m], where benches may come then counts; start, stop:
-        [s], None for the end of the run
+        [s], None for the end of the run; nearest: also find how near the benches come, which takes most of the time
     raises: InvalidValue, also for a path that bends too tightly for a chord by the stop; OutsideRun;
         TooMuchWork
     """
     checked_type("venue", venue, Venue)
     margin = checked_number("margin", margin, "m", 0.0, MARGIN_MAX)
     begin, until = dance.span(start, stop)
-    head_speed = dance.head_speed
-    danced = replace(dance, path=venue_route(dance.path, until * head_speed))
+    clock, frame = dance.clock, dance.path.frame
+    path = replace(dance, path=venue_route(dance.path, clock.place(until))).path  # refuses a bend too tight
     strayed = checked_stray(stray, dance.dragon)
     share = NEAR_WORK_BUDGET / len(venue.areas)
     areas = tuple(
         _area_clearance(
-            Search(dance.dragon, danced.path, margin, area.edges, work=share, budget=budget, stray=strayed),
+            Search(dance.dragon, path, margin, own_edges(area, frame), work=share, budget=budget, stray=strayed),
             area.name,
-            begin,
-            until,
-            head_speed,
+            (begin, until),
+            clock,
+            frame,
+            nearest,
         )
         for area in venue.areas
     )
-    return VenueClearance(_misplaced(danced, venue, begin), areas)
+    return VenueClearance(_misplaced(dance, venue, begin), areas)
+
+
+def own_edges(area: Area, frame: Frame) -> Floats:
+    """The edges of an area (E, 4) in the frame in which a path is computed [m]."""
+    return frame.back(area.edges.reshape(-1, 2, 2)).reshape(-1, 4)
 
 
 def venue_route(path: Spiral | Route, stop: float) -> Route:
-    """The path in the world frame up to a head travel [m]: a spiral as a coil."""
+    """The path in its own frame up to a head travel [m]: a spiral as a coil."""
     if isinstance(path, Route):
         return path
     theta = float(path.theta(min(max(stop, 0.0) + SPARE, path.length)))
@@ -279,7 +274,7 @@ def venue_end(dance: Dance) -> float:
         return end
     theta = min(path.gentle_theta(2.0 * kernels.ROUTE_BEND_LIMIT / float(dance.dragon.chords.max())), path.start_theta)
     travel = path.length - path.growth * float(kernels.spiral_arc(theta)) - 2.0 * SPARE
-    return min(end, travel / dance.head_speed)
+    return min(end, dance.clock.time(travel))
 
 
 def is_clear_beyond(
@@ -294,12 +289,13 @@ def is_clear_beyond(
     """
     search = Search(dance.dragon, dance.path, margin, stray=stray)
     dragon = search.dragon
-    ends = np.linalg.norm(trajectory(dance, [start, seen]).position, axis=-1)
+    frame, clock = dance.path.frame, dance.clock
+    ends = np.linalg.norm(trajectory(dance.steady, dance.steady_times(np.array([start, seen]))).position, axis=-1)
     if (ends[1, 1:] + SURELY > ends[0, :-1]).any():
         return False
     alike = dragon.uniform_from + 1
     search.resize(dragon.benches)
-    search.place_leaders(seen * dance.head_speed, dragon.benches)
+    search.place_leaders(clock.place(seen), dragon.benches)
     arcs, _ = moved_until(search, dance.end.theta or 0.0)
     rates = np.hypot(1.0, search.rows[0, : dragon.benches + 1, kernels.THETA])
     outwards = arcs / rates  # radii grow by this part of an arc
@@ -308,37 +304,49 @@ def is_clear_beyond(
     reach = (
         ends[1, 0] + dragon.chords[:alike].sum() + dragon.overhangs[:alike].max() + 0.5 * dragon.widths[:alike].max()
     )
-    edges = np.concatenate([area.edges for area in venue.areas])
+    edges = np.concatenate([own_edges(area, frame) for area in venue.areas])
     along = edges[:, 2:] - edges[:, :2]
     share = np.clip(-(edges[:, :2] * along).sum(axis=1) / (along**2).sum(axis=1), 0.0, 1.0)
     nearest = np.linalg.norm(edges[:, :2] + share[:, None] * along, axis=1).min()
     return bool(nearest > reach + margin + SURELY)
 
 
-def _area_clearance(search: Search, name: str, begin: float, until: float, head_speed: float) -> AreaClearance:
-    state, found, tolerance = search.approach(begin * head_speed, until * head_speed, head_speed)
+def _area_clearance(
+    search: Search, name: str, span: tuple[float, float], clock: Clock, frame: Frame, with_nearest: bool
+) -> AreaClearance:
+    """The benches and one area between two times [s]. frame: of the search"""
+    (begin, until), slowest = span, clock.slowest
+    first, last, search.timing = clock.place(begin), clock.place(until), clock.rounding(until)
+    state, found, tolerance = search.approach(first, last, slowest)
     outcome, time, bracket, bench, point, gap = Outcome.CLEAR, None, None, None, None, None
     if state is Ended.STUCK:
-        outcome, bracket = Outcome.UNDECIDED, (found.proven / head_speed, until)
+        outcome, bracket = Outcome.UNDECIDED, (max(clock.time(found.proven), begin), until)
     elif state is not Ended.REACHED:
         at_start = state is Ended.TOUCHED_AT_START
         assert found.touching is not None
         travel = found.touching - (0.0 if at_start else tolerance)
-        outcome, time = Outcome.CONTACT_AT_START if at_start else Outcome.CONTACT, travel / head_speed
-        bracket = None if at_start else (found.proven / head_speed, found.touching / head_speed)
+        outcome, time = (
+            Outcome.CONTACT_AT_START if at_start else Outcome.CONTACT,
+            begin if at_start else clock.time(travel),
+        )
+        bracket = None if at_start else (max(clock.time(found.proven), begin), clock.time(found.touching))
         pair = found.benches
-        bench, (point, _, gap) = pair[0], _witnesses(search, travel, pair)
-    (distance, travel, pair), at_least = least_over(search, begin * head_speed, until * head_speed, head_speed)
-    nearest = Nearest(distance, at_least, travel / head_speed, pair[0], *_witnesses(search, travel, pair)[:2])
+        bench, (point, _, gap) = pair[0], _witnesses(search, travel, pair, frame)
+    if not with_nearest:
+        return AreaClearance(name, outcome, time, bracket, bench, point, None, gap)
+    (distance, travel, pair), at_least = least_over(search, first, last, slowest)
+    nearest = Nearest(
+        distance, at_least, max(clock.time(travel), begin), pair[0], *_witnesses(search, travel, pair, frame)[:2]
+    )
     return AreaClearance(name, outcome, time, bracket, bench, point, nearest, gap)
 
 
-def _witnesses(search: Search, travel: float, pair: Pair) -> tuple[Point, Point, float]:
+def _witnesses(search: Search, travel: float, pair: Pair, frame: Frame) -> tuple[Point, Point, float]:
     """The points of a bench and an edge that are nearest to each other, and their separation [m]."""
     search.clearance(travel)
     kernels.meet(search.scene, *pair, search.rows[0])
     met = search.scene.met
-    return (float(met.ax), float(met.ay)), (float(met.bx), float(met.by)), float(met.separation)
+    return frame.point(met.ax, met.ay), frame.point(met.bx, met.by), float(met.separation)
 
 
 def _misplaced(dance: Dance, venue: Venue, begin: float) -> Misplaced | None:

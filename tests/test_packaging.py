@@ -49,11 +49,6 @@ def test_the_version_is_that_of_the_installed_distribution() -> None:
     assert core.__version__ == version("bench-dragon") == PROJECT["version"]
 
 
-def test_core_has_no_names_that_it_does_not_have() -> None:
-    with pytest.raises(AttributeError, match="module 'core' has no attribute '__versions__'"):
-        core.__versions__  # type: ignore[attr-defined] # noqa: B018
-
-
 def test_asking_for_the_version_alone_reads_it() -> None:
     code = "import sys, core; print('importlib.metadata' in sys.modules); core.__version__"
     assert subprocess.check_output([sys.executable, "-c", code], cwd=ROOT, text=True) == "False\n"

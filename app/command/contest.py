@@ -9,16 +9,18 @@ from typing import Annotated
 import typer
 
 from app.command import show
+from app.command.options import asks
 from app.contest.films import Wanted
 from app.contest.kit import write_kit
 from app.contest.report import answer_table
 from app.contest.solved import ContestRequest
-from app.contest.words import Say
 from app.extras import require
 from app.files.tables import Language
+from app.files.words import Say
 from core import InvalidValue
 
 
+@asks(ContestRequest)
 def contest(
     asked: ContestRequest,
     folder: Annotated[Path, typer.Argument(help="Folder for the files; created if missing.")],
@@ -36,6 +38,13 @@ def contest(
     print(answer_table(kit.given, Say(language)), end="")
     for name in kit.files:
         print(folder / name, file=sys.stderr)
+    if kit.no_turn:
+        print(
+            f"Error: questions 4 and 5 have no answer: {kit.no_turn}; "
+            "change --turning-diameter, --turn-pitch or --ratio",
+            file=sys.stderr,
+        )
     if kit.missing:
         print(f"Error: figures and films were not written: {kit.missing.message}", file=sys.stderr)
+    if kit.no_turn or kit.missing:
         raise typer.Exit(1)

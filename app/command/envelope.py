@@ -9,7 +9,7 @@ from typing import Annotated
 import typer
 
 from app.command import show
-from app.command.options import Json
+from app.command.options import Json, asks
 from app.extras import require
 from app.files.disk import checked_output, write_whole
 from app.files.outlines import WRITERS
@@ -17,6 +17,7 @@ from app.questions.envelope import Envelope, EnvelopeQuery, EnvelopeRequest, swe
 from app.questions.question import Terms
 
 
+@asks(EnvelopeQuery, EnvelopeRequest)
 def envelope(
     asked: EnvelopeQuery | EnvelopeRequest,
     output: Annotated[

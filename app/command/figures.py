@@ -15,13 +15,12 @@ from app.extras import require
 from app.files.disk import checked_output, write_whole
 from app.questions import figures as drawn
 from app.questions.figures import Format
-from app.questions.pitch_scan import PitchScanQuery
 from app.questions.question import Terms
 from app.wire.refusals import refusing
 from core import InvalidValue
 
 
-class FigureOptions(drawn.InstantQuery, PitchScanQuery):
+class FigureOptions(drawn.InstantQuery, drawn.StaircaseQuery):
     """The fields of all three GET /figures requests."""
 
 

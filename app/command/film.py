@@ -9,6 +9,7 @@ from typing import Annotated
 import typer
 
 from app.command import show
+from app.command.options import asks
 from app.extras import require
 from app.files.disk import checked_output, write_whole
 from app.files.shooting import ENDINGS, GIF_TYPE
@@ -17,6 +18,7 @@ from app.questions.films import FilmQuery, FilmRequest
 from app.questions.question import Terms
 
 
+@asks(FilmQuery, FilmRequest)
 def film(
     asked: FilmQuery | FilmRequest,
     output: Annotated[Path, typer.Option(help="Write a .mp4 file (extra film), or a .gif.")] = Path("dance.mp4"),

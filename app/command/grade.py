@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import io
 from collections.abc import Iterator
+from contextlib import nullcontext
 from pathlib import Path
 from typing import Annotated
 
@@ -15,15 +16,24 @@ from app.command import show
 from app.command.options import Json
 from app.files.disk import checked_output, write_whole
 from app.files.tables import Language
-from app.grade.layout import Kind
+from app.grade.layout import SHEETS, Kind
 from app.grade.reading import FILE_MAX
-from app.grade.report import SHEETS, DiagnosisAnswer, FileAnswer, GradeAnswer, SheetAnswer, TypedAnswer, graded, typed
-from app.grade.words import say
+from app.grade.report import (
+    DiagnosisAnswer,
+    FileAnswer,
+    GradeAnswer,
+    SheetAnswer,
+    TypedAnswer,
+    graded,
+    typed,
+    unreadable,
+)
+from app.grade.words import note, say
 from core import Budget, InvalidValue
 
 # Files of a folder that are graded.
 ENDINGS = (".xlsx", ".xlsm", ".xls", ".csv")
-SUMMARY = ("file", "workbook", "verdict", "cells", "right", "missing", "diagnosis")
+SUMMARY = ("file", "workbook", "verdict", "cells", "right", "missing", "diagnosis", "decimals")
 
 
 def grade(
@@ -48,14 +58,21 @@ def grade(
     if not named and not given:
         raise InvalidValue("files", "give at least one FILE or one number, such as --pitch 0.45")
     answers = [typed(name, text, language) for name, text in given.items()]
-    found = []
-    with show.waiting("grading") as progress:
+    found, refused = [], []
+    with show.steps() if len(named) > 1 else nullcontext(lambda what, share: None) as progress:
         for k, file in enumerate(named):
-            # One byte more than may be read shows that the file is too long.
-            with file.open("rb") as source:
-                data = source.read(FILE_MAX + 1)
-            found.append(graded(str(file), data, language, Budget()))
-            progress((k + 1) / len(named))
+            try:
+                # One byte more than may be read shows that the file is too long.
+                with file.open("rb") as source:
+                    data = source.read(FILE_MAX + 1)
+            except OSError as error:
+                refused.append(error)
+                found.append(unreadable(str(file), note("not_opened", why=error.strerror), language))
+            else:
+                found.append(graded(str(file), data, language, Budget()))
+            progress("grading", (k + 1) / len(named))
+    if refused and len(refused) == len(named) and not answers:
+        raise refused[0]
     answer = GradeAnswer(files=found, answers=answers)
     if summary:
         write_whole(summary, _summary(found).encode("utf-8-sig"))
@@ -66,13 +83,15 @@ def grade(
 
 
 def _named(files: list[Path]) -> Iterator[Path]:
-    """Every file that is to be graded: those of a folder by path. raises: OSError for one that cannot be read"""
+    """Every file that is to be graded: those of a folder by path. raises: InvalidValue for a folder without any"""
     for file in files:
         if file.is_dir():
             inside = sorted(path for path in file.rglob("*") if path.suffix.lower() in ENDINGS and path.is_file())
-            yield from (path for path in inside if not path.name.startswith(("~$", ".")))
+            shown = [path for path in inside if not path.name.startswith(("~$", "."))]
+            if not shown:
+                raise InvalidValue("files", f"{file} must hold a file that ends in {', '.join(ENDINGS)}: it holds none")
+            yield from shown
         else:
-            file.open("rb").close()
             yield file
 
 
@@ -83,13 +102,18 @@ def _summary(files: list[FileAnswer]) -> str:
     writer.writerow(SUMMARY)
     for file in files:
         errors = "; ".join(one.error for one in file.diagnosis)
-        writer.writerow([file.file, file.workbook or "", file.verdict.value, *_counts(file), errors])
+        writer.writerow([file.file, file.workbook or "", file.verdict.value, *_counts(file), errors, _decimals(file)])
     return sink.getvalue()
 
 
 def _counts(file: FileAnswer) -> tuple[int, int, int]:
     sheets = file.sheets
     return sum(one.cells for one in sheets), sum(one.right for one in sheets), sum(one.missing for one in sheets)
+
+
+def _decimals(file: FileAnswer) -> str:
+    """To how many decimals a rounded file is right."""
+    return str(min((one.decimals for one in file.sheets if one.decimals), default=""))
 
 
 def _parts(answer: GradeAnswer, language: Language) -> Iterator[show.Part]:
@@ -103,13 +127,17 @@ def _parts(answer: GradeAnswer, language: Language) -> Iterator[show.Part]:
         for file in answer.files:
             errors = ", ".join(one.error for one in file.diagnosis)
             counts = [f"{count:,}" for count in _counts(file)]
-            table.add_row(file.file, file.workbook or "", say(file.verdict.value, language), *counts, errors)
+            table.add_row(
+                file.file, file.workbook or "", say(file.verdict.value, language), *counts, errors, _decimals(file)
+            )
         yield table
 
 
 def _typed(one: TypedAnswer, language: Language) -> Iterator[show.Part]:
     name, verdict = say(one.answer, language), say(one.verdict.value, language)
+    verdict += say("to_digits", language, digits=one.digits) if one.verdict == "right" else ""
     yield Text(f"{name}: {one.found:.12g} {one.unit}: {verdict}", style="bold")
+    yield from (f"  {words}" for words in one.notes)
     if one.verdict != "right":
         yield "  " + say("is_right", language, right=f"{one.expected:.9f}", unit=one.unit)
         yield from _diagnosis(one.diagnosis, language)
@@ -138,7 +166,7 @@ def _sheet(sheet: SheetAnswer, language: Language) -> Iterator[show.Part]:
     )
     yield from (f"    {one}" for one in sheet.notes)
     for name, cell in (("worst", sheet.worst), ("first", sheet.first)):
-        if cell and sheet.verdict == "wrong":
+        if cell and sheet.verdict in ("wrong", "rounded"):
             values = {"found": f"{cell.found:.6f}", "expected": f"{cell.expected:.6f}", "time": f"{cell.time:.9g}"}
             yield "    " + say(
                 f"{name}_cell", language, cell=cell.cell, handle=cell.handle, quantity=cell.quantity, **values

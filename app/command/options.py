@@ -14,7 +14,6 @@ from pydantic import BaseModel
 from rich.markup import escape
 
 from app.files.disk import object_words, read_dance
-from app.questions import QUESTIONS
 from app.wire.dances import DanceQuery, TimeRange
 from app.wire.messages import checked
 from app.wire.refusals import refusing
@@ -94,6 +93,8 @@ def _in_options(body: type[BaseModel] | None, context: typer.Context) -> Iterato
 
 
 def _asked_of_a_dance() -> set[str]:
+    from app.questions.registry import QUESTIONS  # All questions: 0.2 s, which only a FILE needs.
+
     bodies = [question.body for question in QUESTIONS.values() if question.body]
     return {name for body in bodies if "dragon" in body.model_fields for name in body.model_fields}
 

@@ -14,6 +14,7 @@ from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
+import numpy as np
 import orjson
 import typer
 from pydantic import Field
@@ -21,6 +22,7 @@ from rich.console import Console
 from rich.progress import Progress
 
 import core
+from app.command.options import asks
 from app.files.disk import checked_output, read_dance, write_whole
 from app.questions.check import CheckRequest
 from app.questions.tolerance import ToleranceQuery
@@ -109,7 +111,11 @@ def _working(what: str) -> Iterator[Callable[[float], None]]:
     raise typer.Exit(code)
 
 
-def prove(
+prove = typer.Typer()
+
+
+@prove.callback(invoke_without_command=True)
+def check_or_prove(
     context: typer.Context,
     check: Annotated[
         Path | None, typer.Option(help="Verify this certificate without a search; - reads standard input.")
@@ -128,6 +134,8 @@ def prove(
     _print(_checked(certificate))
 
 
+@prove.command()
+@asks(CollisionClaim)
 def collision_time(
     asked: CollisionClaim,
     output: Annotated[Path, typer.Option(help="File for the certificate.")] = Path("collision-time.proof.json"),
@@ -156,6 +164,8 @@ def collision_time(
     _finish(certificate, output)
 
 
+@prove.command()
+@asks(PitchClaim)
 def minimum_pitch(
     asked: PitchClaim,
     output: Annotated[Path, typer.Option(help="File for the certificate.")] = Path("minimum-pitch.proof.json"),
@@ -189,6 +199,8 @@ def minimum_pitch(
     _finish(certificate, output)
 
 
+@prove.command()
+@asks(ClearClaim)
 def clear(
     asked: ClearClaim,
     output: Annotated[Path, typer.Option(help="File for the certificate.")] = Path("clear.proof.json"),
@@ -210,6 +222,8 @@ def clear(
     _finish(certificate, output)
 
 
+@prove.command()
+@asks(StrayClaim)
 def tolerance(
     asked: StrayClaim,
     output: Annotated[Path, typer.Option(help="File for the certificate.")] = Path("tolerance.proof.json"),
@@ -236,6 +250,8 @@ def tolerance(
     _finish(certificate, output)
 
 
+@prove.command()
+@asks(TurnClaim)
 def turn(
     asked: TurnClaim,
     output: Annotated[Path, typer.Option(help="File for the certificate.")] = Path("turn.proof.json"),
@@ -247,6 +263,7 @@ def turn(
     _finish(_dance_proven(dance, times, asked.every_pair), output)
 
 
+@prove.command()
 def dance(
     file: Annotated[
         Path, typer.Argument(help="Dragon, path, margin and times as for check, as a .toml or .json file.")
@@ -257,14 +274,17 @@ def dance(
     """Prove that a dance on any path but waypoints is clear from its start to its stop or end, or its first contact."""
     checked_output("output", output, (".json",))
     asked = checked(CheckRequest, read_dance(file))
-    dragon = asked.dragon.to_dragon(Settings().checked_benches_max)
-    path = asked.path.to_path()
+    told = asked.to_dance(Settings().checked_benches_max)
     for name in ("venue", "speed_limit"):
         if getattr(asked, name) is not None:
             print(f"The {name.replace('_', ' ')} is not part of the proof.", file=sys.stderr)
-    dance = core.Dance(dragon, path, asked.head_speed)
-    start = dance.begin if asked.start is None else asked.start
-    times = {"start": start, "stop": asked.stop, "margin": asked.margin}
+    if told.passages:
+        speed = f"a head that always goes at {said(told.head_speed)} m/s"
+        print(f"Passages are not part of the proof, which is about places: its times are of {speed}.", file=sys.stderr)
+    begin, until = told.span(told.begin if asked.start is None else asked.start, asked.stop)
+    dance, clock = told.steady, told.clock
+    start, stop = clock.steady(np.array([begin, until])).tolist()
+    times = {"start": start, "stop": None if asked.stop is None else stop, "margin": asked.margin}
     _finish(_dance_proven(dance, times, every_pair), output)
 
 

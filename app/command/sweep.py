@@ -25,7 +25,7 @@ INTERRUPTED = 130
 
 Folder = Annotated[Path, typer.Argument(help="Folder of the sweep.")]
 
-app = typer.Typer(help="A question over some of its parameters: up to 10^8 designs, into a folder that goes on.")
+sweep = typer.Typer(help="A question over some of its parameters: up to 10^8 designs, into a folder that goes on.")
 
 
 @contextmanager
@@ -40,7 +40,7 @@ def _bar(what: str, total: int) -> Iterator[Callable[[Progress], None]]:
         yield lambda progress: bar.update(task, completed=progress.designs, said=progress.words)
 
 
-@app.command()
+@sweep.command()
 def run(
     spec: Annotated[Path, typer.Argument(help="Question, parameters and their values, .toml or .json.")],
     output: Annotated[Path, typer.Option(help="Folder of the answers; made if missing, gone on with if it is there.")],
@@ -68,7 +68,7 @@ def run(
     print(f"{output}: {asked.designs} designs in {asked.shards} shards", file=sys.stderr)
 
 
-@app.command()
+@sweep.command()
 def show(
     folder: Folder,
     output: Annotated[Path | None, typer.Option(help="Draw a map, in a .svg or .png file.")] = None,
@@ -96,7 +96,7 @@ def show(
         print(f"{name:<24} {said}")
 
 
-@app.command()
+@sweep.command()
 def compact(
     folder: Folder,
     csv: Annotated[Path | None, typer.Option(help="Write the table as CSV too.")] = None,

@@ -13,9 +13,10 @@ from pydantic import Field
 
 import core
 from app.command import show
-from app.command.options import Json, given, numbers, unused
+from app.command.options import Json, asks, given, numbers, unused
 from app.files import tables
-from app.files.disk import TABLE_ENDINGS, checked_output, trajectory_writer, write_whole
+from app.files.disk import checked_output, write_whole
+from app.files.tables import TABLE_ENDINGS, trajectory_writer
 from app.questions.trajectory import TrajectoryRequest
 from app.settings import Settings
 from app.wire.dances import DanceQuery, TimeRange
@@ -57,6 +58,7 @@ class TrajectoryOptions(TimeRange, DanceQuery):
     )
 
 
+@asks(TrajectoryOptions, TrajectoryRequest)
 def trajectory(
     asked: TrajectoryOptions | TrajectoryRequest,
     context: typer.Context,
@@ -74,7 +76,8 @@ def trajectory(
         raise InvalidValue("json", "--json prints the answer and --output writes it to a file: give one of the two")
     if ending != ".xlsx":
         unused(context, ["language"], "applies to the names in an xlsx file: give --output with .xlsx, or leave it out")
-    write = trajectory_writer(ending, asked.decimals, language) if ending else None
+    clock = asked.start_clock if isinstance(asked, TrajectoryRequest) else None
+    write = trajectory_writer(ending, asked.decimals, language, clock) if ending else None
     settings = Settings()
     dance = _dance(asked, context, settings.benches_max)
     handles, times = _handles(context.params["handles"], dance.dragon), asked.times
@@ -150,7 +153,7 @@ def trajectory_tables(
     """
     instants, number = result.speed.shape
     rows = list(handles) if handles else sorted({k for k in SHOWN_HANDLES if k < number} | {number - 1})
-    names = tables.handle_names(number - 1)
+    names = tables.own_names(result)
     labels = [f"{k} {names[k]}" for k in rows]
     x, y = result.position[..., 0], result.position[..., 1]
     places = show.SHOWN_DECIMALS if decimals is None else decimals

@@ -5,9 +5,9 @@ from __future__ import annotations
 from dataclasses import asdict, dataclass
 from typing import Any
 
-from app.contest.solved import Solved
-from app.contest.words import Say
-from core import MinimumPitch, ShortestTurn
+from app.contest.solved import Solved, Turned
+from app.files.words import Say
+from core import EndReason, MinimumPitch, Outcome, ShortestTurn
 
 
 @dataclass(frozen=True)
@@ -34,8 +34,7 @@ def answers(solved: Solved, say: Say) -> list[Given]:
         *_inwards(solved, say),
         *_contact(solved, say),
         *_pitch(solved, say),
-        *_turn(solved, say),
-        _speed(solved, say),
+        *([*_turn(solved.turned, say), _speed(solved.turned, solved.asked.speed_limit, say)] if solved.turned else []),
     ]
 
 
@@ -61,8 +60,8 @@ def _inwards(solved: Solved, say: Say) -> list[Given]:
 def _contact(solved: Solved, say: Say) -> list[Given]:
     found = solved.contact
     if found.time is None or found.benches is None or found.head is None:
-        name = say("no contact is found until", "直到此刻没有碰撞")
-        return [Given(2, name, solved.met_at, "s", found.time_bracket, say("the search ended there", "搜索到此为止"))]
+        name = say("no contact until", "直到此刻没有碰撞")
+        return [Given(2, name, solved.met_at, "s", found.time_bracket, _why_ended(solved, say))]
     a, b = found.benches
     pair = say(f"benches {a} and {b}", f"第 {a} 节与第 {b} 节板凳（龙头为 0）")
     steps = found.certificate.steps
@@ -75,6 +74,18 @@ def _contact(solved: Solved, say: Say) -> list[Given]:
         Given(2, say("first contact", "首次碰撞时刻"), found.time, "s", found.time_bracket, how),
         Given(2, say("distance of the head from the centre", "龙头到中心的距离"), found.head.radius, "m", None, place),
     ]
+
+
+def _why_ended(solved: Solved, say: Say) -> str:
+    end = solved.contact.end
+    if end is None or solved.contact.outcome is Outcome.UNDECIDED:
+        return say("the search ended there", "搜索到此为止")
+    if end.reason is EndReason.FOLD:
+        return say(
+            f"the run ends there: bench {end.bench} folds, it cannot follow any further",
+            f"盘入到此结束：第 {end.bench} 节板凳折转，无法继续跟随",
+        )
+    return say("the head is at the centre", "龙头已到中心")
 
 
 def _pitch(solved: Solved, say: Say) -> list[Given]:
@@ -98,8 +109,8 @@ def _why_pitch(found: MinimumPitch, say: Say) -> str:
     return f"{limit}{say('; ', '；')}{proven if every else sampled}"
 
 
-def _turn(solved: Solved, say: Say) -> list[Given]:
-    shortest, length = solved.shortest, solved.turn.length
+def _turn(turned: Turned, say: Say) -> list[Given]:
+    shortest, even, length = turned.shortest, turned.even, turned.path.length
     why = say(
         "closed form. The radii add up to S = sqrt(R^2 + (p / 2 pi)^2), without the ratio, and both arcs turn by "
         "the same angle a: the length S a does not depend on the ratio",
@@ -107,13 +118,19 @@ def _turn(solved: Solved, say: Say) -> list[Given]:
         "因此长度 S a 与半径之比无关",
     )
     inner = say("turn from the deepest entry", "从最深处进入时的调头曲线长度")
-    return [
+    equal = say(
+        "turn from the deepest entry with equal arcs (ratio 1)", "两段圆弧半径相等（比例 1）、从最深处进入时的长度"
+    )
+    found = [
         Given(4, say("length of the turn", "调头曲线长度"), length, "m", None, why),
         Given(4, inner, shortest.turn.length, "m", None, _why_shortest(shortest, say)),
         Given(
             4, say("shorter by", "缩短"), length - shortest.turn.length, "m", None, say("the difference", "两者之差")
         ),
     ]
+    if even and even.turn.length < shortest.turn.length:
+        found.append(Given(4, equal, even.turn.length, "m", None, _why_shortest(even, say)))
+    return found
 
 
 def _why_shortest(found: ShortestTurn, say: Say) -> str:
@@ -129,8 +146,8 @@ def _why_shortest(found: ShortestTurn, say: Say) -> str:
     )
 
 
-def _speed(solved: Solved, say: Say) -> Given:
-    found, limit = solved.fastest, solved.asked.speed_limit
+def _speed(turned: Turned, limit: float, say: Say) -> Given:
+    found = turned.fastest
     handles = ", ".join(map(str, found.handles))
     how = say(
         f"handles {handles} reach {limit:g} m/s at {found.time:.6f} s, {found.speed_ratio:.6f} times the head's speed",

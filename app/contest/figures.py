@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from itertools import zip_longest
 
 import matplotlib
 import numpy as np
@@ -16,10 +17,10 @@ from matplotlib.patheffects import withStroke
 import core
 from app.contest.sensitivity import Panel, panels
 from app.contest.solved import Solved
-from app.contest.words import Say
 from app.files.drawing import canvas
 from app.files.fonts import families
 from app.files.tables import handle_names
+from app.files.words import Say
 from core import Dance, bench_outlines
 from core.design.pitch_scan import JUMP_WIDTH, scan_near_minimum
 from core.plots import BLUE, GREY, PALE, VERMILION, draw_dance
@@ -50,7 +51,8 @@ class Drawn:
 def figures(solved: Solved, say: Say, progress: Callable[[float], None]) -> Iterator[Drawn]:
     """Every figure in turn. raises: MissingPackage without a font for the language"""
     family = families(say.language)
-    kinds = (positions, snapshots, clearance, staircase, geometry, amplification, sensitivity)
+    of_turn = (geometry, amplification) if solved.turned else ()
+    kinds = (positions, snapshots, clearance, staircase, *of_turn, sensitivity)
     for k, draw in enumerate(kinds):
         with matplotlib.rc_context({"font.family": family, "svg.hashsalt": "bench-dragon"}):
             figure, caption = draw(solved, say)
@@ -145,6 +147,8 @@ def clearance(solved: Solved, say: Say) -> tuple[Figure, str]:
         xlabel=say("time [s]", "时间 [s]"), ylabel=say("clearance of the nearest pair [mm]", "最近两节板凳的间距 [mm]")
     )
     axes.legend(fontsize=8)
+    met = solved.contact.time is not None
+    until = ("first contact", "首次碰撞") if met else ("the end of the run", "运动结束")
     near = solved.contact.certificate.least_clearance
     least = (
         say(
@@ -155,7 +159,8 @@ def clearance(solved: Solved, say: Say) -> tuple[Figure, str]:
         else ""
     )
     return figure, say(
-        "Clearance over time up to first contact, with its grazes.", "首次碰撞之前的最小间距及其擦碰。"
+        f"Clearance over time up to {until[0]}, with its grazes, some only fractions of a millimetre deep.",
+        f"{until[1]}之前的最小间距及其擦碰：有的极小值只低零点几毫米。",
     ) + least
 
 
@@ -207,7 +212,8 @@ def _stairs(axes: Axes, scan: core.PitchScan, radius: float, least: float, say: 
 
 def geometry(solved: Solved, say: Say) -> tuple[Figure, str]:
     """Question 4: the two arcs between the coils, with their centres and radii."""
-    turn, figure = solved.turn, canvas(7.0, 6.6)
+    assert solved.turned
+    turn, figure = solved.turned.path, canvas(7.0, 6.6)
     axes, radius = figure.subplots(), turn.turning_radius
     axes.set_aspect("equal")
     axes.set(xlabel="x [m]", ylabel="y [m]")
@@ -254,11 +260,12 @@ def _stretches(turn: core.Turn, reach: float, say: Say) -> list[tuple[tuple[floa
 
 def amplification(solved: Solved, say: Say) -> tuple[Figure, str]:
     """Question 5: the speeds of handles on the way through the turn, over that of the head."""
-    figure, fastest = canvas(8.0, 4.6), solved.fastest
+    assert solved.turned
+    figure, turn, fastest = canvas(8.0, 4.6), solved.turned.path, solved.turned.fastest
     axes = figure.subplots()
     peak = fastest.time_at_unit_head_speed
     travel = np.unique(np.concatenate([np.linspace(-5.0, peak + 40.0, 2 * CURVE), [peak]]))
-    dance = Dance(solved.dragon, solved.turn)
+    dance = Dance(solved.dragon, turn)
     rates = core.trajectory(dance, travel).speed
     names = handle_names(solved.dragon.benches, say.language)
     for k, colour in zip((1, 2, 3, 8, 20), COLOURS[1:], strict=False):
@@ -274,7 +281,7 @@ def amplification(solved: Solved, say: Say) -> tuple[Figure, str]:
         label=say("fastest handle", "最快的把手"),
     )
     axes.plot(peak, fastest.speed_ratio, "o", color=VERMILION, markersize=7, label=f"{fastest.speed_ratio:.6f}")
-    axes.axvspan(0.0, solved.turn.length, color=PALE, alpha=0.5, label=say("head on the arcs", "龙头在圆弧上"))
+    axes.axvspan(0.0, turn.length, color=PALE, alpha=0.5, label=say("head on the arcs", "龙头在圆弧上"))
     axes.set(xlabel=say("way of the head from the entry [m]", "龙头自入点起的路程 [m]"))
     axes.set(ylabel=say("speed over the head's speed", "速度与龙头速度之比"))
     axes.legend(fontsize=8, loc="upper right")
@@ -290,21 +297,26 @@ def amplification(solved: Solved, say: Say) -> tuple[Figure, str]:
 def sensitivity(solved: Solved, say: Say) -> tuple[Figure, str]:
     """How the answers change with the numbers of the problem."""
     shown = panels(solved, say)
-    figure = canvas(4.5 * (len(shown) // 2), 7.0)
-    for axes, panel in zip(figure.subplots(2, len(shown) // 2).flat, shown, strict=True):
-        _draw_panel(axes, panel)
+    columns = (len(shown) + 1) // 2
+    figure = canvas(4.5 * columns, 7.0)
+    for axes, panel in zip_longest(figure.subplots(2, columns).flat, shown):
+        if panel:
+            _draw_panel(axes, panel)
+        else:
+            axes.set_axis_off()
     caption = say(
         "Sensitivity: minimum pitch against width, turning diameter and length of the bodies; first contact against "
-        "width and length; maximum head speed against the ratio of the arcs. The dots are the values of the problem.",
+        "width and length; maximum head speed against the ratio of the arcs. Small dots are samples, joined only where "
+        "the answer has no jumps; the large dots are the values of the problem.",
         "灵敏度：最小螺距随板宽、调头圆直径和龙身板长的变化；首次碰撞时刻随板宽和龙身板长的变化；"
-        "龙头最大速度随圆弧半径之比的变化。圆点为题目给定值。",
+        "龙头最大速度随圆弧半径之比的变化。小点为采样值，仅在结果不跳跃处连线；大圆点为题目给定值。",
     )
     return figure, caption
 
 
 def _draw_panel(axes: Axes, panel: Panel) -> None:
     x, y = np.array(panel.points, dtype=np.float64).T if panel.points else np.empty((2, 0))
-    axes.plot(x, y, color=BLUE, linewidth=1.2, marker=".", markersize=4)
+    axes.plot(x, y, color=BLUE, linewidth=1.2 if panel.smooth else 0.0, marker=".", markersize=4)
     axes.ticklabel_format(useOffset=False)
     axes.plot(*panel.own, "o", color=VERMILION, markersize=7)
     axes.set(xlabel=panel.varied, ylabel=panel.answer)

@@ -7,8 +7,11 @@ from dataclasses import dataclass
 from functools import partial
 
 from app.contest.solved import Solved
-from app.contest.words import Say
 from app.files.shooting import ENDINGS, LOOKS, Shooting
+from app.files.words import Say
+
+# Names of the films, without their endings.
+FILMS = ("dance", "turn")
 
 
 @dataclass(frozen=True)
@@ -33,10 +36,11 @@ def films(
 
     span = solved.asked.span
     inwards = say("Bench dragon, to first contact", "板凳龙：盘入至首次碰撞")
-    kinds = (
-        ("dance", solved.spiral, 0.0, solved.met_at, inwards),
-        ("turn", solved.turning, -span, span, say("Bench dragon, the turn", "板凳龙：调头")),
-    )
+    if solved.contact.time is None:
+        inwards = say("Bench dragon, to the end of the run", "板凳龙：盘入至终点")
+    kinds = [(FILMS[0], solved.spiral, 0.0, solved.met_at, inwards)]
+    if solved.turned:
+        kinds.append((FILMS[1], solved.turned.dance, -span, span, say("Bench dragon, the turn", "板凳龙：调头")))
     forms = list(ENDINGS) if wanted.gif else list(ENDINGS)[:1]
     for name, dance, start, stop, title in kinds:
         for form in forms:

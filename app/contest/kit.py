@@ -1,7 +1,14 @@
-"""The kit: all files of a folder, each written when it is ready."""
+"""The kit: all files of a folder, which changes only when all are ready.
+
+They are written into a folder of their own inside it. Then the earlier kit's report goes first, the new files take
+their places, what the earlier kit has and this one has not is removed, and the new report comes last: where there is a
+report, all files are of its run.
+"""
 
 from __future__ import annotations
 
+import os
+import shutil
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -13,23 +20,40 @@ from app.contest.answers import Given, answers
 from app.contest.report import report
 from app.contest.solved import ContestRequest, Solved, solve
 from app.contest.tables import paper_tables
-from app.contest.words import Say
 from app.extras import MissingPackage, require
 from app.files.disk import write_whole
 from app.files.tables import XLSX_DECIMALS, Language, instant_sheet, trajectory_sheets
+from app.files.words import Say
 from app.files.workbooks import workbook
 from app.questions.question import Terms
 
 FIGURES, TABLES = "figures", "tables"
+# Where files are until all are ready, and the file that comes last.
+UNFINISHED, REPORT = ".unfinished", "report.md"
+# What a kit may hold and need not.
+OPTIONAL = (
+    "result4.xlsx",
+    *(f"{name}{ending}" for name in films.FILMS for ending in (".mp4", ".gif")),
+    *(f"{TABLES}/turn-{name}.{ending}" for name in ("positions", "speeds") for ending in ("csv", "md", "tex")),
+    *(
+        f"{FIGURES}/{name}.{ending}"
+        for name in ("positions", "snapshots", "clearance", "staircase", "geometry", "amplification", "sensitivity")
+        for ending in ("pdf", "svg", "png")
+    ),
+)
 
 
 @dataclass
 class Kit:
-    """What was written: names of files in this order; given: the answers; missing: why there are no pictures"""
+    """What was written: names of files in this order; given: the answers
+
+    missing: why there are no pictures; no_turn: why questions 4 and 5 have no answer
+    """
 
     files: list[str] = field(default_factory=list)
     given: list[Given] = field(default_factory=list)
     missing: MissingPackage | None = None
+    no_turn: str = ""
 
 
 def write_kit(
@@ -46,21 +70,45 @@ def write_kit(
     """
     say, kit = Say(language), Kit()
     solved = solve(asked, Terms(), lambda share: progress(say("answers", "求解"), share))
-    kit.given = answers(solved, say)
+    kit.given, kit.no_turn = answers(solved, say), solved.why_no_turn
+    unfinished = folder / UNFINISHED
+    shutil.rmtree(unfinished, ignore_errors=True)
+    try:
+        _write(unfinished, solved, kit, say, shot, progress)
+        _take_over(folder, kit.files)
+    finally:
+        shutil.rmtree(unfinished, ignore_errors=True)
+    return kit
+
+
+def _take_over(folder: Path, names: list[str]) -> None:
+    """Put finished files into their places, and remove those that an earlier kit left. names: the report is the last"""
+    (folder / REPORT).unlink(missing_ok=True)
+    for name in OPTIONAL:
+        if name not in names:
+            (folder / name).unlink(missing_ok=True)
+    for name in names:
+        (folder / name).parent.mkdir(exist_ok=True)
+        os.replace(folder / UNFINISHED / name, folder / name)
+
+
+def _write(
+    folder: Path, solved: Solved, kit: Kit, say: Say, shot: films.Wanted, progress: Callable[[str, float], None]
+) -> None:
+    """Write every file into a new folder, the report last."""
     tables = paper_tables(solved, say)
 
     def write(name: str, data: bytes) -> None:
+        (folder / name).parent.mkdir(parents=True, exist_ok=True)
         write_whole(folder / name, data)
         kit.files.append(name)
 
-    for part in (TABLES, FIGURES):
-        (folder / part).mkdir(parents=True, exist_ok=True)
-    for name, data in _workbooks(solved, language):
+    for name, data in _workbooks(solved, say.language):
         write(name, data)
     write("answers.json", orjson.dumps([one.to_json() for one in kit.given], option=orjson.OPT_INDENT_2) + b"\n")
     for table in tables:
         for ending, text in (("csv", table.to_csv()), ("md", table.to_markdown()), ("tex", table.to_latex())):
-            write(f"{TABLES}/{table.name}.{ending}", text.encode())
+            write(f"{TABLES}/{table.name}.{ending}", text.encode("utf-8-sig" if ending == "csv" else "utf-8"))
     drawn, filmed = [], []
     try:
         require("figures", "folder", "a figure")
@@ -75,14 +123,11 @@ def write_kit(
             write(name, data)
     except MissingPackage as missing:
         kit.missing = missing
-    write("report.md", report(solved, kit.given, tables, drawn, filmed, say).encode())
-    return kit
+    write(REPORT, report(solved, kit.given, tables, drawn, filmed, say).encode())
 
 
 def _workbooks(solved: Solved, language: Language) -> Iterator[tuple[str, bytes]]:
-    for name, sheets in (
-        ("result1.xlsx", trajectory_sheets(solved.inwards, language)),
-        ("result2.xlsx", [instant_sheet(solved.meeting, language)]),
-        ("result4.xlsx", trajectory_sheets(solved.around, language)),
-    ):
-        yield name, workbook(sheets, XLSX_DECIMALS)
+    yield "result1.xlsx", workbook(trajectory_sheets(solved.inwards, language), XLSX_DECIMALS)
+    yield "result2.xlsx", workbook([instant_sheet(solved.meeting, language)], XLSX_DECIMALS)
+    if solved.turned:
+        yield "result4.xlsx", workbook(trajectory_sheets(solved.turned.around, language), XLSX_DECIMALS)

@@ -8,7 +8,9 @@ from typing import TYPE_CHECKING
 from app.contest.answers import Given
 from app.contest.solved import Solved
 from app.contest.tables import Table
-from app.contest.words import Say
+from app.files.words import Say
+from core import Turn
+from core.errors import said
 
 if TYPE_CHECKING:
     from app.contest.figures import Drawn
@@ -29,7 +31,7 @@ def answer_table(given: Sequence[Given], say: Say) -> str:
 def _bracket(one: Given) -> str:
     if one.bracket is None:
         return ""
-    return ", ".join("?" if end is None else f"{end:.12g}" for end in one.bracket) + f" {one.unit}"
+    return ", ".join("?" if end is None else said(end) for end in one.bracket) + f" {one.unit}"
 
 
 def report(
@@ -41,6 +43,9 @@ def report(
     say: Say,
 ) -> str:
     """The page. films: names of their files"""
+    books = [
+        f"[{name}]({name})" for name in ("result1.xlsx", "result2.xlsx", *(["result4.xlsx"] if solved.turned else []))
+    ]
     parts = [
         say("# The bench dragon: every answer", "# 板凳龙：全部答案"),
         _dragon(solved, say),
@@ -49,10 +54,8 @@ def report(
         _ratio(solved, say),
         say("## Workbooks", "## 结果文件"),
         say(
-            "[result1.xlsx](result1.xlsx), [result2.xlsx](result2.xlsx), [result4.xlsx](result4.xlsx): all handles, "
-            "six decimals, halves rounded away from zero.",
-            "[result1.xlsx](result1.xlsx)、[result2.xlsx](result2.xlsx)、[result4.xlsx](result4.xlsx)：全部把手，"
-            "六位小数，四舍五入。",
+            f"{', '.join(books)}: all handles, six decimals, halves rounded away from zero.",
+            f"{'、'.join(books)}：全部把手，六位小数，四舍五入。",
         ),
         say("## Tables", "## 表格"),
     ]
@@ -87,12 +90,33 @@ def _dragon(solved: Solved, say: Say) -> str:
 
 
 def _ratio(solved: Solved, say: Say) -> str:
-    turn, shortest = solved.turn, solved.shortest.turn
+    if solved.turned is None:
+        return say(
+            f"Questions 4 and 5 have no answer: {solved.why_no_turn}. Change the turning diameter, the pitch of the "
+            "turn or the ratio of its arcs.",
+            f"问题 4 和 5 没有答案：{solved.why_no_turn}。请改变调头圆直径、调头螺距或圆弧半径之比。",
+        )
+    turn, shortest, even = solved.turned.path, solved.turned.shortest.turn, solved.turned.even
+    return _shorter(turn, shortest, say) + (
+        _even(even.turn, say) if even and even.turn.length < shortest.length else ""
+    )
+
+
+def _even(turn: Turn, say: Say) -> str:
     return say(
-        f"Question 4 asks for a shorter turn. Other ratios give none: the length is {turn.length:.7f} m at every "
-        f"ratio. An entry deeper inside the circle does: at a radius of {shortest.entry_radius:.6f} m the turn is "
-        f"{shortest.length:.7f} m long, {turn.length - shortest.length:.7f} m shorter.",
-        f"问题 4 问调头曲线能否变短。改变半径之比不能：对任何比例长度都是 {turn.length:.7f} m。"
+        f" Both together make it shorter still: with equal arcs (ratio 1) the entry can be as deep as "
+        f"{turn.entry_radius:.6f} m, and the turn is {turn.length:.7f} m long.",
+        f"两者一起改变还能更短：两段圆弧半径相等（比例 1）时，可在半径 {turn.entry_radius:.6f} m 处进入，"
+        f"长度为 {turn.length:.7f} m。",
+    )
+
+
+def _shorter(turn: Turn, shortest: Turn, say: Say) -> str:
+    return say(
+        f"Question 4 asks for a shorter turn. Another ratio alone gives none: the length is {turn.length:.7f} m at "
+        f"every ratio. An entry deeper inside the circle does: at a radius of {shortest.entry_radius:.6f} m the turn "
+        f"is {shortest.length:.7f} m long, {turn.length - shortest.length:.7f} m shorter.",
+        f"问题 4 问调头曲线能否变短。只改变半径之比不能：对任何比例长度都是 {turn.length:.7f} m。"
         f"在圆内更深处进入则可以：在半径 {shortest.entry_radius:.6f} m 处进入时长度为 {shortest.length:.7f} m，"
         f"缩短 {turn.length - shortest.length:.7f} m。",
     )

@@ -10,7 +10,7 @@ import numpy as np
 
 import core
 from app.contest.solved import ContestRequest, Solved
-from app.contest.words import Say
+from app.files.words import Say
 from core import BenchDragonError, Dance, Turn
 
 # Values on each curve.
@@ -24,6 +24,7 @@ Answer = Callable[[ContestRequest], float | None]
 @dataclass(frozen=True)
 class Panel:
     """varied, answer: what the two axes show, with units; points: the curve; own: the value of this problem
+    smooth: the answer has no jumps, so that samples may be joined
 
     A value at which the question has no answer has no point.
     """
@@ -32,15 +33,17 @@ class Panel:
     answer: str
     points: list[tuple[float, float]]
     own: tuple[float, float]
+    smooth: bool
 
 
 def panels(solved: Solved, say: Say) -> list[Panel]:
-    """How the answers to questions 2, 3 and 5 change, an even number of panels.
+    """How the answers to questions 2, 3 and 5 change.
 
     Minimum pitch against width, turning diameter and length of a body; first contact, if there is any, against width
-    and length; head speed against the ratio of the arcs.
+    and length; head speed, if there is a turn, against the ratio of the arcs.
     """
     asked, met = solved.asked, solved.contact.time
+    fastest = solved.turned.fastest.head_speed if solved.turned else None
     pitch, contact = say("minimum pitch [m]", "最小螺距 [m]"), say("first contact [s]", "首次碰撞时刻 [s]")
     speed = say("maximum head speed [m/s]", "龙头最大速度 [m/s]")
     width, length = say("width of the benches [m]", "板宽 [m]"), say("length of a body bench [m]", "龙身板长 [m]")
@@ -51,10 +54,10 @@ def panels(solved: Solved, say: Say) -> list[Panel]:
         (length, pitch, "body_length", LENGTHS, _pitch, solved.pitch.pitch),
         (width, contact, "width", WIDTHS, _contact, met),
         (length, contact, "body_length", LENGTHS, _contact, met),
-        (ratio, speed, "ratio", RATIOS, _speed, solved.fastest.head_speed),
+        (ratio, speed, "ratio", RATIOS, _speed, fastest),
     ]
     return [
-        Panel(words, shown, _curve(asked, name, limits, answer), (getattr(asked, name), own))
+        Panel(words, shown, _curve(asked, name, limits, answer), (getattr(asked, name), own), answer is _speed)
         for words, shown, name, limits, answer, own in wanted
         if own is not None
     ]

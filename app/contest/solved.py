@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass
 
 import numpy as np
@@ -11,13 +12,15 @@ import core
 from app.questions.question import Terms
 from app.wire.dances import DanceQuery
 from app.wire.models import Instant, SpeedLimit, TurningDiameter, measure
-from core import Dance, Dragon, Outcome, Trajectory, Turn
+from core import Dance, Dragon, InvalidValue, Outcome, Trajectory, Turn
 from core.values import Floats
 
 # Handles of the tables in the paper, as the contest asks: the head, those of six bodies, and the rear of the tail.
 SHOWN_HANDLES = (0, 1, 51, 101, 151, 201)
 # Number of steps between the instants of those tables; of the turn, between -span and span.
 SHOWN_STEPS, TURN_STEPS = 5, 4
+# Ratio of equal arcs, with which the entry can be deepest [1]: both arcs are as tight as the benches allow.
+EVEN = 1.0
 
 
 class ContestRequest(DanceQuery):
@@ -32,26 +35,39 @@ class ContestRequest(DanceQuery):
 
 
 @dataclass(frozen=True)
+class Turned:
+    """Inputs and answers of questions 4 and 5.
+
+    dance: along the turn; shortest: with the ratio asked for; even: with equal arcs, None where it cannot be danced
+    around: every second of question 4
+    """
+
+    path: Turn
+    dance: Dance
+    shortest: core.ShortestTurn
+    even: core.ShortestTurn | None
+    around: Trajectory
+    fastest: core.MaximumHeadSpeed
+
+
+@dataclass(frozen=True)
 class Solved:
     """Inputs and answers of the five questions, in metres and seconds.
 
-    spiral, turning: the dances of questions 1 to 3, and of 4 and 5
-    inwards: every second of question 1; meeting: the instant of first contact (`met_at`), of which `contact` tells;
-        around: every second of question 4
+    spiral: the dance of questions 1 to 3
+    inwards: every second of question 1; meeting: the instant of first contact (`met_at`), of which `contact` tells
+    turned: None where no turn can be danced, with the reason why_no_turn
     """
 
     asked: ContestRequest
     spiral: Dance
-    turning: Dance
     inwards: Trajectory
     contact: core.FirstContact
     met_at: float
     meeting: Trajectory
     pitch: core.MinimumPitch
-    turn: Turn
-    shortest: core.ShortestTurn
-    around: Trajectory
-    fastest: core.MaximumHeadSpeed
+    turned: Turned | None
+    why_no_turn: str = ""
 
     @property
     def dragon(self) -> Dragon:
@@ -77,8 +93,6 @@ def solve(asked: ContestRequest, terms: Terms, progress: Callable[[float], None]
     """All five answers. raises: InvalidValue, OutsideRun, TooMuchWork"""
     dragon = asked.to_dragon(terms.settings.checked_benches_max)
     spiral = Dance(dragon, asked.to_path(), asked.head_speed)
-    turn = Turn(asked.turn_pitch, asked.turning_diameter / 2, asked.ratio, start_turns=asked.start_turns)
-    turning = Dance(dragon, turn, asked.head_speed)
     inwards = core.trajectory(spiral, seconds(0.0, spiral.span(0.0, asked.stop)[1]), budget=terms.budget)
     progress(0.1)
     contact = core.first_contact(spiral, budget=terms.budget)
@@ -88,25 +102,41 @@ def solve(asked: ContestRequest, terms: Terms, progress: Callable[[float], None]
         dragon, turning_radius=asked.turning_diameter / 2, start_turns=asked.start_turns, budget=terms.budget
     )
     progress(0.4)
-    shortest = core.shortest_turn(
-        dragon, asked.turn_pitch, asked.turning_diameter / 2, asked.ratio, start_turns=asked.start_turns,
-        budget=terms.budget,
-    )  # fmt: skip
-    progress(0.7)
-    fastest = core.maximum_head_speed(turning, asked.speed_limit, budget=terms.budget)
+    turned, why = None, ""
+    try:
+        turned = _turned(asked, dragon, terms)
+    except InvalidValue as error:
+        why = error.message
+    progress(1.0)
     return Solved(
         asked=asked,
         spiral=spiral,
-        turning=turning,
         inwards=inwards,
         contact=contact,
         met_at=met_at,
         meeting=core.trajectory(spiral, [met_at], budget=terms.budget),
         pitch=least,
-        turn=turn,
+        turned=turned,
+        why_no_turn=why,
+    )
+
+
+def _turned(asked: ContestRequest, dragon: Dragon, terms: Terms) -> Turned:
+    """raises: InvalidValue where the turn cannot be danced"""
+    radius, about = asked.turning_diameter / 2, {"start_turns": asked.start_turns}
+    path = Turn(asked.turn_pitch, radius, asked.ratio, **about)
+    dance = Dance(dragon, path, asked.head_speed)
+    shortest = core.shortest_turn(dragon, asked.turn_pitch, radius, asked.ratio, **about, budget=terms.budget)
+    even = None
+    with suppress(InvalidValue):  # These arcs may be too tight at the circle itself.
+        even = core.shortest_turn(dragon, asked.turn_pitch, radius, EVEN, **about, budget=terms.budget)
+    return Turned(
+        path=path,
+        dance=dance,
         shortest=shortest,
-        around=core.trajectory(turning, seconds(-asked.span, asked.span), budget=terms.budget),
-        fastest=fastest,
+        even=even,
+        around=core.trajectory(dance, seconds(-asked.span, asked.span), budget=terms.budget),
+        fastest=core.maximum_head_speed(dance, asked.speed_limit, budget=terms.budget),
     )
 
 

@@ -11,8 +11,8 @@ import numpy as np
 
 import core
 from app.contest.solved import Solved
-from app.contest.words import Say
 from app.files.tables import XLSX_DECIMALS, handle_names
+from app.files.words import Say
 from app.files.workbooks import rounded_away
 from core import Dance
 from core.values import Floats
@@ -66,7 +66,7 @@ def paper_tables(solved: Solved, say: Say) -> list[Table]:
     return [
         *_over_time(solved, solved.spiral, solved.shown_times, ("", first), say),
         _at_contact(solved, say),
-        *_over_time(solved, solved.turning, solved.turn_times, ("turn-", turning), say),
+        *(_over_time(solved, solved.turned.dance, solved.turn_times, ("turn-", turning), say) if solved.turned else []),
     ]
 
 
@@ -95,8 +95,13 @@ def _over_time(solved: Solved, dance: Dance, times: Floats, about: tuple[str, st
 def _at_contact(solved: Solved, say: Say) -> Table:
     numbers = np.column_stack([solved.meeting.position[0], solved.meeting.speed[0]])[solved.handles]
     columns = say("x (m)|y (m)|speed (m/s)", "横坐标x (m)|纵坐标y (m)|速度 (m/s)").split("|")
+    what = (
+        say("", "")
+        if solved.contact.time is not None
+        else say(" (no contact, end of the run)", "（无碰撞，运动结束时）")
+    )
     caption = say(
-        f"Question 2: positions and speeds at {solved.met_at:.6f} s",
-        f"问题 2：{solved.met_at:.6f} s 时的位置和速度",
+        f"Question 2: positions and speeds at {solved.met_at:.6f} s{what}",
+        f"问题 2：{solved.met_at:.6f} s 时的位置和速度{what}",
     )
     return Table("contact", caption, say("handle", "把手"), columns, _names(solved, say), numbers)

@@ -8,20 +8,18 @@ import os
 import sys
 import tempfile
 import tomllib
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
+from datetime import time
 from pathlib import Path
 from typing import Any
 
 import orjson
 
-from app.files import tables
 from app.wire.messages import OBJECT, shown
-from core import InvalidValue, Trajectory
+from core import InvalidValue
 
 # Permissions of a new file, before the user's mask.
 NEW_FILE = 0o666
-# Endings that trajectory_writer() supports.
-TABLE_ENDINGS = (".csv", ".xlsx", ".arrow", ".json")
 # Endings of a file that describes a dance.
 DANCE_ENDINGS = (".toml", ".json")
 
@@ -102,7 +100,9 @@ def read_json(file: Path) -> dict[str, Any]:
 
 
 def read_dance(file: Path) -> dict[str, Any]:
-    """Content of a file that describes a dance; a venue given as text is the name of a GeoJSON file beside it.
+    """Content of a file that describes a dance.
+
+    A venue or a path given as text is the name of a map beside it, and a dragon given as text that of a CSV file.
 
     raises: InvalidValue, OSError
     """
@@ -118,29 +118,53 @@ def read_dance(file: Path) -> dict[str, Any]:
             raise InvalidValue("file", f"{file} is not TOML: {error}") from error
     if not asked:
         print(f"{file} gives nothing: this is about the contest's dance.", file=sys.stderr)
-    if isinstance(asked.get("venue"), str):
-        place = file.parent / asked["venue"]
+    seen: dict[Path, Any] = {}
+    for name in ("venue", "path"):
+        if isinstance(asked.get(name), str):
+            asked[name] = _drawn(file, name, file.parent / asked[name], seen)
+    for place, found in seen.items():
+        for note in found.notes:
+            print(f"{place}: {note}", file=sys.stderr)
+    if isinstance(asked.get("dragon"), str):
+        place = file.parent / asked["dragon"]
         try:
-            asked["venue"] = read_json(place)
+            asked["dragon"] = _read_benches(place)
         except OSError as error:
-            raise InvalidValue("venue", f"venue of {file}: {place}: {error.strerror}") from error
+            raise InvalidValue("dragon", f"dragon of {file}: {place}: {error.strerror}") from error
+    if isinstance(clock := asked.get("start_clock"), time):  # TOML has times of day
+        asked["start_clock"] = clock.replace(microsecond=0).isoformat()
     return asked
+
+
+def _drawn(file: Path, name: str, drawing: Path, seen: dict[Path, Any]) -> Any:
+    """The venue or the path in a map, which may have been seen before. raises: InvalidValue"""
+    from app.maps.geojson import is_of_polygons
+    from app.maps.places import read_map  # Most dances name no map, and maps take 0.1 s to import.
+
+    try:
+        if name == "venue" and drawing.suffix.lower() in (".json", ".geojson"):
+            told = read_json(drawing)
+            if is_of_polygons(told):  # As it stands: its unit may stand beside it.
+                return told
+        found = seen[drawing] = seen.get(drawing) or read_map(drawing)
+    except OSError as error:
+        raise InvalidValue(name, f"{name} of {file}: {drawing}: {error.strerror}") from error
+    except InvalidValue as error:
+        raise error if error.field != "file" else InvalidValue(name, f"{name} of {file}: {error.message}") from error
+    part = found.geometry if name == "venue" else found.path
+    if part is None:
+        raise InvalidValue(name, f"{name} of {file}: {drawing} draws none")
+    return part
+
+
+def _read_benches(file: Path) -> dict[str, Any]:
+    """A dragon as a table of benches. raises: InvalidValue, OSError"""
+    try:
+        return {"csv": file.read_text(encoding="utf-8")}
+    except UnicodeDecodeError as error:
+        raise InvalidValue("dragon", f"{file} must be text in UTF-8: {error}") from error
 
 
 def object_words(file: Path) -> str:
     """What the format of a file calls an object."""
     return "a table" if file.suffix.lower() == ".toml" else OBJECT
-
-
-def trajectory_writer(suffix: str, decimals: int | None, language: tables.Language) -> Callable[[Trajectory], bytes]:
-    """Function that turns a trajectory into the bytes of a file with that suffix."""
-    match suffix:
-        case ".json":
-            return lambda result: tables.trajectory_json(result, decimals=decimals)
-        case ".csv":
-            return lambda result: tables.trajectory_csv(result, decimals=decimals)
-        case ".arrow":
-            return lambda result: tables.trajectory_arrow(result, decimals=decimals)
-        case ".xlsx":
-            return lambda result: tables.trajectory_xlsx(result, decimals=decimals, language=language)
-    raise InvalidValue("output", f"--output must end in {', '.join(TABLE_ENDINGS)}, got {suffix or 'no ending'}")

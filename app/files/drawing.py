@@ -6,6 +6,7 @@ It uses matplotlib's objects and not pyplot: nothing is global except the consta
 from __future__ import annotations
 
 import io
+import threading
 
 import matplotlib
 import numpy as np
@@ -20,6 +21,8 @@ from core.values import Floats
 
 matplotlib.rcParams["svg.hashsalt"] = "bench-dragon"
 
+# One drawing at a time: matplotlib does not guarantee that its font caches are safe for threads.
+DRAWING = threading.Lock()
 PNG_DPI = 120
 # Width of the part of a venue drawn around the dragon, as a fraction of the dragon's extent [1].
 AROUND = 0.6

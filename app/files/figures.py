@@ -5,20 +5,15 @@ The same numbers give the same bytes, so an answer may carry a strong ETag.
 
 from __future__ import annotations
 
-import threading
-
 import numpy as np
 from matplotlib.axes import Axes
 
-from app.files.drawing import canvas, draw_venue, file_bytes, look_around
+from app.files.drawing import DRAWING, canvas, draw_venue, file_bytes, look_around
 from core import Budget, MinimumPitch, Route, Spiral, Venue, first_contact, trajectory
 from core.dance import Dance
 from core.design.pitch_scan import JUMP_WIDTH, SCAN_FROM, SCAN_TO, PitchScan
 from core.errors import said
 from core.plots import GREY, VERMILION, draw_scan
-
-# One drawing at a time: matplotlib does not guarantee that its font caches are safe for threads.
-_DRAWING = threading.Lock()
 
 
 def trajectory_figure(
@@ -33,7 +28,7 @@ def trajectory_figure(
     time: [s]; raises: OutsideRun after the end of the run
     """
     result = trajectory(dance, [time])
-    with _DRAWING:
+    with DRAWING:
         figure = canvas(7.2, 6.2)
         axes = result.plot(figure.add_subplot())
         if venue:
@@ -62,7 +57,7 @@ def contact_figure(
     Without a contact it shows the dance just before the run ends, and its title states this.
     """
     found = first_contact(dance, margin=margin, start=start, stop=stop, budget=budget)
-    with _DRAWING:
+    with DRAWING:
         figure = canvas(11.0 if found.benches else 7.2, 6.0)
         axes = found.plot(figure.add_subplot(1, 2, 1) if found.benches else figure.add_subplot())
         draw_venue(axes, venue)
@@ -86,7 +81,7 @@ def pitch_scan_figure(
     scan, least: as scan_near_minimum() gives them; the rest as it was given
     """
     pitches = np.array([SCAN_FROM, SCAN_TO]) * least.pitch
-    with _DRAWING:
+    with DRAWING:
         figure = canvas(9.0, 5.6)
         axes = figure.add_subplot()
         near_words = f"first nearer than {said(margin)} m" if margin else "first contact"

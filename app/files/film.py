@@ -29,6 +29,7 @@ from app.files.drawing import draw_venue
 from app.files.fonts import families
 from app.files.shooting import MP4_TYPE, Shooting
 from app.files.tables import Language
+from app.wire.clocks import time_of_day
 from core import Budget, Dance, Venue, bench_outlines, trajectory
 from core.budget import bounded
 from core.plots import BLUE, VERMILION, draw_dance
@@ -99,7 +100,7 @@ class Stage:
     def __init__(self, dance: Dance, shooting: Shooting, venue: Venue | None, title: str) -> None:
         size = (shooting.width / DPI, shooting.height / DPI)
         points = TYPE_SHARE * shooting.height * 72.0 / DPI
-        self.words = WORDS[shooting.language]
+        self.words, self.start_clock = WORDS[shooting.language], shooting.start_clock
         with matplotlib.rc_context({"font.family": families(shooting.language), "font.size": points}):
             figure = Figure(figsize=size, dpi=DPI)
             self.canvas = FigureCanvasAgg(figure)
@@ -141,7 +142,8 @@ class Stage:
         closed = np.concatenate([outlines, outlines[:, :1]], axis=1)
         self.head.get_path().vertices = closed[0]
         self.body.get_path().vertices = closed[1:].reshape(-1, 2)
-        self.time.set_text(self.words.format(time=time))
+        clock = f"{time_of_day(time, self.start_clock)}  " if self.start_clock else ""
+        self.time.set_text(clock + self.words.format(time=time))
         self.canvas.restore_region(self.still)
         for artist in (self.body, self.head, self.time):
             self.axes.draw_artist(artist)

@@ -19,7 +19,8 @@ LOOKS = {MP4_TYPE: (30, 1080), GIF_TYPE: (12, 360)}
 
 @dataclass(frozen=True)
 class Shooting:
-    """start, stop: of the dance [s]; seconds: the film plays [s]; rate: [frames/s]; height: [pixels], width 16 : 9"""
+    """start, stop: of the dance [s]; seconds: the film plays [s]; rate: [frames/s]; height: [pixels], width 16 : 9
+    start_clock: time of day at time 0, see time_of_day()"""
 
     start: float
     stop: float
@@ -27,6 +28,7 @@ class Shooting:
     rate: float = 30.0
     height: int = 1080
     language: Language = Language.ENGLISH
+    start_clock: str | None = None
 
     @property
     def width(self) -> int:

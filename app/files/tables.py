@@ -6,7 +6,7 @@ The same trajectory gives the same bytes, so an answer may carry a strong ETag.
 from __future__ import annotations
 
 import io
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from enum import StrEnum
 
 import numpy as np
@@ -15,10 +15,15 @@ import orjson
 from app.extras import require
 from app.files.workbooks import Sheet, workbook
 from app.wire.answers import Columns
-from core import TooLarge, Trajectory
+from app.wire.clocks import time_of_day
+from core import InvalidValue, TooLarge, Trajectory
 from core.values import Floats
 
+# Endings that trajectory_writer() supports.
+TABLE_ENDINGS = (".csv", ".xlsx", ".arrow", ".json")
 COLUMNS = ("time", "handle", "x", "y", "speed")
+# Further columns, where benches have names and the time of day at time 0 is given.
+NAME, CLOCK = "name", "clock"
 CSV_TYPE = "text/csv"
 # Cells that are turned into lines of CSV at once: 2 MB of text, and 10 MB while it is made.
 CSV_BLOCK = 20_000
@@ -54,6 +59,15 @@ def handle_names(benches: int, language: Language = Language.ENGLISH) -> list[st
     return [head, *body, tail, rear] if benches > 1 else [head, rear]
 
 
+def own_names(result: Trajectory, language: Language = Language.ENGLISH) -> list[str]:
+    """handle_names(), but the name of the bench where it has one."""
+    names = handle_names(result.speed.shape[-1] - 1, language)
+    own = result.dance.dragon.names if result.dance else ()
+    rear = "（后）" if language is Language.CHINESE else " (rear)"
+    named = [*own, f"{own[-1]}{rear}" if own and own[-1] else ""]
+    return [name or known for name, known in zip(named, names, strict=True)] if own else names
+
+
 def _rounded(column: Floats, decimals: int | None) -> Floats:
     # Adding zero turns a rounded -0.0 into 0.0.
     return column if decimals is None else np.round(column, decimals) + 0.0
@@ -79,25 +93,38 @@ def trajectory_json(result: Trajectory, decimals: int | None = None) -> bytes:
     return Columns({"time": result.time, "x": x, "y": y, "speed": result.speed}, decimals).to_json()
 
 
-def trajectory_csv(result: Trajectory, decimals: int | None = None) -> bytes:
-    """CSV with the columns time [s], handle, x [m], y [m], speed [m/s].
+def trajectory_csv(result: Trajectory, decimals: int | None = None, start_clock: str | None = None) -> bytes:
+    """CSV with the columns time [s], handle, x [m], y [m], speed [m/s]; name and clock where they are known.
 
     decimals: of x, y and speed; None writes the shortest text that reads back as the same double
+    start_clock: time of day at time 0, see time_of_day()
     """
-    return b"".join(csv_blocks(result, decimals))
+    return b"".join(csv_blocks(result, decimals, start_clock))
 
 
-def csv_blocks(result: Trajectory, decimals: int | None = None) -> Iterator[bytes]:
+def csv_blocks(result: Trajectory, decimals: int | None = None, start_clock: str | None = None) -> Iterator[bytes]:
     """The same CSV in blocks of lines, each made when it is asked for."""
-    yield ",".join(COLUMNS).encode() + b"\n"
     instants, handles = result.speed.shape
+    named = bool(result.dance and result.dance.dragon.names)
+    names = [_quoted(name) for name in own_names(result)] if named else []
+    yield ",".join([*COLUMNS, *[NAME] * named, *[CLOCK] * bool(start_clock)]).encode() + b"\n"
     rows = max(CSV_BLOCK // handles, 1)
     for first in range(0, instants, rows):
         columns = [
             orjson.dumps(np.ascontiguousarray(column), option=orjson.OPT_SERIALIZE_NUMPY)[1:-1].split(b",")
             for column in _columns(result, slice(first, first + rows), decimals).values()
         ]
+        times = result.time[first : first + rows].tolist()
+        if named:
+            columns.append(names * len(times))
+        if start_clock:
+            columns.append([word for time in times for word in [time_of_day(time, start_clock).encode()] * handles])
         yield b"\n".join(map(b",".join, zip(*columns, strict=True))) + b"\n"
+
+
+def _quoted(name: str) -> bytes:
+    """An entry of CSV."""
+    return ('"' + name.replace('"', '""') + '"' if set(name) & {",", '"'} else name).encode()
 
 
 def trajectory_arrow(result: Trajectory, decimals: int | None = None) -> bytes:
@@ -137,7 +164,7 @@ def trajectory_sheets(result: Trajectory, language: Language) -> list[Sheet]:
     """Positions, with two rows for each handle, x above y, and speeds: handles as rows, instants as columns."""
     instants, handles = result.speed.shape
     chinese = language is Language.CHINESE
-    names, gap = handle_names(handles - 1, language), "" if chinese else " "
+    names, gap = own_names(result, language), "" if chinese else " "
     times = [f"{instant:.12g} s" for instant in result.time.tolist()]
     positions = result.position.transpose(1, 2, 0).reshape(2 * handles, instants)
     axes = [f"{name}{gap}{axis} (m)" for name in names for axis in "xy"]
@@ -158,4 +185,20 @@ def instant_sheet(result: Trajectory, language: Language) -> Sheet:
     chinese, handles = language is Language.CHINESE, result.speed.shape[-1]
     columns = ["横坐标x (m)", "纵坐标y (m)", "速度 (m/s)"] if chinese else ["x (m)", "y (m)", "speed (m/s)"]
     numbers = np.column_stack([result.position.reshape(handles, 2), result.speed.reshape(handles)])
-    return Sheet("Sheet1", columns, handle_names(handles - 1, language), numbers)
+    return Sheet("Sheet1", columns, own_names(result, language), numbers)
+
+
+def trajectory_writer(
+    suffix: str, decimals: int | None, language: Language, start_clock: str | None = None
+) -> Callable[[Trajectory], bytes]:
+    """Function that turns a trajectory into the bytes of a file with that suffix."""
+    match suffix:
+        case ".json":
+            return lambda result: trajectory_json(result, decimals=decimals)
+        case ".csv":
+            return lambda result: trajectory_csv(result, decimals, start_clock)
+        case ".arrow":
+            return lambda result: trajectory_arrow(result, decimals=decimals)
+        case ".xlsx":
+            return lambda result: trajectory_xlsx(result, decimals=decimals, language=language)
+    raise InvalidValue("output", f"--output must end in {', '.join(TABLE_ENDINGS)}, got {suffix or 'no ending'}")

@@ -17,7 +17,7 @@ from app.grade.chains import Motion
 from app.grade.expected import Workbook, contact_time, dance_of
 from app.grade.geometry import Model, geometries, of_dance, time_at
 from app.grade.labels import SPEED
-from app.grade.layout import COMPONENTS, HANDLES, Ints, Kind
+from app.grade.layout import COMPONENTS, HANDLES, SHEETS, Ints, Kind
 from app.grade.rings import places, wrong_ring
 from app.grade.shortcuts import Finding, explained
 from app.grade.verdict import RIGHT, ROUNDED, Judgement
@@ -33,6 +33,8 @@ LOOKS, LOOK_SHARE = 12, 0.75
 ARITHMETIC = 2e-6
 # With fewer decimals than these nothing can be told apart.
 DECIMALS_LEAST = 2
+# An instant follows from the head's place within this [s].
+INSTANT_OFF = 1e-5
 # Steps of difference quotients that are tried [s].
 STEPS = (1.0, 0.5, 0.2, 0.1, 0.05, 0.02, 0.01, 0.001)
 
@@ -99,7 +101,7 @@ def _finding(model: Model, fit: _Fit, one: Judgement) -> Finding:
     worst = one.worst()
     assert worst is not None
     values = {
-        "sheet": one.table.title,
+        "sheet": one.table.title or note(SHEETS[one.table.kind]),
         "share": f"{100 * fit.wrong:.1f}",
         "count": fit.count,
         "tolerance": f"{fit.tolerance:.1e}",
@@ -180,9 +182,16 @@ def _of_contact(one: Judgement, budget: Budget) -> list[Finding]:
         if found := _best(one, at, models, budget):
             findings.append(_finding(*found, one))
             if instant != time[0]:
-                findings += explained("collision_time", instant, 10.0**-4)
+                findings += _why_then(instant)
             break
     return findings
+
+
+def _why_then(instant: float) -> list[Finding]:
+    """Shortcuts that give an instant: as it is, or as the rounded number that it seems to be."""
+    decimals = next((k for k in range(4) if abs(round(instant, k) - instant) < INSTANT_OFF), 4)
+    exact = round(instant, decimals) if decimals < 4 else instant
+    return explained("collision_time", exact, INSTANT_OFF) or explained("collision_time", exact, 0.5 * 10.0**-decimals)
 
 
 def _instants(head: Floats) -> Iterator[float]:

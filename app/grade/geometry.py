@@ -139,7 +139,7 @@ def _rounded_spirals(dance: Dance, path: Spiral) -> Iterator[Model]:
 def _other_turns(dance: Dance, path: Turn) -> Iterator[Model]:
     """Turns of another shape."""
     for ratio in (1.0 / path.ratio, 1.0):
-        error = "ratio_inverted" if ratio < 1.0 else "equalarcs_of_turn"
+        error = "ratio_inverted" if ratio < 1.0 else "equal_arcs_of_turn"
         yield Model(error, of_dance(Dance(dance.dragon, Turn(PITCH, ratio=ratio))))
     entry, leaving = complex(*path.entry), complex(*path.exit)
     # Semicircles on the line from the entry to the exit: tangent to the turning circle instead of the spiral.

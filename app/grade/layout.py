@@ -38,6 +38,8 @@ class Kind(StrEnum):
     CONTACT = "contact"
 
 
+# Words for a table by what it holds, where its sheet has no title.
+SHEETS = {Kind.POSITION: "position", Kind.SPEED: "speeds", Kind.CONTACT: "contact"}
 COMPONENTS = {Kind.POSITION: (X, Y), Kind.SPEED: (SPEED,), Kind.CONTACT: (X, Y, SPEED)}
 
 
@@ -74,9 +76,8 @@ def tables_of(grid: Grid) -> list[Table]:
         return []
     if long := _long(grid, cells):
         return long
-    found = _wide(grid, cells, turned=False) or _wide(
-        grid, [list(line) for line in zip(*cells, strict=True)], turned=True
-    )
+    turned = [list(line) for line in zip(*cells, strict=True)]
+    found = _wide(grid, cells, turned=False) or _wide(grid, turned, turned=True) or _bare(grid, cells)
     return [found] if found else []
 
 
@@ -125,7 +126,7 @@ def _long(grid: Grid, cells: list[list[Cell]]) -> list[Table]:
             rows[t, h, c] = [n for n, _ in lines]
         column = np.broadcast_to(np.array(wanted, dtype=np.int64), shape)
         order = np.arange(handles.size)
-        found.append(Table(grid.title or kind.value, kind, times, handles, order, values, rows, column, grid))
+        found.append(Table(grid.title, kind, times, handles, order, values, rows, column, grid))
     return found
 
 
@@ -135,7 +136,7 @@ def _wide(grid: Grid, cells: list[list[Cell]], *, turned: bool) -> Table | None:
     counts = [sum(label is not None and label.handle is not None for label in column) for column in labels]
     aside = int(np.argmax(counts))
     if counts[aside] < LABELS_LEAST:
-        return None if turned else _bare(grid, cells)
+        return None
     first = next(k for k, label in enumerate(labels[aside]) if label and label.handle is not None)
     heads = cells[max(0, first - MARGIN) : first]
     lines = _lines(labels[aside])
@@ -228,8 +229,7 @@ def _contact(
         row[0, :, component], column[0, :, component] = rows, k
     above, aside = (column, row) if turned else (row, column)
     handles, order = (np.array([of[k] for k in rows]) for of in (by_label, by_order))
-    title = grid.title or Kind.CONTACT.value
-    return Table(title, Kind.CONTACT, np.array([np.nan]), handles, order, values, above, aside, grid, notes)
+    return Table(grid.title, Kind.CONTACT, np.array([np.nan]), handles, order, values, above, aside, grid, notes)
 
 
 def _filled(
@@ -260,9 +260,9 @@ def _filled(
         row[at] = k
     column = np.broadcast_to(np.array(columns, dtype=np.int64)[:, None, None], shape)
     above, aside = (column, row) if turned else (row, column)
-    title, instants = grid.title or kind.value, np.array(list(times.values()))
+    instants = np.array(list(times.values()))
     numbered, ordered = np.array(handles), np.array([order[handle] for handle in handles])
-    return Table(title, kind, instants, numbered, ordered, values, above, aside, grid, notes)
+    return Table(grid.title, kind, instants, numbered, ordered, values, above, aside, grid, notes)
 
 
 def _value(cell: Cell, notes: list[Note], row: int, column: int, turned: bool) -> float:
@@ -286,7 +286,8 @@ def _bare(grid: Grid, cells: list[list[Cell]]) -> Table | None:
     numeric = [k for k, row in enumerate(cells) if sum(isinstance(cell, float) for cell in row) > len(row) // 2]
     if not numeric:
         return None
-    first = next((k for k in numeric if len(cells) - k in (HANDLES, 2 * HANDLES)), None)
+    # Above the handles at most the times are numbers.
+    first = next((k for k in numeric[:2] if len(cells) - k in (HANDLES, 2 * HANDLES)), None)
     if first is None:
         return None
     rows = range(first, len(cells))

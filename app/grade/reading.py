@@ -30,7 +30,7 @@ def grids_of(data: bytes, budget: Budget) -> tuple[list[Grid], list[Note]]:
     raises: Unreadable; Halted when the budget ends
     """
     if len(data) > FILE_MAX:
-        raise Unreadable(note("too_long", size=f"{len(data) / 1e6:.1f}", most=f"{FILE_MAX / 1e6:.0f}"))
+        raise Unreadable(note("too_long", most=f"{FILE_MAX / 1e6:.0f}"))
     if not data.strip():
         raise Unreadable(note("empty"))
     if data.startswith(OLE):

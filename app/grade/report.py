@@ -7,22 +7,23 @@ from pathlib import PurePath
 
 from pydantic import Field
 
+from app.extras import MissingPackage
 from app.files.tables import Language, handle_names
 from app.grade.diagnosis import diagnosed
 from app.grade.expected import cells_of
 from app.grade.grid import Unreadable
-from app.grade.layout import BENCHES, COMPONENTS, HANDLES, Kind, cell_name, tables_of
-from app.grade.reading import grids_of
+from app.grade.layout import BENCHES, COMPONENTS, HANDLES, SHEETS, Kind, cell_name, tables_of
+from app.grade.reading import ZIP, grids_of
 from app.grade.rubric import Criterion, rubric_of
-from app.grade.shortcuts import UNITS, Finding, explained, is_right, right_answer
+from app.grade.shortcuts import UNITS, Finding, accepted, explained, other_turn, right_answer
 from app.grade.verdict import Judgement, Rating, judged, lacking, workbook_of, worst_of
-from app.grade.words import note, say
+from app.grade.words import Note, note, say
 from app.wire.models import Answer
 from core import Budget, InvalidValue, TooMuchWork
 from core.budget import Halted
 
-# Words for a sheet by what it holds.
-SHEETS = {Kind.POSITION: "position", Kind.SPEED: "speeds", Kind.CONTACT: "contact"}
+# Endings of the names of workbooks.
+WORKBOOK_ENDINGS = (".xlsx", ".xlsm")
 VALUE = "in m for x and y, in m/s for a speed"
 
 
@@ -95,6 +96,8 @@ class TypedAnswer(Answer):
     found: float = Field(description="What was given, in the unit beside it")
     expected: float = Field(description="What is right, in the unit beside it")
     unit: str = Field(description="Unit of both")
+    digits: int = Field(description="Digits of what was given, from the first that is not 0: so far it is graded")
+    notes: list[str] = Field(description="What else a reader should know, in words")
     diagnosis: list[DiagnosisAnswer] = Field(description="Shortcuts that give the number; empty where nothing fits")
 
 
@@ -110,12 +113,21 @@ def graded(name: str, data: bytes, language: Language, budget: Budget) -> FileAn
     try:
         return _graded(name, data, language, budget)
     except Unreadable as error:
-        return FileAnswer(
-            file=name, workbook=None, verdict=Rating.UNREADABLE, diagnosis=[], sheets=[], rubric=[],
-            notes=[error.said.said(language)],
-        )  # fmt: skip
+        return unreadable(name, error.said, language)
     except Halted as error:
         raise too_long(data, budget) from error
+    except (MissingPackage, TooMuchWork):
+        raise
+    except Exception as error:  # A fault of ours in one file must not keep the others from being graded.
+        return unreadable(name, note("failed", why=f"{type(error).__name__}: {error}"[:120]), language)
+
+
+def unreadable(name: str, why: Note, language: Language) -> FileAnswer:
+    """The answer for a file that was not graded."""
+    return FileAnswer(
+        file=name, workbook=None, verdict=Rating.UNREADABLE, diagnosis=[], sheets=[], rubric=[],
+        notes=[why.said(language)],
+    )  # fmt: skip
 
 
 def too_long(data: bytes, budget: Budget) -> TooMuchWork:
@@ -127,12 +139,13 @@ def _graded(name: str, data: bytes, language: Language, budget: Budget) -> FileA
     grids, notes = grids_of(data, budget)
     tables = [table for grid in grids for table in tables_of(grid)]
     if not tables:
-        raise Unreadable(note("no_table"))
+        is_named_so = PurePath(name).suffix.lower() in WORKBOOK_ENDINGS
+        raise Unreadable(note("no_workbook" if is_named_so and not data.startswith(ZIP) else "no_table"))
     workbook = workbook_of(tables, PurePath(name).stem)
     judgements = [judged(table, workbook) for table in tables]
     findings = diagnosed(judgements, budget)
     sheets = [_sheet(one, language) for one in judgements]
-    if len(grids) > 1 or data.startswith(b"PK"):
+    if len(grids) > 1 or data.startswith(ZIP):
         sheets += [_lacking(kind, cells_of(workbook, kind), language) for kind in lacking(tables, workbook)]
     return FileAnswer(
         file=name,
@@ -156,16 +169,18 @@ def typed(name: str, text: str, language: Language) -> TypedAnswer:
         raise InvalidValue(name, f"{name} must be a number [{UNITS[name]}], got {text!r:.60}") from error
     if not 0.0 < value < 1e6:
         raise InvalidValue.of(name, "must be more than 0 and less than 1e6", value, UNITS[name])
-    decimals = len(text.lower().partition("e")[0].partition(".")[2].strip())
-    half_unit = 0.5 * 10.0 ** -min(decimals, 12)
-    right = is_right(name, value, half_unit)
+    mantissa = text.lower().partition("e")[0].strip()
+    half_unit = 0.5 * 10.0 ** -min(len(mantissa.partition(".")[2]), 12)
+    right, usual = accepted(name, value, half_unit), right_answer(name)
     return TypedAnswer(
         answer=name,
-        verdict=Rating.RIGHT if right else Rating.WRONG,
+        verdict=Rating.WRONG if right is None else Rating.RIGHT,
         found=value,
-        expected=right_answer(name),
+        expected=usual if right is None else right,
         unit=UNITS[name],
-        diagnosis=[] if right else _found(explained(name, value, half_unit), language),
+        digits=len(mantissa.lstrip("+-").replace(".", "").lstrip("0")),
+        notes=[] if right in (None, usual) else [other_turn(right).said(language)],
+        diagnosis=_found(explained(name, value, half_unit), language),
     )
 
 
@@ -182,8 +197,11 @@ def _criterion(one: Criterion, language: Language) -> CriterionAnswer:
 
 def _sheet(one: Judgement, language: Language) -> SheetAnswer:
     worst, first = one.worst(), one.first()
+    off = []
+    if one.verdict is Rating.ROUNDED and one.written != one.decimals:
+        off = [note("not_rounded", written=one.written, decimals=one.decimals)]
     return SheetAnswer(
-        sheet=one.table.title,
+        sheet=_title(one, language),
         holds=one.table.kind.value,
         verdict=one.verdict,
         decimals=one.decimals if one.verdict is Rating.ROUNDED else None,
@@ -193,15 +211,19 @@ def _sheet(one: Judgement, language: Language) -> SheetAnswer:
         worst=worst and _cell(one, worst, language),
         first=first and _cell(one, first, language),
         picture=one.picture(),
-        notes=[known.said(language) for known in one.notes],
+        notes=[known.said(language) for known in [*one.notes, *off]],
     )
+
+
+def _title(one: Judgement, language: Language) -> str:
+    return one.table.title or say(SHEETS[one.table.kind], language)
 
 
 def _cell(one: Judgement, at: tuple[int, ...], language: Language) -> CellAnswer:
     row, column = one.table.place(at)
     t, h, c = at
     return CellAnswer(
-        sheet=one.table.title,
+        sheet=_title(one, language),
         cell=cell_name(row, column),
         row=row + 1,
         column=column + 1,

@@ -47,18 +47,24 @@ def _criteria(by_kind: dict[Kind, Judgement], errors: set[str]) -> Iterator[Crit
     branch = None if placed is None else "wrong_ring" not in errors if placed.verdict in GOOD or errors else None
     yield _criterion("branch", branch)
     consistent = _share_consistent(position, speed) if position and speed else None
-    if consistent is None:
+    if "equal_speeds" in errors:
+        yield _criterion("speeds", False)
+    elif consistent is None:
         yield _criterion("speeds", (contact is not None and contact.verdict in GOOD) or None)
     else:
         yield Criterion("speeds", consistent >= SHARE, note("rubric_speeds_share", share=f"{100 * consistent:.1f}"))
-    refined = None if contact is None else contact.verdict in GOOD or (False if errors & STEPPED else None)
-    overhang = None if contact is None else contact.verdict in GOOD or (False if errors & NO_OVERHANG else None)
+    refined, overhang = (_shown(contact, errors & against) for against in (STEPPED, NO_OVERHANG))
     yield _criterion("overhang", overhang)
     yield _criterion("refined", refined)
-    smooth = None
-    if placed and placed.workbook is Workbook.RESULT4:
-        smooth = placed.verdict in GOOD or (False if errors & NOT_SMOOTH else None)
-    yield _criterion("tangents", smooth)
+    turning = placed if placed and placed.workbook is Workbook.RESULT4 else None
+    yield _criterion("tangents", _shown(turning, errors & NOT_SMOOTH))
+
+
+def _shown(one: Judgement | None, against: set[str]) -> bool | None:
+    """Is a point met? Errors against it count more than numbers that are nearly right."""
+    if one is None or against:
+        return False if against else None
+    return one.verdict in GOOD or None
 
 
 def _criterion(name: str, met: bool | None) -> Criterion:

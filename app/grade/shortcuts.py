@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 
 import numpy as np
@@ -31,6 +31,7 @@ from core import (
     maximum_head_speed,
     minimum_pitch,
     separation,
+    shortest_turn,
 )
 from core import trajectory as trajectory_of
 from core.sampling import bisected
@@ -40,8 +41,11 @@ from core.values import Floats
 
 TURNING_RADIUS = 4.5  # [m], of the contest's turning circle
 SPEED_LIMIT = 2.0  # [m/s], of the contest's question 5
-# Steps of time in which students look for an event [s].
-STEPS = (1.0, 0.5, 0.2, 0.1, 0.05, 0.02, 0.01, 0.001)
+# Steps of time in which students look for an event [s], and for the highest speed or the graze of a pitch [s].
+EVENT_STEPS = (0.001, 0.002, 0.005, 0.01, 0.02, 0.04, 0.05, 0.08, 0.1, 0.2, 0.25, 0.5, 1.0)
+STEPS = (1.0, 0.5, 0.2, 0.1, 0.05, 0.02, 0.01)
+# A number tells which shortcut gave it if half of its last digit is at most this share of it [1]: 0.417 does, 1.3 not.
+DIGITS_SHARE = 2e-3
 # Angle sum [deg] that must be counted as 360 to obtain the paper's time, 0.9 degrees less.
 LOOSE_ANGLE = 359.1
 # Rounding of an angle sum [deg]: corners inside give 360 within 1e-12, corners 1e-9 m outside give less than this.
@@ -69,7 +73,9 @@ SMOOTH = ("head_as_body", "body_as_head", "ratio_inverted", "equal_arcs_of_turn"
 # So many shortcuts to one number are told.
 FINDINGS_MOST = 3
 # Other entries that students take [m].
-ENTRIES = (4.0, TURNING_RADIUS)
+ENTRIES = (4.0, 4.1, 4.2, 4.3, 4.4)
+# Ratios of the arcs at which the shortest turn answers question 4 too: the contest's, and that of the shortest of all.
+RATIOS = (2.0, 1.0)
 
 # Poses (..., 3) and sizes (..., 2) -> corners (..., 4, 2).
 Outline = Callable[[Floats, Floats], Floats]
@@ -86,11 +92,17 @@ class Finding:
 
 @dataclass(frozen=True)
 class Shortcut:
-    """What a shortcut gives. values: numbers that its words tell"""
+    """What a shortcut gives. values: numbers that its words tell; exact: that number and no other is handed in"""
 
     error: str
     value: float
     values: dict[str, object]
+    exact: bool = False
+
+    def gives(self, value: float, half_unit: float) -> bool:
+        if self.exact:
+            return abs(self.value - value) < RESOLUTION
+        return half_unit <= DIGITS_SHARE * value and abs(self.value - value) <= 1.02 * half_unit
 
 
 UNITS = {"collision_time": "s", "pitch": "m", "speed": "m/s", "turn_length": "m"}
@@ -108,10 +120,29 @@ def right_answer(name: str) -> float:
     return Turn(PITCH).length
 
 
-def is_right(name: str, value: float, half_unit: float) -> bool:
-    """Is a value the right one, as far as its digits go? A pitch that was rounded down is none: it is infeasible."""
-    short = right_answer(name) - value
-    return abs(short) <= 1.02 * half_unit and not (name == "pitch" and short > INFEASIBLE)
+@cache
+def shortest_length(ratio: float) -> float:
+    """Length of the shortest turn at a ratio, which enters deeper inside the circle [m]."""
+    return shortest_turn(Dragon(), PITCH, TURNING_RADIUS, ratio).turn.length
+
+
+def accepted(name: str, value: float, half_unit: float) -> float | None:
+    """The right value that a number is, as far as its digits go; None for a wrong one.
+
+    A pitch that was rounded down is wrong: it is infeasible. Question 4 asks for a shorter turn too.
+    """
+    right = right_answer(name)
+    if abs(right - value) <= 1.02 * half_unit and not (name == "pitch" and right - value > INFEASIBLE):
+        return right
+    if name == "turn_length" and half_unit <= DIGITS_SHARE * value:
+        return next((one for one in map(shortest_length, RATIOS) if abs(one - value) <= 1.02 * half_unit), None)
+    return None
+
+
+def other_turn(length: float) -> Note:
+    """What to say of one of the shortest turns."""
+    ratio = next(ratio for ratio in RATIOS if shortest_length(ratio) == length)
+    return note("other_turn", ratio=f"{ratio:g}", length=f"{right_answer('turn_length'):.7f}")
 
 
 def explained(name: str, value: float, half_unit: float) -> list[Finding]:
@@ -119,18 +150,12 @@ def explained(name: str, value: float, half_unit: float) -> list[Finding]:
 
     value: in its unit; half_unit: half of the last digit that is given, in that unit
     """
-    within = 1.02 * half_unit
-    if is_right(name, value, half_unit):
+    if accepted(name, value, half_unit) is not None:
         return []
-    fits = [one for one in _shortcuts(name) if abs(one.value - value) <= within]
-    if not fits and name == "turn_length":
-        fits = [*_other_entry(value)]
+    fits = [one for one in _shortcuts(name) if one.gives(value, half_unit)]
     if name == "pitch":
         fits = [*_truncated(value, right_answer(name)), *fits] or [*_on_grid(value)]
-    # Of several steps that give the same number the largest is told.
-    nearest: dict[str, Shortcut] = {}
-    for one in sorted(fits, key=lambda one: round(abs(one.value - value), 9)):
-        nearest.setdefault(one.error, one)
+    exact = [one for one in fits if one.exact]
     numbers = {"unit": UNITS[name], "right": f"{right_answer(name):.9g}", "value": f"{value:.9g}"}
     return [
         Finding(
@@ -140,8 +165,20 @@ def explained(name: str, value: float, half_unit: float) -> list[Finding]:
                 "gives_on_grid" if "grid" in one.values else "gives", gives=f"{one.value:.9g}", **numbers, **one.values
             ),
         )
-        for one in list(nearest.values())[:FINDINGS_MOST]
+        for one in _by_error(exact or fits, value)[:FINDINGS_MOST]
     ]
+
+
+def _by_error(fits: list[Shortcut], value: float) -> list[Shortcut]:
+    """One shortcut for each error, the nearest first, with every step that gives the number."""
+    found: dict[str, list[Shortcut]] = {}
+    for one in sorted(fits, key=lambda one: round(abs(one.value - value), 9)):
+        found.setdefault(one.error, []).append(one)
+    merged = []
+    for alike in found.values():
+        steps = sorted((str(one.values["step"]) for one in alike if "step" in one.values), key=float)
+        merged.append(replace(alike[0], values=alike[0].values | ({"step": " / ".join(steps)} if steps else {})))
+    return merged
 
 
 @cache
@@ -158,12 +195,12 @@ def _shortcuts(name: str) -> tuple[Shortcut, ...]:
 def _collision_times() -> Iterator[Shortcut]:
     right = contact_time()
     dance = dance_of(Workbook.RESULT2)
-    for step in STEPS:
+    for step in EVENT_STEPS:
         after, before = math.ceil(right / step) * step, math.floor(right / step) * step
         clear, touching = clearance_profile(dance, np.array([before, after])).clearance
         assert clear > 0.0 > touching
-        yield Shortcut("time_steps", after, {"step": f"{step:g}"})
-        yield Shortcut("time_steps_before", before, {"step": f"{step:g}"})
+        yield Shortcut("time_steps", after, {"step": f"{step:g}"}, exact=True)
+        yield Shortcut("time_steps_before", before, {"step": f"{step:g}"}, exact=True)
     for error, dragon in _other_dragons():
         time = first_contact(Dance(dragon, Spiral())).time
         if time is not None:
@@ -197,7 +234,7 @@ def _truncated(value: float, right: float) -> Iterator[Shortcut]:
     for decimals in TRUNCATED:
         cut = math.floor(right * 10.0**decimals) / 10.0**decimals
         if abs(cut - value) < RESOLUTION and cut < right:
-            yield Shortcut("truncated", cut, {"decimals": decimals})
+            yield Shortcut("truncated", cut, {"decimals": decimals}, exact=True)
 
 
 def _on_grid(value: float) -> Iterator[Shortcut]:
@@ -214,7 +251,7 @@ def _speeds() -> Iterator[Shortcut]:
     right = of_dance(Dance(Dragon(PEAK_BENCHES), dance.path))
     for step in STEPS[:6]:
         yield Shortcut("speed_time_steps", _fastest(right, step), {"step": f"{step:g}"})
-    for step in STEPS[:7]:
+    for step in STEPS:
         times = np.arange(0.0, PEAK_SPAN, step)
         moved = np.linalg.norm(right(times + step)[..., :2] - right(times)[..., :2], axis=-1) / step
         yield Shortcut("forward_difference", SPEED_LIMIT / float(moved.max()), {"step": f"{step:g}"})
@@ -230,18 +267,9 @@ def _fastest(motion: Motion, step: float) -> float:
 
 def _lengths() -> Iterator[Shortcut]:
     yield Shortcut("arcs_not_tangent", math.pi * TURNING_RADIUS, {})
-
-
-def _other_entry(value: float) -> Iterator[Shortcut]:
-    """The entry inside the circle from which the turn has this length."""
-
-    def longer(entry: float) -> bool:
-        return Turn(PITCH, TURNING_RADIUS, entry_radius=entry).length >= value
-
-    if not longer(ENTRIES[0]) and longer(ENTRIES[1]):
-        entry = bisected(longer, *ENTRIES, width=RESOLUTION)[1]
+    for entry in ENTRIES:
         length = Turn(PITCH, TURNING_RADIUS, entry_radius=entry).length
-        yield Shortcut("other_entry", length, {"entry": f"{entry:.4f}"})
+        yield Shortcut("other_entry", length, {"entry": f"{entry:g}"})
 
 
 def _stepped_pitch(step: float) -> float:

@@ -23,16 +23,17 @@ def note(code: str, **values: object) -> Note:
 
 
 def say(code: str, language: Language, **values: object) -> str:
-    """A text of WORDS with its values."""
+    """A text of WORDS with its values, of which some may be notes."""
     english, chinese = WORDS[code]
-    return (chinese if language is Language.CHINESE else english).format(**values)
+    told = {name: value.said(language) if isinstance(value, Note) else value for name, value in values.items()}
+    return (chinese if language is Language.CHINESE else english).format(**told)
 
 
 WORDS = {
     # -- files that cannot be graded --
     "too_long": (
-        "The file has {size} MB, and at most {most} MB are read: a workbook of the contest has 2 MB.",
-        "文件为 {size} MB，最多读取 {most} MB：竞赛工作簿约 2 MB。",
+        "The file has more than {most} MB, so it was not read: a workbook of the contest has 2 MB.",
+        "文件超过 {most} MB，未读取：竞赛工作簿约 2 MB。",
     ),
     "empty": ("The file is empty.", "文件为空。"),
     "encrypted": ("The workbook is encrypted: save it without a password.", "工作簿已加密：请取消密码后另存。"),
@@ -47,8 +48,8 @@ WORDS = {
         "压缩包解压后为 {size} MB、{parts} 个部分，最多读取 {most} MB、500 个部分。",
     ),
     "other_archive": (
-        "The file is an archive but no .xlsx workbook: save the sheets as .xlsx or .csv.",
-        "文件是压缩包，但不是 .xlsx 工作簿：请另存为 .xlsx 或 .csv。",
+        "The file is an archive but no .xlsx workbook, as a .docx is: save the sheets as .xlsx or .csv.",
+        "文件是压缩包，但不是 .xlsx 工作簿（例如 .docx）：请另存为 .xlsx 或 .csv。",
     ),
     "declared": (
         "The workbook declares a document type in {part}, which no spreadsheet program writes: it was not read.",
@@ -67,6 +68,15 @@ WORDS = {
         "The file is neither a workbook nor a table of text (CSV).",
         "文件既不是工作簿，也不是文本表格（CSV）。",
     ),
+    "no_workbook": (
+        "The file is named as a workbook but is none: its content is text. Save the sheets as .xlsx.",
+        "文件名是工作簿，内容却是文本，不是工作簿：请把工作表另存为 .xlsx。",
+    ),
+    "failed": (
+        "The grader failed on this file ({why}), which is a fault of the grader: please report it.",
+        "评阅程序处理此文件时出错（{why}），这是程序的缺陷：请反馈。",
+    ),
+    "not_opened": ("The file cannot be opened: {why}.", "无法打开文件：{why}。"),
     "no_table": (
         "No sheet has labels such as 龙头x (m) and times such as 0 s, or numbers for 224 handles.",
         "没有任何工作表含有“龙头x (m)”之类的标签和“0 s”之类的时间，或 224 个把手的数据。",
@@ -77,6 +87,10 @@ WORDS = {
     "formulas": (
         "{count} cells hold formulas, the first is {cell}: the values stored with them were read.",
         "{count} 个单元格含有公式，第一个是 {cell}：读取的是随公式保存的数值。",
+    ),
+    "unstored": (
+        "{count} cells hold formulas without a stored value, the first is {cell}: open and save the workbook in a spreadsheet.",
+        "{count} 个单元格的公式没有保存结果，第一个是 {cell}：请用电子表格软件打开并保存，使结果随公式保存。",
     ),
     "merged": (
         "{count} ranges of cells are merged, the first is {cell}: only its first cell has a value.",
@@ -234,6 +248,10 @@ WORDS = {
         "The turn begins inside the circle, {entry} m from the centre, not on its edge at 4.5 m.",
         "调头起点在圆内，距中心 {entry} m，而不是在 4.5 m 的边界上。",
     ),
+    "other_turn": (
+        "This is the shortest turn with the ratio {ratio} : 1, entered inside the circle; from its edge it has {length} m.",
+        "这是半径比为 {ratio} : 1、在圆内更深处进入的最短调头曲线；从圆的边界进入时，问题 4 的曲线长 {length} m。",
+    ),
     "evidence": (
         "{sheet}: recomputed with this error, {share} % of the {count} wrong cells agree within {tolerance} {unit}; they are up to {worst} {unit} off the right ones.",
         "{sheet}：按此错误重新计算，{count} 个错误单元格中 {share} % 在 {tolerance} {unit} 内吻合；与正确值最多相差 {worst} {unit}。",
@@ -301,6 +319,11 @@ WORDS = {
     "incomplete": ("incomplete", "不完整"),
     "wrong": ("wrong", "错误"),
     "unreadable": ("unreadable", "无法读取"),
+    "not_rounded": (
+        "All numbers are right to {decimals} decimals, but were not rounded to so many: they have {written}.",
+        "数值准确到 {decimals} 位小数，但并非舍入到该位数：数值有 {written} 位小数。",
+    ),
+    "to_digits": (", as far as its digits go ({digits})", "（{digits} 位有效数字）"),
     "to_decimals": (" to {decimals} decimals", "到 {decimals} 位小数"),
     "sheet_line": (
         "{title}: {verdict}, {right} of {cells} cells right",
@@ -326,5 +349,6 @@ WORDS = {
     "column_cells": ("cells", "单元格"),
     "column_right": ("right", "正确"),
     "column_missing": ("missing", "缺少"),
+    "column_decimals": ("decimals", "小数位"),
     "column_diagnosis": ("diagnosis", "诊断"),
 }

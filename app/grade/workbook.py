@@ -38,8 +38,8 @@ ELEMENTS_MAX = 2_000_000
 ROWS_MAX, COLUMNS_MAX, SHEETS_MAX = 2_000, 1_000, 20
 MAIN, MACROS = "xl/workbook.xml", "xl/vbaProject.bin"
 # Names of elements of a sheet; and how those of the strict form of the standard begin, which openpyxl cannot read.
-CELL, FORMULA, MERGED = (
-    "http://schemas.openxmlformats.org/spreadsheetml/2006/main}" + name for name in ("c", "f", "mergeCell")
+CELL, FORMULA, VALUE, MERGED = (
+    "http://schemas.openxmlformats.org/spreadsheetml/2006/main}" + name for name in ("c", "f", "v", "mergeCell")
 )
 STRICT = b"http://purl.oclc.org/ooxml/"
 
@@ -106,7 +106,7 @@ def _survey(archive: zipfile.ZipFile, part: zipfile.ZipInfo, most: int) -> tuple
     raises: Unreadable for a declared document type, and for more elements than `most`
     """
     elements, cell = 0, ""
-    seen: dict[str, list[str]] = {"formulas": [], "merged": []}
+    seen: dict[str, list[str]] = {"formulas": [], "unstored": [], "merged": []}
 
     def refuse(*_: object) -> None:
         raise Unreadable(note("declared", part=part.filename))
@@ -119,12 +119,22 @@ def _survey(archive: zipfile.ZipFile, part: zipfile.ZipInfo, most: int) -> tuple
         if tag == CELL:
             cell = given.get("r", "")
         elif tag == FORMULA:
-            seen["formulas"].append(cell)
+            seen["unstored"].append(cell)
+        elif tag == VALUE and seen["unstored"][-1:] == [cell]:
+            parser.CharacterDataHandler = stored
         elif tag == MERGED:
             seen["merged"].append(given.get("ref", ""))
 
+    def stored(_: str) -> None:
+        seen["formulas"].append(seen["unstored"].pop())
+        parser.CharacterDataHandler = None
+
+    def end(tag: str) -> None:
+        if tag == VALUE:
+            parser.CharacterDataHandler = None
+
     parser = expat.ParserCreate(namespace_separator="}")
-    parser.StartDoctypeDeclHandler, parser.StartElementHandler = refuse, start
+    parser.StartDoctypeDeclHandler, parser.StartElementHandler, parser.EndElementHandler = refuse, start, end
     try:
         with archive.open(part) as source:
             parser.ParseFile(source)

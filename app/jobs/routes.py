@@ -32,8 +32,8 @@ from app.jobs.wire import (
     pointer_in_sweep,
     status,
 )
-from app.questions import CALLS
-from app.questions.figures import Format
+from app.questions.question import FileFormat
+from app.questions.registry import CALLS
 from app.service.bodies import BodyRoute
 from app.service.problems import Refused, answer_of, problem
 from app.service.reply import RESPOND_ASYNC, client_of, form_of, refuse_query, reply_body
@@ -182,8 +182,8 @@ def ask_later(
         raise Refused(422, detail, [ErrorItem(pointer="/question", detail=detail)])
     call, values = CALLS[wanted.question], dict(wanted.request)
     accept = wanted.accept
-    if call.question.format_in_path and "format" in values:  # It stands in the path of the call.
-        accept = format_of(values.pop("format"))
+    if call.question.formats and "format" in values:  # It stands in the path of the call.
+        accept = format_of(values.pop("format"), call.question.formats)
     form = form_of(accept, call.question.forms, {"pointer": "/accept"})
     try:
         call.asked.model_validate(values)
@@ -213,12 +213,12 @@ def sweep(request: Request, wanted: Annotated[SweepRequest, Body(examples=[SWEEP
     return take(request, Task(SWEEP, spec.model_dump(mode="json"), form))
 
 
-def format_of(value: Any) -> str:
-    """Media type of a figure. raises: Refused (422) for another value"""
+def format_of(value: Any, formats: type[FileFormat]) -> str:
+    """Media type of one of the formats. raises: Refused (422) for another value"""
     try:
-        return Format(value).media_type
+        return formats(value).media_type
     except ValueError as error:
-        detail = f"format must be {' or '.join(Format)}, got {shown(value)}"
+        detail = f"format must be {' or '.join(formats)}, got {shown(value)}"
         raise Refused(422, detail, [ErrorItem(pointer="/request/format", detail=detail)]) from error
 
 

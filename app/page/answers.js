@@ -1,7 +1,7 @@
 /** The answers, each with how it is known. */
 
 import { make } from "./elements.js";
-import { benchName, handleName, refusalWords, say, sayOf, titleOf } from "./text.js";
+import { benchName, handleName, proofWords, refusalWords, say, sayOf, titleOf } from "./text.js";
 
 /** The mark of each outcome: a dance fails with a contact or a fold, passes, or is undecided. */
 const MARKS = { contact: "✕", contact_at_start: "✕", folds: "!", clear: "✓", undecided: "?" };
@@ -26,13 +26,17 @@ export const centimetres = (metres) => bound(100 * metres, 2, -1);
 const ends = ([low, high], decimals) => ({ low: bound(low, decimals, -1), high: bound(high, decimals, 1) });
 const bracket = (key, both, decimals) => [say("bracket"), say(key, ends(both, decimals))];
 
+/** The section of the page "How it works" that explains the answer in a box. */
+const IDEAS = { "minimum-pitch": "staircase", tolerance: "stray", "head-speed": "chord", "highest-speed": "chord", "run-end": "chord" };
+const idea = ({ id }) => make("a", { href: `how?lang=${document.documentElement.lang.slice(0, 2)}#${IDEAS[id] ?? "step"}`, textContent: say("howPage") });
+
 /** Replace the content of a box, but keep its details open. title: text; known: elements; outcome: colours the box */
 function show(box, title, value, lines, known = [], outcome = "") {
   const open = box.querySelector("details")?.open ?? false;
-  const details = known.length ? [make("details", { open }, make("summary", { textContent: say("how") }), ...known)] : [];
+  const details = known.length ? [make("details", { open }, make("summary", { textContent: say("how") }), ...known, idea(box))] : [];
   box.dataset.outcome = outcome;
   const heading = make("h3", { textContent: title });
-  box.replaceChildren(heading, make("p", { className: "value" }, ...[value].flat()), ...lines.map((line) => paragraph(line)), ...details);
+  box.replaceChildren(paragraph(say("old"), { className: "old" }), heading, make("p", { className: "value" }, ...[value].flat()), ...lines.map((line) => paragraph(line)), ...details);
 }
 
 function facts(...rows) {
@@ -42,12 +46,12 @@ function facts(...rows) {
 /** The benches that the engines judged, in words. benches: of the dragon */
 function judgedWords({ judged }, benches, asked) {
   const count = judged.length;
-  if (count === benches) return say("judgedAll", { count });
+  if (count === benches) return sayOf("judgedAll", asked, { count });
   return count === 2 ? sayOf("judgedPair", asked, pair(judged, benches)) : say("judgedNear", { count, benches });
 }
 
 function engines(check, benches, asked) {
-  if (!check) return paragraph(sayOf("noEngines", asked));
+  if (!check) return paragraph(say("noEngines"));
   const word = (overlaps) => (overlaps === null ? say("noBefore") : sayOf(overlaps ? "overlapping" : "apart", asked));
   const cell = (overlaps) => make("td", { textContent: word(overlaps) });
   const head = (key, scope) => make("th", { scope, textContent: say(key) });
@@ -55,7 +59,8 @@ function engines(check, benches, asked) {
     make("tr", {}, head(name, "row"), cell(before), cell(after)),
   );
   const heads = make("tr", {}, ...["engine", "before", "after"].map((key) => head(key, "col")));
-  const words = [`${say("engines", { count: rows.length })}${judgedWords(check, benches, asked)}`, say(check.agree ? "agree" : "disagree")];
+  const grounds = rows.length === 1 && say("judgedGrounds", { count: check.judged.length });
+  const words = [grounds || `${say("engines", { count: rows.length })}${judgedWords(check, benches, asked)}`, say(check.agree ? "agree" : "disagree")];
   const list = check.together.map((both) => Object.values(pair(both, benches)).join(", ")).join("; ");
   if (list) words.push(say("together", { list }));
   const caption = make("caption", { textContent: words.join(" ") });
@@ -71,6 +76,15 @@ export function outcomeWords(answer, asked) {
   return sayOf(stateOf(answer), asked, { time: time?.toFixed(6) });
 }
 
+/** The same with its mark, for where there is little room. */
+export const verdictWords = (answer, asked) => `${MARKS[stateOf(answer)]} ${outcomeWords(answer, asked)}`;
+
+/** Time of the fold [s] if a dance ends in one; else null. */
+export const foldOf = ({ outcome, end }) => (outcome === "clear" && end?.reason === "fold" ? end.time : null);
+
+/** An instant of a dance with the digits that it has everywhere: the last one before a fold is that of the fold. */
+export const instantWords = (time, { answer, end }) => (time === end ? (foldOf(answer) ?? time) : time).toFixed(6);
+
 function contactLine(answer, asked) {
   const { benches } = asked;
   const { time_bracket, point, benches: both, head, end, gap } = answer;
@@ -80,6 +94,7 @@ function contactLine(answer, asked) {
   if (state === "clear") return end ? sayOf("clearUntil", asked, { time: end.time.toFixed(6) }) : sayOf("clearAll", asked);
   const [x, y, radius] = [...point, head.radius].map((one) => one.toFixed(6));
   const values = { ...pair(both, benches), x, y, radius };
+  if (asked.drawn) return sayOf("pairDrawn", asked, values);
   const shown = millimetres(gap);
   if (shown.startsWith("-")) return say("pairOverlaps", { ...values, depth: shown.slice(1) });
   return sayOf("pairMeets", asked, { ...values, gap: shown });
@@ -102,7 +117,7 @@ export function showFirstContact(box, answer, asked) {
     const values = { ...pair(least.benches, asked.benches), gap: millimetres(least.clearance), time: least.time.toFixed(6) };
     rows.push([say("leastBefore"), sayOf("leastBeforeIs", asked, values)]);
   }
-  const method = paragraph(certificate.method, { lang: "en", className: "method" });
+  const method = paragraph(proofWords(certificate.method), { className: "method" });
   const state = stateOf(answer);
   const mark = make("span", { className: "mark", "aria-hidden": "true", textContent: MARKS[state] });
   const value = [mark, outcomeWords(answer, asked)];
@@ -110,8 +125,15 @@ export function showFirstContact(box, answer, asked) {
   show(box, titleOf("firstContact", asked), value, lines, known, state);
 }
 
-/** answer: of /minimum-pitch; use(pitch) sets it */
-export function showMinimumPitch(box, answer, asked, use) {
+/** A button of an answer: what it offers, and what it does. */
+function offer(box, key, act) {
+  const button = make("button", { type: "button", textContent: say(key) });
+  button.addEventListener("click", act);
+  box.querySelector("details").before(button);
+}
+
+/** answer: of /minimum-pitch; use(pitch) sets it; key: of what the button offers */
+export function showMinimumPitch(box, answer, asked, key, use) {
   const { benches, turning_diameter: diameter } = asked;
   const names = answer.benches ? pair(answer.benches, Number(benches)) : {};
   const name = answer.bench === null ? "" : benchName(answer.bench, Number(benches));
@@ -133,13 +155,11 @@ export function showMinimumPitch(box, answer, asked, use) {
   ];
   const known = [facts(...rows), engines(answer.cross_check, Number(benches), asked)];
   show(box, titleOf("minimumPitch", asked), `${answer.pitch.toFixed(9)} m`, lines, known);
-  const button = make("button", { type: "button", textContent: say("usePitch") });
-  button.addEventListener("click", () => use(answer.pitch_bracket[1]));
-  box.querySelector("details").before(button);
+  offer(box, key, () => use(answer.pitch_bracket[1]));
 }
 
-/** answer: of /shortest-turn */
-export function showShortestTurn(box, answer, asked) {
+/** answer: of /shortest-turn; use(radius) lets the turn begin there */
+export function showShortestTurn(box, answer, asked, use) {
   const { entry_radius, length, limited_by, scan_step, evaluations } = answer;
   const names = answer.benches ? pair(answer.benches, Number(asked.benches)) : {};
   const limit = limited_by === "contact" ? sayOf("entry_contact", asked, names) : say(`entry_${limited_by}`);
@@ -147,18 +167,29 @@ export function showShortestTurn(box, answer, asked) {
   const scanned = [say("scanned"), say("scannedEntries", { evaluations, step: 1000 * scan_step })];
   const known = facts(bracket("bracketEntry", answer.entry_bracket, 9), scanned);
   show(box, titleOf("shortestTurn", asked), `${entry_radius.toFixed(6)} m`, lines, [known]);
+  offer(box, "useEntry", () => use(answer.entry_bracket[1]));
+}
+
+/** answer: of /maximum-head-speed; use(speed) sets it */
+export function showHeadSpeed(box, answer, asked, use) {
+  const { head_speed, head_speed_bracket: [low, high], handles, time } = answer;
+  const name = handles.map((handle) => handleName(handle, Number(asked.benches))).join(", ");
+  const lines = [say("headSpeedIs", { limit: asked.speed_limit, name, time: time.toFixed(6) })];
+  const known = low === null ? paragraph(say("headSpeedOpen", { high: bound(high, 9, 1) })) : facts(bracket("bracketHeadSpeed", [low, high], 9));
+  show(box, say("headSpeed"), `${head_speed.toFixed(9)} m/s`, lines, [known]);
+  offer(box, "useSpeed", () => use(low ?? head_speed));
 }
 
 /** answer: of /tolerance on the way to a circle of this diameter [m]; without one, on the part of a turn that is danced */
 export function showTolerance(box, answer, benches, diameter) {
   const { stray, stray_bracket: [low, high], limited_by: limit, time, certificate } = answer;
-  const values = { ...(answer.benches && pair(answer.benches, benches)), time: time?.toFixed(6) };
+  const values = { ...(answer.benches && pair(answer.benches, benches)), time: time?.toFixed(6), area: answer.area };
   const safe = stray > 0 ? say(diameter ? "toleranceCircle" : "toleranceTurn", { diameter, stray: centimetres(stray) }) : "";
-  const lines = stray > 0 ? [safe, say(`tolerance_${limit}`, values)] : [say(high === null ? "toleranceNone" : "tolerance_touching", values)];
+  const lines = stray > 0 ? [safe, say(`tolerance_${limit}`, values)] : [say(high === null ? "toleranceNone" : limit === "venue" ? "tolerance_touchingVenue" : "tolerance_touching", values)];
   const cm = (metres, way) => bound(100 * metres, 7, way);
   const both = high === null ? say("bracketStrayOpen", { low: cm(low, -1) }) : say("bracketStray", { low: cm(low, -1), high: cm(high, 1) });
   const rows = [[say("bracket"), both], [say("certificate"), say("stepsTaken", { steps: certificate.steps })]];
-  const method = paragraph(certificate.method, { lang: "en", className: "method" });
+  const method = paragraph(proofWords(certificate.method), { className: "method" });
   show(box, say("tolerance"), `${centimetres(stray)} cm`, lines, [facts(...rows), method]);
 }
 
@@ -179,9 +210,12 @@ export function showEnd(box, answer, time, asked) {
   show(box, say("end"), `${(answer.end?.time ?? time).toFixed(6)} s`, [words], [paragraph(say("endKnown"))]);
 }
 
-export function showRefusal(box, title, detail) {
+/** detail: the service's message; null if it stands elsewhere; names: of the fields beside which it stands */
+export function showRefusal(box, title, detail, names) {
   show(box, say(title), say("unanswered"), []);
-  box.append(make("p", refusalWords(detail)));
+  const listed = names.map((name) => say("quoted", { name: say(name) })).join(say("and"));
+  if (detail) box.append(make("p", refusalWords(detail)));
+  else box.append(paragraph(names.length ? say("mend", { names: listed }) : say("told")));
 }
 
 /** The caption of the enlarged view. gap: [m] between the two benches, null while unknown */

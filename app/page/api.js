@@ -2,8 +2,12 @@
 
 /** Superseded questions this young [ms] may still answer, so that a dragged slider always sees answers. */
 const GRACE = 150;
-const HEARTBEAT = 5_000;
-const [RETRY_FIRST, RETRY_LAST] = [500, 8_000];
+/** Between two looks whether the service lives, and the longest wait for its answer [ms]: together less than 3 s. */
+const [HEARTBEAT, PATIENCE] = [600, 1_600];
+const [RETRY_FIRST, RETRY_LAST] = [1_000, 8_000];
+const SECOND = 1_000;
+/** What may be done twice without harm; a job that hangs is not started again. */
+const ONCE = ["sweeps", "films"];
 const GATEWAY_ERRORS = [502, 504];
 const EMPTY = 204;
 /** Refusals that a moment mends, and the longest moment for which a person is kept waiting [s]. */
@@ -50,17 +54,25 @@ class Channel {
       this.#running = null;
     }
   }
+
+  /** Nobody wants the answer any more. */
+  drop() {
+    this.#newest = null;
+    this.#running?.abort.abort();
+  }
 }
 
 export class Service {
   #channels = new Map();
   #return = null;
   #retryNow = () => {};
+  /** Ends what hangs in a service that does not answer any more. */
+  #hanging = new AbortController();
 
-  /** tell: {lost(seconds until the next try), back(), busy(channel, whether it is busy)} */
+  /** tell: {lost(seconds until the next try, 0 during one), back(), busy(channel, whether it is busy)} */
   constructor(tell) {
     this.tell = tell;
-    setInterval(() => document.hidden || this.#return || this.#beat(), HEARTBEAT);
+    this.#beat();
   }
 
   /** The newest answer on a channel; null for an empty one. body: sent as JSON; file: sent as it is; how: method, cache.
@@ -82,6 +94,14 @@ export class Service {
     }
   }
 
+  /** End the questions on these channels. */
+  drop(channels) {
+    for (const channel of channels) {
+      this.#channels.get(channel)?.drop();
+      this.tell.busy(channel, false);
+    }
+  }
+
   /** Try again now. */
   retry() {
     this.#retryNow();
@@ -90,7 +110,8 @@ export class Service {
   /** Asks until there is an answer, also while the service is lost or busy. */
   async #patiently(url, options, signal) {
     for (;;) {
-      const response = await this.#fetch(url, { ...options, signal });
+      const wanted = ONCE.includes(url) ? signal : AbortSignal.any([signal, this.#hanging.signal]);
+      const response = await this.#fetch(url, { ...options, signal: wanted }, signal);
       if (response?.status === EMPTY) return null;
       if (response?.ok) return options.headers.Accept.includes("json") ? response.json() : response.blob();
       if (!response) await this.#untilBack();
@@ -100,13 +121,13 @@ export class Service {
     }
   }
 
-  /** The response; null when the service cannot be reached. */
-  async #fetch(url, options) {
+  /** The response; null when the service cannot be reached. asked: signal of who asks, who may want no answer any more */
+  async #fetch(url, options, asked = null) {
     try {
       const response = await fetch(url, options);
       return GATEWAY_ERRORS.includes(response.status) ? null : response;
     } catch {
-      options.signal?.throwIfAborted();
+      asked?.throwIfAborted();
       return null;
     }
   }
@@ -117,19 +138,35 @@ export class Service {
   }
 
   async #knock() {
+    this.#hanging.abort();
+    this.#hanging = new AbortController();
     for (let pause = RETRY_FIRST; ; pause = Math.min(2 * pause, RETRY_LAST)) {
-      this.tell.lost(pause / 1000);
-      await Promise.race([wait(pause), new Promise((resolve) => (this.#retryNow = resolve))]);
+      await this.#countDown(pause);
+      this.tell.lost(0);
       if (await this.#alive()) break;
     }
     this.tell.back();
   }
 
-  async #alive() {
-    return Boolean((await this.#fetch("healthz", { cache: "no-store" }))?.ok);
+  /** Waits, and tells every second how long; ends early when a person wants to try now. */
+  async #countDown(pause) {
+    const now = new Promise((resolve) => (this.#retryNow = () => resolve(true)));
+    for (let left = pause; left > 0; left -= SECOND) {
+      this.tell.lost(left / SECOND);
+      if (await Promise.race([wait(SECOND), now])) return;
+    }
   }
 
+  async #alive() {
+    return Boolean((await this.#fetch("healthz", { cache: "no-store", signal: AbortSignal.timeout(PATIENCE) }))?.ok);
+  }
+
+  /** Looks again and again whether the service lives, while somebody looks at the page. */
   async #beat() {
-    if (!(await this.#alive())) await this.#untilBack();
+    for (;;) {
+      await wait(HEARTBEAT);
+      if (document.hidden || this.#return) continue;
+      if (!(await this.#alive())) await this.#untilBack();
+    }
   }
 }

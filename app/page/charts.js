@@ -14,7 +14,7 @@ export class Chart {
   #now = null;
   #marker = make("div", { className: "now" });
 
-  /** plan(data): {labels of both axes, table of uPlot, range of y, width of the line [px], draw(pen, colours)} */
+  /** plan(data): {labels of both axes, table of uPlot, range of y, width of the line [px] (0: draw() draws it), draw(pen, colours)} */
   constructor(box, plan, seek) {
     Object.assign(this, { box, plan, seek });
     new ResizeObserver(() => this.#plot?.setSize({ width: box.clientWidth, height: HEIGHT })).observe(box);
@@ -55,7 +55,7 @@ export class Chart {
       cursor: { drag: { x: false, y: false }, y: false, points: { show: false } },
       scales: { x: { time: false }, y: { range } },
       axes: labels.map((label, k) => ({ ...looks, label: say(label), size: [34, 52][k] })),
-      series: [{}, { stroke: colour("accent"), width, points: { show: false } }],
+      series: [{}, { stroke: colour("accent"), width, points: { show: false }, ...(width ? {} : { paths: () => null }) }],
       hooks: { draw: [(plot) => draw(pen(plot, colour))], setSize: [place], ready: [place] },
     };
   }
@@ -88,6 +88,10 @@ function pen(plot, colour) {
     context.setLineDash([]);
   };
   return {
+    /** A line through all points [[x, y], ...]. */
+    along(points, name, dash = []) {
+      for (let k = 1; k < points.length; k++) line(at(...points[k - 1]), at(...points[k]), name, dash);
+    },
     across: (y, name) => line([left, at(0, y)[1]], [left + width, at(0, y)[1]], name, [6, 4]),
     up: (x, name) => line([at(x, 0)[0], top], [at(x, 0)[0], top + height], name, [2, 3]),
     dot(x, y, name, radius) {
@@ -135,27 +139,53 @@ export function curvePlan({ pitch, stray, own, least }) {
   };
 }
 
-/** Radius of the head at first contact against the pitch, of /pitch-scan; circle: radius of the turning circle [m]. */
-export function scanPlan({ pitch, radius, pieces, minimum_pitch, circle }) {
-  const [x, y] = [[], []];
-  for (const [from, to] of pieces) {
-    // A gap between two pieces, because a jump is not a line.
-    if (x.length) {
-      x.push((x.at(-1) + pitch[from]) / 2);
-      y.push(null);
-    }
-    x.push(...pitch.slice(from, to));
-    y.push(...radius.slice(from, to));
-  }
+/**
+ * Radius of the head at first contact against the pitch, of /pitch-scan; circle: radius of the turning circle [m];
+ * coarse: a first look at the samples, whose jumps are not known yet.
+ */
+export function scanPlan({ pitch, radius, pieces, jumps, minimum_pitch, circle, coarse }) {
+  const samples = pitch.map((one, k) => [one, radius[k]]);
+  const stretches = coarse ? [samples].filter((points) => points.length) : staircase(samples, pieces, jumps);
   return {
     labels: ["pitchAxis", "radiusAxis"],
-    table: [x, y],
+    table: [pitch, radius],
     range: [0, ABOVE * Math.max(circle, ...radius)],
-    width: 2,
+    width: 0,
     draw(pen) {
       pen.across(circle, "text");
       pen.up(minimum_pitch, "clear");
-      for (const [from, to] of pieces) for (const k of [from, to - 1]) pen.dot(pitch[k], radius[k], "accent", 2);
+      for (const points of stretches) pen.along(points, "accent", coarse ? [3, 3] : []);
+      for (const points of stretches) for (const [x, y] of [points[0], points.at(-1)]) pen.dot(x, y, "accent", 2);
     },
   };
+}
+
+/** Stretches without a jump, each a list of points: the samples of a piece, and the ends of the jumps around them. */
+export function staircase(samples, pieces, jumps) {
+  const ends = jumps.map(({ pitch, radius }) => pitch.map((one, k) => [one, radius[k]]));
+  const stretches = [];
+  let open = [];
+  const close = () => {
+    if (open.length) stretches.push(open);
+    open = [];
+  };
+  for (const [from, to] of pieces) {
+    const known = ends.length;
+    while (ends.length && ends[0][0][0] < samples[from][0]) {
+      const [before, after] = ends.shift();
+      open.push(before);
+      close();
+      open.push(after);
+    }
+    // Between two pieces without a jump there is no contact.
+    if (known === ends.length) close();
+    open.push(...samples.slice(from, to));
+  }
+  for (const [before, after] of ends) {
+    open.push(before);
+    close();
+    open.push(after);
+  }
+  close();
+  return stretches;
 }

@@ -1,4 +1,7 @@
-/** The form: for each number a field, a slider, its unit, its limits, a reset, and the service's message if it is wrong. */
+/**
+ * The form: for each number a field, what it is, a slider whose ends can be changed, its unit, its limits, a reset, and the
+ * service's message if it is wrong.
+ */
 
 import { make, onClick } from "./elements.js";
 import { FIELDS } from "./state.js";
@@ -6,6 +9,18 @@ import { refusalWords, say } from "./text.js";
 
 /** A typed number counts after this pause [ms], or with Enter, so that half-typed numbers are not asked. */
 const TYPING = 300;
+const ENDS = ["min", "max"];
+
+/** Limits and unit of every number: name -> [low, high, unit]. paths: of the service's OpenAPI document */
+export function limitsIn(paths) {
+  const parameters = ["/maximum-head-speed", "/collision-time", "/minimum-pitch"].flatMap((path) => paths[path].get.parameters);
+  return Object.fromEntries(
+    parameters.map(({ name, schema }) => {
+      const { minimum, exclusiveMinimum, maximum } = schema.anyOf?.[0] ?? schema;
+      return [name, [minimum ?? exclusiveMinimum, maximum, schema["x-unit"]]];
+    }),
+  );
+}
 
 export class Controls {
   #rows = new Map();
@@ -15,19 +30,22 @@ export class Controls {
     form.addEventListener("submit", (event) => event.preventDefault());
     onClick("#reset-all", () => state.reset());
     for (const [group, fields] of Map.groupBy(FIELDS, (field) => field.group)) {
-      const legend = make("legend", { "data-text": group });
-      form.append(make("fieldset", {}, legend, ...fields.map((field) => this.#row(field))));
+      const legend = make("legend", { "data-text": group, className: "unseen" });
+      form.append(make("fieldset", { "data-group": group }, legend, ...fields.map((field) => this.#row(field))));
     }
-    // The default pitch depends on the path.
+    // The default pitch depends on the path, and so do the numbers that there are.
     state.listen((names) => names.forEach((name) => this.#show(name === "path" ? "pitch" : name)));
+    state.listen((names) => names.has("path") && this.#offer());
+    this.#offer();
   }
 
   #row({ name, slider: [min, max, step] }) {
     const change = (event) => this.state.set({ [name]: event.target.value.trim() });
-    const described = { "aria-describedby": `${name}-limits ${name}-error` };
+    const described = { "aria-describedby": `${name}-help ${name}-limits ${name}-error` };
     const row = {
       text: make("input", { id: name, inputMode: "decimal", autocomplete: "off", spellcheck: false, ...described }),
       slider: make("input", { type: "range", min, max, step }),
+      ends: ENDS.map((end) => this.#end(name, end, end === "min" ? min : max)),
       reset: make("button", { type: "button", className: "reset", textContent: "↺" }),
       unit: make("span", { className: "unit" }),
       limits: make("span", { id: `${name}-limits`, className: "limits" }),
@@ -44,7 +62,27 @@ export class Controls {
     this.#rows.set(name, row);
     this.#show(name);
     const label = make("label", { htmlFor: name, "data-text": name });
-    return make("div", { className: "field" }, label, row.text, row.unit, row.reset, row.slider, row.limits, row.error);
+    const help = make("span", { id: `${name}-help`, className: "help", "data-text": `${name}_is` });
+    const what = make("div", { className: "what" }, label, help, row.limits);
+    row.box = make("div", { className: "field", "data-field": name }, what, row.text, row.unit, row.reset, row.ends[0], row.slider, row.ends[1], row.error);
+    return row.box;
+  }
+
+  /** The field for one end of a slider. */
+  #end(name, end, value) {
+    const field = make("input", { className: "end", inputMode: "decimal", autocomplete: "off", value });
+    field.addEventListener("change", () => {
+      const { slider } = this.#rows.get(name);
+      const [low, high] = [end === "min" ? field.value : slider.min, end === "max" ? field.value : slider.max].map((text) => Number(text.replace(",", ".")));
+      if (field.value.trim() && low < high) slider[end] = end === "min" ? low : high;
+      this.#show(name);
+    });
+    return field;
+  }
+
+  /** Only the numbers that the path has. */
+  #offer() {
+    for (const { name, only } of FIELDS) this.#rows.get(name).box.hidden = Boolean(only) && only !== this.state.get("path");
   }
 
   #show(name) {
@@ -53,17 +91,21 @@ export class Controls {
     const text = this.state.get(name);
     if (row.text.value.trim() !== text) row.text.value = text;
     row.slider.value = text;
+    row.ends.forEach((field, k) => (field.value = row.slider[ENDS[k]]));
     row.reset.disabled = text === this.state.initial(name);
   }
 
   /** limits: name -> [low, high, unit] as the service states them */
   translate(limits) {
     for (const [name, row] of this.#rows) {
-      row.slider.setAttribute("aria-label", say("slider", { name: say(name) }));
-      row.reset.setAttribute("aria-label", say("reset", { name: say(name) }));
+      const named = { name: say(name) };
+      row.slider.setAttribute("aria-label", say("slider", named));
+      row.reset.setAttribute("aria-label", say("reset", named));
+      row.ends.forEach((field, k) => field.setAttribute("aria-label", say(ENDS[k] === "min" ? "sliderFrom" : "sliderTo", named)));
       const [low, high, unit = ""] = limits[name] ?? [];
       row.unit.textContent = unit === "turns" ? say(unit) : unit;
       row.limits.textContent = low === undefined ? "" : say("limits", { low, high });
+      if (this.state.initial(name) === "") row.text.placeholder = say(`${name}_none`);
     }
   }
 

@@ -8,6 +8,10 @@ const SHADES = 48;
 const SPEED_SPREAD_MIN = 1e-9;
 /** A click within this distance of a handle [px] selects it. */
 const PICK_RADIUS = 22;
+/** Longest scale bar [px], its distance from the edges, and the numbers of metres that it may stand for, times a power of ten. */
+const [BAR, BAR_EDGE, ROUND] = [120, 14, [5, 2, 1]];
+/** Arrows along the path, and their size [px]; how far the head's arrow reaches before its bench [px]. */
+const [ARROWS, ARROW, AHEAD] = [9, 5, 24];
 /** Half side of the inset around the point of contact, in bench widths. */
 const INSET_WIDTHS = 1.6;
 
@@ -30,8 +34,23 @@ export function speedRange({ speed }) {
   return [high - low > SPEED_SPREAD_MIN ? low : null, high];
 }
 
+/** Smallest and largest of rows of speeds [m/s]. */
+export const spanOf = (rows) => [least(rows.map(least)), largest(rows.map(largest))];
+
+/** The scale bar for a number of pixels per metre: {metres, pixels}, as long as fits. */
+export function scaleBar(scale) {
+  const rough = BAR / scale;
+  const power = 10 ** Math.floor(Math.log10(rough));
+  const metres = Number((ROUND.find((one) => one * power <= rough) * power).toPrecision(1));
+  return { metres, pixels: metres * scale };
+}
+
+/** {overhang, width} of bench k of a dragon; listed: its benches one by one, if they are. */
+const sizeOf = ({ listed, overhang, width }, k) => (listed ? { overhang: listed.overhangs[k], width: listed.widths[k] } : { overhang, width });
+
 /** Corners of bench k of a pose as drawn: front left, front right, rear right, rear left. */
-function outline({ x, y }, { overhang, width }, k) {
+function outline({ x, y }, dragon, k) {
+  const { overhang, width } = sizeOf(dragon, k);
   const length = Math.hypot(x[k] - x[k + 1], y[k] - y[k + 1]);
   const [ux, uy] = [(x[k] - x[k + 1]) / length, (y[k] - y[k + 1]) / length];
   const [ox, oy, wx, wy] = [ux * overhang, uy * overhang, (-uy * width) / 2, (ux * width) / 2];
@@ -44,7 +63,8 @@ function outline({ x, y }, { overhang, width }, k) {
  * a side moves out by the stray between the holes, and a corner by (d + D) / chord times the stray, where d and D are
  * its distances from the two holes.
  */
-export function addGround(path, { x, y }, { overhang, width }, k, stray) {
+export function addGround(path, { x, y }, dragon, k, stray) {
+  const { overhang, width } = sizeOf(dragon, k);
   const half = width / 2;
   const [dx, dy] = [x[k] - x[k + 1], y[k] - y[k + 1]];
   const chord = Math.hypot(dx, dy);
@@ -106,6 +126,38 @@ class Pen {
     this.context.stroke(path);
   }
 
+  /** An arrow's tip at (x, y) towards the direction (dx, dy); size: [px] */
+  tip(x, y, dx, dy, size) {
+    const reach = size / this.scale / Math.hypot(dx, dy);
+    const [ux, uy] = [dx * reach, dy * reach];
+    const path = new Path2D();
+    path.moveTo(x - ux - uy, y - uy + ux);
+    path.lineTo(x, y);
+    path.lineTo(x - ux + uy, y - uy - ux);
+    return path;
+  }
+
+  /** The scale, at the lower right. */
+  bar(words, pixels, colour, halo) {
+    const { context } = this;
+    const { width, height } = context.canvas;
+    context.save();
+    context.resetTransform();
+    context.scale(devicePixelRatio, devicePixelRatio);
+    const [right, bottom] = [width / devicePixelRatio - BAR_EDGE, height / devicePixelRatio - BAR_EDGE];
+    Object.assign(context, { font: "600 12px system-ui, sans-serif", textAlign: "center", lineJoin: "round" });
+    for (const [strokeStyle, lineWidth] of [[halo, 5], [colour, 2]]) {
+      Object.assign(context, { strokeStyle, lineWidth });
+      context.beginPath();
+      for (const [x, y] of [[right - pixels, bottom - 6], [right - pixels, bottom], [right, bottom], [right, bottom - 6]]) context.lineTo(x, y);
+      context.stroke();
+    }
+    Object.assign(context, { strokeStyle: halo, lineWidth: 4, fillStyle: colour });
+    context.strokeText(words, right - pixels / 2, bottom - 6);
+    context.fillText(words, right - pixels / 2, bottom - 6);
+    context.restore();
+  }
+
   circle(x, y, radius) {
     const path = new Path2D();
     path.arc(x, y, radius / this.scale, 0, 2 * Math.PI);
@@ -128,43 +180,65 @@ class Pen {
 export class Dance {
   /**
    * pose {x, y, speed}, its dragon {width, overhang, stray, hole, pin}, contact: the service's answer while its instant is shown, handle:
-   * the chosen one, names of head and handle, circle: radius of the turning circle [m]
+   * the chosen one, names of head and handle, circle: radius of the turning circle [m]; speeds: [lowest, highest] of the
+   * whole dance [m/s], which have the first and the last colour; null: those of the pose
    */
-  scene = { pose: null, dragon: null, contact: null, handle: null, headName: "", handleName: "", circle: null };
+  scene = { pose: null, dragon: null, contact: null, handle: null, headName: "", handleName: "", circle: null, speeds: null };
+  /** Functions of a pen and the colours that draw more: below the benches, and above them. */
+  below = [];
+  above = [];
+  /** Is the path drawn by hand, and so to be seen well? */
+  drawn = false;
   #path = null;
+  #points = null;
   #bounds = null;
   #colours = {};
   #palette = [];
 
   constructor(canvas, inset, { moved, picked }) {
     Object.assign(this, { canvas, inset });
-    this.view = new View(canvas, { moved, clicked: (x, y) => picked(this.#nearest(x, y)) });
+    this.view = new View(canvas, { moved, clicked: (x, y) => this.tapped?.(x, y) || picked(this.#nearest(x, y)) });
     this.restyle();
   }
 
   restyle() {
     const style = getComputedStyle(this.canvas);
-    for (const name of ["text", "outline", "path", "circle", "head", "first", "second", "pick", "card", "halo"])
+    for (const name of ["text", "outline", "path", "circle", "head", "first", "second", "pick", "card", "halo", "thing", "ground", "drawn"])
       this.#colours[name] = style.getPropertyValue(`--${name}`).trim();
     this.#palette = palette(style.getPropertyValue("--ramp"));
   }
 
-  /** The path of the head, {x, y}, as sampled by the service. */
-  setPath({ x, y }) {
+  /** The path of the head, {x, y}, as sampled by the service, or null; around: further points [x, y] to be shown. */
+  setPath(path, around = []) {
+    this.#path = null;
+    if (!path) return;
+    const { x, y } = path;
     this.#path = smooth({ x, y });
-    this.#bounds = [least(x), least(y), largest(x), largest(y)];
+    this.#points = { x, y };
+    const [xs, ys] = [[...x, ...around.map((point) => point[0])], [...y, ...around.map((point) => point[1])]];
+    this.#bounds = [least(xs), least(ys), largest(xs), largest(ys)];
   }
 
   draw() {
-    const { pose, contact, handle, headName, handleName, circle } = this.scene;
+    const { pose, circle } = this.scene;
     if (this.view.fitted && this.#bounds && this.view.width) this.view.fit(this.#bounds);
     const [pen, colours] = [new Pen(this.canvas, this.view), this.#colours];
-    if (this.#path) pen.stroke(this.#path, colours.path);
+    for (const layer of this.below) layer(pen, colours);
+    if (this.#path) this.#drawPath(pen);
     if (circle > 0) pen.stroke(pen.circle(0, 0, circle * pen.scale), colours.circle, 1.5);
-    if (!pose) return;
+    const { metres, pixels } = scaleBar(this.view.scale);
+    pen.bar(`${metres} m`, pixels, colours.text, colours.card);
+    if (pose) this.#drawDragon(pen);
+    for (const layer of this.above) layer(pen, colours);
+  }
+
+  #drawDragon(pen) {
+    const { pose, contact, handle, headName, handleName } = this.scene;
+    const colours = this.#colours;
     this.#grounds(pen);
     this.#benches(pen);
-    pen.stroke(this.#bench(0), colours.head, 2.5);
+    pen.stroke(this.bench(0), colours.head, 2.5);
+    this.#drawWay(pen);
     if (contact) this.#pair(pen);
     if (contact?.point) pen.stroke(pen.circle(...contact.point, 9), colours.text, 3);
     const [x, y] = [pose.x[0], pose.y[0]];
@@ -175,19 +249,52 @@ export class Dance {
       pen.stroke(pen.circle(x, y, 8), colours.pick, 3);
       if (handle > 0) pen.label(handleName, x, y, colours.pick, colours.card);
     }
-    if (!this.inset.hidden && contact?.point) this.#drawInset();
+    if (contact?.point) this.#drawInset();
   }
 
-  #bench(k, path = new Path2D()) {
+  /** How many handles, and how often the point of contact, lie in each rectangle {left, top, right, bottom} [px]. */
+  covered(rectangles) {
+    const { pose, contact } = this.scene;
+    const places = Array.from(pose.x, (x, k) => this.view.toScreen(x, pose.y[k]));
+    if (contact?.point) places.push(...Array(places.length).fill(this.view.toScreen(...contact.point)));
+    return rectangles.map(({ left, top, right, bottom }) => places.filter(([x, y]) => x > left && x < right && y > top && y < bottom).length);
+  }
+
+  /** The path, with arrows in the direction of travel. */
+  #drawPath(pen) {
+    const { x, y } = this.#points;
+    pen.stroke(this.#path, this.drawn ? this.#colours.drawn : this.#colours.path, this.drawn ? 2 : 1);
+    for (let k = 1; k <= ARROWS; k++) {
+      const at = Math.round((k * (x.length - 1)) / (ARROWS + 1));
+      if (at > 0) pen.stroke(pen.tip(x[at], y[at], x[at] - x[at - 1], y[at] - y[at - 1], ARROW), this.#colours.circle, 1.5);
+    }
+  }
+
+  /** An arrow before the head. */
+  #drawWay(pen) {
+    const { pose: { x, y }, dragon } = this.scene;
+    const [dx, dy] = [x[0] - x[1], y[0] - y[1]];
+    const reach = (dragon.overhang + AHEAD / pen.scale) / Math.hypot(dx, dy);
+    const [tx, ty] = [x[0] + dx * reach, y[0] + dy * reach];
+    const shaft = new Path2D();
+    shaft.moveTo(x[0] + (dx * dragon.overhang) / Math.hypot(dx, dy), y[0] + (dy * dragon.overhang) / Math.hypot(dx, dy));
+    shaft.lineTo(tx, ty);
+    shaft.addPath(pen.tip(tx, ty, dx, dy, 1.6 * ARROW));
+    pen.stroke(shaft, this.#colours.head, 2.5);
+  }
+
+  /** Outline of bench k as it is drawn. */
+  bench(k, path = new Path2D()) {
     return trace(path, outline(this.scene.pose, this.scene.dragon, k));
   }
 
   #benches(pen) {
-    const { pose } = this.scene;
-    const [low, high] = speedRange(pose);
+    const { pose, speeds } = this.scene;
+    const [low, high] = speeds ?? speedRange(pose);
     const paths = this.#palette.map(() => new Path2D());
-    const shade = (speed) => (low === null ? SHADES - 1 : Math.round(((speed - low) * (SHADES - 1)) / (high - low)));
-    for (let k = pose.x.length - 2; k >= 0; k--) this.#bench(k, paths[shade(pose.speed[k])]);
+    const share = (speed) => Math.min(Math.max((speed - low) / (high - low), 0), 1);
+    const shade = (speed) => (low === null || high - low < SPEED_SPREAD_MIN ? SHADES - 1 : Math.round(share(speed) * (SHADES - 1)));
+    for (let k = pose.x.length - 2; k >= 0; k--) this.bench(k, paths[shade(pose.speed[k])]);
     const all = new Path2D();
     paths.forEach((path, k) => {
       pen.fill(path, this.#palette[k]);
@@ -208,7 +315,7 @@ export class Dance {
   /** The two benches that touch. */
   #pair(pen) {
     this.scene.contact.benches.forEach((bench, k) => {
-      const path = this.#bench(bench);
+      const path = this.bench(bench);
       pen.fill(path, this.#colours[k ? "second" : "first"]);
       pen.stroke(path, this.#colours.text);
     });

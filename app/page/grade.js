@@ -10,11 +10,18 @@ const COLOURS = { ".": "--line", o: "--undecided", "#": "--contact", "?": "--bor
 const OUTCOMES = { right: "clear", rounded: "clear", incomplete: "undecided", wrong: "contact", unreadable: "contact" };
 const MARKS = { right: "✓", rounded: "✓", incomplete: "!", wrong: "✕", unreadable: "✕" };
 const CELL = 6;
+/** What each mark of a picture means. */
+const MEANINGS = { ".": "mark_right", o: "mark_rounded", "#": "mark_wrong", "?": "mark_missing" };
+/** Numbers as they may be typed, and an example of each. */
+const NUMBER = /^[0-9]{1,6}(\.[0-9]{1,15})?$/;
+const EXAMPLES = { collision_time: "412.473838", pitch: "0.450338", turn_length: "13.621245", speed: "1.246266" };
+const TOO_LONG = /^The body must be at most (\d+) bytes/;
 
 export class Grader {
   #files = [];
   #answers = [];
   #language = null;
+  #working = "";
 
   constructor(service) {
     this.service = service;
@@ -33,6 +40,7 @@ export class Grader {
       $("#typed").reset();
       this.#files = [];
       this.#answers = [];
+      this.#working = "";
       this.show();
     });
   }
@@ -46,6 +54,7 @@ export class Grader {
 
   show() {
     $("#grades").replaceChildren(...this.#answers.flatMap(({ answer, refused }) => (refused ? [refused] : boxes(answer))));
+    if (this.#working) $("#grades").append(make("p", { className: "hint", role: "status", textContent: this.#working }));
   }
 
   #take(files) {
@@ -54,24 +63,39 @@ export class Grader {
   }
 
   async #grade() {
-    const numbers = ANSWERS.map((name) => [name, $(`#typed-${name}`).value.trim()]).filter(([, text]) => text);
+    const given = ANSWERS.map((name) => [name, $(`#typed-${name}`).value.trim()]).filter(([, text]) => text);
+    const numbers = given.filter(([, text]) => NUMBER.test(text));
     const asked = this.#files.map((file) => [{ name: file.name.slice(-200), language: this.#language }, file]);
     if (numbers.length) asked.unshift([{ language: this.#language, ...Object.fromEntries(numbers) }, undefined]);
-    const found = [];
+    const wrong = given.filter(([, text]) => !NUMBER.test(text));
+    const found = wrong.map(([name, text]) => {
+      const what = say(`typed_${name}`);
+      return refusedBox(what, { textContent: say("noNumber", { what, text, example: EXAMPLES[name] }) });
+    });
     this.#answers = found;
-    for (const [query, file] of asked) {
+    for (const [k, [query, file]] of asked.entries()) {
+      this.#working = say("grading", { name: file?.name ?? say("typed"), k: k + 1, count: asked.length });
+      this.show();
       try {
         found.push({ answer: await this.service.ask("grade", "grade", { query, file: file ?? new Blob() }) });
       } catch (error) {
         if (error instanceof Superseded) return;
         if (!(error instanceof Problem)) throw error;
-        const heading = make("h3", { textContent: file?.name ?? say("typed") });
-        found.push({ refused: make("div", { className: "answer" }, heading, make("p", { className: "error", ...refusalWords(error.message) })) });
+        const most = TOO_LONG.exec(error.message)?.[1];
+        const words = most ? { textContent: say("fileTooLong", { most: most / 1e6 }) } : refusalWords(error.message);
+        found.push(refusedBox(file?.name ?? say("typed"), words));
       }
       if (this.#answers !== found) return;
       this.show();
     }
+    this.#working = "";
+    this.show();
   }
+}
+
+function refusedBox(title, words) {
+  const heading = make("h3", { textContent: title });
+  return { refused: make("div", { className: "answer" }, heading, make("p", { className: "error", ...words })) };
 }
 
 const paragraph = (textContent, className = "") => make("p", { textContent, className });
@@ -79,8 +103,9 @@ const paragraph = (textContent, className = "") => make("p", { textContent, clas
 /** The boxes of one answer of the service. */
 function boxes({ files, answers }) {
   const typed = answers.map((one) => {
-    const { found, expected, unit, verdict } = one;
-    const right = verdict === "right" ? [] : [paragraph(say("rightIs", { value: expected.toFixed(9), unit }))];
+    const { found, expected, unit, verdict, digits, notes } = one;
+    const graded = [...(verdict === "right" ? [say("digitsGo", { digits })] : []), ...notes].map((words) => paragraph(words));
+    const right = verdict === "right" ? graded : [paragraph(say("rightIs", { value: expected.toFixed(9), unit }))];
     return box(`${say(`typed_${one.answer}`)}: ${found} ${unit}`, verdict, [...right, ...diagnosis(one)]);
   });
   return [...typed, ...files.map(fileBox)];
@@ -110,18 +135,30 @@ function fileBox(file) {
 }
 
 function sheetParts(sheet) {
-  const { right, cells, verdict, worst, first, picture, notes } = sheet;
+  const { right, cells, decimals, worst, first, picture, notes } = sheet;
   const title = sheet.sheet || say(`holds_${sheet.holds}`);
-  const line = say("sheetIs", { title, verdict: say(`verdict_${verdict}`), right, cells });
+  const word = say(`verdict_${sheet.verdict}`);
+  const verdict = decimals ? say("toDecimals", { verdict: word, decimals }) : word;
+  const line = say("sheetIs", { title, verdict, right, cells });
   const parts = [paragraph(line, "sheet"), ...notes.map((one) => paragraph(one))];
-  if (verdict === "wrong")
+  if (["wrong", "rounded"].includes(sheet.verdict))
     for (const [key, cell] of Object.entries({ worstCell: worst, firstCell: first })) {
       const { found, expected, time } = cell;
       const values = { ...cell, found: found.toFixed(6), expected: expected.toFixed(6), time: Number(time.toFixed(6)) };
       parts.push(paragraph(say(key, values)));
     }
-  if (picture.some((line) => /[^.]/.test(line))) parts.push(drawn(picture));
+  if (picture.some((line) => /[^.]/.test(line))) parts.push(drawn(picture), legend(picture.join("")));
   return parts;
+}
+
+/** What the colours of a picture mean. */
+function legend(marks) {
+  const entries = Object.keys(MEANINGS).filter((mark) => marks.includes(mark)).flatMap((mark) => {
+    const colour = make("span", { "aria-hidden": "true", textContent: "■ " });
+    colour.style.color = `var(${COLOURS[mark]})`;
+    return [colour, `${say(MEANINGS[mark])}  `];
+  });
+  return make("p", { className: "hint legend" }, ...entries);
 }
 
 /** A picture of where the wrong cells are: handles from the top, instants from the left. */

@@ -1,6 +1,6 @@
 /** The charts of the page: what each shows of the answers, its reading and its help. */
 
-import { centimetres, gapWords, outcomeWords } from "./answers.js";
+import { centimetres, gapWords, instantWords, outcomeWords } from "./answers.js";
 import { Chart, clearancePlan, curvePlan, scanPlan } from "./charts.js";
 import { $, make } from "./elements.js";
 import { CONTACT, strayOf } from "./state.js";
@@ -33,11 +33,11 @@ export class Graphs {
     $("#scan .hint").textContent = sayOf("scanHelp", asked) + (strayOf(asked) > 0 ? say("scanStray") : "");
   }
 
-  /** Show a refusal in place of the chart of this kind, if there is one. */
+  /** Show a refusal in place of the chart of this kind, if there is one. message: null if it stands elsewhere */
   refuse(kind, message) {
     if (!(kind in this.#charts)) return;
     this.#charts[kind].show(null);
-    $(`#${kind} .reading`).replaceChildren(make("span", refusalWords(message)));
+    $(`#${kind} .reading`).replaceChildren(make("span", message ? refusalWords(message) : { textContent: say("told") }));
   }
 
   clearance() {
@@ -57,31 +57,35 @@ export class Graphs {
     const k = Math.min(Math.round((now - dance.begin) / step), answer.time.length - 1);
     const [a, b] = answer.benches[k].map((bench) => benchName(bench, dance.numbers.benches));
     const gap = gapWords(answer.clearance[k]);
-    $("#clearance .reading").textContent = say("clearanceAt", { time: answer.time[k].toFixed(2), gap, a, b });
+    $("#clearance .reading").textContent = say("clearanceAt", { time: instantWords(k === answer.time.length - 1 ? dance.end : answer.time[k], dance), gap, a, b });
   }
 
   /** How far people may stray against the pitch, with the stray asked about and the minimum pitch for it. */
   curve() {
     const { curve, minimum, tolerance } = this.questions.answers;
     if (!curve) return;
-    const [own, least] = minimum ? [strayOf(minimum.query), minimum.answer.pitch] : [0, null];
+    const [own, least] = minimum ? [strayOf(minimum.asked), minimum.answer.pitch] : [0, null];
     this.#charts.curve.show({ ...curve.answer, own, least });
-    const pitch = tolerance?.query?.pitch ?? null;
+    const pitch = tolerance?.asked.pitch ?? null;
     this.#charts.curve.now(pitch && Number(pitch));
     const words = () => say("curveAt", { pitch, stray: centimetres(tolerance.answer.stray) });
     $("#curve .reading").textContent = pitch ? words() : "";
   }
 
-  scan() {
-    const { answer, query } = this.questions.answers.scan;
-    this.#charts.scan.show({ ...answer, circle: Number(query.turning_diameter) / 2 });
+  /** The first look at the staircase, or all of it. kind: look or scan */
+  scan(kind) {
+    const { answer, asked } = this.questions.answers[kind];
+    const coarse = kind === "look";
+    $("#scan").classList.toggle("coarse", coarse);
+    this.#charts.scan.show({ ...answer, circle: Number(asked.turning_diameter) / 2, coarse });
     this.pitch();
   }
 
   /** Mark the dance shown where the head stops against the pitch. */
   pitch() {
     const { answer, numbers, kind } = this.questions.dance ?? {};
-    if (!this.questions.answers.scan || !answer) return;
+    const { look, scan } = this.questions.answers;
+    if (!(scan ?? look) || !answer || kind === "route") return;
     const { pitch } = numbers;
     this.#charts.scan.now(pitch);
     // With a stray the head need not stop there.
@@ -89,6 +93,6 @@ export class Graphs {
     const words = stops
       ? say("scanAt", { pitch, radius: answer.head.radius.toFixed(6) })
       : `${say("pitch")} ${pitch} m: ${outcomeWords(answer, numbers)}`;
-    $("#scan .reading").textContent = kind === "spiral" ? words : "";
+    $("#scan .reading").textContent = [kind === "spiral" && words, !scan && say("scanLook")].filter(Boolean).join(" · ");
   }
 }

@@ -9,6 +9,8 @@ const STORED = "bench-dragon-jobs";
 const REMEMBERED = 50;
 /** Between two looks at a job that is not finished [ms]. */
 const LOOK = 1_000;
+/** Ends of the names of files, by their type. */
+const ENDINGS = { "video/mp4": ".mp4", "image/gif": ".gif", "application/json": ".json", "text/csv": ".csv" };
 const UNFINISHED = ["accepted", "running"];
 const STATES = { accepted: "jobWaits", running: "jobRuns", successful: "jobDone", failed: "jobFailed", dismissed: "jobDismissed" };
 
@@ -35,14 +37,18 @@ export class Jobs {
     this.#look();
   }
 
-  get #headers() {
+  get headers() {
     const token = $("#token").value.trim();
     return token ? { Authorization: `Bearer ${token}` } : {};
   }
 
   /** Start a sweep. throws: Problem */
   async start(spec) {
-    const status = await this.service.ask("sweep", "sweeps", { body: spec, headers: this.#headers });
+    this.add(await this.service.ask("sweep", "sweeps", { body: spec, headers: this.headers }), spec);
+  }
+
+  /** Follow a job that has begun. spec: {question, over} */
+  add(status, spec) {
     this.#jobs = new Map([[status.jobID, { spec, status, shown: false }], ...this.#jobs]);
     this.#remember();
     this.announce(say("jobStarted"));
@@ -61,7 +67,7 @@ export class Jobs {
   async #listAll() {
     if (!$("#token").value.trim()) return;
     try {
-      const { jobs } = await this.service.ask("jobs", "jobs", { headers: this.#headers });
+      const { jobs } = await this.service.ask("jobs", "jobs", { headers: this.headers });
       for (const status of jobs) this.#jobs.set(status.jobID, { ...this.#jobs.get(status.jobID), status });
       this.render();
       this.#look();
@@ -148,7 +154,7 @@ export class Jobs {
     const isTable = status.processID === "sweep" && type === "application/json";
     const buttons = make("span", { className: "buttons" });
     if (href && isTable) buttons.append(button("jobMap", () => this.#open(id, job)));
-    if (href) buttons.append(make("a", { href: `jobs/${id}/result`, download: `${status.processID}-${id.slice(0, 8)}`, textContent: say("jobResult") }));
+    if (href) buttons.append(make("a", { href: `jobs/${id}/result`, download: `${status.processID}-${id.slice(0, 8)}${ENDINGS[type] ?? ""}`, textContent: say("jobResult") }));
     buttons.append(button(going ? "jobCancel" : "jobRemove", () => this.#end(id)));
     row.append(buttons);
     if (status.problem) row.append(make("p", { className: "error", ...refusalWords(status.problem.detail) }));
@@ -157,7 +163,8 @@ export class Jobs {
 }
 
 function what(process, spec) {
-  if (!spec) return process === "sweep" ? say("sweep") : process;
+  if (process !== "sweep") return process === "films" ? say("keepFilm") : process;
+  if (!spec) return say("sweep");
   const names = Object.keys(spec.over).map((name) => say(name));
   return say("sweepOver", { question: say(`sweep_${spec.question}`), names: names.join(say("and")) });
 }

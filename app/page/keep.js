@@ -1,32 +1,118 @@
-/** What a person can keep: the link, files, and the command that gives the same answer. */
+/** What a person can keep: the link, files of every kind, a film, and the command that gives the same. */
 
 import { Problem, Superseded } from "./api.js";
 import { $, make, onClick } from "./elements.js";
-import { strayOf } from "./state.js";
-import { say } from "./text.js";
+import { isPlain } from "./questions.js";
+import { CONTACT, DRAGON, TURN, strayOf } from "./state.js";
+import { refusalWords, say } from "./text.js";
 
 const CSV_STEP = 1;
+const TYPES = {
+  CSV: "text/csv",
+  XLSX: "application/vnd.openxmlformats-officedocument.spreadsheetml.sheet",
+  Arrow: "application/vnd.apache.arrow.file",
+  JSON: "application/json",
+  SVG: "image/svg+xml",
+  PNG: "image/png",
+  MP4: "video/mp4",
+  GIF: "image/gif",
+  GeoJSON: "application/geo+json",
+  DXF: "image/vnd.dxf",
+  KML: "application/vnd.google-earth.kml+xml",
+  A4: "application/pdf",
+  A3: "application/pdf",
+};
+/** What can be kept, in the order of the page: its forms, and the method that says what is asked; as a job if it is slow. */
+const ITEMS = [
+  { key: "keepTrajectory", forms: ["CSV", "XLSX", "Arrow", "JSON"], ask: "trajectory", file: "trajectory" },
+  { key: "keepPicture", forms: ["PNG"], file: "dance" },
+  { key: "keepInstant", forms: ["SVG", "PNG"], ask: "instant", file: "instant" },
+  { key: "keepContact", forms: ["SVG", "PNG"], ask: "contact", file: "first-contact" },
+  { key: "keepStairs", forms: ["SVG", "PNG"], ask: "stairs", file: "pitch-scan" },
+  { key: "keepFilm", forms: ["MP4", "GIF"], ask: "film", job: true },
+  { key: "keepGround", forms: ["GeoJSON", "DXF", "JSON"], ask: "ground", file: "envelope" },
+  { key: "keepPlan", forms: ["A4", "A3"], ask: "plan", file: "plan" },
+  { key: "keepMap", forms: ["GeoJSON", "KML", "DXF"], ask: "map", file: "map" },
+  { key: "keepAnswer", forms: ["JSON"], ask: "answer", file: "first-contact" },
+  { key: "keepVerdict", forms: ["JSON"], ask: "verdict", file: "check" },
+  { key: "keepPitch", forms: ["JSON"], ask: "pitch", file: "minimum-pitch" },
+  { key: "keepStray", forms: ["JSON"], ask: "stray", file: "tolerance" },
+  { key: "keepClearance", forms: ["JSON"], ask: "clearance", file: "clearance" },
+  { key: "keepPaper", forms: ["JSON"], ask: "paperAsked", file: "paper" },
+];
+/** The name of a file in this form. */
+const named = (file, form) => (TYPES[form] === TYPES.A4 ? `${file}-${form}.pdf` : `${file}.${form}`).toLowerCase();
+/** Commands besides those of the items: of what the page shows, and of a proof. */
+const SHOWN = "keepShown";
+const PROOF = "keepProof";
 
 export class Keep {
-  /** announce(words): reports what happened */
-  constructor(state, service, questions, canvas, announce) {
-    Object.assign(this, { service, questions, canvas, announce });
+  /** jobs: where a film is made; announce(words): reports what happened */
+  constructor({ state, service, questions, jobs, canvas, announce }) {
+    Object.assign(this, { state, service, questions, jobs, canvas, announce });
     onClick("#share", () => {
       state.write();
       this.#copy(location.href);
     });
     onClick("#copy-curl", () => this.#copy($("#curl").textContent));
-    for (const kind of ["csv", "png", "figure", "json"]) onClick(`#${kind}`, () => this.#save(kind));
+    $("#kept").append(...ITEMS.map((item) => this.#row(item)));
+    const keys = [SHOWN, ...ITEMS.filter(({ ask }) => ask).map(({ key }) => key), PROOF];
+    $("#curl-of").append(...keys.map((key) => make("option", { value: key, "data-text": key })));
+    $("#curl-of").addEventListener("change", () => this.show());
+    $("#paper").addEventListener("toggle", () => $("#paper").open && this.paper());
   }
 
-  /** The commands for the dance that is shown. */
+  #row(item) {
+    const buttons = item.forms.map((form) => {
+      const button = make("button", { type: "button", id: `${item.key}-${form}`, textContent: form, "data-keep": item.key, "data-form": form });
+      button.addEventListener("click", () => this.#save(item, form));
+      return button;
+    });
+    return make("li", {}, make("span", { "data-text": item.key }), make("span", { className: "buttons" }, ...buttons));
+  }
+
+  /** Name each button after what it keeps. */
+  translate() {
+    for (const button of $("#kept").querySelectorAll("button")) button.setAttribute("aria-label", `${say(button.dataset.keep)}, ${button.dataset.form}`);
+    if (this.questions.dance) this.show();
+  }
+
+  /** Offer only what this service can write. paths: of its OpenAPI document */
+  offer(paths) {
+    const types = new Set();
+    for (const calls of Object.values(paths)) {
+      for (const { responses } of Object.values(calls)) for (const type of Object.keys(responses?.[200]?.content ?? {})) types.add(type);
+    }
+    for (const button of $("#kept").querySelectorAll("button")) button.hidden = !types.has(TYPES[button.dataset.form]);
+  }
+
+  /** The commands for what is chosen. */
   show() {
-    const { dance } = this.questions;
+    const wanted = $("#curl-of").value;
+    const item = ITEMS.find(({ key }) => key === wanted);
+    const lines = { [SHOWN]: () => [this.#curl(this.answer()), this.#curl(this.trajectory())], [PROOF]: () => [this.#proof()] };
+    $("#curl").textContent = (lines[wanted] ?? (() => [this.#curl(this[item.ask](item.forms[0]), item)]))().join("\n");
+  }
+
+  /** The command for a question; item: whose first form goes into a file */
+  #curl({ path, query, body }, item) {
     const base = new URL("./", location).href;
-    const post = (path, body) => `curl '${base}${path}' -H 'Content-Type: application/json' -d '${JSON.stringify(body)}'`;
-    const get = () => `curl '${base}collision-time?${new URLSearchParams(dance.query)}'`;
-    const contact = dance.kind === "spiral" ? get() : post("check", this.questions.checkBody(dance));
-    $("#curl").textContent = `${contact}\n${post("trajectory", this.#table())}`;
+    const url = query ? `${path}?${new URLSearchParams(query)}` : path;
+    const sent = body ? ` -H 'Content-Type: application/json' -d '${JSON.stringify(body).replaceAll("'", "'\\''")}'` : "";
+    const form = item?.forms[0];
+    const kept = form && form !== "JSON" ? ` -H 'Accept: ${TYPES[form]}' -o ${named(item.file ?? "dance", form)}` : "";
+    return `curl '${base}${url}'${sent}${kept}`;
+  }
+
+  /** The command that proves in ball arithmetic what is shown. */
+  #proof() {
+    const { kind, numbers, answer, begin, end } = this.questions.dance;
+    if (kind === "route" || !isPlain(this.questions.dance)) return "bench-dragon prove dance dance.json";
+    const claim = kind === "turn" ? "turn" : answer.outcome === "clear" ? "clear" : "collision-time";
+    const names = [...DRAGON, "pitch", "start_turns", ...(kind === "turn" ? TURN : []), "head_speed", "margin"];
+    const known = names.filter((name) => numbers[name] !== undefined).map((name) => `--${name.replaceAll("_", "-")} ${numbers[name]}`);
+    if (kind === "turn") known.push(`--start=${begin}`, `--stop=${end}`);
+    return `bench-dragon prove ${claim} ${known.join(" ")}\nbench-dragon prove --check ${claim}.proof.json`;
   }
 
   async #copy(text) {
@@ -38,57 +124,128 @@ export class Keep {
     }
   }
 
-  async #save(kind) {
+  async #save(item, form) {
     if (!this.questions.dance) return;
     try {
-      const [download, blob] = await this[kind]();
-      const link = make("a", { href: URL.createObjectURL(blob), download });
+      if (item.job) return await this.#begin(item, form);
+      this.announce(say("making", { name: say(item.key) }));
+      const blob = item.ask ? await this.#asked(this[item.ask](form), form) : await this.#picture();
+      const link = make("a", { href: URL.createObjectURL(blob), download: named(item.file, form) });
       link.click();
       setTimeout(() => URL.revokeObjectURL(link.href), 10_000);
-      this.announce(say("saved", { name: download }));
+      this.announce(say("saved", { name: link.download }));
     } catch (error) {
-      if (error instanceof Problem) this.announce(error.message);
+      if (error instanceof Problem) this.announce(refusalWords(error.message).textContent);
       else if (!(error instanceof Superseded)) throw error;
     }
   }
 
-  #table() {
+  async #asked({ path, asked, ...question }, form) {
+    const answer = await this.service.ask(`keep ${path} ${form}`, path, { ...question, accept: TYPES[form] });
+    return form === "JSON" ? new Blob([JSON.stringify(answer, null, 2)], { type: TYPES.JSON }) : form === "GeoJSON" ? new Blob([JSON.stringify(answer)]) : answer;
+  }
+
+  /** Begin a job, whose result stands among the jobs. */
+  async #begin({ ask }, form) {
+    const { path, body } = this[ask](form);
+    const headers = { Prefer: "respond-async", ...this.jobs.headers };
+    this.jobs.add(await this.service.ask(`keep ${form}`, path, { body, headers, accept: `${TYPES[form]}, application/json;q=0.1` }), { question: path, over: {} });
+  }
+
+  trajectory() {
     const { begin, end } = this.questions.dance;
-    return this.questions.body({ times: { start: begin, stop: end, step: CSV_STEP } });
+    return { path: "trajectory", body: this.questions.body({ times: { start: begin, stop: end, step: CSV_STEP } }) };
   }
 
-  async csv() {
-    return ["trajectory.csv", await this.service.ask("csv", "trajectory", { body: this.#table(), accept: "text/csv" })];
-  }
-
-  async png() {
+  async #picture() {
     const { width, height } = this.canvas;
     const copy = make("canvas", { width, height });
     const context = copy.getContext("2d");
     context.fillStyle = getComputedStyle(this.canvas).backgroundColor;
     context.fillRect(0, 0, width, height);
     context.drawImage(this.canvas, 0, 0);
-    return ["dance.png", await new Promise((resolve) => copy.toBlob(resolve, "image/png"))];
+    return new Promise((resolve) => copy.toBlob(resolve, "image/png"));
   }
 
-  async figure() {
+  #figure(name, form, asked) {
+    return { path: `figures/${name}.${form.toLowerCase()}`, ...asked };
+  }
+
+  instant(form) {
+    const { begin, end } = this.questions.dance;
+    const time = Math.min(Math.max(this.state.get("time") ?? end, begin), end);
+    return this.#figure("trajectory", form, { body: this.questions.body({ time }) });
+  }
+
+  contact(form) {
     const { kind, query, numbers, end } = this.questions.dance;
-    const { stray, hole, pin, ...flat } = query;
     // The figure of a contact has everybody in their place: with a stray, the figure is that of the last instant shown.
-    const strays = strayOf(query) > 0;
-    const body = this.questions.body(strays ? { time: end } : { margin: numbers.margin });
-    const asked = kind === "spiral" && !strays ? { query: flat } : { body };
-    const path = `figures/${strays ? "trajectory" : "contact"}.svg`;
-    const blob = await this.service.ask("figure", path, { ...asked, accept: "image/svg+xml" });
-    return [strays ? "dance.svg" : "first-contact.svg", blob];
+    if (strayOf(query) > 0) return this.#figure("trajectory", form, { body: this.questions.body({ time: end }) });
+    const { stray, hole, pin, ...flat } = query;
+    return this.#figure("contact", form, kind === "spiral" && isPlain(this.questions.dance) ? { query: flat } : { body: this.questions.body({ margin: numbers.margin }) });
+  }
+
+  stairs(form) {
+    return this.#figure("pitch-scan", form, this.questions.pitchOf(["margin"]));
+  }
+
+  film() {
+    const { begin, end } = this.questions.dance;
+    return { path: "films", body: this.questions.body({ start: begin, stop: end, language: document.documentElement.lang.slice(0, 2) }) };
+  }
+
+  ground() {
+    const { begin, end } = this.questions.dance;
+    return { path: "envelope", body: this.questions.body({ start: begin, stop: end }) };
+  }
+
+  plan(paper) {
+    return { path: "plan", body: { ...this.questions.checkBody(this.questions.dance), paper, language: document.documentElement.lang.slice(0, 2) } };
+  }
+
+  map(form) {
+    return { path: `maps.${form.toLowerCase()}`, body: this.questions.checkBody(this.questions.dance) };
   }
 
   /** The answer that the command gives; in the one shown, the engines may have judged only the pair. */
-  async json() {
+  answer() {
     const { dance } = this.questions;
-    const path = dance.kind === "spiral" ? "collision-time" : "check";
-    const asked = dance.kind === "spiral" ? { query: dance.query } : { body: this.questions.checkBody(dance) };
-    const text = JSON.stringify(await this.service.ask("json", path, asked), null, 2);
-    return [`${path}.json`, new Blob([text], { type: "application/json" })];
+    if (dance.kind !== "spiral") return this.verdict();
+    return { path: "collision-time", ...(isPlain(dance) ? { query: dance.query } : { body: this.questions.checkBody(dance) }) };
+  }
+
+  verdict() {
+    return { path: "check", body: this.questions.checkBody(this.questions.dance) };
+  }
+
+  pitch() {
+    return { path: "minimum-pitch", ...this.questions.pitchOf(CONTACT) };
+  }
+
+  stray() {
+    return { path: "tolerance", ...this.questions.toleranceOf() };
+  }
+
+  clearance() {
+    const { begin, end } = this.questions.dance;
+    return { path: "clearance", body: this.questions.body({ times: { start: begin, stop: end, step: CSV_STEP } }) };
+  }
+
+  paperAsked() {
+    return { path: "paper" };
+  }
+
+  /** The paper's numbers beside ours, asked for when somebody looks. */
+  async paper() {
+    const { rows, literature } = await this.service.ask("paper", "paper");
+    const head = ["paperWhat", "paperSource", "paperTheirs", "paperOurs"].map((key) => make("th", { scope: "col", "data-text": key, textContent: say(key) }));
+    const line = ({ quantity, unit, source, paper, published, ours, reason, diagnosis }) => {
+      const cells = [source, `${paper ?? published} ${unit}`, `${ours.toFixed(9)} ${unit}`].map((textContent) => make("td", { textContent }));
+      const why = reason ?? diagnosis.map(({ words }) => words).join(" ");
+      const row = make("tr", {}, make("th", { scope: "row", textContent: quantity }), ...cells);
+      return why ? [row, make("tr", {}, make("td", { colSpan: 4, className: "hint", lang: "en", textContent: why }))] : [row];
+    };
+    const table = make("table", {}, make("thead", {}, make("tr", {}, ...head)), make("tbody", {}, ...[...rows, ...literature].flatMap(line)));
+    $("#paper div").replaceChildren(table);
   }
 }

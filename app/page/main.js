@@ -2,22 +2,26 @@
 
 import * as answers from "./answers.js";
 import { Problem, Service } from "./api.js";
-import { Controls } from "./controls.js";
-import { Dance, speedRange } from "./dance.js";
+import { BenchTable } from "./benches.js";
+import { Controls, limitsIn } from "./controls.js";
+import { Dance, spanOf, speedRange } from "./dance.js";
+import { Drawn } from "./drawn.js";
 import { $, $$, onClick } from "./elements.js";
 import { Graphs } from "./graphs.js";
-import { Jobs } from "./jobs.js";
 import { Grader } from "./grade.js";
+import { Jobs } from "./jobs.js";
 import { Keep } from "./keep.js";
+import { announce, markContact, placeInset } from "./overlays.js";
+import { Pace, passagesText, quickened, timeOfDay } from "./pace.js";
 import { Player } from "./player.js";
 import { Questions } from "./questions.js";
 import { SweepMap } from "./map.js";
-import { CONTACT, FIELDS, State, strayOf } from "./state.js";
+import { CONTACT, FIELDS, SAID, State, strayOf } from "./state.js";
 import { QUESTIONS, SweepForm } from "./sweeps.js";
 import { Table } from "./table.js";
 import { handleName, say, setLanguage } from "./text.js";
 
-const NUMBERS = [...FIELDS.map((field) => field.name), "path"];
+const NUMBERS = [...FIELDS.map((field) => field.name), ...SAID, "path", "drawing"];
 /** The boxes that wait for each kind of answer. */
 const BUSY = {
   contact: ["#first-contact", "#run-end"],
@@ -25,6 +29,7 @@ const BUSY = {
   minimum: ["#minimum-pitch"],
   tolerance: ["#tolerance"],
   shortest: ["#shortest-turn"],
+  head: ["#head-speed"],
   fastest: ["#highest-speed"],
   clearance: ["#clearance"],
   curve: ["#curve"],
@@ -32,7 +37,7 @@ const BUSY = {
   grade: ["#grade"],
 };
 /** Titles of the boxes that show a refusal. */
-const TITLES = { contact: "firstContact", minimum: "minimumPitch", tolerance: "tolerance", shortest: "shortestTurn", fastest: "highest" };
+const TITLES = { contact: "firstContact", minimum: "minimumPitch", tolerance: "tolerance", shortest: "shortestTurn", head: "headSpeed", fastest: "highest" };
 const ZOOM = 1.5;
 /** On a run that ends in a fold, a handle this many times faster than the head shows that the fold is near [1]. */
 const FAST = 2;
@@ -44,7 +49,7 @@ const service = new Service({
   },
   lost(seconds) {
     $("#lost").hidden = false;
-    $("#lost span").textContent = say("lost", { seconds });
+    $("#lost span").textContent = say(seconds ? "lost" : "trying", { seconds });
   },
   back() {
     $("#lost").hidden = true;
@@ -62,20 +67,20 @@ const dance = new Dance($("#canvas"), $("#inset canvas"), {
 });
 const player = new Player(state, questions, showPose, showTable);
 const controls = new Controls($("#controls"), state);
+const benches = new BenchTable($("[data-group=dragon]"), state);
+const pace = new Pace($("[data-field=head_speed]"), state);
 const table = new Table($("#rows"), { choose, chosen: (handle) => state.set({ handle }) });
 const graphs = new Graphs(state, questions, (time) => player.seek(time));
-const keep = new Keep(state, service, questions, $("#canvas"), announce);
+const route = new Drawn({ state, service, questions, dance, announce, draw });
 const map = new SweepMap($("#map"), openDesign);
 const jobs = new Jobs($("#jobs"), service, showMap, announce);
+const keep = new Keep({ state, service, questions, jobs, canvas: $("#canvas"), announce });
 new SweepForm($("#sweep"), state, (spec) => jobs.start(spec));
 let swept = null;
 const grader = new Grader(service);
 let limits = {};
 let drawing = 0;
-
-function announce(words) {
-  $("#status").textContent = words;
-}
+let opened = false;
 
 function draw() {
   drawing ||= requestAnimationFrame(() => {
@@ -83,6 +88,7 @@ function draw() {
     const { pose } = dance.scene;
     if (state.get("follow") && pose) dance.view.set(pose.x[0], pose.y[0]);
     dance.draw();
+    if (dance.scene.pose) placeInset((rectangles) => dance.covered(rectangles));
   });
 }
 
@@ -104,13 +110,14 @@ function showPose(pose) {
   const { answer: touching, dance: of } = questions.answers.gap ?? {};
   const gap = of === questions.dance ? touching.clearance[0] : null;
   if (contact) $("#inset figcaption").textContent = answers.insetWords(contact, gap, numbers);
-  const [low, high] = speedRange(pose);
+  const [low, high] = dance.scene.speeds ?? speedRange(pose);
   const [least, largest] = $$("#legend span");
-  least.textContent = low === null ? say("allEqual") : low.toFixed(6);
   const speed = high.toFixed(6);
-  largest.textContent = nearFold(pose) ? say("legendFold", { speed }) : `${speed} m/s`;
+  least.textContent = low === null || low.toFixed(6) === speed ? say("allEqual") : low.toFixed(6);
+  largest.textContent = answers.foldOf(questions.dance.answer) === null ? `${speed} m/s` : say("legendFold", { speed });
   showHandle();
   if (pose.dance) showTable(pose);
+  route.posed(pose);
   showTime();
   draw();
 }
@@ -124,12 +131,8 @@ function showHandle() {
   return name;
 }
 
-/** Time of the fold [s] if the dance ends in one and speeds already grow without bound towards it; else null. */
-function nearFold(pose) {
-  const { answer, numbers } = questions.dance;
-  const folds = answer.outcome === "clear" && answer.end?.reason === "fold";
-  return folds && speedRange(pose)[1] > FAST * numbers.head_speed ? answer.end.time : null;
-}
+/** Time of the fold [s] if speeds already grow without bound towards it; else null. */
+const nearFold = (pose) => (speedRange(pose)[1] > FAST * questions.dance.numbers.top_speed ? answers.foldOf(questions.dance.answer) : null);
 
 function showTable(pose) {
   table.show(pose);
@@ -142,10 +145,12 @@ function showTable(pose) {
 
 function showTime() {
   const { time } = player;
-  const text = `${time.toFixed(2)} s`;
+  // At rest an instant has the same digits everywhere; in motion nobody could read them.
+  const text = `${player.playing || !questions.dance ? time.toFixed(2) : answers.instantWords(time, questions.dance)} s`;
   $("#time").value = time;
   $("#time").setAttribute("aria-valuetext", text);
-  $("#clock").textContent = text;
+  const clock = state.get("start_clock");
+  $("#clock").textContent = clock ? `${text}\n${timeOfDay(time, clock)}` : text;
   graphs.time(time);
 }
 
@@ -154,27 +159,58 @@ const SHOW = {
   dance() {
     const { answer, numbers, begin, end } = questions.dance;
     Object.assign($("#time"), { min: begin, max: end });
+    markContact(answer, begin, end);
+    $("#verdict").hidden = false;
+    $("#verdict").textContent = answers.verdictWords(answer, numbers);
     answers.showFirstContact($("#first-contact"), answer, numbers);
     answers.showEnd($("#run-end"), answer, end, numbers);
     graphs.pitch();
     keep.show();
+    route.judged();
     player.update();
+    if (state.opensInMotion && !opened) player.open();
+    opened = true;
   },
   minimum() {
-    const { answer, query } = questions.answers.minimum;
-    answers.showMinimumPitch($("#minimum-pitch"), answer, query, (pitch) => state.set({ pitch: String(pitch) }));
+    const { answer, asked } = questions.answers.minimum;
+    // In a turn the pitch of the spiral inwards would lead to a collision.
+    const turns = state.get("path") === "turn";
+    const use = (pitch) => {
+      if (turns) state.choosePath("spiral");
+      state.set({ pitch: String(pitch) });
+    };
+    answers.showMinimumPitch($("#minimum-pitch"), answer, asked, turns ? "danceSpiral" : "usePitch", use);
     graphs.curve();
   },
   tolerance() {
-    const { answer, query, body } = questions.answers.tolerance;
-    answers.showTolerance($("#tolerance"), answer, Number(query?.benches ?? body.dragon.benches), query?.turning_diameter);
+    const { answer, asked } = questions.answers.tolerance;
+    answers.showTolerance($("#tolerance"), answer, Number(asked.benches), asked.turning_diameter);
     graphs.curve();
   },
   curve: () => graphs.curve(),
-  scan: () => graphs.scan(),
+  look() {
+    // The jumps of before belong to other numbers.
+    delete questions.answers.scan;
+    graphs.scan("look");
+  },
+  scan: () => graphs.scan("scan"),
   shortest() {
-    const { answer, query } = questions.answers.shortest;
-    answers.showShortestTurn($("#shortest-turn"), answer, query);
+    const { answer, asked } = questions.answers.shortest;
+    answers.showShortestTurn($("#shortest-turn"), answer, asked, (radius) => state.set({ entry_radius: String(radius) }));
+  },
+  head() {
+    const { answer, asked } = questions.answers.head;
+    answers.showHeadSpeed($("#head-speed"), answer, asked, (speed) => {
+      // The whole dance is played faster or slower.
+      const passages = quickened(state.said().passages, speed / Number(state.get("head_speed")));
+      state.set({ head_speed: String(speed), passages: passagesText(passages) });
+    });
+  },
+  speeds() {
+    const { answer, dance: of } = questions.answers.speeds;
+    const [low, high] = spanOf(answer.speed);
+    dance.scene.speeds = [low, Math.min(high, FAST * of.numbers.top_speed)];
+    if (dance.scene.pose) showPose(dance.scene.pose);
   },
   fastest() {
     const { answer, dance: of } = questions.answers.fastest;
@@ -196,19 +232,29 @@ const TELL = {
   track: () => player.update(false),
   gap: () => dance.scene.pose && showPose(dance.scene.pose),
   path(points) {
-    dance.setPath(points);
+    dance.setPath(points, route.around());
+    route.judged();
+    route.refused();
     draw();
   },
   refused() {
     const { refusals } = questions;
     controls.refuse(questions.errors());
-    $("main").classList.toggle("stale", refusals.has("contact"));
+    benches.refuse(questions.errors().get("csv"));
+    pace.refuse(questions.errors().get("passages"));
+    $("main").classList.toggle("stale", refusals.has("contact") && Boolean(questions.dance));
     // Without a dance there are no further questions.
     if (refusals.has("contact") && !questions.dance) for (const box of $$("[aria-busy=true]")) box.setAttribute("aria-busy", false);
-    for (const [kind, { message }] of refusals) {
-      if (kind in TITLES) answers.showRefusal($(BUSY[kind][0]), TITLES[kind], message);
-      graphs.refuse(kind, message);
+    // Each message stands once: beside its field, or in the first place that it concerns.
+    const told = new Set(questions.errors().values());
+    for (const [kind, { message, errors }] of refusals) {
+      const details = [message, ...errors.map(({ detail }) => detail)];
+      const detail = details.some((one) => told.has(one)) ? null : message;
+      for (const one of details) told.add(one);
+      if (kind in TITLES) answers.showRefusal($(BUSY[kind][0]), TITLES[kind], detail, questions.fieldsOf(kind));
+      graphs.refuse(kind, detail);
     }
+    route.refused();
   },
 };
 
@@ -222,8 +268,13 @@ const SHOW_STATE = {
   turning_diameter: (diameter) => (dance.scene.circle = Number(diameter) / 2),
   path(path) {
     press("path", path);
-    $("#shortest-turn").hidden = path !== "turn";
+    for (const box of ["#shortest-turn", "#head-speed"]) $(box).hidden = path !== "turn";
+    dance.scene.circle = path === "route" ? null : Number(state.get("turning_diameter")) / 2;
+    route.show();
+    if (questions.answers.minimum) SHOW.minimum();
   },
+  drawing: () => route.show(),
+  start_clock: showTime,
   time() {
     showTime();
     player.update();
@@ -260,23 +311,28 @@ function press(name, value) {
 function translate() {
   const language = setLanguage(state.get("lang"));
   press("lang", language);
+  $("#how").href = `how?lang=${language}`;
   grader.translate(language);
   graphs.help();
   controls.translate(limits);
+  benches.show();
+  pace.show();
   player.translate();
   jobs.render();
+  keep.translate();
   map.draw();
   for (const [kind, show] of Object.entries(SHOW)) if (kind === "dance" ? questions.dance : questions.answers[kind]) show();
   if (dance.scene.pose) showPose(dance.scene.pose);
   TELL.refused();
+  route.translate();
 }
 
 function listen() {
   state.listen(showState);
   onClick("#lost button", () => service.retry());
   for (const button of $$("[data-lang]")) button.addEventListener("click", () => state.set({ lang: button.dataset.lang }));
-  for (const button of $$("[data-path]")) button.addEventListener("click", () => state.choosePath(button.dataset.path));
-  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", restyle);
+  for (const button of $$("[data-path]")) button.addEventListener("click", () => (button.dataset.path === "route" ? route.choose() : state.choosePath(button.dataset.path)));
+  for (const query of ["(prefers-color-scheme: dark)", "print"]) matchMedia(query).addEventListener("change", restyle);
   new ResizeObserver(draw).observe($("#stage"));
   const all = () => {
     dance.view.fitted = true;
@@ -297,14 +353,7 @@ function listen() {
     " ": () => player.toggle(),
     Escape: () => state.set({ handle: null }),
   };
-  $("#canvas").addEventListener("keydown", (event) => {
-    if (event.ctrlKey || event.metaKey || event.altKey) return;
-    if (dance.view.key(event.key)) event.preventDefault();
-    else if (keys[event.key]) {
-      event.preventDefault();
-      keys[event.key]();
-    }
-  });
+  dance.view.listen(keys);
 }
 
 function restyle() {
@@ -312,22 +361,22 @@ function restyle() {
   graphs.restyle();
   map.draw();
   grader.show();
-  draw();
+  // Paper does not wait for the next frame.
+  dance.draw();
 }
 
-/** Limits and unit of every number, from the service's OpenAPI document. */
-async function readLimits() {
+/** Limits and units of the numbers, and what this service can write. */
+async function readDocument() {
   const { paths } = await service.ask("openapi", "openapi.json");
-  const parameters = ["/collision-time", "/minimum-pitch"].flatMap((path) => paths[path].get.parameters);
-  const range = ({ minimum, exclusiveMinimum, maximum, "x-unit": unit }) => [minimum ?? exclusiveMinimum, maximum, unit];
-  limits = Object.fromEntries(parameters.map(({ name, schema }) => [name, range(schema)]));
-  map.units = Object.fromEntries(Object.entries(limits).map(([name, [, , unit]]) => [name, unit]));
+  limits = limitsIn(paths);
+  map.units = Object.fromEntries(Object.entries(limits).map(([name, [, , unit]]) => [name, unit === "turns" ? say(unit) : unit]));
   controls.translate(limits);
+  keep.offer(paths);
 }
 
 listen();
 showState(new Set([...Object.keys(SHOW_STATE), "pitch"]));
-readLimits().catch((error) => {
+readDocument().catch((error) => {
   // Without the document the page lacks only the limits and units.
   if (!(error instanceof Problem)) throw error;
 });

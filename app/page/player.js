@@ -32,6 +32,15 @@ export class Player {
     $("#rate").addEventListener("change", (event) => state.set({ rate: Number(event.target.value) }));
   }
 
+  get playing() {
+    return this.#playing;
+  }
+
+  /** Play from the beginning, unless motion is reduced. */
+  open() {
+    if (!this.still.matches && !this.#playing) this.toggle();
+  }
+
   get #span() {
     return this.questions.dance ?? { begin: 0, end: 0 };
   }

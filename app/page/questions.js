@@ -1,15 +1,21 @@
 /** The page's questions to the service: first contact, pose and minimum pitch at once, the others when input pauses. */
 
 import { Problem, Superseded } from "./api.js";
-import { CONTACT, DRAGON } from "./state.js";
+import { pathOf, venueOf } from "./drawing.js";
+import { timeAfter } from "./pace.js";
+import { CONTACT, DRAGON, FIELDS, SAID, TURN, numbersOf } from "./state.js";
 import { Track } from "./track.js";
 
 /** Time without a change after which input counts as paused [ms]. */
 const REST = 250;
 const CLEARANCE_SAMPLES = 400;
+const SPEED_CELLS = 12_000;
 /** The curve of how far people may stray is nearly straight. */
 const CURVE = { samples: 13 };
-/** At a fold the chain is about to break, so the page shows the instant this long before it [s]. */
+/** The first look at the pitch chart, many times faster than the jumps between the samples. */
+const LOOK = { samples: 41, locate: false };
+const nameOf = ({ name, pointer = "" }) => name ?? (pointer.startsWith("/passages") ? "passages" : pointer.split("/").at(-1));
+/** At a fold the chain is about to break, and at its end a path: the page shows the instant this long before it [s]. */
 const BEFORE_END = 1e-6;
 /** Distance between samples of the path [m], and the largest number of samples. */
 const [PATH_STEP, PATH_SAMPLES] = [0.3, 6_000];
@@ -18,22 +24,42 @@ const TURN_TRAVEL = 100;
 
 const MOTION = [...DRAGON, "pitch", "start_turns", "head_speed"];
 const CIRCLE = [...DRAGON, "turning_diameter", "start_turns"];
+const HEAD = [...DRAGON, "pitch", "start_turns", ...TURN, "speed_limit"];
 /** While a slider is dragged, the engines judge only the touching pair. */
 const QUICK = { cross_check: "pair" };
+/** While a path is drawn, nothing is asked but whether it can be danced. */
+const VERDICT = { cross_check: "none", details: false };
+/** Channels on which questions at rest are asked about a drawn dance. */
+const AT_REST = ["speeds", "gap", "clearance", "fastest", "tolerance"];
 /** Refusals of these concern a number that a person entered; others only affect what can be shown. The last one wins. */
-const ABOUT_NUMBERS = ["minimum", "contact"];
+const ABOUT_NUMBERS = ["head", "shortest", "minimum", "contact"];
 
-const numbersOf = (texts) => Object.fromEntries(Object.entries(texts).map(([name, text]) => [name, Number(text)]));
+/** Instants from which the picture takes the colours of the whole dance: fewer with more handles. */
+function speedTimes({ begin, end, numbers: { benches } }) {
+  const count = Math.min(Math.max(Math.floor(SPEED_CELLS / (benches + 1)), 8), 100);
+  return begin < end ? { start: begin, stop: end, step: (end - begin) / count } : [begin];
+}
 
 /** The last instant shown: first contact, or the time until which nothing touches. */
 function lastInstant({ time, time_bracket, end }) {
   return time ?? (end ? end.time - BEFORE_END : time_bracket[0]);
 }
 
+/** Is a dance told by its numbers alone? Then a query can ask about it on a spiral. */
+export const isPlain = ({ said: { csv, passages } }) => !csv && !passages.length;
+
+/** Where a path is danced and how fast: the fields of /check that are not null. */
+function placeOf(drawing) {
+  const [venue, limit] = [venueOf(drawing), drawing.limit];
+  return { ...(venue && { venue }), ...(limit && { speed_limit: limit }) };
+}
+
 export class Questions {
-  /** {kind, query, numbers, answer, begin, end, report: of /check if it answered, track} */
+  /** {kind, query, numbers, said, answer, begin, end, report: of /check if it answered, track; drawn: drawing, failures, verdict} */
   dance = null;
-  /** kind -> {answer, query or body, dance}: the newest, to be shown again in another language */
+  /** The drawn path as the service has it: {s, x, y, knots, bends, drawing} */
+  course = null;
+  /** kind -> {answer, asked: the numbers as texts, query or body, dance}: the newest, to be shown again in another language */
   answers = {};
   /** channel -> Problem */
   refusals = new Map();
@@ -52,20 +78,67 @@ export class Questions {
     clearTimeout(this.#rest);
     this.#rest = setTimeout(() => this.#atRest(), REST);
     const kind = this.state.get("path");
-    const query = this.state.texts([...MOTION, ...CONTACT, ...(kind === "turn" ? ["turning_diameter"] : [])]);
-    if (this.#isNew("contact", { kind, ...query })) this.#askContact({ kind, query, numbers: numbersOf(query) });
-    const circle = this.state.texts([...CIRCLE, ...CONTACT]);
+    if (kind === "route") return this.#refreshDrawn();
+    const query = this.state.texts([...MOTION, ...CONTACT, ...(kind === "turn" ? TURN : [])]);
+    const asked = this.#asking(kind, query);
+    if (this.#isNew("contact", { kind, ...query, ...asked.said })) this.#askContact(asked);
+    const circle = this.#over([...CIRCLE, ...CONTACT]);
     if (!this.#isNew("minimum", circle)) return;
     this.#whole = !this.answers.minimum;
-    this.#keep("minimum", "minimum-pitch", { query: this.#whole ? circle : { ...circle, ...QUICK } });
+    this.#keep("minimum", "minimum-pitch", this.#whole ? circle : this.#over([...CIRCLE, ...CONTACT], QUICK));
+  }
+
+  /** What is asked about a dance of this kind: its numbers, with a table of benches those of the table. */
+  #asking(kind, query) {
+    const said = this.state.said();
+    const numbers = numbersOf(query);
+    numbers.top_speed = Math.max(numbers.head_speed, ...said.passages.map(({ speed }) => Number(speed) || 0));
+    const { listed } = said;
+    if (listed) {
+      const { lengths, widths, overhangs: [overhang] } = listed;
+      Object.assign(numbers, { listed, benches: lengths.length, head_length: lengths[0], body_length: Math.max(...lengths), width: Math.max(...widths), overhang });
+    }
+    return { kind, query, numbers, said };
+  }
+
+  /** A question over these numbers: a query, or a body with the table of benches. */
+  #over(names, more = {}) {
+    const texts = this.state.texts(names);
+    const { csv, listed } = this.state.said();
+    if (!csv) return { asked: texts, query: { ...texts, ...more } };
+    const others = Object.entries(numbersOf(texts)).filter(([name]) => !DRAGON.includes(name));
+    return { asked: { ...texts, benches: listed.lengths.length }, body: { dragon: { csv }, ...Object.fromEntries(others), ...more } };
+  }
+
+  /** The same for a drawn path. */
+  #refreshDrawn() {
+    const asked = this.drawn();
+    const { drawing } = asked;
+    if (!drawing.path && drawing.points.length < 2) return;
+    const { dragon, path } = this.body({}, asked);
+    if (this.#isNew("course", { dragon, path })) this.#askCourse({ dragon, path }, drawing);
+    if (!this.#isNew("contact", this.checkBody(asked))) return;
+    // What the dance before still costs would hold up the verdict on the new one.
+    this.service.drop(AT_REST);
+    for (const channel of AT_REST) this.#asked.delete(channel);
+    this.#askContact(asked);
+  }
+
+  /** What is asked about the drawing as it is now. */
+  drawn() {
+    const query = this.state.texts([...DRAGON, "head_speed", ...CONTACT]);
+    const { numbers, said } = this.#asking("route", query);
+    return { kind: "route", query, numbers: { ...numbers, drawn: true }, said, drawing: this.state.get("drawing") };
   }
 
   /** Body of a request about a dance; default: the dance shown. */
-  body(more, { numbers, kind } = this.dance) {
-    const dragon = Object.fromEntries(DRAGON.map((name) => [name, numbers[name]]));
+  body(more, { numbers, kind, drawing, said: { csv, passages, clock } } = this.dance) {
+    const dragon = csv ? { csv } : Object.fromEntries(DRAGON.map((name) => [name, numbers[name]]));
+    const pace = { head_speed: numbers.head_speed, ...(passages.length && { passages }), ...(clock && { start_clock: clock }) };
+    if (kind === "route") return { dragon, path: pathOf(drawing), ...pace, ...more };
     const path = { kind, pitch: numbers.pitch, start_turns: numbers.start_turns };
-    if (kind === "turn") path.turning_diameter = numbers.turning_diameter;
-    return { dragon, path, head_speed: numbers.head_speed, ...more };
+    if (kind === "turn") for (const name of TURN) path[name] = numbers[name];
+    return { dragon, path, ...pace, ...more };
   }
 
   /** Body of /check: a spiral is danced to its end. */
@@ -74,10 +147,10 @@ export class Questions {
     return this.body({ ...contact, ...this.#stretch(asked) }, asked);
   }
 
-  /** The part of a turn that is danced, as its coils have no end; a spiral is danced to its end. */
-  #stretch({ kind, numbers }) {
-    const time = TURN_TRAVEL / numbers.head_speed;
-    return kind === "turn" ? { start: -time, stop: time } : {};
+  /** The part of a turn that is danced, as its coils have no end; a spiral is danced to its end, a drawn path in its place. */
+  #stretch({ kind, numbers: { head_speed: speed }, said, drawing }) {
+    if (kind === "route") return placeOf(drawing);
+    return kind === "turn" ? { start: -TURN_TRAVEL / speed, stop: timeAfter(TURN_TRAVEL, speed, said.passages) } : {};
   }
 
   /** The service's own numbers at one instant. */
@@ -88,16 +161,29 @@ export class Questions {
     this.tell("pose", { time, dance, x: table.x[0], y: table.y[0], speed: table.speed[0] });
   }
 
+  /** Is this refusal about a number, and so told beside its field? Then the names of these; else none. */
+  fieldsOf(channel) {
+    if (!ABOUT_NUMBERS.includes(channel)) return [];
+    return this.refusals.get(channel).errors.map(nameOf).filter((name) => SAID.includes(name) || FIELDS.some((field) => field.name === name));
+  }
+
   /** Errors in the numbers: name -> the service's message. */
   errors() {
     const all = ABOUT_NUMBERS.flatMap((channel) => this.refusals.get(channel)?.errors ?? []);
-    return new Map(all.map(({ name, pointer, detail }) => [(name ?? pointer).split("/").at(-1), detail]));
+    return new Map(all.map((error) => [nameOf(error), error.detail]));
   }
 
   async #askContact(asked) {
     if (asked.kind === "spiral") {
-      const answer = await this.#answer("contact", "collision-time", { query: { ...asked.query, ...QUICK } });
+      const question = isPlain(asked) ? { query: { ...asked.query, ...QUICK } } : { body: { ...this.checkBody(asked), ...QUICK } };
+      const answer = await this.#answer("contact", "collision-time", question);
       if (answer) this.#accept({ ...asked, answer, begin: 0, end: lastInstant(answer) });
+    } else if (asked.kind === "route") {
+      const report = await this.#answer("contact", "check", { body: { ...this.checkBody(asked), ...VERDICT } });
+      if (!report) return;
+      const { failures, verdict, start: begin, stop, first_contact: answer } = report;
+      const end = answer.time === null ? { reason: "path", time: stop } : null;
+      this.#accept({ ...asked, answer: { ...answer, end }, begin, end: answer.time ?? stop - BEFORE_END, failures, verdict });
     } else {
       const report = await this.#answer("contact", "check", { body: { ...this.checkBody(asked), ...QUICK } });
       if (!report) return;
@@ -110,7 +196,7 @@ export class Questions {
     if (this.dance?.track) this.dance.track.stopped = true;
     this.dance = { ...dance, track: null };
     this.tell("dance");
-    this.#askPath();
+    if (dance.kind !== "route") this.#askPath();
     if (!this.#rest) this.#askDance();
   }
 
@@ -119,33 +205,67 @@ export class Questions {
     const { numbers, begin, end } = this.dance;
     // A length exceeds its chord by more than the chord falls short of its arc, so this reaches behind the tail.
     const start = begin - (numbers.head_length + numbers.benches * numbers.body_length) / numbers.head_speed;
-    const step = Math.max(PATH_STEP / numbers.head_speed, (end - start) / PATH_SAMPLES);
+    const step = Math.max(PATH_STEP / numbers.top_speed, (end - start) / PATH_SAMPLES);
     const body = this.body({ times: { start, stop: end, step }, decimals: 4 });
-    body.dragon.benches = 1;
+    body.dragon = { ...Object.fromEntries(DRAGON.map((name) => [name, numbers[name]])), benches: 1 };
     const table = await this.#answer("path", "trajectory", { body });
     if (table) this.tell("path", { x: table.x.map((row) => row[0]), y: table.y.map((row) => row[0]) });
+  }
+
+  async #askCourse(body, drawing) {
+    const answer = await this.#answer("course", "course", { body });
+    if (!answer) return;
+    this.course = { ...answer, drawing };
+    this.tell("path", answer);
   }
 
   #atRest() {
     this.#rest = 0;
     this.#askDance();
+    if (this.state.get("path") === "route") return;
     if (!this.#whole) {
       this.#whole = true;
-      this.#keep("minimum", "minimum-pitch", { query: this.state.texts([...CIRCLE, ...CONTACT]) });
+      this.#keep("minimum", "minimum-pitch", this.#over([...CIRCLE, ...CONTACT]));
     }
-    const over = (names, more) => ({ query: { ...this.state.texts(names), ...more } });
-    const slow = [["tolerance", "tolerance", this.#toleranceOf()]];
-    if (this.state.get("path") === "turn") slow.push(["shortest", "shortest-turn", over([...CIRCLE, ...CONTACT, "pitch"])]);
-    slow.push(["scan", "pitch-scan", over([...CIRCLE, "margin"])], ["curve", "tolerance-curve", over(CIRCLE, CURVE)]);
+    const staircase = [...CIRCLE, "margin"];
+    const look = this.#over(staircase, LOOK);
+    if (this.#isNew("look", look)) this.#keep("look", "pitch-scan", look);
+    const slow = [["tolerance", "tolerance", this.toleranceOf()]];
+    if (this.state.get("path") === "turn") {
+      slow.push(["head", "maximum-head-speed", this.#fastestHead()]);
+      slow.push(["shortest", "shortest-turn", this.#over([...CIRCLE, ...CONTACT, "pitch", "ratio"])]);
+    }
+    slow.push(["scan", "pitch-scan", this.#over(staircase)], ["curve", "tolerance-curve", this.#over(CIRCLE, CURVE)]);
     this.#askInTurn(slow);
   }
 
   /** The request for how far people may stray on the way to the circle, or on the part of a turn that is danced. */
-  #toleranceOf() {
+  toleranceOf() {
     const kind = this.state.get("path");
-    const query = this.state.texts([...MOTION, "turning_diameter"]);
-    const asked = { kind, numbers: numbersOf(query) };
-    return kind === "turn" ? { body: this.body(this.#stretch(asked), asked) } : { query };
+    if (kind === "route") {
+      const venue = venueOf(this.dance.drawing);
+      return { asked: { benches: this.dance.numbers.benches }, body: this.body(venue ? { venue } : {}) };
+    }
+    const query = this.state.texts([...MOTION, "turning_diameter", ...(kind === "turn" ? TURN : [])]);
+    const asking = this.#asking(kind, query);
+    const { benches, turning_diameter } = asking.numbers;
+    if (kind === "turn") return { asked: { benches }, body: this.body(this.#stretch(asking), asking) };
+    const asked = { ...query, benches };
+    return isPlain(asking) ? { asked, query } : { asked, body: this.body({ turning_diameter }, asking) };
+  }
+
+  /** The request for the highest speed of the head in a turn. */
+  #fastestHead() {
+    const query = this.state.texts([...HEAD, "head_speed"]);
+    const asking = this.#asking("turn", query);
+    const { head_speed, ...flat } = query;
+    const asked = { ...query, benches: asking.numbers.benches };
+    return isPlain(asking) ? { asked, query: flat } : { asked, body: this.body({ speed_limit: asking.numbers.speed_limit }, asking) };
+  }
+
+  /** The request for the smallest pitch, and that for where the head stops against the pitch. */
+  pitchOf(names) {
+    return this.#over([...CIRCLE, ...names]);
   }
 
   /** Ask slow questions one after another, because the service takes few at once. slow: [kind, path, question] of each */
@@ -161,22 +281,25 @@ export class Questions {
     if (!dance || dance.track) return;
     this.#startTrack(dance);
     const { begin, end } = dance;
+    this.#keep("speeds", "trajectory", { body: this.body({ times: speedTimes(dance), decimals: 6 }) }, dance);
     if (dance.answer.time !== null) this.#keep("gap", "clearance", this.#clearanceOf(dance, end, end, 1), dance);
     this.#keep("clearance", "clearance", this.#clearanceOf(dance, begin, end, (end - begin) / CLEARANCE_SAMPLES || 1), dance);
     if (dance.report) this.#accepted("fastest", { answer: dance.report, dance });
     else this.#keep("fastest", "check", { body: this.checkBody(dance) }, dance);
+    if (dance.kind === "route") this.#askInTurn([["tolerance", "tolerance", this.toleranceOf()]]);
   }
 
   /** The request for a clearance: a query on a spiral, where more benches are allowed; a body on other paths. */
-  #clearanceOf({ kind, query }, start, stop, step) {
-    if (kind !== "spiral") return { body: this.body({ times: { start, stop, step } }) };
+  #clearanceOf(dance, start, stop, step) {
+    if (dance.kind !== "spiral" || !isPlain(dance)) return { body: this.body({ times: { start, stop, step } }) };
+    const { query } = dance;
     return { query: { ...Object.fromEntries(MOTION.map((name) => [name, query[name]])), start, stop, step } };
   }
 
   #startTrack(dance) {
     const ask = (chunk, times, decimals) => this.service.ask(`track ${chunk}`, "trajectory", { body: this.body({ times, decimals }) });
     const ready = () => dance === this.dance && this.tell("track");
-    dance.track = new Track(ask, [dance.begin, dance.end], dance.numbers.benches + 1, dance.numbers.head_speed, ready);
+    dance.track = new Track(ask, [dance.begin, dance.end], dance.numbers.benches + 1, dance.numbers.top_speed, ready);
     this.tell("track");
   }
 
@@ -201,7 +324,7 @@ export class Questions {
   }
 
   /** The answer, or undefined when it was refused or superseded. */
-  async #answer(channel, path, question) {
+  async #answer(channel, path, { asked, ...question }) {
     try {
       const answer = await this.service.ask(channel, path, question);
       if (this.refusals.delete(channel)) this.tell("refused");

@@ -1,13 +1,19 @@
 /** The whole state of the page; its address holds every value that differs from the default. */
 
+import { benchesOf } from "./benches.js";
+import { EMPTY, PARTS, fromAddress, toAddress } from "./drawing.js";
+import { clockIn, passagesIn } from "./pace.js";
+
 /**
- * The numbers a person may set. Limits and units come from the service's OpenAPI document; `slider` is a useful range:
- * [from, to, step].
+ * The numbers a person may set. Limits and units come from the service's OpenAPI document; `slider` is a useful range to
+ * begin with: [from, to, step]; only: the path that has this number. An empty text leaves the number to the service.
  */
 export const FIELDS = [
   { name: "pitch", value: "0.55", group: "path", slider: [0.3, 2, 0.001] },
   { name: "start_turns", value: "16", group: "path", slider: [4, 40, 0.5] },
   { name: "turning_diameter", value: "9", group: "path", slider: [2, 16, 0.1] },
+  { name: "ratio", value: "2", group: "path", slider: [0.5, 4, 0.05], only: "turn" },
+  { name: "entry_radius", value: "", group: "path", slider: [4, 5, 0.001], only: "turn" },
   { name: "benches", value: "223", group: "dragon", slider: [1, 400, 1] },
   { name: "head_length", value: "3.41", group: "dragon", slider: [1, 6, 0.01] },
   { name: "body_length", value: "2.2", group: "dragon", slider: [1, 4, 0.01] },
@@ -15,6 +21,7 @@ export const FIELDS = [
   { name: "overhang", value: "0.275", group: "dragon", slider: [0, 0.45, 0.005] },
   { name: "head_speed", value: "1", group: "motion", slider: [0.1, 3, 0.05] },
   { name: "margin", value: "0", group: "motion", slider: [0, 0.2, 0.005] },
+  { name: "speed_limit", value: "2", group: "motion", slider: [1, 4, 0.05], only: "turn" },
   { name: "stray", value: "0", group: "people", slider: [0, 0.2, 0.001] },
   { name: "hole", value: "0", group: "people", slider: [0, 0.1, 0.001] },
   { name: "pin", value: "0", group: "people", slider: [0, 0.1, 0.001] },
@@ -26,17 +33,30 @@ export const DRAGON = namesOf("dragon");
 export const CONTACT = ["margin", ...namesOf("people")];
 /** How far every hole may be from its place in all [m]: what people do, and half of what the pin lacks. */
 export const strayOf = ({ stray, hole, pin }) => Number(stray) + (hole - pin) / 2;
+/** The numbers of a turn besides those of its coils. */
+export const TURN = ["turning_diameter", "ratio", "entry_radius"];
+/** Texts as numbers; what is no number stays as it is, for the service to refuse. */
+export const numbersOf = (texts) =>
+  Object.fromEntries(Object.entries(texts).map(([name, text]) => [name, text.trim() && Number.isFinite(Number(text)) ? Number(text) : text]));
 export const RATES = [1, 2, 5, 10, 20, 50];
 /** Default pitch of a turn, from the contest: a turn needs a wider spiral. */
 const PITCHES = { spiral: "0.55", turn: "1.7" };
+/** Default number of benches of a drawn dance: more need a longer path than a square has. */
+const DRAWN_BENCHES = "24";
+/** Longest address that every browser and chat program keeps [characters]. */
+const ADDRESS_MOST = 8_000;
 
-const NUMBERS = Object.fromEntries(FIELDS.map(({ name, value }) => [name, value]));
+/** What may be said of a dance besides its numbers, as text: a table of benches, passages, the time of day at time 0. */
+export const SAID = ["csv", "passages", "start_clock"];
+const NUMBERS = Object.fromEntries([...FIELDS.map(({ name, value }) => [name, value]), ...SAID.map((name) => [name, ""])]);
+/** Is the address bare, but for the language? Then the page opens with the dance in motion. */
+const isBare = (given) => [...given.keys()].every((name) => name === "lang");
 /** time: null is the end of the dance; view: [x, y, pixels per metre], null shows the whole path. */
-const DEFAULTS = { ...NUMBERS, path: "spiral", time: null, rate: 20, follow: false, handle: null, view: null, lang: null };
+const DEFAULTS = { ...NUMBERS, drawing: EMPTY, path: "spiral", time: null, rate: 20, follow: false, handle: null, view: null, lang: null };
 
 const oneOf = (values) => (text) => values.find((value) => String(value) === text);
 const READ = {
-  path: oneOf(["spiral", "turn"]),
+  path: oneOf(["spiral", "turn", "route"]),
   time: (text) => (text.trim() && Number.isFinite(Number(text)) ? Number(text) : null),
   rate: oneOf(RATES),
   follow: (text) => text === "true",
@@ -46,19 +66,39 @@ const READ = {
     return numbers.length === 3 && numbers.every(Number.isFinite) && numbers[2] > 0 ? numbers : null;
   },
   lang: oneOf(["en", "zh"]),
+  start_clock: clockIn,
 };
 
 export class State {
   #values = { ...DEFAULTS };
   #listeners = [];
   #writing = 0;
+  /** Is the whole dance in the address? */
+  fits = true;
 
   constructor() {
+    this.#read();
+    // The browser's back and forward buttons.
+    addEventListener("popstate", () => {
+      const before = this.#values;
+      clearTimeout(this.#writing);
+      this.#writing = 0;
+      this.#read();
+      this.#tell(Object.keys(DEFAULTS).filter((name) => JSON.stringify(before[name]) !== JSON.stringify(this.#values[name])));
+    });
+  }
+
+  /** Take over all values of the address; a drawing too long for it is kept beside the address. */
+  #read() {
     const given = new URLSearchParams(location.search);
-    for (const [name, text] of given) {
-      if (name in DEFAULTS) this.#values[name] = (READ[name] ?? String)(text) ?? DEFAULTS[name];
-    }
-    if (!given.has("pitch")) this.#values.pitch = this.initial("pitch");
+    const found = { ...DEFAULTS };
+    for (const [name, text] of given) if (name in DEFAULTS) found[name] = (READ[name] ?? String)(text) ?? DEFAULTS[name];
+    if (history.state?.csv) found.csv = history.state.csv;
+    found.drawing = history.state?.drawing ?? (PARTS.some((name) => given.has(name)) ? fromAddress(given) : EMPTY);
+    this.#values = found;
+    for (const name of ["pitch", "benches"]) if (!given.has(name)) found[name] = this.initial(name);
+    this.opensInMotion = isBare(given);
+    if (this.opensInMotion) found.time = 0;
   }
 
   get(name) {
@@ -66,13 +106,20 @@ export class State {
   }
 
   /** Default value of a name. */
-  initial(name) {
-    return name === "pitch" ? PITCHES[this.#values.path] : DEFAULTS[name];
+  initial(name, path = this.#values.path) {
+    if (name === "benches" && path === "route") return DRAWN_BENCHES;
+    return name === "pitch" ? (PITCHES[path] ?? DEFAULTS[name]) : DEFAULTS[name];
   }
 
-  /** The numbers of these names, as entered. */
+  /** The numbers of these names, as entered; one that is empty by default is left out while it is empty. */
   texts(names) {
-    return Object.fromEntries(names.map((name) => [name, this.#values[name]]));
+    return Object.fromEntries(names.map((name) => [name, this.#values[name]]).filter(([name, text]) => text || DEFAULTS[name]));
+  }
+
+  /** What is said besides the numbers: the table of benches and the benches in it, passages, the time of day at time 0. */
+  said() {
+    const { csv, passages, start_clock } = this.#values;
+    return { csv, listed: csv ? benchesOf(csv) : null, passages: passagesIn(passages), clock: start_clock };
   }
 
   /** listener(names): called after each change with the set of names that changed */
@@ -80,12 +127,17 @@ export class State {
     this.#listeners.push(listener);
   }
 
-  set(changes) {
+  /** write: also into the address, once changes pause */
+  set(changes, write = true) {
     const names = Object.keys(changes).filter((name) => changes[name] !== this.#values[name]);
     if (!names.length) return;
     Object.assign(this.#values, changes);
     // Browsers refuse more than a few changes of the address per second.
-    this.#writing ||= setTimeout(() => this.write(), 300);
+    if (write) this.#writing ||= setTimeout(() => this.write(), 300);
+    this.#tell(names);
+  }
+
+  #tell(names) {
     for (const listener of this.#listeners) listener(new Set(names));
   }
 
@@ -94,17 +146,33 @@ export class State {
   }
 
   choosePath(path) {
-    if (path !== this.get("path")) this.set({ path, pitch: PITCHES[path], time: null, view: null });
+    if (path === this.get("path")) return;
+    const benches = this.get("benches") === this.initial("benches") ? this.initial("benches", path) : this.get("benches");
+    this.push({ path, benches, pitch: this.initial("pitch", path), time: null, view: null });
+  }
+
+  /** Change the state so that the browser's back button leads to what is shown now. */
+  push(changes = {}) {
+    if (Object.keys(changes).length) this.write();
+    history.pushState(history.state, "", location.href);
+    this.set(changes);
+    this.write();
   }
 
   write() {
     clearTimeout(this.#writing);
     this.#writing = 0;
     const query = new URLSearchParams();
-    for (const [name, value] of Object.entries(this.#values)) {
+    const { drawing, csv, ...others } = this.#values;
+    for (const [name, value] of Object.entries(others)) {
       if (value !== this.initial(name)) query.set(name, name === "view" ? value.map((one) => +one.toPrecision(6)) : value);
     }
-    const text = query.toString().replaceAll("%2C", ",");
-    history.replaceState(null, "", location.pathname + (text && `?${text}`));
+    const plain = query.toString();
+    if (csv) query.set("csv", csv);
+    const isDrawn = this.#values.path === "route";
+    if (isDrawn) for (const [name, text] of toAddress(drawing)) query.set(name, text);
+    this.fits = query.toString().length <= ADDRESS_MOST;
+    const text = (this.fits ? query.toString() : plain).replace(/%(?:2C|7E|21|3A|40)/g, decodeURIComponent);
+    history.replaceState(this.fits ? null : { drawing, csv }, "", location.pathname + (text && `?${text}`));
   }
 }

@@ -33,6 +33,10 @@ export class View {
     return [this.width / 2 + (x - this.x) * this.scale, this.height / 2 - (y - this.y) * this.scale];
   }
 
+  toWorld(px, py) {
+    return [this.x + (px - this.width / 2) / this.scale, this.y - (py - this.height / 2) / this.scale];
+  }
+
   /** Show these bounds [x min, y min, x max, y max] whole. */
   fit([left, bottom, right, top]) {
     const [wide, high] = [this.width - 2 * PADDING, this.height - 2 * PADDING];
@@ -55,6 +59,18 @@ export class View {
     this.moved(true);
   }
 
+  /** Obey keys: those that move the view, and others. keys: key -> what it does */
+  listen(keys) {
+    this.canvas.addEventListener("keydown", (event) => {
+      if (event.ctrlKey || event.metaKey || event.altKey) return;
+      if (!this.key(event.key)) {
+        if (!keys[event.key]) return;
+        keys[event.key]();
+      }
+      event.preventDefault();
+    });
+  }
+
   /** True when the view handles this key. */
   key(key) {
     const arrows = { ArrowLeft: [1, 0], ArrowRight: [-1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
@@ -65,7 +81,9 @@ export class View {
     return true;
   }
 
+  /** Zooms once the canvas was clicked or chosen with a key; before, the wheel scrolls the page. */
   #wheel(event) {
+    if (document.activeElement !== this.canvas) return;
     event.preventDefault();
     this.zoom(Math.exp(-event.deltaY * (event.deltaMode ? 0.05 : 0.0015)), event.offsetX, event.offsetY);
   }

@@ -2,24 +2,24 @@
 
 from __future__ import annotations
 
-from enum import StrEnum
+from typing import Any
 
-from app.questions.pitch_scan import PitchScanQuery, PitchScanRequest
-from app.questions.question import Question, Terms
-from app.wire.dances import DanceQuery, PlacedDance
+from app.questions.pitch_scan import ScanFields
+from app.questions.question import FileFormat, Question, Terms
+from app.wire.dances import DanceQuery, DragonFields, PlacedDance, UniformDragon
 from app.wire.models import Instant, Margin, measure
 from core.design.pitch_scan import scan_near_minimum
 
 
-class Format(StrEnum):
+class Format(FileFormat):
     """File format of a figure."""
 
     SVG = "svg"
     PNG = "png"
 
-    @property
-    def media_type(self) -> str:
-        return {"svg": "image/svg+xml", "png": "image/png"}[self.value]
+    @classmethod
+    def media_types(cls) -> tuple[str, ...]:
+        return ("image/svg+xml", "image/png")
 
 
 FORMATS = {one.media_type: one.value for one in Format}
@@ -60,6 +60,14 @@ class ContactFigureRequest(PlacedDance):
     stop: Instant | None = measure("s", "End time; null: the end of the run", None)
 
 
+class StaircaseQuery(ScanFields, UniformDragon):
+    """First contact against the pitch, drawn."""
+
+
+class StaircaseRequest(ScanFields, DragonFields, strict=True):
+    """First contact against the pitch, of any dragon, drawn."""
+
+
 def trajectory_figure(asked: TrajectoryFigureQuery | TrajectoryFigureRequest, terms: Terms, form: str) -> bytes:
     """Every handle at one instant, coloured by its speed, on the given path and in the given venue."""
     from app.files import figures
@@ -91,7 +99,7 @@ def contact_figure(asked: ContactQuery | ContactFigureRequest, terms: Terms, for
     )
 
 
-def pitch_scan_figure(asked: PitchScanQuery | PitchScanRequest, terms: Terms, form: str) -> bytes:
+def pitch_scan_figure(asked: StaircaseQuery | StaircaseRequest, terms: Terms, form: str) -> bytes:
     """Where the head stands at first contact, against the pitch: jumps as jumps, the minimum pitch marked."""
     from app.files import figures
 
@@ -102,6 +110,7 @@ def pitch_scan_figure(asked: PitchScanQuery | PitchScanRequest, terms: Terms, fo
     return figures.pitch_scan_figure(*found, format=FORMATS[form], **asked.to_circle())
 
 
-TRAJECTORY = Question(trajectory_figure, None, flat=TrajectoryFigureQuery, body=TrajectoryFigureRequest, forms=FORMS)
-CONTACT = Question(contact_figure, None, flat=ContactQuery, body=ContactFigureRequest, forms=FORMS)
-PITCH_SCAN = Question(pitch_scan_figure, None, flat=PitchScanQuery, body=PitchScanRequest, forms=FORMS)
+DRAWN: dict[str, Any] = {"model": None, "forms": FORMS, "formats": Format}
+TRAJECTORY = Question(trajectory_figure, flat=TrajectoryFigureQuery, body=TrajectoryFigureRequest, **DRAWN)
+CONTACT = Question(contact_figure, flat=ContactQuery, body=ContactFigureRequest, **DRAWN)
+PITCH_SCAN = Question(pitch_scan_figure, flat=StaircaseQuery, body=StaircaseRequest, **DRAWN)

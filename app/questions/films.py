@@ -59,7 +59,8 @@ def films(asked: FilmQuery | FilmRequest, terms: Terms, form: str = FORM) -> byt
         "seconds", "millions of pixels", megapixels, terms.settings.film_megapixels_max, "take fewer or smaller"
     )
     start, stop = stretch(asked, dance, terms)
-    shooting = Shooting(start, stop, asked.seconds, rate, height, asked.language)
+    clock = asked.start_clock if isinstance(asked, FilmRequest) else None
+    shooting = Shooting(start, stop, asked.seconds, rate, height, asked.language, clock)
     return film.film(
         dance, shooting, form, venue=venue, title=asked.title, budget=terms.budget, progress=terms.progress
     )

@@ -40,7 +40,7 @@ class MaximumHeadSpeedRequest(Limit, DanceFields, strict=True):
 
 
 class MaximumHeadSpeed(Answer):
-    """The largest constant head speed at which no handle ever exceeds the limit."""
+    """The largest constant head speed at which no handle ever exceeds the limit; passages keep their ratio to it."""
 
     head_speed: float = measure("m/s")
     head_speed_bracket: tuple[float | None, float] = measure(
@@ -50,6 +50,7 @@ class MaximumHeadSpeed(Answer):
     handles: list[int] = Field(description="Handles that reach the limit at that time")
     time: float = measure("s", "Time at which they reach it, at that head speed; 0 is the entry into the turn")
     time_at_unit_head_speed: float = measure("s", "The same time at a head speed of 1 m/s")
+    passage: int | None = Field(description="Index of the passage in which they reach it; null: in none")
 
 
 def maximum_head_speed(asked: MaximumHeadSpeedQuery | MaximumHeadSpeedRequest, terms: Terms) -> MaximumHeadSpeed:

@@ -8,7 +8,7 @@ from pydantic import Field
 
 import core
 from app.questions.question import UNKNOWN_COST, Question, Terms
-from app.wire.answers import Pair, PairCheck, Point
+from app.wire.answers import ALLOWED, Pair, PairCheck, Point
 from app.wire.dances import BenchByBench, Circle, DragonFields, Strays, UniformDragon, WayToCircle
 from app.wire.models import PITCH_MAX, Answer, CrossCheck, measure
 from core import Dragon, InvalidValue, LimitedBy
@@ -61,18 +61,20 @@ class MinimumPitch(Answer):
     evaluations: int = Field(
         description="Number of ways to the circle computed, for single pitches or for whole strips of pitches"
     )
+    stray: float | None = ALLOWED
     cross_check: PairCheck | None = Field(
         description="Verdicts of the engines at a pitch 1e-6 m larger and smaller, with the head where the pair is in "
-        "contact; null without a pair, with a stray, or if not requested"
+        "contact (with a stray shapely's alone, on the grounds that benches may cover); null without a pair or if not "
+        "requested"
     )
 
     @classmethod
     def of(cls, found: core.MinimumPitch, dragon: Dragon, asked: PitchFields, terms: Terms) -> Self:
         check = None
-        if asked.cross_check != "none" and not asked.to_stray().total:
-            whole = asked.cross_check == "dragon"
-            check = core.pitch_check(found, dragon, margin=asked.margin, whole=whole, budget=terms.budget)
-        return cls.known(found, cross_check=check)
+        if asked.cross_check != "none":
+            whole, stray = asked.cross_check == "dragon", asked.to_stray()
+            check = core.pitch_check(found, dragon, margin=asked.margin, stray=stray, whole=whole, budget=terms.budget)
+        return cls.known(found, stray=asked.allowed, cross_check=check)
 
 
 def allowed(found: core.MinimumPitch, asked: WayToCircle, dragon: Dragon) -> core.MinimumPitch:

@@ -45,6 +45,7 @@ PUBLISHED = (
     ("B. Zhang, Y. Shang, X. Lin, ICMMCT 2025, doi 10.25236/icmmct.2025.021", "collision_time", "412.478"),
     ("B. Zhang, Y. Shang, X. Lin, ICMMCT 2025, doi 10.25236/icmmct.2025.021", "pitch", "0.45035"),
     ("Z. Shi, Y. Wei, C. Zhang, AJST, article 30378, doi 10.54097/rq3xkw77", "pitch", "0.43"),
+    ("housingscience, volume 46, number 4", "collision_time", "416"),
 )
 
 

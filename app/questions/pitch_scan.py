@@ -2,37 +2,58 @@
 
 from __future__ import annotations
 
+import numpy as np
 from pydantic import Field
 
 from app.questions.minimum_pitch import allowed
-from app.questions.question import Question, Terms
-from app.wire.answers import Columns, Pair
+from app.questions.question import UNKNOWN_COST, Question, Terms
+from app.wire.answers import Columns, Pair, Point
 from app.wire.dances import Circle, DragonFields, UniformDragon
 from app.wire.models import Answer, measure
-from core.design.pitch_scan import scan_near_minimum
+from core.design.pitch_scan import JUMP, pitches_near, scan_near_minimum
+
+# Time of a first contact near the minimum pitch, measured 2026-11-22 [s].
+SECONDS_PER_SAMPLE = 1.5e-3
 
 
 class ScanFields(Circle):
     """Pitches around the minimum pitch."""
 
-    samples: int = Field(101, ge=2, le=401, description="Number of pitches to sample; jumps between them are located")
+    samples: int = Field(101, ge=2, le=401, description="Number of pitches that are answered, evenly spaced")
 
 
-class PitchScanQuery(ScanFields, UniformDragon):
+class Located(ScanFields):
+    """The same, with or without the jumps."""
+
+    locate: bool = Field(True, description="Locate the jumps between the samples; false: a first look, much faster")
+
+
+class PitchScanQuery(Located, UniformDragon):
     """First contact against the pitch."""
 
 
-class PitchScanRequest(ScanFields, DragonFields, strict=True):
+class PitchScanRequest(Located, DragonFields, strict=True):
     """First contact against the pitch, of any dragon."""
 
 
-class PitchScanTable(Answer):
-    """Columns with one entry per pitch at which two benches come nearer than the margin, or touch if it is 0, and with
-    entries where the radius jumps."""
+class Jump(Answer):
+    """Two pitches so near to one another that the radius jumps between them."""
 
-    pitch: list[float] = measure("m", "Ascending")
+    pitch: Point = measure("m", "Just before and just after the jump")
+    radius: Point = measure("m", "Radius at these two pitches")
+
+
+class PitchScanTable(Answer):
+    """Columns with one entry per sampled pitch at which two benches come nearer than the margin, or touch if it is 0,
+    and the jumps of the radius besides."""
+
+    pitch: list[float] = measure("m", "Samples, ascending; a pitch without contact has no entry")
     radius: list[float] = measure("m", "Distance of the head from the centre at first contact")
-    pieces: list[Pair] = Field(description="Continuous stretches, as indices [from, to) into pitch and radius")
+    pieces: list[Pair] = Field(
+        description="Stretches without a jump, as indices [from, to) into pitch and radius; if jumps are not located, "
+        f"without a fall of more than {JUMP:g} m"
+    )
+    jumps: list[Jump] = Field(description="Where the radius jumps, ascending; empty if jumps are not located")
     minimum_pitch: float = measure("m", "Minimum pitch, around which the scanned pitches lie")
 
 
@@ -40,10 +61,25 @@ def pitch_scan(asked: PitchScanQuery | PitchScanRequest, terms: Terms) -> Column
     """Where the head stands at first contact, against the pitch, around the minimum pitch."""
     dragon = asked.to_dragon(min(terms.settings.scanned_benches_max, asked.most_benches(terms.settings)))
     scan, least = scan_near_minimum(
-        dragon, samples=asked.samples, progress=terms.progress, budget=terms.budget, **asked.to_circle()
+        dragon,
+        samples=asked.samples,
+        locate=asked.locate,
+        progress=terms.progress,
+        budget=terms.budget,
+        **asked.to_circle(),
     )
-    table = {"pitch": scan.pitch, "radius": scan.radius, "pieces": scan.pieces}
+    # Of all pitches computed on the way to the jumps, the answer has the samples.
+    sampled = np.isin(scan.pitch, pitches_near(least, asked.samples))
+    before = np.concatenate([[0], np.cumsum(sampled)])
+    pieces = [(int(before[a]), int(before[b])) for a, b in scan.pieces if before[a] < before[b]]
+    sides = [list(jump) for jump in scan.jumps] if asked.locate else []
+    jumps = [{"pitch": scan.pitch[two].tolist(), "radius": scan.radius[two].tolist()} for two in sides]
+    table = {"pitch": scan.pitch[sampled], "radius": scan.radius[sampled], "pieces": pieces, "jumps": jumps}
     return Columns(table | {"minimum_pitch": allowed(least, asked, dragon).pitch})
 
 
-QUESTION = Question(pitch_scan, PitchScanTable, flat=PitchScanQuery, body=PitchScanRequest)
+def _cost(asked: PitchScanQuery | PitchScanRequest) -> float:
+    return UNKNOWN_COST if asked.locate else SECONDS_PER_SAMPLE * asked.samples
+
+
+QUESTION = Question(pitch_scan, PitchScanTable, flat=PitchScanQuery, body=PitchScanRequest, cost=_cost)

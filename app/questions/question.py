@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
+from enum import StrEnum
 from typing import Any
 
 from app.settings import Settings
@@ -20,6 +21,18 @@ def unknown_cost(asked: Wire, *form: str) -> float:
 
 def unheard(share: float) -> None:
     """Progress that nobody follows."""
+
+
+class FileFormat(StrEnum):
+    """Formats of a file, each the ending of an address; their media types are those of `media_types`, in order."""
+
+    @classmethod
+    def media_types(cls) -> tuple[str, ...]:
+        raise NotImplementedError
+
+    @property
+    def media_type(self) -> str:
+        return self.media_types()[list(type(self)).index(self)]
 
 
 @dataclass(frozen=True)
@@ -46,6 +59,7 @@ class Question:
     flat, body: the request as parameters of a query, and as a JSON object with a dragon and a path
     forms: media types of the answer; the first is the default
     at: path of its address where that does not follow from its name
+    formats: endings of its address, one for each form, where that names the form of the answer
     cost: estimated time of the answer [s], from a request and a form, before anything is computed
     """
 
@@ -56,6 +70,7 @@ class Question:
     forms: tuple[str, ...] = (JSON,)
     cost: Callable[..., float] = unknown_cost
     at: str = ""
+    formats: type[FileFormat] | None = None
 
     @property
     def name(self) -> str:
@@ -72,7 +87,7 @@ class Question:
     @property
     def format_in_path(self) -> bool:
         """Does its address name the form of the answer?"""
-        return "{format}" in self.path
+        return self.formats is not None
 
     @property
     def summary(self) -> str:

@@ -9,7 +9,7 @@ from pydantic import Field
 import core
 from app.questions.question import Question, Terms
 from app.questions.turn import Turn
-from app.wire.answers import Pair, Point
+from app.wire.answers import ALLOWED, Pair, Point
 from app.wire.dances import DragonFields, Strays, UniformDragon
 from app.wire.models import Margin, measure
 from app.wire.paths import TurnCircle
@@ -45,10 +45,11 @@ class ShortestTurn(Turn):
         "infeasible ones between two is not excluded",
     )
     evaluations: int = Field(description="Number of entries tried")
+    stray: float | None = ALLOWED
 
     @classmethod
-    def of_shortest(cls, found: core.ShortestTurn) -> Self:
-        return cls.known(found, **Turn.of(found.turn).model_dump())
+    def of_shortest(cls, found: core.ShortestTurn, asked: ShortestTurnFields) -> Self:
+        return cls.known(found, stray=asked.allowed, **Turn.of(found.turn).model_dump())
 
 
 def shortest_turn(asked: ShortestTurnQuery | ShortestTurnRequest, terms: Terms) -> ShortestTurn:
@@ -63,7 +64,7 @@ def shortest_turn(asked: ShortestTurnQuery | ShortestTurnRequest, terms: Terms) 
         stray=asked.to_stray(),
         budget=terms.budget,
     )
-    return ShortestTurn.of_shortest(found)
+    return ShortestTurn.of_shortest(found, asked)
 
 
 QUESTION = Question(shortest_turn, ShortestTurn, flat=ShortestTurnQuery, body=ShortestTurnRequest)

@@ -11,7 +11,7 @@ from app.questions.question import Question, Terms
 from app.wire.answers import Point
 from app.wire.dances import DanceFields, DanceQuery, PlacedDance
 from app.wire.models import Answer, Instant, TurningDiameter, measure
-from core import Exhibit, Limit
+from core import Exhibit, InvalidValue, Limit
 from core.tolerance.curve import time_on_circle
 
 
@@ -28,6 +28,9 @@ class ToleranceRequest(PlacedDance, DanceFields, strict=True):
         "s", "Start time; null: the start of the dance, or when the whole dragon is on the path", None
     )
     stop: Instant | None = measure("s", "End time; null: the end of the run", None)
+    turning_diameter: TurningDiameter | None = measure(
+        "m", "Diameter of the circle at which the head stops, on a spiral, in place of an end time", None
+    )
 
 
 class Shown(Answer):
@@ -52,7 +55,9 @@ class StrayProof(Answer):
 class Tolerance(Answer):
     """How far every hole may be from its place at any time without any contact."""
 
-    stray: float = measure("m", "Proven safe: while no hole is further from its place, nothing touches")
+    stray: float = measure(
+        "m", "Proven safe: while no hole is further from its place, nothing touches; 0: no stray is known to be safe"
+    )
     stray_bracket: tuple[float, float | None] = measure(
         "m", "Proven safe; shown to touch, null where no such pose was found"
     )
@@ -78,11 +83,14 @@ class Tolerance(Answer):
 def tolerance(asked: ToleranceQuery | ToleranceRequest, terms: Terms) -> Tolerance:
     """How far people may stray at any time before benches touch, and a pose that shows where they do."""
     dance, budget = asked.to_dance(terms.settings.checked_benches_max), terms.budget
+    venue, start, stop = None, None, None
     if isinstance(asked, ToleranceRequest):
-        venue = asked.to_place(dance.dragon).venue
-        return Tolerance.of(core.tolerance(dance, venue, start=asked.start, stop=asked.stop, budget=budget))
-    stop = time_on_circle(dance, asked.turning_diameter / 2)
-    return Tolerance.of(core.tolerance(dance, stop=stop, budget=budget))
+        venue, start, stop = asked.to_place(dance.dragon).venue, asked.start, asked.stop
+    if asked.turning_diameter is not None:
+        if not isinstance(dance.path, core.Spiral) or stop is not None:
+            raise InvalidValue("turning_diameter", "turning_diameter ends a dance on a spiral that has no stop")
+        stop = time_on_circle(dance, asked.turning_diameter / 2)
+    return Tolerance.of(core.tolerance(dance, venue, start=start, stop=stop, budget=budget))
 
 
 QUESTION = Question(tolerance, Tolerance, flat=ToleranceQuery, body=ToleranceRequest)

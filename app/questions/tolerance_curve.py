@@ -11,7 +11,7 @@ from app.questions.question import Question, Terms
 from app.wire.answers import Columns
 from app.wire.dances import DragonFields, UniformDragon, WayToCircle
 from app.wire.models import Answer, Pitch, measure
-from core import Dragon, InvalidValue, Limit
+from core import Dragon, InvalidValue, Limit, TooMuchWork
 from core.errors import said
 from core.values import Floats
 
@@ -64,14 +64,17 @@ class ToleranceCurve(Answer):
 def tolerance_curve(asked: ToleranceCurveQuery | ToleranceCurveRequest, terms: Terms) -> Columns:
     """How far people may stray on the way to a turning circle, against the pitch of the spiral."""
     dragon = asked.to_dragon(terms.settings.checked_benches_max)
-    curve = core.tolerance_curve(
-        dragon,
-        asked.pitches(dragon, terms),
-        turning_radius=asked.turning_diameter / 2,
-        start_turns=asked.start_turns,
-        progress=terms.progress,
-        budget=terms.budget,
-    )
+    try:
+        curve = core.tolerance_curve(
+            dragon,
+            asked.pitches(dragon, terms),
+            turning_radius=asked.turning_diameter / 2,
+            start_turns=asked.start_turns,
+            progress=terms.progress,
+            budget=terms.budget,
+        )
+    except TooMuchWork as error:
+        raise error.named("samples") if error.field == "pitches" else error from error
     ends = {"touching": [one.stray_bracket[1] for one in curve.tolerances]}
     limits = {"limited_by": [one.limited_by for one in curve.tolerances]}
     return Columns({"pitch": curve.pitch, "stray": curve.stray} | ends | limits)

@@ -45,7 +45,10 @@ def trajectory(asked: TrajectoryRequest, terms: Terms, form: str = JSON) -> byte
     """Position and speed of every handle at every instant."""
     cells_max = terms.settings.workbook_cells_max if form == tables.XLSX_TYPE else terms.settings.cells_max
     dance = asked.to_dance(terms.settings.benches_max)
-    return FORMS[form](core.trajectory(dance, asked.times_of(dance, cells_max), budget=terms.budget), asked.decimals)
+    found = core.trajectory(dance, asked.times_of(dance, cells_max), budget=terms.budget)
+    if form == tables.CSV_TYPE:
+        return tables.csv_blocks(found, asked.decimals, asked.start_clock)
+    return FORMS[form](found, asked.decimals)
 
 
 def _cost(asked: TrajectoryRequest, form: str = JSON) -> float:

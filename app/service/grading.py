@@ -6,23 +6,26 @@ with one option. Further numbers stand in the query.
 
 from __future__ import annotations
 
+from collections.abc import Callable, Coroutine
 from typing import Annotated, Any
 
 from fastapi import APIRouter, Depends, Query, Request, Response
 from pydantic import Field
 
 from app.files.tables import CSV_TYPE, XLSX_TYPE, Language
-from app.grade.report import GradeAnswer, typed
+from app.grade.report import FileAnswer, GradeAnswer, graded, too_long, typed
 from app.grade.shortcuts import UNITS
 from app.service.graders import Graders
 from app.service.lanes import Lanes
 from app.service.problems import Refused
 from app.service.reply import client_of
-from app.service.routes import PROBLEM, PROBLEMS
+from app.service.routes import FILE, PROBLEM, PROBLEMS
 from app.service.watch import WatchedRoute
 from app.settings import Settings
 from app.wire.models import JSON, Wire, measure
 from app.wire.problem import ErrorItem
+from core import Budget
+from core.budget import Halted
 
 FILE_TYPE = "application/octet-stream"
 TYPES = (FILE_TYPE, XLSX_TYPE, CSV_TYPE)
@@ -56,17 +59,20 @@ class UploadRoute(WatchedRoute):
 router = APIRouter(tags=["Grading"], route_class=UploadRoute)
 
 
-async def uploaded(request: Request) -> bytes:
-    """The body. raises: Refused (415) for one of another type"""
-    data = await request.body()
-    kind = request.headers.get("content-type", "").partition(";")[0].strip().lower()
-    if data and kind not in TYPES:
-        detail = f"The body must be the file itself, of type {' or '.join(TYPES)}, got {kind or 'no Content-Type'}."
-        raise Refused(415, detail, [ErrorItem(name="Content-Type", detail=detail)], {"Accept-Post": ", ".join(TYPES)})
-    return data
+def file_body(types: tuple[str, ...]) -> Callable[[Request], Coroutine[Any, Any, bytes]]:
+    """The function that gives the body of a request; it raises Refused (415) for one of another type."""
 
+    async def uploaded(request: Request) -> bytes:
+        data = await request.body()
+        kind = request.headers.get("content-type", "").partition(";")[0].strip().lower()
+        if data and kind not in types:
+            known = " or ".join(types)
+            detail = f"The body must be the file itself, of type {known}, got {kind or 'no Content-Type'}."
+            item = ErrorItem(name="Content-Type", detail=detail)
+            raise Refused(415, detail, [item], {"Accept-Post": ", ".join(types)})
+        return data
 
-_FILE: dict[str, Any] = {"schema": {"type": "string", "format": "binary"}}
+    return uploaded
 
 
 @router.post(
@@ -77,10 +83,10 @@ _FILE: dict[str, Any] = {"schema": {"type": "string", "format": "binary"}}
         200: {"description": "The answer", "model": GradeAnswer, "content": {JSON: {}}},
         **{status: {"description": PROBLEMS[status], "content": PROBLEM} for status in STATUSES},
     },
-    openapi_extra={"security": [], "requestBody": {"required": False, "content": {FILE_TYPE: _FILE}}},
+    openapi_extra={"security": [], "requestBody": {"required": False, "content": {FILE_TYPE: FILE}}},
 )
 def grade(
-    request: Request, data: Annotated[bytes, Depends(uploaded)], wanted: Annotated[GradeQuery, Query()]
+    request: Request, data: Annotated[bytes, Depends(file_body(TYPES))], wanted: Annotated[GradeQuery, Query()]
 ) -> Response:
     """What is right in a workbook of the contest, and which known error made the rest wrong."""
     given = {name: text for name in UNITS if (text := getattr(wanted, name)) is not None}
@@ -91,6 +97,13 @@ def grade(
     graders: Graders = request.app.state.graders
     with lanes.of(COST, JSON).taken(COST, client_of(request)):
         answers = [typed(name, text, wanted.language) for name, text in given.items()]
-        files = [graders.graded(wanted.name, data, wanted.language, request.state.budget)] if data else []
+        files = [_graded(graders, data, wanted, request.state.budget)] if data else []
     answer = GradeAnswer(files=files, answers=answers)
     return Response(answer.to_json(), headers={"Cache-Control": "no-store"}, media_type=JSON)
+
+
+def _graded(graders: Graders, data: bytes, wanted: GradeQuery, budget: Budget) -> FileAnswer:
+    try:
+        return graders.asked(budget, graded, wanted.name, data, wanted.language)
+    except Halted:
+        raise too_long(data, budget) from None

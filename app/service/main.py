@@ -29,7 +29,7 @@ from starlette.staticfiles import StaticFiles
 from app.jobs import routes as jobs
 from app.jobs.keeper import kept
 from app.jobs.metrics import JobMetrics
-from app.service import grading, problems, routes
+from app.service import grading, places, problems, routes
 from app.service.answers import KeptAnswers
 from app.service.examples import EXAMPLES
 from app.service.graders import Graders
@@ -64,8 +64,9 @@ TAGS = [
         "name": "Questions",
         "description": "Answers in numbers. GET takes a query, POST a body with a dragon and a path.",
     },
-    {"name": "Figures", "description": "Answers as pictures in SVG or PNG."},
+    {"name": "Figures", "description": "Answers as pictures, films, maps and plans: files."},
     {"name": "Grading", "description": "What is right in a student's workbook, and which error made the rest wrong."},
+    {"name": "Maps", "description": "The square and the path in a map file."},
     {"name": "Jobs", "description": "Answers computed later; no kill of a process loses them."},
     {"name": "Service", "description": "Liveness and readiness."},
 ]
@@ -178,6 +179,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     app.include_router(routes.router())
     app.include_router(jobs.asking)
     app.include_router(grading.router)
+    app.include_router(places.router)
     app.include_router(jobs.router)
     app.add_exception_handler(sqlite3.Error, jobs.store_problem)
     _add_health(app)
@@ -267,6 +269,10 @@ def _add_pages(app: FastAPI) -> None:
     @app.get("/", include_in_schema=False)
     async def index() -> Response:
         return FileResponse(PAGE / "index.html")
+
+    @app.get("/how", include_in_schema=False)
+    async def how() -> Response:
+        return FileResponse(PAGE / "how.html")
 
     app.mount("/docs/assets", _Files(packages=[("fastapi_swagger", "resources")]))
     app.mount("/page/uplot", _Files(packages=[("uplot", "static")]))

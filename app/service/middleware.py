@@ -22,8 +22,6 @@ logger = logging.getLogger("uvicorn.error")
 SELF_ONLY = "default-src 'self'; frame-ancestors 'none'"
 # Swagger UI uses inline styles and icons from data: addresses.
 DOCS_POLICY = f"{SELF_ONLY}; style-src 'self' 'unsafe-inline'; img-src 'self' data:"
-# Path of the call that takes a file, which has a limit of its own.
-GRADE = "/grade"
 CLOSE = {"Connection": "close"}
 # A name that a client may give its request.
 REQUEST_ID = re.compile(r"[A-Za-z0-9._:-]{1,100}")
@@ -34,12 +32,13 @@ class RequestLimits:
 
     def __init__(self, app: ASGIApp, settings: Settings) -> None:
         self.app, self.bytes_max, self.query_max = app, settings.body_bytes_max, settings.query_bytes_max
-        self.file_max = settings.grade_bytes_max
+        # Paths of the calls that take a file, which have limits of their own.
+        self.files_max = {"/grade": settings.grade_bytes_max, "/places": settings.places_bytes_max}
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         if scope["type"] != "http":
             return await self.app(scope, receive, send)
-        read, most = 0, self.file_max if scope["path"] == GRADE else self.bytes_max
+        read, most = 0, self.files_max.get(scope["path"], self.bytes_max)
 
         async def counted() -> Message:
             nonlocal read

@@ -19,9 +19,8 @@ from starlette.datastructures import Headers
 from starlette.responses import StreamingResponse
 
 from app.jobs.task import Task
-from app.questions import Call
-from app.questions.figures import Format
-from app.questions.question import UNKNOWN_COST, Terms
+from app.questions.question import UNKNOWN_COST, FileFormat, Terms
+from app.questions.registry import Call
 from app.service.answers import KeptAnswers
 from app.service.lanes import Lanes
 from app.service.problems import Refused
@@ -67,7 +66,7 @@ class Reply:
         self._least_cost = 0.0  # known from a first try [s]
         self._later: Callable[[Request, Task], Response] = state.later
 
-    async def to_query(self, call: Call, asked: Wire, *form: Format) -> Response:
+    async def to_query(self, call: Call, asked: Wire, *form: FileFormat) -> Response:
         """The answer to a request without a body: at once where it is expected to be quick, else from a thread."""
         if not form and self._is_quick(call, asked):
             async with self._glances.turn:
@@ -80,7 +79,7 @@ class Reply:
         async with watched(self.request, self.settings.deadline_seconds):
             return await run_in_threadpool(self, call, asked, *form)
 
-    def __call__(self, call: Call, asked: Wire, *form: Format) -> Response:
+    def __call__(self, call: Call, asked: Wire, *form: FileFormat) -> Response:
         """The answer to the request, in the best form that the client accepts; a figure has the form of its address.
 
         raises: Refused (503, 429) when the lane of the computation is full, or the client's part of it

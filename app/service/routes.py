@@ -13,9 +13,10 @@ from fastapi.exceptions import RequestValidationError
 from fastapi.routing import APIRoute
 from pydantic import ValidationError
 
+from app.files.outlines import GEOJSON_TYPE
 from app.files.tables import CSV_TYPE
-from app.questions import CALLS, Call
-from app.questions.figures import Format
+from app.questions.question import FileFormat
+from app.questions.registry import CALLS, Call
 from app.service.bodies import BodyRoute
 from app.service.examples import EXAMPLES
 from app.service.reply import BodyReply, QueryReply, Reply, reply_query
@@ -25,7 +26,8 @@ from app.wire.problem import PROBLEM_TYPE
 
 PROBLEM = {PROBLEM_TYPE: {"schema": {"$ref": "#/components/schemas/Problem"}}}
 FILE = {"schema": {"type": "string", "format": "binary"}}
-TEXT = {"schema": {"type": "string"}}
+# Of forms that are no plain files.
+SCHEMAS = {CSV_TYPE: {"schema": {"type": "string"}}, GEOJSON_TYPE: {"schema": {"type": "object"}}}
 PROBLEMS = {
     400: "The body is not JSON",
     404: "There is no such format",
@@ -87,7 +89,7 @@ def _add(router: APIRouter, call: Call) -> None:
         status: {"description": PROBLEMS[status], "content": PROBLEM} for status in statuses
     }
     unchanged = {"description": "The client already has this answer (If-None-Match)"}
-    content: dict[str, Any] = {form: TEXT if form == CSV_TYPE else FILE for form in question.forms if form != JSON}
+    content: dict[str, Any] = {form: SCHEMAS.get(form, FILE) for form in question.forms if form != JSON}
     if question.model is not None:
         content = {JSON: {"example": EXAMPLES[f"{method} {question.path}"].answer}, **content}
     answer = {"description": "The answer", "content": content, "model": question.model}
@@ -113,13 +115,13 @@ def _endpoint(call: Call) -> Callable[..., Any]:
     def to_body(reply: Reply, wanted: Wire) -> Response:
         return reply(call, wanted)
 
-    def figure_to_body(reply: Reply, format: Format, wanted: Wire) -> Response:
+    def figure_to_body(reply: Reply, format: FileFormat, wanted: Wire) -> Response:
         return reply(call, wanted, format)
 
     async def to_query(reply: Reply, wanted: Wire) -> Response:
         return await reply.to_query(call, wanted)
 
-    async def figure_to_query(reply: Reply, format: Format, wanted: Wire) -> Response:
+    async def figure_to_query(reply: Reply, format: FileFormat, wanted: Wire) -> Response:
         return await reply.to_query(call, wanted, format)
 
     figure, answer = (figure_to_query, to_query) if call.method == "GET" else (figure_to_body, to_body)
@@ -132,5 +134,10 @@ def _endpoint(call: Call) -> Callable[..., Any]:
         replying, wanted = BodyReply, Annotated[call.asked, Body(examples=[example.body] if example else None)]
         endpoint.__defaults__ = _default(call.asked)
     endpoint.__name__ = call.name
-    endpoint.__annotations__ |= {"reply": replying, "wanted": wanted, "format": Format, "return": Response}
+    endpoint.__annotations__ |= {
+        "reply": replying,
+        "wanted": wanted,
+        "format": call.question.formats,
+        "return": Response,
+    }
     return endpoint

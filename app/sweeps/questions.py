@@ -12,7 +12,7 @@ from typing import Any
 
 from pydantic import BaseModel
 
-from app import questions
+from app.questions import registry
 from app.questions.check import LeastClearance
 from app.questions.question import Terms
 from app.settings import Settings
@@ -61,7 +61,7 @@ class Question:
             return self.ask(request)
 
 
-def _ways(question: questions.Question, seconds: float, shown: str, *left_out: str) -> tuple[Question, ...]:
+def _ways(question: registry.Question, seconds: float, shown: str, *left_out: str) -> tuple[Question, ...]:
     """A question of the registry, flat and as a body."""
     assert question.model is not None
     ask, requests = partial(question.answer, terms=Terms(LIMITS)), (question.flat, question.body)
@@ -69,16 +69,16 @@ def _ways(question: questions.Question, seconds: float, shown: str, *left_out: s
     return tuple(Question(question.name, request, *known) for request in requests if request)
 
 
-def _known(name: str) -> questions.Question:
-    return questions.QUESTIONS[name]
+def _known(name: str) -> registry.Question:
+    return registry.QUESTIONS[name]
 
 
-def _row(answer: Callable[..., Answer], model: type[Answer], name: str) -> questions.Question:
+def _row(answer: Callable[..., Answer], model: type[Answer], name: str) -> registry.Question:
     """A question of the registry that answers with lists, with another answer: a row."""
     return replace(_known(name), answer=answer, model=model)
 
 
-_LEAST = questions.Question(least_clearance, LeastClearance, flat=DanceQuery, body=DanceFields)
+_LEAST = registry.Question(least_clearance, LeastClearance, flat=DanceQuery, body=DanceFields)
 # The ways to ask each, the flat one first. The seconds are those of the defaults on one core of a small machine.
 _ALL = {
     "collision_time": _ways(_known("collision_time"), 1e-3, "time", "certificate.method"),
@@ -94,15 +94,16 @@ _ALL = {
     "trajectory": _ways(_row(trajectory_row, TrajectoryRow, "trajectory"), 2e-3, "greatest_speed"),
     "overlaps": _ways(_row(overlaps_row, OverlapsRow, "overlaps"), 1e-2, "separation"),
 }
-QUESTIONS = _ALL | {name: ways[1:] for own, ways in _ALL.items() if (name := f"{own}_of") in questions.CALLS}
+QUESTIONS = _ALL | {name: ways[1:] for own, ways in _ALL.items() if (name := f"{own}_of") in registry.CALLS}
 # Questions of the service whose answers are no row, and why.
 PICTURE = "it answers with a picture: sweep the question whose numbers it draws"
 NO_ROWS = {
     "pitch_scan": "it is a sweep itself: sweep collision_time over pitch",
     "tolerance_curve": "it is a sweep itself: sweep tolerance over pitch",
     "envelope": "it answers with polygons: sweep check with a venue",
+    "course": "it answers with a drawn path: sweep check",
     "paper": "it takes no parameters",
-    **{name: PICTURE for name, question in questions.QUESTIONS.items() if question.model is None},
+    **{name: PICTURE for name, question in registry.QUESTIONS.items() if question.model is None},
 }
 
 

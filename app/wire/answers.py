@@ -24,6 +24,12 @@ LEFT_OUT = (
 )
 
 
+# Field of an answer that allows for a stray.
+ALLOWED: Any = measure(
+    "m", "How far every hole may be from its place, by people and by play, in this answer; null: none was asked for"
+)
+
+
 class Head(Answer):
     """Handle 0 at first contact."""
 

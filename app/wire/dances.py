@@ -6,15 +6,17 @@ Queries are flat and bodies are nested; both consist of the same groups of field
 from __future__ import annotations
 
 import math
-from typing import Annotated, Any, TypedDict
+from typing import TYPE_CHECKING, Annotated, Any, TypedDict
 
 import numpy as np
 from pydantic import AfterValidator, Discriminator, Field, Tag
 from pydantic_core import PydanticCustomError
 
 from app.settings import Settings
-from app.wire.degrees import Coordinates, Place, place_of
+from app.wire.benches import BenchCsv
+from app.wire.clocks import PassageBody, StartClock
 from app.wire.models import (
+    Coordinates,
     Instant,
     Length,
     Margin,
@@ -27,10 +29,14 @@ from app.wire.models import (
     measure,
 )
 from app.wire.paths import BY_KIND, KINDS, AnyPath, SpiralFields, SpiralPath
-from core import Dance, Dragon, InvalidValue, Stray
+from core import Dance, Dragon, InvalidValue, Passage, Stray
+from core.clock import PASSAGES_MAX
 from core.dragon import BENCHES_MAX
 from core.errors import said
 from core.values import Floats
+
+if TYPE_CHECKING:
+    from app.wire.degrees import Place
 
 # The last instant of a range may miss `stop` by this share of a step, so that 0 to 0.3 by 0.1 has four instants.
 LAST_STEP_TOLERANCE = 1e-9
@@ -39,6 +45,14 @@ FEWER_CELLS = "take a larger step, a shorter range or fewer benches"
 STRAY_MAX = 25
 # Nesting depth of objects and lists: a collection of features of polygons has nine levels.
 VENUE_DEPTH_MAX = 20
+# Fields that only a dragon given bench by bench has.
+BENCH_LISTS = ("lengths", "widths", "overhangs")
+
+
+Names = Annotated[
+    list[str] | None,
+    Field(description="Names of the benches, such as a household or a person, head first; empty: none"),
+]
 
 
 class UniformDragon(Wire):
@@ -69,6 +83,8 @@ class BenchByBench(Wire, strict=True):
         "m", "Distance from a handle to the nearer end of its bench, for each bench", min_length=1, fail_fast=True
     )
 
+    names: Names = None
+
     @property
     def benches(self) -> int:
         """Number of benches."""
@@ -77,7 +93,7 @@ class BenchByBench(Wire, strict=True):
     def to_dragon(self, benches_max: int) -> Dragon:
         """raises: TooLarge, InvalidValue"""
         check_limit("dragon.lengths", "benches", self.benches, benches_max, "shorten the dragon")
-        return Dragon.of(self.lengths, self.widths, self.overhangs)
+        return Dragon.of(self.lengths, self.widths, self.overhangs).named(self.names or ())
 
 
 class Strays(Wire):
@@ -99,6 +115,11 @@ class Strays(Wire):
         """Is any stray asked for? Then a search takes longer."""
         return self.stray > 0.0 or self.hole > 0.0
 
+    @property
+    def allowed(self) -> float | None:
+        """The stray in all, as an answer tells it; None for none [m]."""
+        return self.to_stray().total or None
+
     def to_stray(self) -> Stray:
         """raises: InvalidValue for a pin wider than its hole"""
         if self.pin > self.hole:
@@ -110,11 +131,17 @@ class Strays(Wire):
 class HeadSpeed(Wire):
     """Speed of the head."""
 
-    head_speed: float = measure("m/s", "Constant speed of the head", 1.0, ge=1e-3, le=20)
+    head_speed: float = measure("m/s", "Speed of the head", 1.0, ge=1e-3, le=20)
 
 
 class UniformBody(UniformDragon, strict=True):
     """A head and a body of equal benches, in a request body."""
+
+    names: Names = None
+
+    def to_dragon(self, benches_max: int) -> Dragon:
+        """raises: TooLarge, InvalidValue"""
+        return super().to_dragon(benches_max).named(self.names or ())
 
 
 class TimeRange(Wire):
@@ -149,7 +176,9 @@ class TimeSteps(TimeRange, strict=True):
 
 
 def _shape_of_dragon(value: Any) -> str:
-    listed = isinstance(value, dict) and not value.keys().isdisjoint(BenchByBench.model_fields)
+    if isinstance(value, BenchCsv) or (isinstance(value, dict) and "csv" in value):
+        return "bench_csv"
+    listed = isinstance(value, dict) and not value.keys().isdisjoint(BENCH_LISTS)
     return "bench_by_bench" if listed or isinstance(value, BenchByBench) else "uniform"
 
 
@@ -158,11 +187,13 @@ def _shape_of_times(value: Any) -> str:
 
 
 # Names of shapes: pydantic puts them into the place of an error, although no body contains them.
-SHAPES = frozenset({"uniform", "bench_by_bench", "range", "list"}) | KINDS
+SHAPES = frozenset({"uniform", "bench_by_bench", "bench_csv", "range", "list"}) | KINDS
 
 # The type with required fields comes first: generated clients take the first that fits.
 AnyDragon = Annotated[
-    Annotated[BenchByBench, Tag("bench_by_bench")] | Annotated[UniformBody, Tag("uniform")],
+    Annotated[BenchByBench, Tag("bench_by_bench")]
+    | Annotated[BenchCsv, Tag("bench_csv")]
+    | Annotated[UniformBody, Tag("uniform")],
     Discriminator(_shape_of_dragon),
 ]
 AnyTimes = Annotated[
@@ -193,16 +224,29 @@ class DragonFields(Wire, strict=True):
 class DanceFields(HeadSpeed, DragonFields, strict=True):
     """A dragon on a path, as the body of a request."""
 
+    passages: list[PassageBody] = Field(
+        [],
+        max_length=PASSAGES_MAX,
+        fail_fast=True,
+        description="Stretches from time 0 on in which the head goes at other speeds than head_speed, one after the "
+        "other; after the last one, head_speed holds. What benches meet depends on the place of the head alone: the "
+        "time of a contact is when the head first is there",
+    )
     path: AnyPath = Field(
         default_factory=SpiralPath, description="The path", json_schema_extra={"discriminator": BY_KIND}
     )
+    start_clock: StartClock = None
 
     def most_benches(self, settings: Settings) -> int:
         return super().most_benches(settings) if isinstance(self.path, SpiralPath) else settings.checked_benches_max
 
     def to_dance(self, benches_max: int) -> Dance:
         """raises: TooLarge, InvalidValue"""
-        return Dance(self.dragon.to_dragon(benches_max), self.path.to_path(), self.head_speed)
+        return Dance(self.dragon.to_dragon(benches_max), self.path.to_path(), self.head_speed, self.to_passages())
+
+    def to_passages(self) -> list[Passage]:
+        """Passages, each checked by itself."""
+        return [one.to_passage() for one in self.passages]
 
 
 class TimedDance(DanceFields):
@@ -262,6 +306,8 @@ class PlacedDance(DanceFields):
 
     def to_place(self, dragon: Dragon) -> Place:
         """raises: InvalidValue"""
+        from app.wire.degrees import Place, place_of  # Venues take 50 ms to import, and most questions have none.
+
         if self.venue is None:
             if self.coordinates is not None:
                 words = f"got {self.coordinates} without a venue: give the venue, or leave coordinates out"

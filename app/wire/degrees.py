@@ -9,15 +9,14 @@ import math
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Literal
 
 import numpy as np
 
 from app.wire.geojson import Polygon, Scale, read_polygons, venue_of
+from app.wire.models import Coordinates
 from core import Dragon, InvalidValue, Venue
+from core.values import Floats, checked_number
 from core.venue import Ring
-
-Coordinates = Literal["metres", "degrees"]
 
 # The ellipsoid of WGS 84: half of its long axis [m], and its flattening [1]. CGCS2000 differs by 0.1 mm.
 AXIS = 6_378_137.0
@@ -30,6 +29,8 @@ GEOGRAPHIC = re.compile(r"CRS:?84|\bEPSG:+[\d.]*:*(?:4326|4979|4490|4258|4269)$"
 
 DEGREES: Scale = ("degrees", 180.0, 90.0)
 LATITUDE_FIRST: Scale = ("degrees", 90.0, 180.0)
+# Steps of Newton's method from a plane back to the ellipsoid: 10 km from the middle each takes four digits more.
+STEPS = 4
 SWAPPED = "longitude comes first and latitude second, and here they look swapped"
 
 
@@ -41,9 +42,46 @@ class Origin:
     latitude: float
 
 
+# The plane touches the ellipsoid at O. A point P at longitude l and latitude p is, from the centre of the earth,
+# (n cos p cos l, n cos p sin l, n (1 - e2) sin p) with n = AXIS / sqrt(1 - e2 sin^2 p) and e2 = f (2 - f). East and
+# north of O are the projections of P - O on the unit vectors (-sin l0, cos l0, 0) and
+# (-sin p0 cos l0, -sin p0 sin l0, cos p0).
+class Plane:
+    """The plane that touches the earth at an origin: x to the east, y to the north [m]."""
+
+    def __init__(self, origin: Origin) -> None:
+        self.origin = origin
+        l0, p0 = math.radians(origin.longitude), math.radians(origin.latitude)
+        self.middle = _from_centre(np.array([[origin.longitude, origin.latitude]]))
+        self.axes = np.array(
+            [
+                [-math.sin(l0), math.cos(l0), 0.0],
+                [-math.sin(p0) * math.cos(l0), -math.sin(p0) * math.sin(l0), math.cos(p0)],
+            ]
+        )
+
+    def metres(self, places: Floats) -> Floats:
+        """Points (N, 2) [m] of places (N, 2), longitude and latitude [degrees]."""
+        projected: Floats = (_from_centre(places) - self.middle) @ self.axes.T
+        return projected
+
+    def degrees(self, points: Floats) -> Floats:
+        """Places (N, 2), longitude and latitude [degrees], of points (N, 2) [m]; the inverse of metres()."""
+        middle = np.array([self.origin.longitude, self.origin.latitude])
+        squared = FLATTENING * (2.0 - FLATTENING)
+        sine = math.sin(math.radians(self.origin.latitude))
+        across = AXIS / math.sqrt(1.0 - squared * sine**2)
+        along = across * (1.0 - squared) / (1.0 - squared * sine**2)
+        scale = np.radians([across * math.sqrt(1.0 - sine**2), along])
+        places: Floats = middle + points / scale
+        for _ in range(STEPS):
+            places = places + (points - self.metres(places)) / scale
+        return places
+
+
 @dataclass(frozen=True, slots=True)
 class Place:
-    """A venue in metres, and the place of its origin on earth if it was given in degrees."""
+    """A venue in metres, and the place of its origin on earth if it is known."""
 
     venue: Venue | None = None
     origin: Origin | None = None
@@ -56,7 +94,7 @@ def place_of(geometry: Mapping[str, object], coordinates: Coordinates | None, dr
     raises: InvalidValue, also for metres that can only be degrees: all coordinates within 180 and 90, in either order,
         and the square narrower than a bench
     """
-    named = _named_system(geometry)
+    named = named_system(geometry)
     for member in ("geometry", "features", "geometries"):
         _refuse_systems_inside(f"venue.{member}", geometry.get(member))
     geographic = named is not None and GEOGRAPHIC.search(named) is not None
@@ -73,10 +111,22 @@ def place_of(geometry: Mapping[str, object], coordinates: Coordinates | None, dr
         return _laid_out(_in_degrees(geometry))
     polygons = read_polygons(geometry)
     _refuse_degrees(polygons, float(dragon.lengths.max()))
-    return Place(venue_of(polygons))
+    return Place(venue_of(polygons), _told_origin(geometry.get("origin")))
 
 
-def _named_system(geometry: Mapping[str, object]) -> str | None:
+def _told_origin(told: object) -> Origin | None:
+    """Place of x = y = 0 that a venue in metres tells in its member `origin`. raises: InvalidValue"""
+    if told is None:
+        return None
+    if not isinstance(told, Mapping) or set(told) != {"longitude", "latitude"}:
+        raise InvalidValue("venue.origin", "venue.origin must have longitude and latitude in degrees, or be left out")
+    limits = zip(("longitude", "latitude"), DEGREES[1:], strict=True)
+    return Origin(
+        *(checked_number(f"venue.origin.{name}", told[name], "degrees", -most, most) for name, most in limits)
+    )
+
+
+def named_system(geometry: Mapping[str, object]) -> str | None:
     """Name of the coordinate system in GeoJSON of 2008; None without one."""
     system = geometry.get("crs") if isinstance(geometry, Mapping) else None
     if system is None:
@@ -136,41 +186,43 @@ def _refuse_degrees(polygons: list[Polygon], longest: float) -> None:
     raise InvalidValue("venue", f"venue must be in metres, got what looks like {looks}, a square of {size}: {change}")
 
 
-# The plane touches the ellipsoid at the middle O of the square's box. A point P at longitude l and latitude p is, from
-# the centre of the earth, (n cos p cos l, n cos p sin l, n (1 - e2) sin p) with n = AXIS / sqrt(1 - e2 sin^2 p) and
-# e2 = f (2 - f). East and north of O are the projections of P - O on the unit vectors (-sin l0, cos l0, 0) and
-# (-sin p0 cos l0, -sin p0 sin l0, cos p0).
 def _laid_out(polygons: list[Polygon]) -> Place:
-    turned = [(name, tuple(_unwrapped(ring, polygons[0][1][0][0][0]) for ring in rings)) for name, rings in polygons]
-    left, low, right, high = _bounds([turned[0][1][0]])
-    longitude, latitude = 0.5 * (left + right), 0.5 * (low + high)
-    l0, p0 = math.radians(longitude), math.radians(latitude)
-    origin = _from_centre(longitude, latitude)
-    east = (-math.sin(l0), math.cos(l0), 0.0)
-    north = (-math.sin(p0) * math.cos(l0), -math.sin(p0) * math.sin(l0), math.cos(p0))
+    turned = [(name, tuple(unwrapped(ring, polygons[0][1][0][0][0]) for ring in rings)) for name, rings in polygons]
+    origin = middle_of([turned[0][1][0]])
+    refuse_wide("venue", [ring for _, rings in turned for ring in rings], origin)
+    plane = Plane(origin)
 
     def placed(ring: Ring) -> Ring:
-        ways = np.array([_from_centre(*point) for point in ring]) - origin
-        return tuple(map(tuple, (ways @ np.array([east, north]).T).tolist()))
+        return tuple(map(tuple, plane.metres(np.array(ring)).tolist()))
 
-    left, low, right, high = _bounds([ring for _, rings in turned for ring in rings])
-    across = AXIS * math.radians(max((right - left) * math.cos(p0), high - low))
+    metres = [(name, tuple(map(placed, rings))) for name, rings in turned]
+    return Place(venue_of(metres), Origin((origin.longitude + 180.0) % 360.0 - 180.0, origin.latitude))
+
+
+def middle_of(rings: list[Ring]) -> Origin:
+    """The middle of the box around rings in degrees."""
+    left, low, right, high = _bounds(rings)
+    return Origin(0.5 * (left + right), 0.5 * (low + high))
+
+
+def refuse_wide(field: str, rings: list[Ring], origin: Origin) -> None:
+    """raises: InvalidValue for rings in degrees that are more than ACROSS_MAX across"""
+    left, low, right, high = _bounds(rings)
+    across = AXIS * math.radians(max((right - left) * math.cos(math.radians(origin.latitude)), high - low))
     if across > ACROSS_MAX:
         limit, size = ACROSS_MAX / 1000.0, across / 1000.0
-        raise InvalidValue("venue", f"venue must be at most {limit:g} km across, got about {size:.4g} km")
-    metres = [(name, tuple(placed(ring) for ring in rings)) for name, rings in turned]
-    return Place(venue_of(metres), Origin((longitude + 180.0) % 360.0 - 180.0, latitude))
+        raise InvalidValue(field, f"{field} must be at most {limit:g} km across, got about {size:.4g} km")
 
 
-def _unwrapped(ring: Ring, near: float) -> Ring:
+def unwrapped(ring: Ring, near: float) -> Ring:
     """The ring with all longitudes within half a turn of a given one, because they jump at the date line."""
     return tuple((near + (x - near + 180.0) % 360.0 - 180.0, y) for x, y in ring)
 
 
-def _from_centre(longitude: float, latitude: float) -> tuple[float, float, float]:
-    """Position of a place on the ellipsoid, relative to the centre of the earth [m]."""
-    long, lat = math.radians(longitude), math.radians(latitude)
+def _from_centre(places: Floats) -> Floats:
+    """Positions (N, 3) of places (N, 2) on the ellipsoid, relative to the centre of the earth [m]."""
+    long, lat = np.radians(places).T
     squared = FLATTENING * (2.0 - FLATTENING)
-    n = AXIS / math.sqrt(1.0 - squared * math.sin(lat) ** 2)
-    across = n * math.cos(lat)
-    return across * math.cos(long), across * math.sin(long), n * (1.0 - squared) * math.sin(lat)
+    n = AXIS / np.sqrt(1.0 - squared * np.sin(lat) ** 2)
+    across = n * np.cos(lat)
+    return np.stack([across * np.cos(long), across * np.sin(long), n * (1.0 - squared) * np.sin(lat)], axis=-1)

@@ -11,21 +11,26 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
+import numpy as np
+
 from core import Area, Envelope, InvalidValue, Venue
 from core.paths.pieces import COORDINATE_MAX, Point
-from core.values import checked_number
-from core.venue import Ring, checked_name, refuse_many_edges
+from core.shapes.engines import thickened
+from core.values import checked_name, checked_number
+from core.venue import Ring, refuse_many_edges
 
 # Name and rings.
 Polygon = tuple[str, tuple[Ring, ...]]
-# Name if it has one, the field of its coordinates, and the coordinates as given.
-Found = tuple[str | None, str, object]
+# Name if it has one, the field of its coordinates, the coordinates as given, and half of its width, if it has one [m].
+Found = tuple[str | None, str, object, float | None]
 # Unit of coordinates, and the largest |x| and |y| in it.
 Scale = tuple[str, float, float]
 METRES: Scale = ("m", COORDINATE_MAX, COORDINATE_MAX)
 
 # Enough for a collection of features of collections of polygons.
 DEPTH_MAX = 8
+# Radius of a round obstacle, and half of the width of a wall [m].
+RADIUS_MIN, RADIUS_MAX = 1e-3, 1e3
 
 
 def read_polygons(geometry: object, scale: Scale = METRES) -> list[Polygon]:
@@ -33,17 +38,20 @@ def read_polygons(geometry: object, scale: Scale = METRES) -> list[Polygon]:
 
     geometry: a Polygon, a Feature of one, a GeometryCollection or a FeatureCollection of them. The square is the
         feature whose property `name` is "square", else the first polygon; the others are obstacles, named by their
-        property `name`, else "obstacle 1" and so on. Heights are ignored.
+        property `name`, else "obstacle 1" and so on. Heights are ignored. In metres a Feature of a Point or of a
+        LineString whose property `radius` is positive is an obstacle too: a tree, or a wall of twice that width. Its
+        polygon holds all within the radius, and nothing further than 2% more.
     raises: InvalidValue naming the member at fault; too many edges are refused before any coordinate is read
     """
     found = _polygons("venue", geometry)
-    if not found:
+    whole = [k for k, one in enumerate(found) if one[3] is None]
+    if not whole:
         raise InvalidValue("venue", "venue must hold at least one polygon, the square")
     refuse_many_edges(
-        ring for _, _, rings in found if isinstance(rings, list) for ring in rings if isinstance(ring, list)
+        ring for _, _, rings, _ in found if isinstance(rings, list) for ring in rings if isinstance(ring, list)
     )
-    named = [(name, _rings(field, rings, scale)) for name, field, rings in found]
-    square = next((k for k, (name, _) in enumerate(named) if name == "square"), 0)
+    named = [(name, _rings(field, rings, scale, radius)) for name, field, rings, radius in found]
+    square = next((k for k in whole if named[k][0] == "square"), whole[0])
     others = [polygon for k, polygon in enumerate(named) if k != square]
     obstacles = [(name or f"obstacle {k}", rings) for k, (name, rings) in enumerate(others, start=1)]
     return [(named[square][0] or "square", named[square][1]), *obstacles]
@@ -74,14 +82,21 @@ def _polygons(field: str, geometry: object, depth: int = 0) -> list[Found]:
         raise InvalidValue(field, f"{field} must be a GeoJSON object, got {type(geometry).__name__}")
     kind = geometry.get("type")
     if kind == "Polygon":
-        return [(None, f"{field}.coordinates", geometry.get("coordinates"))]
+        return [(None, f"{field}.coordinates", geometry.get("coordinates"), None)]
     if kind == "Feature":
         properties = geometry.get("properties")
         name = properties.get("name") if isinstance(properties, Mapping) else None
         if name is not None:
             checked_name(f"{field}.properties.name", name, f"{field}.properties.name")
-        inner = _polygons(f"{field}.geometry", geometry.get("geometry"), depth + 1)
-        return [(name or own, where, rings) for own, where, rings in inner]
+        shape = geometry.get("geometry")
+        if isinstance(shape, Mapping) and shape.get("type") in ("Point", "LineString"):
+            given = properties.get("radius") if isinstance(properties, Mapping) else None
+            radius = checked_number(f"{field}.properties.radius", given, "m", RADIUS_MIN, RADIUS_MAX)
+            points = shape.get("coordinates")
+            lines = [points] if shape["type"] == "LineString" else [[points, points]]
+            return [(name, f"{field}.geometry.coordinates", lines, radius)]
+        inner = _polygons(f"{field}.geometry", shape, depth + 1)
+        return [(name or own, where, rings, width) for own, where, rings, width in inner]
     members = {"FeatureCollection": "features", "GeometryCollection": "geometries"}.get(str(kind))
     if members is None:
         raise InvalidValue(
@@ -93,14 +108,22 @@ def _polygons(field: str, geometry: object, depth: int = 0) -> list[Found]:
     return [found for polygons in each for found in polygons]
 
 
-def _rings(field: str, value: object, scale: Scale) -> tuple[Ring, ...]:
+def _rings(field: str, value: object, scale: Scale, radius: float | None) -> tuple[Ring, ...]:
     rings = _listed(field, value, "ring")
-    return tuple(
+    read = tuple(
         tuple(
             _place(f"{field}.{k}.{i}", point, scale) for i, point in enumerate(_listed(f"{field}.{k}", ring, "point"))
         )
         for k, ring in enumerate(rings)
     )
+    if radius is None:
+        return read
+    if scale != METRES:
+        raise InvalidValue(field, f"{field} must be in metres, as its radius is, or be a Polygon: got {scale[0]}")
+    if len(read[0]) < 2:
+        raise InvalidValue(field, f"{field} must be at least 2 points, got {len(read[0])}")
+    (outline,) = thickened(np.array(read[0]), radius)
+    return tuple(tuple(map(tuple, ring.tolist())) for ring in outline)
 
 
 def _place(field: str, value: object, scale: Scale) -> Point:

@@ -116,6 +116,8 @@ def message(error: Mapping[str, Any], asked: Any, thing: str = OBJECT) -> str:
             return f"{name} must nest objects and lists at most {limits['most']} deep"
         case "literal_error" | "enum":
             return f"{name} must be {limits['expected']}, {got}"
+        case "benches":
+            return f"{name}: {limits['words']}"
         case "too_many_names":
             return f"{name} must have at most {limits['most']} names, got {limits['given']}: see /docs for all names"
     return f"{name}: {error['msg'][:1].lower()}{error['msg'][1:]}, {got}"

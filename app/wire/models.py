@@ -31,9 +31,11 @@ def unit_of(field: FieldInfo) -> str:
     return str(extra["x-unit"]) if isinstance(extra, dict) and "x-unit" in extra else ""
 
 
-Length = Annotated[float, Field(ge=1e-3, le=50)]
-Width = Annotated[float, Field(ge=1e-3, le=5)]
-Overhang = Annotated[float, Field(ge=0, le=5)]
+# Least and largest sizes of a bench [m].
+LENGTHS, WIDTHS, OVERHANGS = (1e-3, 50.0), (1e-3, 5.0), (0.0, 5.0)
+Length = Annotated[float, Field(ge=LENGTHS[0], le=LENGTHS[1])]
+Width = Annotated[float, Field(ge=WIDTHS[0], le=WIDTHS[1])]
+Overhang = Annotated[float, Field(ge=OVERHANGS[0], le=OVERHANGS[1])]
 PITCH_MAX = 10.0  # [m]
 Pitch = Annotated[float, measure("m", "Radial advance of the spiral per full turn", ge=1e-3, le=PITCH_MAX)]
 StartTurns = Annotated[float, measure("turns", "Turns between the centre and the start", gt=0, le=200)]
@@ -41,6 +43,8 @@ Margin = Annotated[
     float,
     measure("m", "Clearance required: benches nearer than this are in contact; 0: only a touch counts", ge=0, le=2),
 ]
+# Unit of the coordinates of a venue.
+Coordinates = Literal["metres", "degrees"]
 Coordinate = Annotated[float, Field(ge=-1e6, le=1e6)]
 Instant = Annotated[float, Field(ge=-1e6, le=1e6)]
 SpeedLimit = Annotated[float, Field(ge=1e-3, le=100)]

@@ -1,7 +1,6 @@
 """Paths in requests, distinguished by `kind`: spiral, turn, waypoints, and a route of pieces.
 
-A refusal of core is renamed to its place in the body: core does not put `path.` before the fields of a turn, and it
-treats a curve through waypoints as the only piece of a route.
+A refusal of core is renamed to its place in the body: core does not put `path.` before the fields of a turn.
 """
 
 from __future__ import annotations
@@ -20,6 +19,7 @@ PIECES_MAX = 1_000
 
 Radius = Annotated[float, Field(ge=1e-3, le=1e4)]
 Point = Annotated[list[Coordinate], Field(min_length=2, max_length=2)]
+Leg = Annotated[int, Field(ge=0, lt=POINTS_MAX)]
 Start = Annotated[
     float,
     measure("m", "Distance of the head from the beginning of the path at time 0", ge=-1e6, le=1e6),
@@ -81,6 +81,13 @@ class SpiralPath(SpiralFields):
     model_config = ConfigDict(strict=True, json_schema_extra={"required": ["kind"]})
 
     kind: Literal["spiral"] = Field("spiral", description="Kind of path")
+    centre: Point = measure("m", "Centre of the spiral, x and y; places alone depend on it", [0.0, 0.0])
+    rotation: Angle = measure("rad", "Rotation of the whole spiral about its centre", 0.0)
+    clockwise: bool = Field(True, description="Direction of the dance; false: the mirror image, counter-clockwise")
+
+    def to_path(self) -> Spiral:
+        """raises: InvalidValue"""
+        return Spiral(self.pitch, self.start_turns, _point(self.centre), self.rotation, self.clockwise)
 
 
 class TurnPath(TurnFields, strict=True):
@@ -150,16 +157,30 @@ def _placed(piece: LinePiece | ArcPiece | CoilPiece | WaypointsPiece, place: str
 
 
 class WaypointsPath(WaypointsPiece, strict=True):
-    """A smooth curve through points as the whole path."""
+    """A path through points, smooth everywhere: each leg between two of them is a curve or a straight line."""
 
+    straight: list[Leg] = Field(
+        default_factory=list,
+        max_length=POINTS_MAX,
+        fail_fast=True,
+        description="Legs that are straight, from 0: leg k goes from point k to the next one. The others are curves, "
+        "which leave and enter the straight legs beside them in their direction",
+    )
+    radius: Radius = measure(
+        "m", "Radius of the arcs that round a corner of two straight legs, smaller where a leg is too short for it", 5.0
+    )
     start: Start = 0.0
 
     def to_path(self) -> Route:
         """raises: InvalidValue"""
-        try:
-            return Route((_placed(self, "path"),), self.start)
-        except InvalidValue as error:
-            raise error.named(error.field.replace("path.pieces.0", "path", 1)) from error
+        return core.Legs(
+            [_point(point) for point in self.points],
+            self.straight,
+            radius=self.radius,
+            start_heading=self.start_heading,
+            end_heading=self.end_heading,
+            start=self.start,
+        )
 
 
 def _point(value: list[float]) -> tuple[float, float]:

@@ -67,7 +67,7 @@ def _be(stray: float) -> str:
 
 
 def _dance(dance: Dance) -> str:
-    return f"{_dragon(dance.dragon)} on {dance.path.words()}, the head at {said(dance.head_speed)} m/s"
+    return f"{_dragon(dance.dragon)} on {dance.path.words()}, the head at {dance.clock.words()}"
 
 
 def _dragon(dragon: Dragon) -> str:

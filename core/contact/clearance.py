@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from core import plots
 from core.budget import Budget, bounded
+from core.clock import Clock
 from core.contact.fold import least_to_fold
 from core.contact.search import NEAR_WORK_BUDGET, TOUCHES, Ended, Search
 from core.dance import Dance, RunEnd
@@ -133,7 +134,7 @@ def clearance_profile(
         that is the nearest for less than a step may be missed here, never by first_contact()
     raises: OutsideRun after the end of the run; InvalidValue for fewer than three benches; TooMuchWork
     """
-    dragon, head_speed = dance.dragon, dance.head_speed
+    dragon, clock = dance.dragon, dance.clock
     if dragon.benches < 3:
         raise InvalidValue(
             "dragon.benches", f"dragon.benches must be at least 3 for two to share no handle, got {dragon.benches}"
@@ -141,14 +142,14 @@ def clearance_profile(
     time = dance.times(times)
     search = Search(dragon, dance.path, 0.0, budget=budget)
     search.resize(dragon.benches)
-    clearance, benches = _at(search, time, head_speed)
-    return ClearanceProfile(time, clearance, benches, _grazes(search, time, head_speed))
+    clearance, benches = _at(search, time, clock)
+    return ClearanceProfile(time, clearance, benches, _grazes(search, time, clock))
 
 
-def _at(search: Search, time: Floats, head_speed: float) -> tuple[Floats, NDArray[np.int64]]:
+def _at(search: Search, time: Floats, clock: Clock) -> tuple[Floats, NDArray[np.int64]]:
     clearance, benches = np.empty(time.size), np.empty((time.size, 2), dtype=np.int64)
     for k, instant in enumerate(time.flat):
-        clearance[k], benches[k] = _affordable(search, float(instant) * head_speed)
+        clearance[k], benches[k] = _affordable(search, clock.place(float(instant)))
     return clearance.reshape(time.shape), benches.reshape(*time.shape, 2)
 
 
@@ -167,10 +168,10 @@ def _affordable(search: Search, travel: float, leaders: int | None = None) -> tu
 
 # Where the clearance passes from one pair to another it has a kink that points up, so each of its local minima is one
 # of a single pair: of the nearest one at either end of a step, if that pair comes nearer at first and parts at last.
-def _grazes(search: Search, time: Floats, head_speed: float) -> tuple[Graze, ...]:
+def _grazes(search: Search, time: Floats, clock: Clock) -> tuple[Graze, ...]:
     if time.size < 2:
         return ()
-    first, last = float(time.min()) * head_speed, float(time.max()) * head_speed
+    first, last = clock.place(float(time.min())), clock.place(float(time.max()))
     grid = _grid(search, first, last)
     pairs = [_affordable(search, travel)[1] for travel in grid]
     grazes = []
@@ -178,10 +179,10 @@ def _grazes(search: Search, time: Floats, head_speed: float) -> tuple[Graze, ...
         for pair in sorted(set(nearest)):
             if not search.gap_rate(ends[0], pair) < 0.0 < search.gap_rate(ends[1], pair):
                 continue
-            travel = search.bottom(*ends, pair, DIP_WIDTH * head_speed)
+            travel = search.bottom(*ends, pair, DIP_WIDTH * clock.slowest)
             gap, there = search.clearance(travel)
             if there == pair:
-                grazes.append(Graze(travel / head_speed, gap, pair))
+                grazes.append(Graze(max(clock.time(travel), float(time.min())), gap, pair))
     return tuple(sorted(grazes, key=lambda graze: graze.time))
 
 
@@ -202,20 +203,20 @@ def least_clearance(
     raises: InvalidValue; OutsideRun for a stop after the end of the run; TooMuchWork
     """
     begin, until = dance.span(start, stop)
-    head_speed, end = dance.head_speed, dance.end
+    clock, end = dance.clock, dance.end
     if dance.dragon.benches < 3:
         return None
     to_fold = dance.nears_fold(until)
     strayed = checked_stray(stray, dance.dragon)
     search = Search(dance.dragon, dance.path, 0.0, work=NEAR_WORK_BUDGET, budget=budget, stray=strayed)
-    last = search.last_travel(until * head_speed, to_fold)
+    last = search.last_travel(clock.place(until), to_fold)
     fold = end if to_fold else None
-    (distance, travel, pair), at_least = least_over(search, begin * head_speed, last, head_speed, fold)
+    (distance, travel, pair), at_least = least_over(search, clock.place(begin), last, clock.slowest, fold)
     if distance == 0.0:
-        gap, overlapping = search.clearance(begin * head_speed)
+        gap, overlapping = search.clearance(clock.place(begin))
         if gap < 0.0:
             return LeastClearance(gap, None, begin, overlapping)
-    return LeastClearance(distance, at_least, travel / head_speed, pair)
+    return LeastClearance(distance, at_least, max(clock.time(travel), begin), pair)
 
 
 # The least gap that samples show does occur, so it is an upper bound of the least gap of all. The march gets that gap

@@ -20,10 +20,12 @@ from core.dragon import Dragon
 from core.motion.trajectory import bench_poses, trajectory
 from core.paths.spiral import Spiral
 from core.shapes.broad_phase import Pairs, meeting_pairs
-from core.shapes.engines import JUDGES, Engine, able, found_pairs
+from core.shapes.engines import JUDGES, Engine, able, found_pairs, unions_meet
 from core.shapes.overlaps import Verdict
 from core.shapes.rectangles import corners, frames, frames_separation
 from core.shown import Shown, worded
+from core.tolerance.reach import SHORT, Reach, reach
+from core.tolerance.stray import Stray, checked_stray
 from core.values import Floats, asked_of, checked_number, checked_type
 
 Pair = tuple[int, int]
@@ -92,7 +94,8 @@ def contact_check(
     """The engines on the dance CHECK_TRAVEL of head travel before and after the bracket of a first contact.
 
     A contact at the start is judged at the start and CHECK_TRAVEL after it, and counts if it is found at either.
-    whole: judge the whole dragon, else only the reported pair; with a stray only that, within the gap that it has then
+    whole: judge the whole dragon, else only the reported pair. With a stray each pair has a distance of its own: the
+        engines judge the reported pair within the gap that it has then, and shapely the grounds that all may cover
     returns: None if nothing touches or nothing is decided
     raises: InvalidValue
 
@@ -104,20 +107,28 @@ def contact_check(
     """
     checked_type("dance", dance, Dance)
     margin = checked_number("margin", margin, "m", 0.0, MARGIN_MAX)
+    clock, dance = dance.clock, dance.steady
     dragon, path, head_speed = dance.dragon, dance.path, dance.head_speed
     if contact.time is None or contact.benches is None:
         return None
-    if contact.stray and contact.gap is not None:  # each pair would have a distance of its own: so this one alone
-        margin, whole = contact.gap, False
     at_start = contact.outcome is Outcome.CONTACT_AT_START
-    first, last = contact.time_bracket or (contact.time, contact.time)
-    rounding = CHECK_DIGITS * float(np.spacing(path.place + abs(contact.time) * head_speed))
+    first, last = clock.steady(np.array(contact.time_bracket or (contact.time, contact.time))).tolist()
+    rounding = CHECK_DIGITS * float(np.spacing(path.place + abs(first) * head_speed))
     travel = max(CHECK_TRAVEL, rounding) / head_speed
     times = [first if at_start else first - travel, last + travel]
     front = dragon if whole else dragon.leading(contact.benches[1] + 1)  # No bench moves one in front of it.
     poses = _poses(replace(dance, dragon=front), times, budget)
     size = np.stack([dragon.lengths, dragon.widths], axis=-1)[: poses.shape[1]]
-    return judged_contact(poses, size, contact.benches, margin=margin, whole=whole, at_start=at_start, budget=budget)
+    pair = contact.benches
+    if not contact.stray or contact.gap is None:
+        return judged_contact(poses, size, pair, margin=margin, whole=whole, at_start=at_start, budget=budget)
+    own = judged_contact(poses, size, pair, margin=contact.gap, whole=False, at_start=at_start)
+    if not whole:
+        return own
+    ground = judged_grounds(poses, reach(dragon, contact.stray), pair, margin=margin, at_start=at_start)
+    return replace(
+        ground, agree=ground.agree and own.agree, engines=own.engines | ground.engines, left_out=own.left_out
+    )
 
 
 @asked_of("found", MinimumPitch)
@@ -127,26 +138,31 @@ def pitch_check(
     dragon: Dragon,
     *,
     margin: float = 0.0,
+    stray: float | Stray = 0.0,
     whole: bool = True,
     budget: Budget | None = None,
 ) -> ContactCheck | None:
     """The engines on the dance at a pitch CHECK_PITCH larger and CHECK_PITCH smaller than the minimum.
 
     The head stands where the pair meets just below that pitch, or at the start if the start limits the pitch.
-    whole: judge the whole dragon, else only the reported pair
+    whole: judge the whole dragon, else only the reported pair; with a stray shapely judges the grounds that all may
+        cover, in either case
     returns: None if no pair limits the pitch
     raises: InvalidValue
     """
     checked_type("dragon", dragon, Dragon)
     margin = checked_number("margin", margin, "m", 0.0, MARGIN_MAX)
+    strayed = checked_stray(stray, dragon)
     if found.benches is None or found.head_radius is None:
         return None
     poses = []
     for pitch in (found.pitch + CHECK_PITCH, found.pitch - CHECK_PITCH):
         # A spiral that starts at a radius has its head there at time 0.
         turns = found.head_radius / (found.pitch if found.limited_by is LimitedBy.START else pitch)
-        front = dragon if whole else dragon.leading(found.benches[1] + 1)
+        front = dragon if whole or strayed else dragon.leading(found.benches[1] + 1)
         poses.append(_poses(Dance(front, Spiral(pitch, turns)), [0.0], budget)[0])
+    if strayed:
+        return judged_grounds(np.array(poses), reach(dragon, strayed), found.benches, margin=margin, budget=budget)
     size = np.stack([dragon.lengths, dragon.widths], axis=-1)[: len(poses[0])]
     return judged_contact(np.array(poses), size, found.benches, margin=margin, whole=whole, budget=budget)
 
@@ -212,6 +228,47 @@ def _leave_out_blind(words: dict[Engine, Verdict], poses: Floats, sizes: Floats)
         if inside.any():
             return
     words.pop(Engine.ANGLE_SUM, None)
+
+
+def judged_grounds(
+    poses: Floats,
+    ground: Reach,
+    pair: Pair,
+    *,
+    margin: float = 0.0,
+    at_start: bool = False,
+    budget: Budget | None = None,
+) -> ContactCheck:
+    """Shapely's verdict on the grounds that benches may cover, as judged_contact() of the whole dragon.
+
+    together: those that meet between the two instants. The search takes the largest gap along a direction for the
+    distance, which is up to SHORT less: so grounds are asked to be apart by the margin before, and to be within it and
+    SHORT of it after
+    """
+    sizes = np.stack([ground.bounds.lengths, ground.bounds.widths], axis=-1)
+    judged = judged_benches(poses[1], sizes, pair, margin)
+    before, after = (
+        _grounds_met(pose, ground, within, near)
+        for pose, within in zip(poses, (margin, margin * (1.0 + SHORT)), strict=True)
+        for near in _found(Engine.SHAPELY, pose[None, judged], sizes[judged], within, judged, budget)
+    )
+    together = set() if at_start else after - before - {pair}
+    word = _word([pair in before, pair in after], at_start) if at_start else Verdict(bool(before), pair in after)
+    return _told({Engine.SHAPELY: word}, judged, tuple(sorted(together)))
+
+
+def _grounds_met(pose: Floats, ground: Reach, margin: float, near: set[Pair]) -> set[Pair]:
+    """Those pairs whose grounds are within the margin, of those where the rectangles around them are."""
+    if not near:
+        return set()
+    placed = []
+    for benches in np.array(sorted(near)).T:
+        x, y, heading = pose[benches].T[:, :, None, None]
+        along, left = np.moveaxis(ground.hulls[ground.kinds[np.minimum(benches, len(ground.kinds) - 1)]], -1, 0)
+        c, s = np.cos(heading), np.sin(heading)
+        placed.append(np.stack([x + along * c - left * s, y + along * s + left * c], axis=-1))
+    meet = unions_meet(placed[0], placed[1], margin)
+    return {pair for pair, meets in zip(sorted(near), meet.tolist(), strict=True) if meets}
 
 
 def _word(found: list[bool], at_start: bool) -> Verdict:

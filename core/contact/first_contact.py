@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING, Any
 
 from core import kernels, plots
 from core.budget import Budget, bounded
+from core.clock import Clock
 from core.contact.claim import ENDS, UNDECIDED_THEN, claim, claim_at_start, claim_undecided, contact_then
 from core.contact.clearance import Graze
 from core.contact.fold import approach_fold
@@ -135,8 +136,9 @@ class FirstContact(Shown):
             if benches is None or self.point is None:
                 raise InvalidValue("enlarged", "enlarged must be False where no two benches meet, got True")
             width = float(dance.dragon.widths[list(benches)].max())
+            centre = dance.path.frame.centre
             half = max(plots.ENLARGED_WIDTHS * width, plots.ENLARGED_MARGINS * self.margin)
-            plots.draw_enlarged(axes, outlines, benches, self.point, half, self.corner, self.edge)
+            plots.draw_enlarged(axes, outlines, benches, self.point, half, self.corner, self.edge, centre)
         else:
             plots.draw_dance(axes, dance.path, handles, outlines)
             if benches is not None:
@@ -199,9 +201,9 @@ def first_contact(
         time at which two benches may come within the margin, because the grounds that they may cover do
     start, stop: the times between which to look [s]; None for the end of the run
     returns: see FirstContact. Times are good to 1e-10 s at 1 m/s. The bracket [proven clear up to, overlapping at] is
-        at most 1e-9 s wide (1e-8 s with a stray), except where arc lengths or times are less exact (beyond 1e5 m, below
-        1e-3 m/s), and
-        within about 5e-5 m of a graze along waypoints, behind bench 60, or where a second pair meets at once. Both
+        at most 1e-9 s wide, except where arc lengths or times are less exact (beyond 1e5 m, below 1e-3 m/s), within
+        about 5e-5 m of a graze along waypoints, behind bench 60, or where a second pair meets at once, and where
+        benches that stray nearly graze (1e-7 s). Both
         ends hold in spite of rounding (core/kernels/rounding.py, pairs.py). Where rounding hides the answer it
         is undecided: benches whose clearance at the start equals the margin to about 1e-12 m
     raises: InvalidValue; OutsideRun for a stop after the end of the run; TooMuchWork
@@ -232,17 +234,18 @@ def contact_within(
     margin = checked_number("margin", margin, "m", 0.0, MARGIN_MAX)
     strayed = checked_stray(stray, dance.dragon)
     begin, until = dance.span(start, stop)
-    head_speed, end = dance.head_speed, dance.end
+    clock, head_speed, end = dance.clock, dance.clock.slowest, dance.end
     search = Search(dance.dragon, dance.path, margin, budget=budget, stray=strayed)
+    search.timing = clock.rounding(until)
     to_fold = dance.nears_fold(until)
-    last = search.last_travel(until * head_speed, to_fold)
+    last = search.last_travel(clock.place(until), to_fold)
     if to_fold:
-        state, found, tolerance = approach_fold(search, begin * head_speed, last, head_speed, end)
+        state, found, tolerance = approach_fold(search, clock.place(begin), last, head_speed, end)
     else:
-        state, found, tolerance = search.approach(begin * head_speed, last, head_speed)
+        state, found, tolerance = search.approach(clock.place(begin), last, head_speed)
     narrow = BRACKETS_GRAZING[0] * min(1.0, head_speed)
     if (
-        not strayed
+        not (strayed or dance.passages)
         and state is Ended.TOUCHED
         and tolerance > narrow >= 2.0 * search.travel_rounding(found.touching or 0.0)
     ):
@@ -250,16 +253,16 @@ def contact_within(
         if narrower is not None:
             found, tolerance = narrower, narrow
     if state is Ended.STUCK:
-        until = _known_overlap(search, found.proven, last, head_speed, until)
+        until = _known_overlap(search, found.proven, last, clock, until)
     if stop is not None and state is Ended.REACHED:
         end = RunEnd(EndReason.STOP, until, None, None)
     return _result(dance, search, state, found, end, (begin, until), tolerance)
 
 
-def _known_overlap(search: Search, proven: float, last: float, head_speed: float, until: float) -> float:
+def _known_overlap(search: Search, proven: float, last: float, clock: Clock, until: float) -> float:
     """Time at which benches are certainly within the margin after a search gave up [s]; `until` if not known."""
-    state, found, _ = search.approach(min(proven + BEYOND, last), last, head_speed)
-    return until if state is Ended.STUCK or found.touching is None else found.touching / head_speed
+    state, found, _ = search.approach(min(proven + BEYOND, last), last, clock.slowest)
+    return until if state is Ended.STUCK or found.touching is None else clock.time(found.touching)
 
 
 def _result(
@@ -271,10 +274,10 @@ def _result(
     span: tuple[float, float],
     tolerance: float,
 ) -> FirstContact:
-    graze, head_speed = None, dance.head_speed
+    graze, clock = None, dance.clock
     if found.graze is not None:
-        graze = Graze(found.graze.travel / head_speed, found.graze.gap, found.graze.benches)
-    proven = end.time if state is Ended.REACHED else found.proven / head_speed
+        graze = Graze(max(clock.time(found.graze.travel), span[0]), found.graze.gap, found.graze.benches)
+    proven = end.time if state is Ended.REACHED else max(clock.time(found.proven), span[0])
     outcome = {Ended.REACHED: Outcome.CLEAR, Ended.STUCK: Outcome.UNDECIDED, Ended.TOUCHED: Outcome.CONTACT}.get(
         state, Outcome.CONTACT_AT_START
     )
@@ -294,8 +297,8 @@ def _result(
     corner, edge, point, gap = _touching_features(search, travel, pair)
     return FirstContact(
         outcome,
-        travel / head_speed,
-        None if at_start else (proven, found.touching / head_speed),
+        span[0] if at_start else clock.time(travel),
+        None if at_start else (proven, clock.time(found.touching)),
         search.path.head(travel),
         pair,
         corner,
@@ -321,7 +324,7 @@ def _method(
     if outcome is Outcome.CONTACT_AT_START:
         return claim_at_start(*asked, span[0], pair)
     assert found.touching is not None
-    touching = found.touching / dance.head_speed
+    touching = dance.clock.time(found.touching)
     if not span[1] > span[0]:
         return claim_at_start(*asked, touching, pair)
     return claim(*asked, span, contact_then(pair, margin, search.stray, touching))
@@ -344,4 +347,5 @@ def _touching_features(
     x, y = (met.bx, met.by) if corner and corner.bench == pair[1] else (met.ax, met.ay)
     turned = search.theta_at(travel) if isinstance(search.path, Spiral) else 0.0
     cos, sin = math.cos(turned), math.sin(turned)
-    return corner, edge, (float(x * cos - y * sin), float(x * sin + y * cos)), float(met.separation)
+    point = search.path.frame.point(float(x * cos - y * sin), float(x * sin + y * cos))
+    return corner, edge, point, float(met.separation)

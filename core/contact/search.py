@@ -34,7 +34,7 @@ from core.kernels.constants import (
 from core.paths.route import Route
 from core.paths.spiral import Spiral
 from core.sampling import bisected
-from core.tolerance.reach import Reach, directions, reach
+from core.tolerance.reach import directions, reach
 from core.values import Floats
 
 MARGIN_MAX = 1e4  # [m]
@@ -111,6 +111,16 @@ class Marched(NamedTuple):
     bend: float = 0.0
     graze: Dip | None = None
 
+    def followed_by(self, further: Marched) -> Marched:
+        """The result of this march and of one that went on from where it was proven."""
+        grazes = [march.graze for march in (self, further) if march.graze is not None]
+        return further._replace(
+            proven=max(self.proven, further.proven),
+            steps=self.steps + further.steps,
+            bend=max(self.bend, further.bend),
+            graze=min(grazes, default=None),
+        )
+
 
 class Search:
     """The kernels' arrays for one dragon, with the current path and margin.
@@ -129,6 +139,7 @@ class Search:
         known there is room for the leading benches only, as on a spiral
     work: work that its marches may still do, see WORK_BUDGET, within the budget of the whole question. Once that is
         stopped, whatever examines benches raises Halted
+    timing: how far the head may be from its place at a rounded time, besides the rounding of its travel [m]
     place: origin of the kernels' places, at time 0: arc length from the centre of a spiral, minus s on a route [m]
     """
 
@@ -147,9 +158,11 @@ class Search:
         stray: float = 0.0,
     ) -> None:
         self.work, self.budget, self.nominal, self.stray = work, budget or Budget(), dragon, stray
-        self.kinds = kernels.Kinds()
-        if stray > 0.0:
-            dragon = self._spread(reach(dragon, stray))
+        self.timing, self.kinds = 0.0, kernels.Kinds()
+        ground = reach(dragon, stray) if stray > 0.0 else None
+        if ground is not None:
+            self.kinds.lay(ground.hulls.reshape(-1, 2), ground.kinds, directions())
+            dragon = ground.bounds
         self.dragon = dragon
         self.edges = np.empty((0, 4)) if edges is None else edges
         alike = dragon.uniform_from
@@ -167,14 +180,11 @@ class Search:
         rings.all_chord, rings.all_shortest, rings.all_overhang = longest, shortest, overhang
         rings.all_half_width, rings.all_radius = half_width, math.hypot(0.5 * self.longest, half_width)
         rings.between_shortest = float(columns[0, min(1, alike) :].min())
+        if ground is not None:
+            rings.lay(ground.corners, ground.middle_half_width, ground.within)
         self.room = 0
         self.use(path, margin)
         self.resize(dragon.benches if self.follows_all else min(dragon.benches, 255))
-
-    def _spread(self, ground: Reach) -> Dragon:
-        """Take the ground that benches may cover in their place."""
-        self.kinds.lay(ground.hulls.reshape(-1, 2), ground.kinds, directions())
-        return ground.bounds
 
     def use(self, path: Spiral | Route, margin: float) -> None:
         """Search another path, or with another margin."""
@@ -200,7 +210,7 @@ class Search:
     def travel_rounding(self, *travels: float) -> float:
         """Largest error of travels up to these, in the kernels and as times [m]."""
         furthest = max(self.place, *(self.place - travel for travel in travels), *map(abs, travels))
-        return self.path.slide + TRAVEL_ROUNDING * furthest
+        return self.path.slide + self.timing + TRAVEL_ROUNDING * furthest
 
     def resize(self, benches: int) -> None:
         """Make room for a number of leading benches, and for the edges at rest after the row of the last handle."""
@@ -371,16 +381,20 @@ class Search:
         """march() between two travels [m] with the bracket of a contact: also its half width [m]."""
         tolerance = max(BRACKET * min(1.0, head_speed), BRACKET_MIN, 2.0 * self.travel_rounding(begin, until))
         state, found = self.march(until, tolerance, start=begin, opening=opening)
-        proven = found.proven
         slowed = [wider * min(1.0, head_speed) for wider in BRACKETS_GRAZING]
         for wider in sorted({*slowed, *BRACKETS_GRAZING}):
             if state is not Ended.STUCK or found.touching is None:
                 break
             if wider > tolerance:
                 tolerance = wider
-                state, found = self.march(until, tolerance, start=begin, opening=opening)
-                proven = max(proven, found.proven)
-        return state, found._replace(proven=proven), tolerance
+                if self.kinds.some:  # a step of hulls costs more than to lay out all benches where the last one ended
+                    state, further = self.march(until, tolerance, start=found.proven)
+                    found = found.followed_by(further)
+                else:
+                    proven = found.proven
+                    state, found = self.march(until, tolerance, start=begin, opening=opening)
+                    found = found._replace(proven=max(proven, found.proven))
+        return state, found, tolerance
 
     def surely_within(self, travel: float, pair: tuple[int, int]) -> bool:
         """Are two benches certainly within the margin after a travel [m], in spite of rounding?"""

@@ -9,13 +9,13 @@ from enum import StrEnum
 import numpy as np
 
 from core.budget import Budget, Halted
-from core.contact.search import MARGIN_MAX, TOUCHES, Ended
+from core.contact.search import MARGIN_MAX, TOUCHES, Ended, Search
 from core.dance import end_theta
 from core.design.pitch_bands import BORDER_WIDTH
-from core.design.straight import refuse_touching, too_near
+from core.design.straight import Straight, too_near
 from core.design.ways import CONTACT_WIDTH, Ways
 from core.dragon import Dragon
-from core.errors import InvalidValue
+from core.errors import InvalidValue, said
 from core.paths.spiral import START_TURNS_MAX, Spiral
 from core.sampling import bisected
 from core.shown import Shown, worded
@@ -136,7 +136,7 @@ class _PitchSearch:
             if not self.is_clear(SIZE_MAX):
                 state, found = self.ways.march(SIZE_MAX)
                 if state in TOUCHES and found.benches[1] - found.benches[0] == 2:
-                    raise too_near(self.search.dragon, found.benches[0], self.margin)
+                    raise _too_near(self.search, found.benches[0], self.margin)
                 rule = f"must be larger for this dragon, which gets to such a circle at no pitch up to {SIZE_MAX:g} m"
                 raise InvalidValue.of("turning_radius", rule, self.radius, "m")
             return SIZE_MAX, SIZE_MAX
@@ -298,11 +298,25 @@ def minimum_pitch(
         raise InvalidValue.of("start_turns", rule, turns, "turns")
     margin = checked_number("margin", margin, "m", 0.0, MARGIN_MAX)
     ways = Ways(dragon, radius, turns, margin, checked_stray(stray, dragon), budget)
-    refuse_touching(ways.search.dragon, margin)
+    straight = Straight(ways.search.dragon)
+    if straight.gap <= margin:
+        raise _too_near(ways.search, straight.at, margin)
     try:
         return _found(dragon, _PitchSearch(ways))
     except Halted as halted:
         raise ways.too_much() from halted
+
+
+def _too_near(search: Search, a: int, margin: float) -> InvalidValue:
+    """The error for benches a and a + 2 that no pitch keeps apart, about the stray where it alone brings them near."""
+    straight = Straight(search.nominal)
+    if straight.gap <= margin:
+        return too_near(search.nominal, straight.at, margin)
+    if not search.stray:
+        return too_near(search.dragon, a, margin)
+    near = f"come nearer than {said(margin)} m" if margin else "touch"
+    why = f"on a straight line, and so on every wide enough spiral, benches {a} and {a + 2} may then {near}"
+    return InvalidValue("stray", f"stray must be smaller, got {said(search.stray)} m: {why}")
 
 
 def _found(dragon: Dragon, search: _PitchSearch) -> MinimumPitch:

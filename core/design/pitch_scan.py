@@ -50,6 +50,12 @@ class PitchScan(Shown):
     radius: Floats
     pieces: tuple[tuple[int, int], ...]
 
+    @property
+    def jumps(self) -> tuple[tuple[int, int], ...]:
+        """Indices of the last pitch before each jump and of the first one after it, at most JUMP_WIDTH apart."""
+        starts = [start for start, _ in self.pieces[1:]]
+        return tuple((k - 1, k) for k in starts if self.pitch[k] - self.pitch[k - 1] <= JUMP_WIDTH)
+
     def _line(self) -> str:
         if not self.pitch.size:
             return "no contact at any pitch"
@@ -138,6 +144,7 @@ def pitch_scan(
     *,
     start_turns: float = 16.0,
     margin: float = 0.0,
+    locate: bool = True,
     progress: Callable[[float], None] = lambda share: None,
     budget: Budget | None = None,
 ) -> PitchScan:
@@ -147,6 +154,7 @@ def pitch_scan(
     than JUMP_WIDTH, then it is a jump. A jump smaller than JUMP between two samples is not found.
 
     pitches: (N,) [m], ascending; progress: called with the share of the samples that is done
+    locate: False computes the samples alone, many times faster: a fall of more than JUMP between two parts two pieces
     budget: SCAN_WORK by default
     raises: TooMuchWork if the budget ends before the scan does; InvalidValue
     """
@@ -170,7 +178,7 @@ def pitch_scan(
             before, after = known[low], known[high]
             if before is None or after is None or abs(before - after) <= JUMP:
                 continue
-            if high - low <= JUMP_WIDTH:
+            if high - low <= JUMP_WIDTH or not locate:
                 jumps.append(high)
                 continue
             middle = 0.5 * (low + high)
@@ -214,6 +222,11 @@ def _scan(known: dict[float, float | None], jumps: list[float]) -> PitchScan:
     return PitchScan(np.array(found), np.array([known[pitch] for pitch in found]), tuple(pairwise(cuts)))
 
 
+def pitches_near(least: MinimumPitch, samples: int) -> Floats:
+    """Evenly spaced pitches from SCAN_FROM to SCAN_TO times the minimum pitch [m]."""
+    return np.linspace(SCAN_FROM * least.pitch, SCAN_TO * least.pitch, samples)
+
+
 def scan_near_minimum(
     dragon: Dragon,
     *,
@@ -221,22 +234,23 @@ def scan_near_minimum(
     start_turns: float,
     margin: float,
     samples: int,
+    locate: bool = True,
     progress: Callable[[float], None] = lambda share: None,
     budget: Budget | None = None,
 ) -> tuple[PitchScan, MinimumPitch]:
-    """The scan at a number of samples from SCAN_FROM to SCAN_TO times the minimum pitch, and that minimum.
+    """The scan at pitches_near() the minimum pitch and at its bracket, and that minimum.
 
-    budget: of both together; of each its own where none is given
+    locate: as pitch_scan(); budget: of both together; of each its own where none is given
     raises: InvalidValue and TooMuchWork as minimum_pitch() and pitch_scan()
     """
     least = minimum_pitch(dragon, turning_radius=turning_radius, start_turns=start_turns, margin=margin, budget=budget)
     if SCAN_FROM * least.pitch < SIZE_MIN:
         rule = f"must allow pitches of {SIZE_MIN / SCAN_FROM:g} m and more"
         raise InvalidValue.of("turning_radius", rule, turning_radius, "m")
-    pitches = np.linspace(SCAN_FROM * least.pitch, SCAN_TO * least.pitch, samples)
-    pitches = np.sort(np.append(pitches, least.pitch_bracket))
+    pitches = np.sort(np.append(pitches_near(least, samples), least.pitch_bracket))
+    terms = {"start_turns": start_turns, "margin": margin}
     try:
-        scan = pitch_scan(dragon, pitches, start_turns=start_turns, margin=margin, progress=progress, budget=budget)
+        scan = pitch_scan(dragon, pitches, locate=locate, progress=progress, budget=budget, **terms)
     except TooMuchWork as error:
         raise error.named("samples", samples) from error
     return scan, least

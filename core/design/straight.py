@@ -160,16 +160,6 @@ class Straight:
         return max(apart, min(nearer - 2.0 * self.half_width * math.sin(phi), spare))
 
 
-def refuse_touching(dragon: Dragon, margin: float) -> None:
-    """Refuse a dragon whose benches come within the margin on a straight line, and so on every wide spiral.
-
-    raises: InvalidValue (margin or the overhang)
-    """
-    straight = Straight(dragon)
-    if straight.gap <= margin:
-        raise too_near(dragon, straight.at, margin)
-
-
 def too_near(dragon: Dragon, a: int, margin: float) -> InvalidValue:
     """The error for benches a and a + 2 within the margin on a straight line, or on the widest spiral."""
     b = a + 2

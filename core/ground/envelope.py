@@ -59,6 +59,7 @@ from core.kernels.constants import (
     SIZE_COLUMNS,
 )
 from core.motion.trajectory import bench_outlines
+from core.paths.frame import Frame
 from core.paths.pieces import checked_point, listed
 from core.paths.route import Route
 from core.paths.spiral import Spiral
@@ -156,7 +157,7 @@ def envelope(
     excess = checked_number("excess", excess, "m", EXCESS_MIN, EXCESS_MAX)
     begin, until = dance.span(dance.begin if start is None else start, stop)
     budget = within(budget, ENVELOPE_WORK)
-    found = tracks(dance, begin * dance.head_speed, until * dance.head_speed)
+    found = tracks(dance, dance.clock.place(begin), dance.clock.place(until))
     budget.look()
     parts = [part for track in found for part in _Lone(dance, track, excess, budget).sweep()]
     core = [polygons for part in parts for polygons in part.core]
@@ -167,7 +168,12 @@ def envelope(
     cells = sum(part.cells for part in parts)
     proof = SweepProof(_method(found, cells, (begin, until), most), cells)
     area = sum(0.5 * float(_cross(ring[:-1], ring[1:]).sum()) for rings in polygons for ring in rings)
-    return Envelope(polygons, most, area, begin, until, proof)
+    return Envelope(_in_world(polygons, dance.path.frame), most, area, begin, until, proof)
+
+
+def _in_world(polygons: Polygons, frame: Frame) -> Polygons:
+    """The polygons where they are, each ring still in the direction that it should have."""
+    return tuple(tuple(frame.points(ring)[:: 1 if frame.clockwise else -1] for ring in rings) for rings in polygons)
 
 
 def _method(found: list[Track], cells: int, span: tuple[float, float], most: float) -> str:

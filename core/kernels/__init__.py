@@ -38,7 +38,7 @@ from core.kernels.constants import *
 from core.kernels.excess import Excess
 from core.kernels.fold import fold_theta, previous_theta
 from core.kernels.halt import Halt
-from core.kernels.hulls import Kinds
+from core.kernels.hulls import Kinds, largest_supports
 from core.kernels.marching import March
 from core.kernels.pairs import pair_least, pair_most, pair_rounding
 from core.kernels.rates import climbs, spiral_errors

@@ -116,9 +116,13 @@ class Rings:
     all_half_width: float
     all_radius: float
     between_shortest: float
+    middle_half_width: float
+    within: float
+    hulls: bool
     clear_radius: float
     clear_place: float
     end_place: float
+    def lay(self, corners: Floats, middle_half_width: float, within: float) -> None: ...
 
 def radius_beyond(growth: float, radius: float, rings: Rings) -> float: ...
 def leaders_reach(growth: float, lead: float, rear: float, rings: Rings) -> float: ...
@@ -127,6 +131,16 @@ def ring_least(growth_low: float, growth: float, radius: float, rings: Rings, to
 class Kinds:
     some: bool
     def lay(self, hulls: Floats, of: Ints, directions: Floats) -> None: ...
+
+def largest_supports(
+    chord: float,
+    overhang: float,
+    half_width: float,
+    stray: float,
+    samples: Floats,
+    directions: Floats,
+    found: Floats,
+) -> None: ...
 
 class Scene:
     curve: Curve

@@ -1,8 +1,8 @@
 cimport cython
 from core.kernels.constants cimport *
-from core.kernels.records cimport Closest, Pair
+from core.kernels.records cimport Closest, Faced, Pair
 from core.kernels.rectangles cimport bench_of, pair_gap, row_separation
-from core.kernels.hulls cimport hulls_gap
+from core.kernels.hulls cimport hulls_met, nearest_hulls
 from core.kernels.chain cimport place_chain
 from core.kernels.scene cimport Scene
 
@@ -33,11 +33,10 @@ cdef Closest least_with(
 ) noexcept nogil
 
 @cython.locals(
-    i=cython.Py_ssize_t, a=cython.Py_ssize_t, b=cython.Py_ssize_t, blocks=cython.Py_ssize_t, first=cython.Py_ssize_t,
-    best=Closest
+    i=cython.Py_ssize_t, a=cython.Py_ssize_t, b=cython.Py_ssize_t, blocks=cython.Py_ssize_t, first=cython.Py_ssize_t
 )
 cdef Closest row_clearance(
-    Scene scene, Py_ssize_t active, Py_ssize_t handles, double[:, ::1] chain, double[:, ::1] boxes
+    Scene scene, Py_ssize_t active, Py_ssize_t handles, Closest best, double[:, ::1] chain, double[:, ::1] boxes
 ) noexcept nogil
 
 @cython.locals(i=cython.Py_ssize_t, j=cython.Py_ssize_t)

@@ -5,7 +5,7 @@ import cython
 if not cython.compiled:  # for the compiler the same stands in the .pxd
     from core.kernels.chain import place_chain
     from core.kernels.constants import *
-    from core.kernels.hulls import hulls_gap
+    from core.kernels.hulls import hulls_met, nearest_hulls
     from core.kernels.records import Closest, Pair
     from core.kernels.rectangles import bench_of, pair_gap, row_separation
 
@@ -19,14 +19,14 @@ def row_gap_within(scene, i, j, limit, chain):
     """row_gap() where it is at most limit, else some value of limit or more, and not above row_gap() [m]."""
     gap = pair_gap(bench_of(i, scene.sizes, chain), bench_of(j, scene.sizes, chain))
     if scene.kinds.some and gap < limit:
-        return hulls_gap(scene.kinds, i, j, j > scene.room, scene.sizes, chain, scene.met)
+        return nearest_hulls(scene.kinds, i, j, j > scene.room, limit, scene.sizes, chain).gap
     return gap
 
 
 def meet(scene, i, j, chain):
     """Fill the witnesses of a scene for benches i and j of a chain."""
     if scene.kinds.some:
-        hulls_gap(scene.kinds, i, j, j > scene.room, scene.sizes, chain, scene.met)
+        hulls_met(scene.kinds, i, j, j > scene.room, scene.sizes, chain, scene.met)
     else:
         row_separation(i, j, scene.sizes, chain, scene.met)
 
@@ -77,14 +77,13 @@ def least_with(scene, i, first, end, best, chain):
     return best
 
 
-def row_clearance(scene, active, handles, chain, boxes):
-    """Least separation among the pairs led by the first `active` benches, and that pair.
+def row_clearance(scene, active, handles, best, chain, boxes):
+    """Least separation among the pairs led by the first `active` benches, and that pair; best: that of one, if known.
 
     handles: the last one of the chain; boxes: (handles / BLOCK, BOX_COLUMNS) at least, scratch
     On a spiral radii r grow from handle to handle, and no point of a bench is further in than its r less two of the
     largest half diagonals, nor further out than its rear handle's r and one of them: far enough out all is passed over.
     """
-    best = Closest(FREE, 0, 0)
     growth = scene.curve.growth
     if scene.against == EDGES:  # after the last handle's row, which holds no bench
         for i in range(active):
@@ -141,7 +140,7 @@ def clearance_at(scene, place, benches, leaders, chain, boxes):
     """
     if place_chain(scene.curve, place, benches, scene.sizes, chain) == FOLDED:
         return FREE, 0, 0
-    best = row_clearance(scene, leaders, benches, chain, boxes)
+    best = row_clearance(scene, leaders, benches, Closest(FREE, 0, 0), chain, boxes)
     return best.gap, best.first, best.second
 
 
@@ -162,7 +161,7 @@ def gap_rate_at(scene, place, a, b, chain):
 
     A bench moves with its handles: its centre by their mean, and it turns at omega = u x (a' T_a - b' T_b) / chord.
     """
-    if gap_at(scene, place, a, b, chain) >= FREE:
+    if place_chain(scene.curve, place, last_handle(scene, a, b), scene.sizes, chain) == FOLDED:
         return 0.0
     meet(scene, a, b, chain)
     rate = -speed_along(scene, a, scene.met.ax, scene.met.ay, chain)

@@ -1,30 +1,60 @@
 cimport cython
 from core.kernels.constants cimport *
 from core.kernels.bends cimport band_bends, band_between, bend_along, least_between
-from core.kernels.hulls cimport best_face, face_gap_along, hulls_of
-from core.kernels.records cimport Axis, Bends, Turned
+from core.kernels.hulls cimport STEP, Kinds, best_beyond, corner_beyond, facing, gap_beyond, hulls_faced, hulls_in
+from core.kernels.hulls cimport hulls_of, nearest_corner, nearest_hulls, uphill, view_of
+from core.kernels.records cimport Axis, Bends, Corner, Faced, Hulls, View, Views
 from core.kernels.scene cimport Band, Interval, Scene
 
-@cython.locals(edge=cython.bint, own=cython.Py_ssize_t, other=cython.Py_ssize_t)
+@cython.locals(
+    edge=cython.bint, n=cython.Py_ssize_t, others=cython.Py_ssize_t, own=cython.Py_ssize_t, other=cython.Py_ssize_t,
+    k=cython.Py_ssize_t, start=View, end=View, hulls=Hulls, turned=Hulls, axis=Axis
+)
 cdef double hulls_least(
-    Scene scene, Interval interval, Py_ssize_t i, Py_ssize_t j, double enough, double distance
+    Scene scene, Interval interval, Py_ssize_t i, Py_ssize_t j, double enough, double bend, double bend_back
 ) noexcept nogil
 
-@cython.locals(faced=Axis)
+@cython.locals(k=cython.Py_ssize_t, start=View, end=View, axis=Axis)
+cdef double turned_least(
+    Scene scene, Interval interval, Py_ssize_t i, Py_ssize_t j, Hulls hulls, double bend, double enough
+) noexcept nogil
+
+cdef double face_along(
+    Kinds kinds, View start, View end, Hulls hulls, Py_ssize_t k, double bend, double h
+) noexcept nogil
+
+@cython.locals(axis=Axis)
 cdef double face_least(
-    Scene scene, Interval interval, Py_ssize_t i, Py_ssize_t j, Turned pair, double enough
+    Kinds kinds, View start, View end, Hulls hulls, Py_ssize_t k, double bend, double h, double enough
 ) noexcept nogil
 
-@cython.locals(bends=Bends, bends_back=Bends, own=cython.Py_ssize_t, other=cython.Py_ssize_t)
+@cython.locals(
+    edge=cython.bint, faced=Faced, i=cython.Py_ssize_t, j=cython.Py_ssize_t, hulls=Hulls, view=View, at=Corner
+)
+cdef double hulls_most(
+    Scene scene, Interval interval, Py_ssize_t a, Py_ssize_t b, double distance
+) noexcept nogil
+
+cdef Views views_of(Py_ssize_t i, Py_ssize_t j, Band band) noexcept nogil
+
+@cython.locals(
+    bends=Bends, bends_back=Bends, n=cython.Py_ssize_t, own=cython.Py_ssize_t, other=cython.Py_ssize_t,
+    k=cython.Py_ssize_t, views=Views, hulls=Hulls
+)
 cdef double band_hulls(
     Scene scene, Band band, Py_ssize_t i, Py_ssize_t j, double enough, double distance
 ) noexcept nogil
 
-@cython.locals(faced=Axis)
-cdef double band_face(
-    Scene scene, Band band, Py_ssize_t i, Py_ssize_t j, Turned pair, double enough, Bends bends
+@cython.locals(views=Views)
+cdef double band_turned(
+    Scene scene, Band band, Py_ssize_t i, Py_ssize_t j, Hulls hulls, Bends bends, double enough
 ) noexcept nogil
 
-cdef double band_face_along(
-    Scene scene, Band band, Py_ssize_t i, Py_ssize_t j, Axis axis, Bends bends
+@cython.locals(axis=Axis)
+cdef double band_face(
+    Scene scene, Band band, Views views, Hulls hulls, Py_ssize_t k, Bends bends, double enough
+) noexcept nogil
+
+cdef double band_beyond(
+    Kinds kinds, Band band, Views views, Hulls hulls, Py_ssize_t k, Bends bends
 ) noexcept nogil

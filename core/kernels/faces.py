@@ -1,43 +1,120 @@
 """How near two benches that are unions of hulls come at most, over an interval of head travel or over a band."""
 
 import cython
+from cython.cimports.libc.math import cos
 
 if not cython.compiled:  # for the compiler the same stands in the .pxd
     from core.kernels.bends import band_bends, band_between, bend_along, least_between
     from core.kernels.constants import *
-    from core.kernels.hulls import best_face, face_gap_along, hulls_of
-    from core.kernels.records import Turned
+    from core.kernels.hulls import (
+        STEP,
+        best_beyond,
+        corner_beyond,
+        facing,
+        gap_beyond,
+        hulls_faced,
+        hulls_in,
+        hulls_of,
+        nearest_corner,
+        nearest_hulls,
+        uphill,
+        view_of,
+    )  # fmt: skip
+    from core.kernels.records import Views
 
-# Of two benches that are unions of hulls all pairs of these must be apart, each along an axis of its own.
+# Of two benches that are unions of hulls all pairs of these must be apart, each along an axis of its own. Most pairs
+# are shown to be no nearer than another by the half plane of one bench that faces the other, or by those across its
+# ends.
 
 
-def hulls_least(scene, interval, i, j, enough, distance):
-    """pair_least() of benches with hulls, without the rectangles around them [m]; 0 or less once it does not serve."""
+def hulls_least(scene, interval, i, j, enough, bend, bend_back):
+    """pair_least() of benches with hulls, without the rectangles around them [m]; 0 or less once it does not serve.
+
+    bend, bend_back: K along axes fixed in i and in j [1/m]
+    """
+    h = interval.h
     edge = j > scene.room
     best = FREE
-    bend = bend_along(scene, interval, i, j, distance)
-    bend_back = bend_along(scene, interval, j, i, distance)
-    for own in range(hulls_of(scene.kinds, False)):
-        for other in range(hulls_of(scene.kinds, edge)):
-            gap = face_least(scene, interval, j, i, Turned(other, own, 1 if edge else 0, bend_back), enough)
-            if gap <= enough:
-                gap = max(gap, face_least(scene, interval, i, j, Turned(own, other, 2 if edge else 0, bend), enough))
-            best = min(best, gap)
-            if best <= scene.margin:
-                return best
+    start = view_of(j, i, interval.before)
+    end = view_of(j, i, interval.after)
+    k = facing(end, j, i, scene.sizes)
+    others = hulls_of(scene.kinds, edge)
+    for n in range(HULLS * others):
+        own = n % HULLS
+        other = (n // HULLS + 1) % others
+        hulls = hulls_in(scene.kinds, j, i, other, own, 1 if edge else 0, scene.sizes)
+        if face_along(scene.kinds, start, end, hulls, k, bend_back, h) >= best:
+            continue
+        if face_along(scene.kinds, start, end, hulls, 0, bend_back, h) >= best:
+            continue
+        if face_along(scene.kinds, start, end, hulls, DIRECTIONS // 2, bend_back, h) >= best:
+            continue
+        gap = face_least(scene.kinds, start, end, hulls, k, bend_back, h, enough)
+        if gap <= enough:
+            turned = hulls_in(scene.kinds, i, j, own, other, 2 if edge else 0, scene.sizes)
+            gap = max(gap, turned_least(scene, interval, i, j, turned, bend, enough))
+            if gap <= scene.margin:
+                axis = best_beyond(scene.kinds, end, hulls)
+                gap = max(gap, face_along(scene.kinds, start, end, hulls, axis.k, bend_back, h))
+        best = min(best, gap)
+        if best <= scene.margin:
+            break
     return best
 
 
-def face_least(scene, interval, i, j, pair, enough):
-    """Proven least gap over an interval of two hulls along one of the axes fixed in i that are best at its ends [m]."""
-    faced = best_face(scene.kinds, i, j, pair.own, pair.other, pair.edge, scene.sizes, interval.after)
-    gap = face_gap_along(scene.kinds, i, j, faced, scene.sizes, interval.before)
-    best = least_between(gap, faced.gap, pair.bend, interval.h)
+def turned_least(scene, interval, i, j, hulls, bend, enough):
+    """face_least() along axes fixed in i; where that shows nothing, along the best of all at the end [m]."""
+    start = view_of(i, j, interval.before)
+    end = view_of(i, j, interval.after)
+    k = facing(end, i, j, scene.sizes)
+    gap = face_least(scene.kinds, start, end, hulls, k, bend, interval.h, enough)
+    if gap <= scene.margin:
+        axis = best_beyond(scene.kinds, end, hulls)
+        gap = max(gap, face_along(scene.kinds, start, end, hulls, axis.k, bend, interval.h))
+    return gap
+
+
+def face_along(kinds, start, end, hulls, k, bend, h):
+    """Proven least gap over an interval beyond half plane k [m]; start, end: the views at its ends."""
+    return least_between(gap_beyond(kinds, start, hulls, k), gap_beyond(kinds, end, hulls, k), bend, h)
+
+
+def face_least(kinds, start, end, hulls, k, bend, h, enough):
+    """Proven least gap over an interval beyond one of the half planes uphill from k at its ends [m]."""
+    axis = uphill(kinds, end, hulls, k, FREE)
+    best = least_between(gap_beyond(kinds, start, hulls, axis.k), axis.gap, bend, h)
     if best > enough:
         return best
-    faced = best_face(scene.kinds, i, j, pair.own, pair.other, pair.edge, scene.sizes, interval.before)
-    gap = face_gap_along(scene.kinds, i, j, faced, scene.sizes, interval.after)
-    return max(best, least_between(faced.gap, gap, pair.bend, interval.h))
+    axis = uphill(kinds, start, hulls, axis.k, FREE)
+    return max(best, least_between(axis.gap, gap_beyond(kinds, end, hulls, axis.k), bend, h))
+
+
+def hulls_most(scene, interval, a, b, distance):
+    """Upper bound of the separation of benches a and b over an interval, but for rounding [m]; 0 or less: touching.
+
+    See corner_beyond(); distance: no further are their centres apart [m]
+    """
+    edge = b > scene.room
+    faced = nearest_hulls(scene.kinds, a, b, edge, FREE, scene.sizes, interval.after)
+    i = b if faced.turned else a
+    j = a if faced.turned else b
+    hulls = hulls_faced(scene.kinds, i, j, edge, faced, scene.sizes)
+    view = view_of(i, j, interval.after)
+    at = nearest_corner(scene.kinds, view, hulls, faced.k)
+    most = corner_beyond(scene.kinds, view, hulls, at)
+    most = max(most, corner_beyond(scene.kinds, view_of(i, j, interval.before), hulls, at))
+    most += 0.125 * bend_along(scene, interval, i, j, distance) * interval.h * interval.h
+    return most / cos(0.5 * STEP) if most > 0.0 else most
+
+
+def views_of(i, j, band):
+    """Bench j as bench i sees it at the corners of a band."""
+    return Views(
+        view_of(i, j, band.low.before),
+        view_of(i, j, band.low.after),
+        view_of(i, j, band.high.before),
+        view_of(i, j, band.high.after),
+    )
 
 
 def band_hulls(scene, band, i, j, enough, distance):
@@ -45,31 +122,53 @@ def band_hulls(scene, band, i, j, enough, distance):
     best = FREE
     bends = band_bends(scene, band, i, j, distance)
     bends_back = band_bends(scene, band, j, i, distance)
-    for own in range(hulls_of(scene.kinds, False)):
-        for other in range(hulls_of(scene.kinds, False)):
-            gap = band_face(scene, band, j, i, Turned(other, own, 0, 0.0), enough, bends_back)
-            if gap <= enough:
-                gap = max(gap, band_face(scene, band, i, j, Turned(own, other, 0, 0.0), enough, bends))
-            best = min(best, gap)
-            if best <= scene.margin:
-                return best
+    views = views_of(j, i, band)
+    k = facing(views.low_end, j, i, scene.sizes)
+    for n in range(HULLS * HULLS):
+        own = n % HULLS
+        other = (n // HULLS + 1) % HULLS
+        hulls = hulls_in(scene.kinds, j, i, other, own, 0, scene.sizes)
+        if band_beyond(scene.kinds, band, views, hulls, k, bends_back) >= best:
+            continue
+        if band_beyond(scene.kinds, band, views, hulls, 0, bends_back) >= best:
+            continue
+        if band_beyond(scene.kinds, band, views, hulls, DIRECTIONS // 2, bends_back) >= best:
+            continue
+        gap = band_face(scene, band, views, hulls, k, bends_back, enough)
+        if gap <= enough:
+            hulls = hulls_in(scene.kinds, i, j, own, other, 0, scene.sizes)
+            gap = max(gap, band_turned(scene, band, i, j, hulls, bends, enough))
+        best = min(best, gap)
+        if best <= scene.margin:
+            break
     return best
 
 
-def band_face(scene, band, i, j, pair, enough, bends):
-    """Proven least gap over a band of two hulls along one of the axes fixed in i that are best at two corners [m]."""
-    faced = best_face(scene.kinds, i, j, pair.own, pair.other, 0, scene.sizes, band.low.after)
-    best = band_face_along(scene, band, i, j, faced, bends)
+def band_turned(scene, band, i, j, hulls, bends, enough):
+    """band_face() along axes fixed in i [m]."""
+    views = views_of(i, j, band)
+    return band_face(scene, band, views, hulls, facing(views.low_end, i, j, scene.sizes), bends, enough)
+
+
+def band_face(scene, band, views, hulls, k, bends, enough):
+    """Proven least gap over a band beyond one of the half planes uphill from k at two corners [m]; where that shows
+    nothing, beyond the one of all that is best at the first of these."""
+    axis = uphill(scene.kinds, views.low_end, hulls, k, FREE)
+    best = band_beyond(scene.kinds, band, views, hulls, axis.k, bends)
     if best > enough:
         return best
-    faced = best_face(scene.kinds, i, j, pair.own, pair.other, 0, scene.sizes, band.high.after)
-    return max(best, band_face_along(scene, band, i, j, faced, bends))
+    axis = uphill(scene.kinds, views.high_end, hulls, axis.k, FREE)
+    best = max(best, band_beyond(scene.kinds, band, views, hulls, axis.k, bends))
+    if best <= scene.margin:
+        axis = best_beyond(scene.kinds, views.low_end, hulls)
+        best = max(best, band_beyond(scene.kinds, band, views, hulls, axis.k, bends))
+    return best
 
 
-def band_face_along(scene, band, i, j, axis, bends):
-    """band_along() of two hulls [m]."""
-    start = face_gap_along(scene.kinds, i, j, axis, scene.sizes, band.low.before)
-    end = face_gap_along(scene.kinds, i, j, axis, scene.sizes, band.low.after)
-    high_start = face_gap_along(scene.kinds, i, j, axis, scene.sizes, band.high.before)
-    high_end = face_gap_along(scene.kinds, i, j, axis, scene.sizes, band.high.after)
+def band_beyond(kinds, band, views, hulls, k, bends):
+    """Proven least gap over a band beyond half plane k [m]."""
+    start = gap_beyond(kinds, views.low_start, hulls, k)
+    end = gap_beyond(kinds, views.low_end, hulls, k)
+    high_start = gap_beyond(kinds, views.high_start, hulls, k)
+    high_end = gap_beyond(kinds, views.high_end, hulls, k)
     return band_between(band, start, end, high_start, high_end, bends)

@@ -169,7 +169,9 @@ class March(Found):
         self.placed = laid.last
         self.opened = laid.leading if laid.leading < scene.benches else scene.benches - 1
         self.opening[: self.placed + 1] = self.interval.before[: self.placed + 1]
-        self.last = row_clearance(scene, laid.leading, self.placed, self.interval.before, self.interval.motion)
+        self.last = row_clearance(
+            scene, laid.leading, self.placed, Closest(FREE, 0, 0), self.interval.before, self.interval.motion
+        )
         if self.last.gap > scene.margin:
             return ADVANCED
         self.first = self.last.first
@@ -306,7 +308,11 @@ class March(Found):
         """Note a local minimum of the clearance at the last three travels; least: the bound of the step just taken."""
         here = Closest(FREE, 0, 0)
         if self.grazes:
-            here = row_clearance(scene, self.active, interval.handles, interval.before, interval.motion)
+            if scene.kinds.some and self.last.gap < FREE:  # of hulls few are worth a look once a near pair is known
+                if self.last.first < self.active and (self.last.second < interval.handles or scene.edges > 0):
+                    gap = row_gap(scene, self.last.first, self.last.second, interval.before)
+                    here = Closest(gap, self.last.first, self.last.second)
+            here = row_clearance(scene, self.active, interval.handles, here, interval.before, interval.motion)
         lowest = least if least < self.floor else self.floor
         self.floor = least
         dips = self.older_clearance > self.last.gap <= here.gap and lowest < self.graze_gap

@@ -1,7 +1,7 @@
 cimport cython
 from core.kernels.constants cimport *
 from core.kernels.bends cimport band_bends, band_between, bend_along, centres_apart, least_between
-from core.kernels.faces cimport band_hulls, hulls_least
+from core.kernels.faces cimport band_hulls, hulls_least, hulls_most
 from core.kernels.records cimport Bends
 from core.kernels.rings cimport Rings
 from core.kernels.clearance cimport last_handle, meet

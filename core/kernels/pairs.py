@@ -7,7 +7,7 @@ if not cython.compiled:  # for the compiler the same stands in the .pxd
     from core.kernels.bends import band_bends, band_between, bend_along, centres_apart, least_between
     from core.kernels.clearance import last_handle, meet
     from core.kernels.constants import *
-    from core.kernels.faces import band_hulls, hulls_least
+    from core.kernels.faces import band_hulls, hulls_least, hulls_most
 
 # Rounding. The centre of bench i is the mean of two handles, each good to E_i = ERROR; its direction is good to W_i =
 # SWAY. So a gap along an axis fixed in bench i, and the separation of two benches, is good to
@@ -92,6 +92,7 @@ def pair_most(scene, interval, place, h, a, b):
     meet(scene, a, b, interval.after)
     most = 0.5 * (most + scene.met.separation)
     if scene.kinds.some:
+        most = min(most, hulls_most(scene, interval, a, b, distance))
         return most + pair_rounding(a, b, distance, scene.sizes, interval.before, interval.after)
     bend = bend_along(scene, interval, a, b, distance)
     most = min(most, corner_most(a, b, bend, h, scene.sizes, interval.before, interval.after))
@@ -136,20 +137,20 @@ def pair_least(scene, interval, i, j, enough, distance):
     Tries axes until one exceeds what is enough, the margin and more. distance: no further are their centres apart [m]
     returns: the bound, and the bound K of the last axis [1/m]
     """
-    bend = bend_along(scene, interval, j, i, distance)
-    best = axis_least(scene, interval, j, i, True, bend)
+    back = bend_along(scene, interval, j, i, distance)
+    best = axis_least(scene, interval, j, i, True, back)
     if best > enough:
-        return best, bend
-    best = max(best, axis_least(scene, interval, j, i, False, bend))
+        return best, back
+    best = max(best, axis_least(scene, interval, j, i, False, back))
     if best > enough:
-        return best, bend
+        return best, back
     bend = bend_along(scene, interval, i, j, distance)
     best = max(best, axis_least(scene, interval, i, j, True, bend))
     if best > enough:
         return best, bend
     best = max(best, axis_least(scene, interval, i, j, False, bend))
     if best <= enough and scene.kinds.some:
-        return max(best, hulls_least(scene, interval, i, j, enough, distance)), bend
+        return max(best, hulls_least(scene, interval, i, j, enough, bend, back)), max(bend, back)
     if best > enough or scene.margin <= 0.0:
         return best, bend
     along, left = corner_axis(scene, i, j, interval.after)

@@ -81,13 +81,30 @@ cdef struct Corner:
 
 cdef struct Axis:
     Py_ssize_t k
-    Py_ssize_t own
-    Py_ssize_t other
-    Py_ssize_t edge
     double gap
 
-cdef struct Turned:
+cdef struct Hulls:
+    Py_ssize_t first
+    Py_ssize_t second
+    double half_length
+    double other_half_length
+
+cdef struct View:
+    double along
+    double left
+    double c
+    double s
+    Py_ssize_t shift
+
+cdef struct Views:
+    View low_start
+    View low_end
+    View high_start
+    View high_end
+
+cdef struct Faced:
+    Py_ssize_t k
     Py_ssize_t own
     Py_ssize_t other
-    Py_ssize_t edge
-    double bend
+    Py_ssize_t turned
+    double gap

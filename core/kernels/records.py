@@ -123,19 +123,46 @@ class Corner(NamedTuple):
 
 
 class Axis(NamedTuple):
-    """A direction fixed in one bench: that of half plane k of its hull `own`, against the hull `other` of another."""
+    """A half plane of a hull, and the gap beyond it to another hull [m]."""
 
     k: int
-    own: int
-    other: int
-    edge: int  # 1: the first is an edge at rest, 2: the second is, 0: neither
-    gap: float  # along it, at the instant when it was found [m]
+    gap: float
 
 
-class Turned(NamedTuple):
-    """Two hulls, the first of the bench in which axes are fixed."""
+class Hulls(NamedTuple):
+    """Two hulls, half planes of the first of which are looked at: their first rows, less than 0 for an edge at rest,
+    and half lengths for that case [m]."""
 
-    own: int
-    other: int
-    edge: int  # as in Axis
-    bend: float  # K of gaps along these axes [1/m]
+    first: int
+    second: int
+    half_length: float
+    other_half_length: float
+
+
+class View(NamedTuple):
+    """A bench, or an edge at rest, as another one sees it."""
+
+    along: float  # its centre [m]
+    left: float
+    c: float  # its unit vector
+    s: float
+    shift: int  # the corner of its hull that is furthest against half plane k has the number k + shift
+
+
+class Views(NamedTuple):
+    """View at the four corners of a band."""
+
+    low_start: View
+    low_end: View
+    high_start: View
+    high_end: View
+
+
+class Faced(NamedTuple):
+    """The nearest two hulls of benches a and b."""
+
+    k: int  # the half plane of the first hull beyond which the second is furthest
+    own: int  # the first hull
+    other: int  # the second
+    turned: int  # 1: the first hull is that of b, 0: that of a
+    gap: float  # [m]

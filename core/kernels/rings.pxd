@@ -5,6 +5,8 @@ from core.kernels.spiral cimport spiral_arc
 
 cdef double RING_ROUNDING
 cdef double DISCERNED
+cdef Py_ssize_t RING_FURTHER
+cdef Py_ssize_t RING_ASIDE
 
 @cython.final
 cdef class Rings:
@@ -18,13 +20,23 @@ cdef class Rings:
     cdef public double all_half_width
     cdef public double all_radius
     cdef public double between_shortest
+    cdef public double middle_half_width
+    cdef public double within
+    cdef public bint hulls
+    cdef double[:, ::1] corners
     cdef public double clear_radius
     cdef public double clear_place
     cdef public double end_place
 
+    cpdef void lay(self, double[:, ::1] corners, double middle_half_width, double within)
+
 cdef bint settled(double growth, double radius, Rings rings) noexcept nogil
 cpdef double radius_beyond(double growth, double radius, Rings rings) noexcept nogil
 cpdef double leaders_reach(double growth, double lead, double rear, Rings rings) noexcept nogil
+
+@cython.locals(k=cython.Py_ssize_t)
+cdef double outward_bow(double q, double slope, Rings rings) noexcept nogil
+cdef double inward_bow(double q, double slope, Rings rings) noexcept nogil
 
 @cython.locals(end=cython.int)
 cpdef double ring_least(double growth_low, double growth, double radius, Rings rings, double total=*) noexcept nogil

@@ -17,6 +17,11 @@ if not cython.compiled:  # for the compiler the same stands in the .pxd
 # delta <= theta. Otherwise the triangle inequality serves.
 
 
+# Columns of a corner of a hull that is o further than the hole: o (o + c) / 2 [m^2], and how far aside it is [m].
+RING_FURTHER = 0
+RING_ASIDE = 1
+
+
 # Rounding. The two bounds below are sums, products and roots of terms >= 0, good to 10 u together: RING_ROUNDING makes
 # up for it. What the radii of handles lack is added where they are compared.
 RING_ROUNDING = 1e-12  # [1]
@@ -29,6 +34,8 @@ class Rings:
         width of those that can be the outer one of a pair
     all_chord, all_shortest, all_overhang, all_half_width, all_radius: the same, and the largest half diagonal, of all
     between_shortest: shortest chord of those that can lie between two others
+    hulls: are benches unions of hulls? Then also corners: of all, see RING_FURTHER; middle_half_width, within: of those
+        that can be the outer one of a pair the largest half width of a middle, and how far ends reach in front of holes
     clear_radius: no pair whose inner bench leads at this radius or more can touch
     clear_place: on a route, no two benches of which the leading one's front handle stands at this place or further back
         can touch, FREE if there is no such place; end_place: and once a body repeats itself, nothing touches while the
@@ -38,9 +45,17 @@ class Rings:
     def __init__(self):
         self.chord = self.shortest = self.overhang = self.half_width = 0.0
         self.all_chord = self.all_shortest = self.all_overhang = self.all_half_width = self.all_radius = 0.0
-        self.between_shortest = self.clear_radius = 0.0
+        self.between_shortest = self.clear_radius = self.middle_half_width = self.within = 0.0
+        self.hulls = False
         self.clear_place = FREE
         self.end_place = -FREE
+
+    def lay(self, corners, middle_half_width, within):
+        """Take hulls."""
+        self.corners = corners
+        self.middle_half_width = middle_half_width
+        self.within = within
+        self.hulls = True
 
 
 def settled(growth, radius, rings):
@@ -95,6 +110,25 @@ def leaders_reach(growth, lead, rear, rings):
 # least L, is this V. So |X - Y| >= V > L.
 
 
+# Hulls. The middle of a bench that is a union of hulls is narrower than its ends, and these have no sharp corners. So O
+# is the largest over their corners, o = `further` beyond the hole and y aside, and I is that of the middle, or of the
+# ends, which reach `within` in front of the hole: e >= -q within (c - within) / 2 there.
+
+
+def outward_bow(q, slope, rings):
+    """O of benches that are unions of hulls [m]."""
+    most = -FREE
+    for k in range(rings.corners.shape[0]):
+        most = max(most, q * rings.corners[k, RING_FURTHER] + slope * rings.corners[k, RING_ASIDE])
+    return most
+
+
+def inward_bow(q, slope, rings):
+    """I of benches that are unions of hulls [m]."""
+    ends = 0.5 * q * rings.within * rings.chord + rings.half_width * slope
+    return max(0.125 * q * rings.chord * rings.chord + rings.middle_half_width * slope, ends)
+
+
 # d^2 is a difference: where it is less than this part of radius^2 nothing is said, so that rounding stays small [1].
 DISCERNED = 1e-3
 
@@ -125,8 +159,11 @@ def ring_least(growth_low, growth, radius, rings, total=1e150):
     for end in range(2):
         x_rear = 0.5 * chord + 1.67 * at
         q = 1.0 / d + 2.0 * at * (x_rear + overhang) / (d * d2)
+        slope = sqrt(1.0 + at * at / (rho * rho))
         bows = 0.5 * q * overhang * (overhang + chord) + 0.125 * q * rings.chord * rings.chord
-        bows += (half_width + outer_half_width) * sqrt(1.0 + at * at / (rho * rho))
+        bows += (half_width + outer_half_width) * slope
+        if rings.hulls:
+            bows = outward_bow(q, slope, rings) + inward_bow(q, slope, rings)
         if TWO_PI * at - bows < gap:
             gap = TWO_PI * at - bows
         at = growth

@@ -50,7 +50,9 @@ def sharpest_bend(
     narrower than a step may be missed.
     raises: InvalidValue; OutsideRun for a stop after the end of the run; TooMuchWork
     """
-    begin, until = dance.span(start, stop)
+    span = dance.span(start, stop)
+    begin, until = dance.steady_times(np.array(span)).tolist()
+    clock, dance = dance.clock, dance.steady
     dragon = dance.dragon
     if dragon.benches < 2:
         return None
@@ -63,7 +65,8 @@ def sharpest_bend(
         _sharpest(front, grid, budget),
     ]
     largest = max(bend.angle for bend in found)
-    return min((bend for bend in found if bend.angle >= largest - 2.0 * SAME_ANGLE), key=lambda bend: bend.time)
+    bend = min((bend for bend in found if bend.angle >= largest - 2.0 * SAME_ANGLE), key=lambda bend: bend.time)
+    return replace(bend, time=max(clock.of_steady(bend.time), span[0]))
 
 
 def _opened(dance: Dance, grid: Floats, budget: Budget | None) -> int:

@@ -8,8 +8,9 @@ import numpy as np
 
 from core import kernels
 from core.budget import Budget, bounded
+from core.clock import HEAD_SPEED_MAX, HEAD_SPEED_MIN, TIME_MAX, Stretch
 from core.contact.search import Search
-from core.dance import HEAD_SPEED_MAX, HEAD_SPEED_MIN, TIME_MAX, Dance
+from core.dance import Dance
 from core.errors import InvalidValue, said, said_bound
 from core.kernels.constants import EXCEEDED, KEPT
 from core.sampling import bisected
@@ -50,12 +51,14 @@ HALVINGS = 50
 @dataclass(frozen=True, slots=True, repr=False)
 class HighestSpeed(Shown):
     """speed: the highest found [m/s]; time [s]; handles: those that reach it together
-    speed_bracket: (found, proven not to be exceeded: None where the proof was given up) [m/s]"""
+    speed_bracket: (found, proven not to be exceeded: None where the proof was given up) [m/s]
+    passage: index of that in which it is reached; None outside of all"""
 
     speed: float
     speed_bracket: tuple[float, float | None]
     time: float
     handles: tuple[int, ...]
+    passage: int | None = None
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -63,7 +66,8 @@ class MaximumHeadSpeed(Shown):
     """head_speed: the largest [m/s]
     head_speed_bracket: (proven to keep the limit: None where the proof was given up, found to reach it) [m/s]
     speed_ratio: highest handle speed over head speed; handles: those that reach the limit together
-    time: time at which they reach it, at that head speed [s]; time_at_unit_head_speed [s]"""
+    time: time at which they reach it, at that head speed [s]; time_at_unit_head_speed [s]
+    passage: index of that in which they do; None outside of all"""
 
     head_speed: float
     head_speed_bracket: tuple[float | None, float]
@@ -71,6 +75,7 @@ class MaximumHeadSpeed(Shown):
     handles: tuple[int, ...]
     time: float
     time_at_unit_head_speed: float
+    passage: int | None = None
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -102,7 +107,7 @@ def highest_speed(
     derivative jumps, so a peak may be a kink. See core/kernels/speed.py.
     raises: InvalidValue (stop) for a spiral danced to its fold, where speeds grow without bound; TooMuchWork
     """
-    dragon, head_speed, end = dance.dragon, dance.head_speed, dance.end
+    dragon, clock, end = dance.dragon, dance.clock, dance.end
     stop = None if stop is None else checked_number("stop", stop, "s", -TIME_MAX, TIME_MAX)
     if dance.ends_by(end.time if stop is None else stop):
         when = f"before {said_bound(end.time, 9, -1)} s, when bench {end.bench} folds"
@@ -113,12 +118,24 @@ def highest_speed(
     begin, until = dance.span(dance.begin if start is None else start, stop)
     search = Search(dragon, dance.path, 0.0, budget=budget)
     search.resize(dragon.benches)
-    peak = peak_over(search, begin * head_speed, until * head_speed)
+    peaks = [_peak_of(search, stretch) for stretch in clock.stretches(begin, until)]
+    highest = max(peaks, key=lambda peak: peak.speed)
+    proven = [peak.speed_bracket[1] for peak in peaks]
+    upper = None if None in proven else max(speed for speed in proven if speed is not None)
+    return replace(highest, speed_bracket=(highest.speed, upper))
+
+
+def _peak_of(search: Search, stretch: Stretch) -> HighestSpeed:
+    """The highest speed while the head goes at one speed; all stand in a pause."""
+    speed = stretch.speed
+    if speed == 0.0:
+        return HighestSpeed(0.0, (0.0, 0.0), stretch.begin, (0,), stretch.passage)
+    peak = peak_over(search, stretch.first, stretch.last)
     rate, upper, travel = float(peak.rate), float(peak.upper), float(peak.travel)
     rates = np.abs(search.rates(travel))
     tied = tuple(int(k) for k in np.flatnonzero(rates >= rate * (1.0 - TIED)))
-    proven = upper * head_speed if upper < kernels.FREE else None
-    return HighestSpeed(rate * head_speed, (rate * head_speed, proven), travel / head_speed, tied)
+    proven = upper * speed if upper < kernels.FREE else None
+    return HighestSpeed(rate * speed, (rate * speed, proven), stretch.time(travel), tied, stretch.passage)
 
 
 def peak_over(search: Search, begin: float, until: float) -> kernels.Peak:
@@ -152,15 +169,17 @@ def maximum_head_speed(
     """The largest constant head speed at which no handle ever exceeds the limit.
 
     speed_limit: [m/s]; start, stop: [s at a head speed of 1 m/s], as in highest_speed()
-    Speeds are proportional to the head's, whatever that of the dance, so this is the limit over the highest rate.
+    Speeds are proportional to the head's, whatever that of the dance, so this is the limit over the highest rate. A
+    dance with passages is played faster or slower as a whole: their speeds, and times that end them, keep their ratio
+    to the head speed and its inverse.
     raises: InvalidValue; TooMuchWork
     """
     limit = checked_limit(speed_limit)
-    found = highest_speed(replace(dance, head_speed=1.0), start=start, stop=stop, budget=budget)
+    found = highest_speed(dance.played(1.0), start=start, stop=stop, budget=budget)
     speed = limit / found.speed
     highest = found.speed_bracket[1]
     bracket = (None if highest is None else limit / highest, speed)
-    return MaximumHeadSpeed(speed, bracket, found.speed, found.handles, found.time / speed, found.time)
+    return MaximumHeadSpeed(speed, bracket, found.speed, found.handles, found.time / speed, found.time, found.passage)
 
 
 @asked_of("dance", Dance)
@@ -181,16 +200,32 @@ def first_excess(
     raises: InvalidValue; OutsideRun; TooMuchWork
     """
     limit = checked_limit(speed_limit)
-    dragon, head_speed = dance.dragon, dance.head_speed
+    dragon = dance.dragon
     begin, until = dance.span(dance.begin if start is None else start, stop)
     search = Search(dragon, dance.path, 0.0, budget=budget)
     search.resize(dragon.benches)
-    ratio = limit / head_speed
-    outcome, excess = _excess(search, begin * head_speed, until * head_speed, head_speed, ratio)
+    search.timing, given_up = dance.clock.rounding(until), None
+    for stretch in dance.clock.stretches(begin, until):
+        found = _excess_in(search, stretch, limit) if stretch.speed > 0.0 else None
+        if found is None:
+            continue
+        if found.time is None:
+            given_up = given_up or found
+        elif given_up is None:
+            return found
+        else:  # later than where a proof was given up
+            return replace(found, time_bracket=(given_up.time_bracket[0], found.time))
+    return None if given_up is None else replace(given_up, time_bracket=(given_up.time_bracket[0], until))
+
+
+def _excess_in(search: Search, stretch: Stretch, limit: float) -> FirstExcess | None:
+    """The first excess while the head goes at one speed."""
+    ratio = limit / stretch.speed
+    outcome, excess = _excess(search, stretch.first, stretch.last, stretch.speed, ratio)
     if outcome == EXCEEDED:
-        time = excess.found / head_speed
-        return FirstExcess(time, (excess.proven / head_speed, time), excess.handle)
-    return None if outcome == KEPT else _late_excess(search, ratio, head_speed, excess.proven / head_speed, until)
+        time = stretch.time(excess.found)
+        return FirstExcess(time, (stretch.time(excess.proven), time), excess.handle)
+    return None if outcome == KEPT else _late_excess(search, ratio, stretch, stretch.time(excess.proven))
 
 
 def _excess(search: Search, first: float, last: float, head_speed: float, ratio: float) -> tuple[int, kernels.Excess]:
@@ -205,14 +240,16 @@ def _excess(search: Search, first: float, last: float, head_speed: float, ratio:
     return outcome, excess
 
 
-def _late_excess(search: Search, ratio: float, head_speed: float, proven: float, until: float) -> FirstExcess:
+def _late_excess(search: Search, ratio: float, stretch: Stretch, proven: float) -> FirstExcess:
     """An excess after the time at which a proof was given up [s], looked for ever nearer to the end."""
 
     def faster(time: float) -> int | None:
         """A handle that is certainly faster than the limit at an instant."""
-        outcome, excess = _excess(search, time * head_speed, time * head_speed, head_speed, ratio)
+        place = stretch.place(time)
+        outcome, excess = _excess(search, place, place, stretch.speed, ratio)
         return excess.handle if outcome == EXCEEDED else None
 
+    until = stretch.end
     times = [until - (until - proven) * 0.5**k for k in range(HALVINGS)] + [until]
     high = next((time for time in times if faster(time) is not None), None)
     if high is None:

@@ -90,9 +90,17 @@ class Trajectory(Shown):
         else:
             plots.draw_dance(axes, self.dance.path, handles, bench_outlines(self.dance.dragon, handles), 0.4)
         plots.draw_speeds(axes, handles, speed)
-        plots.mark_head(axes, handles[0], velocity[0])
+        centre = (0.0, 0.0) if self.dance is None else self.dance.path.frame.centre
+        plots.mark_head(axes, handles[0], self._ahead(float(time), velocity[0]), centre)
         axes.set_title(f"Handles and their speeds at {time:g} s", fontsize=11)
         return axes
+
+    def _ahead(self, time: float, velocity: Floats) -> Floats:
+        """The head's direction of travel (2,), that of the path while it pauses."""
+        if self.dance is not None and not velocity.any():
+            return self.dance.path.tangent(self.dance.clock.place(time))
+        ahead: Floats = velocity / np.hypot(*velocity)
+        return ahead
 
 
 @asked_of("dance", Dance)
@@ -102,7 +110,8 @@ def trajectory(dance: Dance, times: Floats | Sequence[float] | float, *, budget:
 
     times: (T,) or one [s], 0 at the start; at negative times the head is on the outward extension of the spiral, or on
         the part of a route before its s = 0
-    returns: see Trajectory; positions good to 1e-12 m, speeds from the rigid links, never from differences
+    returns: see Trajectory; positions good to 1e-12 m, speeds from the rigid links, never from differences; where the
+        head changes its speed, those from then on
     raises: OutsideRun (times) after the end of the run, or where the tail would stand before the beginning of a route;
         TooMuchWork
     source: Yang et al., section 2.3, whose eqs. 6-7 divide a sum of speeds by 2 dt where a distance is meant
@@ -115,9 +124,9 @@ def trajectory(dance: Dance, times: Floats | Sequence[float] | float, *, budget:
     (224, 2)
     """
     dragon, asked, budget = dance.dragon, dance.times(times), budget or Budget()
-    time, handles = asked.reshape(-1), dragon.benches + 1
+    time, handles = dance.clock.steady(asked.reshape(-1)), dragon.benches + 1
     shape = (time.size, handles)
-    columns = position, velocity, speed = np.empty((*shape, 2)), np.empty((*shape, 2)), np.empty(shape)
+    position, velocity, speed = np.empty((*shape, 2)), np.empty((*shape, 2)), np.empty(shape)
     # on a spiral whole blocks of instants, as the kernels solve them together
     block = 1 if isinstance(dance.path, Route) else kernels.LANES_PER_BLOCK
     batch = block * max(1, BATCH_WORK // (block * handles))
@@ -128,11 +137,17 @@ def trajectory(dance: Dance, times: Floats | Sequence[float] | float, *, budget:
         budget.look()
         if before_fold < time[rows].size:
             raise dance.after_the_end(asked, first + before_fold)
+    if dance.passages:
+        share = dance.clock.speed(asked.reshape(-1)) / dance.head_speed
+        velocity *= share[:, None, None]
+        speed *= share[:, None]
+    position, velocity = dance.path.frame.points(position), dance.path.frame.vectors(velocity)
+    columns = position, velocity, speed
     return Trajectory(asked, *(columns if asked.ndim else (column[0] for column in columns)), dance=dance)
 
 
 def _fill(dance: Dance, budget: Budget, time: Floats, position: Floats, velocity: Floats, speed: Floats) -> int:
-    """Fill in a trajectory at times (T,) [s]; returns the number of times before a fold."""
+    """Fill in a trajectory of the steady dance at times (T,) [s]; returns the number of times before a fold."""
     dragon, path, head_speed = dance.dragon, dance.path, dance.head_speed
     if isinstance(path, Route):
         sizes = np.zeros((dragon.benches, kernels.SIZE_COLUMNS))

@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Protocol, Self
 
 from core import kernels
+from core.paths.frame import Frame
 from core.shown import Shown
 from core.values import Floats
 
 
 @dataclass(frozen=True, slots=True, repr=False)
 class HeadState(Shown):
-    """Handle 0 at one instant: theta [rad, unwrapped; None off a spiral], radius from the origin [m], x [m], y [m]."""
+    """Handle 0 at one instant: theta on a spiral, in its own frame [rad, unwrapped; None off one], radius from the
+    centre of the spiral, or from the origin [m], x [m], y [m]."""
 
     theta: float | None
     radius: float
@@ -30,6 +32,7 @@ class Path(Protocol):
     curve, place: the path as the kernels take it, and the place that they give to s = 0: the arc length from the centre
         of a spiral, 0 on a route [m]
     slide: how far a point may be from its s along the path, besides the rounding of s [m]
+    frame: of all that is computed, in the world; standard: the path in that frame
     """
 
     @property
@@ -48,6 +51,10 @@ class Path(Protocol):
     def place(self) -> float: ...
     @property
     def slide(self) -> float: ...
+    @property
+    def frame(self) -> Frame: ...
+    @property
+    def standard(self) -> Self: ...
 
     def position(self, s: Floats | float) -> Floats:
         """Points at arc length s. s: (...) [m]; returns (..., 2) x, y [m]."""
@@ -67,8 +74,8 @@ class Path(Protocol):
         curvature: handles follow without turning back where the path bends no more than this [1/m]
         """
 
-    def drawn(self, reach: float) -> Floats:
-        """Points (N, 2) [m] for a picture, as far as `reach` from the centre of a spiral [m]."""
+    def drawn(self, reached: Floats) -> Floats:
+        """Points (N, 2) [m] for a picture, on a spiral as far out as the points (..., 2) reached."""
 
     def words(self) -> str:
         """The path in a sentence that names all that matters for a proof."""

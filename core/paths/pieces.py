@@ -42,7 +42,8 @@ def checked_point(name: str, value: Any) -> Point:
     return (checked_number(f"{name}.0", x, "m", *limits), checked_number(f"{name}.1", y, "m", *limits))
 
 
-def _checked_angle(name: str, value: Any) -> float:
+def checked_angle(name: str, value: Any) -> float:
+    """The value as an angle within ANGLE_MAX. raises: InvalidValue"""
     return checked_number(name, value, "rad", -ANGLE_MAX, ANGLE_MAX)
 
 
@@ -107,8 +108,8 @@ class Arc(Shown):
 
     def __post_init__(self) -> None:
         _settle(self, centre=checked_point("arc.centre", self.centre), radius=checked_size("arc.radius", self.radius))
-        _settle(self, start_angle=_checked_angle("arc.start_angle", self.start_angle))
-        _settle(self, sweep=_checked_angle("arc.sweep", self.sweep))
+        _settle(self, start_angle=checked_angle("arc.start_angle", self.start_angle))
+        _settle(self, sweep=checked_angle("arc.sweep", self.sweep))
 
     def rows(self, name: str, s: float, budget: Budget) -> Floats:
         """Rows of the kernels' table from arc length s on."""
@@ -137,7 +138,7 @@ class Coil(Shown):
         _settle(self, pitch=checked_size("coil.pitch", self.pitch), centre=checked_point("coil.centre", self.centre))
         _settle(self, start_turns=checked_number("coil.start_turns", self.start_turns, "turns", 0.0, 1e5))
         _settle(self, end_turns=checked_number("coil.end_turns", self.end_turns, "turns", 0.0, 1e5))
-        _settle(self, rotation=_checked_angle("coil.rotation", self.rotation))
+        _settle(self, rotation=checked_angle("coil.rotation", self.rotation))
 
     def rows(self, name: str, s: float, budget: Budget) -> Floats:
         """Rows of the kernels' table from arc length s on."""
@@ -170,7 +171,7 @@ class Waypoints(Shown):
         _settle(self, points=tuple(checked_point(f"waypoints.points.{k}", point) for k, point in enumerate(given)))
         for name in ("start_heading", "end_heading"):
             if (heading := getattr(self, name)) is not None:
-                _settle(self, **{name: _checked_angle(f"waypoints.{name}", heading)})
+                _settle(self, **{name: checked_angle(f"waypoints.{name}", heading)})
 
     def __repr__(self) -> str:
         listed = f"Waypoints({self.points!r}, {self.start_heading!r}, {self.end_heading!r})"

@@ -11,6 +11,7 @@ import numpy as np
 from core import kernels
 from core.budget import Budget, Halted
 from core.errors import InvalidValue, said
+from core.paths.frame import WORLD
 from core.paths.path import HeadState
 from core.paths.pieces import Arc, Coil, Line, Piece, listed
 from core.shown import REPR_MOST, TABLE_DIGITS, Shown, counted, worded
@@ -39,6 +40,7 @@ class Route(Shown):
 
     # For the kernels: places are minus s, and a search may look a little past the end.
     growth, place, limit = 1.0, 0.0, math.inf
+    frame = WORLD
 
     def __init__(self, pieces: Sequence[Piece], start: float = 0.0, *, budget: Budget | None = None) -> None:
         budget = budget or Budget()
@@ -139,6 +141,11 @@ class Route(Shown):
         return self._points(s)[..., 0:2]
 
     @property
+    def standard(self) -> Route:
+        """Itself: a route is computed in the world."""
+        return self
+
+    @property
     def curve(self) -> kernels.Curve:
         """The route as the kernels take it."""
         return kernels.route_curve(self.table)
@@ -158,8 +165,8 @@ class Route(Shown):
         listed = kinds if len(kinds) <= PIECES_LISTED else sorted(set(kinds))
         return f"a route from s = {said(self.begin)} m to {said(self.end)} m ({', '.join(listed)})"
 
-    def drawn(self, reach: float) -> Floats:
-        """Points (N, 2) [m] for a picture: the whole route, whatever the reach of the dragon."""
+    def drawn(self, reached: Floats) -> Floats:
+        """Points (N, 2) [m] for a picture: the whole route, whatever the dragon has reached."""
         s = np.linspace(max(self.begin, -DRAWN), min(self.end, DRAWN), DRAWN_POINTS)
         return self.position(s)
 

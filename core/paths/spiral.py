@@ -12,8 +12,10 @@ from functools import cached_property
 import numpy as np
 
 from core import kernels
-from core.errors import said
+from core.errors import InvalidValue, said
+from core.paths.frame import Frame
 from core.paths.path import HeadState
+from core.paths.pieces import Point, checked_angle, checked_point
 from core.sampling import bisected
 from core.shown import TABLE_DIGITS, Shown, worded
 from core.values import Floats, checked_number, checked_size
@@ -25,12 +27,15 @@ DRAWN_POINTS = 120
 GENTLE_WIDTH = 1e-9
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Spiral(Shown):
-    """Archimedean spiral r = growth * theta, danced inwards (clockwise) from start_turns turns.
+    """Archimedean spiral r = growth * theta, danced inwards from start_turns turns.
 
     pitch: radial advance per full turn [m]; start_turns: turns from the centre to the start, s = 0
+    centre: (x, y) [m]; rotation: of the whole spiral about it [rad], as of a Coil
+    clockwise: the direction of the dance; False: its mirror image
     Negative s lies on the outward extension of the same spiral; the centre is at s = length.
+    Where the spiral lies matters to places, never to times, distances or proofs: those belong to `standard`.
 
     Arc length from the centre: growth / 2 (theta sqrt(1 + theta^2) + asinh theta).
 
@@ -40,11 +45,24 @@ class Spiral(Shown):
 
     pitch: float = 0.55
     start_turns: float = 16.0
+    centre: Point = (0.0, 0.0)
+    rotation: float = 0.0
+    clockwise: bool = True
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "pitch", checked_size("path.pitch", self.pitch))
+        object.__setattr__(self, "centre", checked_point("path.centre", self.centre))
+        object.__setattr__(self, "rotation", checked_angle("path.rotation", self.rotation))
+        if not isinstance(self.clockwise, bool):
+            raise InvalidValue("path.clockwise", f"path.clockwise must be True or False, got {self.clockwise!r:.60}")
         turns = checked_number("path.start_turns", self.start_turns, "turns", 0.0, START_TURNS_MAX, open_low=True)
         object.__setattr__(self, "start_turns", turns)
+
+    def __repr__(self) -> str:
+        given = f"pitch={self.pitch!r}, start_turns={self.start_turns!r}"
+        if not self.frame.is_world:
+            given += f", centre={self.centre!r}, rotation={self.rotation!r}, clockwise={self.clockwise!r}"
+        return f"Spiral({given})"
 
     def _rows(self) -> list[tuple[str, str]]:
         return [*super()._rows(), ("length", worded(self.length, "m", TABLE_DIGITS))]
@@ -60,6 +78,16 @@ class Spiral(Shown):
         return self.length
 
     limit = place = end
+
+    @cached_property
+    def frame(self) -> Frame:
+        """Where its own frame is."""
+        return Frame(self.centre, self.rotation, self.clockwise)
+
+    @property
+    def standard(self) -> Spiral:
+        """The same spiral in its own frame: around the origin, clockwise."""
+        return self if self.frame.is_world else Spiral(self.pitch, self.start_turns)
 
     @cached_property
     def growth(self) -> float:
@@ -82,7 +110,7 @@ class Spiral(Shown):
         return self.growth * float(kernels.spiral_arc(self.start_theta))
 
     def theta(self, s: Floats | float) -> Floats:
-        """Polar angle at arc length s. s: (...) [m], at most length; returns (...) [rad], unwrapped."""
+        """Polar angle at arc length s in its own frame. s: (...) [m], at most length; returns (...) [rad]."""
         from_centre: Floats = (self.length - np.asarray(s, dtype=np.float64)) / self.growth
         theta: Floats = np.empty(from_centre.size)
         kernels.spiral_thetas(from_centre.reshape(-1), theta)
@@ -104,22 +132,22 @@ class Spiral(Shown):
         return bisected(is_gentle, 0.0, 2.0 / (self.growth * curvature), relative=GENTLE_WIDTH)[1]
 
     def curvature(self, s: Floats | float) -> Floats:
-        """Curvature, counter-clockwise positive, so negative here. s: (...) [m]; returns (...) [1/m]."""
+        """Curvature, counter-clockwise positive, so negative if clockwise. s: (...) [m]; returns (...) [1/m]."""
         square = self.theta(s) ** 2
-        curvature: Floats = -(2.0 + square) / (self.growth * (1.0 + square) ** 1.5)
-        return curvature
+        curvature: Floats = (2.0 + square) / (self.growth * (1.0 + square) ** 1.5)
+        return -curvature if self.clockwise else curvature
 
     def position(self, s: Floats | float) -> Floats:
         """Points at arc length s. s: (...) [m]; returns (..., 2) x, y [m]."""
         theta = self.theta(s)
         direction: Floats = np.stack([np.cos(theta), np.sin(theta)], axis=-1)
-        return direction * (self.growth * theta[..., None])
+        return self.frame.points(direction * (self.growth * theta[..., None]))
 
     def head(self, s: float) -> HeadState:
         """The head at arc length s [m]."""
         theta = float(self.theta(s))
         radius = self.growth * theta
-        return HeadState(theta, radius, radius * math.cos(theta), radius * math.sin(theta))
+        return HeadState(theta, radius, *self.frame.point(radius * math.cos(theta), radius * math.sin(theta)))
 
     def calm(self, curvature: float) -> float:
         """Radius outside which the |curvature| is at most this [1/m], in the form that kernels.Peak takes [m]."""
@@ -129,16 +157,16 @@ class Spiral(Shown):
         """The spiral in a sentence that names all that matters for a proof."""
         return f"a spiral of {said(self.pitch)} m pitch from {said(self.start_turns)} turns"
 
-    def drawn(self, reach: float) -> Floats:
-        """Points (N, 2) [m] for a picture: from the centre to the start, or further out to a radius of `reach` [m]."""
-        radius = max(reach, self.growth * self.start_theta)
+    def drawn(self, reached: Floats) -> Floats:
+        """Points (N, 2) [m] for a picture: from the centre to the start, or further out to the points reached."""
+        radius = max(float(np.hypot(*self.frame.back(reached).T).max()), self.growth * self.start_theta)
         theta = np.linspace(0.0, radius / self.growth, DRAWN_POINTS * int(radius / self.pitch + 2))
         line: Floats = np.stack([np.cos(theta), np.sin(theta)], axis=-1)
-        return line * (self.growth * theta[:, None])
+        return self.frame.points(line * (self.growth * theta[:, None]))
 
     def tangent(self, s: Floats | float) -> Floats:
         """Unit tangents in the direction of travel. s: (...) [m]; returns (..., 2)."""
         theta = self.theta(s)
         cos, sin = np.cos(theta), np.sin(theta)
-        along = np.stack([theta * sin - cos, -theta * cos - sin], axis=-1)
-        return along / np.sqrt(1.0 + theta**2)[..., None]
+        along: Floats = np.stack([theta * sin - cos, -theta * cos - sin], axis=-1)
+        return self.frame.vectors(along / np.sqrt(1.0 + theta**2)[..., None])

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Sequence
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from typing import Any
 
 import numpy as np
@@ -56,7 +56,7 @@ def prove_collision_time(
     returns: a dictionary that json can write and check() verifies
     raises: ProofRefused if the claim is wrong, or too close to wrong for the balls to decide
     """
-    path = dance.path
+    path = _steady(dance).path
     if not isinstance(path, Spiral):
         raise InvalidValue("path", "path must be a spiral: prove_contact() takes any other")
     claim = CollisionTimeClaim(dance.dragon, path.pitch, path.start_turns, dance.head_speed, time, margin)
@@ -98,7 +98,7 @@ def prove_clear(
         the centre of the spiral, or the end of the route
     every_pair, progress, returns, raises: as prove_collision_time(); OutsideRun for times outside the dance
     """
-    record, until = recorded_path(dance.path), "stop"
+    record, until = recorded_path(_steady(dance).path), "stop"
     if stop is None:
         stop, until = last_stop(dance.dragon, record, dance.head_speed)
     return _proven(Clear(dance.dragon, record, dance.head_speed, start, stop, until, margin), every_pair, progress)
@@ -114,7 +114,7 @@ def prove_contact(
     progress: Progress = lambda share: None,
 ) -> Certificate:
     """As prove_collision_time(), in [start, time - 1e-10], on any path that prove_clear() takes."""
-    claim = Contact(dance.dragon, recorded_path(dance.path), dance.head_speed, start, time, margin)
+    claim = Contact(dance.dragon, recorded_path(_steady(dance).path), dance.head_speed, start, time, margin)
     return _proven(claim, every_pair, progress)
 
 
@@ -134,14 +134,26 @@ def prove_tolerance(
     stop: None for the end of the run, or 0.5e-9 s before a fold or the centre
     every_pair, progress, returns, raises: as prove_collision_time(); OutsideRun for times outside the dance
     """
-    path = dance.path
+    path = _steady(dance).path
     if not isinstance(path, Spiral):
         raise InvalidValue("path", "path must be a spiral: strays have no proof on any other")
     if stop is None:
         stop, _ = last_stop(dance.dragon, recorded_path(path), dance.head_speed)
+    if exhibit is not None:
+        exhibit = replace(exhibit, handles=dance.path.frame.back(exhibit.handles))
     pose, shown = ({}, None) if exhibit is None else recorded_pose(exhibit)
     sizes = dance.dragon, path.pitch, path.start_turns, dance.head_speed
     return _proven(ToleranceClaim(*sizes, start, stop, stray, shown), every_pair, progress, pose)
+
+
+def _steady(dance: Dance) -> Dance:
+    """The dance, whose places and times are proportional. raises: InvalidValue for passages"""
+    if dance.passages:
+        rule = (
+            "must be left out for a proof, which is about places of the head: prove dance.steady, whose times are those"
+        )
+        raise InvalidValue("passages", f"passages {rule} places divided by its head speed")
+    return dance.steady
 
 
 def _proven(claim: Claim, every_pair: bool, progress: Progress, pose: dict[str, Any] | None = None) -> Certificate:

@@ -238,6 +238,15 @@ def _shapely(poses: Floats, sizes: Floats, margin: float, chained: bool, budget:
         yield np.stack([first[meet], second[meet]], axis=-1).astype(np.int64)
 
 
+def unions_meet(a: Floats, b: Floats, margin: float) -> NDArray[np.bool_]:
+    """Does shapely find unions of polygons a and b, (n, parts, corners, 2), within the margin [m]? (n,)"""
+    import shapely
+
+    meet = shapely.dwithin(shapely.polygons(a)[:, :, None], shapely.polygons(b)[:, None, :], margin)
+    found: NDArray[np.bool_] = np.any(meet, axis=(1, 2))
+    return found
+
+
 def polygon_fault(rings: Sequence[ArrayLike]) -> tuple[str, float, float] | None:
     """The fault of a polygon and its place, (reason, x [m], y [m]); None if the polygon is valid.
 
@@ -273,9 +282,7 @@ def united(core: Sequence[Floats], rest: Sequence[Floats], grown: float, left_ou
     roomy = shapely.buffer(ground, left_out / GROWTH_MOST)
     shapely.prepare(roomy)
     ground = _union(np.array([ground, *others[~shapely.covers(roomy, others)]]), budget)
-    ground = shapely.set_precision(shapely.buffer(ground, ARC_RADIUS * grown, quad_segs=ARC_CHORDS), GRID)
-    polygons = [shapely.geometry.polygon.orient(polygon) for polygon in shapely.get_parts(ground)]
-    return tuple(tuple(map(shapely.get_coordinates, (some.exterior, *some.interiors))) for some in polygons)
+    return _rings(shapely.set_precision(shapely.buffer(ground, ARC_RADIUS * grown, quad_segs=ARC_CHORDS), GRID))
 
 
 def _hulls(polygons: Sequence[Floats], budget: Budget) -> NDArray[np.object_]:
@@ -298,6 +305,29 @@ def _union(parts: NDArray[np.object_], budget: Budget) -> object:
             merged.append(shapely.union_all(parts[first : first + UNITED]))
         parts = np.array(merged)
     return parts[0]
+
+
+def widened(polygons: Polygons, by: float) -> Polygons:
+    """Polygons that hold all within `by` of the given ones, and nothing further than GROWTH_MOST times that [m]."""
+    import shapely
+
+    ground = shapely.union_all([shapely.Polygon(rings[0], rings[1:]) for rings in polygons])
+    return _rings(shapely.buffer(ground, ARC_RADIUS * by, quad_segs=ARC_CHORDS))
+
+
+def thickened(line: Floats, radius: float) -> Polygons:
+    """Polygons that hold all within `radius` of a line through points (P, 2), and nothing further than GROWTH_MOST
+    times that [m]."""
+    import shapely
+
+    return _rings(shapely.buffer(shapely.LineString(line), ARC_RADIUS * radius, quad_segs=ARC_CHORDS))
+
+
+def _rings(ground: object) -> Polygons:
+    import shapely
+
+    polygons = [shapely.geometry.polygon.orient(polygon) for polygon in shapely.get_parts(ground)]
+    return tuple(tuple(map(shapely.get_coordinates, (some.exterior, *some.interiors))) for some in polygons)
 
 
 def distance_from(polygons: Polygons, line: Floats) -> float:

@@ -147,7 +147,8 @@ def contact_probability(
     budget = budget or Budget()
     step = (until - begin) / (count - 1)
     times = np.linspace(begin, until, count)
-    sampled = _Sampled(dance, model, times, math.exp(-step / model.correlation_time), seed, budget)
+    steady, at = dance.steady, dance.steady_times(times)  # people wobble in a pause too, so instants are even in time
+    sampled = _Sampled(steady, model, at, math.exp(-step / model.correlation_time), seed, budget)
     handles = dance.dragon.benches + 1
     together = max(1, HANDLES_TOGETHER // handles)
     found = _Found(len(which))
@@ -156,7 +157,7 @@ def contact_probability(
             batch = which[first : first + together]
             for share in sampled.dance(batch, found, first):
                 progress((first + share * len(batch)) / len(which))
-        bound = None if model.pitch_error or model.play else union_bound(dance, model, times, budget)
+        bound = None if model.pitch_error or model.play else union_bound(steady, model, at, budget)
     except Halted as halted:
         rule = "must be fewer, or the time asked about shorter: the probability of a contact was not found {then}"
         raise halted.budget.too_much("samples", rule, len(which), "") from halted

@@ -12,7 +12,7 @@ from core import plots
 from core.budget import Budget
 from core.dance import Dance
 from core.dragon import Dragon
-from core.errors import InvalidValue, said
+from core.errors import InvalidValue, TooMuchWork, said
 from core.paths.spiral import Spiral
 from core.shown import Shown, extent
 from core.tables import data_frame
@@ -92,7 +92,13 @@ def tolerance_curve(
     answers = []
     for k, pitch in enumerate(column.tolist()):
         dance = Dance(dragon, Spiral(pitch, start_turns))
-        answers.append(tolerance(dance, stop=time_on_circle(dance, radius), budget=budget))
+        try:
+            answers.append(tolerance(dance, stop=time_on_circle(dance, radius), budget=budget))
+        except TooMuchWork:
+            if k == 0 or budget is None:
+                raise
+            rule = f"must be fewer: of only {k} it was found how far people may stray {{then}}"
+            raise budget.too_much("pitches", rule, column.size, "") from None
         progress((k + 1) / column.size)
     return ToleranceCurve(column, np.array([one.stray for one in answers]), tuple(answers))
 
@@ -108,7 +114,7 @@ def time_on_circle(dance: Dance, radius: float) -> float:
         where = "inside" if radius > first else "on"
         rule = f"must be smaller: at a pitch of {said(dance.path.pitch)} m the dance starts {where} that circle"
         raise InvalidValue.of("turning_radius", rule, radius, "m")
-    time = dance.path.travel_to(radius) / dance.head_speed
+    time = dance.clock.time(dance.path.travel_to(radius))
     if time > dance.end.time:
         rule = f"must be larger: {dance.end.why} at {dance.end.time:.6f} s, before the head is on that circle"
         raise InvalidValue.of("turning_radius", rule, radius, "m")

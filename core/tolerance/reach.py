@@ -38,11 +38,14 @@ this is added.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cache, lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
 
+from core import kernels
 from core.dragon import Dragon
 from core.errors import InvalidValue, said
 from core.kernels.constants import DIRECTIONS
@@ -50,6 +53,9 @@ from core.values import Floats
 
 # Samples of psi on either side of 0: the supports are then too large by 2e-4 of the stray at most [1].
 SAMPLES = 64
+# The largest gap of two hulls along a direction across a side of either falls short of their distance by no more than
+# this part of it [1].
+SHORT = 1.0 - math.cos(math.pi / DIRECTIONS)
 # Added to every support, for the rounding of fewer than 100 operations on lengths of the bench [1]; the corners of a
 # polygon with DIRECTIONS sides magnify an error of its supports tenfold.
 SUPPORT_ROUNDING = 1e-13
@@ -65,76 +71,112 @@ class Reach:
     hulls: (kinds, 3, DIRECTIONS, 2) corners of the hulls of front end, middle and rear end, counter-clockwise, in
         the bench's own frame [m]: corner k lies between the half planes of directions k and k + 1
     kinds: (uniform_from + 1,) which of them is a bench's
+    corners, middle_half_width, within: what ring bounds need of them, see core/kernels/rings.py
     """
 
     bounds: Dragon
     hulls: Floats
     kinds: NDArray[np.int64]
+    corners: Floats
+    middle_half_width: float
+    within: float
 
 
+@cache
 def directions() -> Floats:
     """The unit vectors (DIRECTIONS, 2) across the sides of every hull."""
     theta = 2.0 * math.pi / DIRECTIONS * np.arange(DIRECTIONS)
     return np.stack([np.cos(theta), np.sin(theta)], axis=-1)
 
 
+@cache
+def _sampled() -> tuple[Floats, Floats]:
+    """Sines and cosines (2, 2 SAMPLES + 1) of psi, and the unit vectors (2, DIRECTIONS)."""
+    psi = np.linspace(-0.5 * math.pi, 0.5 * math.pi, 2 * SAMPLES + 1)
+    return np.stack([np.sin(psi), np.cos(psi)]), np.ascontiguousarray(directions().T)
+
+
+@lru_cache(maxsize=4)  # a question asks several times, and so does someone who drags the pitch
 def reach(dragon: Dragon, stray: float) -> Reach:
     """What the benches of a dragon may cover while every hole is within the stray of its place [m].
 
     raises: InvalidValue for a dragon with more than SIZES_MAX sizes of benches
     """
     alike = dragon.uniform_from + 1
-    sizes = np.stack([dragon.chords[:alike], dragon.overhangs[:alike], 0.5 * dragon.widths[:alike]], axis=1)
-    distinct, kinds = np.unique(sizes, axis=0, return_inverse=True)
-    if len(distinct) > SIZES_MAX:
+    columns = (column[:alike].tolist() for column in (dragon.chords, dragon.overhangs, 0.5 * dragon.widths))
+    numbers: dict[tuple[float, float, float], int] = {}
+    of = [numbers.setdefault(size, len(numbers)) for size in zip(*columns, strict=True)]
+    if len(numbers) > SIZES_MAX:
         rule = f"must have at most {SIZES_MAX} different sizes of benches with a stray of {said(stray)} m"
-        raise InvalidValue("dragon.lengths", f"dragon.lengths {rule}, got {len(distinct)}")
-    kinds = kinds.reshape(-1).astype(np.int64)
-    hulls = np.stack([bench_hulls(chord, overhang, half, stray) for chord, overhang, half in distinct.tolist()])
+        raise InvalidValue("dragon.lengths", f"dragon.lengths {rule}, got {len(numbers)}")
+    kinds = np.array(of, dtype=np.int64)
+    hulls = _hulls(list(numbers), stray)
     half_lengths, half_widths = np.abs(hulls).max(axis=(1, 2)).T
-    spread = np.concatenate([kinds, np.full(dragon.benches - len(kinds), kinds[-1], dtype=np.int64)])
+    spread = np.full(dragon.benches, kinds[-1])
+    spread[:alike] = kinds
     overhangs = half_lengths[spread] * (1.0 + SUPPORT_ROUNDING) - 0.5 * dragon.chords
-    return Reach(dragon.outlined(overhangs, 2.0 * half_widths[spread]), hulls, kinds)
+    bounds = dragon.outlined(overhangs, 2.0 * half_widths[spread])
+    return Reach(bounds, hulls, kinds, *_ring_bounds(dragon.chords[:alike], hulls, kinds))
+
+
+def _ring_bounds(chords: Floats, hulls: Floats, kinds: NDArray[np.int64]) -> tuple[Floats, float, float]:
+    """Reach.corners, middle_half_width and within; no corners are further out and aside than the first of front ends.
+
+    Benches from the third on, or the last, can be the outer one of a pair.
+    """
+    chord = np.empty((len(hulls), 1))
+    chord[kinds, 0] = chords
+    further, aside = np.moveaxis(hulls[:, 0, : DIRECTIONS // 4], -1, 0)
+    further = np.maximum(further - 0.5 * chord, 0.0)
+    corners = np.stack([0.5 * further * (further + chord), aside], axis=-1).reshape(-1, 2)
+    outer = min(2, len(kinds) - 1)
+    outers = hulls[kinds[outer:]]
+    within = 0.5 * float(chords[outer:].max()) - float(outers[:, 0, :, 0].min())
+    return corners, float(outers[:, 1, :, 1].max()), within
 
 
 def bench_hulls(chord: float, overhang: float, half_width: float, stray: float) -> Floats:
     """Corners (3, DIRECTIONS, 2) of the hulls of one bench's front end, middle and rear end [m]."""
-    inner, outer = 0.5 * chord, 0.5 * chord + overhang
-    corners = np.array([[inner, half_width], [outer, half_width], [inner, -half_width], [outer, -half_width]])
-    front = _polygon(supports(corners, chord, stray))
-    middle = corners[[0, 2]]
-    return np.stack([front, _polygon(supports(np.concatenate([middle, -middle]), chord, stray)), _turned(front)])
+    hulls: Floats = _hulls([(chord, overhang, half_width)], stray)[0]
+    return hulls
 
 
-def supports(corners: Floats, chord: float, stray: float) -> Floats:
-    """Upper bounds of the support (DIRECTIONS,) of all places of some points of a bench [m].
+def _hulls(sizes: Sequence[tuple[float, float, float]], stray: float) -> Floats:
+    """bench_hulls() (n, 3, DIRECTIONS, 2) of sizes, each a chord, an overhang and a half width [m]."""
+    front, middle = _polygon(np.stack([supports(*size, stray) for size in sizes], axis=1))
+    return np.stack([front, middle, _turned(front)], axis=1)
 
-    corners: (n, 2) in the bench's own frame [m]; each bound is good to K h^2 / 8, see the top of this file
+
+# A bench is the same mirrored left to right: half of the directions are computed.
+_MIRRORED = np.minimum(np.arange(DIRECTIONS), DIRECTIONS - np.arange(DIRECTIONS))
+
+
+def supports(chord: float, overhang: float, half_width: float, stray: float) -> Floats:
+    """Upper bounds (2, DIRECTIONS) of the support of all places of a bench's front end, and of its middle [m].
+
+    Each is good to K h^2 / 8, see the top of this file.
     """
-    x, y = directions()[:, :, None].swapaxes(0, 1)
-    sine = np.sin(np.linspace(-0.5 * math.pi, 0.5 * math.pi, 2 * SAMPLES + 1))
+    best = np.full((2, DIRECTIONS // 2 + 1), -math.inf)
+    kernels.largest_supports(chord, overhang, half_width, stray, *_sampled(), best)
     kappa = stray / chord
-    half_sine, half_cosine = kappa * sine, np.sqrt(1.0 - (kappa * sine) ** 2)
-    across, along = np.abs(y * half_cosine - x * half_sine), np.abs(x * half_cosine + y * half_sine)
-    q = np.abs(sine)
-    lens = stray * np.where(q <= across, 1.0 - q * across, along * np.sqrt(1.0 - sine * sine))
-    c, s = half_cosine * half_cosine - half_sine * half_sine, 2.0 * half_sine * half_cosine
-    best = np.max([lens + (x * (c * px - s * py) + y * (s * px + c * py)) for px, py in corners.tolist()], axis=(0, 2))
-    furthest = float(np.hypot(*corners.T).max())
     steep = kappa / math.sqrt(1.0 - kappa * kappa)
-    bend = stray * (1.0 + 2.0 * kappa + kappa * kappa + steep) + furthest * (4.0 * kappa * kappa + 2.0 * steep)
-    supported: Floats = best + 0.125 * bend * (0.5 * math.pi / SAMPLES) ** 2 + SUPPORT_ROUNDING * (furthest + stray)
-    return supported
+    for part, far in enumerate((0.5 * chord + overhang, 0.5 * chord)):
+        furthest = math.hypot(far, half_width)
+        bend = stray * (1.0 + 2.0 * kappa + kappa * kappa + steep) + furthest * (4.0 * kappa * kappa + 2.0 * steep)
+        best[part] += 0.125 * bend * (0.5 * math.pi / SAMPLES) ** 2 + SUPPORT_ROUNDING * (furthest + stray)
+    return best[:, _MIRRORED]
 
 
 def _polygon(support: Floats) -> Floats:
-    """Corners of the half planes with these supports."""
+    """Corners (..., DIRECTIONS, 2) of the half planes with these supports (..., DIRECTIONS)."""
     step = 2.0 * math.pi / DIRECTIONS
-    along = (np.roll(support, -1) - support * math.cos(step)) / math.sin(step)
+    following = np.concatenate([support[..., 1:], support[..., :1]], axis=-1)
+    along = (following - support * math.cos(step)) / math.sin(step)
     cosine, sine = directions().T
     return np.stack([support * cosine - along * sine, support * sine + along * cosine], axis=-1)
 
 
 def _turned(polygon: Floats) -> Floats:
-    """The same polygon half a turn about the middle of the bench."""
-    return -np.roll(polygon, DIRECTIONS // 2, axis=0)
+    """The same polygons half a turn about the middle of the bench."""
+    half = DIRECTIONS // 2
+    return -np.concatenate([polygon[..., half:, :], polygon[..., :half, :]], axis=-2)

@@ -24,11 +24,12 @@ from core.dance import Dance, RunEnd
 from core.errors import said
 from core.kernels.constants import HALF_LENGTH, MX, MY, UX, UY
 from core.motion.trajectory import bench_poses, trajectory
+from core.paths.frame import Frame
 from core.shapes.rectangles import frames, frames_separation
 from core.shown import Shown, worded
 from core.tolerance.exhibit import Body, Exhibit, exhibit
 from core.values import Floats, asked_of, checked_type
-from core.venue import Venue, venue_route
+from core.venue import Venue, own_edges, venue_route
 
 # How far below the least stray at which benches can meet the proof is tried [1 of that stray]; the second one where the
 # first takes too many steps.
@@ -62,7 +63,8 @@ class StrayProof(Shown):
 class Tolerance(Shown):
     """How far people may stray.
 
-    stray: [m], proven safe: while no hole is further from its place at any instant, nothing touches
+    stray: [m], proven safe: while no hole is further from its place at any instant, nothing touches; 0: none is known
+        to be safe, as where benches touch without any stray
     stray_bracket: (proven safe, shown to touch) [m]; the second None where nothing was shown
     limited_by: see Limit; time: when those that limit it are nearest to meeting [s]; benches: they, the second None for
         the venue; area: its name. All None where nothing limits it
@@ -82,7 +84,7 @@ class Tolerance(Shown):
     certificate: StrayProof
 
     def _line(self) -> str:
-        safe = f"strays up to {worded(self.stray, 'm')} are safe"
+        safe = f"strays up to {worded(self.stray, 'm')} are safe" if self.stray else "no stray is known to be safe"
         shown = self.stray_bracket[1]
         if shown is None or self.benches is None:
             return safe
@@ -116,11 +118,12 @@ class _Field:
 
 @dataclass(frozen=True, slots=True)
 class _Found:
-    """A stray that is safe in one field, and the dip that limits it."""
+    """A stray that is safe in one field, and the dip that limits it. touches: is there a contact without any stray?"""
 
     stray: float
     dip: Dip | None
     steps: int
+    touches: bool = False
 
 
 @asked_of("dance", Dance)
@@ -160,31 +163,30 @@ def tolerance(
         steps += safe.steps
         if safe.dip is not None:
             found, limit = safe, field
-    proof = StrayProof(_method(dance, found.stray, (begin, until), venue), steps)
+    proof = StrayProof(_method(dance, found, (begin, until), venue), steps)
     if found.dip is None or limit is None:
         return Tolerance(most, (most, None), Limit.CHORD, None, None, None, None, begin, until, proof)
     _, travel, (a, b) = found.dip
-    time = min(max(travel / dance.head_speed, begin), until)
+    time = min(max(dance.clock.time(travel), begin), until)
     second = b if limit.edges is None else None
-    shown = _exhibit(limit, found, time)
+    shown = _exhibit(limit, found, time, dance.path.frame)
     bracket = (found.stray, None if shown is None else shown.stray)
     by = Limit.BENCHES if limit.edges is None else Limit.VENUE
     return Tolerance(found.stray, bracket, by, time, (a, second), limit.area, shown, begin, until, proof)
 
 
 def _fields(dance: Dance, venue: Venue | None, span: tuple[float, float], budget: Budget) -> list[_Field]:
-    speed = dance.head_speed
-    fields = []
+    fields, travels = [], (dance.clock.place(span[0]), dance.clock.place(span[1]))
     if dance.dragon.benches > 2:
         to_fold = dance.nears_fold(span[1])
-        last = Search.last_travel(span[1] * speed, to_fold)
+        last = Search.last_travel(travels[1], to_fold)
         fold = dance.end if to_fold else None
-        fields.append(_Field(dance, None, None, (span[0] * speed, last), fold, NEAR_WORK_BUDGET, budget))
+        fields.append(_Field(dance, None, None, (travels[0], last), fold, NEAR_WORK_BUDGET, budget))
     if venue is not None:
-        danced = replace(dance, path=venue_route(dance.path, span[1] * speed))
+        danced = replace(dance, path=venue_route(dance.path, travels[1]))
         share = NEAR_WORK_BUDGET / len(venue.areas)
-        travels = (span[0] * speed, span[1] * speed)
-        fields += [_Field(danced, area.edges, area.name, travels, None, share, budget) for area in venue.areas]
+        placed = [(area.name, own_edges(area, dance.path.frame)) for area in venue.areas]
+        fields += [_Field(danced, edges, name, travels, None, share, budget) for name, edges in placed]
     return fields
 
 
@@ -193,9 +195,9 @@ def _safe_stray(field: _Field, most: float) -> _Found:
     begin, until = field.span
     nominal = sampled_least(field.search(0.0), begin, until)
     if nominal[0] <= 0.0:
-        state, touch, _ = field.search(0.0).approach(begin, until, field.dance.head_speed)
+        state, touch, _ = field.search(0.0).approach(begin, until, field.dance.clock.slowest)
         at_first = (0.0, touch.touching, touch.benches) if touch.touching is not None and state in TOUCHES else nominal
-        return _Found(0.0, at_first, touch.steps)
+        return _Found(0.0, at_first, touch.steps, touches=True)
     # Two benches that approach each other by the stray each, in parallel, meet where it is half their clearance.
     first = min(most, nominal[0] * (1.0 if field.edges is not None else 0.5))
     dip = sampled_least(field.search(first), begin, until)
@@ -245,31 +247,37 @@ def _grazing(field: _Field, stray: float, dip: Dip) -> tuple[float, Dip]:
     return stray, dip
 
 
-def _exhibit(field: _Field, found: _Found, time: float) -> Exhibit | None:
-    """A pose of the whole dragon in which the pair of a dip overlaps."""
+def _exhibit(field: _Field, found: _Found, time: float, frame: Frame) -> Exhibit | None:
+    """A pose of the whole dragon in which the pair of a dip overlaps. frame: of the search"""
     assert found.dip is not None
     dragon, (a, b) = field.dance.dragon, found.dip[2]
-    handles = trajectory(field.dance, time, budget=field.budget).position
+    at = field.dance.clock.steady(np.array(time))
+    handles = trajectory(field.dance.steady, at, budget=field.budget).position
     pose, size = bench_poses(handles), np.stack([dragon.lengths, dragon.widths], axis=-1)
     edge = None
     if field.edges is None:
         other = frames(pose[b : b + 1], size[b : b + 1])
     else:
         search = field.search(0.0)
-        search.place_leaders(time * field.dance.head_speed, a + 1)
+        search.place_leaders(field.dance.clock.place(time), a + 1)
         x, y, ux, uy = (float(search.rows[0, b, column]) for column in (MX, MY, UX, UY))
         edge = Body(x, y, math.atan2(uy, ux), 0.0, float(search.sizes[b, HALF_LENGTH]), 0.0)
         other = frames(np.array([[x, y, edge.heading]]), np.array([[2.0 * edge.half_length, 0.0]]))
     normal = frames_separation(frames(pose[a : a + 1], size[a : a + 1]), other).normal[0]
     pair = (a, b if field.edges is None else None)
-    return exhibit(dragon, handles, pair, edge, math.atan2(normal[1], normal[0]), found.stray, time)
+    shown = exhibit(dragon, handles, pair, edge, math.atan2(normal[1], normal[0]), found.stray, time)
+    return None if shown is None else replace(shown, handles=frame.points(shown.handles))
 
 
-def _method(dance: Dance, stray: float, span: tuple[float, float], venue: Venue | None) -> str:
+def _method(dance: Dance, found: _Found, span: tuple[float, float], venue: Venue | None) -> str:
     square = " or an edge of the venue" if venue is not None else ""
+    what = f"{dance.dragon._line()} on {dance.path.words()}: from {said(span[0])} s to {said(span[1])} s"
+    if found.stray <= 0.0:
+        why = f"a bench touches another{square} as it is" if found.touches else "nothing was proven of any stray"
+        return f"{what} no stray is known to be safe: {why}."
     return (
-        f"{dance.dragon._line()} on {dance.path.words()}: from {said(span[0])} s to {said(span[1])} s, while every "
-        f"hole is within {said(stray)} m of its place and every chord keeps its length, no bench touches another that "
-        f"it shares no handle with{square}. Proven in steps for the hulls of all places that benches can have then, as "
-        "first contacts are for benches; computed in doubles, with allowances for their rounding."
+        f"{what}, while every hole is within {said(found.stray)} m of its place and every chord keeps its length, no "
+        f"bench touches another that it shares no handle with{square}. Proven in steps for the hulls of all places "
+        "that benches can have then, as first contacts are for benches; computed in doubles, with allowances for their "
+        "rounding."
     )

@@ -155,6 +155,18 @@ def test_a_cross_check_of_anybody_else_is_refused(client: httpx.Client) -> None:
         assert client.get(call, params={"cross_check": "pair"}).status_code == 422
 
 
+def test_a_scan_of_pitches_answers_its_samples_and_the_jumps_besides(client: httpx.Client) -> None:
+    asked = {"benches": 40, "samples": 3}
+    scan, look = (client.get("/pitch-scan", params=asked | {"locate": locate}).json() for locate in (True, False))
+    assert len(scan["pitch"]) == len(scan["radius"]) == 3
+    assert scan["pieces"] == [[0, 1], [1, 2], [2, 3]]
+    assert len(scan["jumps"]) > 10
+    for jump in scan["jumps"]:
+        assert 0.0 < jump["pitch"][1] - jump["pitch"][0] <= 1e-6
+        assert abs(jump["radius"][1] - jump["radius"][0]) > 0.02
+    assert (look["pitch"], look["jumps"]) == (scan["pitch"], [])
+
+
 def test_a_contact_at_the_start_has_no_before(client: httpx.Client) -> None:
     answer = client.get("/collision-time?pitch=0.25&start_turns=8&benches=60").json()
     assert answer["outcome"] == "contact_at_start"

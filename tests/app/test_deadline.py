@@ -95,7 +95,9 @@ def test_as_a_job_the_same_request_is_answered(hurried: str) -> None:
             assert time.monotonic() < wait
             time.sleep(0.1)
         assert state["status"] == "successful"
-        assert len(client.get(f"{job}/result").json()["pitch"]) > 401
+        scan = client.get(f"{job}/result").json()
+        assert len(scan["pitch"]) == 401
+        assert scan["jumps"]
 
 
 @pytest.mark.parametrize(

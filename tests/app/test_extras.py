@@ -92,6 +92,14 @@ def test_every_question_is_answered_without_an_extra(line: str) -> None:
             "DXF needs the package ezdxf, which is not installed: pip install 'bench-dragon[dxf]'",
         ),
         (
+            "maps no-such-file.toml --output dance.dxf",
+            "DXF needs the package ezdxf, which is not installed: pip install 'bench-dragon[dxf]'",
+        ),
+        (
+            "plan no-such-file.toml",
+            "A plan needs the package matplotlib, which is not installed: pip install 'bench-dragon[figures]'",
+        ),
+        (
             "sweep run no-such-spec.toml --output folder",
             "sweep needs the package pyarrow, which is not installed: pip install 'bench-dragon[sweep]'",
         ),

@@ -18,7 +18,7 @@ import httpx
 import numpy as np
 import pytest
 
-from app.questions import QUESTIONS
+from app.questions.registry import QUESTIONS
 from app.service.examples import EXAMPLES
 from tests.app.conftest import ANSWER_TIMEOUT
 from tests.app.grade.students import CONTACT, contact_workbook, spiral
@@ -83,17 +83,25 @@ def test_every_question_is_answered(own: Any, client: httpx.Client, name: str, m
     assert answer.to_dict() == plain.raise_for_status().json()
 
 
+DRAWN = [c for c in CALLS if c[2].format_in_path]
+
+
 @pytest.mark.parametrize(
-    ("name", "method"), [c[:2] for c in CALLS if c[2].format_in_path], ids=[c[0] for c in CALLS if c[2].format_in_path]
+    ("name", "method", "formats"), [(*c[:2], c[2].formats) for c in DRAWN], ids=[c[0] for c in DRAWN]
 )
-def test_every_figure_is_drawn(own: Any, name: str, method: str) -> None:
-    module, formats = call("figures", name), importlib.import_module(f"{PACKAGE}.models.format_").Format
+def test_every_figure_is_drawn(own: Any, name: str, method: str, formats: Any) -> None:
+    module = call("figures", name)
+    known = importlib.import_module(f"{PACKAGE}.models.{'map_format' if name == 'maps' else 'format_'}")
+    told = known.MapFormat if name == "maps" else known.Format
     scan = {"samples": 3} if name.startswith("pitch_scan") else {}
     small: dict[str, Any] = scan | ({"benches": 9} if method == "GET" else {"dragon": {"benches": 9}})
     asked = small if method == "GET" else {"body": body_of(module, small)}
-    for ending, begins in (("svg", b"<?xml"), ("png", b"\x89PNG")):
-        answer = module.sync_detailed(formats(ending), client=own, **asked)
-        assert (answer.status_code, answer.content[: len(begins)]) == (200, begins)
+    # It reads every map as it reads the first form.
+    begins = {"svg": b"<?xml", "png": b"\x89PNG", "geojson": b"{"}
+    for ending in begins.keys() & set(formats):
+        answer = module.sync_detailed(told(ending), client=own, **asked)
+        assert answer.status_code == 200
+        assert answer.content.startswith(begins[ending])
 
 
 def test_a_refusal_comes_back_as_a_problem(own: Any) -> None:

@@ -64,7 +64,7 @@ def test_a_body_is_told_of_names_of_its_own_place(
 def test_the_names_of_a_place_are_those_of_its_type() -> None:
     assert names_at(CollisionQuery, ()) == list(CollisionQuery.model_fields)
     assert "entry_radius" in names_at(CheckRequest, ("path", "turn"))
-    assert names_at(CheckRequest, ("dragon", "bench_by_bench")) == ["lengths", "widths", "overhangs"]
+    assert names_at(CheckRequest, ("dragon", "bench_by_bench")) == ["lengths", "widths", "overhangs", "names"]
     assert names_at(CheckRequest, ("path", "route", "pieces", 3, "line")) == ["kind", "start", "end"]
     assert names_at(TrajectoryRequest, ("times", "range")) == ["start", "stop", "step"]
     assert names_at(OverlapsRequest, ("benches", 0))[:3] == ["x", "y", "heading"]

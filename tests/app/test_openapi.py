@@ -13,7 +13,7 @@ from schemathesis import GenerationMode
 from schemathesis.checks import CHECKS
 from schemathesis.core import NOT_SET
 
-from app.questions import QUESTIONS
+from app.questions.registry import QUESTIONS
 from app.service.examples import EXAMPLES, FILE
 from app.service.main import create_app
 from app.settings import Settings
@@ -22,8 +22,9 @@ from tests.app.conftest import ANSWER_TIMEOUT
 from tests.app.renew_examples import text
 
 EXAMPLES_PER_CALL = 25
-# Of right values for the calls that take up to a second each, and of wrong ones for films, of which some are drawn. A
-# picture has no schema to conform to, and its request is that of the question that it draws.
+# Of right values for the calls that take up to a second each, and of wrong ones for films, maps and plans: some of them
+# are drawn. A picture has no schema to conform to, and its request is that of the question that it draws.
+SLOW = ("POST /films", "POST /maps.{format}", "POST /plan")
 EXAMPLES_OF_SLOW = 8
 # Grazes are flat in time, so theirs is known to 1e-7 s only [m], [s], [rad] and relative.
 EXAMPLE_TOLERANCE = 1e-6
@@ -41,19 +42,19 @@ def document(client: httpx.Client) -> Any:
 
 
 def can_be_asked(call: str, mode: GenerationMode) -> bool:
-    """Every call with right values, but for scans, curves, samples and envelopes of arbitrary dragons and films of any
-    size, which take up to ten seconds each; with wrong ones if it takes any."""
+    """Every call with right values, but for scans, curves, samples, envelopes and plans of arbitrary dragons and films
+    of any size, which take up to ten seconds each; with wrong ones if it takes any."""
     method, path = call.split()
     if mode.is_positive:
         return not path.endswith(
-            ("pitch-scan", "pitch-scan.{format}", "tolerance-curve", "contact-probability", "envelope", "films")
+            ("pitch-scan", "pitch-scan.{format}", "tolerance-curve", "contact-probability", "envelope", "films", "plan")
         )
     description = SCHEMA.raw_schema["paths"][path][method.lower()]
     return "requestBody" in description or "parameters" in description
 
 
 def examples(call: str, mode: GenerationMode) -> int:
-    is_slow = call == "POST /films" or (mode.is_positive and ("/figures/" in call or "/minimum-pitch" in call))
+    is_slow = call in SLOW or (mode.is_positive and ("/figures/" in call or "/minimum-pitch" in call))
     return EXAMPLES_OF_SLOW if is_slow else EXAMPLES_PER_CALL
 
 
@@ -75,10 +76,10 @@ def test_every_call_conforms_to_its_description(server: str, call: str, mode: Ge
     )
     def conforms(case: Any) -> None:
         assume(not (mode.is_negative and is_a_spiral_that_does_not_say_so(case.body)))
-        if call == "POST /films":  # One that is 1080 pixels high takes 18 s of computing.
+        if call in SLOW:  # Without a body the default dance is drawn, in seconds.
             assume(case.body is not NOT_SET)
-            if isinstance(case.body, dict):
-                case.body.setdefault("height", 90)
+        if call == "POST /films" and isinstance(case.body, dict):  # 1080 pixels take 18 s of computing.
+            case.body.setdefault("height", 90)
         case.call_and_validate(base_url=server, checks=CHECKED, timeout=ANSWER_TIMEOUT)
 
     conforms()
@@ -131,7 +132,7 @@ def test_calls_are_named_as_their_questions_and_lock_nothing(document: Any) -> N
     calls = {call["operationId"]: call for path in document["paths"].values() for call in path.values()}
     both = {f"{name}_of" for name, question in QUESTIONS.items() if question.flat and question.body}
     jobs = {"ask_later", "list_jobs", "job_status", "dismiss_job", "job_result", "job_events", "sweep"}
-    assert calls.keys() == QUESTIONS.keys() | both | jobs | {"grade", "healthz", "readyz"}
+    assert calls.keys() == QUESTIONS.keys() | both | jobs | {"grade", "places", "healthz", "readyz"}
     # A service may have a token for who makes and lists jobs.
     guarded = {"ask_later", "list_jobs", "sweep"}
     assert all(calls[name]["security"] == [{}, {"token": []}] for name in guarded)
@@ -201,7 +202,7 @@ def same(got: Any, told: Any) -> bool:
 def test_every_call_has_an_example_and_its_problems(document: Any) -> None:
     calls = {(method, path): call for path, methods in document["paths"].items() for method, call in methods.items()}
     for (method, path), call in calls.items():
-        if path.startswith(("/figures", "/films", "/grade", "/healthz", "/readyz")):
+        if path.startswith(("/figures", "/films", "/grade", "/healthz", "/maps", "/places", "/plan", "/readyz")):
             continue
         # What is told of a job is never the same.
         of_job = path.startswith(("/jobs", "/sweeps"))

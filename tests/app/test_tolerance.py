@@ -62,6 +62,18 @@ def test_the_curve_begins_at_the_minimum_pitch_and_holds_the_tolerances_of_core(
     assert got["stray"][0] == pytest.approx(0.0, abs=1e-6)
 
 
+def test_a_body_may_end_on_a_circle_as_the_query_does_and_only_on_a_spiral(client: httpx.Client) -> None:
+    asked = {"dragon": {"benches": 40}, "turning_diameter": 12}
+    query = {"benches": 40, "turning_diameter": 12}
+    assert (
+        client.post("/tolerance", json=asked).json() == client.get("/tolerance", params=query).raise_for_status().json()
+    )
+    for more in ({"path": {"kind": "turn"}}, {"stop": 10}):
+        refused = client.post("/tolerance", json=asked | more)
+        assert refused.status_code == 422
+        assert refused.json()["errors"][0]["pointer"] == "/turning_diameter"
+
+
 def test_a_curve_can_be_asked_where_a_dance_at_the_minimum_pitch_begins_on_the_circle(client: httpx.Client) -> None:
     got = (
         client.get("/tolerance-curve", params={"benches": 2, "start_turns": 9, "samples": 2}).raise_for_status().json()
@@ -74,11 +86,12 @@ def test_a_stray_on_other_calls_is_that_of_core(client: httpx.Client) -> None:
     first = client.get("/collision-time", params={"stray": 0.02}).raise_for_status().json()
     assert first["time"] == first_contact(Dance(Dragon(), Spiral()), stray=0.02).time
     assert first["cross_check"]["agree"]
-    assert first["cross_check"]["judged"] == first["benches"]
+    assert len(first["cross_check"]["judged"]) == Dragon().benches
     play = client.get("/collision-time", params={"stray": 0.01, "hole": 0.05, "pin": 0.03}).raise_for_status().json()
     assert play["time"] == pytest.approx(first["time"], abs=1e-8)
-    pitch = client.get("/minimum-pitch", params={"stray": 0.02}).raise_for_status().json()["pitch"]
-    assert pitch == minimum_pitch(Dragon(), stray=0.02).pitch
+    pitch = client.get("/minimum-pitch", params={"stray": 0.02}).raise_for_status().json()
+    assert pitch["pitch"] == minimum_pitch(Dragon(), stray=0.02).pitch
+    assert pitch["cross_check"]["agree"]
 
 
 @pytest.mark.parametrize("call", ["/collision-time", "/minimum-pitch"])
@@ -106,6 +119,13 @@ def test_what_cannot_be_is_refused_with_its_limit(
     error = answer.json()["errors"][0]
     assert error["name"] == field
     assert words in error["detail"]
+
+
+def test_an_answer_says_which_stray_it_allows_for(client: httpx.Client) -> None:
+    given = SMALL | {"stray": 0.01, "hole": 0.05, "pin": 0.04}
+    for call in ("/collision-time", "/minimum-pitch"):
+        assert client.get(call, params=given).json()["stray"] == pytest.approx(0.015)
+        assert client.get(call, params=SMALL).json()["stray"] is None
 
 
 def test_the_command_prints_the_json_of_the_service(client: httpx.Client) -> None:

@@ -8,8 +8,8 @@ import httpx
 import pytest
 
 import core
-from app.questions import QUESTIONS
 from app.questions.question import Question
+from app.questions.registry import QUESTIONS
 from core.tolerance.curve import time_on_circle
 
 # Flat values of a question, and the same in a body.
@@ -69,6 +69,8 @@ def test_an_empty_body_asks_what_an_empty_query_asks(question: Question) -> None
     assert question.body is not None
     flat, body = question.flat(), question.body()
     shared = question.flat.model_fields.keys() & question.body.model_fields.keys() - {"time"}
+    if question.name == "tolerance":  # over a body any dance, to its own end
+        shared -= {"turning_diameter"}
     assert {name: getattr(flat, name) for name in shared} == {name: getattr(body, name) for name in shared}
 
 

@@ -60,6 +60,8 @@ EXPRESSIONS = {
     "first excess": "core.motion.speed.first_excess(Dance(Dragon(20), Turn(1.7)), 1.5, start=0.0, stop=30.0)",
     "first excess before a fold": "core.motion.speed.first_excess(Dance(Dragon(4), Spiral(1.2, 3.0)), 3.0)",
     "minimum pitch": "core.minimum_pitch(Dragon(20), turning_radius=3.0, start_turns=8.0)",
+    "first contact with a stray": "core.first_contact(Dance(Dragon(30), Spiral()), stray=0.02, start=370.0)",
+    "minimum pitch with a stray": "core.minimum_pitch(Dragon(20), turning_radius=3.0, start_turns=8.0, stray=0.02)",
     "contacts by chance": "core.contact_probability("
     "Dance(Dragon(12), Spiral()), Wobble(0.05, 0.02, 4.0, hole=0.06, pin=0.04), 4, 1, start=404.0, stop=412.0)",
     "clearance profile": "core.clearance_profile(Dance(Dragon(30), Spiral()), [400.0, 405.0, 410.0])",
@@ -124,5 +126,7 @@ def test_what_type_checkers_see_of_the_types_is_there() -> None:
 @needs_compiled
 @pytest.mark.parametrize("name", EXPRESSIONS)
 def test_uncompiled_gives_the_same_to_the_last_bit(name: str, uncompiled: dict[str, str]) -> None:
-    compiled = every_digit(eval(EXPRESSIONS[name], vars(core) | {"core": core, "np": np}))
+    compiled = every_digit(
+        eval(EXPRESSIONS[name], {name: getattr(core, name) for name in core.__all__} | {"core": core, "np": np})
+    )
     assert ascii(compiled) == uncompiled[name]

@@ -62,6 +62,8 @@ def results() -> Iterator[Any]:
     yield from (swept, swept.certificate)
     yield core.tolerance_curve(Dragon(30), [0.6], start_turns=9.0)
     yield core.contact_probability(DANCE, core.Wobble(), 2, 1, start=400.0, stop=410.0)
+    drawn = core.course(core.Legs([(0, 0), (9, 0), (9, 9)], [0, 1], radius=1.0), Dragon(2))
+    yield from (drawn, *drawn.bends)
     yield core.Misplaced("well", 3, (1.0, 2.0))
     overlaps = core.overlaps(*THREE)
     checked = core.cross_check(*THREE)
@@ -73,7 +75,10 @@ INPUTS = [
     Dragon(),
     Dragon(benches=1, overhang=0.0),
     Dragon.of([3.0, 2.0, 4.0], [0.3, 0.2, 0.3], [0.2, 0.1, 0.2]),
+    Dragon(2).named(["Zhou", ""]),
     Spiral(pitch=0.8),
+    Spiral(centre=(7.0, -2.0), clockwise=False),
+    core.Passage(0.5, until_s=20.0),
     core.Stray(0.02, 0.055, 0.05),
     core.Wobble(lateral=0.02, pitch_error=0.001),
     Line((0.0, 1.0), (2.0, 3.0)),
@@ -81,6 +86,7 @@ INPUTS = [
     Coil(0.55, 3.0, 2.0),
     Waypoints(((0.0, 0.0), (6.0, 1.0), (11.0, 6.0)), start_heading=0.5),
     Dance(Dragon(3), Spiral(), head_speed=0.5),
+    Dance(Dragon(3), Spiral(), passages=(core.Passage(0.5, until_s=20.0),)),
 ]
 FOUND = {type(value).__name__: value for value in results()}
 GIVEN = {f"{type(value).__name__} {k}": value for k, value in enumerate(INPUTS)} | {
@@ -88,6 +94,7 @@ GIVEN = {f"{type(value).__name__} {k}": value for k, value in enumerate(INPUTS)}
     "Waypoints, many": CURVE,
     "Route, long": Route([CURVE]),
     "Turn": Turn(1.7),
+    "Legs": core.Legs([(0, 0), (9, 0), (9, 9)], [0]),
     "Venue": SQUARE,
     "Area": SQUARE.square,
 }

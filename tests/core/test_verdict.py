@@ -7,6 +7,7 @@ import math
 import re
 from itertools import pairwise
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -36,6 +37,7 @@ from core import (
     highest_speed,
     least_clearance,
     maximum_head_speed,
+    quick_check,
     sharpest_bend,
     trajectory,
     venue_clearance,
@@ -464,3 +466,23 @@ def test_coils_in_three_pieces_have_the_verdict_of_one() -> None:
     assert one.least_clearance is not None
     assert other.least_clearance is not None
     assert one.least_clearance.distance == pytest.approx(other.least_clearance.distance, abs=1e-10)
+
+
+@pytest.mark.parametrize(
+    ("dance", "asked"),
+    [
+        (Dance(Dragon(12), Spiral(0.5, 6.0)), {}),
+        (Dance(Dragon(12), Spiral(0.5, 6.0)), {"margin": 0.05}),
+        (Dance(Dragon(12), Spiral(1.2, 6.0)), {"speed_limit": 1.5, "venue": venue(box("square", -8, -8, 8, 8))}),
+        (Dance(Dragon(9), Turn(1.7)), {"speed_limit": 1.1, "stop": 30.0}),
+        (Dance(Dragon(9), Turn(1.7)), {"venue": venue(box("square", -50, -50, 50, 50), box("well", 6, 0, 7, 1))}),
+    ],
+    ids=["contact", "margin", "folds and leaves", "too fast", "meets the well"],
+)
+def test_a_quick_check_has_the_failures_of_the_whole_one(dance: Dance, asked: dict[str, Any]) -> None:
+    whole, quick = check(dance, **asked), quick_check(dance, **asked)
+    assert whole.failures
+    assert quick.failures == whole.failures
+    assert (quick.start, quick.stop, quick.verdict) == (whole.start, whole.stop, whole.verdict)
+    assert quick.sharpest_bend is None
+    assert all(area.nearest is None for area in quick.venue.areas) if quick.venue else whole.venue is None

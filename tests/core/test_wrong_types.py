@@ -31,6 +31,7 @@ CALLS: dict[Callable[..., Any], dict[str, Any]] = {
         "start": 0.0,
         "stop": 9.0,
     },
+    core.course: {"path": SPIRAL, "dragon": DRAGON},
     core.cross_check: {"poses": POSES, "lengths": COLUMN, "widths": COLUMN, "margin": 0.0},
     core.envelope: {"dance": DANCE, "start": 0.0, "stop": 9.0, "excess": 1e-3},
     core.first_contact: {"dance": DANCE, "margin": 0.0, "stray": 0.0, "start": 0.0, "stop": 9.0},
@@ -48,6 +49,7 @@ CALLS: dict[Callable[..., Any], dict[str, Any]] = {
     },
     core.pitch_check: {"found": PITCH, "dragon": DRAGON, "margin": 0.0},
     core.pitch_scan: {"dragon": DRAGON, "pitches": [0.5, 0.6], "start_turns": 8.0, "margin": 0.0},
+    core.quick_check: {"dance": DANCE, "venue": SQUARE, "margin": 0.0, "speed_limit": 2.0, "stop": 9.0},
     core.separation: {"poses_a": POSES, "sizes_a": [2.0, 1.0], "poses_b": POSES, "sizes_b": [2.0, 1.0]},
     core.sharpest_bend: {"dance": DANCE, "start": 0.0, "stop": 9.0},
     core.shortest_turn: {"dragon": DRAGON, "pitch": 1.7, "turning_radius": 4.5, "ratio": 2.0, "margin": 0.0},
@@ -65,6 +67,7 @@ CALLS: dict[Callable[..., Any], dict[str, Any]] = {
     core.Dance: {"dragon": DRAGON, "path": SPIRAL, "head_speed": 1.0},
     core.Dragon: {"benches": 5, "head_length": 3.0, "body_length": 2.0, "width": 0.3, "overhang": 0.2},
     core.Dragon.of: {"lengths": COLUMN, "widths": COLUMN, "overhangs": [0.2, 0.2]},
+    core.Legs: {"points": ((0, 0), (9, 0), (9, 9)), "straight": [0, 1], "radius": 4.0, "start": 1.0},
     core.Line: {"start": (0, 0), "end": (60, 0)},
     core.Route: {"pieces": [Line((0, 0), (60, 0))], "start": 0.0},
     core.Spiral: {"pitch": 0.55, "start_turns": 16.0},
@@ -78,6 +81,7 @@ SPOKEN = {
     core.Coil: dict.fromkeys(CALLS[core.Coil], "coil."),
     core.Dragon: dict.fromkeys(CALLS[core.Dragon], "dragon."),
     core.Dragon.of: dict.fromkeys(CALLS[core.Dragon.of], "dragon."),
+    core.Legs: dict.fromkeys(CALLS[core.Legs], "path."),
     core.Line: dict.fromkeys(CALLS[core.Line], "line."),
     core.Route: {"pieces": "path.pieces", "start": "path.start"},
     core.Spiral: {"pitch": "path.pitch", "start_turns": "path.start_turns"},
@@ -113,7 +117,8 @@ CASES = [
     for call, good in CALLS.items()
     for name in good
     for kind in WRONG
-    if (kind, name) not in ALLOWED or (call in (core.first_contact, core.Line, core.Route) and name == "start")
+    if (kind, name) not in ALLOWED
+    or (call in (core.first_contact, core.Legs, core.Line, core.Route) and name == "start")
 ]
 
 

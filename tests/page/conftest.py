@@ -54,11 +54,12 @@ def contexts() -> dict[str, BrowserContext]:
 def open_page(browser: Browser, contexts: dict[str, BrowserContext], server: str) -> Iterator[Callable[..., Page]]:
     """open_page(query, failing=False, base=server, **options of the context): a page, watched until the test ends.
 
+    query: by default that of the dance at its end, at rest; a bare address opens in motion
     failing: requests of this page are meant to fail, of which the browser itself writes a line
     """
     watched: list[tuple[Page, str, bool, list[str], list[str]]] = []
 
-    def opened(query: str = "", *, failing: bool = False, base: str = server, **options: Any) -> Page:
+    def opened(query: str = "?time=end", *, failing: bool = False, base: str = server, **options: Any) -> Page:
         options = {"viewport": WIDE, "locale": "en-GB", **options}
         key = json.dumps(options, sort_keys=True)
         if key not in contexts:

@@ -23,6 +23,7 @@ def test_chinese_is_the_first_language_of_a_chinese_browser_with_the_terms_of_th
     words = page.locator("body").inner_text()
     for term in ("龙头", "龙身", "把手", "螺距", "调头空间"):
         assert term in words
+    page.locator("#rows tr[data-handle]").first.wait_for()
     page.locator("#rows").evaluate("box => box.scrollTo(0, box.scrollHeight)")
     page.locator("#rows tr", has_text="龙尾（后）").wait_for()
     assert page.locator("html").get_attribute("lang") == "zh-Hans"
@@ -71,12 +72,13 @@ def test_the_page_is_used_by_keyboard_alone(open_page: Any, settled: Any) -> Non
     page.keyboard.press(" ")
     page.locator("#play", has_text="Play").wait_for()
     seen = set()
-    for _ in range(80):
+    for _ in range(130):
         page.keyboard.press("Tab")
         seen.add(focused(page))
         outline = "getComputedStyle(document.activeElement).outlineStyle"
         assert page.evaluate(f"document.activeElement === document.body || {outline} !== 'none'")
-    assert {"play", "time", "rate", "pitch", "benches", "margin", "rows", "csv", "share", "follow"} <= seen
+    assert {"play", "time", "rate", "pitch", "benches", "margin", "rows", "share", "follow"} <= seen
+    assert "keepTrajectory-CSV" in seen
     page.locator("#pitch").focus()
     page.keyboard.press("ControlOrMeta+a")
     page.keyboard.type("0.5")
@@ -130,7 +132,7 @@ def test_axe_finds_nothing_serious(
     refused = "pitch=55" in query
     page = open_page(query, failing=refused, color_scheme=scheme, **options)
     page.locator("#pitch-error").wait_for() if refused else settled(page)
-    for summary in page.locator("summary").all():
+    for summary in page.locator("summary:visible").all():
         summary.click()
     # The page's own policy forbids inline scripts; the test's script comes over the debugging protocol.
     found = Axe().run(page).response["violations"]

@@ -42,6 +42,8 @@ def test_chosen_files_are_graded_each_for_itself(open_page: Any, settled: Any, f
     expect(first.locator(".finding")).to_contain_text("The length of a bench was taken for the distance of its handles")
     expect(first.locator(".evidence")).to_contain_text("wrong cells agree within")
     expect(first.locator("canvas.marks")).to_have_count(2)
+    expect(first.locator(".legend").first).to_contain_text("■ wrong")
+    expect(page.locator("#grades [role=status]")).to_have_count(0)
     expect(second.locator(".value")).to_have_text("✓right")
     expect(third.locator(".value")).to_have_text("✕unreadable")
 
@@ -70,15 +72,27 @@ def test_typed_answers_are_graded_and_cleared(open_page: Any) -> None:
     expect(boxes).to_have_count(2)
     expect(boxes.nth(0)).to_contain_text("Only the pose with the head on the circle was checked")
     expect(boxes.nth(1).locator(".value")).to_have_text("✓right")
-    page.get_by_role("button", name="Clear").click()
+    expect(boxes.nth(1)).to_contain_text("As far as its digits go: 7 of them.")
+    page.get_by_role("button", name="Clear", exact=True).click()
     expect(boxes).to_have_count(0)
 
 
 def test_a_number_that_is_none_is_refused_in_words(open_page: Any) -> None:
     page = open_page(failing=True)
-    page.locator("#typed-pitch").fill("wide")
+    page.locator("#typed-pitch").fill("0.45x")
+    page.locator("#typed-speed").fill("1.246266")
     page.keyboard.press("Enter")
-    expect(page.locator("#grades .error")).to_contain_text("itch")
+    words = "Minimum pitch must be a number such as 0.450338: you typed “0.45x”."
+    expect(page.locator("#grades .error")).to_have_text(words)
+    expect(page.locator("#grades .value")).to_have_text("✓right")
+
+
+def test_the_page_shows_that_it_grades(open_page: Any, settled: Any, files: list[str]) -> None:
+    page = open_page()
+    settled(page)
+    page.route("**/grade?*", lambda route: None)  # no answer comes
+    page.locator("#files").set_input_files(files[:2])
+    expect(page.locator("#grades [role=status]")).to_have_text("Grading result1.xlsx (1 of 2) …")
 
 
 def test_the_language_of_the_verdicts_follows_that_of_the_page(open_page: Any, settled: Any, files: list[str]) -> None:

@@ -51,7 +51,12 @@ def test_with_a_stray_the_answers_say_what_may_happen_in_both_languages(open_pag
     low, high = free["stray_bracket"]
     low, high = f"{math.floor(1e9 * low) / 1e7:.7f} cm", f"{math.ceil(1e9 * high) / 1e7:.7f} cm"
     shows(page, "#tolerance dl", f"nothing touches up to {low}; a pose with {high} overlaps")
-    shows(page, "#first-contact", "nothing can touch up to", "each in its place, against the gap at this contact. They")
+    shows(
+        page,
+        "#first-contact",
+        "nothing can touch up to",
+        "each in its place, against the gap at this contact, and shapely",
+    )
     shows(page, "#inset figcaption", "is nearest to", gap)
     shows(page, "#clearance .hint", "from then on two may touch")
     assert not [word for word in SURE if word in page.locator("#first-contact").inner_text()]
@@ -86,8 +91,8 @@ def test_a_turn_stays_clear_and_has_its_own_tolerance(open_page: Any, server: st
     free = httpx.post(f"{server}/tolerance", json=body).raise_for_status().json()["stray"]
     shows(page, "#tolerance", f"{int(10_000 * free) / 100:.2f} cm", "On the stretch that is danced, everybody may be")
     with page.expect_download() as download:
-        page.locator("#figure").click()
-    assert download.value.suggested_filename == "dance.svg"
+        page.get_by_role("button", name="Figure of the first contact, SVG").click()
+    assert download.value.suggested_filename == "first-contact.svg"
 
 
 def test_the_curve_shows_the_tolerance_of_the_dance_and_a_click_sets_its_pitch(

@@ -122,7 +122,7 @@ def test_refusals_stand_below_the_form_in_words(open_page: Any, service: Service
     page = open_page(base=base(service), failing=True)
     ask(page, "collision_time", ("pitch", 0.5, 0.6, 11), ("width", 0.2, 0.3, 11))
     expect(page.locator("#sweep-error")).to_have_text(
-        "designs must be at most 100 here, got 121: ask for fewer in one sweep"
+        "designs must be at most 100 here; it is 121. Ask for fewer in one sweep."
     )
     ask(page, "collision_time", ("pitch", 0.5, 0.6, 11), ("pitch", 0.2, 0.3, 11))
     expect(page.locator("#sweep-error")).to_have_text("The two parameters must differ.")

@@ -6,6 +6,7 @@ import csv
 import json
 import re
 import subprocess
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -14,10 +15,11 @@ import openpyxl
 import pytest
 from PIL import Image
 
+from app.contest.answers import answers
 from app.contest.sensitivity import panels
 from app.contest.solved import ContestRequest, solve
-from app.contest.words import Say
 from app.files.tables import Language
+from app.files.words import Say
 from app.questions.question import Terms
 from tests.app.command import COMMAND, run
 
@@ -33,14 +35,35 @@ def reference(name: str) -> Any:
     return json.loads((REFERENCE / f"{name}.json").read_bytes())
 
 
+# matplotlib's own fonts alone, as on a machine without one for Chinese.
+WITHOUT_FONTS = """
+import sys
+from matplotlib import font_manager
+font_manager.findSystemFonts = lambda *_, **__: []
+own = font_manager.fontManager
+own.ttflist = [font for font in own.ttflist if "matplotlib" in font.fname]
+sys.argv = ["bench-dragon", "contest", sys.argv[1], "--language", sys.argv[2], "--no-films", *sys.argv[3:]]
+from app.command.main import app
+app()
+"""
+
+
+def without_fonts(folder: Path, *given: str) -> subprocess.CompletedProcess[str]:
+    python = Path(COMMAND).with_name("python")
+    command = [python, "-c", WITHOUT_FONTS, folder, *given]
+    return subprocess.run(command, capture_output=True, text=True, timeout=120)
+
+
 @pytest.fixture(scope="module", params=["zh", "en"])
 def kit(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> tuple[str, Path]:
     folder = tmp_path_factory.mktemp("kit") / request.param
-    done = run("contest", str(folder), "--language", request.param, "--no-films")
+    zh = request.param == "zh"
+    done = run("contest", str(folder), "--language", "zh", "--no-films") if zh else without_fonts(folder, "en")
     assert done.returncode == 0, done.stderr
     return request.param, folder
 
 
+@cache
 def sheets(folder: Path, name: str) -> list[Any]:
     return list(openpyxl.load_workbook(folder / f"{name}.xlsx").worksheets)
 
@@ -116,7 +139,7 @@ def test_the_second_workbook_holds_the_dance_at_first_contact(kit: tuple[str, Pa
 
 def test_the_answers_are_those_of_the_references_with_brackets(kit: tuple[str, Path]) -> None:
     given = json.loads((kit[1] / "answers.json").read_bytes())
-    assert [one["question"] for one in given] == [1, 1, 1, 1, 1, 2, 2, 3, 4, 4, 4, 5]
+    assert [one["question"] for one in given] == [1, 1, 1, 1, 1, 2, 2, 3, 4, 4, 4, 4, 5]
     contact = next(one for one in given if one["question"] == 2)
     pitch = next(one for one in given if one["question"] == 3)
     speed = next(one for one in given if one["question"] == 5)
@@ -130,13 +153,17 @@ def test_the_answers_are_those_of_the_references_with_brackets(kit: tuple[str, P
     length, shorter = [one["value"] for one in given if one["question"] == 4][:2]
     assert length == pytest.approx(13.6212449, abs=5e-8)
     assert shorter < length
+    # bench-dragon shortest-turn --pitch 1.7 --turning-diameter 9 --ratio 1
+    assert [one["value"] for one in given if one["question"] == 4][3] == pytest.approx(8.452013342, abs=1e-9)
     assert all(one["how"] for one in given)
 
 
 @pytest.mark.parametrize("name", TABLES)
 def test_a_table_says_the_same_in_every_format(kit: tuple[str, Path], name: str) -> None:
     files = {kind: (kit[1] / "tables" / f"{name}.{kind}").read_text(encoding="utf-8") for kind in ("csv", "md", "tex")}
-    rows = list(csv.reader(files["csv"].splitlines()))
+    # Excel takes a CSV for UTF-8 if it begins with this mark.
+    assert files["csv"].startswith("\ufeff")
+    rows = list(csv.reader(files["csv"][1:].splitlines()))
     marked = [[cell.strip() for cell in line.strip("|").split("|")] for line in files["md"].splitlines()]
     latex = re.findall(r"^    (.*) \\\\$", files["tex"], re.MULTILINE)
     assert [marked[0], *marked[2:]] == rows
@@ -145,7 +172,7 @@ def test_a_table_says_the_same_in_every_format(kit: tuple[str, Path], name: str)
 
 
 def test_the_paper_s_tables_hold_the_reference_numbers(kit: tuple[str, Path]) -> None:
-    rows = list(csv.reader((kit[1] / "tables" / "positions.csv").read_text(encoding="utf-8").splitlines()))[1:]
+    rows = list(csv.reader((kit[1] / "tables" / "positions.csv").read_text(encoding="utf-8-sig").splitlines()))[1:]
     selected = reference("trajectory")["selected"]
     assert len(selected) == len(rows[0]) - 1 == 6
     for column, one in enumerate(selected, start=1):
@@ -169,7 +196,7 @@ def test_the_report_ties_everything_together(kit: tuple[str, Path]) -> None:
     links = re.findall(r"\]\(([^)]+)\)", page)
     assert {link for link in links if not (folder / link).is_file()} == set()
     assert len(links) > 40
-    for number in ("412.473837682", "0.450337393", "13.6212449", "1.246266358"):
+    for number in ("412.473837682", "0.450337393", "13.6212449", "8.4520133", "1.246266358"):
         assert number in page
     assert ("板凳" in page) is (language == "zh")
 
@@ -183,6 +210,31 @@ def test_other_numbers_give_other_answers(tmp_path: Path) -> None:
     assert "40 benches" in (tmp_path / "report.md").read_text(encoding="utf-8")
 
 
+def test_a_second_run_leaves_nothing_of_the_first_and_keeps_what_is_not_ours(tmp_path: Path) -> None:
+    ours = ("dance.gif", "turn.mp4", "figures/geometry.png", ".unfinished/result1.xlsx")
+    mine = ("notes.txt", "figures/mine.png")
+    for name in (*ours, *mine):
+        (tmp_path / name).parent.mkdir(exist_ok=True)
+        (tmp_path / name).write_text("old")
+    done = without_fonts(tmp_path, "zh", "--benches", "30", "--turning-diameter", "4")
+    assert "questions 4 and 5 have no answer: path must not bend tighter than" in done.stderr
+    assert "change --turning-diameter, --turn-pitch or --ratio" in done.stderr
+    assert done.returncode == 1
+    found = {str(file.relative_to(tmp_path)) for file in tmp_path.rglob("*") if file.is_file()}
+    tables = {f"tables/{name}.{kind}" for name in TABLES[:3] for kind in ("csv", "md", "tex")}
+    assert found == {"result1.xlsx", "result2.xlsx", "answers.json", "report.md", *tables, *mine}
+    given = json.loads((tmp_path / "answers.json").read_bytes())
+    assert {one["question"] for one in given} == {1, 2, 3}
+    assert "result4" not in (tmp_path / "report.md").read_text(encoding="utf-8")
+
+
+def test_a_run_without_contact_says_why_it_ends() -> None:
+    asked = ContestRequest(benches=40, pitch=0.8, stop=10.0, span=10.0)
+    given = answers(solve(asked, Terms(), lambda share: None), Say(Language.ENGLISH))
+    [one] = [one for one in given if one.question == 2]
+    assert re.fullmatch(r"the run ends there: bench \d+ folds, it cannot follow any further", one.how)
+
+
 def test_a_time_after_the_fold_is_refused_in_one_line(tmp_path: Path) -> None:
     done = run("contest", str(tmp_path), "--stop", "500")
     assert done.returncode == 2
@@ -190,30 +242,13 @@ def test_a_time_after_the_fold_is_refused_in_one_line(tmp_path: Path) -> None:
     assert done.stderr.count("\n") == 1
 
 
-# matplotlib's own fonts alone, as on a machine without one for Chinese.
-WITHOUT_FONTS = """
-import sys
-from matplotlib import font_manager
-font_manager.findSystemFonts = lambda *_, **__: []
-own = font_manager.fontManager
-own.ttflist = [font for font in own.ttflist if "matplotlib" in font.fname]
-sys.argv = ["bench-dragon", "contest", sys.argv[1], "--language", sys.argv[2], "--no-films", "--benches", "30"]
-from app.command.main import app
-app()
-"""
-
-
-@pytest.mark.parametrize(("language", "code"), [("zh", 1), ("en", 0)])
-def test_without_a_chinese_font_all_but_pictures_is_written(tmp_path: Path, language: str, code: int) -> None:
-    python = Path(COMMAND).with_name("python")
-    done = subprocess.run(
-        [python, "-c", WITHOUT_FONTS, tmp_path, language], capture_output=True, text=True, timeout=120
-    )
-    assert done.returncode == code, done.stderr
+def test_without_a_chinese_font_all_but_pictures_is_written(tmp_path: Path) -> None:
+    done = without_fonts(tmp_path, "zh", "--benches", "30")
+    assert done.returncode == 1, done.stderr
     assert all((tmp_path / f"{name}.xlsx").is_file() for name in WORKBOOKS)
     assert (tmp_path / "report.md").is_file()
-    assert ("fonts-wqy-microhei" in done.stderr) is (code == 1)
-    assert bool(list((tmp_path / "figures").iterdir())) is (code == 0)
+    assert "fonts-wqy-microhei" in done.stderr
+    assert not (tmp_path / "figures").exists()
 
 
 @pytest.mark.parametrize(("pitch", "count"), [(0.55, 6), (0.8, 4)])

@@ -9,6 +9,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from app.files.tables import Language
+from app.grade.report import typed
 from app.grade.shortcuts import explained
 from tests.app.command import run
 from tests.app.grade.students import CONTACT, contact_workbook, spiral
@@ -31,11 +33,12 @@ def test_a_folder_is_graded_by_path_with_exit_code_0(class_of_three: Path, tmp_p
     summary = tmp_path / "summary.csv"
     done = run("grade", str(class_of_three), "--json", "--summary", str(summary))
     assert done.returncode == 0
+    assert done.stderr.splitlines() == ["grading: 25 %", "grading: 50 %", "grading: 100 %"]
     files = json.loads(done.stdout)["files"]
     assert [Path(file["file"]).parent.name for file in files] == ["li", "wang", "zhao"]
     assert [file["verdict"] for file in files] == ["wrong", "right", "unreadable"]
     assert [one["error"] for one in files[0]["diagnosis"]] == ["other_instant", "time_steps"]
-    assert "looked for in steps of 0.02 s" in files[0]["diagnosis"][1]["words"]
+    assert "in steps of 0.01 / 0.02 / 0.04 / 0.08 s" in files[0]["diagnosis"][1]["words"]
     with summary.open(encoding="utf-8-sig", newline="") as lines:
         assert [row["verdict"] for row in csv.DictReader(lines)] == ["wrong", "right", "unreadable"]
 
@@ -48,7 +51,19 @@ def test_files_stand_in_the_order_given(class_of_three: Path) -> None:
 
 def test_the_words_are_in_the_language_chosen(class_of_three: Path) -> None:
     done = run("grade", str(class_of_three / "li" / "result2.xlsx"), "--language", "zh")
-    assert "以 0.02 s 为步长搜索" in done.stdout
+    assert "以 0.01 / 0.02 / 0.04 / 0.08 s 为步长搜索" in done.stdout
+
+
+def test_a_file_that_is_missing_is_told_and_the_others_are_graded(class_of_three: Path) -> None:
+    given = ["missing.xlsx", str(class_of_three / "wang" / "result2.xlsx")]
+    done = run("grade", *given, "--json")
+    assert [file["verdict"] for file in json.loads(done.stdout)["files"]] == ["unreadable", "right"]
+
+
+def test_an_empty_folder_is_named(tmp_path: Path) -> None:
+    done = run("grade", str(tmp_path))
+    assert (done.returncode, done.stdout) == (2, "")
+    assert f"{tmp_path} must hold a file that ends in .xlsx" in done.stderr
 
 
 @pytest.mark.parametrize(
@@ -91,11 +106,16 @@ TYPED = [
     ("pitch", 0.450297, 6, "pitch_time_steps"),
     ("pitch", 0.450333, 6, "pitch_time_steps"),
     ("pitch", 0.4321, 4, ""),
-    ("turn_length", 13.0, 1, "other_entry"),
+    ("turn_length", 12.99, 2, "other_entry"),
+    ("turn_length", 13.0, 1, ""),
+    ("turn_length", 13.3, 1, ""),
     ("turn_length", 13.62, 2, ""),
     ("speed", 1.2470, 4, "speed_time_steps"),
     ("speed", 1.4063, 4, "speed_time_steps"),
+    ("speed", 1.247, 3, "speed_time_steps"),
     ("speed", 1.3194, 4, ""),
+    ("speed", 2.0, 0, ""),
+    ("speed", 1.3, 1, ""),
 ]
 
 
@@ -103,3 +123,18 @@ TYPED = [
 def test_a_number_is_traced_to_its_shortcut(name: str, value: float, decimals: int, error: str) -> None:
     found = explained(name, value, 0.5 * 10.0**-decimals)
     assert [one.error for one in found][:1] == [error] * bool(error)
+
+
+@pytest.mark.parametrize(
+    ("text", "verdict", "expected"),
+    [("13.62", "right", 13.62), ("12.949437944", "right", 12.95), ("13.5", "wrong", 13.62)],
+)
+def test_the_shortest_turn_is_a_right_answer_to_question_4_too(text: str, verdict: str, expected: float) -> None:
+    found = typed("turn_length", text, Language.ENGLISH)
+    assert (found.verdict, round(found.expected, 2)) == (verdict, expected)
+    assert bool(found.notes) is (expected == 12.95)
+
+
+@pytest.mark.parametrize(("text", "digits"), [("1", 1), ("0.4503374", 7), ("1.250", 4)])
+def test_the_digits_that_were_graded_are_told(text: str, digits: int) -> None:
+    assert typed("speed", text, Language.ENGLISH).digits == digits

@@ -128,6 +128,19 @@ def test_a_wrong_instant_is_traced_to_its_steps() -> None:
     assert [one.error for one in found] == ["other_instant", "time_steps"]
 
 
+@pytest.mark.parametrize(("time", "error"), [(406.43, "loose_angle"), (412.47, "time_steps_before")])
+def test_a_rounded_instant_is_traced_and_contradicts_no_point_of_the_rubric(time: float, error: str) -> None:
+    found = grade(students.contact_workbook(spiral(np.array([time]))))
+    assert [one.error for one in found.diagnosis] == ["other_instant", error]
+    assert {point.criterion: point.met for point in found.rubric}["refined"] is not True
+
+
+def test_equal_speeds_do_not_belong_to_the_positions() -> None:
+    found = known("equal_speeds")
+    assert {point.criterion: point.met for point in found.rubric}["speeds"] is False
+    assert found.sheets[1].notes[-1].endswith("were not rounded to so many: they have 0.")
+
+
 def test_right_results_have_nothing_to_diagnose() -> None:
     for data in (first(of(students.Dance(Dragon(), students.Spiral()), SPIRAL_TIMES)), fourth(turn())):
         found = grade(data)

@@ -46,13 +46,24 @@ def below_a_title(rows: list[list[Any]]) -> list[list[Any]]:
     return [["问题一的结果"], [], *rows]
 
 
-LAYOUTS = [transposed, full_width, bare_times, below_a_title]
+def transposed_bare(rows: list[list[Any]]) -> list[list[Any]]:
+    return transposed(bare_times(rows))
+
+
+LAYOUTS = [transposed, transposed_bare, full_width, bare_times, below_a_title]
 
 
 @pytest.mark.parametrize("change", LAYOUTS, ids=lambda change: change.__name__)
 def test_other_layouts_are_recognised(change: Any) -> None:
     found = grade(changed(change))
     assert [sheet.right for sheet in found.sheets] == [4 * 448, 4 * 224], found
+
+
+def test_a_whole_result1_may_stand_on_its_side() -> None:
+    # It has more instants than handles, so that its last lines are as many as the handles.
+    lines = [line.split(",") for line in wide_csv().splitlines()]
+    [sheet] = grade("\n".join(",".join(line) for line in zip(*lines, strict=True)).encode(), "result1.csv").sheets
+    assert (sheet.verdict, sheet.right) == ("right", 301 * 448)
 
 
 def test_positions_in_centimetres_are_read_as_such() -> None:

@@ -154,7 +154,7 @@ def strict() -> bytes:
 
 UNREADABLE = {
     "nothing": (lambda: b"", "The file is empty."),
-    "100 MB": (lambda: b"PK" + bytes(FILE_MAX), "at most 20 MB are read"),
+    "100 MB": (lambda: b"PK" + bytes(FILE_MAX), "has more than 20 MB"),
     "zip bomb": (zip_bomb, "would unpack to 100 MB"),
     "encrypted": (encrypted, "encrypted: save it without a password"),
     "old format": (lambda: bytes.fromhex("d0cf11e0a1b11ae1") + bytes(2000), "old format .xls"),
@@ -166,7 +166,7 @@ UNREADABLE = {
     "another archive": (lambda: zipped("essay.txt", b"words"), "an archive but no .xlsx workbook"),
     "no sheets": (lambda: repacked(small(), lambda part, content: b"<nonsense/>"), "damaged and cannot be opened"),
     "a picture": (lambda: b"\x89PNG\r\n\x1a\n" + bytes(200), "neither a workbook nor a table"),
-    "prose": (lambda: "我们没有算出来，对不起。".encode(), "No sheet has labels"),
+    "prose": (lambda: "我们没有算出来，对不起。".encode(), "is named as a workbook but is none"),
 }
 
 
@@ -230,6 +230,27 @@ def test_formulas_count_with_the_value_stored_with_them() -> None:
     # One in each sheet.
     assert found.notes == 2 * ["1 cells hold formulas, the first is C2: the values stored with them were read."]
     assert found.sheets[0].right == 4 * 448
+
+
+def test_a_formula_without_a_stored_value_is_told() -> None:
+    found = grade(
+        repacked(small(), in_sheets(b'<c r="C2" t="n"><v>', b'<c r="C2"><f>4.4*2</f><v></v></c><c r="Z2"><v>'))
+    )
+    assert found.notes[0].startswith("1 cells hold formulas without a stored value, the first is C2: open and save")
+    assert found.sheets[0].right == 4 * 448 - 1
+
+
+class Broken(Budget):
+    """A budget in which a look fails, as a fault of the grader would."""
+
+    def look(self) -> None:
+        raise KeyError("lost")
+
+
+def test_a_fault_in_one_file_is_told_and_raises_nothing() -> None:
+    found = graded("result1.csv", b"a,b", Language.ENGLISH, Broken())
+    assert found.verdict == "unreadable"
+    assert found.notes[0].startswith("The grader failed on this file (KeyError: 'lost')")
 
 
 def test_merged_cells_are_told() -> None:

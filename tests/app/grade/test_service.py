@@ -13,6 +13,7 @@ import psutil
 import pytest
 
 from app.files.tables import Language
+from app.grade.report import graded as graded_here
 from app.service.graders import Graders
 from core import Budget
 from tests.app.grade.students import CONTACT, SPIRAL_TIMES, contact_workbook, spiral, workbook
@@ -89,12 +90,12 @@ def test_a_process_that_is_killed_costs_no_answer_and_none_is_left() -> None:
 
     with closing(Graders()) as graders:
         for _ in range(2):
-            answer = graders.graded("result1.csv", b"a,b", Language.ENGLISH, Budget())
+            answer = graders.asked(Budget(), graded_here, "result1.csv", b"a,b", Language.ENGLISH)
             assert answer.verdict == "unreadable"
             [process] = processes()
             process.kill()
             process.wait()
-        graders.graded("result1.csv", b"a,b", Language.ENGLISH, Budget())
+        graders.asked(Budget(), graded_here, "result1.csv", b"a,b", Language.ENGLISH)
     assert processes() == []
 
 

@@ -14,9 +14,9 @@ import pyarrow.parquet as pq
 import pytest
 
 import core
-from app.questions import CALLS
 from app.questions.collision_time import CollisionQuery, CollisionTime
 from app.questions.question import Terms
+from app.questions.registry import CALLS
 from app.sweeps.questions import NO_ROWS, QUESTIONS, Question, question_of
 from app.sweeps.shards import OtherVersion, Piece, checked_part, part_name, parts, write_part
 from app.sweeps.spec import Spec

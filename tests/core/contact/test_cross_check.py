@@ -334,3 +334,35 @@ def test_the_angle_sum_is_left_out_where_benches_cross_at_the_start_with_no_corn
     assert check is not None
     assert check.agree
     assert check.left_out == (Engine.ANGLE_SUM,)
+
+
+@pytest.mark.parametrize(("stray", "margin", "wrong"), [(0.02, 0.0, WRONG), (0.05, 0.03, 0.2)])
+def test_with_a_stray_the_grounds_of_all_benches_are_judged(stray: float, margin: float, wrong: float) -> None:
+    dance = Dance(DRAGON, SPIRAL)
+    found = first_contact(dance, margin=margin, stray=stray)
+    check = contact_check(found, dance, margin=margin)
+    assert check is not None
+    assert check.agree
+    assert len(check.judged) == DRAGON.benches
+    assert set(check.engines.values()) == {AS_REPORTED}
+    assert found.time_bracket is not None
+    for shift in (-wrong, wrong):
+        bracket = (found.time_bracket[0] + shift, found.time_bracket[1] + shift)
+        forged = contact_check(replace(found, time_bracket=bracket), dance, margin=margin)
+        assert forged is not None
+        assert forged.engines[Engine.SHAPELY] == Verdict(before=shift > 0.0, after=shift > 0.0)
+        assert not forged.agree
+    assert found.benches is not None
+    other = (found.benches[0], found.benches[1] + 1)
+    assert not contact_check(replace(found, benches=other), dance, margin=margin).agree
+
+
+def test_with_a_stray_the_minimum_pitch_is_that_at_which_grounds_meet() -> None:
+    found = minimum_pitch(DRAGON, stray=0.02, margin=0.01)
+    check = pitch_check(found, DRAGON, stray=0.02, margin=0.01)
+    assert check is not None
+    assert check.agree
+    assert check.engines == {Engine.SHAPELY: AS_REPORTED}
+    for shift in (-1e-4, 1e-4):
+        wrong = replace(found, pitch=found.pitch + shift)
+        assert not pitch_check(wrong, DRAGON, stray=0.02, margin=0.01).agree

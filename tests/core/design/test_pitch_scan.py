@@ -35,6 +35,18 @@ def test_scan_pieces_are_continuous_and_cover_every_sample() -> None:
         assert np.abs(np.diff(scan.radius[start:end])).max(initial=0.0) <= JUMP
 
 
+def test_a_first_look_has_the_samples_alone_and_the_same_radii() -> None:
+    pitches = np.linspace(0.44, 0.46, 5)
+    look, scan = (pitch_scan(Dragon(), pitches, locate=locate) for locate in (False, True))
+    assert look.pitch.tolist() == pitches.tolist()
+    assert look.radius == pytest.approx(scan.radius[np.isin(scan.pitch, pitches)], rel=0.0, abs=RADIUS_WIDTH)
+    assert look.jumps == ()
+    assert len(scan.jumps) == len(scan.pieces) - 1
+    for before, after in scan.jumps:
+        assert scan.pitch[after] - scan.pitch[before] <= JUMP_WIDTH
+        assert abs(scan.radius[before] - scan.radius[after]) > JUMP
+
+
 def test_scan_leaves_out_pitches_without_contact_and_reports_progress() -> None:
     shares: list[float] = []
     scan = pitch_scan(SMALL, np.array([0.55, 0.8]), progress=shares.append)

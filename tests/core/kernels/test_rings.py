@@ -29,9 +29,11 @@ def test_benches_led_from_beyond_a_radius_lie_outside_it_and_leaders_within_thei
         assert (far[1:][outside[1:]] >= radius).all()
 
 
-@pytest.mark.parametrize("pitch", [0.45, 0.6, 1.0])
-def test_no_clearance_falls_below_the_ring_bound_further_out(pitch: float) -> None:
-    search = Search(Dragon(60), Spiral(pitch), 0.0)
+@pytest.mark.parametrize(
+    ("pitch", "stray"), [(0.45, 0.0), (0.6, 0.0), (1.0, 0.0), (0.5, 0.01), (0.6, 0.03), (1.0, 0.15)]
+)
+def test_no_clearance_falls_below_the_ring_bound_further_out(pitch: float, stray: float) -> None:
+    search = Search(Dragon(60), Spiral(pitch), 0.0, stray=stray)
     for travel in np.linspace(0.0, 60.0, 7):
         radius = search.growth * search.theta_at(travel)
         least = kernels.ring_least(search.growth, search.growth, radius, search.rings)

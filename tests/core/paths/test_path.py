@@ -12,6 +12,7 @@ from core.paths.path import Path
 
 PATHS: dict[str, Path] = {
     "spiral": Spiral(0.55, 16.0),
+    "spiral elsewhere": Spiral(0.55, 16.0, (40.0, -7.0), 0.3, clockwise=False),
     "turn": Turn(1.7),
     "line and arc": Route([Line((0.0, 0.0), (30.0, 0.0)), Arc((30.0, 3.0), 3.0, -math.pi / 2, 2.0)], 12.0),
     "coil": Route([Coil(0.9, 3.0, 9.0)]),
@@ -61,5 +62,7 @@ def test_the_head_stands_at_its_place_and_angles_belong_to_spirals(path: Path) -
     for s in places(path)[:20].tolist():
         head = path.head(s)
         np.testing.assert_allclose((head.x, head.y), path.position(s), rtol=0, atol=ON_PATH)
-        assert head.radius == pytest.approx(math.hypot(head.x, head.y), rel=0, abs=ON_PATH)
+        assert head.radius == pytest.approx(
+            math.hypot(head.x - path.frame.centre[0], head.y - path.frame.centre[1]), rel=0, abs=ON_PATH
+        )
         assert (head.theta is None) is not isinstance(path, Spiral)

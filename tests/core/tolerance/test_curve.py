@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from core import Dance, Dragon, InvalidValue, Spiral, minimum_pitch, tolerance, tolerance_curve
+from core import Budget, Dance, Dragon, InvalidValue, Spiral, TooMuchWork, minimum_pitch, tolerance, tolerance_curve
 from core.tolerance.curve import time_on_circle
 
 DRAGON = Dragon(benches=60)
@@ -52,3 +52,13 @@ def test_the_head_is_on_the_circle_then() -> None:
 def test_curves_that_cannot_be_are_refused(pitches: list[float], given: dict[str, float], message: str) -> None:
     with pytest.raises(InvalidValue, match=message):
         tolerance_curve(DRAGON, pitches, **given)  # type: ignore[arg-type]
+
+
+def test_pitches_that_are_too_many_for_the_budget_are_told_with_how_many_were_answered() -> None:
+    budget = Budget()
+
+    def stop(share: float) -> None:
+        budget.stop("in the time given")
+
+    with pytest.raises(TooMuchWork, match="pitches must be fewer, got 3: of only 1 it was found how far"):
+        tolerance_curve(Dragon(6), [0.5, 0.6, 0.7], progress=stop, budget=budget)

@@ -38,7 +38,7 @@ def test_known_answers_with_a_stray(stray: float, pitch: float, time: float) -> 
     assert found.time is not None
     assert found.time_bracket is not None
     assert time - 1e-3 < found.time < time + 0.4
-    assert found.time_bracket[1] - found.time_bracket[0] < 1e-8
+    assert found.time_bracket[1] - found.time_bracket[0] < 1e-9
     assert found.gap is not None
     assert 2.0 * stray < found.gap < 2.2 * stray
 
@@ -101,3 +101,8 @@ def test_a_check_says_that_benches_may_touch() -> None:
     report = check(DANCE, stray=0.02)
     assert report.failures[0].message == "Benches 0 and 11 may touch with strays up to 0.02 m at 389.518137 s."
     assert "while every hole is within 0.02 m of its place" in report.first_contact.certificate.method
+
+
+def test_a_stray_that_no_pitch_allows_is_told_as_such() -> None:
+    with pytest.raises(InvalidValue, match=r"stray must be smaller, got 0\.6 m: on a straight line, .* may then touch"):
+        minimum_pitch(Dragon(), stray=0.6)

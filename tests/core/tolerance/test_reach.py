@@ -50,11 +50,11 @@ def test_every_place_lies_in_one_of_the_hulls(chord: float, overhang: float, wid
 def test_supports_are_hardly_larger_than_what_places_reach(
     chord: float, overhang: float, width: float, stray: float
 ) -> None:
-    corner = np.array([[0.5 * chord + overhang, 0.5 * width]])
+    corners = np.array([[0.5 * chord + overhang, 0.5 * width], [0.5 * chord, 0.5 * width]])
     strays = random_strays(np.random.default_rng(3), chord, stray, 400_000)
-    moved = moved_points(corner, strays, chord)[:, 0]
-    reached = np.array([(moved @ way).max() for way in directions()])
-    spare = supports(corner, chord, stray) - reached
+    ahead = directions()[: DIRECTIONS // 4 + 1]
+    reached = [(moved_points(corner[None], strays, chord)[:, 0] @ ahead.T).max(axis=0) for corner in corners]
+    spare = supports(chord, overhang, 0.5 * width, stray)[:, : len(ahead)] - reached
     assert spare.min() >= -ROUNDING
     assert np.median(spare) < TIGHT * stray
     assert spare.max() < 10 * TIGHT * stray

@@ -228,3 +228,11 @@ def test_a_budget_that_is_spent_ends_the_question() -> None:
     dance, stop = to_circle(0.55)
     with pytest.raises(TooMuchWork, match="how far people may stray was not found"):
         tolerance(dance, stop=stop, budget=Budget(1000.0))
+
+
+def test_where_benches_touch_as_they_are_nothing_is_called_safe() -> None:
+    dance, stop = to_circle(0.42)
+    found = tolerance(dance, stop=stop)
+    assert (found.stray, found.time) == (0.0, pytest.approx(first_contact(dance).time, abs=1e-6))
+    assert "no stray is known to be safe: a bench touches another as it is." in found.certificate.method
+    assert repr(found).startswith("<Tolerance: no stray is known to be safe")

@@ -1,4 +1,4 @@
-"""The words of the kit in its language: each place gives both, and Say chooses."""
+"""Words in the language asked for: each place gives both, and Say chooses."""
 
 from __future__ import annotations
 

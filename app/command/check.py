@@ -1,0 +1,159 @@
+"""The command check: can the dragon dance this path here?"""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Annotated
+
+import typer
+from rich.text import Text
+
+import core
+from app.command import show
+from app.command.options import Json
+from app.extras import require
+from app.files.disk import checked_output, object_words, read_dance, write_whole
+from app.files.tables import TABLE_ENDINGS, Language, trajectory_writer
+from app.questions import check as checks
+from app.questions import figures
+from app.questions.check import CheckRequest, LeastClearance, Nearest, Report
+from app.questions.figures import Format, TrajectoryFigureRequest
+from app.questions.question import Terms
+from app.settings import Settings
+from app.wire.dances import TimeRange
+from app.wire.messages import checked
+from app.wire.refusals import refusing
+from core import FailureKind, InvalidValue, Judgement
+from core.errors import said, said_bound
+
+
+def check(
+    file: Annotated[
+        Path, typer.Argument(help="Dragon, path, venue and limits as for POST /check, as a .toml or .json file.")
+    ],
+    figure: Annotated[Path | None, typer.Option(help="Draw the dance into a .svg or .png file.")] = None,
+    time: Annotated[
+        float | None, typer.Option(help="Time to draw [s]; default: the first failure, else the least clearance")
+    ] = None,
+    output: Annotated[
+        Path | None,
+        typer.Option(help="Write positions and speeds at every second to a .csv, .xlsx, .arrow or .json file."),
+    ] = None,
+    cross_check: Annotated[
+        str | None,
+        typer.Option(
+            metavar="dragon|pair|none", help="Benches that independent engines check; default: as in the file."
+        ),
+    ] = None,
+    json: Json = False,
+) -> None:
+    """Can the dragon dance this path here? A failure is an answer too: the exit code is 0."""
+    if time is not None and figure is None:
+        raise InvalidValue("time", "--time is the time that --figure draws: give --figure too, or leave --time out")
+    if figure:
+        require("figures", "figure", "--figure")
+    ending = checked_output("figure", figure, (".svg", ".png")) if figure else ""
+    suffix = checked_output("output", output, TABLE_ENDINGS) if output else ""
+    dance = read_dance(file)
+    if cross_check is not None:
+        dance["cross_check"] = cross_check
+    asked = checked(CheckRequest, dance, object_words(file))
+    with refusing(asked), show.waiting("check"):
+        answer = checks.check(asked, Terms())
+        drawn = _drawn_check(asked, answer, Format(ending[1:]), time) if figure else b""
+        write = trajectory_writer(suffix, None, Language.ENGLISH, asked.start_clock) if suffix else None
+        table = write(_danced(asked, answer)) if write else b""
+    if figure:
+        write_whole(figure, drawn)
+        print(figure, file=sys.stderr)
+    if output:
+        write_whole(output, table)
+        print(output, file=sys.stderr)
+    if json:
+        show.print_json(answer.to_json())
+    else:
+        show.print_parts(*report_tables(answer, margin=asked.margin, benches=asked.benches))
+
+
+def _danced(asked: CheckRequest, answer: Report) -> core.Trajectory:
+    """Positions and speeds at every second of the stretch that was judged, within the run."""
+    settings = Settings()
+    dance = asked.to_dance(settings.checked_benches_max)
+    stop = dance.end.time if asked.stop is None else min(asked.stop, dance.end.time)
+    steps = TimeRange(start=answer.start, stop=stop)
+    return core.trajectory(dance, steps.times_of(dance, settings.cells_max))
+
+
+def _drawn_check(asked: CheckRequest, answer: Report, format: Format, time: float | None) -> bytes:
+    if time is None:
+        closest = answer.least_clearance.time if answer.least_clearance else answer.start
+        time = answer.failures[0].time if answer.failures else closest
+    shown = {name: getattr(asked, name) for name in TrajectoryFigureRequest.model_fields if name != "time"}
+    # The time does not come from the file, so a refusal of it must name the option.
+    picture = TrajectoryFigureRequest.model_construct(**shown, time=time)
+    with refusing(picture):
+        return figures.trajectory_figure(picture, Terms(), format.media_type)
+
+
+VERDICTS = {
+    Judgement.PASSES: "Passes. Nothing fails.",
+    Judgement.FAILS: "Fails. What fails, in order of time:",
+    Judgement.UNDECIDED: "Undecided. Nothing is known to fail, but this is not decided:",
+}
+
+
+def report_tables(report: Report, *, margin: float, benches: int) -> list[show.Part]:
+    """The verdict, the failures in order of time, and the measured values. margin: [m]; benches: of the dragon"""
+    verdict = VERDICTS[report.verdict]
+    facts = show.new_table(f"From {report.start:.3f} to {report.stop:.3f} s", "what", "value", "at", "who")
+    for name, value, time, who in _measured(report, margin, benches):
+        facts.add_row(name, value, "" if time is None else f"{time:.6f} s", who)
+    origin = report.origin
+    words = "x = y = 0 is longitude {:.6f}, latitude {:.6f}: the middle of the square."
+    where = [words.format(origin.longitude, origin.latitude)] if origin else []
+    failures = [f"  {one.clock + '  ' if one.clock else ''}{one.message}" for one in report.failures]
+    return [Text(verdict, style="bold"), *failures, "", facts, *where]
+
+
+def _measured(report: Report, margin: float, benches: int) -> Iterator[tuple[str, str, float | None, str]]:
+    """Rows of quantity, value, time and benches."""
+    contact = report.first_contact
+    pair = f"benches {show.shown(contact.benches)}" if contact.benches else ""
+    what = f"first nearer than {said(margin)} m" if margin else "first contact"
+    if contact.stray:
+        what += f" with strays up to {said(contact.stray)} m"
+    yield what, show.near(contact.outcome.value, margin), contact.time, pair
+    if check := contact.cross_check:
+        yield (
+            "cross-check",
+            f"engines {'agree' if check.agree else 'DISAGREE'}",
+            None,
+            show.judged_words(check.judged, benches),
+        )
+    if least := report.least_clearance:
+        least_words = (
+            _distance(least) if least.distance >= 0.0 else show.separation(least.distance, " m", show.SHOWN_DECIMALS)
+        )
+        yield "least clearance", least_words, least.time, f"benches {show.shown(least.benches)}"
+    for area in report.venue.areas if report.venue else ():
+        if near := area.nearest:
+            yield f"nearest to {area.name}", _distance(near), near.time, f"bench {near.bench}"
+    if speed := report.highest_speed:
+        yield (
+            "highest speed",
+            f"{speed.speed:.6f} m/s",
+            speed.time,
+            f"{show.plural('handle', speed.handles)} {show.shown(speed.handles)}",
+        )
+    elif any(one.kind is FailureKind.FOLDS for one in report.failures):
+        yield "highest speed", "grows without bound", report.stop, "towards the fold"
+    if bend := report.sharpest_bend:
+        yield "sharpest bend", f"{bend.angle:.6f} rad", bend.time, f"benches {show.shown(bend.benches)}"
+
+
+def _distance(found: LeastClearance | Nearest) -> str:
+    least = found.at_least
+    proven = "not proven" if least is None else f"proven: at least {said_bound(least, show.SHOWN_DECIMALS, -1)} m"
+    return f"{found.distance:.6f} m, {proven}"

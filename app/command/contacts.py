@@ -1,0 +1,47 @@
+"""The commands that ask where benches touch: first contact, clearance and overlaps."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from app.command import show
+from app.command.options import Json, asks
+from app.questions import clearance as clearances
+from app.questions import collision_time as collisions
+from app.questions.clearance import ClearanceQuery, ClearanceRequest
+from app.questions.collision_time import CollisionQuery, CollisionRequest
+from app.questions.question import Terms
+from core.errors import said
+
+
+@asks(CollisionQuery, CollisionRequest)
+def collision_time(asked: CollisionQuery | CollisionRequest, json: Json = False) -> None:
+    """When two benches first touch, or come nearer than a margin, and how this is known."""
+    with show.waiting("first contact"):
+        answer = collisions.collision_time(asked, Terms())
+    title = f"First time that two benches are nearer than {said(asked.margin)} m" if asked.margin else "First contact"
+    if stray := asked.to_stray().total:
+        title += f" that may come about with strays up to {said(stray)} m"
+    show.print_answer(title, answer, json, margin=asked.margin, benches=asked.benches)
+
+
+@asks(ClearanceQuery, ClearanceRequest)
+def clearance(asked: ClearanceQuery | ClearanceRequest, json: Json = False) -> None:
+    """Smallest distance between two benches that share no handle, and the pair, at every instant."""
+    with show.waiting("clearance"):
+        answer = clearances.clearance(asked, Terms())
+    if json:
+        show.print_json(answer.to_json())
+    else:
+        show.print_parts(*clearance_tables(answer.columns))
+
+
+def clearance_tables(columns: dict[str, Any]) -> list[show.Part]:
+    """Clearance at every instant, and the local minima between them."""
+    table = show.new_table("Clearance", "time [s]", "clearance [m]", "benches")
+    for time, clearance, benches in zip(columns["time"], columns["clearance"], columns["benches"], strict=True):
+        table.add_row(said(time), show.separation(clearance), show.shown(tuple(benches)))
+    grazes = show.new_table("Local minima", "time [s]", "clearance [m]", "benches")
+    for graze in columns["grazes"]:
+        grazes.add_row(show.shown(graze.time), show.separation(graze.clearance), show.shown(graze.benches))
+    return [table, grazes if columns["grazes"] else "No local minimum between the first and the last instant."]

@@ -1,0 +1,49 @@
+"""The commands that choose a path or a speed: minimum pitch, turn, shortest turn, maximum head speed."""
+
+from __future__ import annotations
+
+from app.command import show
+from app.command.options import Json, asks
+from app.questions import maximum_head_speed as speeds
+from app.questions import minimum_pitch as pitches
+from app.questions import shortest_turn as shortest
+from app.questions import turn as turns
+from app.questions.maximum_head_speed import MaximumHeadSpeedQuery, MaximumHeadSpeedRequest
+from app.questions.minimum_pitch import MinimumPitchQuery
+from app.questions.question import Terms
+from app.questions.shortest_turn import ShortestTurnQuery
+from app.questions.turn import TurnQuery
+from core.errors import said
+
+
+@asks(MinimumPitchQuery)
+def minimum_pitch(asked: MinimumPitchQuery, json: Json = False) -> None:
+    """The smallest pitch such that every larger one lets the head reach the turning circle."""
+    with show.waiting("minimum pitch"):
+        answer = pitches.minimum_pitch(asked, Terms())
+    gap = f" and no bench nearer than {said(asked.margin)} m to another" if asked.margin else ""
+    title = f"Minimum pitch for a turning circle of {said(asked.turning_diameter)} m{gap}"
+    show.print_answer(title, answer, json, margin=asked.margin, benches=asked.benches)
+
+
+@asks(TurnQuery)
+def turn(asked: TurnQuery, json: Json = False) -> None:
+    """Two tangent arcs that lead from a spiral inwards to the same one outwards."""
+    show.print_answer("Turn", turns.turn(asked, Terms()), json)
+
+
+@asks(ShortestTurnQuery)
+def shortest_turn(asked: ShortestTurnQuery, json: Json = False) -> None:
+    """The turn with the deepest entry inside its circle that the dragon can dance, and what limits it."""
+    with show.waiting("shortest turn"):
+        answer = shortest.shortest_turn(asked, Terms())
+    gap = f" with no bench nearer than {said(asked.margin)} m to another" if asked.margin else ""
+    show.print_answer(f"Shortest turn{gap}", answer, json, margin=asked.margin)
+
+
+@asks(MaximumHeadSpeedQuery, MaximumHeadSpeedRequest)
+def maximum_head_speed(asked: MaximumHeadSpeedQuery | MaximumHeadSpeedRequest, json: Json = False) -> None:
+    """The largest constant head speed at which no handle exceeds the limit on the way through a turn."""
+    with show.waiting("maximum head speed"):
+        answer = speeds.maximum_head_speed(asked, Terms())
+    show.print_answer(f"Maximum head speed for {said(asked.speed_limit)} m/s", answer, json)

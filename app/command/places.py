@@ -1,0 +1,99 @@
+"""The commands bench-dragon places and maps: what a map holds, and a dance as a map."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import Annotated
+
+import orjson
+import typer
+
+from app.command import show
+from app.command.options import Json
+from app.extras import require
+from app.files.disk import checked_output, object_words, read_dance, write_whole
+from app.files.tables import Language
+from app.maps.layout import Found
+from app.maps.places import Places, read_map
+from app.questions.maps import MapFormat, MapsRequest, OriginFields
+from app.questions.maps import maps as maps_of
+from app.questions.question import Terms
+from app.wire.messages import checked
+from app.wire.models import Coordinates
+from app.wire.refusals import refusing
+from core import InvalidValue
+from core.shown import counted
+
+
+def places(
+    file: Annotated[Path, typer.Argument(help="A map: .geojson, .kml, .kmz, .dxf, or a dance as .toml or .json.")],
+    units: Annotated[
+        str | None,
+        typer.Option(metavar="metres|degrees", help="Unit of its coordinates; default: as it looks."),
+    ] = None,
+    output: Annotated[
+        Path | None, typer.Option(help="Write a .json file for check: the square, its obstacles and the path.")
+    ] = None,
+    language: Annotated[Language, typer.Option(help="Language of the notes.")] = Language.ENGLISH,
+    json: Json = False,
+) -> None:
+    """The square, its obstacles and the path in a map: GeoJSON, KML, KMZ or DXF (extra dxf)."""
+    if units not in (None, "metres", "degrees"):
+        raise InvalidValue("units", f"--units must be metres or degrees, got {units!r:.60}")
+    if output:
+        checked_output("output", output, (".json",))
+    told: dict[str | None, Coordinates | None] = {None: None, "metres": "metres", "degrees": "degrees"}
+    found = read_map(file, told[units], language)
+    answer = Places.of(found)
+    if output:
+        described = answer.dance or {}
+        parts = {name: part for name in ("path", "venue") if (part := getattr(answer, name)) is not None}
+        write_whole(output, orjson.dumps(described | parts, option=orjson.OPT_INDENT_2) + b"\n")
+        print(output, file=sys.stderr)
+    if json:
+        show.print_json(answer.to_json())
+        return
+    for note in found.notes:
+        print(note, file=sys.stderr)
+    _print(found)
+
+
+def _print(found: Found) -> None:
+    table = show.new_table("What the map holds", "name", "what", "x [m]", "y [m]")
+    for area in found.venue.areas if found.venue else ():
+        what = "square" if found.venue and area is found.venue.square else "obstacle"
+        x, y = zip(*area.rings[0], strict=True)
+        table.add_row(area.name, what, *(f"{min(side):.3f} to {max(side):.3f}" for side in (x, y)))
+    if found.path is not None:
+        kind = str(found.path.get("kind", "spiral"))
+        points = found.path.get("points")
+        table.add_row("path", f"{kind}, {counted(len(points), 'point')}" if points else kind, "", "")
+    show.print_parts(table)
+
+
+def maps(
+    file: Annotated[Path, typer.Argument(help="Dragon, path and venue as for check, as a .toml or .json file.")],
+    output: Annotated[Path, typer.Option(help="Write .geojson, .kml or .dxf (extra dxf).")] = Path("dance.geojson"),
+    spacing: Annotated[float | None, typer.Option(help="Distance of the chalk marks along the path [m]")] = None,
+    longitude: Annotated[
+        float | None, typer.Option(help="Longitude of x = y = 0 [degrees], for a venue in metres")
+    ] = None,
+    latitude: Annotated[float | None, typer.Option(help="Latitude of x = y = 0 [degrees]")] = None,
+) -> None:
+    """The square, the path and the chalk marks as a map."""
+    ending = checked_output("output", output, tuple(f".{one}" for one in MapFormat))
+    if ending == ".dxf":
+        require("dxf", "output", "DXF")
+    told = read_dance(file)
+    if spacing is not None:
+        told["spacing"] = spacing
+    if (longitude is None) != (latitude is None):
+        raise InvalidValue("longitude", "--longitude and --latitude must be given together")
+    if longitude is not None and latitude is not None:
+        told["origin"] = checked(OriginFields, {"longitude": longitude, "latitude": latitude}).model_dump()
+    asked = checked(MapsRequest, told, object_words(file))
+    with refusing(asked), show.waiting("map"):
+        data = maps_of(asked, Terms(), MapFormat(ending[1:]).media_type)
+    write_whole(output, data)
+    print(output, file=sys.stderr)

@@ -1,0 +1,57 @@
+"""The commands that ask how far people may stray: tolerance, its curve over the pitch, and chance."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from app.command import show
+from app.command.options import Json, asks
+from app.questions import contact_probability as chances
+from app.questions import tolerance as tolerances
+from app.questions import tolerance_curve as curves
+from app.questions.contact_probability import ContactProbabilityQuery, ContactProbabilityRequest
+from app.questions.question import Terms
+from app.questions.tolerance import ToleranceQuery, ToleranceRequest
+from app.questions.tolerance_curve import ToleranceCurveQuery
+from core.errors import said
+
+
+@asks(ToleranceQuery, ToleranceRequest)
+def tolerance(asked: ToleranceQuery | ToleranceRequest, json: Json = False) -> None:
+    """How far people may stray before benches touch, proven, and a pose that shows where they do.
+
+    On the way to the turning circle; with a FILE in the whole dance.
+    """
+    with show.waiting("tolerance"):
+        answer = tolerances.tolerance(asked, Terms())
+    show.print_answer("How far people may stray", answer, json)
+
+
+@asks(ToleranceCurveQuery)
+def tolerance_curve(asked: ToleranceCurveQuery, json: Json = False) -> None:
+    """How far people may stray against the pitch: proven safe, and shown to touch."""
+    with show.waiting("tolerance curve") as progress:
+        answer = curves.tolerance_curve(asked, Terms(progress=progress))
+    if json:
+        show.print_json(answer.to_json())
+    else:
+        show.print_parts(curve_table(answer.columns))
+
+
+@asks(ContactProbabilityQuery, ContactProbabilityRequest)
+def contact_probability(asked: ContactProbabilityQuery | ContactProbabilityRequest, json: Json = False) -> None:
+    """How likely it is that benches touch when people wobble, from dances drawn at random.
+
+    On the way to the turning circle; with a FILE in the whole dance.
+    """
+    with show.waiting("dances drawn at random") as progress:
+        answer = chances.contact_probability(asked, Terms(progress=progress))
+    show.print_answer("How likely a contact is when people wobble", answer, json)
+
+
+def curve_table(columns: dict[str, Any]) -> show.Part:
+    """How far people may stray at each pitch."""
+    table = show.new_table("How far people may stray", "pitch [m]", "stray [m]", "shown to touch [m]", "limited by")
+    for pitch, stray, touching, limit in zip(*columns.values(), strict=True):
+        table.add_row(said(pitch), said(stray), "unknown" if touching is None else said(touching), limit.value)
+    return table

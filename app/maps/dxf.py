@@ -1,0 +1,217 @@
+"""Maps as DXF, which drawing programs read and write, in metres or in the unit that the drawing tells."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
+from importlib import import_module
+from math import dist
+from typing import Any
+
+import orjson
+
+from app.extras import require
+from app.maps.features import Counted, Drawing, Feature, Shape, area_of, holds, inner_point, role_of, shaped
+from app.wire.degrees import Origin
+from core import InvalidValue
+from core.venue import Ring
+
+# $INSUNITS of metres, and the version of the format that programs have read since the year 2000.
+METRES, VERSION = 6, "R2000"
+# Metres in the units of $INSUNITS: inch, foot, mile, millimetre, centimetre, metre, kilometre, yard, decimetre.
+UNITS = {1: 0.0254, 2: 0.3048, 3: 1609.344, 4: 0.001, 5: 0.01, 6: 1.0, 7: 1000.0, 10: 0.9144, 14: 0.1}
+# How far a curve may be from the straight lines drawn for it [m].
+FLATTENED = 0.005
+# Deepest nesting of blocks, and most entities of a drawing, those of its blocks counted each time.
+DEPTH_MAX, ENTITIES_MAX = 4, 20_000
+CURVES = ("LINE", "LWPOLYLINE", "POLYLINE", "ARC", "CIRCLE", "ELLIPSE", "SPLINE")
+TEXTS = ("TEXT", "MTEXT")
+# Layer of each role, with its number in the colour index of AutoCAD: white or black, grey, blue, red.
+LAYERS = {"square": ("SQUARE", 7), "obstacle": ("OBSTACLES", 8), "path": ("PATH", 5), "mark": ("MARKS", 1)}
+# Record with what no entity can hold: the path as a request describes it, the origin, and names by handle. A string of
+# a record has at most 2,049 characters.
+RECORD, CHUNK = "BENCH_DRAGON", 2_000
+# Height of the words on a drawing, and side of the crosses at marks [m].
+WORDS, CROSS = 0.3, 0.2
+
+
+def read(data: bytes) -> Drawing:
+    """The map in a drawing. raises: InvalidValue; MissingPackage"""
+    require("dxf", "file", "DXF")
+    if data.startswith(b"AutoCAD Binary DXF"):
+        raise InvalidValue("file", "file must be DXF as text, got binary DXF: save it as ASCII DXF")
+    if data.startswith(b"AC10"):
+        raise InvalidValue("file", "file must be DXF, got DWG: save it as DXF")
+    errors = import_module("ezdxf.lldxf.const")
+    try:
+        return _drawing(import_module("ezdxf.recover").read(io.BytesIO(data))[0])
+    except InvalidValue:
+        raise
+    # What else ezdxf raises for a drawing with a fault.
+    except (errors.DXFError, OSError, ValueError, ArithmeticError, LookupError, AttributeError, TypeError) as error:
+        raise InvalidValue("file", f"file must be DXF, got one that cannot be read: {error}"[:300]) from error
+
+
+def _drawing(document: Any) -> Drawing:
+    code = int(document.header.get("$INSUNITS", 0))
+    factor = UNITS.get(code, 1.0)
+    told = _told(document)
+    reader = _Reader(factor, told.get("names", {}))
+    for entity in reader.entities(document.modelspace()):
+        reader.take(entity)
+    origin, path = told.get("origin"), told.get("path")
+    return Drawing(
+        tuple(reader.named()),
+        False if code in UNITS else None,
+        Origin(origin["longitude"], origin["latitude"]) if isinstance(origin, dict) else None,
+        path if isinstance(path, dict) else None,
+        reader.counted.left_out,
+    )
+
+
+def _told(document: Any) -> Mapping[str, Any]:
+    """What the record of this program says in a drawing; nothing where there is none."""
+    try:
+        record = document.rootdict.get(RECORD)
+        told = orjson.loads("".join(tag.value for tag in record.tags if tag.code == 1))
+    except (AttributeError, orjson.JSONDecodeError, TypeError):
+        return {}
+    return told if isinstance(told, dict) else {}
+
+
+class _Reader:
+    """Collects the features of a drawing, in metres."""
+
+    def __init__(self, factor: float, names: Mapping[str, str]) -> None:
+        self.factor, self.names = factor, names
+        self.counted, self.texts = Counted(), list[tuple[str, tuple[float, float]]]()
+        self.flat = import_module("ezdxf.path")
+        self.seen = 0
+
+    def entities(self, some: Any, depth: int = 0) -> Iterator[Any]:
+        """Every entity, those of blocks in their places."""
+        for entity in some:
+            self.seen += 1
+            if self.seen > ENTITIES_MAX:
+                words = f"file must draw at most {ENTITIES_MAX} entities, those of blocks counted each time, got more"
+                raise InvalidValue("file", f"{words}: leave out what is no part of the square")
+            if entity.dxftype() == "INSERT" and depth < DEPTH_MAX:
+                yield from self.entities(entity.virtual_entities(), depth + 1)
+            else:
+                yield entity
+
+    def take(self, entity: Any) -> None:
+        kind, layer = entity.dxftype(), str(entity.dxf.get("layer", ""))
+        name = self.names.get(str(entity.dxf.get("handle")))
+        feature = Feature("point", (), name, role_of(layer, name), properties={"layer": layer})
+        if kind in TEXTS:
+            words = entity.plain_text() if kind == "MTEXT" else str(entity.dxf.text)
+            self.texts.append((words.strip(), self._place(entity.dxf.insert)))
+        elif kind == "POINT":
+            self.counted.add(replace(feature, rings=((self._place(entity.dxf.location),),)))
+        elif kind == "CIRCLE":
+            centre = self._place(entity.ocs().to_wcs(entity.dxf.center))
+            self.counted.add(replace(feature, rings=((centre,),), radius=float(entity.dxf.radius) * self.factor))
+        elif kind in CURVES:
+            self._add_curve(entity, feature)
+        elif entity.dxf.get("layer") != LAYERS["mark"][0]:
+            self.counted.leave_out(kind)
+
+    def _add_curve(self, entity: Any, feature: Feature) -> None:
+        made = self.flat.make_path(entity)
+        points = tuple(self._place(point) for point in made.flattening(FLATTENED / self.factor, segments=4))
+        points = tuple(b for a, b in zip((None, *points), points, strict=False) if a != b)
+        if len(points) < 2:
+            return
+        if getattr(entity, "is_closed", False) and points[0] != points[-1]:
+            points = (*points, points[0])
+        # What a program closes by a last point need not meet the first one to the last digit.
+        if len(points) > 3 and dist(points[0], points[-1]) < FLATTENED:
+            points = (*points[:-1], points[0])
+        shape: tuple[Shape, tuple[Ring, ...]] = ("line", (points,)) if feature.role == "path" else shaped(points)
+        self.counted.add(replace(feature, shape=shape[0], rings=shape[1]))
+
+    def _place(self, point: Any) -> tuple[float, float]:
+        return float(point[0]) * self.factor, float(point[1]) * self.factor
+
+    def named(self) -> Iterator[Feature]:
+        """The features: holes in their polygons, each thing named by the words that stand in it."""
+        features = list(_with_holes(self.counted.features))
+        words: dict[int, str] = {}
+        for text, place in self.texts:
+            around = [k for k, one in enumerate(features) if _is_in(one, place)]
+            if text and around:  # Words in a well are in its court too.
+                words.setdefault(min(around, key=lambda k: area_of(features[k])), text)
+        for k, feature in enumerate(features):
+            name, layer = feature.name or words.get(k), str(feature.properties.get("layer", ""))
+            own = layer if layer not in ("", "0") and role_of(layer) is None else None
+            yield replace(feature, name=name or own, role=feature.role or role_of(name), properties={})
+
+
+def _is_in(feature: Feature, place: tuple[float, float]) -> bool:
+    if feature.shape == "polygon":
+        return holds(feature.rings, place)
+    return feature.shape == "point" and dist(feature.rings[0][0], place) <= (feature.radius or 0.0)
+
+
+def _with_holes(features: list[Feature]) -> Iterator[Feature]:
+    """The features, rings on layers of holes joined to the polygon around them."""
+    holes = [one for one in features if str(one.properties.get("layer", "")).endswith("_HOLES")]
+    for feature in features:
+        if feature in holes:
+            continue
+        own = [one for one in holes if feature.shape == "polygon" and holds(feature.rings[:1], one.rings[0][0])]
+        layer = str(feature.properties.get("layer", ""))
+        yield feature.placed((*feature.rings, *(one.rings[0] for one in own if _is_of(one, layer))))
+
+
+def _is_of(hole: Feature, layer: str) -> bool:
+    return str(hole.properties.get("layer", "")).removesuffix("_HOLES") == layer
+
+
+def written(drawing: Drawing) -> bytes:
+    """A drawing in metres: closed polylines, the path a polyline, marks as circles, each with its words beside it.
+
+    raises: MissingPackage
+    """
+    require("dxf", "output", "DXF")
+    ezdxf = import_module("ezdxf")
+    ezdxf.options.write_fixed_meta_data_for_testing = True  # no date and no random names
+    document = ezdxf.new(VERSION, units=METRES)
+    for name, colour in LAYERS.values():
+        document.layers.add(name, color=colour)
+        document.layers.add(f"{name}_HOLES", color=colour)
+    space, names = document.modelspace(), {}
+    told: dict[str, object] = {}
+    for feature in drawing.features:
+        layer = LAYERS[feature.role or "obstacle"][0]
+        for k, ring in enumerate(feature.rings):
+            entity = _drawn(space, feature, ring, f"{layer}_HOLES" if k else layer)
+            if feature.name is not None and not k:
+                names[entity.dxf.handle] = feature.name
+        if feature.role in ("obstacle", "mark") and feature.name:
+            point = inner_point(feature.rings) if feature.shape == "polygon" else feature.rings[0][0]
+            x, y = point if feature.role == "obstacle" else (point[0] + CROSS, point[1] + CROSS)
+            words = {"layer": layer, "height": WORDS, "insert": (x, y)}
+            space.add_text(feature.name, dxfattribs=words)
+        if feature.role == "path":
+            told["path"] = feature.properties["path"]
+    if drawing.origin is not None:
+        told["origin"] = {"longitude": drawing.origin.longitude, "latitude": drawing.origin.latitude}
+    text = orjson.dumps(told | {"names": names}).decode()
+    # The format is text in lines, of which a name that is no ASCII takes more than it has characters.
+    text = text.encode("ascii", "backslashreplace").decode().replace("\\x", "\\u00")
+    record = document.rootdict.add_xrecord(RECORD)
+    record.reset([(1, text[k : k + CHUNK]) for k in range(0, len(text), CHUNK)])
+    sink = io.StringIO()
+    document.write(sink)
+    return sink.getvalue().encode()
+
+
+def _drawn(space: Any, feature: Feature, ring: Ring, layer: str) -> Any:
+    attributes = {"layer": layer}
+    if feature.shape == "point":
+        return space.add_circle(ring[0], 0.5 * CROSS, dxfattribs=attributes)
+    closed = feature.shape == "polygon"
+    return space.add_lwpolyline(ring[:-1] if closed else ring, close=closed, dxfattribs=attributes)

@@ -1,0 +1,158 @@
+"""Maps as GeoJSON, in degrees as RFC 7946 has it, or in metres."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
+from typing import Any
+
+import orjson
+
+from app.maps.features import Counted, Drawing, Feature, Shape, role_of, shaped
+from app.wire.degrees import GEOGRAPHIC, Origin, named_system
+from app.wire.geojson import DEPTH_MAX
+from core import InvalidValue
+from core.errors import spoken
+from core.venue import Ring
+
+# Of each geometry: the shape of its parts, and how deep lists of points stand in its coordinates.
+GEOMETRIES: dict[str, tuple[Shape, int]] = {
+    "Point": ("point", 0),
+    "MultiPoint": ("point", 1),
+    "LineString": ("line", 1),
+    "MultiLineString": ("line", 2),
+    "Polygon": ("polygon", 2),
+    "MultiPolygon": ("polygon", 3),
+}
+COLLECTIONS = {"FeatureCollection": "features", "GeometryCollection": "geometries"}
+
+
+def read(told: Mapping[str, Any]) -> Drawing:
+    """The map in a GeoJSON object. raises: InvalidValue at the member at fault"""
+    counted = Counted()
+    for feature in _features("file", told, Feature("point", ())):
+        counted.add(feature)
+    system = named_system(told)
+    origin = told.get("origin")
+    path = next((one.properties["path"] for one in counted.features if "path" in one.properties), None)
+    return Drawing(
+        tuple(counted.features),
+        # Metres have an origin only if this program wrote them, and then they say so.
+        None if system is None else GEOGRAPHIC.search(system) is not None,
+        _origin(origin),
+        path if isinstance(path, Mapping) else None,
+        counted.left_out,
+    )
+
+
+def is_of_polygons(told: object) -> bool:
+    """Does a GeoJSON object hold no points and no lines?"""
+    if isinstance(told, Mapping):
+        inside = (told.get(name) for name in ("geometry", "features", "geometries"))
+        lone = ("Point", "MultiPoint", "LineString", "MultiLineString", "MultiPolygon")
+        return told.get("type") not in lone and all(map(is_of_polygons, inside))
+    return not isinstance(told, list) or all(map(is_of_polygons, told))
+
+
+def _origin(told: object) -> Origin | None:
+    values = [told.get(name) for name in ("longitude", "latitude")] if isinstance(told, Mapping) else [None]
+    if all(isinstance(value, (int, float)) and not isinstance(value, bool) for value in values):
+        return Origin(*map(float, values))  # type: ignore[arg-type]
+    return None
+
+
+def _features(field: str, told: object, like: Feature, depth: int = 0) -> Iterator[Feature]:
+    """Every feature of a GeoJSON object in its order; `like` has the name and the role of the object around it."""
+    if depth > DEPTH_MAX:
+        raise InvalidValue(field, f"{spoken(field)} must not nest objects deeper than {DEPTH_MAX}")
+    if told is None and depth:
+        return  # A feature may have no place.
+    kind = told.get("type") if isinstance(told, Mapping) else None
+    if not isinstance(told, Mapping) or not isinstance(kind, str):
+        raise InvalidValue(field, f"{spoken(field)} must be a GeoJSON object with a type, got {told!r:.60}")
+    if kind == "Feature":
+        given = told.get("properties")
+        properties = {str(name): value for name, value in given.items()} if isinstance(given, Mapping) else {}
+        name, radius = properties.get("name"), properties.get("radius")
+        yield from _features(
+            f"{field}.geometry",
+            told.get("geometry"),
+            Feature(
+                "point",
+                (),
+                name if isinstance(name, str) and name else None,
+                role_of(properties.get("role"), name),
+                float(radius) if isinstance(radius, (int, float)) and not isinstance(radius, bool) else None,
+                properties,
+            ),
+            depth + 1,
+        )
+    elif kind in COLLECTIONS:
+        member = COLLECTIONS[kind]
+        for k, one in enumerate(_listed(f"{field}.{member}", told.get(member))):
+            yield from _features(f"{field}.{member}.{k}", one, like, depth + 1)
+    elif kind in GEOMETRIES:
+        shape, deep = GEOMETRIES[kind]
+        for rings in _parts(f"{field}.coordinates", told.get("coordinates"), shape, deep):
+            # A polygon may be drawn as a line that comes back to its beginning.
+            drawn = shaped(rings[0]) if shape == "line" and like.role != "path" else (shape, rings)
+            yield replace(like, shape=drawn[0], rings=drawn[1])
+    else:
+        known = ", ".join([*GEOMETRIES, "Feature", *COLLECTIONS])
+        raise InvalidValue(f"{field}.type", f"{spoken(field)}.type must be one of {known}, got {kind!r:.60}")
+
+
+def _parts(field: str, value: object, shape: Shape, deep: int) -> Iterator[tuple[Ring, ...]]:
+    """The rings of each single point, line or polygon in coordinates."""
+    own = {"point": 0, "line": 1, "polygon": 2}[shape]
+    if deep > own:
+        for k, one in enumerate(_listed(field, value)):
+            yield from _parts(f"{field}.{k}", one, shape, deep - 1)
+    elif shape == "point":
+        yield ((_point(field, value),),)
+    elif shape == "line":
+        yield (_ring(field, value),)
+    else:
+        yield tuple(_ring(f"{field}.{k}", ring) for k, ring in enumerate(_listed(field, value)))
+
+
+def _ring(field: str, value: object) -> Ring:
+    return tuple(_point(f"{field}.{k}", point) for k, point in enumerate(_listed(field, value)))
+
+
+def _point(field: str, value: object) -> tuple[float, float]:
+    numbers = _listed(field, value)
+    if len(numbers) < 2 or not all(isinstance(one, (int, float)) and not isinstance(one, bool) for one in numbers[:2]):
+        raise InvalidValue(field, f"{spoken(field)} must be a position of two numbers, got {value!r:.60}")
+    return float(numbers[0]), float(numbers[1])
+
+
+def _listed(field: str, value: object) -> list[Any]:
+    if not isinstance(value, list) or not value:
+        raise InvalidValue(field, f"{spoken(field)} must be a list with at least one entry, got {value!r:.60}")
+    return value
+
+
+def written(drawing: Drawing) -> bytes:
+    """A feature collection; the path as a request describes it stands in the properties of its line."""
+    features = [
+        {"type": "Feature", "properties": _properties(one), "geometry": geometry_of(one)} for one in drawing.features
+    ]
+    told: dict[str, object] = {"type": "FeatureCollection"}
+    if drawing.origin is not None:
+        told["origin"] = {"longitude": drawing.origin.longitude, "latitude": drawing.origin.latitude}
+    return orjson.dumps(told | {"features": features})
+
+
+def _properties(feature: Feature) -> dict[str, object]:
+    return {"name": feature.name, "role": feature.role, **feature.properties}
+
+
+def geometry_of(feature: Feature) -> dict[str, object]:
+    """Its geometry, in the unit of its points."""
+    rings = [[list(point) for point in ring] for ring in feature.rings]
+    if feature.shape == "point":
+        return {"type": "Point", "coordinates": rings[0][0]}
+    if feature.shape == "line":
+        return {"type": "LineString", "coordinates": rings[0]}
+    return {"type": "Polygon", "coordinates": rings}

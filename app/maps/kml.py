@@ -1,0 +1,232 @@
+"""Maps as KML, which map programs on phones read and write, and as KMZ, its packed form.
+
+The parser is expat by itself: it refuses a document type, so no entity can be defined and none can swell, and it
+builds no tree.
+"""
+
+from __future__ import annotations
+
+import io
+import re
+from collections.abc import Mapping
+from dataclasses import replace
+from html import escape
+from xml.parsers import expat
+
+import orjson
+
+from app.maps.features import POINTS_MAX, Counted, Drawing, Feature, Shape, role_of, shaped
+from app.wire.degrees import Origin
+from core import InvalidValue
+from core.venue import Ring
+
+# Deepest nesting of elements, and the largest document in a KMZ file [bytes].
+DEPTH_MAX, UNPACKED_MAX = 60, 20_000_000
+SHAPES: dict[str, Shape] = {"Point": "point", "LineString": "line", "Polygon": "polygon", "LinearRing": "line"}
+# Elements that draw something this program has no use for.
+OTHERS = ("GroundOverlay", "PhotoOverlay", "ScreenOverlay", "NetworkLink", "Model", "Track", "MultiTrack")
+# Colours of the lines, aabbggrr, by role.
+COLOURS = {"square": "ff000000", "obstacle": "ff7f7f7f", "path": "ffb27200", "mark": "ff005ed5"}
+FORBIDDEN = "file must not have a document type or entities: save it again as plain KML"
+
+
+def unpacked(data: bytes) -> bytes:
+    """The document in a KMZ file. raises: InvalidValue"""
+    import zipfile
+    import zlib
+
+    try:
+        with zipfile.ZipFile(io.BytesIO(data)) as archive:
+            name = next((one for one in archive.namelist() if one.lower().endswith(".kml")), None)
+            if name is None:
+                raise InvalidValue("file", "file must hold a .kml document, as a KMZ file does, got an archive without")
+            with archive.open(name) as source:
+                document = source.read(UNPACKED_MAX + 1)
+    except (zipfile.BadZipFile, zlib.error, EOFError, NotImplementedError, RuntimeError) as error:
+        raise InvalidValue(
+            "file", f"file must be a KMZ file that can be unpacked, got one with a fault: {error}"
+        ) from error
+    if len(document) > UNPACKED_MAX:
+        raise InvalidValue("file", f"file must unpack to at most {UNPACKED_MAX} bytes, got more")
+    return document
+
+
+def read(data: bytes) -> Drawing:
+    """The map in a KML document, always in degrees. raises: InvalidValue with the line at fault"""
+    reader = _Reader()
+    parser = expat.ParserCreate(namespace_separator=" ")
+    parser.buffer_text = True
+    parser.StartDoctypeDeclHandler = _refuse
+    parser.EntityDeclHandler = _refuse
+    parser.StartElementHandler = reader.start
+    parser.EndElementHandler = reader.end
+    parser.CharacterDataHandler = reader.take
+    try:
+        parser.Parse(data, True)
+    except expat.ExpatError as error:
+        raise InvalidValue(
+            "file", f"file must be KML, got {expat.ErrorString(error.code)} in line {error.lineno}"
+        ) from error
+    if not reader.is_kml:
+        raise InvalidValue("file", "file must be KML, got XML of another kind")
+    told = reader.told
+    counted = reader.counted
+    return Drawing(tuple(counted.features), True, told.get("origin"), told.get("path"), counted.left_out)  # type: ignore[arg-type]
+
+
+def _refuse(*declared: object) -> None:
+    raise InvalidValue("file", FORBIDDEN)
+
+
+# State:  `stack`, the names of the open elements; `folders`, the names of the open folders; `feature`, name, role and
+#         radius of the open placemark; `rings` of the open polygon; `text` of the open element.
+class _Reader:
+    """Collects the features of a document while expat reads it."""
+
+    def __init__(self) -> None:
+        self.counted, self.told = Counted(), dict[str, object]()
+        self.stack: list[str] = []
+        self.folders: list[str] = []
+        self.data: dict[str, str] = {}
+        self.shapes: list[tuple[Shape, tuple[Ring, ...]]] = []
+        self.rings: list[Ring] = []
+        self.key, self.text, self.is_kml = "", list[str](), False
+
+    def start(self, name: str, attributes: Mapping[str, str]) -> None:
+        local = name.rpartition(" ")[2]
+        self.is_kml = self.is_kml or local == "kml"
+        self.stack.append(local)
+        if len(self.stack) > DEPTH_MAX:
+            raise InvalidValue("file", f"file must not nest elements deeper than {DEPTH_MAX}")
+        self.text = []
+        if local in ("Folder", "Document"):
+            self.folders.append("")
+        elif local == "Placemark":
+            self.data, self.shapes = {}, []
+        elif local in ("Data", "SimpleData"):
+            self.key = attributes.get("name", "")
+        elif local == "Polygon":
+            self.rings = []
+        if local in OTHERS:
+            self.counted.leave_out(local)
+
+    def take(self, text: str) -> None:
+        self.text.append(text)
+
+    def end(self, name: str) -> None:
+        local, text = self.stack.pop(), "".join(self.text).strip()
+        around = self.stack[-1] if self.stack else ""
+        if local == "name" and around == "Placemark":
+            self.data.setdefault("name", text)
+        elif local == "name" and self.folders and around in ("Folder", "Document"):
+            self.folders[-1] = text
+        elif (local == "value" and around == "Data") or local == "SimpleData":
+            self.data[self.key] = text
+        elif local == "coordinates":
+            self._place(_points(text))
+        elif local == "Polygon" and self.rings:
+            self.shapes.append(("polygon", tuple(self.rings)))
+            self.rings = []
+        elif local == "Placemark":
+            self._finish()
+        elif local in ("Folder", "Document"):
+            self.folders.pop()
+        self.text = []
+
+    def _place(self, points: Ring) -> None:
+        if "Polygon" in self.stack:
+            self.rings.append(points)
+        elif points and self.stack[-1] in SHAPES:
+            shape = SHAPES[self.stack[-1]]
+            self.shapes.append((shape, (points[:1] if shape == "point" else points,)))
+
+    def _finish(self) -> None:
+        told = self.data
+        if path := _json(told.get("path", "")):
+            self.told["path"] = path
+        if origin := _json(told.get("origin", "")):
+            self.told["origin"] = _origin(origin)
+        role = role_of(told.get("role"), told.get("name"), *reversed(self.folders))
+        feature = Feature("point", (), told.get("name") or None, role, _number(told.get("radius", "")))
+        for shape, rings in self.shapes:
+            drawn = shaped(rings[0]) if shape == "line" and role != "path" else (shape, rings)
+            self.counted.add(replace(feature, shape=drawn[0], rings=drawn[1]))
+
+
+def _points(text: str) -> Ring:
+    """Points of a text such as "120.1,30.2,0 120.2,30.2,0". raises: InvalidValue"""
+    found: list[tuple[float, float]] = []
+    if text.count(",") > 3 * POINTS_MAX:
+        raise InvalidValue("file", f"file must draw no line of more than {POINTS_MAX} points")
+    for word in text.split():
+        parts = word.split(",")
+        numbers = [_number(part) for part in parts[:2]]
+        if len(numbers) < 2 or None in numbers:
+            raise InvalidValue("file", f"file must have coordinates such as 120.1,30.2 in degrees, got {word!r:.60}")
+        found.append((numbers[0] or 0.0, numbers[1] or 0.0))
+    return tuple(found)
+
+
+def _number(text: str) -> float | None:
+    try:
+        return float(text)
+    except ValueError:
+        return None
+
+
+def _json(text: str) -> Mapping[str, object] | None:
+    try:
+        found = orjson.loads(text)
+    except orjson.JSONDecodeError:
+        return None
+    return found if isinstance(found, dict) else None
+
+
+def _origin(told: Mapping[str, object]) -> Origin | None:
+    values = [told.get(name) for name in ("longitude", "latitude")]
+    return Origin(*values) if all(isinstance(value, float) for value in values) else None  # type: ignore[arg-type]
+
+
+def written(drawing: Drawing) -> bytes:
+    """A document with a placemark for each feature; path and origin stand in the data of the path's."""
+    parts = ['<?xml version="1.0" encoding="UTF-8"?>\n<kml xmlns="http://www.opengis.net/kml/2.2"><Document>\n']
+    for role, colour in COLOURS.items():
+        parts.append(
+            f'<Style id="{role}"><LineStyle><color>{colour}</color><width>2</width></LineStyle>'
+            f"<PolyStyle><color>40{colour[2:]}</color></PolyStyle></Style>\n"
+        )
+    for feature in drawing.features:
+        told: dict[str, object] = {"role": feature.role}
+        told |= {name: value for name, value in feature.properties.items() if name != "path"}
+        if feature.role == "path":
+            told |= {name: orjson.dumps(value).decode() for name, value in _origin_and_path(drawing, feature).items()}
+        data = "".join(
+            f'<Data name="{name}"><value>{_words(str(value))}</value></Data>' for name, value in told.items()
+        )
+        parts.append(
+            f"<Placemark><name>{_words(feature.name or '')}</name><styleUrl>#{feature.role}</styleUrl>"
+            f"<ExtendedData>{data}</ExtendedData>{_geometry(feature)}</Placemark>\n"
+        )
+    return "".join([*parts, "</Document></kml>\n"]).encode()
+
+
+def _words(text: str) -> str:
+    """A text as XML, without the two characters that are none."""
+    return escape(re.sub("[\ufffe\uffff]", "", text), quote=False)
+
+
+def _origin_and_path(drawing: Drawing, feature: Feature) -> dict[str, object]:
+    origin = drawing.origin
+    told = {} if origin is None else {"origin": {"longitude": origin.longitude, "latitude": origin.latitude}}
+    return told | {"path": feature.properties["path"]}
+
+
+def _geometry(feature: Feature) -> str:
+    lists = [" ".join(f"{x!r},{y!r}" for x, y in ring) for ring in feature.rings]
+    if feature.shape == "polygon":
+        rings = (f"<LinearRing><coordinates>{one}</coordinates></LinearRing>" for one in lists)
+        outer, *inner = rings
+        holes = "".join(f"<innerBoundaryIs>{one}</innerBoundaryIs>" for one in inner)
+        return f"<Polygon><outerBoundaryIs>{outer}</outerBoundaryIs>{holes}</Polygon>"
+    kind = "Point" if feature.shape == "point" else "LineString"
+    return f"<{kind}><coordinates>{lists[0]}</coordinates></{kind}>"

@@ -1,0 +1,301 @@
+"""The venue and the path that a map draws, in metres, and what had to be assumed."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import Any
+from unicodedata import category
+
+import numpy as np
+from pydantic import TypeAdapter, ValidationError
+
+from app.files.words import Say
+from app.maps import geojson
+from app.maps.features import MARK, PATH, SQUARE, Drawing, Feature, area_of, holds
+from app.maps.marks import line_of
+from app.wire.degrees import Origin, Plane, middle_of, refuse_wide, unwrapped
+from app.wire.geojson import Polygon, read_polygons, venue_of
+from app.wire.models import Coordinates
+from app.wire.paths import POINTS_MAX, AnyPath
+from core import InvalidValue, Route, Spiral, Venue
+from core.errors import said
+from core.shapes.engines import thickened
+from core.values import NAME_MAX, NOT_PLAIN, Floats
+from core.venue import Ring
+
+# Radius of a point, and half of the width of a line, that tells none [m].
+POINT_RADIUS, LINE_RADIUS = 0.5, 0.1
+# Sides of the polygon around a circle, which exceeds its radius by less than a hundredth.
+SIDES = 24
+# Ground around everything drawn where no polygon is the square [m].
+AROUND = 20.0
+# A map narrower than this is in degrees if it can be: 22 km; in metres it would be 0.2 m [degrees].
+DEGREES_ACROSS = 0.2
+# Least distance of two points of a path [m], and how far a line may have been moved and still be the path told with it.
+POINTS_APART, MOVED = 0.05, 0.01
+# Points of that line that are tried, about [1].
+TRIED = 200
+
+
+@dataclass(frozen=True)
+class Found:
+    """What a file holds for a dance.
+
+    path: as a request takes it; venue: in metres, the square first; origin: place of x = y = 0
+    dance: the other fields of a file that describes a dance; notes: what was assumed, and what was left out
+    """
+
+    path: Mapping[str, Any] | None = None
+    venue: Venue | None = None
+    origin: Origin | None = None
+    dance: Mapping[str, Any] | None = None
+    notes: Sequence[str] = ()
+
+    @property
+    def geometry(self) -> dict[str, Any] | None:
+        """The venue as GeoJSON in metres, as a request takes it."""
+        if self.venue is None:
+            return None
+        told: dict[str, Any] = {"type": "FeatureCollection"}
+        if self.origin is not None:
+            told["origin"] = {"longitude": self.origin.longitude, "latitude": self.origin.latitude}
+        return told | {"features": [_told(area.name, area.rings) for area in self.venue.areas]}
+
+
+def _told(name: str, rings: tuple[Ring, ...]) -> dict[str, Any]:
+    geometry = geojson.geometry_of(Feature("polygon", rings))
+    return {"type": "Feature", "properties": {"name": name}, "geometry": geometry}
+
+
+def checked_path(path: object) -> Spiral | Route:
+    """The path of core that a request describes. raises: InvalidValue"""
+    try:
+        found: Spiral | Route = TypeAdapter[Any](AnyPath).validate_python(path).to_path()
+    except ValidationError as error:
+        first = error.errors(include_url=False)[0]
+        place = ".".join(str(part) for part in ("path", *first["loc"][1:]))
+        raise InvalidValue("file", f"file must describe a path: {place}: {first['msg']}") from error
+    return found
+
+
+# State:  `drawing`, in degrees or metres; then `features`, in metres without marks, and `origin`.
+class Reading:
+    """Makes a venue and a path of a map, and notes what it assumed."""
+
+    def __init__(self, drawing: Drawing, units: Coordinates | None, say: Say) -> None:
+        self.drawing, self.say, self.notes = drawing, say, list[str]()
+        self.features = [_closed(one) for one in drawing.features if one.role != MARK]
+        if not self.features:
+            raise InvalidValue("file", "file must draw something: a polygon, a line or a point; got nothing of these")
+        self.origin = drawing.origin
+        self._lay_out(units)
+        for kind, count in drawing.left_out.items():
+            self.notes.append(say(f"Left out: {kind}, {count} times.", f"未读取：{kind}，{count} 个。"))
+
+    def found(self) -> Found:
+        lines = [one for one in self.features if one.shape == "line"]
+        square = self._square()
+        told = [one for one in lines if one.role == PATH]
+        # Without a name for it, the longest line that has no width is the path.
+        free = [one for one in lines if one.role is None and one.radius is None]
+        danced = told[:1] or ([max(free, key=_length)] if free and not self._walls(free) else [])
+        path = self._path(danced[0]) if danced else None
+        others = [one for one in self.features if one is not square and one not in danced]
+        venue = self._venue(square, others)
+        return Found(path, venue, self.origin, None, self.notes)
+
+    def _walls(self, free: list[Feature]) -> bool:
+        """Are lines without a name more likely walls than a path? Where there are several, nobody knows."""
+        if len(free) > 1:
+            self.notes.append(
+                self.say(
+                    f"{len(free)} lines have no role, so they are walls: name the one to dance along `path`.",
+                    f"有 {len(free)} 条线没有说明用途，均作为墙：请将要走的那条命名为 path。",
+                )
+            )
+        return len(free) > 1
+
+    def _lay_out(self, units: Coordinates | None) -> None:
+        """Turn degrees into metres."""
+        points = np.array([point for one in self.features for ring in one.rings for point in ring])
+        if not np.isfinite(points).all():
+            raise InvalidValue("file", "file must have finite coordinates")
+        degrees = self.drawing.degrees if units is None else units == "degrees"
+        if degrees is None:
+            low, high = points.min(axis=0), points.max(axis=0)
+            degrees = bool((np.abs(points) <= (180.0, 90.0)).all() and (high - low).max() < DEGREES_ACROSS)
+        if not degrees:
+            self.notes.append(self.say("Coordinates are in metres.", "坐标以米为单位。"))
+            return
+        if (np.abs(points) > (180.0, 90.0)).any():
+            raise InvalidValue("file", "file must have longitudes within 180 and latitudes within 90 degrees")
+        near = float(points[0, 0])
+        self.features = [one.placed(tuple(unwrapped(ring, near) for ring in one.rings)) for one in self.features]
+        middle = next((one.rings for one in self.features if one.role == SQUARE), None)
+        rings = [ring for one in self.features for ring in one.rings]
+        self.origin = self.origin or middle_of(list(middle[:1]) if middle else rings)
+        refuse_wide("file", rings, self.origin)
+        plane = Plane(self.origin)
+        self.features = [
+            one.placed(tuple(tuple(map(tuple, plane.metres(np.array(ring)).tolist())) for ring in one.rings))
+            for one in self.features
+        ]
+        east, north = self.origin.longitude, self.origin.latitude
+        self.notes.append(
+            self.say(
+                f"Longitude and latitude became metres about {east:.6f}, {north:.6f}: x to the east, y to the north.",
+                f"经纬度以 {east:.6f}, {north:.6f} 为原点换算为米：x 向东，y 向北。",
+            )
+        )
+
+    def _square(self) -> Feature | None:
+        """The polygon that is the square: by its role, else the one that holds something of everything else."""
+        polygons = [one for one in self.features if one.shape == "polygon"]
+        told = [one for one in polygons if one.role == SQUARE]
+        if told:
+            return told[0]
+        free = [one for one in polygons if one.role is None]
+        if not free:
+            return None
+        largest = max(free, key=area_of)
+        others = (one for one in self.features if one is not largest)
+        return largest if all(any(holds(largest.rings, point) for point in one.rings[0]) for one in others) else None
+
+    def _venue(self, square: Feature | None, others: list[Feature]) -> Venue | None:
+        obstacles = [(one.name, rings) for one in others for rings in self._obstacle(one)]
+        if square is None and not obstacles:
+            return None
+        if square is None:
+            points = np.array([point for one in self.features for ring in one.rings for point in ring])
+            (left, low), (right, high) = (points.min(axis=0) - AROUND).tolist(), (points.max(axis=0) + AROUND).tolist()
+            outline = ((left, low), (right, low), (right, high), (left, high), (left, low))
+            square = Feature("polygon", (outline,), "square")
+            self.notes.append(
+                self.say(
+                    f"No polygon is the square: it ends {AROUND:g} m beyond everything drawn. Name one `square`.",
+                    f"没有多边形是广场：取所有图形外 {AROUND:g} m 为界。请将其中一个命名为 square。",
+                )
+            )
+        names = _Names()
+        polygons: list[Polygon] = [(names.new(square.name or "square"), square.rings)]
+        polygons += [(names.new(name or f"obstacle {k}"), rings) for k, (name, rings) in enumerate(obstacles, start=1)]
+        collection = {"type": "FeatureCollection", "features": [_told(*polygon) for polygon in polygons]}
+        try:  # As a request is read, so that what comes out can be asked.
+            venue = venue_of(polygons)
+            read_polygons(collection)
+        except InvalidValue as error:
+            raise InvalidValue("file", f"file must draw a square that can be danced in: {error.message}") from error
+        return venue
+
+    def _obstacle(self, one: Feature) -> Iterable[tuple[Ring, ...]]:
+        """The polygons of an obstacle."""
+        name = one.name or one.role or one.shape
+        if one.shape == "polygon":
+            return [one.rings]
+        radius = one.radius
+        if radius is None or not 0.0 < radius < math.inf:
+            radius = POINT_RADIUS if one.shape == "point" else LINE_RADIUS
+            self.notes.append(
+                self.say(
+                    f"{name}: no radius, taken as {radius:g} m.",
+                    f"{name}：没有给出半径，取 {radius:g} m。",
+                )
+            )
+        if one.shape == "point":
+            return [(_circle(one.rings[0][0], radius),)]
+        return [
+            tuple(tuple(map(tuple, ring.tolist())) for ring in rings)
+            for rings in thickened(np.array(one.rings[0]), radius)
+        ]
+
+    def _path(self, line: Feature) -> Mapping[str, Any]:
+        points = np.array(line.rings[0])
+        told = self.drawing.path
+        if told is not None:
+            if _is_along(told, points):
+                return told
+            self.notes.append(
+                self.say(
+                    "The line of the path was moved, so the path goes through its points.",
+                    "路径的线已被移动，因此路径改为通过其各点。",
+                )
+            )
+        kept, name = _thinned(points), line.name or self.say("a line without a name", "未命名的线")
+        if len(kept) < 2:
+            raise InvalidValue("file", f"file must draw a path of at least two points {said(POINTS_APART)} m apart")
+        self.notes.append(
+            self.say(
+                f"The path is a smooth curve through {len(kept)} points: {name}.",
+                f"路径是通过 {len(kept)} 个点的光滑曲线：{name}。",
+            )
+        )
+        path = {"kind": "waypoints", "points": kept.tolist()}
+        checked_path(path)
+        return path
+
+
+class _Names:
+    """Names of areas, each once and as a venue takes them."""
+
+    def __init__(self) -> None:
+        self.given: set[str] = set()
+
+    def new(self, name: str) -> str:
+        plain = "".join(" " if category(one) in NOT_PLAIN else one for one in name)[: NAME_MAX - 8].strip() or "area"
+        found, k = plain, 2
+        while found in self.given:
+            found, k = f"{plain} {k}", k + 1
+        self.given.add(found)
+        return found
+
+
+def _closed(feature: Feature) -> Feature:
+    """The same with the rings of a polygon closed, as some programs leave out the last point."""
+    if feature.shape != "polygon":
+        return feature
+    return feature.placed(tuple(ring if ring[0] == ring[-1] else (*ring, ring[0]) for ring in feature.rings if ring))
+
+
+def _length(line: Feature) -> float:
+    return sum(math.dist(a, b) for a, b in pairwise(line.rings[0]))
+
+
+def _circle(centre: tuple[float, float], radius: float) -> Ring:
+    """A polygon around a circle: no point of the circle is outside."""
+    turn = 2.0 * math.pi / SIDES
+    reach = radius / math.cos(0.5 * turn)
+    x, y = centre
+    ring = [(x + reach * math.cos(k * turn), y + reach * math.sin(k * turn)) for k in range(SIDES)]
+    return (*ring, ring[0])
+
+
+def _thinned(points: Floats) -> Floats:
+    """The points that are apart, and no more of them than a path takes: evenly along the line."""
+    kept = [points[0]]
+    for point in points[1:]:
+        if np.hypot(*(point - kept[-1])) >= POINTS_APART:
+            kept.append(point)
+    if len(kept) <= POINTS_MAX:
+        return np.array(kept)
+    few: Floats = np.array(kept)[np.linspace(0, len(kept) - 1, POINTS_MAX).round().astype(int)]
+    return few
+
+
+def _is_along(told: Mapping[str, Any], points: Floats) -> bool:
+    """Is the line still the one that was drawn for a path?"""
+    try:
+        path = checked_path(told)
+    except InvalidValue:
+        return False
+    low = path.begin if isinstance(path, Route) else path.travel_to(float(np.hypot(*path.frame.back(points[:1])[0])))
+    drawn = line_of(path, low, path.end)
+    begins, along = drawn[:-1], np.diff(drawn, axis=0)
+    ends = np.hypot(*(points[[0, -1]] - drawn[[0, -1]]).T)
+    for point in points[:: len(points) // TRIED + 1]:
+        share = np.clip(((point - begins) * along).sum(axis=1) / (along**2).sum(axis=1), 0.0, 1.0)
+        if np.hypot(*(begins + share[:, None] * along - point).T).min() > MOVED:
+            return False
+    return bool(ends.max() <= MOVED)

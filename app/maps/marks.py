@@ -1,0 +1,99 @@
+"""The chalk marks along a path, and a dance as a map: its square, its path and its marks."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from app.maps.features import Drawing, Feature
+from app.wire.degrees import Origin, Plane
+from app.wire.models import check_limit
+from core import Dance, Venue
+from core.motion.places import handle_places
+from core.paths.path import Path
+from core.paths.route import Route
+from core.values import Floats
+
+# Most marks of one path.
+MARKS_MAX = 2_000
+# Distance of points of a line that is drawn for a path, and how far its curves may be from it [m].
+DRAWN_STEP, DRAWN_SAG = 0.5, 0.002
+# Most points of a line.
+POINTS_MAX = 20_000
+
+
+@dataclass(frozen=True, slots=True)
+class Marks:
+    """Marks along a path, one every `spacing`.
+
+    first: s of the first mark, from which lengths along the path are counted [m]; s: of each (M,) [m]; points: (M, 2)
+    """
+
+    spacing: float
+    first: float
+    s: Floats
+    points: Floats
+
+    @property
+    def names(self) -> list[str]:
+        """How far each is along the path from the first, in metres: what stands beside it on the ground."""
+        return [f"{round(one, 3):g}" for one in (self.s - self.first).tolist()]
+
+
+def marks_of(dance: Dance, start: float, stop: float, spacing: float) -> Marks:
+    """Marks from where the tail is at `start` [s] to where the head is at `stop` [s].
+
+    On a path with a beginning they are counted from there. raises: TooLarge
+    """
+    tail, head = float(handle_places(dance, [start])[0, -1]), float(handle_places(dance, [stop])[0, 0])
+    begin = dance.path.tail_begin
+    # On a spiral, whose tail stands anywhere, a mark is where the head stands at time 0.
+    first = spacing * np.floor(tail / spacing) if begin is None else begin
+    low = first + spacing * np.floor((tail - first) / spacing)
+    count = int((head - low) / spacing + 1e-9) + 1
+    check_limit("spacing", "marks", count, MARKS_MAX, "set them further apart")
+    s = low + spacing * np.arange(count)
+    return Marks(spacing, float(first), s, dance.path.position(s))
+
+
+def line_of(path: Path, low: float, high: float) -> Floats:
+    """Points (N, 2) of a line along a path from s = low to s = high [m], nearer together where it bends."""
+    s = np.linspace(low, high, min(POINTS_MAX, max(2, int((high - low) / 0.05) + 2)))
+    bend = np.abs(path.curvature(s))
+    # A chord of length h is h^2 curvature / 8 from its arc.
+    steps = np.minimum(DRAWN_STEP, np.sqrt(8.0 * DRAWN_SAG / np.maximum(bend, 1e-9)))
+    along = np.concatenate([[0.0], np.cumsum(np.diff(s) / (0.5 * (steps[1:] + steps[:-1])))])
+    count = min(POINTS_MAX, int(along[-1]) + 2)
+    points: Floats = path.position(np.interp(np.linspace(0.0, along[-1], count), along, s))
+    return points
+
+
+def drawing_of(
+    dance: Dance, venue: Venue | None, marks: Marks, told: Mapping[str, object], origin: Origin | None
+) -> Drawing:
+    """The dance as a map in metres. told: the path as a request describes it"""
+    features = []
+    for area in venue.areas if venue else ():
+        role = "square" if venue and area is venue.square else "obstacle"
+        features.append(Feature("polygon", area.rings, area.name, role))
+    path = dance.path
+    low = path.begin if isinstance(path, Route) else min(float(marks.s[0]), path.begin)
+    line = tuple(map(tuple, line_of(path, low, path.end).tolist()))
+    features.append(Feature("line", (line,), "path", "path", properties={"path": told}))
+    for name, s, point in zip(marks.names, marks.s.tolist(), marks.points.tolist(), strict=True):
+        properties = {"s": round(s, 6), "x": round(point[0], 4), "y": round(point[1], 4)}
+        features.append(Feature("point", (((point[0], point[1]),),), name, "mark", properties=properties))
+    return Drawing(tuple(features), False, origin)
+
+
+def in_degrees(drawing: Drawing) -> Drawing:
+    """A map in metres, in longitude and latitude. It must have an origin."""
+    assert drawing.origin is not None
+    plane = Plane(drawing.origin)
+    features = tuple(
+        one.placed(tuple(tuple(map(tuple, plane.degrees(np.array(ring)).tolist())) for ring in one.rings))
+        for one in drawing.features
+    )
+    return Drawing(features, True, drawing.origin)

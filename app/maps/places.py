@@ -1,0 +1,106 @@
+"""The square, its obstacles and the path in a file of any form, as a request takes them."""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any, Self
+
+import orjson
+from pydantic import Field
+
+from app.files.tables import Language
+from app.files.words import Say
+from app.maps import dxf, geojson, kml
+from app.maps.layout import Found, Reading, checked_path
+from app.wire.degrees import place_of
+from app.wire.models import Answer, Coordinates
+from core import BenchDragonError, Budget, Dragon, InvalidValue
+
+# Longest file [bytes].
+FILE_MAX = 20_000_000
+# Type of an error, its field, its message.
+Refusal = tuple[type[BenchDragonError], str, str]
+
+
+class Places(Answer):
+    """What a map holds for a dance."""
+
+    path: dict[str, Any] | None = Field(description="The path as a request takes it; null: the file draws none")
+    venue: dict[str, Any] | None = Field(
+        description="The square and its obstacles as a request takes them: GeoJSON in metres, the square first, and in "
+        "its member origin the place of x = y = 0 where it is known; null: the file draws none"
+    )
+    dance: dict[str, Any] | None = Field(
+        description="The other fields of a file that describes a dance, as they stand there; null: a map"
+    )
+    notes: list[str] = Field(description="What was assumed, and what was left out, in sentences")
+
+    @classmethod
+    def of(cls, found: Found) -> Self:
+        return cls(path=found.path, venue=found.geometry, dance=found.dance, notes=list(found.notes))
+
+
+def read_places(data: bytes, units: Coordinates | None, language: Language, budget: Budget) -> Places | Refusal:
+    """What a map holds, or why it was refused, for a process that reads it for another: an error would not get there
+    whole."""
+    try:
+        return Places.of(places_of(data, units, Say(language)))
+    except BenchDragonError as error:
+        return type(error), error.field, error.message
+
+
+def places_of(data: bytes, units: Coordinates | None, say: Say) -> Found:
+    """The square and the path in a file: GeoJSON, KML, KMZ, DXF, or a dance as TOML or JSON, told by its first bytes.
+
+    units: of its coordinates; None: as the file says, otherwise degrees if they can be
+    raises: InvalidValue at the field `file`; MissingPackage
+    """
+    if not data.strip():
+        raise InvalidValue("file", "file must hold a map: GeoJSON, KML, DXF, or a dance as TOML or JSON; got nothing")
+    start = data.lstrip(b"\xef\xbb\xbf \t\r\n")
+    if start.startswith(b"PK"):
+        return Reading(kml.read(kml.unpacked(data)), units, say).found()
+    if start.startswith(b"<"):
+        return Reading(kml.read(start), units, say).found()
+    if start.startswith(b"{"):
+        try:
+            told = orjson.loads(start)
+        except orjson.JSONDecodeError as error:
+            raise InvalidValue("file", f"file must be JSON, got one with a fault: {error}") from error
+        if "type" in told:
+            return Reading(geojson.read(told), units, say).found()
+        return _of_dance(told, say)
+    if start.startswith((b"0", b"999", b"AutoCAD", b"AC10")):
+        return Reading(dxf.read(data), units, say).found()
+    try:
+        return _of_dance(tomllib.loads(data.decode()), say)
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError, RecursionError) as error:
+        words = "file must be GeoJSON, KML, KMZ, DXF, or a dance as TOML or JSON"
+        raise InvalidValue("file", f"{words}, got none of these: read as TOML, {error}") from error
+
+
+def _of_dance(told: Mapping[str, Any], say: Say) -> Found:
+    """A file that describes a dance, as `check` takes it."""
+    path, venue, notes = told.get("path"), told.get("venue"), []
+    others = {name: value for name, value in told.items() if name not in ("path", "venue", "coordinates")}
+    if path is not None:
+        checked_path(path)
+    place = None
+    if isinstance(venue, str):
+        notes.append(say(f"The venue is in another file: {venue}.", f"场地在另一个文件中：{venue}。"))
+    elif not isinstance(venue, Mapping | None):
+        raise InvalidValue("file", f"file must have a venue that is GeoJSON or the name of a file, got {venue!r:.60}")
+    elif venue is not None:
+        place = place_of(venue, told.get("coordinates"), Dragon())
+    return Found(path, place.venue if place else None, place.origin if place else None, others, notes)
+
+
+def read_map(file: Path, units: Coordinates | None = None, language: Language = Language.ENGLISH) -> Found:
+    """The square and the path in a map. raises: InvalidValue, OSError"""
+    with file.open("rb") as source:
+        data = source.read(FILE_MAX + 1)
+    if len(data) > FILE_MAX:
+        raise InvalidValue("file", f"{file} must have at most {FILE_MAX} bytes, got more")
+    return places_of(data, units, Say(language))

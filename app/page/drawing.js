@@ -1,0 +1,200 @@
+/**
+ * A drawing: the path through its points, and what stands in the square. Drawings are never changed, only replaced.
+ *
+ * points: [[x, y]] [m]; straight: numbers of the legs that are straight; radius: of rounded corners [m]; begin: place of
+ * the head at time 0 [m]; limit: of every speed [m/s] or null; path: one from a file that is no list of points, or null
+ * things: [{kind, name, points, radius, holes}]: one area to stay in, blocks, circles, walls; origin: of a map, or null
+ */
+
+export const EMPTY = { points: [], straight: [], radius: 5, begin: 0, limit: null, path: null, things: [], origin: null };
+/** Names of the parts of a drawing in an address. */
+export const PARTS = ["route", "corner", "begin", "limit", "things", "raw", "origin"];
+/** Half a side of the ground where nobody drew an area [m]. */
+const PLAIN = 90_000;
+const DECIMALS = 4;
+const NUMBER = /^-?\d+(\.\d+)?(e-?\d+)?$/;
+const KINDS = { a: "area", b: "block", c: "circle", w: "wall" };
+
+const rounded = (number) => Number(number.toFixed(DECIMALS));
+export const place = ([x, y]) => [rounded(x), rounded(y)];
+
+/** The path as the service takes it. */
+export function pathOf({ points, straight, radius, begin, path }) {
+  if (path) return path;
+  const drawn = { kind: "waypoints", points, straight };
+  if (straight.some((leg) => straight.includes(leg + 1))) drawn.radius = radius;
+  if (begin) drawn.start = begin;
+  return drawn;
+}
+
+const closed = (points) => [...points, points[0]];
+const needs = { area: 3, block: 3, circle: 1, wall: 2 };
+/** Has this thing as many points as its kind needs? */
+export const isWhole = ({ kind, points }) => points.length >= needs[kind];
+
+function featureOf(thing) {
+  const { kind, name, points, radius, holes = [] } = thing;
+  const properties = kind === "circle" || kind === "wall" ? { name, radius } : { name };
+  const geometry = {
+    circle: () => ({ type: "Point", coordinates: points[0] }),
+    wall: () => ({ type: "LineString", coordinates: points }),
+  }[kind] ?? (() => ({ type: "Polygon", coordinates: [points, ...holes].map(closed) }));
+  return { type: "Feature", properties, geometry: geometry() };
+}
+
+/** The venue as the service takes it; null without one. An endless plain surrounds obstacles without an area. */
+export function venueOf({ things, origin }) {
+  const whole = things.filter(isWhole);
+  if (!whole.length) return null;
+  const isArea = ({ kind }) => kind === "area";
+  const corners = [[-PLAIN, -PLAIN], [PLAIN, -PLAIN], [PLAIN, PLAIN], [-PLAIN, PLAIN]];
+  const ground = whole.find(isArea) ?? { kind: "area", name: freeName(things, "plain"), points: corners };
+  const features = [ground, ...whole.filter((thing) => thing !== ground)].map(featureOf);
+  return { type: "FeatureCollection", ...(origin && { origin }), features };
+}
+
+/** A name that no other thing has. */
+export function freeName(things, name, own = null) {
+  const taken = new Set(things.filter((thing) => thing !== own).map((thing) => thing.name));
+  for (let k = 1; ; k++) {
+    const found = k === 1 ? name : `${name} ${k}`;
+    if (!taken.has(found)) return found;
+  }
+}
+
+/** Things of a GeoJSON venue, the square first as the service reads it. */
+function thingsOf(venue) {
+  const features = venue.type === "FeatureCollection" ? venue.features : [venue.type === "Feature" ? venue : { properties: {}, geometry: venue }];
+  const things = [];
+  for (const { properties, geometry } of features) {
+    const { type, coordinates } = geometry;
+    const named = (kind, points, more) => things.push({ kind, name: freeName(things, properties?.name || kind), points, ...more });
+    if (type === "Point") named("circle", [place(coordinates)], { radius: properties.radius });
+    else if (type === "LineString") named("wall", coordinates.map(place), { radius: properties.radius });
+    else if (type === "Polygon") {
+      const [outer, ...holes] = coordinates.map((ring) => ring.slice(0, -1).map(place));
+      named("block", outer, holes.length ? { holes } : {});
+    }
+  }
+  const square = things.find(({ kind, name }) => kind === "block" && name === "square") ?? things.find(({ kind }) => kind === "block");
+  if (square) square.kind = "area";
+  return things.filter(({ points, kind }) => kind !== "area" || Math.abs(points[0][0]) < PLAIN);
+}
+
+/** The drawing of a dance as /check takes it, or as /places answers. */
+export function drawingOf({ path, venue, speed_limit: limit }) {
+  const drawing = { ...EMPTY, limit: limit ?? null, things: venue ? thingsOf(venue) : [], origin: venue?.origin ?? null };
+  if (!path) return drawing;
+  return { ...drawing, ...(legsOf(path) ?? { path, points: [] }) };
+}
+
+/** The points and straight legs of a path, if it consists of lines and of curves that follow them. */
+function legsOf(path) {
+  const begin = path.start ?? 0;
+  const isFree = (heading) => heading === undefined || heading === null;
+  if (path.kind === "waypoints" && isFree(path.start_heading) && isFree(path.end_heading)) {
+    return { points: path.points, straight: path.straight ?? [], radius: path.radius ?? EMPTY.radius, begin };
+  }
+  const isFirst = (k) => k === 0;
+  const isLast = (k) => k === path.pieces.length - 1;
+  const free = ({ kind, start_heading: first, end_heading: last }, k) =>
+    kind === "line" || (kind === "waypoints" && (isFirst(k) ? isFree(first) : path.pieces[k - 1].kind === "line") && (isLast(k) ? isFree(last) : path.pieces[k + 1].kind === "line"));
+  if (path.kind !== "route" || !path.pieces.every(free)) return null;
+  const points = [];
+  const straight = [];
+  for (const piece of path.pieces) {
+    const more = piece.kind === "line" ? [piece.start, piece.end] : piece.points;
+    if (piece.kind === "line") straight.push(Math.max(points.length - 1, 0));
+    points.push(...(points.length ? more.slice(1) : more));
+  }
+  return { points: points.map(place), straight, begin };
+}
+
+const plainText = (points) => points.map(([x, y]) => `${x},${y}`).join("_");
+const pointsIn = (text) => text.split("_").map((point) => point.replace(/^\*/, "").split(",").map(Number));
+/** Names in an address: the characters that separate things are escaped. */
+const escaped = (name) => encodeURIComponent(name).replace(/[~_.!'()*-]/g, (one) => `%${one.charCodeAt(0).toString(16)}`).replaceAll("%", "-");
+const unescaped = (name) => decodeURIComponent(name.replaceAll("-", "%"));
+
+/** Parts of an address: name -> text. */
+export function toAddress(drawing) {
+  const { points, straight, radius, begin, limit, things, path, origin } = drawing;
+  const legs = points.map(([x, y], k) => `${straight.includes(k) ? "*" : ""}${x},${y}`).join("_");
+  const texts = things.map(({ kind, name, points: own, radius: wide = "", holes = [] }) =>
+    [kind[0], escaped(name), ...[String(wide), ...[own, ...holes].map(plainText)].map((part) => part.replaceAll(".", "!"))].join("."),
+  );
+  const told = {
+    route: legs,
+    corner: radius === EMPTY.radius ? "" : radius,
+    begin: begin || "",
+    limit: limit ?? "",
+    things: texts.join("~"),
+    raw: path ? JSON.stringify(path) : "",
+    origin: origin ? `${origin.longitude},${origin.latitude}` : "",
+  };
+  return Object.entries(told).filter(([, text]) => text !== "");
+}
+
+/** The drawing in an address; what cannot be read is left out. given: URLSearchParams */
+export function fromAddress(given) {
+  const number = (name, otherwise) => (NUMBER.test(given.get(name) ?? "") ? Number(given.get(name)) : otherwise);
+  const finite = (points) => points.every((point) => point.length === 2 && point.every(Number.isFinite));
+  const drawing = { ...EMPTY, radius: number("corner", EMPTY.radius), begin: number("begin", 0), limit: number("limit", null) };
+  try {
+    const legs = given.get("route") ?? "";
+    const points = legs ? pointsIn(legs) : [];
+    if (finite(points)) Object.assign(drawing, { points, straight: legs.split("_").flatMap((text, k) => (text.startsWith("*") ? [k] : [])) });
+    for (const text of given.get("things")?.split("~") ?? []) {
+      const [kind, name, wide, own, ...holes] = text.split(".").map((one) => one.replaceAll("!", "."));
+      const thing = { kind: KINDS[kind], name: unescaped(name), points: own ? pointsIn(own) : [] };
+      if (wide) thing.radius = Number(wide);
+      if (holes.length) thing.holes = holes.map(pointsIn);
+      if (thing.kind && finite(thing.points)) drawing.things = [...drawing.things, thing];
+    }
+    if (given.has("raw")) drawing.path = JSON.parse(given.get("raw"));
+    const [longitude, latitude] = (given.get("origin") ?? "").split(",").map(Number);
+    if (given.has("origin")) drawing.origin = { longitude, latitude };
+  } catch {
+    // An address that somebody cut short still opens with what can be read.
+  }
+  return drawing;
+}
+
+/** Item k of a drawing that a person edits: null for the path, else the number of a thing. */
+export const pointsOf = (drawing, item) => (item === null ? drawing.points : (drawing.things[item]?.points ?? []));
+
+/** The drawing with other points of one item. */
+export function withPoints(drawing, item, points) {
+  if (item === null) return { ...drawing, points };
+  return withThing(drawing, item, { points });
+}
+
+export function withThing(drawing, item, changes) {
+  return { ...drawing, things: drawing.things.map((thing, k) => (k === item ? { ...thing, ...changes } : thing)) };
+}
+
+/** A point put in before point k of an item; a straight leg that it divides stays straight. */
+export function inserted(drawing, item, k, point) {
+  const changed = withPoints(drawing, item, pointsOf(drawing, item).toSpliced(k, 0, place(point)));
+  if (item !== null) return changed;
+  const straight = drawing.straight.flatMap((leg) => (leg < k - 1 ? [leg] : leg === k - 1 && k < changed.points.length - 1 ? [leg, leg + 1] : [leg + (leg >= k - 1)]));
+  return { ...changed, straight, path: null };
+}
+
+/** Without point k of an item; a thing without points goes. */
+export function removed(drawing, item, k) {
+  const points = pointsOf(drawing, item).toSpliced(k, 1);
+  if (item !== null) return points.length ? withPoints(drawing, item, points) : { ...drawing, things: drawing.things.toSpliced(item, 1) };
+  const isStraight = (leg) => drawing.straight.includes(leg);
+  // The two legs that met there become one, straight if both were.
+  const legs = points.slice(1).flatMap((_, leg) => (leg < k - 1 ? isStraight(leg) : leg === k - 1 ? isStraight(leg) && isStraight(k) : isStraight(leg + 1)) ? [leg] : []);
+  return { ...drawing, points, straight: legs };
+}
+
+export const moved = (drawing, item, k, point) => withPoints(drawing, item, pointsOf(drawing, item).with(k, place(point)));
+
+/** The leg becomes straight, or a curve again. */
+export function bent(drawing, leg) {
+  const { straight } = drawing;
+  return { ...drawing, straight: straight.includes(leg) ? straight.filter((one) => one !== leg) : [...straight, leg].sort((a, b) => a - b) };
+}

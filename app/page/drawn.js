@@ -1,0 +1,144 @@
+/** A drawn dance on the page: joins the picture, the form, the files and the verdict. */
+
+import { EMPTY } from "./drawing.js";
+import { Editor } from "./edit.js";
+import { $, $$, make } from "./elements.js";
+import { Files } from "./files.js";
+import { Steps } from "./history.js";
+import { Judgement } from "./judgement.js";
+import { PRESETS } from "./presets.js";
+import { RouteForm } from "./route.js";
+import { layers } from "./venue.js";
+
+/** Boxes about spirals, for which nothing is asked here. */
+const SPIRAL_ALONE = ["#minimum-pitch", "#curve", "#scan"];
+
+export class Drawn {
+  /** The failure that is shown on the picture. */
+  #failure = null;
+  /** A failure whose benches are still to be brought into sight. */
+  #wanted = null;
+
+  constructor({ state, service, questions, dance, announce, draw }) {
+    Object.assign(this, { state, questions, picture: dance, draw });
+    this.steps = new Steps(state, () => this.show());
+    const course = () => (questions.course?.drawing === state.get("drawing") ? questions.course : null);
+    this.editor = new Editor(dance, state, this.steps, course, () => this.show());
+    const files = new Files(state, this.steps, service, questions, announce);
+    this.form = new RouteForm($("#route"), state, this.steps, this.editor, files);
+    this.judgement = new Judgement($("#judgement"), (failure) => this.#seek(failure), (point) => this.#look(point));
+    this.#invite();
+    const { below, above } = layers(dance, () => this.#shown());
+    dance.below.push(below);
+    dance.above.push(above, () => this.editor.place());
+  }
+
+  get #isRoute() {
+    return this.state.get("path") === "route";
+  }
+
+  #shown() {
+    if (!this.#isRoute) return null;
+    const { course } = this.questions;
+    const selected = this.editor.active ? this.editor.item : null;
+    return { drawing: this.state.get("drawing"), selected, failure: this.#failure, course, benches: Number(this.state.get("benches")) };
+  }
+
+  /** What to begin with where nothing is drawn: a path of one's own, or a preset. */
+  #invite() {
+    const button = (key, act, properties = {}) => {
+      const one = make("button", { type: "button", "data-text": key, ...properties });
+      one.addEventListener("click", act);
+      return one;
+    };
+    const presets = Object.keys(PRESETS).map((name) => button(`preset_${name}`, () => this.form.beginWith(name), { "data-preset": name }));
+    const words = (tag, key) => make(tag, { "data-text": key });
+    $("#invite").append(words("h3", "inviteTitle"), button("inviteDraw", () => this.editor.turn(true), { className: "main" }), words("p", "inviteOr"), make("div", {}, ...presets));
+  }
+
+  /** Begin to draw: with an S where nothing is drawn yet. */
+  choose() {
+    if (this.state.get("drawing") === EMPTY) this.state.set({ drawing: PRESETS.s }, false);
+    this.state.choosePath("route");
+    this.editor.turn(true);
+  }
+
+  /** Points of the venue, which are to be seen beside the path. */
+  around() {
+    return this.#isRoute ? this.state.get("drawing").things.flatMap(({ points }) => points) : [];
+  }
+
+  /** After a change of the drawing or of the kind of dance. */
+  show() {
+    const drawn = this.#isRoute;
+    const { points, path } = this.state.get("drawing");
+    $("main").classList.toggle("drawn", drawn);
+    this.picture.drawn = drawn;
+    for (const box of [$("#route"), $("#judgement")]) box.hidden = !drawn;
+    $("#save").disabled = points.length < 2 && !path;
+    this.editor.show();
+    const empty = drawn && points.length < 2 && !path;
+    $("main").classList.toggle("empty", empty);
+    $("#invite").hidden = !empty || points.length > 0 || this.editor.active;
+    if (!drawn) return;
+    this.form.show();
+    for (const box of SPIRAL_ALONE) $(box).setAttribute("aria-busy", false);
+    if (empty) {
+      // Nothing is asked, so nothing is awaited.
+      for (const box of $$("main [aria-busy=true]")) box.setAttribute("aria-busy", false);
+      this.picture.setPath(null);
+      this.picture.scene.pose = null;
+      this.judgement.refuse(null, null, 0);
+    }
+    this.draw();
+  }
+
+  /** The service's verdict on the dance came. */
+  judged() {
+    const { dance, course, refusals } = this.questions;
+    if (dance?.kind !== "route" || !this.#isRoute || refusals.has("contact")) return;
+    if (!dance.failures.includes(this.#failure)) this.#failure = null;
+    this.judgement.show(dance, course);
+  }
+
+  /** The service refused the dance, or the reason for that is known better. */
+  refused() {
+    const refusal = this.questions.refusals.get("contact") ?? this.questions.refusals.get("course");
+    if (this.#isRoute && refusal) this.judgement.refuse(refusal.message, this.questions.course, Number(this.state.get("benches")));
+  }
+
+  /** A pose is shown: bring the benches at fault into sight once. */
+  posed(pose) {
+    const failure = this.#wanted;
+    if (!failure || !pose.dance || pose.time !== failure.time) return;
+    this.#wanted = null;
+    const k = failure.benches[0] ?? 0;
+    this.#look([pose.x[k], pose.y[k]]);
+  }
+
+  translate() {
+    this.show();
+    this.judged();
+    this.refused();
+  }
+
+  #seek(failure) {
+    this.#failure = this.#wanted = failure;
+    const { end } = this.questions.dance;
+    this.state.set({ time: failure.time >= end ? null : failure.time });
+    const { pose } = this.picture.scene;
+    if (pose) this.posed(pose);
+    this.draw();
+  }
+
+  /** Move the picture to a point [m] that is out of sight. */
+  #look([x, y]) {
+    const { view } = this.picture;
+    const [px, py] = view.toScreen(x, y);
+    if (px < 0 || py < 0 || px > view.width || py > view.height) {
+      view.set(x, y);
+      view.moved(true);
+    }
+    this.draw();
+  }
+}

@@ -1,0 +1,252 @@
+/** Drawing on the picture: the points of one item as buttons that are dragged or moved by keys, and taps that add points. */
+
+import { freeName, inserted, moved, pointsOf, removed, withPoints } from "./drawing.js";
+import { $, $$, make, onClick } from "./elements.js";
+import { say } from "./text.js";
+
+/** A press within this distance is no drag [px]; a tap within the next of the path divides it. */
+const [TRAVEL, ON_PATH] = [3, 16];
+/** What an arrow key moves a point by, alone and with Shift [m]. */
+const [STEP, LONG_STEP] = [0.1, 1];
+const KEYS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowDown: [0, -1], ArrowUp: [0, 1] };
+export const TREE_RADIUS = 0.5;
+const WALL_RADIUS = 0.15;
+
+export class Editor {
+  /** Do taps draw? */
+  active = false;
+  tool = "path";
+  /** What is edited: null for the path, else the number of a thing. */
+  item = null;
+  #knots = [];
+  #drag = null;
+
+  /** course(): the drawn path as the service has it; chosen(): another item is edited */
+  constructor(dance, state, steps, course, chosen) {
+    Object.assign(this, { dance, state, steps, course, chosen, box: $("#knots") });
+    dance.tapped = (x, y) => this.#tap(x, y);
+    for (const button of $$("[data-tool]")) button.addEventListener("click", () => this.take(button.dataset.tool));
+    onClick("#edit", () => this.turn(!this.active));
+    onClick("#undo", () => steps.undo());
+    onClick("#redo", () => steps.redo());
+    onClick("#delete", () => this.#delete());
+    addEventListener("keydown", (event) => this.#shortcut(event));
+  }
+
+  get #drawing() {
+    return this.state.get("drawing");
+  }
+
+  get #isRoute() {
+    return this.state.get("path") === "route";
+  }
+
+  /** Begin or end drawing. */
+  turn(active) {
+    this.active = active;
+    this.show();
+  }
+
+  /** Draw with this tool from now on; another obstacle begins with the next tap. */
+  take(tool) {
+    this.tool = tool;
+    const area = this.#drawing.things.findIndex(({ kind }) => kind === "area");
+    this.edit(tool === "area" && area >= 0 ? area : null);
+  }
+
+  /** Edit this item. */
+  edit(item) {
+    this.item = item;
+    if (item !== null) this.tool = this.#drawing.things[item].kind;
+    this.show();
+    this.chosen();
+  }
+
+  /** After a change of anything. */
+  show() {
+    if (this.item !== null && this.item >= this.#drawing.things.length) this.item = null;
+    const on = this.active && this.#isRoute;
+    $("#tools").hidden = !this.#isRoute;
+    $("#edit").setAttribute("aria-pressed", on);
+    for (const button of $$("[data-tool]")) {
+      button.hidden = !on;
+      button.setAttribute("aria-pressed", this.tool === button.dataset.tool);
+    }
+    for (const id of ["#undo", "#redo", "#delete"]) $(id).hidden = !on;
+    $("#undo").disabled = !this.steps.canUndo;
+    $("#redo").disabled = !this.steps.canRedo;
+    $("#delete").disabled = !this.#points.length;
+    $("#draw-help").hidden = !on;
+    $("#draw-help").textContent = say(`draw_${this.tool}`);
+    this.place();
+  }
+
+  /** The points of the item that is edited; of the path only while it is drawn itself. */
+  get #points() {
+    if (!this.active || !this.#isRoute || (this.item === null && this.tool !== "path")) return [];
+    return pointsOf(this.#drawing, this.item);
+  }
+
+  /** Put the buttons where the points are in the picture. */
+  place() {
+    const { canvas, view } = this.dance;
+    const points = this.#points;
+    Object.assign(this.box.style, { left: `${canvas.offsetLeft}px`, top: `${canvas.offsetTop}px`, width: `${canvas.clientWidth}px`, height: `${canvas.clientHeight}px` });
+    while (this.#knots.length > points.length) this.#knots.pop().remove();
+    while (this.#knots.length < points.length) this.box.append(this.#knot(this.#knots.length));
+    points.forEach(([x, y], k) => {
+      const knot = this.#knots[k];
+      const [px, py] = view.toScreen(x, y);
+      knot.style.transform = `translate(${px}px, ${py}px)`;
+      const label = say("knot", { k: k + 1, count: points.length, x, y });
+      if (knot.getAttribute("aria-label") !== label) knot.setAttribute("aria-label", label);
+    });
+  }
+
+  #knot(k) {
+    const knot = make("button", { type: "button", className: "knot", textContent: k + 1 });
+    knot.addEventListener("pointerdown", (event) => this.#grab(event));
+    knot.addEventListener("pointermove", (event) => this.#pull(event));
+    for (const type of ["pointerup", "pointercancel"]) knot.addEventListener(type, () => this.#drop());
+    knot.addEventListener("keydown", (event) => this.#key(event, k));
+    knot.addEventListener("focus", () => this.#reveal(k));
+    this.#knots.push(knot);
+    return knot;
+  }
+
+  /** Take hold of the point nearest to the pointer: where points lie close together, one is over another. */
+  #grab(event) {
+    event.preventDefault();
+    const { left, top } = this.box.getBoundingClientRect();
+    const from = [event.clientX, event.clientY];
+    const shifts = this.#points.map((point) => this.dance.view.toScreen(...point).map((one, axis) => one - from[axis]));
+    const far = shifts.map(([dx, dy]) => Math.hypot(dx + left, dy + top));
+    const k = far.indexOf(Math.min(...far));
+    this.#knots[k].focus({ preventScroll: true });
+    event.currentTarget.setPointerCapture(event.pointerId);
+    this.dance.view.fitted = false;
+    this.#drag = { k, from, shift: shifts[k], base: this.#drawing, far: false };
+  }
+
+  #pull(event) {
+    const drag = this.#drag;
+    if (!drag) return;
+    drag.far ||= Math.hypot(event.clientX - drag.from[0], event.clientY - drag.from[1]) > TRAVEL;
+    if (!drag.far) return;
+    const point = this.dance.view.toWorld(event.clientX + drag.shift[0], event.clientY + drag.shift[1]);
+    const centimetres = point.map((one) => Math.round(100 * one) / 100);
+    this.state.set({ drawing: moved(drag.base, this.item, drag.k, centimetres) }, false);
+  }
+
+  #drop() {
+    const drag = this.#drag;
+    this.#drag = null;
+    if (drag?.far) this.steps.take(this.#drawing, null, drag.base);
+  }
+
+  #key(event, k) {
+    if (event.ctrlKey || event.metaKey || event.altKey) return;
+    const way = KEYS[event.key];
+    if (way) {
+      const by = event.shiftKey ? LONG_STEP : STEP;
+      const [x, y] = this.#points[k];
+      this.steps.take(moved(this.#drawing, this.item, k, [x + by * way[0], y + by * way[1]]), `${this.item} ${k}`);
+      this.#reveal(k);
+    } else if (event.key === "Enter") this.#divide(k);
+    else if (event.key === "Delete" || event.key === "Backspace") this.#remove(k);
+    else return;
+    event.preventDefault();
+    event.stopPropagation();
+  }
+
+  /** A point more between point k and the next one, at the end before it: on the path, or half way along an edge. */
+  #divide(k) {
+    const points = this.#points;
+    if (points.length < 2) return;
+    const next = this.item !== null && this.tool !== "wall" ? (k + 1) % points.length : Math.min(k + 1, points.length - 1);
+    const from = next === k ? k - 1 : k;
+    const { knots, s, x, y } = this.item === null ? (this.course() ?? {}) : {};
+    const half = () => points[from].map((one, axis) => (one + points[next][axis]) / 2);
+    const on = knots?.length === points.length ? s.findIndex((one) => one >= (knots[from] + knots[next]) / 2) : -1;
+    this.steps.take(inserted(this.#drawing, this.item, from + 1, on < 0 ? half() : [x[on], y[on]]));
+    this.#knots[from + 1]?.focus({ preventScroll: true });
+  }
+
+  #remove(k) {
+    this.steps.take(removed(this.#drawing, this.item, k));
+    this.#knots[Math.min(k, this.#knots.length - 1)]?.focus({ preventScroll: true });
+  }
+
+  /** Delete the point that has the focus, or else the last one. */
+  #delete() {
+    const k = this.#last ?? this.#points.length - 1;
+    if (this.#points.length) this.#remove(Math.min(k, this.#points.length - 1));
+  }
+
+  #last = null;
+
+  /** Move the picture so that a point that got the focus is in sight. */
+  #reveal(k) {
+    this.#last = k;
+    const { view } = this.dance;
+    const [x, y] = this.#points[k];
+    const [px, py] = view.toScreen(x, y);
+    if (px < 0 || py < 0 || px > view.width || py > view.height) {
+      view.set(x, y);
+      view.moved(true);
+    }
+  }
+
+  /** A tap on the picture. Returns whether it drew something. */
+  #tap(px, py) {
+    if (!this.active || !this.#isRoute) return false;
+    const drawing = this.#drawing;
+    const point = this.dance.view.toWorld(px, py).map((one) => Math.round(10 * one) / 10);
+    this.#last = null;
+    this.dance.view.fitted = false;
+    if (this.tool === "path") this.#tapPath(drawing, px, py, point);
+    else if (this.item === null || this.tool === "circle") this.#begin(drawing, point);
+    else this.steps.take(inserted(drawing, this.item, pointsOf(drawing, this.item).length, point));
+    this.chosen();
+    return true;
+  }
+
+  #tapPath(drawing, px, py, point) {
+    const count = drawing.points.length;
+    const found = count > 1 ? this.#onPath(px, py) : null;
+    this.steps.take(found ? inserted(drawing, null, found.k, found.point) : inserted(drawing, null, count, point));
+  }
+
+  /** Where a tap divides the path: before which point, and its place on it. */
+  #onPath(px, py) {
+    const { s, x, y, knots } = this.course() ?? { s: [], knots: [] };
+    if (knots.length !== this.#drawing.points.length) return null;
+    let [best, nearest] = [-1, ON_PATH];
+    s.forEach((_, k) => {
+      const [sx, sy] = this.dance.view.toScreen(x[k], y[k]);
+      const far = Math.hypot(sx - px, sy - py);
+      if (far < nearest) [best, nearest] = [k, far];
+    });
+    if (best < 0) return null;
+    const k = knots.findIndex((knot) => knot > s[best]);
+    return { k: k < 0 ? knots.length - 1 : k, point: [x[best], y[best]] };
+  }
+
+  /** A new thing at this point. */
+  #begin(drawing, point) {
+    const kind = this.tool;
+    const radius = { circle: TREE_RADIUS, wall: WALL_RADIUS }[kind];
+    const thing = { kind, name: freeName(drawing.things, say(`thing_${kind}`)), points: [], ...(radius && { radius }) };
+    this.item = drawing.things.length;
+    this.steps.take(withPoints({ ...drawing, things: [...drawing.things, thing] }, this.item, [point]));
+  }
+
+  #shortcut(event) {
+    if (!this.#isRoute || !(event.ctrlKey || event.metaKey) || event.altKey || event.target.matches("input, textarea")) return;
+    const key = event.key.toLowerCase();
+    if (key === "z") event.shiftKey ? this.steps.redo() : this.steps.undo();
+    else if (key === "y") this.steps.redo();
+    else return;
+    event.preventDefault();
+  }
+}

@@ -1,0 +1,108 @@
+/** Files of a drawn dance: opened, dropped on the picture, and saved. */
+
+import { Problem, Superseded } from "./api.js";
+import { tableOf } from "./benches.js";
+import { drawingOf } from "./drawing.js";
+import { $, make } from "./elements.js";
+import { passagesText } from "./pace.js";
+import { refusalWords, say } from "./text.js";
+
+const ACCEPT = ".json,.geojson,.toml,.kml,.kmz,.dxf,.csv";
+/** Fields of a dance's file that are numbers of the page too. */
+const NUMBERS = ["head_speed", "margin", "stray", "hole", "pin"];
+const UNIFORM = ["benches", "head_length", "body_length", "width", "overhang"];
+
+export class Files {
+  /** steps: take drawings; questions: know the dance shown; announce(words) */
+  constructor(state, steps, service, questions, announce) {
+    Object.assign(this, { state, steps, service, questions, announce });
+    this.input = make("input", { type: "file", id: "open-file", accept: ACCEPT, "data-label": "open", hidden: true });
+    this.input.addEventListener("change", () => {
+      if (this.input.files[0]) this.open(this.input.files[0]);
+      this.input.value = "";
+    });
+    const stage = $("#stage");
+    for (const type of ["dragenter", "dragover"])
+      stage.addEventListener(type, (event) => {
+        if (!event.dataTransfer.types.includes("Files")) return;
+        event.preventDefault();
+        stage.classList.add("over");
+      });
+    for (const type of ["dragleave", "drop"]) stage.addEventListener(type, () => stage.classList.remove("over"));
+    stage.addEventListener("drop", (event) => {
+      event.preventDefault();
+      if (event.dataTransfer.files[0]) this.open(event.dataTransfer.files[0]);
+    });
+  }
+
+  /** Buttons that open and save. */
+  buttons() {
+    const button = (key, act) => {
+      const one = make("button", { type: "button", id: key, "data-text": key });
+      one.addEventListener("click", act);
+      return one;
+    };
+    return [button("open", () => this.input.click()), this.input, button("save", () => this.save())];
+  }
+
+  /** Open a dance, or a map with a venue and a path. */
+  async open(file) {
+    try {
+      if (/\.(csv|tsv)$/i.test(file.name)) {
+        this.state.set({ csv: await file.text() });
+        return this.announce(say("opened", { name: file.name }));
+      }
+      const found = (await ownDance(file)) ?? (await this.#places(file));
+      if (found) this.#take(found, file.name);
+    } catch (error) {
+      if (error instanceof Superseded) return;
+      if (!(error instanceof Problem)) throw error;
+      this.announce(refusalWords(error.message).textContent);
+    }
+  }
+
+  async #places(file) {
+    const { dance, notes = [], ...found } = await this.service.ask("places", "places", { query: { language: document.documentElement.lang.slice(0, 2) }, file });
+    return { ...dance, ...found, notes };
+  }
+
+  #take(found, name) {
+    const { dragon = {}, path, venue } = found;
+    const own = Object.fromEntries(UNIFORM.filter((one) => one in dragon).map((one) => [one, String(dragon[one])]));
+    const numbers = Object.fromEntries(NUMBERS.filter((one) => typeof found[one] === "number").map((one) => [one, String(found[one])]));
+    if (this.state.get("path") !== "route") this.state.choosePath("route");
+    const opened = drawingOf({ ...found, venue: typeof venue === "object" ? venue : null });
+    // A map without a path leaves the path that is drawn, and one without a venue the venue.
+    const { points, straight, radius, begin, path: given, things, origin } = this.state.get("drawing");
+    if (!path) Object.assign(opened, { points, straight, radius, begin, path: given });
+    if (!venue) Object.assign(opened, { things, origin });
+    const told = {
+      ...("dragon" in found && { csv: tableOf(dragon) }),
+      ...("passages" in found && { passages: passagesText(found.passages) }),
+      ...("start_clock" in found && { start_clock: found.start_clock ?? "" }),
+    };
+    this.state.set({ ...own, ...numbers, ...told, time: null, view: null });
+    this.steps.take(opened);
+    this.announce([say("opened", { name }), ...(found.notes ?? [])].join(" "));
+  }
+
+  /** The dance as `bench-dragon check` takes it. */
+  save() {
+    const text = JSON.stringify(this.questions.checkBody(this.questions.drawn()), null, 2);
+    const link = make("a", { href: URL.createObjectURL(new Blob([text], { type: "application/json" })), download: "dance.json" });
+    link.click();
+    setTimeout(() => URL.revokeObjectURL(link.href), 10_000);
+    this.announce(say("saved", { name: link.download }));
+  }
+}
+
+/** A dance that this page saved, or null for any other file. */
+async function ownDance(file) {
+  if (!/\.json$/i.test(file.name)) return null;
+  try {
+    const told = JSON.parse(await file.text());
+    return "type" in told || typeof told.venue === "string" ? null : told;
+  } catch {
+    return null;
+  }
+}

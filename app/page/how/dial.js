@@ -1,0 +1,70 @@
+/** A number in a sentence that is dragged: a slider for the mouse, for fingers and for the keyboard. */
+
+import { make } from "../elements.js";
+
+/** A drag over this many pixels goes through the whole range; with Shift over this many times more. */
+const [REACH, FINE] = [280, 10];
+/** Steps of the keys beside the arrows. */
+const LEAP = 10;
+const KEYS = { ArrowRight: 1, ArrowUp: 1, ArrowLeft: -1, ArrowDown: -1, PageUp: LEAP, PageDown: -LEAP };
+
+export class Dial {
+  element = make("span", { className: "dial", role: "slider", tabindex: 0 });
+  #drag = null;
+
+  /** plan: {value, min, max, step, decimals, unit(value) -> what stands behind the number}; changed() after each change */
+  constructor(plan, changed) {
+    Object.assign(this, { plan, changed, value: plan.value });
+    const listen = (...pairs) => pairs.forEach(([name, act]) => this.element.addEventListener(name, (event) => act(event)));
+    listen(["keydown", (event) => this.#key(event)], ["pointerdown", (event) => this.#grab(event)]);
+    listen(["pointermove", (event) => this.#move(event)], ["lostpointercapture", () => (this.#drag = null)]);
+  }
+
+  /** Set the number to the nearest one that the slider can stand at. */
+  set(value) {
+    const { min, max, step, decimals } = this.plan;
+    const near = Number((min + Math.round((value - min) / step) * step).toFixed(decimals));
+    const next = Math.min(Math.max(near, min), max);
+    if (next === this.value) return;
+    this.value = next;
+    this.show();
+    this.changed();
+  }
+
+  /** The number with its unit. */
+  words(value = this.value) {
+    return `${value.toFixed(this.plan.decimals)} ${this.plan.unit()}`;
+  }
+
+  /** label: what a screen reader calls it; by default the one that it has */
+  show(label = this.element.getAttribute("aria-label")) {
+    const { min, max } = this.plan;
+    const words = this.words();
+    const said = { label, valuemin: min, valuemax: max, valuenow: this.value, valuetext: words };
+    for (const [name, value] of Object.entries(said)) this.element.setAttribute(`aria-${name}`, value);
+    this.element.textContent = words;
+  }
+
+  #key(event) {
+    const { min, max, step } = this.plan;
+    const ends = { Home: min, End: max };
+    if (!(event.key in KEYS || event.key in ends) || event.ctrlKey || event.metaKey || event.altKey) return;
+    event.preventDefault();
+    this.set(ends[event.key] ?? this.value + KEYS[event.key] * step);
+  }
+
+  #grab(event) {
+    if (event.button) return;
+    this.#drag = { at: event.clientX, value: this.value };
+    this.element.setPointerCapture(event.pointerId);
+    this.element.focus();
+    event.preventDefault();
+  }
+
+  #move(event) {
+    if (!this.#drag) return;
+    const { min, max } = this.plan;
+    const way = ((event.clientX - this.#drag.at) * (max - min)) / REACH;
+    this.set(this.#drag.value + (event.shiftKey ? way / FINE : way));
+  }
+}

@@ -1,0 +1,176 @@
+/** Pictures in metres and charts, as SVG: what the service answers, put on the screen. */
+
+import { addGround } from "../dance.js";
+
+const NAMESPACE = "http://www.w3.org/2000/svg";
+/** Length of a straight piece of a drawn spiral [rad]. */
+const PIECE = 0.05;
+/** Edges of a chart [px]: left, right, top, bottom; about how far apart ticks stand [px]. */
+const [LEFT, RIGHT, TOP, BOTTOM] = [52, 14, 14, 42];
+const TICKS = { x: 90, y: 48 };
+
+/** An element of SVG with these attributes and children. */
+function shape(tag, attributes = {}, ...children) {
+  const element = document.createElementNS(NAMESPACE, tag);
+  for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, value);
+  element.append(...children);
+  return element;
+}
+
+const joined = (points) => points.map(([x, y]) => `${x.toFixed(2)},${y.toFixed(2)}`).join(" ");
+
+/** What pictures and charts share: a part of a drawing, with shapes at the places that `at` gives. */
+class Sheet {
+  /** box: {left, top, width, height} in the drawing [px] */
+  constructor(svg, { left = 0, top = 0, width, height }) {
+    Object.assign(this, { left, top, width, height });
+    this.layer = svg;
+    this.layer = this.part([left, top, width, height], [0, 0]);
+  }
+
+  /** A drawing in the drawing, which cuts off what lies outside of it; corner: its own place of its upper left corner. */
+  part([x, y, width, height], corner) {
+    const part = this.add("svg", { x, y, width, height, viewBox: [...corner, width, height].join(" ") });
+    // The size that the page gives its icons does not hold here.
+    Object.assign(part.style, { width: `${width}px`, height: `${height}px` });
+    return part;
+  }
+
+  add(tag, attributes, ...children) {
+    const element = shape(tag, attributes, ...children);
+    this.layer.append(element);
+    return element;
+  }
+
+  line(points, className) {
+    this.add("polyline", { class: className, points: joined(points.map((point) => this.at(...point))) });
+  }
+
+  area(points, className) {
+    this.add("polygon", { class: className, points: joined(points.map((point) => this.at(...point))) });
+  }
+
+  dot(x, y, className, r = 4) {
+    const [cx, cy] = this.at(x, y);
+    this.add("circle", { class: className, cx, cy, r });
+  }
+
+  text(words, x, y, className = "", [dx, dy] = [0, 0]) {
+    const [px, py] = this.at(x, y);
+    this.add("text", { class: className, x: px + dx, y: py + dy }, words);
+  }
+}
+
+export class Picture extends Sheet {
+  /** x, y: the middle [m]; span: how much is seen of the narrower side [m] */
+  constructor(svg, box, { x, y, span }) {
+    super(svg, box);
+    Object.assign(this, { x, y, scale: Math.min(this.width, this.height) / span });
+  }
+
+  at(x, y) {
+    return [this.width / 2 + (x - this.x) * this.scale, this.height / 2 - (y - this.y) * this.scale];
+  }
+
+  from(px, py) {
+    const [right, down] = [px - this.left - this.width / 2, py - this.top - this.height / 2];
+    return [this.x + right / this.scale, this.y - down / this.scale];
+  }
+
+  /** A spiral about (0, 0) from one number of turns to another. */
+  spiral(pitch, from, to) {
+    const count = Math.ceil((2 * Math.PI * (to - from)) / PIECE);
+    const turns = Array.from({ length: count + 1 }, (_, k) => from + ((to - from) * k) / count);
+    const place = (turn) => [pitch * turn * Math.cos(2 * Math.PI * turn), pitch * turn * Math.sin(2 * Math.PI * turn)];
+    this.line(turns.map(place), "spiral");
+  }
+
+  circle(x, y, radius, className) {
+    const [cx, cy] = this.at(x, y);
+    this.add("circle", { class: className, cx, cy, r: radius * this.scale });
+  }
+
+  /** Bench k of a pose {x, y}, drawn from handle to handle with its overhangs. */
+  bench({ x, y }, k, { overhang, width }, className) {
+    const [[ax, ay], [bx, by]] = [this.at(x[k], y[k]), this.at(x[k + 1], y[k + 1])];
+    const [over, wide] = [overhang * this.scale, width * this.scale];
+    const turn = (Math.atan2(by - ay, bx - ax) * 180) / Math.PI;
+    const place = `translate(${ax} ${ay}) rotate(${turn})`;
+    const length = Math.hypot(bx - ax, by - ay) + 2 * over;
+    this.add("rect", { class: className, x: -over, y: -wide / 2, width: length, height: wide, transform: place });
+  }
+
+  /** The ground that bench k may cover while every hole is within the stray of its place. */
+  ground(pose, k, dragon, stray, className) {
+    const words = [];
+    const put = (letter) => (x, y) => words.push(letter, ...this.at(x, y));
+    const path = { moveTo: put("M"), lineTo: put("L"), closePath: () => words.push("Z") };
+    path.arc = (x, y, radius, from, to) => {
+      path.lineTo(x + radius * Math.cos(from), y + radius * Math.sin(from));
+      const r = radius * this.scale;
+      words.push("A", r, r, 0, 0, 0, ...this.at(x + radius * Math.cos(to), y + radius * Math.sin(to)));
+    };
+    addGround(path, pose, dragon, k, stray);
+    this.add("path", { class: className, d: words.join(" ") });
+  }
+
+  /** The scale, at the lower right. metres: length of its bar */
+  bar(metres) {
+    const [right, bottom] = [this.width - 14, this.height - 12];
+    const left = right - metres * this.scale;
+    this.add("path", { class: "bar", d: `M${left} ${bottom - 6}V${bottom}H${right}V${bottom - 6}` });
+    this.add("text", { class: "tick middle", x: (left + right) / 2, y: bottom - 5 }, `${metres} m`);
+  }
+}
+
+/** Round numbers in a range, at most so many. */
+function ticks([low, high], most) {
+  const rough = (high - low) / Math.max(most, 1);
+  const power = 10 ** Math.floor(Math.log10(rough));
+  const step = [1, 2, 5, 10].map((one) => one * power).find((one) => one >= rough);
+  const decimals = Math.max(0, -Math.floor(Math.log10(step) + 1e-9));
+  const first = Math.ceil(low / step - 1e-9);
+  const count = Math.floor(high / step + 1e-9) - first + 1;
+  return Array.from({ length: count }, (_, k) => ((first + k) * step).toFixed(decimals).replace(/^-0$/, "0"));
+}
+
+export class Chart extends Sheet {
+  /** x, y: ranges; labels: words of both axes */
+  constructor(svg, box, { x, y, labels }) {
+    super(svg, box);
+    Object.assign(this, { x, y });
+    const [right, bottom] = [this.width - RIGHT, this.height - BOTTOM];
+    for (const tick of ticks(y, (bottom - TOP) / TICKS.y)) {
+      const [, py] = this.at(x[0], Number(tick));
+      this.add("path", { class: Number(tick) ? "grid" : "zero", d: `M${LEFT} ${py}H${right}` });
+      this.add("text", { class: "tick right", x: LEFT - 6, y: py + 4 }, tick);
+    }
+    for (const tick of ticks(x, (right - LEFT) / TICKS.x)) {
+      const [px] = this.at(Number(tick), y[0]);
+      this.add("path", { class: "grid", d: `M${px} ${bottom}v4` });
+      this.add("text", { class: "tick middle", x: px, y: bottom + 16 }, tick);
+    }
+    this.add("text", { class: "tick middle", x: (LEFT + right) / 2, y: this.height - 6 }, labels[0]);
+    this.add("text", { class: "tick middle", transform: `translate(13 ${(TOP + bottom) / 2}) rotate(-90)` }, labels[1]);
+    this.layer = this.part([LEFT, TOP, right - LEFT, bottom - TOP], [LEFT, TOP]);
+  }
+
+  at(x, y) {
+    const share = (value, [low, high]) => (value - low) / (high - low);
+    const [wide, high] = [this.width - LEFT - RIGHT, this.height - TOP - BOTTOM];
+    return [LEFT + share(x, this.x) * wide, TOP + (1 - share(y, this.y)) * high];
+  }
+
+  from(px) {
+    return this.x[0] + ((px - this.left - LEFT) / (this.width - LEFT - RIGHT)) * (this.x[1] - this.x[0]);
+  }
+
+  /** A line up through the whole chart at x. */
+  up(x, className) {
+    this.line([[x, this.y[0]], [x, this.y[1]]], className);
+  }
+
+  across(y, className) {
+    this.line([[this.x[0], y], [this.x[1], y]], className);
+  }
+}

@@ -1,0 +1,162 @@
+/** A figure with its sentences: their numbers are dragged, the service answers, the figure is drawn. */
+
+import { Problem, Superseded } from "../api.js";
+import { make } from "../elements.js";
+import { refusalWords } from "../text.js";
+import { Dial } from "./dial.js";
+
+/** A name in a text: a number to drag, a number of the answer, or with a value a button that sets a number. */
+const NAMES = /\{(\w+)(?:=([\d.]+))?\}/;
+const EVERY_THIRD = 3;
+const TALL = 0.62;
+const [LOWEST, HIGHEST] = [300, 440];
+/** A narrower page is still being laid out [px]. */
+const NARROWEST = 160;
+
+export class Figure {
+  data = null;
+  /** The detail of a refusal; null if there is none. */
+  #refused = null;
+  #texts = [];
+  #outputs = new Map();
+
+  /**
+   * plan: {dials, ask(ask, values) -> data, draw(svg, {width, height}, data, say) -> sheet, outputs(data, say)}, perhaps refine(ask), refused: key of what a refusal means, and,
+   * where the drawing is dragged, pull(place, data) -> {name of a dial: value}; word(key, values): a text
+   */
+  constructor(section, plan, service, word) {
+    Object.assign(this, { section, plan, service, word });
+    const dial = ([name, one]) => [name, new Dial({ ...one, unit: () => word(one.unit) }, () => this.change())];
+    this.dials = Object.fromEntries(Object.entries(plan.dials).map(dial));
+    this.svg = document.createElementNS("http://www.w3.org/2000/svg", "svg");
+    this.svg.setAttribute("role", "img");
+    this.note = make("p", { className: "note", role: "status" });
+    this.figure = make("figure", { "aria-busy": "true" }, this.svg, this.note);
+    const text = (part) => this.#text(part);
+    section.append(this.#text("title", "h2"), text("lead"), this.figure, text("verdict"), text("more"));
+    section.querySelector("h2").id = `${section.id}-title`;
+    section.setAttribute("aria-labelledby", `${section.id}-title`);
+    this.#pulled();
+    new ResizeObserver(() => this.draw()).observe(this.svg);
+  }
+
+  #text(part, tag = "p") {
+    const element = make(tag, { className: part, ...(part === "verdict" && { "aria-live": "polite" }) });
+    this.#texts.push([element, part]);
+    return element;
+  }
+
+  /** Write all sentences again, in the language of the page. */
+  translate() {
+    const { id } = this.section;
+    for (const [element, part] of this.#texts) element.replaceChildren(...this.#sentence(this.word(`${id}_${part}`)));
+    for (const [name, dial] of Object.entries(this.dials)) dial.show(this.word(`${id}_dial_${name}`));
+    this.svg.setAttribute("aria-label", this.word(`${id}_alt`));
+    this.draw();
+    this.#tell();
+  }
+
+  #sentence(text) {
+    return text.split(NAMES).reduce((parts, piece, k, all) => {
+      if (k % EVERY_THIRD === 0) parts.push(piece);
+      if (k % EVERY_THIRD === 1) parts.push(this.#number(piece, all[k + 1]));
+      return parts;
+    }, []);
+  }
+
+  #number(name, value) {
+    const dial = this.dials[name];
+    if (!dial) {
+      const output = make("span", { className: "output", textContent: "…" });
+      output.dataset.name = name;
+      this.#outputs.set(name, output);
+      return output;
+    }
+    if (value === undefined) return dial.element;
+    const button = make("button", { type: "button", className: "try", textContent: dial.words(Number(value)) });
+    button.addEventListener("click", () => dial.set(Number(value)));
+    return button;
+  }
+
+  /** Ask the service about the numbers as they stand now. */
+  async change() {
+    const values = Object.fromEntries(Object.entries(this.dials).map(([name, { value }]) => [name, value]));
+    const { id } = this.section;
+    this.figure.setAttribute("aria-busy", "true");
+    try {
+      const answer = await this.plan.ask((call, how) => this.service.ask(`${id} ${call}`, call, how), values);
+      Object.assign(this, { data: { ...answer, values } });
+      this.#refused = null;
+    } catch (error) {
+      if (error instanceof Superseded) return;
+      if (!(error instanceof Problem)) throw error;
+      this.#refused = error.errors[0]?.detail ?? error.message;
+    }
+    this.figure.setAttribute("aria-busy", "false");
+    this.draw();
+    this.#tell();
+  }
+
+  /** Ask for what takes longer and makes the drawing better, if there is anything. */
+  async refine() {
+    await this.plan.refine?.((call, how) => this.service.ask(`${this.section.id} ${call} in full`, call, how));
+    this.draw();
+  }
+
+  /** Say that the service is lost, as long as there are seconds until the next try. */
+  lost(words) {
+    this.missed = words;
+    this.#tell();
+  }
+
+  /** What went wrong, under the drawing, which then is older than the numbers. */
+  #tell() {
+    const waits = this.missed && this.figure.getAttribute("aria-busy") === "true";
+    this.note.textContent = waits ? this.missed : this.#refused ? this.#refusal() : "";
+    this.figure.classList.toggle("stale", Boolean(this.#refused || waits));
+  }
+
+  /** The service's words, after those of the figure about what they mean here. */
+  #refusal() {
+    const { textContent } = refusalWords(this.#refused);
+    return this.plan.refused ? `${this.word(this.plan.refused)} ${textContent}` : textContent;
+  }
+
+  draw() {
+    const { svg, data, plan, word } = this;
+    if (!data || svg.clientWidth < NARROWEST) return;
+    const height = Math.round(Math.min(Math.max(TALL * svg.clientWidth, LOWEST), HIGHEST));
+    svg.setAttribute("height", height);
+    svg.replaceChildren();
+    const width = svg.clientWidth;
+    this.sheet = plan.draw(svg, { width, height }, data, word);
+    // On paper the drawing is scaled.
+    svg.setAttribute("viewBox", `0 0 ${width} ${svg.getAttribute("height")}`);
+    for (const [name, words] of Object.entries(plan.outputs(data, word))) {
+      const output = this.#outputs.get(name);
+      if (output && output.textContent !== words) output.textContent = words;
+    }
+  }
+
+  /** Dragging in the drawing moves the numbers too. */
+  #pulled() {
+    const { svg, plan } = this;
+    if (!plan.pull) return;
+    svg.classList.add(plan.knob ? "knobs" : "pulls");
+    let held = false;
+    const go = (event) => {
+      const { left, top } = svg.getBoundingClientRect();
+      const place = this.sheet.from(event.clientX - left, event.clientY - top);
+      for (const [name, value] of Object.entries(plan.pull(place, this.data))) this.dials[name].set(value);
+    };
+    svg.addEventListener("pointerdown", (event) => {
+      if (!this.sheet || event.button || (plan.knob && !event.target.classList.contains("knob"))) return;
+      svg.setPointerCapture(event.pointerId);
+      held = true;
+      go(event);
+      event.preventDefault();
+    });
+    svg.addEventListener("pointermove", (event) => held && go(event));
+    svg.addEventListener("lostpointercapture", () => (held = false));
+  }
+}

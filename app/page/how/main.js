@@ -1,0 +1,57 @@
+/** The page "How it works": five figures, asked one after another, in the language of the address or of the browser. */
+
+import { Service } from "../api.js";
+import { $, $$, onClick } from "../elements.js";
+import { say, setLanguage } from "../text.js";
+import { Figure } from "./figure.js";
+import { PLANS } from "./plans.js";
+import { WORDS } from "./words.js";
+
+const address = new URL(location.href);
+let column = 0;
+
+/** The text of this key, with the names of the values replaced; all other {names} stay. */
+const word = (key, values = {}) => WORDS[key][column].replace(/\{(\w+)\}/g, (whole, name) => values[name] ?? whole);
+
+const service = new Service({
+  busy: () => {},
+  lost(seconds) {
+    $("#lost").hidden = false;
+    $("#lost span").textContent = say(seconds ? "lost" : "trying", { seconds });
+    for (const figure of figures) figure.lost(word(seconds ? "lost" : "trying", { seconds }));
+  },
+  back() {
+    $("#lost").hidden = true;
+    for (const figure of figures) figure.lost("");
+  },
+});
+const figures = Object.entries(PLANS).map(([id, plan]) => new Figure($(`#${id}`), plan, service, word));
+
+function translate(choice) {
+  const language = setLanguage(choice);
+  column = language === "zh" ? 1 : 0;
+  for (const element of $$("[data-word]")) element.textContent = word(element.dataset.word);
+  document.title = `${word("title")} · ${say("title")}`;
+  for (const button of $$("[data-lang]")) button.setAttribute("aria-pressed", button.dataset.lang === language);
+  $("#name a").href = choice ? `.?lang=${choice}` : ".";
+  for (const figure of figures) figure.translate();
+}
+
+for (const button of $$("[data-lang]")) {
+  button.addEventListener("click", () => {
+    const { lang } = button.dataset;
+    address.searchParams.set("lang", lang);
+    history.replaceState(null, "", `${address.search}${location.hash}`);
+    translate(lang);
+  });
+}
+onClick("#lost button", () => service.retry());
+
+const given = address.searchParams.get("lang");
+translate(["en", "zh"].includes(given) ? given : undefined);
+// The sections have their texts only now, so the browser could not scroll to the one that the address names.
+const named = figures.find(({ section }) => `#${section.id}` === location.hash);
+named?.section.scrollIntoView();
+// The figure that is looked at comes first; one at a time leaves the service free for who drags.
+for (const figure of [...new Set([named ?? figures[0], ...figures])]) await figure.change();
+for (const figure of figures) await figure.refine();

@@ -1,0 +1,135 @@
+/** How fast the head goes when, and at what time of day: passages beside the head speed, and the clock at time 0. */
+
+import { make } from "./elements.js";
+import { refusalWords, say } from "./text.js";
+
+const DAY = 86_400;
+const [HOUR, MINUTE] = [3_600, 60];
+const CLOCK = /^([01]\d|2[0-3]):[0-5]\d(:[0-5]\d)?$/;
+const NUMBER = /^-?\d+([.,]\d+)?$/;
+/** Where a passage ends: at a place [m] or at a time [s]. */
+const ENDS = { m: "until_s", s: "until_time" };
+/** The first passage that a person adds: a pause of ten seconds after this many metres or seconds. */
+const FIRST = 20;
+
+const read = (text) => (NUMBER.test(text.trim()) ? Number(text.trim().replace(",", ".")) : text.trim());
+
+/** Passages as in an address, such as 0.5@20m_0@100s, as the service takes them; what is no number it refuses. */
+export function passagesIn(text) {
+  return text.split("_").filter(Boolean).map((one) => {
+    const [, speed, until, unit] = /^(.*?)@(.*?)([ms]?)$/.exec(one) ?? [null, one, "", ""];
+    return { speed: read(speed), [ENDS[unit] ?? ENDS.s]: read(until) };
+  });
+}
+
+/** The same as a text. */
+export const passagesText = (passages) =>
+  passages.map(({ speed, until_s: place, until_time: time }) => `${speed}@${place ?? time}${place === undefined || place === null ? "s" : "m"}`).join("_");
+
+/** The dance played faster by a factor. */
+export const quickened = (passages, factor) =>
+  passages.map(({ speed, until_time: time, ...place }) => ({ speed: speed * factor, ...place, ...(time !== undefined && { until_time: time / factor }) }));
+
+/** A time of day as a person types it, such as 19:30, 7:30 or 19:30:15, as the service takes it; null if it is none. */
+export function clockIn(text) {
+  const typed = text.trim().replaceAll("：", ":");
+  const full = /^\d:/.test(typed) ? `0${typed}` : typed;
+  return full === "" || CLOCK.test(full) ? full : null;
+}
+
+/** When the head has gone this far [m] since time 0 [s]. */
+export function timeAfter(distance, speed, passages) {
+  let [time, gone] = [0, 0];
+  for (const { speed: own, until_s: place, until_time: until } of passages) {
+    const stop = until ?? time + (place - gone) / own;
+    if (!(gone + own * (stop - time) < distance)) return time + (distance - gone) / own;
+    [time, gone] = [stop, place ?? gone + own * (stop - time)];
+  }
+  return time + (distance - gone) / speed;
+}
+
+/** The time of day at a time of the dance [s], down to the whole second; clock: that at time 0, such as 19:30 */
+export function timeOfDay(time, clock) {
+  const [hours, minutes, seconds = 0] = clock.split(":").map(Number);
+  const now = (((Math.floor(HOUR * hours + MINUTE * minutes + seconds + time) % DAY) + DAY) % DAY);
+  return [now / HOUR, (now / MINUTE) % MINUTE, now % MINUTE].map((part) => String(Math.floor(part)).padStart(2, "0")).join(":");
+}
+
+export class Pace {
+  #rows = [];
+
+  /** field: of the head speed, below which this stands */
+  constructor(field, state) {
+    this.state = state;
+    this.title = make("summary");
+    this.list = make("ol");
+    this.error = make("p", { className: "error", hidden: true });
+    this.add = make("button", { type: "button", id: "passage-add", "data-text": "passageAdd" });
+    this.add.addEventListener("click", () => this.#add());
+    const help = make("p", { className: "hint", "data-text": "passagesHelp" });
+    const box = make("details", { id: "passages" }, this.title, help, this.list, this.error, this.add);
+    this.clock = make("input", { id: "start_clock", autocomplete: "off", placeholder: "19:30", "aria-describedby": "clock-error" });
+    this.clock.addEventListener("change", () => this.#start());
+    this.wrong = make("p", { id: "clock-error", className: "error", hidden: true, "data-text": "clockWrong" });
+    const label = make("label", { className: "starts" }, make("span", { "data-text": "start_clock" }), " ", this.clock);
+    field.after(make("div", { id: "pace" }, box, label, this.wrong));
+    state.listen((names) => (names.has("passages") || names.has("start_clock")) && this.show());
+    this.show();
+  }
+
+  /** The passages as they are typed: [speed, until, unit] of each. */
+  get #typed() {
+    return this.#rows.map(({ speed, until, unit }) => `${read(speed.value)}@${read(until.value)}${unit.value}`);
+  }
+
+  #add() {
+    const last = passagesIn(this.state.get("passages")).at(-1);
+    const time = Number(last?.until_time ?? last?.until_s ?? FIRST) + FIRST / 2;
+    this.state.set({ passages: [...this.#typed, `0@${time}s`].join("_") });
+    this.#rows.at(-1).until.focus();
+  }
+
+  #start() {
+    const clock = clockIn(this.clock.value);
+    this.wrong.hidden = clock !== null;
+    this.clock.setAttribute("aria-invalid", clock === null);
+    if (clock === null) return;
+    this.clock.value = clock;
+    this.state.set({ start_clock: clock });
+  }
+
+  #row() {
+    const number = (key) => make("input", { inputMode: "decimal", autocomplete: "off", "data-label": key, "aria-label": say(key) });
+    const unit = make("select", { "data-label": "passageUnit", "aria-label": say("passageUnit") }, ...Object.keys(ENDS).map((one) => new Option(one, one)));
+    const remove = make("button", { type: "button", className: "reset", textContent: "✕", "data-label": "passageRemove", "aria-label": say("passageRemove") });
+    const row = { until: number("passageUntil"), unit, speed: number("passageSpeed"), remove };
+    const said = (key) => make("span", { "data-text": key, textContent: say(key) });
+    row.box = make("li", {}, said("passageUntilWord"), row.until, unit, row.speed, make("span", { className: "unit", textContent: "m/s" }), remove);
+    for (const field of [row.until, unit, row.speed]) field.addEventListener("change", () => this.state.set({ passages: this.#typed.join("_") }));
+    remove.addEventListener("click", () => this.state.set({ passages: this.#typed.toSpliced(this.#rows.indexOf(row), 1).join("_") }));
+    return row;
+  }
+
+  show() {
+    const passages = passagesIn(this.state.get("passages"));
+    while (this.#rows.length > passages.length) this.#rows.pop().box.remove();
+    while (this.#rows.length < passages.length) {
+      this.#rows.push(this.#row());
+      this.list.append(this.#rows.at(-1).box);
+    }
+    passages.forEach(({ speed, until_s: place, until_time: time }, k) => {
+      const row = this.#rows[k];
+      for (const [field, value] of [[row.until, place ?? time], [row.speed, speed]]) if (document.activeElement !== field) field.value = value;
+      row.unit.value = place === undefined ? "s" : "m";
+    });
+    this.list.parentElement.open ||= passages.length > 0;
+    this.title.textContent = passages.length ? say("passagesCount", { count: passages.length }) : say("passages");
+    if (document.activeElement !== this.clock) this.clock.value = this.state.get("start_clock");
+  }
+
+  /** detail: the service's message about the passages, or none */
+  refuse(detail) {
+    this.error.hidden = !detail;
+    Object.assign(this.error, refusalWords(detail ?? ""));
+  }
+}

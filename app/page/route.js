@@ -1,0 +1,142 @@
+/** The form of a drawn dance: presets, its points and its venue as lists, files in and out. */
+
+import { EMPTY, bent, freeName, moved, removed, withThing } from "./drawing.js";
+import { $, make } from "./elements.js";
+import { PRESETS } from "./presets.js";
+import { say } from "./text.js";
+
+const NUMBER = /^-?\d+([.,]\d+)?$/;
+const read = (field) => (NUMBER.test(field.value.trim()) ? Number(field.value.trim().replace(",", ".")) : null);
+/** An element with a text, or a label, that follows the language. */
+const said = (tag, key, properties = {}) => make(tag, { ...properties, "data-text": key, textContent: say(key) });
+const labelled = (tag, key, properties = {}) => make(tag, { ...properties, "data-label": key, "aria-label": say(key) });
+const number = (key, act) => {
+  const field = labelled("input", key, { inputMode: "decimal", autocomplete: "off", spellcheck: false });
+  field.addEventListener("change", () => act(read(field)));
+  return field;
+};
+/** Show a value unless a person is typing there. */
+const put = (field, value) => {
+  if (document.activeElement !== field && field.value !== String(value)) field.value = value;
+};
+
+export class RouteForm {
+  #points = [];
+  #things = [];
+
+  /** editor: chooses what is edited; steps: take changes; files: {open, save, map} */
+  constructor(box, state, steps, editor, files) {
+    Object.assign(this, { box, state, steps, editor });
+    this.preset = labelled("select", "preset", { id: "preset" });
+    this.preset.append(said("option", "presetChoose", { value: "" }), ...Object.keys(PRESETS).map((name) => said("option", `preset_${name}`, { value: name })));
+    this.preset.addEventListener("change", () => this.beginWith(this.preset.value));
+    this.corner = number("cornerRadius", (radius) => radius > 0 && this.#take({ radius }));
+    this.limit = number("speedLimit", (limit) => this.#take({ limit: limit > 0 ? limit : null }));
+    this.begin = number("pathBegin", (begin) => begin !== null && this.#take({ begin }));
+    this.rows = make("tbody");
+    this.list = make("ul");
+    this.pointsTitle = make("summary");
+    this.thingsTitle = make("summary");
+    this.note = make("p", { className: "hint", id: "route-note", role: "status" });
+    const heads = ["knotNumber", "x", "y", "straightOn", "remove"].map((key) => (key.length === 1 ? make("th", { scope: "col", textContent: `${key} [m]` }) : said("th", key, { scope: "col" })));
+    const table = make("table", {}, make("thead", {}, make("tr", {}, ...heads)), this.rows);
+    const field = (key, input, unit) => make("label", { className: "line" }, said("span", key), input, make("span", { className: "unit", textContent: unit }));
+    box.append(
+      make("p", { className: "buttons" }, this.preset, ...files.buttons()),
+      this.note,
+      field("speedLimit", this.limit, "m/s"),
+      (this.cornerLine = field("cornerRadius", this.corner, "m")),
+      field("pathBegin", this.begin, "m"),
+      make("details", { id: "points" }, this.pointsTitle, table),
+      make("details", { id: "things", open: true }, this.thingsTitle, this.list, said("p", "thingsHelp", { className: "hint" })),
+    );
+  }
+
+  get #drawing() {
+    return this.state.get("drawing");
+  }
+
+  #take(changes, kind = null) {
+    this.steps.take({ ...this.#drawing, ...changes }, kind);
+  }
+
+  /** Begin with a preset. */
+  beginWith(name) {
+    this.preset.value = "";
+    this.editor.edit(null);
+    this.state.set({ view: null, time: null });
+    this.steps.take(PRESETS[name] ?? EMPTY);
+  }
+
+  /** Show the drawing; rows are made anew only where there are more or fewer of them. */
+  show() {
+    const { points, straight, radius, limit, begin, things, path } = this.#drawing;
+    put(this.corner, radius);
+    put(this.limit, limit ?? "");
+    put(this.begin, begin);
+    this.limit.placeholder = say("none");
+    this.cornerLine.hidden = !straight.some((leg) => straight.includes(leg + 1));
+    this.pointsTitle.textContent = path ? say("pathFile") : say("pointsTitle", { count: points.length });
+    this.thingsTitle.textContent = say("thingsTitle", { count: things.length });
+    this.note.textContent = this.state.fits ? "" : say("tooLong");
+    this.#fit(this.#points, this.rows, points.length, (k) => this.#pointRow(k));
+    this.#fit(this.#things, this.list, things.length, (k) => this.#thingRow(k));
+    this.#points.forEach((row, k) => {
+      points[k].forEach((one, axis) => put(row.fields[axis], one));
+      row.leg.checked = straight.includes(k);
+      row.leg.disabled = k === points.length - 1;
+    });
+    this.#things.forEach((row, k) => {
+      const { name, kind, radius: own } = things[k];
+      put(row.name, name);
+      put(row.radius, own ?? "");
+      row.radius.hidden = row.unit.hidden = own === undefined;
+      row.edit.textContent = say(`thing_${kind}`);
+      row.edit.setAttribute("aria-pressed", this.editor.item === k);
+      row.edit.setAttribute("aria-label", say("editThing", { name }));
+      row.remove.setAttribute("aria-label", say("removeThing", { name }));
+    });
+  }
+
+  #fit(rows, box, count, make) {
+    while (rows.length > count) rows.pop().box.remove();
+    while (rows.length < count) {
+      rows.push(make(rows.length));
+      box.append(rows.at(-1).box);
+    }
+  }
+
+  #pointRow(k) {
+    const fields = ["pointX", "pointY"].map((key, axis) =>
+      number(key, (value) => value !== null && this.steps.take(moved(this.#drawing, null, k, this.#drawing.points[k].with(axis, value)))),
+    );
+    const leg = labelled("input", "straightOn", { type: "checkbox" });
+    leg.addEventListener("change", () => this.steps.take(bent(this.#drawing, k)));
+    const remove = labelled("button", "remove", { type: "button", className: "reset", textContent: "✕" });
+    remove.addEventListener("click", () => this.steps.take(removed(this.#drawing, null, k)));
+    const cells = [...fields, leg, remove].map((part) => make("td", {}, part));
+    return { fields, leg, box: make("tr", {}, make("th", { scope: "row", textContent: k + 1 }), ...cells) };
+  }
+
+  #thingRow(k) {
+    const row = {
+      edit: make("button", { type: "button" }),
+      name: labelled("input", "thingName", { autocomplete: "off", spellcheck: false }),
+      radius: number("thingRadius", (radius) => radius > 0 && this.steps.take(withThing(this.#drawing, k, { radius }))),
+      unit: make("span", { className: "unit", textContent: "m" }),
+      remove: make("button", { type: "button", className: "reset", textContent: "✕" }),
+    };
+    row.edit.addEventListener("click", () => {
+      this.editor.turn(true);
+      this.editor.edit(this.editor.item === k ? null : k);
+    });
+    row.name.addEventListener("change", () => {
+      const { things } = this.#drawing;
+      const name = row.name.value.trim() || say(`thing_${things[k].kind}`);
+      this.steps.take(withThing(this.#drawing, k, { name: freeName(things, name, things[k]) }));
+    });
+    row.remove.addEventListener("click", () => this.steps.take({ ...this.#drawing, things: this.#drawing.things.toSpliced(k, 1) }));
+    row.box = make("li", {}, row.edit, row.name, row.radius, row.unit, row.remove);
+    return row;
+  }
+}

@@ -1,0 +1,93 @@
+/** What a drawing adds to the picture: the square and what stands in it, bends that are too tight, benches at fault. */
+
+import { isWhole } from "./drawing.js";
+import { benchName, say } from "./text.js";
+
+const BEND_WIDTH = 7;
+const FAULT_WIDTH = 4;
+const RING = 14;
+const FONT = "600 12px system-ui, sans-serif";
+/** A name that begins nearer than this to the right edge stands on the left of its place [px]. */
+const NAME_ROOM = 120;
+/** A time counts as that of a failure within this [s]. */
+const SAME_TIME = 1e-6;
+
+const outline = (points, path = new Path2D(), close = true) => {
+  points.forEach(([x, y], k) => (k ? path.lineTo(x, y) : path.moveTo(x, y)));
+  if (close) path.closePath();
+  return path;
+};
+
+function drawThing(pen, colours, thing) {
+  const { kind, points, radius, holes = [] } = thing;
+  const { context } = pen;
+  if (kind === "wall") {
+    Object.assign(context, { lineCap: "round", lineJoin: "round" });
+    pen.stroke(outline(points, new Path2D(), false), colours.thing, Math.max(2 * radius * pen.scale, 2));
+    Object.assign(context, { lineCap: "butt", lineJoin: "miter" });
+    return;
+  }
+  const path = new Path2D();
+  if (kind === "circle") path.arc(...points[0], radius, 0, 2 * Math.PI);
+  else [points, ...holes].forEach((ring) => outline(ring, path));
+  context.fillStyle = kind === "area" ? colours.ground : colours.thing;
+  context.fill(path, "evenodd");
+  pen.stroke(path, colours.circle, kind === "area" ? 2 : 1);
+}
+
+/** A name beside its place, where the picture has room for it. */
+function label(pen, view, text, [x, y], colour, halo, away = 8) {
+  const { context } = pen;
+  const left = view.toScreen(x, y)[0] < view.width - NAME_ROOM;
+  context.save();
+  context.translate(x, y);
+  context.scale(1 / pen.scale, -1 / pen.scale);
+  Object.assign(context, { font: FONT, lineWidth: 4, lineJoin: "round", strokeStyle: halo, fillStyle: colour, textAlign: left ? "left" : "right" });
+  context.strokeText(text, left ? away : -away, -away);
+  context.fillText(text, left ? away : -away, -away);
+  context.restore();
+}
+
+/** Where the name of a thing stands: at its middle, that of an area at its first corner. */
+function labelled({ kind, points }) {
+  if (kind === "area") return points[0];
+  const [x, y] = points.reduce(([a, b], [c, d]) => [a + c, b + d], [0, 0]);
+  return [x / points.length, y / points.length];
+}
+
+/** The layers of a drawn dance. get(): {drawing, selected, failure, course, benches}, or null in another kind of dance */
+export function layers(dance, get) {
+  const below = (pen, colours) => {
+    const shown = get();
+    if (!shown) return;
+    const { things } = shown.drawing;
+    const order = [...things.keys()].sort((a, b) => (things[b].kind === "area") - (things[a].kind === "area"));
+    for (const k of order) if (isWhole(things[k])) drawThing(pen, colours, things[k]);
+    for (const bend of shown.course?.bends ?? []) pen.stroke(outline(bend.points, new Path2D(), false), colours.head, BEND_WIDTH);
+  };
+  const above = (pen, colours) => {
+    const shown = get();
+    if (!shown) return;
+    const { drawing, selected, failure } = shown;
+    for (const [k, thing] of drawing.things.entries()) {
+      if (!thing.points.length) continue;
+      const colour = selected === k || failure?.area === thing.name ? colours.pick : colours.text;
+      label(pen, dance.view, thing.name, labelled(thing), colour, colours.card);
+      if (failure?.area === thing.name && isWhole(thing)) pen.stroke(outline(thing.points, new Path2D(), thing.kind !== "wall"), colours.pick, FAULT_WIDTH);
+    }
+    for (const { points, radius, least_radius: least, bench } of shown.course?.bends ?? []) {
+      const middle = points[Math.floor(points.length / 2)];
+      pen.stroke(pen.circle(...middle, RING), colours.head, 3);
+      const words = { radius: radius.toFixed(2), least: least.toFixed(2), bench: benchName(bench, shown.benches) };
+      label(pen, dance.view, say("tightHere", words), middle, colours.head, colours.card, RING + 6);
+    }
+    const { pose } = dance.scene;
+    if (!failure || !pose || Math.abs(pose.time - failure.time) > SAME_TIME) return;
+    for (const k of failure.benches) if (k < pose.x.length - 1) pen.stroke(dance.bench(k), colours.pick, FAULT_WIDTH);
+    const first = failure.benches[0];
+    if (first === undefined) return;
+    const last = Math.min(first + 1, pose.x.length - 1);
+    pen.stroke(pen.circle((pose.x[first] + pose.x[last]) / 2, (pose.y[first] + pose.y[last]) / 2, RING), colours.pick, 3);
+  };
+  return { below, above };
+}

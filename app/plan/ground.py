@@ -1,0 +1,255 @@
+"""The map of a plan: square, obstacles, path, swept ground, zone to keep clear, marks, benches at an instant."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from matplotlib.patches import Rectangle
+
+from app.maps.features import inner_point
+from app.maps.marks import line_of
+from app.plan.sheet import POINT, Box, PaperName, Scale, Sheet, north_arrow, scale_of
+from app.plan.timing import Timing
+from core import Dance, Venue
+from core.paths.route import Route
+from core.plots import BLUE, VERMILION
+from core.shapes.engines import Polygons
+from core.values import Floats
+
+SWEPT, CLEAR, EDGE, STONE, BENCH = "#FFE3B3", "#FFF6E5", "#B8860B", "#D9D9D9", "#9CC7E5"
+# Distance of two points of an outline [mm].
+SEEN = 0.12
+# Half the length of a mark, distance of its number from the path, and of two arrows along the path [mm].
+TICK, BESIDE, ARROWS = 1.1, 2.6, 45.0
+# Smallest type that can be read on a bench [pt].
+SMALLEST = 3.4
+# Type of numbers at marks, of names, of benches, and of coordinates along the frame [pt].
+MARK_TYPE, NAME_TYPE, BENCH_TYPE, COORDINATE_TYPE = 5.5, 7.0, 5.0, 5.0
+# The square is drawn whole if this many times the dance holds it; else as much of it as is around the dance.
+SQUARE_MOST = 2.0
+# Every such mark has its number first where not all of them have room.
+ROUND = 4
+
+
+@dataclass(frozen=True, slots=True)
+class Ground:
+    """What a map shows.
+
+    swept: the ground that benches sweep; clear: the zone around it to keep clear, of so much width [m]
+    """
+
+    dance: Dance
+    venue: Venue | None
+    swept: Polygons
+    clear: Polygons
+    width: float
+    timing: Timing
+    line: Floats
+    geographic: bool
+
+
+def ground_of(
+    dance: Dance, venue: Venue | None, swept: tuple[Polygons, Polygons], width: float, timing: Timing, geographic: bool
+) -> Ground:
+    """The ground of a plan, with the line of its path."""
+    path, marks = dance.path, timing.marks
+    low = float(marks.s[0])
+    high = path.end if isinstance(path, Route) else float(marks.s[-1]) + marks.spacing
+    line = line_of(path, max(low, path.begin) if isinstance(path, Route) else low, min(high, path.end))
+    return Ground(dance, venue, *swept, width, timing, line, geographic)
+
+
+def scale_for(ground: Ground, name: PaperName) -> Scale:
+    """The scale at which all of it fits on the paper. raises: InvalidValue"""
+    rings = np.concatenate([rings[0] for rings in ground.clear])
+    low, high = rings.min(axis=0), rings.max(axis=0)
+    if ground.venue is not None:
+        square = np.array(ground.venue.square.rings[0])
+        least, most = np.minimum(low, square.min(axis=0)), np.maximum(high, square.max(axis=0))
+        if ((most - least) <= SQUARE_MOST * (high - low)).all():
+            low, high = least, most
+    return scale_of(name, low, high)
+
+
+def draw_ground(sheet: Sheet, ground: Ground, scale: Scale, *, numbers: bool) -> Rectangle:
+    """Draw the map on a sheet; returns its frame. numbers: of the marks, and the names of obstacles"""
+    room = scale.paper.room
+    frame = sheet.frame(room)
+    _draw_coordinates(sheet, scale, room)
+    north_arrow(sheet, room[2] - 7.0, room[3] - 16.0, ground.geographic)
+    for polygons, colour, look in (
+        (ground.clear, CLEAR, {"edgecolor": EDGE, "linestyle": (0, (4, 2)), "linewidth": 0.5, "zorder": 1}),
+        (ground.swept, SWEPT, {"edgecolor": EDGE, "linewidth": 0.3, "zorder": 2}),
+    ):
+        for rings in polygons:
+            sheet.area([_drawn(scale.on_paper(ring)) for ring in rings], frame, facecolor=colour, **look)
+    _draw_venue(sheet, ground, scale, frame)
+    line = scale.on_paper(ground.line)
+    sheet.line(line, color=BLUE, linewidth=0.9 if numbers else 0.4, zorder=4, clip_path=frame)
+    if numbers:
+        _draw_arrows(sheet, line)
+        _draw_marks(sheet, ground, scale, line)
+    return frame
+
+
+def _drawn(ring: Floats) -> Floats:
+    """A closed ring with as many of its points as can be seen on paper."""
+    along = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(ring, axis=0).T))])
+    _, kept = np.unique((along / SEEN).astype(int), return_index=True)
+    return np.concatenate([ring[kept], ring[:1]]) if kept.size > ROUND else ring
+
+
+def _draw_coordinates(sheet: Sheet, scale: Scale, room: Box) -> None:
+    """Short lines with their x or y [m] along the frame, as far apart as the scale bar is long."""
+    step, unit = scale.bar, 1000.0 / scale.ratio
+    for axis, (near, far) in enumerate(((room[0], room[2]), (room[1], room[3]))):
+        low, high = (scale.middle[axis] + (end - 0.5 * (near + far)) / unit for end in (near, far))
+        for value in np.arange(np.ceil(low / step), np.floor(high / step) + 1.0) * step:
+            place = 0.5 * (near + far) + (value - scale.middle[axis]) * unit
+            if not near + 8.0 < place < far - 8.0:
+                continue
+            words = f"{value + 0.0:g}"
+            if axis == 0:
+                sheet.line([(place, room[1]), (place, room[1] + 1.5)], linewidth=0.4)
+                sheet.words(place, room[1] + 2.2, words, COORDINATE_TYPE, ha="center", color="#555555")
+                sheet.take(np.array([place - 4.0, room[1], place + 4.0, room[1] + 4.5]))
+            else:
+                sheet.line([(room[0], place), (room[0] + 1.5, place)], linewidth=0.4)
+                sheet.words(room[0] + 2.2, place - 0.7, words, COORDINATE_TYPE, color="#555555")
+                sheet.take(np.array([room[0], place - 1.5, room[0] + 9.0, place + 1.5]))
+
+
+def _draw_venue(sheet: Sheet, ground: Ground, scale: Scale, frame: Rectangle) -> None:
+    for area in ground.venue.areas if ground.venue else ():
+        rings = [scale.on_paper(np.array(ring)) for ring in area.rings]
+        if ground.venue and area is ground.venue.square:
+            sheet.area(rings, frame, facecolor="none", edgecolor="black", linewidth=1.2, zorder=5)
+            continue
+        sheet.area(rings, frame, facecolor=STONE, edgecolor="black", hatch="////", linewidth=0.7, zorder=3)
+        x, y = scale.on_paper(np.array(inner_point(area.rings))).tolist()
+        (left, low), (right, high) = rings[0].min(axis=0).tolist(), rings[0].max(axis=0).tolist()
+        beside = 0.5 * sheet.width(area.name, NAME_TYPE) + 1.0
+        wide = 2.0 * beside < right - left and high - low > 4.0
+        around = [(right + beside, y), (left - beside, y), (x, high + 2.0), (x, low - 2.0)]
+        look = {"bbox": {"facecolor": "white", "edgecolor": "none", "pad": 0.6}} if wide else {}
+        sheet.label(area.name, NAME_TYPE, [(x, y), *around] if wide else around, scale.paper.room, **look)
+        sheet.take(np.array([left, low, right, high]))
+
+
+def _draw_arrows(sheet: Sheet, line: Floats) -> None:
+    """Arrows along the path, in the direction of the dance."""
+    steps = np.hypot(*np.diff(line, axis=0).T)
+    along = np.concatenate([[0.0], np.cumsum(steps)])
+    for place in np.arange(0.5 * ARROWS, along[-1], ARROWS):
+        k = int(np.searchsorted(along, place))
+        tangent = (line[k] - line[k - 1]) / max(steps[k - 1], 1e-9)
+        normal = np.array([-tangent[1], tangent[0]])
+        tip = line[k] + 1.6 * tangent
+        sheet.shape(
+            np.array([tip, line[k] - 1.0 * tangent + 0.9 * normal, line[k] - 1.0 * tangent - 0.9 * normal]),
+            facecolor=BLUE, linewidth=0.0, zorder=6,
+        )  # fmt: skip
+
+
+def _draw_marks(sheet: Sheet, ground: Ground, scale: Scale, line: Floats) -> None:
+    """Marks with their numbers: beside the path, or on it where other parts of the path are beside it."""
+    room = scale.paper.room
+    marks, path = ground.timing.marks, ground.dance.path
+    points, tangents = scale.on_paper(marks.points), path.tangent(marks.s)
+    normals = np.stack([-tangents[:, 1], tangents[:, 0]], axis=-1)
+    for point, normal in zip(points, normals, strict=True):
+        sheet.line([point - TICK * normal, point + TICK * normal], linewidth=0.6, zorder=6)
+    begin = scale.on_paper(path.position(ground.timing.start_place + marks.first))
+    sheet.axes.plot(*begin, marker="o", markersize=4.5, markerfacecolor="white", markeredgecolor=VERMILION, zorder=7)
+    words = sheet.say("head at the start", "龙头起点")
+    beside = 0.5 * sheet.width(words, 6.0) + 2.0
+    look = {"bbox": {"facecolor": "white", "edgecolor": "none", "pad": 0.4, "alpha": 0.8}}
+    near = [(begin[0] + side * beside, begin[1] + up) for up in (4.0, -4.0) for side in (1.0, -1.0)]
+    sheet.label(words, 6.0, near, room, color=VERMILION, **look)
+    ticks = np.stack([points - TICK * normals, points + TICK * normals])
+    sheet.take(np.concatenate([ticks.min(axis=0), ticks.max(axis=0)], axis=1))
+    for k in sorted(range(len(points)), key=lambda k: (k % ROUND != 0, k)):
+        near_by = [points[k] + side * BESIDE * normals[k] for side in (1.0, -1.0, 1.5, -1.5)]
+        wide = 0.5 * sheet.width(marks.names[k], MARK_TYPE)
+        free = [one for one in near_by if not (np.abs(line - one) < (wide, 1.0)).all(axis=1).any()]
+        along = [points[k] + side * (wide + 1.0) * tangents[k] for side in (1.0, -1.0)]
+        sheet.label(marks.names[k], MARK_TYPE, free or along, room, **look)
+
+
+def draw_benches(
+    sheet: Sheet, ground: Ground, scale: Scale, outlines: Floats, names: Sequence[str], frame: Rectangle
+) -> None:
+    """Draw every bench in its true size, with its name where there is room for it.
+
+    outlines: corners (n, 4, 2) [m]
+    """
+    room = scale.paper.room
+    corners = scale.on_paper(outlines)
+    for k, bench in enumerate(corners):
+        colour = VERMILION if k == 0 else BENCH
+        sheet.shape(bench, frame, facecolor=colour, edgecolor="black", linewidth=0.3, zorder=5)
+    middles = corners.mean(axis=1)
+    across = corners[:, 0] - corners[:, 1]
+    wide = np.hypot(*across.T)
+    normals = across / wide[:, None]
+    # Words keep off the benches: off eight boxes along each.
+    shares = ((np.arange(8) + 0.5) / 8.0)[None, :, None]
+    spots = (shares * corners[:, 0:1] + (1.0 - shares) * corners[:, 3:4] - 0.5 * across[:, None]).reshape(-1, 2)
+    sheet.take(np.concatenate([spots - 0.4, spots + 0.4], axis=1))
+    # Head, tail and every tenth bench first, where not all have room.
+    last = len(names) - 1
+    for k in sorted(range(len(names)), key=lambda k: (k not in (0, last), k % 10 != 0, k % 5 != 0, k)):
+        size = min(NAME_TYPE, 0.8 * wide[k] / POINT)
+        long = np.hypot(*(corners[k, 0] - corners[k, 3]))
+        if size >= SMALLEST and sheet.width(names[k], size) < 0.9 * long:
+            turned = (np.degrees(np.arctan2(normals[k, 1], normals[k, 0])) - 90.0 + 90.0) % 180.0 - 90.0
+            centred: dict[str, Any] = {"ha": "center", "va": "center_baseline", "rotation_mode": "anchor"}
+            x, y = middles[k].tolist()
+            sheet.words(x, y, names[k], size, rotation=turned, **centred)
+            continue
+        size = NAME_TYPE if k == 0 else BENCH_TYPE
+        # Words reach further to the side than up.
+        reach = 0.5 * wide[k] + 1.5 + 0.5 * abs(normals[k, 0]) * sheet.width(names[k], size)
+        places = [middles[k] + side * reach * normals[k] for side in (1.0, -1.0)]
+        if not sheet.label(names[k], size, places, room):
+            sheet.label(names[k].partition(" ")[0], size, places, room)
+
+
+def draw_legend(sheet: Sheet, ground: Ground, left: float, right: float, bottom: float, *, benches: bool) -> None:
+    """What the colours and lines of a map mean, in a cell of the title block."""
+    say, wide = sheet.say, right - left - 14.0
+    spacing = ground.timing.marks.spacing
+    rows: list[tuple[str, dict[str, Any], str]] = [
+        (
+            "area",
+            {"facecolor": SWEPT, "edgecolor": EDGE, "linewidth": 0.3},
+            say("benches sweep this", "板凳扫过之地"),
+        ),
+        (
+            "area",
+            {"facecolor": CLEAR, "edgecolor": EDGE, "linestyle": (0, (4, 2)), "linewidth": 0.5},
+            say(f"keep clear, {ground.width:g} m", f"保持清空，{ground.width:g} m"),
+        ),
+        ("line", {"color": BLUE, "linewidth": 0.9}, say("path of the handles", "把手的路线")),
+    ]
+    if benches:
+        rows.append(("area", {"facecolor": BENCH, "edgecolor": "black", "linewidth": 0.3}, say("bench", "板凳")))
+        rows.append(("area", {"facecolor": VERMILION, "edgecolor": "black", "linewidth": 0.3}, say("head", "龙头")))
+    else:
+        rows.append(("tick", {}, say(f"chalk mark every {spacing:g} m", f"粉笔标记，每 {spacing:g} m")))
+    if ground.venue and ground.venue.obstacles:
+        look: dict[str, Any] = {"facecolor": STONE, "edgecolor": "black", "hatch": "////", "linewidth": 0.5}
+        rows.append(("area", look, say("obstacle", "障碍物")))
+    for k, (kind, look, words) in enumerate(rows):
+        x, y = left + 2.0, bottom + 30.0 - 5.6 - 4.3 * k
+        if kind == "area":
+            sheet.shape(np.array([(x, y), (x + 8.0, y), (x + 8.0, y + 2.6), (x, y + 2.6)]), **look)
+        elif kind == "line":
+            sheet.line([(x, y + 1.3), (x + 8.0, y + 1.3)], **look)
+        else:
+            sheet.line([(x, y + 1.3), (x + 8.0, y + 1.3)], color=BLUE, linewidth=0.9)
+            sheet.line([(x + 4.0, y + 0.2), (x + 4.0, y + 2.4)], linewidth=0.6)
+        sheet.words(x + 10.0, y + 0.4, words, 6.5, within=wide)

@@ -1,0 +1,181 @@
+"""The plan of a dance as PDF: the map true to scale, the benches at three moments, the points to paint, the times.
+
+The same dance gives the same bytes on the same versions of the libraries: no date stands in the file.
+"""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import matplotlib
+from matplotlib.backends.backend_pdf import PdfPages
+
+import core
+from app.files.drawing import DRAWING
+from app.files.words import Say
+from app.plan.ground import Ground, draw_benches, draw_ground, draw_legend, scale_for
+from app.plan.sheet import BLOCK, MARGIN, Paper, PaperName, Scale, Sheet, Title, title_block
+from app.plan.tables import Table, draw_tables
+from app.plan.timing import Clock, points_of
+from core import Spiral
+
+# Fonts as outlines: every machine draws them alike, and their characters are told beside them, so words can be found.
+FONTS: dict[Any, Any] = {"pdf.fonttype": 3, "hatch.linewidth": 0.4}
+
+
+@dataclass(frozen=True, slots=True)
+class Plan:
+    """What a plan says.
+
+    family: of fonts; names: of the benches; clock: how times are said; title: of the block on every sheet
+    """
+
+    ground: Ground
+    family: tuple[str, ...]
+    names: Sequence[str]
+    clock: Clock
+    title: Title
+    paper: PaperName
+
+
+@dataclass(frozen=True, slots=True)
+class _Page:
+    """A sheet, its subtitle, the scale of its map, and whether benches stand on it (None: a sheet of tables)."""
+
+    sheet: Sheet
+    subtitle: str
+    scale: Scale | None = None
+    benches: bool = False
+
+
+def plan_pdf(plan: Plan, say: Say, progress: Callable[[float], None] = lambda share: None) -> bytes:
+    """The bytes of the plan. raises: InvalidValue where it fits on no sheet"""
+    scale = scale_for(plan.ground, plan.paper)
+    sink = io.BytesIO()
+    with DRAWING, matplotlib.rc_context({"font.family": plan.family, **FONTS}):
+        pages = [*_maps(plan, scale, say), *_tables(plan, scale.paper, say)]
+        told = {"Title": plan.title.title, "Creator": "Bench Dragon", "CreationDate": None}
+        with PdfPages(sink, metadata=told) as file:
+            for k, page in enumerate(pages, start=1):
+                cell = title_block(page.sheet, plan.title, page.subtitle, f"{k}/{len(pages)}", page.scale)
+                if page.scale is not None:
+                    draw_legend(page.sheet, plan.ground, *cell, MARGIN, benches=page.benches)
+                else:
+                    _notes(page.sheet, plan, *cell)
+                file.savefig(page.sheet.figure)
+                progress(k / len(pages))
+    return sink.getvalue()
+
+
+def _maps(plan: Plan, scale: Scale, say: Say) -> Iterator[_Page]:
+    ground, timing = plan.ground, plan.ground.timing
+    sheet = Sheet(scale.paper, say, plan.family)
+    draw_ground(sheet, ground, scale, numbers=True)
+    yield _Page(sheet, say("Plan of the ground", "场地平面图"), scale)
+    dance = ground.dance
+    poses = core.trajectory(dance, timing.moments).position
+    for time, handles in zip(timing.moments, poses, strict=True):
+        sheet = Sheet(scale.paper, say, plan.family)
+        frame = draw_ground(sheet, ground, scale, numbers=False)
+        draw_benches(sheet, ground, scale, core.bench_outlines(dance.dragon, handles), plan.names, frame)
+        when = plan.clock.words(time)
+        yield _Page(sheet, say(f"Who stands where at {when}", f"{when} 时各节板凳的位置"), scale, True)
+
+
+def _tables(plan: Plan, paper: Paper, say: Say) -> Iterator[_Page]:
+    tables = [_events(plan, say), _benches(plan, say), _marks(plan, say), _points(plan, say)]
+    for sheet in draw_tables(tables, lambda: Sheet(paper, say, plan.family)):
+        sheet.frame(paper.room)
+        yield _Page(sheet, say("Points to paint, and times", "放样点与时间表"))
+
+
+def _notes(sheet: Sheet, plan: Plan, left: float, right: float) -> None:
+    """What the words in the tables mean."""
+    say, place = sheet.say, f"{plan.ground.timing.start_place:.1f}"
+    lines = [
+        say("mark: how far it is along the path from mark 0 [m]", "标记：沿路线距标记 0 的长度 [m]"),
+        say("times: of the day", "时间：当日时刻")
+        if plan.clock.start_clock
+        else say("times: minutes:seconds, from time 0 of the dance", "时间：自时刻 0 起的 分:秒"),
+        say(
+            f"enters: the front handle passes {place} m, where the head stands at the start",
+            f"进入：前把手经过 {place} m，即龙头的起始位置",
+        ),
+        say("bench columns: where the front handle is along the path", "各时刻：前把手沿路线的位置"),
+        say("–: not during the dance", "–：舞龙期间不发生"),
+    ]
+    for k, line in enumerate(lines):
+        sheet.words(left + 2.0, MARGIN + BLOCK - 5.0 - 4.3 * k, line, 6.5, within=right - left - 4.0)
+
+
+def _points(plan: Plan, say: Say) -> Table:
+    ground = plan.ground
+    marks = ground.timing.marks
+    columns = [say("mark [m]", "标记 [m]"), "x [m]", "y [m]"]
+    if isinstance(ground.dance.path, Spiral):
+        columns += [say("radius [m]", "半径 [m]"), say("angle [°]", "角度 [°]")]
+    rows = [
+        [name, *(f"{value:.3f}" for value in values[:3]), *(f"{value:.2f}" for value in values[3:])]
+        for name, values in zip(marks.names, points_of(ground.dance, marks), strict=True)
+    ]
+    return Table(say("Points to paint", "放样点"), columns, rows)
+
+
+def _marks(plan: Plan, say: Say) -> Table:
+    timing, words = plan.ground.timing, plan.clock.words
+    rows = [
+        [name, words(head), words(tail)]
+        for name, head, tail in zip(timing.marks.names, timing.head, timing.tail, strict=True)
+    ]
+    columns = [say("mark [m]", "标记 [m]"), say("head", "龙头"), say("tail", "龙尾")]
+    return Table(say("Head and tail at the marks", "龙头与龙尾经过标记的时间"), columns, rows)
+
+
+def _benches(plan: Plan, say: Say) -> Table:
+    timing, words = plan.ground.timing, plan.clock.words
+    columns = [
+        say("bench", "板凳"),
+        say("enters", "进入"),
+        *(say(f"at {words(one)}", words(one)) for one in timing.moments),
+    ]
+    rows = [
+        [name, words(passes), *(f"{place:.1f}" for place in places)]
+        for name, passes, places in zip(plan.names, timing.passes, timing.handles[:, :-1].T.tolist(), strict=True)
+    ]
+    heading = say("Front handles of benches [m]", "各节前把手 [m]")
+    return Table(heading, columns, rows, frozenset({0}))
+
+
+def _events(plan: Plan, say: Say) -> Table:
+    """What happens when, in a few lines."""
+    timing, words = plan.ground.timing, plan.clock.words
+    last = timing.handles[-1]
+    rows = [
+        [
+            say("the dance begins, head at", "开始，龙头在"),
+            f"{timing.start_place:.1f} m",
+            words(timing.moments[0]),
+        ],
+        [say("the tail enters, at", "龙尾进入"), f"{timing.start_place:.1f} m", words(timing.tail_leaves)],
+        *_speeds(plan, say),
+        [say("the dance ends, head at", "结束，龙头在"), f"{last[0]:.1f} m", words(timing.moments[-1])],
+        [say("the dance ends, tail at", "结束，龙尾在"), f"{last[-1]:.1f} m", words(timing.moments[-1])],
+    ]
+    columns = [say("event", "事件"), say("along the path", "沿路线"), say("time", "时间")]
+    return Table(say("In short", "概要"), columns, rows, frozenset({0}))
+
+
+def _speeds(plan: Plan, say: Say) -> Iterator[list[str]]:
+    """When the head takes another speed, in a dance with passages."""
+    dance, timing = plan.ground.dance, plan.ground.timing
+    if not dance.passages:
+        return
+    first = timing.marks.first
+    for one in dance.clock.stretches(timing.moments[0], timing.moments[-1]):
+        words = say(f"from here at {one.speed:g} m/s", f"此后速度 {one.speed:g} m/s")
+        if one.speed == 0.0:
+            words = say("a pause begins", "开始停顿")
+        yield [words, f"{one.first - first:.1f} m", plan.clock.words(one.begin)]

@@ -1,0 +1,99 @@
+"""Tables that flow over columns and sheets."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from app.plan.sheet import Box, Sheet
+
+# Height of a row and of a heading [mm], type of rows and of headings [pt], space between columns and blocks [mm].
+ROW, HEADING = 4.0, 7.0
+TYPE, HEADING_TYPE = 7.0, 9.0
+COLUMN_SPACE, BLOCK_SPACE = 3.0, 7.0
+# Rows that a table must have room for where it begins.
+ROWS_LEAST = 4
+# Longest entry [mm]; a longer one is set smaller.
+WIDEST = 45.0
+
+
+@dataclass(frozen=True, slots=True)
+class Table:
+    """A table: its heading, the names of its columns, rows of words; a column of words stands left, others right."""
+
+    heading: str
+    columns: Sequence[str]
+    rows: Sequence[Sequence[str]]
+    left: frozenset[int] = frozenset()
+
+
+def widths_of(sheet: Sheet, table: Table) -> list[float]:
+    """Width of each column [mm]."""
+    heads = [sheet.width(word, TYPE, bold=True) for word in table.columns]
+    widest = [max(sheet.width(word, TYPE) for word in column) for column in zip(*table.rows, strict=True)]
+    widths = [min(WIDEST, max(pair)) for pair in zip(heads, widest, strict=True)]
+    wide = sum(widths) + COLUMN_SPACE * (len(widths) - 1)
+    # A heading wider than its columns spreads them.
+    more = max(0.0, sheet.width(table.heading, HEADING_TYPE, bold=True) - wide)
+    return [width + more / len(widths) for width in widths]
+
+
+def draw_tables(tables: Sequence[Table], new_sheet: Callable[[], Sheet]) -> list[Sheet]:
+    """Draw tables one after another, in blocks beside one another, on as many sheets as they need."""
+    sheets: list[Sheet] = []
+    room: Box = (0.0, 0.0, 0.0, 0.0)
+    x = y = right = 0.0
+    for table in tables:
+        done, widths = 0, list[float]()
+        while done < len(table.rows):
+            if not sheets:
+                sheets.append(new_sheet())
+                left, bottom, most, top = sheets[-1].paper.room
+                room = (left + 3.0, bottom + 3.0, most - 3.0, top - 3.0)
+                x, y, right = room[0], room[3], room[0]
+            widths = widths or widths_of(sheets[-1], table)
+            wide = sum(widths) + COLUMN_SPACE * (len(widths) - 1)
+            fits = int((y - room[1] - HEADING - ROW) / ROW)
+            if fits < min(ROWS_LEAST, len(table.rows) - done) or x + wide > room[2] + 0.01:
+                if y == room[3] and x == room[0]:
+                    fits = max(1, fits)  # Wider than a sheet: nothing would help.
+                else:
+                    x, y = right + BLOCK_SPACE, room[3]
+                    if x + wide > room[2]:
+                        sheets.append(new_sheet())
+                        x, y, right = room[0], room[3], room[0]
+                    continue
+            left_over = len(table.rows) - done - fits
+            if 0 < left_over < ROWS_LEAST < fits:  # No block of a row or two.
+                fits -= ROWS_LEAST
+            some = table.rows[done : done + fits]
+            y = _draw_block(sheets[-1], table, some, widths, (x, y))
+            done, right = done + len(some), max(right, x + wide)
+    return sheets
+
+
+def _draw_block(
+    sheet: Sheet, table: Table, rows: Sequence[Sequence[str]], widths: Sequence[float], at: tuple[float, float]
+) -> float:
+    """Draw some rows of a table from its upper left corner on; returns where the next may begin."""
+    x, y = at
+    wide = sum(widths) + COLUMN_SPACE * (len(widths) - 1)
+    sheet.words(x, y - 4.5, table.heading, HEADING_TYPE, within=wide, fontweight="bold")
+    y -= HEADING + ROW
+    for k, row in enumerate([table.columns, *rows]):
+        if k % 2 == 0 and k:
+            corners = [(x - 1.0, y - 1.1), (x + wide + 1.0, y - 1.1), (x + wide + 1.0, y + 2.9), (x - 1.0, y + 2.9)]
+            sheet.shape(np.array(corners), facecolor="#F2F2F2", linewidth=0.0, zorder=0)
+        place = x
+        for column, (word, width) in enumerate(zip(row, widths, strict=True)):
+            size, bold = TYPE, k == 0
+            if (long := sheet.width(word, size, bold)) > width:
+                size, long = size * width / long, width
+            sheet.entry(place if column in table.left else place + width - long, y, word, size, bold=bold)
+            place += width + COLUMN_SPACE
+        if k == 0:
+            sheet.line([(x - 1.0, y - 1.1), (x + wide + 1.0, y - 1.1)], linewidth=0.5)
+        y -= ROW
+    return y - 2.0

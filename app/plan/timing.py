@@ -1,0 +1,81 @@
+"""What happens when: when head and tail pass each mark, and where each bench stands."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from app.maps.marks import Marks
+from app.wire.clocks import time_of_day
+from core import Budget, Dance, Spiral
+from core.motion.places import Passing, handle_places
+from core.values import Floats
+
+
+@dataclass(frozen=True, slots=True)
+class Clock:
+    """Times as people read them: minutes and seconds of the dance, or the time of day if that of time 0 is given."""
+
+    start_clock: str | None = None
+
+    def words(self, time: float | None) -> str:
+        """A time [s]; a dash for None.
+
+        >>> Clock().words(72.46), Clock().words(-4.19), Clock().words(None)
+        ('1:12.5', '-0:04.2', '–')
+        """
+        if time is None:
+            return "–"
+        if self.start_clock is not None:
+            return time_of_day(time, self.start_clock)
+        tenths = round(abs(time) * 10.0)
+        minutes, rest = divmod(tenths, 600)
+        sign = "-" if time < 0.0 and tenths else ""
+        return f"{sign}{minutes}:{rest // 10:02d}.{rest % 10}"
+
+
+@dataclass(frozen=True, slots=True)
+class Timing:
+    """marks: along the path; head, tail: when handle 0 and the last one pass each of them [s], None: they do not
+
+    moments: three instants (3,) [s]; handles: places of all handles then (3, n + 1), from the first mark [m]
+    passes: when the front handle of each bench passes where the head stood at the start [s]
+    tail_leaves: when the tail does [s], None: not before the end
+    """
+
+    marks: Marks
+    head: list[float | None]
+    tail: list[float | None]
+    moments: list[float]
+    handles: Floats
+    passes: list[float | None]
+    tail_leaves: float | None
+
+    @property
+    def start_place(self) -> float:
+        """Where the head stands at the start, from the first mark [m]."""
+        return float(self.handles[0, 0])
+
+
+def timing_of(dance: Dance, marks: Marks, start: float, stop: float, budget: Budget) -> Timing:
+    """The timing of a dance between two instants [s]. raises: TooMuchWork"""
+    passing, last = Passing(dance, start, stop, budget=budget), dance.dragon.benches
+    moments = [start, 0.5 * (start + stop), stop]
+    handles = handle_places(dance, moments, budget=budget)
+    begin = float(handles[0, 0])
+    passes = [passing.when(k, begin) for k in range(last + 1)]
+    head = [passing.when(0, s) for s in marks.s.tolist()]
+    tail = [passing.when(last, s) for s in marks.s.tolist()]
+    return Timing(marks, head, tail, moments, handles - marks.first, passes[:-1], passes[-1])
+
+
+def points_of(dance: Dance, marks: Marks) -> list[tuple[float, ...]]:
+    """Of each mark its coordinates x, y [m], and on a spiral its distance from the centre [m] and its angle, from 0 to
+    360 [degrees], counter-clockwise from the x axis."""
+    if not isinstance(dance.path, Spiral):
+        return [(x, y) for x, y in marks.points.tolist()]
+    away = marks.points - np.array(dance.path.centre)
+    polar = np.stack([np.hypot(*away.T), np.degrees(np.arctan2(away[:, 1], away[:, 0]))], axis=1)
+    polar[:, 1] = np.round(polar[:, 1], 2) % 360.0  # so that no angle is printed as 360.00
+    return [tuple(row) for row in np.concatenate([marks.points, polar], axis=1).tolist()]

@@ -1,0 +1,67 @@
+"""Where does the path run, and where is it too tight?"""
+
+from __future__ import annotations
+
+from typing import Self
+
+from pydantic import Field
+
+import core
+from app.questions.question import Question, Terms
+from app.wire.answers import Point
+from app.wire.dances import DragonFields
+from app.wire.models import Answer, measure
+from app.wire.paths import BY_KIND, AnyPath, SpiralPath
+
+# A route of 1,000 points, measured 2026-11-22 [s].
+SECONDS = 0.02
+
+
+class CourseRequest(DragonFields, strict=True):
+    """Where does this path run, and where is it too tight for this dragon?"""
+
+    path: AnyPath = Field(
+        default_factory=SpiralPath, description="The path", json_schema_extra={"discriminator": BY_KIND}
+    )
+
+
+class TightBend(Answer):
+    """A stretch of the path that the longest bench cannot follow."""
+
+    start: float = measure("m", "Begin of the stretch, along the path")
+    end: float = measure("m", "End of the stretch, along the path")
+    points: list[Point] = measure("m", "Points along it, x and y")
+    radius: float = measure("m", "Least radius there; of a curve through waypoints, at least this")
+    least_radius: float = measure("m", "Least radius that the bench can follow")
+    bench: int = Field(description="The bench with the longest chord")
+
+    @classmethod
+    def of(cls, found: core.TightBend) -> Self:
+        return cls.known(found, points=found.points.tolist())
+
+
+class Course(Answer):
+    """A path as it is drawn, whether or not it can be danced."""
+
+    s: list[float] = measure("m", "Distance along the path of P points, 0 where the head is at time 0")
+    x: list[float] = measure("m", "P entries")
+    y: list[float] = measure("m", "P entries")
+    length: float = measure("m", "Length of the path")
+    knots: list[float] = measure(
+        "m", "Distance along the path of each waypoint, of a rounded corner the middle; empty for other paths"
+    )
+    bends: list[TightBend] = Field(description="Bends that are too tight, along the path")
+
+    @classmethod
+    def of(cls, found: core.Course) -> Self:
+        x, y = found.points.T.tolist()
+        bends = [TightBend.of(bend) for bend in found.bends]
+        return cls(s=found.s.tolist(), x=x, y=y, length=found.length, knots=found.knots.tolist(), bends=bends)
+
+
+def course(asked: CourseRequest, terms: Terms) -> Course:
+    """The path from its beginning to its end, and its bends that are too tight for the dragon."""
+    return Course.of(core.course(asked.path.to_path(), asked.to_dragon(terms.settings.benches_max)))
+
+
+QUESTION = Question(course, Course, body=CourseRequest, cost=lambda asked: SECONDS)

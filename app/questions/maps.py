@@ -1,0 +1,86 @@
+"""The dance as a map: its square, its path and the chalk marks along it."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from pydantic import Field
+
+from app.files.outlines import DXF_TYPE, GEOJSON_TYPE
+from app.maps import dxf, geojson, kml
+from app.maps.marks import drawing_of, in_degrees, marks_of
+from app.questions.check import CheckRequest
+from app.questions.question import FileFormat, Question, Terms
+from app.wire import degrees
+from app.wire.models import Wire, measure
+from core import InvalidValue
+
+KML_TYPE = "application/vnd.google-earth.kml+xml"
+# Time of a map of 1,400 m of path, measured 2026-11-22 [s].
+SECONDS = 0.2
+
+
+class MapFormat(FileFormat):
+    """File format of a map."""
+
+    GEOJSON = "geojson"
+    KML = "kml"
+    DXF = "dxf"
+
+    @classmethod
+    def media_types(cls) -> tuple[str, ...]:
+        return (GEOJSON_TYPE, KML_TYPE, DXF_TYPE)
+
+
+class OriginFields(Wire, strict=True):
+    """A place on earth."""
+
+    longitude: float = measure("degrees", "Longitude, east positive", ge=-180, le=180)
+    latitude: float = measure("degrees", "Latitude, north positive", ge=-90, le=90)
+
+
+class Marked(CheckRequest, strict=True):
+    """A dance as /check takes it, and the marks along its path."""
+
+    spacing: float = measure("m", "Distance of the chalk marks along the path", 5.0, ge=0.5, le=1_000)
+    origin: OriginFields | None = Field(
+        None,
+        description="Place of x = y = 0; null: as the venue tells it. KML needs it; GeoJSON is in metres without it",
+    )
+
+    def told_origin(self, place: degrees.Place) -> degrees.Origin | None:
+        """The origin asked for, else that of the venue."""
+        if self.origin is None:
+            return place.origin
+        return degrees.Origin(self.origin.longitude, self.origin.latitude)
+
+
+class MapsRequest(Marked, strict=True):
+    """The dance as a map."""
+
+
+def maps(asked: MapsRequest, terms: Terms, form: str) -> bytes:
+    """The square, the path and the chalk marks as GeoJSON, KML or DXF, which POST /places reads again."""
+    dance = asked.to_dance(terms.settings.checked_benches_max)
+    place = asked.to_place(dance.dragon)
+    origin = asked.told_origin(place)
+    start = dance.default_start if asked.start is None else asked.start
+    marks = marks_of(dance, *dance.span(start, asked.stop), asked.spacing)
+    drawing = drawing_of(dance, place.venue, marks, asked.path.model_dump(mode="json", exclude_none=True), origin)
+    if form == DXF_TYPE:
+        return dxf.written(drawing)
+    if form == GEOJSON_TYPE:
+        return geojson.written(in_degrees(drawing) if origin else replace(drawing, degrees=False))
+    if origin is None:
+        words = "give the place of x = y = 0 as longitude and latitude, or a venue in degrees"
+        raise InvalidValue("origin", f"origin must be known for KML, which is in degrees: {words}")
+    return kml.written(in_degrees(drawing))
+
+
+def _cost(asked: MapsRequest, form: str) -> float:
+    return SECONDS
+
+
+QUESTION = Question(
+    maps, None, body=MapsRequest, forms=MapFormat.media_types(), cost=_cost, at="/maps.{format}", formats=MapFormat
+)

@@ -1,0 +1,125 @@
+"""The plan of a dance on paper."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from itertools import zip_longest
+from typing import Literal
+
+from pydantic import Field
+
+import core
+from app.files.tables import Language
+from app.files.words import Say
+from app.maps.marks import marks_of
+from app.questions.maps import Marked
+from app.questions.question import Question, Terms
+from app.wire.models import measure
+from core import Dance, FailureKind, Judgement
+from core.errors import said
+from core.shapes.engines import widened
+
+PDF_TYPE = "application/pdf"
+# Excess of the swept ground on paper [m]: 0.05 mm at 1:200.
+EXCESS = 0.01
+# Zone to keep clear where there is no margin [m].
+CLEAR = 0.5
+# Time of the default dance's plan, measured 2026-11-22 [s].
+SECONDS = 4.0
+# The first character of Unicode that needs a Chinese font, roughly.
+FIRST_CHINESE = "\u2e80"
+# Words for each kind of failure.
+FAILURES = {
+    FailureKind.CONTACT: ("benches touch or are too near", "板凳相碰或过近"),
+    FailureKind.VENUE: ("a bench is too near to the venue", "板凳距场地边界或障碍物过近"),
+    FailureKind.OUTSIDE: ("a bench starts outside the square or in an obstacle", "有板凳起始于场外或障碍物内"),
+    FailureKind.SPEED: ("a handle is too fast", "把手速度超限"),
+    FailureKind.FOLDS: ("a bench cannot follow the path", "板凳无法继续沿路线前进"),
+    FailureKind.UNDECIDED: ("not decided", "未能判定"),
+}
+
+
+class PlanRequest(Marked):
+    """A dance as /check takes it, and how its plan looks."""
+
+    paper: Literal["A4", "A3"] = Field("A4", description="Size of the paper")
+    clear: float | None = measure(
+        "m", "Width of the zone to keep clear around the swept ground; null: the margin, or 0.5 m without one", None,
+        ge=0, le=100,
+    )  # fmt: skip
+    title: str = Field("", max_length=80, description="Title of the plan")
+    language: Language = Field(Language.ENGLISH, description="Language of the words: en or zh", strict=False)
+
+
+def plan(asked: PlanRequest, terms: Terms) -> bytes:
+    """The dance on paper as PDF: a map true to scale, who stands where, the points to paint and the times."""
+    from app.files.fonts import families
+    from app.plan.ground import ground_of
+    from app.plan.plan import Plan, plan_pdf
+    from app.plan.sheet import Title
+    from app.plan.timing import Clock, timing_of
+
+    dance, budget, say = asked.to_dance(terms.settings.checked_benches_max), terms.budget, Say(asked.language)
+    place, clock = asked.to_place(dance.dragon), Clock(asked.start_clock)
+    start, stop = dance.span(dance.default_start if asked.start is None else asked.start, asked.stop)
+    marks = marks_of(dance, start, stop, asked.spacing)
+    timing = timing_of(dance, marks, start, stop, budget)
+    swept = core.envelope(dance, start=start, stop=stop, excess=EXCESS, budget=budget).polygons
+    width = asked.clear if asked.clear is not None else asked.margin or CLEAR
+    clear = widened(swept, width) if width else swept
+    geographic = asked.told_origin(place) is not None
+    judged = core.check(
+        dance,
+        venue=place.venue,
+        margin=asked.margin,
+        stray=asked.to_stray(),
+        speed_limit=asked.speed_limit,
+        start=start,
+        stop=asked.stop,
+        budget=budget,
+    )
+    title = Title(
+        asked.title or say("Bench dragon", "板凳龙"),
+        _facts(dance, asked.margin, start, stop, clock.words, say),
+        _verdict(judged, clock.words, say),
+        judged.verdict is Judgement.PASSES,
+        geographic,
+    )
+    ground = ground_of(dance, place.venue, (swept, clear), width, timing, geographic)
+    numbers = [say("head", "龙头"), *map(str, range(1, dance.dragon.benches))]
+    names = [f"{number} {own}".rstrip() for number, own in zip_longest(numbers, dance.dragon.names, fillvalue="")]
+    told = "".join([title.title, *names, *(area.name for area in (place.venue.areas if place.venue else ()))])
+    # Chinese names may stand in an English plan.
+    family = families(Language.CHINESE if max(told) >= FIRST_CHINESE else asked.language)
+    return plan_pdf(Plan(ground, family, names, clock, title, asked.paper), say, terms.progress)
+
+
+def _facts(
+    dance: Dance, margin: float, start: float, stop: float, words: Callable[[float], str], say: Say
+) -> list[str]:
+    """The dance in lines of the title block."""
+    dragon = dance.dragon
+    length, speed = float(dragon.chords.sum()), said(dance.head_speed)
+    return [
+        say(
+            f"{dragon.benches} benches, {length:.1f} m from head to tail",
+            f"{dragon.benches} 节板凳，全长 {length:.1f} m",
+        ),
+        say(f"head at {speed} m/s, margin {said(margin)} m", f"龙头速度 {speed} m/s，间距 {said(margin)} m"),
+        say(f"from {words(start)} to {words(stop)}", f"时间 {words(start)} 至 {words(stop)}"),
+    ]
+
+
+def _verdict(judged: core.Report, words: Callable[[float], str], say: Say) -> str:
+    if not judged.failures:
+        return say("Checked: passes", "检查：通过")
+    first = judged.failures[0]
+    told = say(*FAILURES[first.kind])
+    return say(f"Checked: {told} at {words(first.time)}", f"检查：{words(first.time)} {told}")
+
+
+def _cost(asked: PlanRequest) -> float:
+    return SECONDS
+
+
+QUESTION = Question(plan, None, body=PlanRequest, forms=(PDF_TYPE,), cost=_cost, at="/plan")

@@ -1,0 +1,60 @@
+"""The questions, each with its request and its answer. QUESTIONS holds all of them by name.
+
+CALLS holds the service's calls that ask them, by operation id.
+"""
+
+from __future__ import annotations
+
+from app.questions import (
+    check,
+    clearance,
+    collision_time,
+    contact_probability,
+    course,
+    envelope,
+    figures,
+    films,
+    maps,
+    maximum_head_speed,
+    minimum_pitch,
+    overlaps,
+    paper,
+    pitch_scan,
+    plan,
+    shortest_turn,
+    tolerance,
+    tolerance_curve,
+    trajectory,
+    turn,
+)
+from app.questions.question import Call, Question, calls_of
+
+# In the order in which they are documented.
+_ALL = (
+    trajectory.QUESTION,
+    collision_time.QUESTION,
+    minimum_pitch.QUESTION,
+    pitch_scan.QUESTION,
+    clearance.QUESTION,
+    turn.QUESTION,
+    shortest_turn.QUESTION,
+    maximum_head_speed.QUESTION,
+    check.QUESTION,
+    course.QUESTION,
+    envelope.QUESTION,
+    tolerance.QUESTION,
+    tolerance_curve.QUESTION,
+    contact_probability.QUESTION,
+    overlaps.QUESTION,
+    paper.QUESTION,
+    figures.TRAJECTORY,
+    figures.CONTACT,
+    figures.PITCH_SCAN,
+    films.QUESTION,
+    maps.QUESTION,
+    plan.QUESTION,
+)
+QUESTIONS: dict[str, Question] = {question.name: question for question in _ALL}
+CALLS: dict[str, Call] = {call.name: call for question in _ALL for call in calls_of(question)}
+
+__all__ = ["CALLS", "QUESTIONS", "Call", "Question"]

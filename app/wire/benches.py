@@ -1,0 +1,152 @@
+"""Benches measured one by one: a table as text, each bench a line, as spreadsheets copy and save it."""
+
+from __future__ import annotations
+
+import csv
+import io
+from collections.abc import Iterable
+from functools import cached_property
+from typing import Annotated, NamedTuple
+
+from pydantic import AfterValidator, Field
+from pydantic_core import PydanticCustomError
+
+from app.wire.models import LENGTHS, OVERHANGS, WIDTHS, Wire, check_limit
+from core import Dragon, InvalidValue
+from core.errors import said
+
+# What separates columns, as far as the first line shows: the first of them that it holds.
+SEPARATORS = "\t;,"
+# Words for the columns, of which the first ones are those of messages. A column of another name is refused.
+WORDS = {
+    "name": ("name", "名称", "姓名"),
+    "length": ("length", "长度", "长"),
+    "width": ("width", "宽度", "宽"),
+    "overhang": ("overhang", "孔距", "端距"),
+}
+SIZES = {"length": LENGTHS, "width": WIDTHS, "overhang": OVERHANGS}
+LONGEST_WORD = 60
+
+
+class BenchTable(NamedTuple):
+    """The columns of a table of benches, head first [m]; lines: number of each one's line"""
+
+    names: list[str]
+    lengths: list[float]
+    widths: list[float]
+    overhangs: list[float]
+    lines: list[int]
+
+    def to_dragon(self) -> Dragon:
+        """raises: InvalidValue naming the line"""
+        for k, (length, overhang) in enumerate(zip(self.lengths, self.overhangs, strict=True)):
+            if not overhang < 0.5 * length:
+                rule = f"overhang must be less than half of the length, {said(length)} m"
+                raise InvalidValue("dragon.csv", f"line {self.lines[k]}: {rule}, got {said(overhang)} m")
+        return Dragon.of(self.lengths, self.widths, self.overhangs).named(self.names if any(self.names) else ())
+
+
+def bench_table(text: str) -> BenchTable:
+    """A table with the columns name (which may be missing), length, width and overhang [m], in any order.
+
+    Columns are separated by tabs, semicolons or commas; beside semicolons and tabs a decimal comma is read too. Empty
+    lines are left out.
+    raises: InvalidValue, whose message begins with the number of the line
+
+    >>> bench_table("name,length,width,overhang\\nZhou,3.41,0.3,0.275\\n").lengths
+    [3.41]
+    """
+    lines = text.removeprefix("\N{ZERO WIDTH NO-BREAK SPACE}").splitlines()
+    first = next((k for k, line in enumerate(lines) if line.strip()), None)
+    if first is None:
+        rule = "must be the names of columns: name,length,width,overhang"
+        raise InvalidValue("dragon.csv", f"line 1: {rule}; got nothing")
+    separator = next((mark for mark in SEPARATORS if mark in lines[first]), ",")
+    columns = _columns(_cells(lines[first], separator), first + 1)
+    table = BenchTable([], [], [], [], [])
+    for number, line in enumerate(lines[first + 1 :], start=first + 2):
+        cells = _cells(line, separator)
+        if not any(cells):
+            continue
+        if len(cells) > len(columns) and not any(cells[len(columns) :]):
+            cells = cells[: len(columns)]
+        if len(cells) != len(columns):
+            rule = f"must have {len(columns)} entries, as the first line has, got {len(cells)}"
+            raise InvalidValue("dragon.csv", f"line {number}: {rule}")
+        row = dict(zip(columns, cells, strict=True))
+        table.names.append(row.get("name", ""))
+        for column, sizes in zip(SIZES, table[1:4], strict=True):
+            sizes.append(_size(column, row[column], number, separator != ","))
+        table.lines.append(number)
+    if not table.lines:
+        raise InvalidValue("dragon.csv", f"line {first + 2}: must be the first bench, the head; got nothing")
+    return table
+
+
+def _cells(line: str, separator: str) -> list[str]:
+    try:
+        return [cell.strip() for cell in next(csv.reader(io.StringIO(line), delimiter=separator), [])]
+    except csv.Error:  # one entry of more than 131,072 characters
+        return [line]
+
+
+def _columns(words: Iterable[str], number: int) -> list[str]:
+    """The columns that the first line names."""
+    found = []
+    for word in words:
+        plain = word.partition("[")[0].partition("(")[0].strip().lower()
+        column = next((column for column, known in WORDS.items() if plain in known), None)
+        if column is None or column in found:
+            what = "named once" if column else "name, length, width or overhang"
+            raise InvalidValue("dragon.csv", f"line {number}: a column must be {what}, got {word!r:.{LONGEST_WORD}}")
+        found.append(column)
+    if missing := [column for column in SIZES if column not in found]:
+        raise InvalidValue("dragon.csv", f"line {number}: the column {missing[0]} is missing")
+    return found
+
+
+def _size(column: str, word: str, number: int, comma: bool) -> float:
+    """An entry as a size in metres."""
+    try:
+        size = float(word.replace(",", ".") if comma else word)
+    except ValueError as error:
+        what = f"{column} must be a number in metres"
+        raise InvalidValue("dragon.csv", f"line {number}: {what}, got {word!r:.{LONGEST_WORD}}") from error
+    low, high = SIZES[column]
+    if low <= size <= high:
+        return size
+    hint = f": {said(size)} cm is {said(size / 100)} m" if low <= size / 100 <= high else ""
+    rule = f"{column} must be from {low:g} to {high:g} m, got {said(size)} m{hint}"
+    raise InvalidValue("dragon.csv", f"line {number}: {rule}")
+
+
+def _readable(text: str) -> str:
+    try:
+        bench_table(text).to_dragon()
+    except InvalidValue as error:
+        raise PydanticCustomError("benches", "{words}", {"words": error.message}) from error
+    return text
+
+
+class BenchCsv(Wire, strict=True):
+    """A dragon bench by bench as text, as spreadsheets save and copy it: a line for each bench, head first."""
+
+    csv: Annotated[str, AfterValidator(_readable)] = Field(
+        description="First line: the names of the columns length, width, overhang [m] and, if benches have names, "
+        "name; then a line for each bench. Columns are separated by commas, semicolons or tabs"
+    )
+
+    @cached_property
+    def table(self) -> BenchTable:
+        """The benches."""
+        return bench_table(self.csv)
+
+    @property
+    def benches(self) -> int:
+        """Number of benches."""
+        return len(self.table.lines)
+
+    def to_dragon(self, benches_max: int) -> Dragon:
+        """raises: TooLarge, InvalidValue"""
+        check_limit("dragon.csv", "benches", self.benches, benches_max, "shorten the dragon")
+        return self.table.to_dragon()

@@ -1,0 +1,83 @@
+"""Time from a move of a dragged waypoint to the verdict on it, in a real Chromium on the real service.
+
+`.venv/bin/python -m benchmarks.drag [ADDRESS]`, while `bench-dragon serve` runs there: 60 benches on a path of 20
+waypoints, without a square and in one with three obstacles. A verdict counts for a move if it was asked for at the move
+or after it, so a move that a newer one replaced waits for the newer one's verdict.
+"""
+
+from __future__ import annotations
+
+import math
+import sys
+
+from playwright.sync_api import Page, sync_playwright
+
+from tests.page.browser import found
+from tests.page.conftest import ARGUMENTS, WIDE
+
+MOVES = 200
+POINTS = [(-170.0, 0.0), *((8.0 * k - 70.0, round(6.0 * math.sin(0.9 * k), 2)) for k in range(19))]
+ROUTE = "_".join(f"{x:g},{y:g}" for x, y in POINTS)
+SQUARE = (
+    "&things=a.square..-200,-30_200,-30_200,30_-200,30"
+    "~c.oak.0!5.10,20~c.elm.0!5.30,20~b.stage..-17,15_-6,15_-6,19_-17,19"
+)
+# A move every 16 ms, as a mouse makes them. The box of the verdict is filled anew by each answer of /check.
+DRAG = """async (moves) => {
+  const knot = document.querySelectorAll(".knot")[9];
+  const box = knot.getBoundingClientRect();
+  const [left, top] = [box.x + box.width / 2, box.y + box.height / 2];
+  const fire = (type, dx, dy) =>
+    knot.dispatchEvent(new PointerEvent(type, { clientX: left + dx, clientY: top + dy, bubbles: true }));
+  knot.setPointerCapture = () => {};
+  const [real, asked, found] = [window.fetch, [], []];
+  let waiting = [];
+  window.fetch = async (url, options) => {
+    const sent = performance.now();
+    const response = await real(url, options);
+    if (url === "check") {
+      const json = response.json.bind(response);
+      response.json = async () => (asked.push(sent), json());
+    }
+    return response;
+  };
+  new MutationObserver(() => {
+    const sent = Math.max(...asked.splice(0), -1);
+    found.push(...waiting.filter((time) => time <= sent).map((time) => performance.now() - time));
+    waiting = waiting.filter((time) => time > sent);
+  }).observe(document.querySelector("#judgement"), { childList: true });
+  fire("pointerdown", 0, 0);
+  for (let k = 0; k < moves; k++) {
+    waiting.push(performance.now());
+    fire("pointermove", 12 * Math.sin(k / 5), 6 + 4 * Math.cos(k / 7));
+    await new Promise((resolve) => setTimeout(resolve, 16));
+  }
+  await new Promise((resolve) => setTimeout(resolve, 1000));
+  fire("pointerup", 0, 0);
+  window.fetch = real;
+  return found.sort((a, b) => a - b);
+}"""
+
+
+def measure(page: Page, base: str, square: str) -> list[float]:
+    """Times in order [ms]."""
+    page.goto(f"{base}/?path=route&benches=60&limit=1.5&route={ROUTE}{square}")
+    page.locator("#tolerance[aria-busy=false]").wait_for()
+    page.locator("#edit").click()
+    times: list[float] = page.evaluate(DRAG, MOVES)
+    return times
+
+
+def main() -> None:
+    base = sys.argv[1] if len(sys.argv) > 1 else "http://127.0.0.1:8000"
+    with sync_playwright() as playwright:
+        browser = playwright.chromium.launch(executable_path=found(), args=ARGUMENTS)
+        for words, square in (("no square", ""), ("a square with three obstacles", SQUARE)):
+            times = measure(browser.new_page(viewport=WIDE), base, square)
+            p50, p90 = times[len(times) // 2], times[len(times) * 9 // 10]
+            print(f"{words}: {len(times)} moves, p50 {p50:.0f} ms, p90 {p90:.0f} ms, most {times[-1]:.0f} ms")
+        browser.close()
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,147 @@
+from .budget import Budget
+from .clock import Passage
+from .contact.clearance import ClearanceProfile, Graze, LeastClearance, clearance_profile, least_clearance
+from .contact.cross_check import ContactCheck, contact_check, pitch_check
+from .contact.first_contact import (
+    Evidence,
+    Feature,
+    FirstContact,
+    Outcome,
+    first_contact,
+)
+from .course import Course, TightBend, course
+from .dance import Dance, EndReason, RunEnd
+from .design.minimum_pitch import LimitedBy, MinimumPitch, minimum_pitch
+from .design.pitch_scan import PitchScan, pitch_scan
+from .design.shortest_turn import ShortestTurn, TurnLimit, shortest_turn
+from .dragon import Dragon
+from .errors import BenchDragonError, InvalidValue, OutsideRun, ProofRefused, TooLarge, TooMuchWork
+from .ground.envelope import Envelope, SweepProof, envelope
+from .motion.joints import SharpestBend, sharpest_bend
+from .motion.speed import (
+    FirstExcess,
+    HighestSpeed,
+    MaximumHeadSpeed,
+    first_excess,
+    highest_speed,
+    maximum_head_speed,
+)
+from .motion.trajectory import Trajectory, bench_outlines, bench_poses, trajectory
+from .paths.legs import Legs
+from .paths.path import HeadState
+from .paths.pieces import Arc, Coil, Line, Piece, Waypoints
+from .paths.route import Route
+from .paths.spiral import Spiral
+from .paths.turn import Turn
+from .shapes.engines import Engine
+from .shapes.overlaps import CrossCheck, Overlaps, Verdict, cross_check, overlaps, verdicts
+from .shapes.rectangles import Separation, separation
+from .tolerance.chance import ContactProbability, contact_probability
+from .tolerance.curve import ToleranceCurve, tolerance_curve
+from .tolerance.exhibit import Exhibit
+from .tolerance.stray import Stray
+from .tolerance.tolerance import Limit, StrayProof, Tolerance, tolerance
+from .tolerance.uncertain import uncertain_tolerance
+from .tolerance.wobble import Wobble
+from .venue import Area, AreaClearance, Misplaced, Nearest, Venue, VenueClearance, venue_clearance
+from .verdict import Failure, FailureKind, Judgement, Report, check, quick_check
+
+__all__ = [
+    "Arc",
+    "Area",
+    "AreaClearance",
+    "BenchDragonError",
+    "Budget",
+    "ClearanceProfile",
+    "Coil",
+    "ContactCheck",
+    "ContactProbability",
+    "Course",
+    "CrossCheck",
+    "Dance",
+    "Dragon",
+    "EndReason",
+    "Engine",
+    "Envelope",
+    "Evidence",
+    "Exhibit",
+    "Failure",
+    "FailureKind",
+    "Feature",
+    "FirstContact",
+    "FirstExcess",
+    "Graze",
+    "HeadState",
+    "HighestSpeed",
+    "InvalidValue",
+    "Judgement",
+    "LeastClearance",
+    "Legs",
+    "Limit",
+    "LimitedBy",
+    "Line",
+    "MaximumHeadSpeed",
+    "MinimumPitch",
+    "Misplaced",
+    "Nearest",
+    "Outcome",
+    "OutsideRun",
+    "Overlaps",
+    "Passage",
+    "Piece",
+    "PitchScan",
+    "ProofRefused",
+    "Report",
+    "Route",
+    "RunEnd",
+    "Separation",
+    "SharpestBend",
+    "ShortestTurn",
+    "Spiral",
+    "Stray",
+    "StrayProof",
+    "SweepProof",
+    "TightBend",
+    "Tolerance",
+    "ToleranceCurve",
+    "TooLarge",
+    "TooMuchWork",
+    "Trajectory",
+    "Turn",
+    "TurnLimit",
+    "Venue",
+    "VenueClearance",
+    "Verdict",
+    "Waypoints",
+    "Wobble",
+    "bench_outlines",
+    "bench_poses",
+    "check",
+    "clearance_profile",
+    "contact_check",
+    "contact_probability",
+    "course",
+    "cross_check",
+    "envelope",
+    "first_contact",
+    "first_excess",
+    "highest_speed",
+    "least_clearance",
+    "maximum_head_speed",
+    "minimum_pitch",
+    "overlaps",
+    "pitch_check",
+    "pitch_scan",
+    "quick_check",
+    "separation",
+    "sharpest_bend",
+    "shortest_turn",
+    "tolerance",
+    "tolerance_curve",
+    "trajectory",
+    "uncertain_tolerance",
+    "venue_clearance",
+    "verdicts",
+]
+
+__version__: str

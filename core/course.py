@@ -1,0 +1,91 @@
+"""Course: a path as it is drawn, with the bends that are too tight for a dragon, whether or not it can be danced."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from core.dance import tightest_bend
+from core.dragon import Dragon
+from core.paths.legs import Legs
+from core.paths.route import Route
+from core.paths.spiral import Spiral
+from core.shown import Shown, counted, worded
+from core.values import Floats, checked_type
+
+# Distance between drawn points [m], and most of them: a path longer than 750 m is drawn more coarsely.
+STEP, POINTS_MAX = 0.25, 3_000
+# Points along a bend that is too tight.
+BEND_POINTS = 24
+
+
+@dataclass(frozen=True, slots=True, repr=False)
+class TightBend(Shown):
+    """A stretch of a path that no bench of this length can follow.
+
+    start, end: s of its ends [m]; points: along it, (P, 2) [m]
+    radius: the least there [m], of a cubic at least this; least_radius: what the bench needs [m]
+    bench: the one with the longest chord
+    """
+
+    start: float
+    end: float
+    points: Floats
+    radius: float
+    least_radius: float
+    bench: int
+    _units = {"end": "m", "least_radius": "m", "start": "m"}  # noqa: RUF012 - a field of a dataclass may not be annotated here
+
+    def _line(self) -> str:
+        return f"radius {worded(self.radius, 'm')} from s = {worded(self.start)} to {worded(self.end, 'm')}"
+
+
+@dataclass(frozen=True, slots=True, repr=False)
+class Course(Shown):
+    """A path as it is drawn.
+
+    s: (P,) [m]; points: (P, 2) x, y [m]; length: of the path [m]
+    knots: s of the points by which it was drawn, empty for other paths [m]; bends: those that are too tight
+    """
+
+    s: Floats
+    points: Floats
+    length: float
+    knots: Floats
+    bends: tuple[TightBend, ...]
+    _units = {"knots": "m", "length": "m", "s": "m"}  # noqa: RUF012 - as above
+
+    def _line(self) -> str:
+        return f"{worded(self.length, 'm')}, {counted(len(self.bends), 'bend')} too tight"
+
+
+def course(path: Spiral | Route, dragon: Dragon) -> Course:
+    """The path from its beginning to its end, and its bends that are too tight for the dragon.
+
+    A bend is too tight for a chord c where |curvature| c / 2 exceeds a limit, past which the next handle is not unique
+    (core/dance.py). On a spiral there is none: its dance ends in a fold.
+
+    >>> course(Legs([(0, 0), (20, 0), (20, 20)], [0, 1], radius=1.0), Dragon()).bends
+    (<TightBend: radius 1 m from s = 19 to 20.5707963 m>,)
+    """
+    checked_type("path", path, Spiral if isinstance(path, Spiral) else Route)
+    checked_type("dragon", dragon, Dragon)
+    length = path.end - path.begin
+    s = np.linspace(path.begin, path.end, min(int(length / STEP) + 2, POINTS_MAX))
+    knots = path.knots if isinstance(path, Legs) else np.empty(0)
+    bends = () if isinstance(path, Spiral) else tuple(_tight_bends(path, dragon))
+    return Course(s, path.position(s), length, knots, bends)
+
+
+def _tight_bends(path: Route, dragon: Dragon) -> list[TightBend]:
+    """Rows of the route's table that bend too much, joined where they meet."""
+    least, bench = tightest_bend(dragon)
+    sharpest = np.abs(path.table[:, 3:5]).max(axis=1)
+    tight = np.flatnonzero(sharpest * least > 1.0)
+    found = []
+    for rows in np.split(tight, np.flatnonzero(np.diff(tight) > 1) + 1) if len(tight) else ():
+        start, end = float(path.table[rows[0], 1]), float(path.table[rows[-1], 2])
+        points = path.position(np.linspace(start, end, BEND_POINTS))
+        found.append(TightBend(start, end, points, 1.0 / float(sharpest[rows].max()), least, bench))
+    return found

@@ -1,0 +1,76 @@
+"""Where handles are along the path, and when they pass a place on it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+import numpy as np
+
+from core import kernels
+from core.budget import Budget
+from core.dance import Dance
+from core.kernels.constants import CHAIN_COLUMNS, CHORD, FREE, PLACE, SIZE_COLUMNS
+from core.paths.route import Route
+from core.values import Floats
+
+# Way of the head between two rows of a table of places [m], and their largest number.
+STEP, ROWS_MAX = 0.25, 2_000
+
+
+def handle_places(dance: Dance, times: Floats | Sequence[float], *, budget: Budget | None = None) -> Floats:
+    """Arc length s of every handle along the path.
+
+    times: (T,) [s]; returns (T, n + 1) [m]
+    raises: OutsideRun (times); TooMuchWork
+
+    >>> from core import Dragon, Spiral
+    >>> handle_places(Dance(Dragon(2), Spiral()), [0.0]).round(3)
+    array([[ 0.   , -2.873, -4.525]])
+    """
+    asked = dance.times(np.asarray(times, dtype=np.float64)).reshape(-1)
+    return _behind(dance, [dance.clock.place(time) for time in asked.tolist()], budget or Budget())
+
+
+def _behind(dance: Dance, heads: Iterable[float], budget: Budget) -> Floats:
+    """Arc lengths (T, n + 1) of all handles where the head is at each of T places [m]."""
+    path, last = dance.path, dance.dragon.benches
+    sizes, chain = np.zeros((last + 1, SIZE_COLUMNS)), np.zeros((last + 1, CHAIN_COLUMNS))
+    sizes[:last, CHORD] = dance.dragon.chords
+    rows = []
+    for head in heads:
+        budget.afford(float(last))
+        if isinstance(path, Route):
+            kernels.place_chain(path.curve, -head, last, sizes, chain)
+            rows.append(-chain[:, PLACE])
+        else:
+            kernels.start_chain(max(float(path.theta(head)), dance.end.theta or 0.0), chain)
+            kernels.extend_chain(path.growth, 0, last, FREE, sizes, chain)
+            theta = chain[:, PLACE]
+            rows.append(path.length - 0.5 * path.growth * (theta * np.sqrt(1.0 + theta**2) + np.arcsinh(theta)))
+    return np.array(rows)
+
+
+class Passing:
+    """When handles first pass places on the path, between two instants [s].
+
+    Where a handle is depends on where the head is alone, almost evenly: between two rows of a table of both, STEP
+    apart, it is taken for even, which is good to a centimetre.
+    """
+
+    def __init__(self, dance: Dance, start: float, stop: float, *, budget: Budget | None = None) -> None:
+        self.clock = dance.clock
+        first, last = self.clock.place(start), self.clock.place(stop)
+        self.heads = np.linspace(first, last, min(ROWS_MAX, int((last - first) / STEP) + 2))
+        self.start, self.places = start, _behind(dance, self.heads.tolist(), budget or Budget())
+
+    def when(self, handle: int, s: float) -> float | None:
+        """The first time at which a handle is at s [s]; None if it is not there between the two instants."""
+        row = self.places[:, handle]
+        passed = np.flatnonzero(row >= s)
+        if not passed.size or (passed[0] == 0 and row[0] > s):
+            return None
+        k = int(passed[0])
+        if k == 0:
+            return self.start
+        share = (s - row[k - 1]) / (row[k] - row[k - 1])
+        return self.clock.time(float(self.heads[k - 1] + share * (self.heads[k] - self.heads[k - 1])))

@@ -1,0 +1,61 @@
+"""Frame: where a spiral lies in the world. All is computed in its own frame; what has a place is then moved once."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from core.paths.pieces import Point
+from core.values import Floats
+
+
+# A point p of the own frame is in the world at centre + R p, R the rotation after a reflection across the x axis if the
+# dance goes counter-clockwise. R keeps distances, so nothing but places depends on it. Differences from the centre are
+# taken before anything is rotated: a place brought back is then good to a few roundings of its distance from the
+# centre, however far away that is.
+@dataclass(frozen=True, slots=True)
+class Frame:
+    """The own frame of a spiral in the world.
+
+    centre: (x, y) [m]; rotation: about it [rad]; clockwise: False for the mirror image, reflected before it is rotated
+    """
+
+    centre: Point = (0.0, 0.0)
+    rotation: float = 0.0
+    clockwise: bool = True
+
+    @property
+    def is_world(self) -> bool:
+        """Are both frames the same? Then no number changes."""
+        return self.clockwise and self.rotation == 0.0 and self.centre == (0.0, 0.0)
+
+    def vectors(self, own: Floats) -> Floats:
+        """Directions (..., 2) of the own frame as they are in the world."""
+        if self.is_world:
+            return own
+        cos, sin = math.cos(self.rotation), math.sin(self.rotation)
+        x, y = own[..., 0], own[..., 1] if self.clockwise else -own[..., 1]
+        return np.stack([x * cos - y * sin, x * sin + y * cos], axis=-1)
+
+    def points(self, own: Floats) -> Floats:
+        """Points (..., 2) of the own frame as they are in the world [m]."""
+        return own if self.is_world else self.vectors(own) + np.array(self.centre)
+
+    def point(self, x: float, y: float) -> Point:
+        """One of them [m]."""
+        x, y = self.points(np.array([x, y])).tolist()
+        return x, y
+
+    def back(self, world: Floats) -> Floats:
+        """Points (..., 2) of the world as they are in the own frame [m]."""
+        if self.is_world:
+            return world
+        cos, sin = math.cos(self.rotation), math.sin(self.rotation)
+        x, y = world[..., 0] - self.centre[0], world[..., 1] - self.centre[1]
+        left = y * cos - x * sin
+        return np.stack([x * cos + y * sin, left if self.clockwise else -left], axis=-1)
+
+
+WORLD = Frame()

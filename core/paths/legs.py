@@ -1,0 +1,192 @@
+"""Legs: a route drawn by points, each leg between two of them a smooth curve or a straight line."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Sequence
+from functools import cached_property
+from itertools import pairwise
+
+import numpy as np
+
+from core import kernels
+from core.budget import Budget
+from core.errors import InvalidValue, spoken
+from core.paths.pieces import LENGTH_MIN, WAYPOINT_GAP, Arc, Line, Piece, Point, Waypoints, checked_point, listed
+from core.paths.route import Route
+from core.shown import REPR_MOST, Shown
+from core.values import Floats, checked_number, checked_size
+
+# Radius of an arc at a corner where none is given [m].
+RADIUS = 5.0
+# A smaller turn of two straight legs is none: joints may kink by ten times as much (JOINT_KINK) [rad].
+CORNER_MIN = 1e-10
+# Least half of an angle between two straight legs [rad]: a dragon cannot turn back on the spot.
+BACK_MIN = 1e-3
+# Largest share of a straight leg that a corner takes [1]: the direction of what remains must survive rounding.
+CUT_MOST = 0.49
+# Largest distance at which the end of a cubic is a waypoint [m]: rounding, far below WAYPOINT_GAP.
+AT_WAYPOINT = 1e-6
+
+
+class Legs(Route):
+    """A route through points, smooth everywhere.
+
+    points: (x, y) [m]; straight: the legs that are straight, leg k from point k to point k + 1; the others are curves
+    radius: of the arcs that round a corner between two straight legs [m], smaller where a leg is too short for it
+    start_heading, end_heading: direction at an end where the leg is a curve [rad]; None: no curvature at that end
+    start: distance of the head from the beginning at time 0 [m]
+    raises: InvalidValue naming the point or the leg; TooMuchWork
+
+    A run of curved legs is one smooth curve that leaves and enters the straight legs beside it in their direction.
+
+    >>> [type(piece).__name__ for piece in Legs([(0, 0), (20, 0), (20, 20)], [0, 1]).pieces]
+    ['Line', 'Arc', 'Line']
+    """
+
+    def __init__(
+        self,
+        points: Sequence[Point],
+        straight: Sequence[int] = (),
+        *,
+        radius: float = RADIUS,
+        start_heading: float | None = None,
+        end_heading: float | None = None,
+        start: float = 0.0,
+        budget: Budget | None = None,
+    ) -> None:
+        given = listed("path.points", points, "a list of points [x, y] in metres")
+        if len(given) < 2:
+            raise InvalidValue("path.points", f"path.points must be at least 2 points, got {len(given)}")
+        self.points = tuple(checked_point(f"path.points.{k}", point) for k, point in enumerate(given))
+        self.straight = _checked_legs(straight, len(given) - 1)
+        self.radius = checked_size("path.radius", radius)
+        _refuse_near(self.points)
+        ends = {"start_heading": start_heading, "end_heading": end_heading}
+        self._ends = "".join(f", {name}={value!r}" for name, value in ends.items() if value is not None)
+        pieces, firsts = self._laid_out(start_heading, end_heading)
+        try:
+            super().__init__(pieces, start, budget=budget)
+        except InvalidValue as error:
+            raise _by_point(error, firsts) from error
+
+    def __repr__(self) -> str:
+        given = f"{list(self.points)!r}, {sorted(self.straight)!r}, radius={self.radius!r}, start={self.start!r}"
+        listed = f"Legs({given}{self._ends})"
+        return listed if len(listed) <= REPR_MOST else Shown.__repr__(self)
+
+    def _laid_out(self, start_heading: float | None, end_heading: float | None) -> tuple[list[Piece], list[int]]:
+        """Lines, arcs and curves, in the order in which they are danced, and the first point of each."""
+        points, straight, last = self.points, self.straight, len(self.points) - 2
+        pieces: list[Piece] = []
+        firsts: list[int] = []
+        k, begin = 0, points[0]
+        while k <= last:
+            if k not in straight:
+                end = next((leg for leg in range(k, last + 1) if leg in straight), last + 1)
+                headings = (
+                    _heading(points[k - 1], points[k]) if k else start_heading,
+                    _heading(points[end], points[end + 1]) if end <= last else end_heading,
+                )
+                pieces.append(Waypoints(points[k : end + 1], *headings))
+                firsts.append(k)
+                k, begin = end, points[end]
+                continue
+            corner = None
+            if k + 1 in straight:
+                corner = _rounded(k + 1, points[k], points[k + 1], points[k + 2], self.radius)
+            pieces.append(Line(begin, points[k + 1] if corner is None else corner[0]))
+            firsts.append(k)
+            begin = points[k + 1]
+            if corner is not None:
+                firsts.append(k + 1)
+                pieces.append(corner[1])
+                begin = corner[2]
+            k += 1
+        return pieces, firsts
+
+    @cached_property
+    def knots(self) -> Floats:
+        """s of every point (N,) [m]; of a rounded corner, the middle of its arc."""
+        found = [self.begin]
+        ends = [self.begin, *self.joints, self.end]
+        for k, (piece, (begin, end)) in enumerate(zip(self.pieces, pairwise(ends), strict=True)):
+            if isinstance(piece, Arc):
+                found.append(0.5 * (begin + end))
+            elif isinstance(piece, Waypoints):
+                found += self._between(k, piece.points[1:-1])
+            if not isinstance(piece, Arc) and not isinstance(next(iter(self.pieces[k + 1 :]), None), Arc):
+                found.append(end)
+        return np.array(found)
+
+    def _between(self, k: int, points: tuple[Point, ...]) -> list[float]:
+        """s of the inner points of the curve that is piece k: each ends a cubic [m]."""
+        ends = self.table[self.table[:, kernels.PART] == k, 2]
+        places, found, row = self.position(ends), [], 0
+        for x, y in points:
+            row += int(np.argmax(np.hypot(*(places[row:] - (x, y)).T) < AT_WAYPOINT))
+            found.append(float(ends[row]))
+            row += 1
+        return found
+
+
+def _checked_legs(straight: Sequence[int], legs: int) -> frozenset[int]:
+    """The straight legs, each a whole number below the number of legs. raises: InvalidValue"""
+    given = listed("path.straight", straight, "a list of legs")
+    for k, leg in enumerate(given):
+        name = f"path.straight.{k}"
+        if checked_number(name, leg, "", 0, legs - 1) != int(leg):
+            raise InvalidValue(name, f"{name} must be a whole number, got {leg!r}")
+    return frozenset(map(int, given))
+
+
+def _by_point(error: InvalidValue, firsts: list[int]) -> InvalidValue:
+    """A refusal of one piece, with its points counted as those of the path."""
+    found = re.match(r"path\.pieces\.(\d+)", error.field)
+    if found is None:
+        return error
+    first = firsts[int(found[1])]
+    words = error.message.replace(spoken(error.field), "path.points", 1)
+    pair = re.search(r"points (\d+) and (\d+)", words)
+    if pair:
+        words = words.replace(pair[0], f"points {first + int(pair[1])} and {first + int(pair[2])}")
+    return InvalidValue("path.points", words)
+
+
+def _refuse_near(points: tuple[Point, ...]) -> None:
+    for k, (a, b) in enumerate(pairwise(points), start=1):
+        gap = math.dist(a, b)
+        if gap < WAYPOINT_GAP:
+            name = f"path.points.{k}"
+            raise InvalidValue(
+                name, f"{name} must be at least {WAYPOINT_GAP:g} m from the point before it, got {gap:g} m"
+            )
+
+
+def _heading(a: Point, b: Point) -> float:
+    return math.atan2(b[1] - a[1], b[0] - a[0])
+
+
+# With phi the turn at b, an arc of radius r touches both legs at r tan(phi / 2) from b. Either leg gives at most
+# CUT_MOST of its length to a corner, so that a line remains between two corners.
+def _rounded(k: int, a: Point, b: Point, c: Point, radius: float) -> tuple[Point, Arc, Point] | None:
+    """The arc that rounds the corner at point k, b, with the points where it begins and ends; None if it goes straight.
+
+    raises: InvalidValue for a turn back
+    """
+    into, out = math.dist(a, b), math.dist(b, c)
+    u, v = ((b[0] - a[0]) / into, (b[1] - a[1]) / into), ((c[0] - b[0]) / out, (c[1] - b[1]) / out)
+    turn = math.atan2(u[0] * v[1] - u[1] * v[0], u[0] * v[0] + u[1] * v[1])
+    if abs(turn) < CORNER_MIN:
+        return None
+    if math.pi - abs(turn) < 2.0 * BACK_MIN:
+        name = f"path.points.{k}"
+        raise InvalidValue(name, f"{name} must not be where two straight legs turn back: make one of them a curve")
+    half = math.tan(0.5 * abs(turn))
+    cut = min(max(radius * half, LENGTH_MIN), CUT_MOST * min(into, out))
+    arc_radius, side = cut / half, math.copysign(1.0, turn)
+    begin, end = (b[0] - cut * u[0], b[1] - cut * u[1]), (b[0] + cut * v[0], b[1] + cut * v[1])
+    centre = (begin[0] - side * arc_radius * u[1], begin[1] + side * arc_radius * u[0])
+    from_centre = math.atan2(begin[1] - centre[1], begin[0] - centre[0])
+    return begin, Arc(centre, arc_radius, from_centre, turn), end

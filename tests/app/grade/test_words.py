@@ -1,0 +1,42 @@
+"""Everything that the grader can say has words in both languages."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from app.files.tables import Language
+from app.grade import words
+from app.grade.diagnosis import _speeds
+from app.grade.expected import Workbook, dance_of
+from app.grade.geometry import geometries, of_dance
+from app.grade.shortcuts import UNITS, _shortcuts
+
+GRADE = Path(words.__file__).parent
+# Names that stand in calls, as in note("empty").
+SAID = re.compile(r'\b(?:note|say)\(\s*"(\w+)"')
+
+
+@pytest.mark.parametrize("language", Language)
+def test_every_known_error_has_words(language: Language) -> None:
+    heads = {Workbook.RESULT1: [[8.25, 0.0]], Workbook.RESULT4: [[0.0, 9.0]]}
+    known = [
+        (model.error, model.values)
+        for workbook, head in heads.items()
+        for model in geometries(dance_of(workbook), np.zeros(1), np.array(head))
+    ]
+    known += [(model.error, model.values) for model in _speeds(of_dance(dance_of(Workbook.RESULT1)))]
+    known += [(one.error, one.values) for name in UNITS for one in _shortcuts(name)]
+    assert {"equal_arcs_of_turn", "other_start", "central_difference", "time_steps"} <= {error for error, _ in known}
+    for error, values in known:
+        told = words.say(f"error_{error}", language, **values)
+        assert "{" not in told
+
+
+def test_every_name_in_the_code_has_words() -> None:
+    named = {name for file in GRADE.glob("*.py") for name in SAID.findall(file.read_text(encoding="utf-8"))}
+    assert len(named) > 20
+    assert named <= words.WORDS.keys()

@@ -1,0 +1,247 @@
+"""Maps read and written: what goes out comes in, foreign files are understood, hostile ones refused at once."""
+
+from __future__ import annotations
+
+import io
+import json
+import zipfile
+from pathlib import Path
+from typing import Any
+
+import ezdxf
+import httpx
+import numpy as np
+import pytest
+
+from app.files.tables import Language
+from app.files.words import Say
+from app.maps.layout import Found
+from app.maps.places import places_of
+from app.questions.maps import MapFormat
+from core import InvalidValue
+from core.shapes.engines import GROWTH_MOST
+from tests.app.command import run
+from tests.conftest import ROOT
+
+SAY = Say(Language.ENGLISH)
+# Rounding of degrees in doubles, on places 10,000 km from the centre of the earth [m].
+ROUNDING = 1e-7
+ORIGIN = {"longitude": 120.123, "latitude": 30.25}
+VILLAGE = json.loads((ROOT / "examples" / "village_square.geojson").read_text())
+CORNER = {"kind": "route", "start": 9.0, "pieces": [
+    {"kind": "line", "start": [-12.0, -8.0], "end": [0.0, -8.0]},
+    {"kind": "arc", "centre": [0.0, -3.0], "radius": 5.0, "start_angle": -1.5707963267948966, "sweep": 1.5},
+]}  # fmt: skip
+PATHS: list[dict[str, Any]] = [
+    CORNER,
+    {"kind": "spiral", "pitch": 1.0, "start_turns": 3.0, "centre": [2.0, 1.0], "rotation": 0.5, "clockwise": False},
+    {"kind": "turn", "pitch": 1.7, "start_turns": 4.0},
+]
+
+
+def read(data: bytes, units: Any = None) -> Found:
+    return places_of(data, units, SAY)
+
+
+def rings(found: Found) -> list[Any]:
+    assert found.venue is not None
+    return [np.array(ring) for area in found.venue.areas for ring in area.rings]
+
+
+@pytest.mark.parametrize("format", MapFormat)
+@pytest.mark.parametrize("path", PATHS, ids=lambda path: path["kind"])
+def test_what_goes_out_comes_in_as_it_was(client: httpx.Client, format: str, path: dict[str, Any]) -> None:
+    body = {"dragon": {"benches": 2}, "path": path, "venue": VILLAGE, "origin": ORIGIN}
+    data = client.post(f"/maps.{format}", json=body).raise_for_status().content
+    headers = {"Content-Type": "application/octet-stream"}
+    got = client.post("/places", content=data, headers=headers).raise_for_status().json()
+    told = {name: value for name, value in got["path"].items() if path.get(name) is not None}
+    assert told == path
+    assert got["venue"]["origin"] == ORIGIN
+    came = [(one["properties"]["name"], one["geometry"]["coordinates"]) for one in got["venue"]["features"]]
+    assert [name for name, _ in came] == [one["properties"]["name"] for one in VILLAGE["features"]]
+    for (_, found), one in zip(came, VILLAGE["features"], strict=True):
+        assert np.abs(np.array(found) - np.array(one["geometry"]["coordinates"])).max() < ROUNDING
+    # What came in can be asked again, and knows where it is.
+    again = {"dragon": {"benches": 2}, "path": got["path"], "venue": got["venue"]}
+    assert client.post("/maps.kml", json=again).raise_for_status().content.startswith(b"<?xml")
+
+
+def test_marks_stand_every_five_metres_of_the_path(client: httpx.Client) -> None:
+    body = {"dragon": {"benches": 2}, "path": CORNER}
+    told = client.post("/maps.geojson", json=body).raise_for_status().json()
+    marks = [one for one in told["features"] if one["properties"]["role"] == "mark"]
+    assert [one["properties"]["name"] for one in marks] == ["0", "5", "10", "15"]
+    # 15 m along: 3 m into the arc of radius 5 m around (0, -3).
+    angle = -np.pi / 2 + 3.0 / 5.0
+    expected = [-12, -8], [-7, -8], [-2, -8], [5 * np.cos(angle), -3 + 5 * np.sin(angle)]
+    assert np.array([one["geometry"]["coordinates"] for one in marks]) == pytest.approx(np.array(expected))
+    refused = client.post("/maps.kml", json=body)
+    assert refused.status_code == 422
+    assert refused.json()["errors"][0]["pointer"] == "/origin"
+    assert client.post("/maps.shp", json=body).status_code == 404
+
+
+def test_a_path_whose_line_was_moved_goes_through_the_line() -> None:
+    line = [[0.0, 0.0], [10.0, 1.0], [20.0, 0.0]]
+    straight = {"kind": "waypoints", "points": [[0.0, 0.0], [20.0, 0.0]]}
+    feature = {"type": "Feature", "properties": {"name": "path", "path": straight},
+               "geometry": {"type": "LineString", "coordinates": line}}  # fmt: skip
+    found = read(json.dumps(feature).encode())
+    assert found.path == {"kind": "waypoints", "points": line}
+    assert "moved" in found.notes[1]
+
+
+KML = """<kml xmlns="http://www.opengis.net/kml/2.2"><Document><name>Temple</name>
+<Folder><name>Trees</name><Placemark><name>camphor</name>
+<ExtendedData><Data name="radius"><value>0.8</value></Data></ExtendedData>
+<Point><coordinates>120.0001,30.0001,5</coordinates></Point></Placemark></Folder>
+<Placemark><name>square</name><Polygon><outerBoundaryIs><LinearRing><coordinates>
+120,30 120.0004,30 120.0004,30.0003 120,30.0003 120,30
+</coordinates></LinearRing></outerBoundaryIs></Polygon></Placemark>
+<Placemark><name>Route</name><LineString><coordinates>
+120.0001,30.0002 120.0003,30.0002</coordinates></LineString></Placemark>
+<Placemark><GroundOverlay/></Placemark></Document></kml>"""
+
+
+def test_a_map_drawn_on_a_phone_is_understood() -> None:
+    packed = io.BytesIO()
+    with zipfile.ZipFile(packed, "w", zipfile.ZIP_DEFLATED) as archive:
+        archive.writestr("doc.kml", KML)
+    for data in (KML.encode(), packed.getvalue()):
+        found = read(data)
+        assert found.venue is not None
+        assert [area.name for area in found.venue.areas] == ["square", "camphor"]
+        square, tree = rings(found)
+        # A degree of longitude is 96,486 m at a latitude of 30 degrees, one of latitude 110,852 m.
+        assert np.ptp(square, axis=0) == pytest.approx([0.0004 * 96_486, 0.0003 * 110_852], rel=1e-3)
+        centre = np.array([-0.0001 * 96_486, -0.00005 * 110_852])
+        away = np.hypot(*(tree - centre).T)
+        assert away.min() > 0.79
+        assert away.max() < 0.83
+        assert found.path is not None
+        assert found.path["points"][0] == pytest.approx([-0.0001 * 96_486, 0.00005 * 110_852], rel=1e-2)
+        assert found.origin is not None
+        assert (found.origin.longitude, found.origin.latitude) == pytest.approx((120.0002, 30.00015))
+        assert "Left out: GroundOverlay, 1 times." in found.notes
+
+
+def drawing() -> bytes:
+    """A foreign drawing in millimetres: a court with an arched side, a tree as a block, a well, a wall, words."""
+    document = ezdxf.new("R2010", units=ezdxf.units.MM)
+    space = document.modelspace()
+    court = space.add_lwpolyline([(0, 0), (40_000, 0), (40_000, 30_000), (0, 30_000)], close=True)
+    court.set_points([(0, 0, 0), (40_000, 0, 0.2), (40_000, 30_000, 0), (0, 30_000, 0)], format="xyb")
+    tree = document.blocks.new("TREE")
+    tree.add_circle((0, 0), 500)
+    space.add_blockref("TREE", (10_000, 10_000))
+    space.add_circle((20_000, 10_000), 1_500)
+    space.add_text("well", dxfattribs={"insert": (20_000, 10_000), "height": 500})
+    space.add_line((5_000, 20_000), (9_000, 20_000), dxfattribs={"layer": "Walls"})
+    space.add_lwpolyline([(5_000, 5_000), (30_000, 5_000)], dxfattribs={"layer": "PATH"})
+    space.add_3dface([(0, 0), (1, 0), (1, 1)])
+    sink = io.StringIO()
+    document.write(sink)
+    return sink.getvalue().encode()
+
+
+def test_a_foreign_drawing_is_understood() -> None:
+    found = read(drawing())
+    assert found.venue is not None
+    assert [area.name for area in found.venue.areas] == ["square", "obstacle 1", "well", "obstacle 3"]
+    square, tree, well, wall = rings(found)
+    assert np.ptp(square[:, 1]) == pytest.approx(30.0)
+    # A bulge of 0.2 on a side of 30 m reaches 0.2 x 15 m beyond it.
+    assert square[:, 0].max() == pytest.approx(43.0, abs=0.01)
+    assert tree.mean(axis=0) == pytest.approx([10.0, 10.0], abs=0.1)
+    assert np.ptp(well[:, 0]) == pytest.approx(3.0, rel=0.01)
+    assert np.ptp(wall, axis=0) == pytest.approx([4.2, 0.2], rel=GROWTH_MOST - 1.0)
+    assert found.path == {"kind": "waypoints", "points": [[5.0, 5.0], [30.0, 5.0]]}
+    assert "Left out: 3DFACE, 1 times." in found.notes
+
+
+def test_the_unit_is_told_by_the_range_or_by_who_asks() -> None:
+    small = {"type": "Polygon", "coordinates": [[[10.0, 20.0], [10.1, 20.0], [10.1, 20.1], [10.0, 20.0]]]}
+    data = json.dumps(small).encode()
+    assert np.ptp(rings(read(data))[0], axis=0) == pytest.approx([10_450, 11_070], rel=2e-3)
+    assert np.ptp(rings(read(data, "metres"))[0], axis=0) == pytest.approx([0.1, 0.1])
+    assert rings(read(json.dumps(VILLAGE).encode()))[0].max() == 65.0
+
+
+def test_points_alone_get_a_square_around_them_and_a_radius_that_is_said() -> None:
+    points = {"type": "MultiPoint", "coordinates": [[0.0, 0.0], [300.0, 40.0]]}
+    found = read(json.dumps(points).encode())
+    assert found.venue is not None
+    assert rings(found)[0].min(axis=0).tolist() == [-20.0, -20.0]
+    assert [area.name for area in found.venue.obstacles] == ["obstacle 1", "obstacle 2"]
+    assert sum("no radius, taken as 0.5 m" in note for note in found.notes) == 2
+
+
+def zipped(size: int) -> bytes:
+    sink = io.BytesIO()
+    with zipfile.ZipFile(sink, "w", zipfile.ZIP_DEFLATED) as archive:
+        archive.writestr("doc.kml", b"<kml>" + b" " * size)
+    return sink.getvalue()
+
+
+BOMB = '<!DOCTYPE k [<!ENTITY a "aaaaaaaaaa"><!ENTITY b "&a;&a;&a;&a;&a;&a;&a;&a;&a;&a;">]><kml>&b;</kml>'
+
+
+@pytest.mark.parametrize(
+    ("data", "words"),
+    [
+        (BOMB.encode(), "must not have a document type or entities"),
+        (b'<!DOCTYPE k SYSTEM "file:///etc/passwd"><kml/>', "must not have a document type or entities"),
+        (b"<kml>" + b"<Folder>" * 100_000, "must not nest elements deeper than 60"),
+        (zipped(21_000_000), "must unpack to at most 20000000 bytes"),
+        (b"PK\x03\x04broken", "must be a KMZ file that can be unpacked"),
+        (b"<svg/>", "got XML of another kind"),
+        (b"AC1027" + b"\0" * 100, "got DWG"),
+        (b"0\nSECTION\nnonsense", "file must be DXF"),
+        (b"\x00\xff\xfe", "got none of these"),
+        (b"", "got nothing"),
+        (b"venue = 5", "a venue that is GeoJSON or the name of a file"),
+        (b'{"type": "Point", "coordinates": [1e400, 2]}', "file"),
+        (b'{"type": "Polygon", "coordinates": [[[0, 0], [9, 9], [9, 0], [0, 9], [0, 0]]]}', "self-intersection"),
+        (b'{"type": "Topology"}', "file.type must be one of"),
+        (b'path = {kind = "spiral", pitch = "wide"}', "file must describe a path: path"),
+        (json.dumps({"type": "MultiPoint", "coordinates": [[k, k] for k in range(20_000)]}).encode(), "at most 10000"),
+    ],
+)
+def test_a_file_that_cannot_be_used_is_refused_in_words(data: bytes, words: str) -> None:
+    with pytest.raises(InvalidValue, match=words) as refused:
+        read(data)
+    assert refused.value.field.partition(".")[0] == "file"
+
+
+@pytest.mark.parametrize(
+    ("query", "headers", "status", "words"),
+    [
+        ({}, {"Content-Type": "image/png"}, 415, "The body must be the file itself"),
+        ({"units": "feet"}, {}, 422, "units must be"),
+        ({}, {}, 422, "file must not have a document type"),
+    ],
+)
+def test_the_service_refuses_in_problem_details(
+    client: httpx.Client, query: dict[str, str], headers: dict[str, str], status: int, words: str
+) -> None:
+    given = {"Content-Type": "application/vnd.google-earth.kml+xml"} | headers
+    answer = client.post("/places", content=BOMB, params=query, headers=given)
+    assert (answer.status_code, answer.headers["content-type"]) == (status, "application/problem+json")
+    assert words in answer.json()["detail"]
+
+
+def test_the_command_takes_a_map_for_a_dance_and_gives_one(tmp_path: Path) -> None:
+    (tmp_path / "temple.kml").write_text(KML)
+    dance = tmp_path / "dance.toml"
+    dance.write_text('venue = "temple.kml"\npath = "temple.kml"\nmargin = 0.2\n[dragon]\nbenches = 4\n')
+    checked = run("check", str(dance), "--json")
+    assert checked.returncode == 0, checked.stderr
+    assert json.loads(checked.stdout)["origin"] == pytest.approx({"longitude": 120.0002, "latitude": 30.00015})
+    assert "temple.kml: Longitude and latitude became metres" in checked.stderr
+    done = run("maps", str(dance), "--output", str(tmp_path / "dance.dxf"))
+    assert (done.returncode, done.stdout) == (0, "")
+    back = run("places", str(tmp_path / "dance.dxf"), "--output", str(tmp_path / "again.json"))
+    assert "camphor" in back.stdout
+    again = json.loads((tmp_path / "again.json").read_text())
+    assert (again["path"]["kind"], len(again["venue"]["features"])) == ("waypoints", 2)

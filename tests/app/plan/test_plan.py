@@ -1,0 +1,176 @@
+"""The plan on paper, opened again by another program: true to scale, words that can be found, fonts within."""
+
+from __future__ import annotations
+
+import ctypes
+import json
+from pathlib import Path
+from typing import Any
+
+import httpx
+import numpy as np
+import pypdfium2
+import pypdfium2.raw as pdfium
+import pytest
+
+from app.plan.sheet import MARGIN, RATIOS, scale_of
+from core import InvalidValue
+from tests.app.command import run
+
+# Millimetres in a point of PDF, and how well a place on paper is known [mm].
+POINT, ON_PAPER = 25.4 / 72.0, 0.02
+SQUARE = [[[-5, -12], [45, -12], [45, 12], [-5, 12], [-5, -12]]]
+KIOSK = [[[20, 4], [26, 4], [26, 8], [20, 8], [20, 4]]]
+BODY: dict[str, Any] = {
+    "dragon": {"benches": 6},
+    "path": {"kind": "route", "pieces": [{"kind": "line", "start": [0, 0], "end": [40, 0]}]},
+    "venue": {"type": "FeatureCollection", "origin": {"longitude": 120.1, "latitude": 30.2}, "features": [
+        {"type": "Feature", "properties": {"name": name}, "geometry": {"type": "Polygon", "coordinates": rings}}
+        for name, rings in (("square", SQUARE), ("kiosk", KIOSK))
+    ]},
+    "margin": 0.3,
+    "title": "Lantern night",
+}  # fmt: skip
+
+
+@pytest.fixture(scope="module")
+def data(client: httpx.Client) -> bytes:
+    answer = client.post("/plan", json=BODY).raise_for_status()
+    assert answer.headers["content-type"] == "application/pdf"
+    return answer.content
+
+
+@pytest.fixture
+def pages(data: bytes) -> Any:
+    return list(pypdfium2.PdfDocument(data))
+
+
+def words(page: Any) -> str:
+    return str(page.get_textpage().get_text_bounded())
+
+
+def size(page: Any) -> list[float]:
+    return [POINT * side for side in page.get_size()]
+
+
+def boxes(page: Any) -> np.ndarray[Any, Any]:
+    """Boxes (N, 4) of all drawn shapes: left, bottom, right, top [mm]."""
+    shapes = page.get_objects(filter=[pdfium.FPDF_PAGEOBJ_PATH])
+    return POINT * np.array([one.get_bounds() for one in shapes])
+
+
+def holds_box(page: Any, width: float, height: float) -> bool:
+    found = boxes(page)
+    sizes = found[:, 2:] - found[:, :2]
+    # The bounds of a shape hold the line around it, too.
+    return bool((np.abs(sizes - [width, height]) < 0.9).all(axis=1).any())
+
+
+def test_ten_metres_are_fifty_millimetres_at_one_to_two_hundred(pages: Any) -> None:
+    assert size(pages[0]) == pytest.approx([297.0, 210.0], abs=0.01)
+    assert "1:200" in words(pages[0])
+    found = boxes(pages[0])
+    sizes = found[:, 2:] - found[:, :2]
+    # The black half of the scale bar is 5 m long, without a line around it.
+    assert np.abs(sizes - [25.0, 1.6]).max(axis=1).min() < ON_PAPER
+    # Above the title block the nine marks, 2.2 mm high and as wide as their lines, stand every 5 m.
+    ticks = found[(np.abs(sizes[:, 1] - 2.6) < 0.1) & (sizes[:, 0] < 0.5) & (found[:, 1] > 45.0)]
+    assert np.diff(np.sort(ticks[:, 0])) == pytest.approx(np.full(8, 25.0), abs=ON_PAPER)
+    # The kiosk: 6 m by 4 m; the square: 50 m by 24 m.
+    assert holds_box(pages[0], 30.0, 20.0)
+    assert holds_box(pages[0], 250.0, 120.0)
+
+
+def test_all_that_is_promised_can_be_found_as_words(pages: Any) -> None:
+    told = [words(page) for page in pages]
+    assert len(pages) == 5
+    for word in ("Lantern night", "kiosk", "N", "keep clear, 0.3 m", "chalk mark every 5 m", "Checked: passes", "1/5"):
+        assert word in told[0]
+    for k, time in enumerate(("0:11.1", "0:25.6", "0:40.0")):
+        assert f"Who stands where at {time}" in told[1 + k]
+    tables = " ".join(told[4].split())
+    # The dragon is 2.86 + 5 x 1.65 = 11.11 m long, and goes the 28.89 m to the end at 1 m/s.
+    assert "the dance begins, head at 11.1 m 0:11.1" in tables
+    assert "the dance ends, head at 40.0 m 0:40.0" in tables
+    # The tail is 11.11 s behind the head, and at the end of the dance 11.11 m before it.
+    assert "25 0:25.0 0:36.1" in tables
+    assert "30 0:30.0 –" in tables
+    assert "30 30.000 0.000" in tables
+
+
+def test_every_font_is_in_the_file(pages: Any) -> None:
+    for page in pages:
+        fonts = [one.get_font() for one in page.get_objects(filter=[pdfium.FPDF_PAGEOBJ_TEXT])]
+        assert fonts
+        assert all(font.is_embedded for font in fonts)
+
+
+def test_no_words_are_painted_over(pages: Any) -> None:
+    drawn = list(pages[-1].get_objects())
+    filled = (ctypes.c_uint * 4)()
+    bands = []
+    for k, one in enumerate(drawn):
+        if one.type == pdfium.FPDF_PAGEOBJ_PATH and pdfium.FPDFPageObj_GetFillColor(
+            one.raw, *(ctypes.cast(ctypes.byref(filled, 4 * i), ctypes.POINTER(ctypes.c_uint)) for i in range(4))
+        ):
+            bands += [k] if tuple(filled[:3]) == (242, 242, 242) else []
+    assert len(bands) > 10
+    assert max(bands) < min(k for k, one in enumerate(drawn) if one.type == pdfium.FPDF_PAGEOBJ_TEXT)
+
+
+def test_nothing_leaves_the_paper_and_no_sheet_is_empty(pages: Any) -> None:
+    for page in pages:
+        text = page.get_textpage()
+        rects = POINT * np.array([text.get_rect(k) for k in range(text.count_rects())])
+        wide, high = size(page)
+        assert len(rects) > 20
+        assert (rects[:, :2] > MARGIN - 0.5).all()
+        assert (rects[:, 2:] < [wide - MARGIN + 0.5, high - MARGIN + 0.5]).all()
+
+
+def test_a_plan_in_chinese_on_a3_is_the_same_from_a_terminal(client: httpx.Client, tmp_path: Path) -> None:
+    named = BODY | {"dragon": {"benches": 6, "names": ["龙头组", "王家", "", "", "", "李家"]}, "start_clock": "19:30"}
+    body = named | {"language": "zh", "paper": "A3", "title": "板凳龙 2027"}
+    data = client.post("/plan", json=body).raise_for_status().content
+    file = tmp_path / "dance.json"
+    file.write_text(json.dumps(named))
+    output = tmp_path / "plan.pdf"
+    done = run(
+        "plan", str(file), "--output", str(output), "--language", "zh", "--paper", "A3", "--title", "板凳龙 2027"
+    )
+    assert (done.returncode, done.stderr) == (0, f"{output}\n")
+    assert output.read_bytes() == data
+    pages = list(pypdfium2.PdfDocument(data))
+    page, table = pages[0], " ".join(words(pages[4]).split())
+    assert "1 王家 19:30:13" in table
+    assert "40.0 m 19:30:40" in table
+    assert "5 李家" in words(pages[1])
+    assert size(page) == pytest.approx([420.0, 297.0], abs=0.01)
+    assert all(word in words(page) for word in ("板凳龙 2027", "保持清空", "检查：通过", "1:200"))
+    assert holds_box(page, 30.0, 20.0)
+
+
+def test_a_spiral_has_its_radius_and_angle_and_its_failure_in_the_title(client: httpx.Client) -> None:
+    body = {"dragon": {"benches": 9}, "path": {"kind": "spiral", "pitch": 0.4, "start_turns": 6, "centre": [9, 9]}}
+    pages = list(pypdfium2.PdfDocument(client.post("/plan", json=body | {"spacing": 10}).raise_for_status().content))
+    assert "Checked: benches touch or are too near at 0:" in words(pages[0])
+    # The head starts at 2.4 m from the centre, at 0 degrees.
+    assert "11.400 9.000 2.400 0.00" in " ".join(words(pages[-1]).split())
+
+
+def test_the_largest_scale_that_fits_is_taken_and_none_is_refused() -> None:
+    box = np.zeros(2), np.array([50.0, 20.0])
+    assert (scale_of("A4", *box).ratio, scale_of("A3", *box).ratio) == (200, 200)
+    turned = scale_of("A4", np.zeros(2), np.array([17.0, 22.0]))
+    assert (turned.ratio, turned.paper.width) == (100, 210.0)
+    assert turned.on_paper(np.array([8.5, 11.0])) == pytest.approx([105.0, 10.0 + 30.0 + (297.0 - 50.0) / 2.0])
+    with pytest.raises(InvalidValue, match=f"to fit on A4 at 1:{RATIOS[-1]}"):
+        scale_of("A4", np.zeros(2), np.array([1e5, 1.0]))
+
+
+def test_a_wrong_paper_and_too_many_marks_are_refused(client: httpx.Client) -> None:
+    wrong = client.post("/plan", json=BODY | {"paper": "A5"})
+    assert (wrong.status_code, wrong.json()["errors"][0]["pointer"]) == (422, "/paper")
+    many = client.post("/plan", json={"spacing": 0.5, "path": {"pitch": 5, "start_turns": 30}})
+    assert (many.status_code, many.json()["errors"][0]["pointer"]) == (422, "/spacing")
+    assert "marks must be at most 2000 here" in many.json()["detail"]

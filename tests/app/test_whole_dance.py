@@ -1,0 +1,167 @@
+"""What belongs to a whole dance beside its path: passages, where the spiral lies, names of benches, the time of day."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+from pathlib import Path
+from typing import Any
+
+import httpx
+import numpy as np
+import pytest
+
+import core
+from app.files.film import Stage
+from app.files.shooting import Shooting
+from app.wire.benches import bench_table
+from app.wire.clocks import time_of_day
+from core import InvalidValue
+from tests.app.command import run
+
+NAMES = ["Zhou", "Li, the elder", "", "Wu"]
+DRAGON = {"lengths": [3.41, 2.2, 2.2, 2.2], "widths": [0.3] * 4, "overhangs": [0.275] * 4, "names": NAMES}
+SPIRAL = {"kind": "spiral", "centre": [30, -8], "rotation": 0.4, "clockwise": False}
+PASSAGES = [{"speed": 0.5, "until_s": 20}, {"speed": 0, "until_time": 100}]
+DANCE: dict[str, Any] = {"dragon": DRAGON, "path": SPIRAL, "passages": PASSAGES, "start_clock": "19:30"}
+TABLE = """name;length;width;overhang
+Zhou;3,41;0,3;0,275
+"Li, the elder";2,2;0,3;0,275
+
+;2,2;0,3;0,275
+Wu;2,2;0,3;0,275
+"""
+TOML = """
+start_clock = 19:30:00
+dragon = "benches.csv"
+passages = [{speed = 0.5, until_s = 20}, {speed = 0, until_time = 100}]
+path = {kind = "spiral", centre = [30, -8], rotation = 0.4, clockwise = false}
+speed_limit = 0.9
+stop = 400
+"""
+PLACED = core.Dance(
+    core.Dragon.of(DRAGON["lengths"], DRAGON["widths"], DRAGON["overhangs"]).named(NAMES),
+    core.Spiral(0.55, 16.0, (30.0, -8.0), 0.4, clockwise=False),
+    1.0,
+    [core.Passage(0.5, 20.0), core.Passage(0.0, None, 100.0)],
+)
+
+
+def posted(client: httpx.Client, call: str, **body: Any) -> httpx.Response:
+    return client.post(call, json=DANCE | body)
+
+
+def test_a_table_has_places_speeds_names_and_the_time_of_day(client: httpx.Client) -> None:
+    times = [10.0, 50.0, 130.25]
+    got = posted(client, "/trajectory", times=times).raise_for_status().json()
+    known = core.trajectory(PLACED, times)
+    assert np.stack([got["x"], got["y"]], axis=-1).tolist() == known.position.tolist()
+    assert got["speed"] == known.speed.tolist()
+    assert got["speed"][1] == [0.0] * 5
+    text = client.post("/trajectory", json=DANCE | {"times": times}, headers={"accept": "text/csv"}).text
+    rows = list(csv.DictReader(io.StringIO(text)))
+    assert [row["name"] for row in rows[:5]] == ["Zhou", "Li, the elder", "body 2", "Wu", "Wu (rear)"]
+    assert [row["clock"] for row in rows[::5]] == ["19:30:10", "19:30:50", "19:32:10"]
+
+
+def test_failures_say_who_and_at_what_time_of_day(client: httpx.Client) -> None:
+    square = {"type": "Polygon", "coordinates": [[[20, -18], [40, -18], [40, -6], [20, -6], [20, -18]]]}
+    got = posted(client, "/check", venue=square, speed_limit=0.9, stop=150).raise_for_status().json()
+    told = {failure["kind"]: failure for failure in got["failures"]}
+    assert (told["speed"]["time"], told["speed"]["clock"], told["speed"]["names"]) == (100, "19:31:40", ["Zhou"])
+    assert told["outside"]["names"] == [NAMES[told["outside"]["benches"][0]]]
+    assert got["highest_speed"]["passage"] is None
+    assert f"Bench {told['outside']['benches'][0]} (" in told["outside"]["message"]
+
+
+def test_a_file_may_name_a_table_of_benches_and_a_time_of_day(tmp_path: Path) -> None:
+    (tmp_path / "benches.csv").write_text(TABLE, encoding="utf-8")
+    (tmp_path / "dance.toml").write_text(TOML, encoding="utf-8")
+    done = run("check", str(tmp_path / "dance.toml"), "--output", str(tmp_path / "all.csv"))
+    assert done.returncode == 0, done.stderr
+    assert "19:31:40  Handle 0 first exceeds 0.9 m/s at 100.000000 s" in done.stdout
+    rows = (tmp_path / "all.csv").read_text(encoding="utf-8").splitlines()
+    assert rows[0] == "time,handle,x,y,speed,name,clock"
+    assert '"Li, the elder",19:30:00' in rows[2]
+    (tmp_path / "benches.csv").write_text(TABLE.replace("Wu;2,2", "Wu;220"), encoding="utf-8")
+    refused = run("check", str(tmp_path / "dance.toml"))
+    assert refused.returncode == 2
+    assert "line 6: length must be from 0.001 to 50 m, got 220 m: 220 cm is 2.2 m" in refused.stderr.replace("\n", " ")
+
+
+def test_the_proof_of_a_dance_with_passages_is_that_of_its_places(tmp_path: Path) -> None:
+    dance = {"dragon": {"benches": 4}, "path": SPIRAL | {"start_turns": 5}, "passages": PASSAGES, "stop": 104}
+    (tmp_path / "dance.json").write_text(json.dumps(dance))
+    done = run("prove", "dance", str(tmp_path / "dance.json"), "--output", str(tmp_path / "proof.json"))
+    assert done.returncode == 0, done.stderr
+    assert "about places" in done.stderr
+    claim = json.loads((tmp_path / "proof.json").read_text())["claim"]
+    assert (claim["start"], claim["stop"]) == (0.0, 24.0)  # the head is 24 m on at 104 s
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("", "line 1: must be the names of columns"),
+        ("length,width\n", "line 1: the column overhang is missing"),
+        ("length,width,overhang,weight\n", "line 1: a column must be name, length, width or overhang, got 'weight'"),
+        ("length,length,width,overhang\n", "line 1: a column must be named once"),
+        ("\n\nlength,width,overhang\n", "line 4: must be the first bench"),
+        ("length,width,overhang\n2.2,0.3\n", "line 2: must have 3 entries"),
+        ("length,width,overhang\n2.2,wide,0.3\n", "line 2: width must be a number in metres, got 'wide'"),
+        ("length,width,overhang\n2.2,nan,0.3\n", "line 2: width must be from"),
+        ("length,width,overhang\n\n2.2,0.3,1.1\n", "line 3: overhang must be less than half of the length, 2.2 m"),
+    ],
+)
+def test_a_bad_line_of_a_table_is_named_by_its_number(text: str, words: str) -> None:
+    with pytest.raises(InvalidValue, match=r"^line \d") as refused:
+        bench_table(text).to_dragon()
+    assert refused.value.message.startswith(words)
+
+
+def test_a_table_may_come_from_a_spreadsheet() -> None:
+    wanted = bench_table(TABLE).to_dragon()
+    assert wanted == PLACED.dragon
+    pasted = TABLE.replace(";", "\t").replace("name", "\ufeff姓名").replace("length", "Length [m]").replace('"', "")
+    assert bench_table(pasted).to_dragon() == wanted
+    commas = TABLE.replace(",", ".").replace(";", ",").replace("Li. the", "Li, the")
+    assert bench_table(commas + ",,,\n").to_dragon() == wanted
+
+
+@pytest.mark.parametrize(
+    ("field", "body"),
+    [
+        ("/passages/1/until_time", {"passages": [{"speed": 1, "until_s": 5}, {"speed": 0, "until_time": 5}]}),
+        ("/passages/0/until_time", {"passages": [{"speed": 0, "until_s": 5}]}),
+        ("/passages/0", {"passages": [{"speed": 1}]}),
+        ("/passages/0/speed", {"passages": [{"speed": -1, "until_s": 5}]}),
+        ("/path/centre/1", {"path": SPIRAL | {"centre": [0, 1e9]}}),
+        ("/path/clockwise", {"path": SPIRAL | {"clockwise": 1}}),
+        ("/dragon/names", {"dragon": DRAGON | {"names": ["Zhou"]}}),
+        ("/dragon/names/1", {"dragon": {"benches": 2, "names": ["Zhou", "Li\nWu"]}}),
+        ("/dragon/csv", {"dragon": {"csv": TABLE.replace("0,3;", "x;")}}),
+        ("/start_clock", {"start_clock": "24:00"}),
+    ],
+)
+def test_each_is_refused_at_its_place(client: httpx.Client, field: str, body: dict[str, Any]) -> None:
+    refused = posted(client, "/trajectory", times=[0], **body)
+    assert refused.status_code == 422
+    assert [error["pointer"] for error in refused.json()["errors"]] == [field], refused.text
+
+
+def test_a_table_of_benches_is_a_dragon_in_every_body(client: httpx.Client) -> None:
+    ours = posted(client, "/trajectory", times=[40], dragon={"csv": TABLE}).raise_for_status().json()
+    assert ours == posted(client, "/trajectory", times=[40]).raise_for_status().json()
+
+
+def test_the_day_begins_again_at_midnight() -> None:
+    assert [time_of_day(time, "23:59:30") for time in (0.0, 29.999, 30.0, 86_400.0)] == [
+        "23:59:30", "23:59:59", "00:00:00", "23:59:30",
+    ]  # fmt: skip
+
+
+def test_a_film_shows_the_time_of_day() -> None:
+    stage = Stage(PLACED, Shooting(0.0, 130.0, height=90, start_clock="19:30"), None, "")
+    stage.frame(101.5, core.bench_outlines(PLACED.dragon, core.trajectory(PLACED, 101.5).position))
+    assert stage.time.get_text() == "19:31:41  101.50 s"

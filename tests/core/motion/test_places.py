@@ -1,0 +1,39 @@
+"""Where handles are along the path, and when they pass a place."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from core import Dance, Dragon, Spiral, Turn, trajectory
+from core.clock import Passage
+from core.motion.places import Passing, handle_places
+
+# Rounding of places along a path [m], and how well a passing time is known [m of travel].
+PLACE_ROUNDING, PASSED = 1e-11, 0.01
+DANCES = {
+    "spiral": Dance(Dragon(30), Spiral()),
+    "spiral elsewhere, counter-clockwise": Dance(Dragon(12), Spiral(0.9, 8, (5.0, -2.0), 1.0, False)),
+    "turn": Dance(Dragon(30), Turn(1.7, 4.5)),
+}
+
+
+@pytest.mark.parametrize("dance", DANCES.values(), ids=DANCES)
+def test_handles_are_at_their_places_on_the_path(dance: Dance) -> None:
+    times = np.array([0.0, 7.5, 30.0])
+    found = dance.path.position(handle_places(dance, times))
+    assert np.abs(found - trajectory(dance, times).position).max() < PLACE_ROUNDING
+
+
+def test_a_handle_is_where_it_is_said_to_pass_and_waits_through_a_pause() -> None:
+    dance = Dance(Dragon(20), Turn(1.7, 4.5), 2.0, [Passage(1.0, until_s=5.0), Passage(0.0, until_time=20.0)])
+    passing = Passing(dance, 0.0, 40.0)
+    for handle, s in ((0, 3.0), (0, 30.0), (7, 0.0), (20, -20.0)):
+        time = passing.when(handle, s)
+        assert time is not None
+        assert abs(handle_places(dance, [time])[0, handle] - s) < PASSED
+    before, after = passing.when(0, 4.999), passing.when(0, 5.001)
+    assert before == pytest.approx(4.999)
+    assert after == pytest.approx(20.0005)
+    assert passing.when(0, -1.0) is None
+    assert passing.when(20, 30.0) is None

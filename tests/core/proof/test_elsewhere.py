@@ -1,0 +1,35 @@
+"""Certificates of a spiral that lies elsewhere are those of the standard one; passages are no part of a proof."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+
+from core import Dance, Dragon, InvalidValue, Passage, Spiral, tolerance
+from core.proof import check, prove_clear, prove_tolerance
+
+STANDARD = Dance(Dragon(5), Spiral(0.55, 4.0))
+ELSEWHERE = Dance(Dragon(5), Spiral(0.55, 4.0, (31.0, -12.5), 0.6, clockwise=False))
+SPAN = {"start": 0.0, "stop": 0.5}
+
+
+def test_a_certificate_does_not_depend_on_where_the_spiral_lies() -> None:
+    certificate = prove_clear(ELSEWHERE, 2.0)
+    assert certificate["digest"] == prove_clear(STANDARD, 2.0)["digest"]
+
+
+def test_a_pose_that_overlaps_elsewhere_is_proven_in_the_frame_of_the_spiral() -> None:
+    dance = Dance(Dragon(20), replace(ELSEWHERE.path, start_turns=8.0))
+    found = tolerance(dance, **SPAN)
+    assert found.exhibit is not None
+    certificate = prove_tolerance(dance, found.stray, exhibit=found.exhibit, **SPAN)
+    assert check(certificate).pair_proofs > 0
+
+
+def test_passages_are_refused_and_the_steady_dance_is_proven() -> None:
+    dance = replace(ELSEWHERE, passages=[Passage(0.5, until_s=1.0)])
+    with pytest.raises(InvalidValue, match=r"prove dance\.steady") as refused:
+        prove_clear(dance, 2.0)
+    assert refused.value.field == "passages"
+    assert prove_clear(dance.steady, 2.0)["digest"] == prove_clear(STANDARD, 2.0)["digest"]

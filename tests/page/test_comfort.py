@@ -1,0 +1,265 @@
+"""What makes the page good to use: on a phone, in motion, at a glance, in print, in both languages."""
+
+from __future__ import annotations
+
+import json
+import re
+from pathlib import Path
+from typing import Any
+
+import httpx
+import pytest
+from playwright.sync_api import expect
+
+from tests.app.jobs.service import wait_for
+
+PHONE = {"width": 390, "height": 844}
+TOUCH = {"viewport": PHONE, "has_touch": True, "is_mobile": True}
+FINGER = 44  # [px]: the least height of what a finger should hit
+SMALL = """(least) => [...document.querySelectorAll("button, select, input, summary, nav a")]
+  .filter((one) => one.checkVisibility() && !["checkbox", "file"].includes(one.type))
+  .filter((one) => one.getBoundingClientRect().height < least - 0.5).map((one) => one.outerHTML)"""
+# Latin letters that are no unit, no name and no symbol.
+ENGLISH = re.compile(r"[A-Za-z]{4,}")
+REFUSALS = [
+    'pitch must be a number [m], got "x"',
+    "start_turns must be more than 6.89823 turns, where bench 0 of this dragon folds, got 4 turns",
+    "entry_radius must be larger than 4 m: the turn bends to a radius of 1.3 m, and bench 0 follows none below 1.431 m",
+    "path.ratio must be nearer to 1 than 4: the turn bends to a radius of 0.9 m, and bench 0 follows none below 1.4 m",
+    "speed_limit must be at most 100 m/s, got 1000 m/s: speeds are in metres per second",
+    (
+        "turning_diameter must be larger, or the pitch, got 9 m: in a turn that begins on the circle benches 0 and 14 "
+        "touch 12.874253 s after the entry at 1 m/s"
+    ),
+    (
+        "body_length must be larger, or benches fewer, got 2.2 m: their minimum pitch was not found within 10 s, the "
+        "time that one answer may take here; the shortest of 223 chords is 1.65 m long"
+    ),
+    "benches must be at least 3 for two to share no handle, got 2",
+    "instants x handles must be at most 1000000 here, got 1505301: take a larger step or fewer benches",
+    "stop must be at most 61.706468681 s, when the path ends, got 100 s",
+    "8 heavy computations are running, as many as may: try again in 3 s.",
+    "The service failed on this request; its log has the reason.",
+]
+
+
+def shows(page: Any, selector: str, *words: str) -> None:
+    for one in words:
+        expect(page.locator(selector).first).to_contain_text(one)
+
+
+def box(page: Any, selector: str) -> Any:
+    return page.locator(selector).first.bounding_box()
+
+
+def test_on_a_phone_the_picture_stays_in_sight_of_what_is_dragged_and_fingers_have_room(
+    open_page: Any, settled: Any
+) -> None:
+    page = open_page("?benches=20", **TOUCH)
+    settled(page)
+    assert page.evaluate(SMALL, FINGER) == []
+    for name in ("pitch", "pin"):
+        slider = page.locator(f"[data-field={name}] input[type=range]")
+        slider.evaluate("one => one.scrollIntoView({ block: 'end' })")
+        canvas, knob = box(page, "#canvas"), slider.bounding_box()
+        assert canvas["y"] >= 0
+        assert canvas["y"] + canvas["height"] <= knob["y"]
+        assert knob["y"] + knob["height"] <= PHONE["height"] + 1
+    expect(page.locator("#verdict")).to_contain_text("Contact at")
+    inset, legend = box(page, "#inset"), box(page, "#legend")
+    apart = inset["x"] >= legend["x"] + legend["width"] or inset["y"] + inset["height"] <= legend["y"]
+    assert apart
+    page.locator("[data-path=turn]").tap()
+    shows(page, "#head-speed .value", "m/s")
+    assert page.evaluate(SMALL, FINGER) == []
+    assert page.evaluate("document.documentElement.scrollWidth") <= PHONE["width"]
+
+
+def test_a_bare_address_opens_in_motion_and_the_wheel_scrolls_until_the_picture_is_clicked(
+    open_page: Any, server: str
+) -> None:
+    page = open_page("")
+    shows(page, "#play", "Pause")
+    expect(page.locator("#clock")).to_have_text(re.compile(r"^[1-9]"))
+    time = httpx.get(f"{server}/collision-time").json()["time"]
+    expect(page.locator("#contact-mark")).to_have_attribute("title", f"First contact, at {time:.6f} s")
+    page.locator("#play").click()
+    slider, mark = box(page, "#time"), box(page, "#contact-mark")
+    assert slider["x"] + slider["width"] - mark["x"] < 20
+    canvas = box(page, "#canvas")
+    page.mouse.move(canvas["x"] + 300, canvas["y"] + 300)
+    page.mouse.wheel(0, 200)
+    wait_for(lambda: page.evaluate("scrollY") > 100)
+    assert "view=" not in page.url
+    page.evaluate("scrollTo(0, 0)")
+    page.mouse.click(canvas["x"] + 300, canvas["y"] + 300)
+    page.mouse.wheel(0, 200)
+    page.wait_for_url("**view=**")
+    assert page.evaluate("scrollY") == 0
+    still = open_page("", reduced_motion="reduce")
+    shows(still, "#clock", "0.000000 s")
+    shows(still, "#play", "Play")
+
+
+def test_the_picture_has_its_scale_its_direction_and_one_scale_of_colours(open_page: Any, settled: Any) -> None:
+    page = open_page("?time=0&view=8.8,0,40")
+    settled(page)
+    metres, pixels = page.evaluate(
+        "import('/page/dance.js').then(({ scaleBar }) => [4e-3, 40, 41, 2e4].map((scale) => scaleBar(scale)))"
+        ".then((all) => [all.map((one) => one.metres), all.map((one) => one.pixels)])"
+    )
+    assert metres == [20_000, 2, 2, 0.005]
+    assert pixels == pytest.approx([80, 80, 82, 100])
+    # The head is in the middle and moves down: its arrow crosses the row 20 pixels below.
+    seen = "c => [...c.getContext('2d').getImageData(c.width / 2 - 8, c.height / 2 + 20, 16, 1).data]"
+    pixels = page.locator("#canvas").evaluate(seen)
+    assert any(
+        red > 150 > max(green, blue) for red, green, blue in zip(pixels[::4], pixels[1::4], pixels[2::4], strict=True)
+    )
+    legend = page.locator("#legend").inner_text()
+    page.locator("#time").press("End")
+    page.locator("#inset").wait_for()
+    assert page.locator("#legend").inner_text() == legend
+    assert page.locator("#inset").get_attribute("data-corner") == "top-right"
+    inset, canvas = box(page, "#inset"), page.locator("#canvas")
+    # The point of contact moves below the inset, which gives way.
+    wanted = (inset["x"] + inset["width"] / 2, inset["y"] + inset["height"] / 2)
+    middle = canvas.bounding_box()
+    x = 1.474395 - (wanted[0] - middle["x"] - middle["width"] / 2) / 40
+    y = 2.110665 + (wanted[1] - middle["y"] - middle["height"] / 2) / 40
+    page.goto(f"{page.url.split('?')[0]}?view={x},{y},40")
+    page.locator("#inset:not([data-corner=top-right])").wait_for()
+
+
+def test_all_numbers_are_in_view_explained_and_their_sliders_reach_as_far_as_wanted(
+    open_page: Any, settled: Any, server: str
+) -> None:
+    page = open_page("?path=turn&benches=20")
+    settled(page)
+    form = page.locator("#controls")
+    assert form.evaluate("one => one.scrollHeight <= one.clientHeight")
+    fields = page.locator(".field")
+    assert fields.count() == 16
+    for k in range(fields.count()):
+        expect(fields.nth(k).locator(".help")).to_be_visible()
+        assert fields.nth(k).locator(".what").evaluate("one => one.scrollWidth <= one.clientWidth + 1")
+    expect(page.locator("#sketch")).to_have_attribute("aria-label", re.compile("^A bench from above"))
+    pitch = page.locator("[data-field=pitch]")
+    pitch.get_by_label("Slider of Pitch ends at").fill("9")
+    pitch.get_by_label("Slider of Pitch ends at").press("Enter")
+    pitch.locator("input[type=range]").press("End")
+    assert page.locator("#pitch").input_value() == "9"
+    page.locator(".field:has(#pitch) .reset").click()
+    # The numbers of a turn, and what its answers offer.
+    query = {"benches": 20, "ratio": 1.5, "speed_limit": 1.8}
+    page.locator("#ratio").fill("1.5")
+    page.locator("#speed_limit").fill("1.8")
+    fastest = httpx.get(f"{server}/maximum-head-speed", params=query).raise_for_status().json()
+    shows(page, "#head-speed .value", f"{fastest['head_speed']:.9f} m/s")
+    asked = {"benches": 20, "ratio": 1.5, "pitch": 1.7}
+    shortest = httpx.get(f"{server}/shortest-turn", params=asked).raise_for_status().json()
+    shows(page, "#shortest-turn .value", f"{shortest['entry_radius']:.6f} m")
+    page.get_by_role("button", name="Begin the turn there").click()
+    assert float(page.locator("#entry_radius").input_value()) == shortest["entry_bracket"][1]
+    page.get_by_role("button", name="Dance at this speed").click()
+    assert float(page.locator("#head_speed").input_value()) == pytest.approx(fastest["head_speed"], abs=1e-6)
+    shows(page, "#first-contact .value", "Nothing touches")
+    page.get_by_role("button", name="Dance the spiral of this pitch").click()
+    page.locator("[data-path=spiral][aria-pressed=true]").wait_for()
+    least = httpx.get(f"{server}/minimum-pitch", params={"benches": 20}).json()
+    assert float(page.locator("#pitch").input_value()) == least["pitch_bracket"][1]
+    assert page.locator("#entry_radius").is_hidden()
+
+
+def test_a_hanging_service_is_noticed_the_next_try_counts_down_and_messages_go_away(
+    open_page: Any, settled: Any
+) -> None:
+    page = open_page("?benches=20", failing=True)
+    settled(page)
+    page.route("**/healthz", lambda route: None)  # it hangs: neither an answer nor an end
+    for words in ("next try in 2 s", "next try in 1 s", "trying again now"):
+        page.locator("#lost", has_text=words).wait_for()
+    page.unroute_all()
+    page.locator("#lost").wait_for(state="hidden")
+    shows(page, "#status", "The service is back.")
+    page.locator("#status:empty").wait_for(state="attached")
+
+
+def test_the_pitch_chart_has_a_first_look_before_its_jumps_are_known(open_page: Any, server: str) -> None:
+    page = open_page("?benches=20")
+    page.route(lambda url: "/pitch-scan" in url and "locate" not in url, lambda route: None)
+    page.goto(f"{server}/?benches=12")
+    page.locator("#scan.coarse .uplot").wait_for()
+    shows(page, "#scan .reading", "first look; the jumps are being located")
+    page.unroute_all()
+    page.locator("#width").fill("0.29")
+    page.locator("#scan:not(.coarse) .uplot").wait_for()
+
+
+def test_in_chinese_proofs_and_refusals_are_chinese(open_page: Any, server: str) -> None:
+    page = open_page("?lang=zh&benches=9&stray=0.02&margin=0.01")
+    for place in ("#first-contact", "#tolerance"):
+        page.locator(f"{place} summary").click()
+        proof = page.locator(f"{place} .method").inner_text()
+        assert "证明" in proof
+        assert not ENGLISH.search(proof)
+    methods = [
+        httpx.get(f"{server}/collision-time", params=query).json()["certificate"]["method"]
+        for query in ({}, {"pitch": 0.3}, {"pitch": 2, "start_turns": 8, "benches": 9}, {"benches": 2})
+    ]
+    turn = {"path": {"kind": "turn", "pitch": 1.7}, "start": -10, "stop": 10, "dragon": {"benches": 5}}
+    methods.append(httpx.post(f"{server}/check", json=turn).json()["first_contact"]["certificate"]["method"])
+    proofs = page.evaluate("m => import('/page/proofs.js').then((one) => m.map(one.proofInChinese))", methods)
+    assert [proof for proof in proofs if ENGLISH.search(proof)] == []
+    wanted = """async (details) => {
+      const [{ refusalWords }, { setLanguage }] = [await import("/page/text.js"), await import("/page/text.js")];
+      return ["zh", "en"].map((one) => setLanguage(one) && details.map((detail) => refusalWords(detail).textContent));
+    }"""
+    chinese, english = page.evaluate(wanted, REFUSALS)
+    assert [words for words in chinese if ENGLISH.search(words)] == []
+    assert english[0] == "“Pitch” must be a number of metres, such as 0.55; you typed “x”."
+    assert [words for words in english if "[" in words or ", got" in words.partition("here")[0]] == []
+
+
+def test_on_paper_stand_the_picture_the_numbers_and_the_answers_in_dark_ink(open_page: Any, settled: Any) -> None:
+    page = open_page("?benches=20", color_scheme="dark")
+    settled(page)
+    page.emulate_media(media="print", color_scheme="dark")
+    for place in ("nav", "#transport", "#views", "#sweeps", "#grade", "#controls input[type=range] >> nth=0"):
+        expect(page.locator(place)).to_be_hidden()
+    for place in ("#canvas", "#pitch", "#first-contact .value", "#scan .plot"):
+        expect(page.locator(place)).to_be_visible()
+    ground = "one => getComputedStyle(one).backgroundColor"
+    assert page.locator("#canvas").evaluate(ground) == page.locator("body").evaluate(ground) == "rgb(255, 255, 255)"
+
+
+def test_everything_can_be_kept_from_the_page(open_page: Any, settled: Any, server: str) -> None:
+    page = open_page("?benches=20&pitch=0.5&start_turns=10")
+    settled(page)
+    kept = {}
+    for name in (
+        "Ground that benches sweep, GeoJSON",
+        "Every handle, every second, XLSX",
+        "Figure of this instant, PNG",
+    ):
+        with page.expect_download() as download:
+            page.get_by_role("button", name=name).click()
+        kept[download.value.suggested_filename] = Path(download.value.path()).read_bytes()
+    assert json.loads(kept["envelope.geojson"])["type"] in ("Feature", "FeatureCollection", "Polygon", "MultiPolygon")
+    assert kept["trajectory.xlsx"].startswith(b"PK")
+    assert kept["instant.png"].startswith(b"\x89PNG")
+    page.locator("#paper summary").click()
+    shows(page, "#paper table", "406.43 s", "412.473837682 s")
+    choice = page.locator("#curl-of")
+    commands = []
+    for option in choice.locator("option").all():
+        choice.select_option(option.get_attribute("value"))
+        commands.append(page.locator("#curl").inner_text())
+    assert len(set(commands)) == len(commands)
+    assert commands[-1].startswith("bench-dragon prove collision-time --benches 20 ")
+    assert all(command.startswith(f"curl '{server}/") for command in commands[:-1])
+    page.get_by_role("button", name="Film of the dance, GIF").click()
+    row = page.locator("#jobs li", has_text="Film of the dance")
+    row.wait_for()
+    row.get_by_role("button").last.click()
+    expect(row).to_have_attribute("data-state", re.compile("dismissed|successful"))

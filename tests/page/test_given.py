@@ -1,0 +1,155 @@
+"""What a person may say besides the numbers: benches one by one, passages, the time of day; and a plan on paper."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+from typing import Any
+
+import httpx
+import pytest
+from axe_playwright_python.sync_playwright import Axe
+from playwright.sync_api import expect
+
+from app.wire.benches import bench_table
+
+PHONE = {"width": 390, "height": 844}
+SERIOUS = {"serious", "critical"}
+S_CURVE = "?path=route&route=*-80,-16_0,-16_16,-8_0,0_-16,8_*0,16_80,16&benches=8"
+TABLE = (
+    "name,length,width,overhang\nZhou,3.41,0.3,0.275\nLi,2.2,0.3,0.275\nWu,1.8,0.7,0.2\nSun,2.2,0.3,0.275\nHe,2,0.3,0.2"
+)
+PASSAGES = [{"speed": 0.5, "until_s": 20}, {"speed": 0, "until_time": 100}, {"speed": 1.5, "until_s": 60}]
+SPIRAL = {"kind": "spiral", "pitch": 0.55, "start_turns": 16}
+IN_MOTION = 0.6  # [s] more than the page waits before it writes its address
+A3_WIDE = 420 / 25.4 * 72  # [points]
+
+
+def put(page: Any, table: str) -> None:
+    page.locator("#csv").fill(table)
+    page.locator("#csv").press("Tab")
+
+
+def contact_of(server: str, **asked: Any) -> str:
+    """When the service finds first contact, as the page writes it."""
+    found = httpx.post(f"{server}/collision-time", json={"path": SPIRAL, **asked}).raise_for_status().json()
+    return f"{found['time'] if found['time'] is not None else found['end']['time']:.6f} s"
+
+
+def test_benches_one_by_one_are_danced_drawn_named_shared_and_refused_by_line(
+    open_page: Any, picture: Any, alike: Any, server: str
+) -> None:
+    page = open_page("?time=0&benches=5&view=8,-3,40", failing=True)
+    page.locator("#one-by-one summary").click()
+    put(page, TABLE)
+    answer = page.locator("#first-contact .value")
+    expect(answer).to_contain_text(contact_of(server, dragon={"csv": TABLE}))
+    page.locator("#rows tr", has_text="2 · body 2 (Wu)").wait_for()
+    expect(page.locator("#stage[aria-busy=true]")).to_have_count(0)
+    wide = picture(page)
+    # One bench narrower: its chord, and so the whole pose, stays; the picture does not.
+    put(page, TABLE.replace("1.8,0.7", "1.8,0.2"))
+    page.wait_for_url("**csv=*0.2,0.2*")
+    expect(page.locator("#first-contact[aria-busy=true]")).to_have_count(0)
+    page.wait_for_timeout(300)
+    assert not alike(wide, picture(page))
+    with page.expect_download() as download:
+        page.locator("[data-keep=keepTrajectory][data-form=CSV]").click()
+    assert Path(download.value.path()).read_text().splitlines()[2].endswith(",Li")
+    assert "Wu,1.8,0.2" in page.locator("#curl").inner_text()
+    page.reload()
+    expect(page.locator("#csv")).to_have_value(TABLE.replace("1.8,0.7", "1.8,0.2"))
+    page.locator("#rows tr", has_text="2 · body 2 (Wu)").wait_for()
+    put(page, TABLE.replace("2.2,0.3", "2.2,30", 1))
+    expect(page.locator("#csv-error")).to_have_text(
+        "Line 3: “Width” must be from 0.001 to 5 m; it is 30 m. 30 cm is 0.3 m."
+    )
+    page.locator("[data-lang=zh]").click()
+    expect(page.locator("#csv-error")).to_have_text(re.compile("^第 3 行：“板宽”应在 0.001 至 5 m 之间"))
+    page.locator("#csvClear").click()
+    expect(answer).to_contain_text(contact_of(server, dragon={"benches": 5}))
+
+
+@pytest.mark.parametrize(
+    "table",
+    [
+        TABLE,
+        "length\twidth\toverhang\n3,41\t0,3\t0,275\n\n2,2\t0,3\t0,275",
+        'Width [m];NAME;overhang (m);长度\r\n0,3;"a;""b""";0,275;3.41\r\n0,3;;0,275;2,2',
+        ' name , length,width,overhang\n"Zhou, Li",3.41, 0.3 ,0.275\n,,,\n O\'Neil,2.2,.3,2e-1',
+    ],
+    ids=["commas", "tabs", "semicolons", "spaces"],
+)
+def test_the_page_reads_the_sizes_of_a_table_as_the_service_does(open_page: Any, table: str) -> None:
+    page = open_page("?path=route")
+    read = page.evaluate("table => import('/page/benches.js').then(({ benchesOf }) => benchesOf(table))", table)
+    found = bench_table(table)._asdict()
+    del found["lines"]
+    assert read == found
+
+
+def test_passages_and_the_time_of_day_change_every_time_and_are_shared(open_page: Any, server: str) -> None:
+    page = open_page("?benches=30&time=50", failing=True)
+    page.locator("#passages summary").click()
+    for k, (until, unit, speed) in enumerate([("20", "m", "0.5"), ("100", "s", "0"), ("60", "m", "1.5")]):
+        page.locator("#passage-add").click()
+        row = page.locator("#passages li").nth(k)
+        row.locator("select").select_option(unit)
+        for field, value in zip(row.locator("input").all(), (until, speed), strict=True):
+            field.fill(value)
+            field.press("Tab")
+    page.locator("#start_clock").fill("7:30")
+    page.locator("#start_clock").press("Tab")
+    shown = contact_of(server, dragon={"benches": 30}, passages=PASSAGES)
+    expect(page.locator("#first-contact .value")).to_contain_text(shown)
+    expect(page.locator("#clock")).to_have_text(re.compile(r"^50.000000 s\s*07:30:50$"))
+    # The head rests: everybody does.
+    expect(page.locator("#rows tbody td").nth(3)).to_have_text("0.000000")
+    page.wait_for_url("**passages=0.5@20m_0@100s_1.5@60m*")
+    page.reload()
+    expect(page.locator("#first-contact .value")).to_contain_text(shown)
+    expect(page.locator("#passages li")).to_have_count(3)
+    page.locator("#start_clock").fill("25 o'clock")
+    page.locator("#start_clock").press("Tab")
+    expect(page.locator("#clock-error")).to_be_visible()
+    page.locator("#passages li").nth(1).locator("select").select_option("m")
+    expect(page.locator("#passages .error")).to_contain_text("“until, in seconds” must be given.")
+
+
+def test_a_drawn_dance_takes_them_too_and_its_failures_tell_the_time_of_day(open_page: Any, server: str) -> None:
+    page = open_page(f"{S_CURVE}&limit=0.9&passages=0.5@20m_0@100s&start_clock=19:30")
+    body = {
+        "path": {"kind": "waypoints", "straight": [0, 5]},
+        "head_speed": 1,
+        "speed_limit": 0.9,
+        "start_clock": "19:30",
+    }
+    body["path"]["points"] = [[-80, -16], [0, -16], [16, -8], [0, 0], [-16, 8], [0, 16], [80, 16]]
+    body |= {"dragon": {"benches": 8}, "passages": PASSAGES[:2]}
+    failure = httpx.post(f"{server}/check", json=body).raise_for_status().json()["failures"][0]
+    button = page.locator(".failures button").first
+    expect(button).to_have_text(f"{failure['time']:.6f} s · {failure['clock']}")
+    with page.expect_download() as download:
+        page.locator("[data-keep=keepPlan][data-form=A3]").click()
+    plan = Path(download.value.path()).read_bytes()
+    assert plan.startswith(b"%PDF")
+    sides = re.findall(rb"/MediaBox \[ 0 0 ([\d.]+) ([\d.]+) \]", plan)
+    assert max(map(float, sides[0])) == pytest.approx(A3_WIDE, abs=1)
+
+
+def test_a_route_without_a_drawing_invites_to_draw_and_waits_for_nothing(open_page: Any) -> None:
+    page = open_page("?path=route", viewport=PHONE, has_touch=True, is_mobile=True, locale="zh-CN")
+    page.locator("#invite h3").wait_for()
+    page.wait_for_timeout(1000 * IN_MOTION)
+    expect(page.locator("[aria-busy=true]:visible")).to_have_count(0)
+    expect(page.locator("#old")).to_be_hidden()
+    found = Axe().run(page).response["violations"]
+    assert [(one["id"], one["nodes"][0]["html"]) for one in found if one["impact"] in SERIOUS] == []
+    page.locator("#one-by-one summary").tap()
+    page.locator("#passages summary").tap()
+    page.locator("#passage-add").tap()
+    assert page.evaluate("document.documentElement.scrollWidth") <= PHONE["width"]
+    assert "undefined" not in page.locator("body").inner_text()
+    page.locator("[data-preset=eight]").tap()
+    expect(page.locator("#judgement .value")).to_have_text(re.compile("表演"))
+    expect(page.locator("#invite")).to_be_hidden()

@@ -1,0 +1,150 @@
+"""The page "How it works": its figures show the service's own numbers while they are dragged, in both languages."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import httpx
+import pytest
+from axe_playwright_python.sync_playwright import Axe
+from playwright.sync_api import expect
+
+PHONE = {"viewport": {"width": 390, "height": 844}, "has_touch": True, "is_mobile": True}
+SERIOUS = {"serious", "critical"}
+SECTIONS = ("chord", "staircase", "step", "graze", "stray")
+# So many pixels move a number by a quarter of its range.
+QUARTER = 70
+
+
+def said(server: str, call: str, **asked: Any) -> Any:
+    return httpx.post(f"{server}/{call}", json=asked).raise_for_status().json()
+
+
+def dial(page: Any, section: str, name: str) -> Any:
+    return page.locator(f"#{section}").get_by_role("slider", name=name)
+
+
+@pytest.fixture
+def opened(open_page: Any) -> Any:
+    """opened(query, **options): the page, once all its figures are drawn to the end."""
+
+    def drawn(query: str = "how?lang=en", **options: Any) -> Any:
+        page = open_page(query, **options)
+        expect(page.locator("#staircase .jump").first).to_be_attached()
+        expect(page.locator("[aria-busy=true]")).to_have_count(0)
+        return page
+
+    return drawn
+
+
+def test_dragged_numbers_get_the_answers_of_the_service(opened: Any, server: str) -> None:
+    page = opened()
+    length = dial(page, "chord", "Chord of the head bench")
+    length.scroll_into_view_if_needed()
+    box = length.bounding_box()
+    page.mouse.move(box["x"] + 5, box["y"] + 5)
+    page.mouse.down()
+    page.mouse.move(box["x"] + 5 - QUARTER, box["y"] + 5, steps=4)
+    page.mouse.up()
+    expect(length).to_have_text("2.01 m")
+    pose = said(
+        server,
+        "trajectory",
+        dragon={"benches": 11, "head_length": 2.56},
+        path={"kind": "spiral", "pitch": 0.55, "start_turns": 5},
+        times=[0],
+    )
+    place = f"({pose['x'][0][1]:.3f} m, {pose['y'][0][1]:.3f} m)"
+    expect(page.locator("#chord .verdict")).to_contain_text(place)
+    knob = page.locator("#chord .knob")
+    knob.scroll_into_view_if_needed()
+    box = knob.bounding_box()
+    page.mouse.move(box["x"] + 8, box["y"] + 8)
+    page.mouse.down()
+    page.mouse.move(box["x"] - 40, box["y"] + 8, steps=4)
+    page.mouse.up()
+    assert float(length.get_attribute("aria-valuenow")) > 2.01
+    expect(page.locator("#chord .verdict")).not_to_contain_text(place)
+
+
+def test_keys_move_the_numbers_and_a_refusal_is_said_in_the_figure(opened: Any, server: str) -> None:
+    page = opened(failing=True)
+    dial(page, "staircase", "Pitch of the spiral").press("ArrowUp")
+    contact = said(server, "collision-time", path={"kind": "spiral", "pitch": 0.4504})
+    head, bench = contact["benches"]
+    assert head == 0
+    stops = f"At a pitch of 0.4504 m the head stops {contact['head']['radius']:.4f} m from the centre: there the head"
+    expect(page.locator("#staircase .lead")).to_have_text(
+        f"How far in does the dragon get before two benches touch? {stops} touches body {bench}."
+    )
+    length = dial(page, "step", "Length of the interval")
+    length.press("PageUp")
+    proof = said(server, "collision-time", dragon={"benches": 40}, start=409.7, stop=409.86, cross_check="none")
+    steps = proof["certificate"]["steps"]
+    assert steps > 1
+    expect(page.locator("#step .verdict")).to_contain_text(f"The service takes {steps} shorter steps")
+    length.press("Home")
+    expect(page.locator("#step .verdict")).to_contain_text("The service proves it in one step")
+    expect(page.locator("#graze .lead")).to_contain_text("Each one finds all benches apart")
+    page.locator("#graze .try").first.click()
+    expect(page.locator("#graze .lead")).to_contain_text("In 1 of them benches overlap")
+    free = httpx.get(f"{server}/tolerance", params={"pitch": 0.55}).json()
+    expect(page.locator("#stray .more")).to_contain_text(f"may stray by {int(1e4 * free['stray']) / 100} cm")
+    expect(page.locator("#stray .exhibit")).to_have_count(0)
+    for _ in range(2):
+        dial(page, "stray", "How far every handle may stray").press("PageUp")
+    first = said(server, "collision-time", stray=0.05, cross_check="none")
+    expect(page.locator("#stray .verdict")).to_contain_text(f"From {first['time']:.6f} s on benches may touch")
+    expect(page.locator("#stray .exhibit")).to_have_count(2)
+    dial(page, "chord", "Place of the head").press("Home")
+    expect(page.locator("#chord .note")).to_contain_text("The bench folds here")
+    expect(page.locator("#chord .note")).to_contain_text("2.34509 turns")
+
+
+def test_a_phone_in_chinese_and_a_dark_screen_are_served_too(opened: Any) -> None:
+    page = opened("how", locale="zh-CN", color_scheme="dark", **PHONE)
+    expect(page.locator("h1")).to_have_text("原理")
+    assert page.evaluate("document.documentElement.scrollWidth") <= PHONE["viewport"]["width"]
+    expect(page.locator("#step .verdict")).to_contain_text("服务一步就证明了它")
+    page.locator("#staircase .try").last.tap()
+    expect(page.locator("#staircase .lead")).to_contain_text("第16节龙身")
+    assert "undefined" not in page.locator("body").inner_text()
+    assert violations(page) == []
+    page.locator("[data-lang=en]").tap()
+    expect(page.locator("#staircase .lead")).to_contain_text("At a pitch of 0.4504 m the head stops 4.40")
+    page.wait_for_url("**lang=en")
+    assert violations(page) == []
+
+
+def violations(page: Any) -> list[tuple[str, str]]:
+    found = Axe().run(page).response["violations"]
+    return [(one["id"], one["nodes"][0]["html"]) for one in found if one["impact"] in SERIOUS]
+
+
+def test_a_lost_service_is_said_in_the_figure_that_waits_for_it(opened: Any) -> None:
+    page = opened(failing=True)
+    page.route("**/*", lambda route: route.abort())
+    dial(page, "chord", "Chord of the head bench").press("ArrowUp")
+    expect(page.locator("#chord .note")).to_contain_text("the figure is older than your numbers")
+    expect(page.locator("#step .note")).to_be_empty()
+    page.unroute("**/*")
+    page.locator("#lost button").click()
+    expect(page.locator("#chord .note")).to_be_empty()
+    expect(page.locator("#lost")).to_be_hidden()
+
+
+def test_every_answer_of_the_dance_leads_to_the_idea_behind_it(open_page: Any, server: str) -> None:
+    page = open_page("how")
+    page.route("**/pitch-scan*", lambda route: None)  # it takes seconds, and no answer waits for it
+    page.goto(f"{server}/?lang=zh&benches=12&time=end")
+    expect(page.locator("nav a[href='how?lang=zh']")).to_have_text("原理")
+    for box in ("first-contact", "minimum-pitch", "tolerance", "run-end"):
+        expect(page.locator(f"#{box} details a")).to_be_attached()
+    links = page.locator("#answers details a")
+    ideas = links.evaluate_all("links => links.map((link) => new URL(link.href).hash.slice(1))")
+    assert set(ideas) == {"chord", "staircase", "step", "stray"} < set(SECTIONS)
+    assert len(ideas) == page.locator("#answers details").count()
+    page.locator("#tolerance summary").click()
+    page.locator("#tolerance details a").click()
+    expect(page.locator("#stray h2")).to_be_in_viewport()
+    expect(page.locator("#stray .ground").first).to_be_visible()

@@ -1,0 +1,277 @@
+"""A dance drawn on the picture by mouse, touch and keys: its verdict, its address and its files."""
+
+from __future__ import annotations
+
+import json
+import re
+from pathlib import Path
+from typing import Any
+
+import httpx
+import pytest
+from axe_playwright_python.sync_playwright import Axe
+from playwright.sync_api import expect
+
+ROOT = Path(__file__).parents[2]
+PHONE = {"width": 390, "height": 844}
+SERIOUS = {"serious", "critical"}
+S_CURVE = "?path=route&route=*-80,-16_0,-16_16,-8_0,0_-16,8_*0,16_80,16"
+VILLAGE = (
+    "?path=route&route=*-67,-8_-12,-8_-3,-9_6,-8_10.5,-3_7,2.5_0,3.5_-4.5,7_-1,10.5_6,10.5_*12,15_12,62&begin=45&limit=1.1"
+    "&things=a.square..-70,-11_-20,-11_-20,-15_20,-15_20,15_15,15_15,65_9,65_9,15_-20,15_-20,-5_-70,-5"
+    "~c.well.1!5.6!5,-6!5~b.stage..-17,1!5_-6,1!5_-6,9!5_-17,9!5~w.fence.0!2.10!5,3!5_18,4"
+)
+IN_MOTION = 0.6  # [s] more than the page waits before it writes its address
+
+
+def verdict(page: Any, words: str) -> None:
+    page.locator("#judgement .value", has_text=words).wait_for()
+
+
+def points(page: Any) -> list[list[float]]:
+    """The points of the path as the page shares them, once it has written its address."""
+    text = page.evaluate(f"""new Promise((resolve) => setTimeout(() => resolve(
+        new URLSearchParams(location.search).get("route")), {1000 * IN_MOTION}))""")
+    return [[float(one) for one in point.lstrip("*").split(",")] for point in (text or "").split("_") if point]
+
+
+def drag(page: Any, knot: Any, dx: float, dy: float) -> None:
+    box = knot.bounding_box()
+    x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+    page.mouse.move(x, y)
+    page.mouse.down()
+    for k in range(1, 6):
+        page.mouse.move(x + dx * k / 5, y + dy * k / 5)
+    page.mouse.up()
+
+
+def test_a_dragged_point_brings_a_verdict_that_undo_redo_and_the_browser_take_back(open_page: Any) -> None:
+    page = open_page(failing=True)
+    page.locator("[data-path=route]").click()
+    verdict(page, "Can be danced")
+    assert page.locator(".knot").count() == 7
+    before = points(page)
+    knots = page.locator(".knot")
+    corner = knots.nth(3).bounding_box()
+    bend = knots.nth(2).bounding_box()
+    drag(page, knots.nth(2), corner["x"] - bend["x"] - 8, corner["y"] - bend["y"] + 12)
+    verdict(page, "Cannot be danced")
+    page.locator(".failures li", has_text="The bend is too tight").first.wait_for()
+    after = points(page)
+    assert after[:2] + after[3:] == before[:2] + before[3:]
+    assert after[2] != before[2]
+    page.keyboard.press("ControlOrMeta+z")
+    verdict(page, "Can be danced")
+    assert points(page) == before
+    page.locator("#redo").click()
+    verdict(page, "Cannot be danced")
+    page.go_back()
+    verdict(page, "Can be danced")
+    assert points(page) == before
+    for _ in range(3):
+        page.go_back()
+    page.locator("[data-path=spiral][aria-pressed=true]").wait_for()
+    page.locator("#first-contact .value", has_text="Contact at").wait_for()
+
+
+def test_points_are_moved_put_in_and_taken_away_by_keys_and_taps(open_page: Any) -> None:
+    page = open_page(S_CURVE)
+    verdict(page, "Can be danced")
+    page.locator("#edit").click()
+    before = points(page)
+    page.locator("#delete").focus()
+    page.keyboard.press("Tab")  # the picture
+    page.keyboard.press("Tab")
+    page.keyboard.press("Tab")
+    assert "Point 2 of 7" in page.evaluate("document.activeElement.getAttribute('aria-label')")
+    for key in ("ArrowRight", "ArrowRight", "Shift+ArrowUp"):
+        page.keyboard.press(key)
+    assert points(page)[1] == pytest.approx([before[1][0] + 0.2, before[1][1] + 1.0])
+    page.keyboard.press("Enter")
+    assert "Point 3 of 8" in page.evaluate("document.activeElement.getAttribute('aria-label')")
+    page.keyboard.press("Delete")
+    assert len(points(page)) == 7
+    # A tap on the path divides it, and one beside it goes on from its end; the list has fields for both.
+    first, second = (page.locator(".knot").nth(k).bounding_box() for k in (0, 1))
+    page.mouse.click((first["x"] + second["x"]) / 2 + 11, (first["y"] + second["y"]) / 2 + 11)
+    page.locator(".knot").nth(7).wait_for()
+    drawn = points(page)
+    assert drawn[0][0] < drawn[1][0] < drawn[2][0]
+    last = page.locator(".knot").last.bounding_box()
+    page.mouse.click(last["x"] + 11, last["y"] - 60)
+    page.locator(".knot").nth(8).wait_for()
+    page.locator("#points summary").click()
+    page.locator("#points tbody tr").nth(8).locator("input").first.fill("75.5")
+    page.keyboard.press("Enter")
+    assert points(page)[8][0] == 75.5
+    page.locator("#points tbody tr").nth(8).get_by_role("button").click()
+    assert len(points(page)) == 8
+
+
+def test_each_failure_stands_in_order_of_time_and_is_shown_on_the_picture(
+    open_page: Any, picture: Any, alike: Any, server: str
+) -> None:
+    page = open_page(VILLAGE)
+    verdict(page, "Cannot be danced")
+    page.locator("#run-end[aria-busy=false]").wait_for()
+    body = saved(page)
+    told = httpx.post(f"{server}/check", json=body).raise_for_status().json()["failures"]
+    assert [one["kind"] for one in told] == ["venue", "speed"]
+    rows = page.locator(".failures li")
+    assert rows.locator("button").all_inner_texts() == [f"{one['time']:.6f} s" for one in told]
+    assert "the head touches well" in rows.first.text_content()
+    assert "highest speed is 1.202470 m/s" in rows.nth(1).text_content()
+    rows.first.get_by_role("button").click()
+    page.wait_for_url(f"**time={told[0]['time']}**")
+    page.locator("#clock", has_text=f"{told[0]['time']:.6f}").wait_for()
+    expect(page.locator("#stage[aria-busy=true]")).to_have_count(0)
+    marked = picture(page)
+    page.locator("#on").click()
+    page.locator("#back").click()
+    page.wait_for_timeout(300)
+    assert alike(marked, picture(page))
+    page.locator("#things li").nth(1).get_by_role("button").last.click()
+    page.locator(".failures li", has_text="touches well").wait_for(state="detached")
+
+
+def saved(page: Any) -> Any:
+    with page.expect_download() as download:
+        page.locator("#save").click()
+    return json.loads(Path(download.value.path()).read_text())
+
+
+def test_a_square_with_a_tree_and_a_wall_is_drawn_named_and_judged(open_page: Any) -> None:
+    page = open_page(S_CURVE)
+    verdict(page, "Can be danced")
+    page.locator("#zoom-out").click()
+    page.locator("#edit").click()
+    canvas = page.locator("#canvas").bounding_box()
+    left, top, right, low = (canvas["x"] + 120, canvas["y"] + 60, canvas["x"] + canvas["width"] - 30, canvas["y"] + 480)
+
+    def tap(tool: str, *places: tuple[float, float]) -> None:
+        page.locator(f"[data-tool={tool}]").click()
+        for x, y in places:
+            page.mouse.click(x, y)
+
+    tap("area", (left, low), (right, low), (right, top), (left, top))
+    tap("circle", (left + 20, top + 20))
+    tap("wall", (right - 20, low - 20), (right - 60, low - 20))
+    names = page.locator("#things li input:first-of-type")
+    assert [name.input_value() for name in names.all()] == ["square", "tree", "wall"]
+    names.nth(1).fill("old oak")
+    page.keyboard.press("Enter")
+    verdict(page, "Can be danced")
+    page.locator("#tolerance[aria-busy=false] .value").wait_for()
+    kept = saved(page)["venue"]["features"]
+    assert [(one["properties"]["name"], one["geometry"]["type"]) for one in kept] == [
+        ("square", "Polygon"), ("old oak", "Point"), ("wall", "LineString"),
+    ]  # fmt: skip
+    assert len(kept[0]["geometry"]["coordinates"][0]) == 5
+    page.locator("#things li").nth(1).get_by_role("button").first.click()
+    page.locator(".knot").focus()
+    canvas = page.locator("#canvas").bounding_box()
+    path = page.locator("#canvas")
+    assert path.is_visible()
+    drag(page, page.locator(".knot"), canvas["width"] / 2 - 140, canvas["height"] / 2 - 80)
+    page.locator("#judgement .value").wait_for()
+    assert saved(page)["venue"]["features"][1]["geometry"] != kept[1]["geometry"]
+
+
+@pytest.mark.parametrize(
+    ("query", "text"),
+    [
+        ("?pitch=0.5&benches=100&margin=0.02&time=100", "Nearer than 0.02 m at"),
+        ("?path=turn&turning_diameter=10&benches=40", "Nothing touches"),
+    ],
+    ids=["spiral", "turn"],
+)
+def test_an_address_of_before_opens_the_same_dance(open_page: Any, query: str, text: str) -> None:
+    page = open_page(query)
+    page.locator("#first-contact .value", has_text=text).wait_for()
+    page.wait_for_timeout(1000 * IN_MOTION)
+    for part in query.strip("?").split("&"):
+        assert part in page.url
+    assert not page.locator("#route").is_visible()
+
+
+def test_the_whole_dance_is_in_the_address_or_in_a_file_and_opens_again(open_page: Any, tmp_path: Path) -> None:
+    page = open_page(VILLAGE)
+    verdict(page, "Cannot be danced")
+    page.wait_for_timeout(1000 * IN_MOTION)
+    body, address = saved(page), page.url
+    page.goto(address)
+    verdict(page, "Cannot be danced")
+    assert saved(page) == body
+    # A long drawing leaves the address, and the page says so; it is still there after going away and back.
+    body["path"] |= {"points": [[0.5 * k, 0.01 * (k % 7)] for k in range(900)], "straight": []}
+    del body["venue"], body["speed_limit"]
+    body["path"]["start"] = 0.0
+    file = tmp_path / "long.json"
+    file.write_text(json.dumps(body))
+    page.locator("#open-file").set_input_files(file)
+    page.locator("#route-note", has_text="too long for an address").wait_for()
+    assert len(page.url) < 8_000
+    page.reload()
+    page.locator("#points summary", has_text="900").wait_for()
+
+
+def test_files_dropped_on_the_picture_are_opened_and_maps_are_kept(open_page: Any, tmp_path: Path) -> None:
+    page = open_page(S_CURVE)
+    verdict(page, "Can be danced")
+    drop = """([name, text]) => {
+      const data = new DataTransfer();
+      data.items.add(new File([text], name));
+      for (const type of ["dragenter", "dragover", "drop"])
+        stage.dispatchEvent(new DragEvent(type, { dataTransfer: data, bubbles: true, cancelable: true }));
+    }"""
+    for name in ("village_square.toml", "village_square.geojson"):
+        page.evaluate(drop, [name, (ROOT / "examples" / name).read_text()])
+        page.locator("#status", has_text=f"Opened {name}").wait_for()
+    page.locator("#things li").nth(4).wait_for()
+    page.locator("#points summary", has_text="12").wait_for()
+    verdict(page, "Can be danced")
+    body = saved(page)
+    assert body["margin"] == 0.5
+    assert body["path"]["start"] == 45.0
+    assert [one["properties"]["name"] for one in body["venue"]["features"]][:3] == ["square", "well", "stage"]
+    with page.expect_download() as download:
+        page.locator("[data-keep=keepMap][data-form=GeoJSON]").click()
+    drawn = json.loads(Path(download.value.path()).read_text())
+    assert {"square", "well", "stage"} <= {one["properties"].get("name") for one in drawn["features"]}
+
+
+def test_a_drawn_dance_is_played_listed_and_kept_as_a_spiral_is(open_page: Any, server: str) -> None:
+    page = open_page(S_CURVE + "&time=60&handle=2&rate=1")
+    verdict(page, "Can be danced")
+    page.locator("#rows tr.chosen", has_text="2 · body 2").wait_for()
+    page.locator("#table-time", has_text="60").wait_for()
+    assert re.search(r"'\S+/check'.*\"kind\":\"waypoints\"", page.locator("#curl").inner_text())
+    with page.expect_download() as download:
+        page.locator("[data-keep=keepTrajectory][data-form=CSV]").click()
+    assert Path(download.value.path()).read_text().startswith("time,handle,x,y,speed")
+    page.locator("#play").click()
+    expect(page.locator("#clock")).to_have_text(re.compile(r"^6[1-9]"))
+    page.locator("#play").click()
+
+
+def test_a_finger_drags_points_on_a_phone_and_nothing_is_cut_off(open_page: Any) -> None:
+    page = open_page(S_CURVE, viewport=PHONE, has_touch=True, is_mobile=True, locale="zh-CN")
+    verdict(page, "可以表演")
+    page.locator("#edit").tap()
+    assert page.evaluate("document.documentElement.scrollWidth") <= PHONE["width"]
+    before = points(page)
+    box = page.locator(".knot").nth(2).bounding_box()
+    touch = page.context.new_cdp_session(page)
+    x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+    touch.send("Input.dispatchTouchEvent", {"type": "touchStart", "touchPoints": [{"x": x, "y": y}]})
+    for k in range(1, 5):
+        touch.send("Input.dispatchTouchEvent", {"type": "touchMove", "touchPoints": [{"x": x, "y": y - 3 * k}]})
+    touch.send("Input.dispatchTouchEvent", {"type": "touchEnd", "touchPoints": []})
+    after = points(page)
+    assert after[2][1] > before[2][1]
+    page.locator("#verdict", has_text="可以表演").wait_for()
+    assert after[:2] + after[3:] == before[:2] + before[3:]
+    expect(page.locator("[aria-busy=true]")).to_have_count(0)
+    found = Axe().run(page).response["violations"]
+    assert [(one["id"], one["nodes"][0]["html"]) for one in found if one["impact"] in SERIOUS] == []
+    assert "undefined" not in page.locator("body").inner_text()
