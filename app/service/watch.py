@@ -19,7 +19,7 @@ from core import Budget
 
 # The event loop makes a computation itself that should take no longer than this [s]: a thread costs a third of a
 # millisecond, a sixth of the answer (2026-11-22). One that takes longer is stopped, and made anew in a thread.
-GLANCE = 0.01
+GLANCE = 0.005
 # After so many looks at nothing the thread that stops them waits until the next one begins [1].
 LOOKS_IDLE = 200
 

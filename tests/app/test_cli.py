@@ -211,6 +211,14 @@ def test_the_limits_are_those_of_the_settings() -> None:
     assert done.stderr == "Error: benches must be at most 10 here, got 11: shorten the dragon\n"
 
 
+@pytest.mark.parametrize("command", ["collision-time", "serve"])
+def test_a_setting_that_cannot_be_is_one_line_that_names_it(command: str) -> None:
+    done = run(command, BENCH_DRAGON_BENCHES_MAX="many")
+    assert done.returncode == 2
+    assert done.stderr.startswith("Error: BENCH_DRAGON_BENCHES_MAX must be a valid integer")
+    assert done.stderr.count("\n") == 1
+
+
 def test_a_file_that_is_not_json_is_named() -> None:
     done = run("overlaps", "-", text="{benches")
     assert done.returncode == 2
