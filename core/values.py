@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from functools import wraps
 from numbers import Real
-from typing import ParamSpec, TypeVar
+from typing import Any, ParamSpec, TypeVar
 from unicodedata import category
 
 import numpy as np
@@ -14,12 +14,17 @@ from numpy.typing import NDArray
 from core.errors import InvalidValue, said
 
 Floats = NDArray[np.float64]
+Point = tuple[float, float]
 P = ParamSpec("P")
 R = TypeVar("R")
 
 # Sizes outside these lose digits in c^2 / b^2 without describing any dance [m].
 SIZE_MIN = 1e-3
 SIZE_MAX = 1e4
+# Coordinates beyond this lose the digits that the chords need [m].
+COORDINATE_MAX = 1e5
+# Angles beyond this lose the digits that the joints need [rad].
+ANGLE_MAX = 1e6
 # Longest name of a bench or an area [characters].
 NAME_MAX = 200
 # Unicode's categories of control characters, half characters, and ends of lines and paragraphs.
@@ -86,6 +91,37 @@ def checked_size(name: str, value: object) -> float:
     if isinstance(value, Real) and not isinstance(value, bool) and value <= 0.0:
         raise InvalidValue(name, f"{name} must be positive, got {said(float(value))} m")
     return checked_number(name, value, "m", SIZE_MIN, SIZE_MAX)
+
+
+def checked_point(name: str, value: Any) -> Point:
+    """The value as a point with both coordinates within COORDINATE_MAX.
+
+    raises: InvalidValue
+    """
+    try:
+        x, y = value
+    except (TypeError, ValueError) as error:
+        raise InvalidValue(name, f"{name} must be a point [x, y] in metres, got {value!r}") from error
+    limits = (-COORDINATE_MAX, COORDINATE_MAX)
+    return (checked_number(f"{name}.0", x, "m", *limits), checked_number(f"{name}.1", y, "m", *limits))
+
+
+def checked_angle(name: str, value: Any) -> float:
+    """The value as an angle within ANGLE_MAX. raises: InvalidValue"""
+    return checked_number(name, value, "rad", -ANGLE_MAX, ANGLE_MAX)
+
+
+def listed(name: str, value: Any, what: str) -> list[Any]:
+    """The entries of a value that is a sequence and not a text.
+
+    raises: InvalidValue naming the field and what it must be
+    """
+    try:
+        if not isinstance(value, str | bytes | Mapping):
+            return list(value)
+    except TypeError:
+        pass
+    raise InvalidValue(name, f"{name} must be {what}, got {value!r}")
 
 
 def checked_name(what: str, name: object, field: str) -> None:

@@ -21,13 +21,13 @@ from core.dance import Dance
 from core.errors import InvalidValue
 from core.motion.trajectory import bench_poses, trajectory
 from core.paths.frame import Frame
-from core.paths.pieces import Coil, Point, checked_point, listed
+from core.paths.pieces import Coil
 from core.paths.route import Route
 from core.paths.spiral import Spiral
 from core.shapes.engines import inside, polygon_fault
 from core.shown import Shown, extent, worded
 from core.tolerance.stray import Stray, checked_stray
-from core.values import Floats, asked_of, checked_name, checked_number, checked_type
+from core.values import Floats, Point, asked_of, checked_name, checked_number, checked_point, checked_type, listed
 
 Ring = tuple[Point, ...]
 

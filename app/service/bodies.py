@@ -14,9 +14,8 @@ from anyio import CapacityLimiter, to_thread
 from fastapi import Request, Response
 from fastapi.exceptions import RequestValidationError
 
-from app.service.lanes import Lanes
+from app.service.load import Handler, Lanes, WatchedRoute
 from app.service.problems import Refused, validation_problem
-from app.service.watch import Handler, WatchedRoute
 from app.settings import Settings
 from app.wire.problem import ErrorItem
 

@@ -16,11 +16,10 @@ from app.files.tables import CSV_TYPE, XLSX_TYPE, Language
 from app.grade.report import FileAnswer, GradeAnswer, graded, too_long, typed
 from app.grade.shortcuts import UNITS
 from app.service.graders import Graders
-from app.service.lanes import Lanes
+from app.service.load import Lanes, WatchedRoute
 from app.service.problems import Refused
 from app.service.reply import client_of
 from app.service.routes import FILE, PROBLEM, PROBLEMS
-from app.service.watch import WatchedRoute
 from app.settings import Settings
 from app.wire.models import JSON, Wire, measure
 from app.wire.problem import ErrorItem

@@ -31,13 +31,11 @@ from app.jobs import routes as jobs
 from app.jobs.keeper import kept
 from app.jobs.metrics import JobMetrics
 from app.service import grading, places, problems, routes
-from app.service.answers import KeptAnswers
 from app.service.examples import EXAMPLES
 from app.service.graders import Graders
-from app.service.lanes import Lanes
+from app.service.load import Glances, KeptAnswers, Lanes
 from app.service.middleware import HeadAsGet, Metrics, Mistakes, RequestId, RequestLimits, SafetyHeaders
 from app.service.reply import VERSION, build, refuse_query
-from app.service.watch import Glances
 from app.settings import SHARED_COUNTS, Settings
 from app.wire.models import JSON, Answer
 from app.wire.problem import Problem

@@ -12,7 +12,7 @@ from app.maps.places import Places, read_places
 from app.questions.maps import MapFormat
 from app.service.graders import Graders
 from app.service.grading import COST, FILE_TYPE, STATUSES, UploadRoute, file_body
-from app.service.lanes import Lanes
+from app.service.load import Lanes
 from app.service.problems import Refused
 from app.service.reply import client_of
 from app.service.routes import FILE, PROBLEM, PROBLEMS

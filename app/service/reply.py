@@ -14,17 +14,18 @@ from pathlib import Path
 from typing import Annotated
 
 from fastapi import Depends, Request, Response
+from fastapi.exceptions import RequestValidationError
+from fastapi.routing import APIRoute
+from pydantic import ValidationError
 from starlette.concurrency import run_in_threadpool
 from starlette.datastructures import Headers
 from starlette.responses import StreamingResponse
 
 from app.jobs.task import Task
 from app.questions.question import UNKNOWN_COST, FileFormat, Terms
-from app.questions.registry import Call
-from app.service.answers import KeptAnswers
-from app.service.lanes import Lanes
+from app.questions.registry import CALLS, Call
+from app.service.load import GLANCE, Glances, Handler, KeptAnswers, Lanes, watched
 from app.service.problems import Refused
-from app.service.watch import GLANCE, Glances, watched
 from app.settings import Settings
 from app.wire.models import JSON, Wire
 from app.wire.problem import ERRORS_MAX, ErrorItem
@@ -183,6 +184,27 @@ async def reply_query(request: Request) -> Reply:
         items = [ErrorItem(name=name, detail=f"{name[:60]} is given more than once: give it once") for name in twice]
         raise Refused(422, items[0].detail, items)
     return Reply(request)
+
+
+class QueryRoute(APIRoute):
+    """A call that takes its values from the query, all of them validated at once; the endpoint describes it.
+
+    FastAPI's way, one by one, takes 0.3 ms more, a sixth of an answer (2026-11-22).
+    """
+
+    def get_route_handler(self) -> Handler:
+        call = CALLS[self.name]
+
+        async def handled(request: Request) -> Response:
+            reply = await reply_query(request)
+            try:
+                wanted = call.asked.model_validate(dict(request.query_params))
+            except ValidationError as error:
+                found = [{**one, "loc": ("query", *one["loc"])} for one in error.errors(include_url=False)]
+                raise RequestValidationError(found) from error
+            return await reply.to_query(call, wanted)
+
+        return handled
 
 
 def client_of(request: Request) -> str:

@@ -60,12 +60,11 @@ from core.kernels.constants import (
 )
 from core.motion.trajectory import bench_outlines
 from core.paths.frame import Frame
-from core.paths.pieces import checked_point, listed
 from core.paths.route import Route
 from core.paths.spiral import Spiral
 from core.shapes.engines import GRID, GROWTH_MOST, Polygons, distance_from, united
 from core.shown import Shown, counted
-from core.values import Floats, asked_of, checked_number
+from core.values import Floats, asked_of, checked_number, checked_point, listed
 
 # Least and largest excess that may be asked for [m].
 EXCESS_MIN, EXCESS_MAX = 5e-4, 1.0

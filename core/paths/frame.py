@@ -7,8 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from core.paths.pieces import Point
-from core.values import Floats
+from core.values import Floats, Point
 
 
 # A point p of the own frame is in the world at centre + R p, R the rotation after a reflection across the x axis if the

@@ -13,10 +13,10 @@ import numpy as np
 from core import kernels
 from core.budget import Budget
 from core.errors import InvalidValue, spoken
-from core.paths.pieces import LENGTH_MIN, WAYPOINT_GAP, Arc, Line, Piece, Point, Waypoints, checked_point, listed
+from core.paths.pieces import LENGTH_MIN, WAYPOINT_GAP, Arc, Line, Piece, Waypoints
 from core.paths.route import Route
 from core.shown import REPR_MOST, Shown
-from core.values import Floats, checked_number, checked_size
+from core.values import Floats, Point, checked_number, checked_point, checked_size, listed
 
 # Radius of an arc at a corner where none is given [m].
 RADIUS = 5.0

@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
@@ -14,50 +12,14 @@ from core.budget import Budget
 from core.errors import InvalidValue
 from core.paths.cubics import cut
 from core.shown import REPR_MOST, Shown
-from core.values import Floats, checked_number, checked_size
+from core.values import Floats, Point, checked_angle, checked_number, checked_point, checked_size, listed
 
-# Coordinates beyond this lose the digits that the chords need [m].
-COORDINATE_MAX = 1e5
 # Least distance of two consecutive waypoints [m]: nearer ones are taken for a mistake.
 WAYPOINT_GAP = 1e-3
 # Least length of a piece [m]: the direction of a shorter one is lost in rounding.
 LENGTH_MIN = 1e-6
-# Angles beyond this lose the digits that the joints need [rad].
-ANGLE_MAX = 1e6
 
-Point = tuple[float, float]
 _KINDS = {name: float(code) for code, name in enumerate(kernels.PIECE_KINDS)}
-
-
-def checked_point(name: str, value: Any) -> Point:
-    """The value as a point with both coordinates within COORDINATE_MAX.
-
-    raises: InvalidValue
-    """
-    try:
-        x, y = value
-    except (TypeError, ValueError) as error:
-        raise InvalidValue(name, f"{name} must be a point [x, y] in metres, got {value!r}") from error
-    limits = (-COORDINATE_MAX, COORDINATE_MAX)
-    return (checked_number(f"{name}.0", x, "m", *limits), checked_number(f"{name}.1", y, "m", *limits))
-
-
-def checked_angle(name: str, value: Any) -> float:
-    """The value as an angle within ANGLE_MAX. raises: InvalidValue"""
-    return checked_number(name, value, "rad", -ANGLE_MAX, ANGLE_MAX)
-
-
-def listed(name: str, value: Any, what: str) -> list[Any]:
-    """The entries of a value that is a sequence and not a text.
-
-    raises: InvalidValue naming the field and what it must be
-    """
-    try:
-        if not isinstance(value, str | bytes | Mapping):
-            return list(value)
-    except TypeError:
-        pass
-    raise InvalidValue(name, f"{name} must be {what}, got {value!r}")
 
 
 def _settle(piece: object, **checked: float | Point | tuple[Point, ...]) -> None:

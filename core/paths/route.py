@@ -13,9 +13,9 @@ from core.budget import Budget, Halted
 from core.errors import InvalidValue, said
 from core.paths.frame import WORLD
 from core.paths.path import HeadState
-from core.paths.pieces import Arc, Coil, Line, Piece, listed
+from core.paths.pieces import Arc, Coil, Line, Piece
 from core.shown import REPR_MOST, TABLE_DIGITS, Shown, counted, worded
-from core.values import Floats, checked_number
+from core.values import Floats, checked_number, listed
 
 # Largest distance from its start to which a route is drawn [m], and the number of points.
 DRAWN = 2_000.0

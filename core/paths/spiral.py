@@ -15,10 +15,9 @@ from core import kernels
 from core.errors import InvalidValue, said
 from core.paths.frame import Frame
 from core.paths.path import HeadState
-from core.paths.pieces import Point, checked_angle, checked_point
 from core.sampling import bisected
 from core.shown import TABLE_DIGITS, Shown, worded
-from core.values import Floats, checked_number, checked_size
+from core.values import Floats, Point, checked_angle, checked_number, checked_point, checked_size
 
 START_TURNS_MAX = 1e5
 # Points in each drawn turn of a spiral.

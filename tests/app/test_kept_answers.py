@@ -7,7 +7,7 @@ from pathlib import Path
 import httpx
 from prometheus_client import CollectorRegistry
 
-from app.service.answers import KeptAnswers
+from app.service.load import KeptAnswers
 from tests.app.serving import serving
 from tests.app.test_deadline import sample
 
