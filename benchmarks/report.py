@@ -11,6 +11,8 @@ import tempfile
 from pathlib import Path
 from typing import Any
 
+from benchmarks.test_core import CLEAR_PITCHES
+
 ROOT = Path(__file__).parent.parent
 BEGIN, END = "<!-- performance:begin -->", "<!-- performance:end -->"
 
@@ -91,6 +93,18 @@ def growth(results: Results) -> list[str]:
     ]
 
 
+def clear(results: Results) -> list[str]:
+    """Rows on a dance without a contact beside one with it."""
+    colliding = seconds(results, "first_contact[223]")
+    times = [seconds(results, f"first_contact_clear[{pitch}]") for pitch in CLEAR_PITCHES]
+    return [
+        f"| no contact (must 2.5x a contact), pitch | {' | '.join(f'{pitch} m' for pitch in CLEAR_PITCHES)} |",
+        f"|---|{'---|' * len(CLEAR_PITCHES)}",
+        f"| time | {' | '.join(map(shown, times))} |",
+        f"| beside a contact at 0.55 m | {' | '.join(f'{time / colliding:.2f}x' for time in times)} |",
+    ]
+
+
 def strays(results: Results) -> list[str]:
     """Rows on what a stray costs beside a margin of the same size."""
     lines = ["| with 2 cm | must | as a margin | as a stray | ratio |", "|---|---|---|---|---|"]
@@ -141,6 +155,8 @@ def section(results: Results) -> str:
             "the instants, and scaled to the whole; its cold start is only `import numpy, scipy.optimize, shapely`.",
             "",
             *growth(results),
+            "",
+            *clear(results),
             "",
             *strays(results),
             "",

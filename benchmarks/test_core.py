@@ -41,6 +41,10 @@ def test_trajectory_baseline(benchmark: BenchmarkFixture) -> None:
     np.testing.assert_allclose(velocity, expected.velocity, rtol=0, atol=AGREEMENT)
 
 
+# Pitches at which no benches touch before the dragon folds; the bound on the rest is nearest to failing at 0.66 [m].
+CLEAR_PITCHES = (0.66, 0.7, 0.8, 1.7)
+
+
 @pytest.mark.parametrize("benches", [223, 1_000, 10_000, 100_000])
 def test_first_contact(benchmark: BenchmarkFixture, benches: int) -> None:
     benchmark.group = "first contact"
@@ -61,6 +65,13 @@ def test_first_contact_baseline(benchmark: BenchmarkFixture) -> None:
 def test_minimum_pitch(benchmark: BenchmarkFixture) -> None:
     benchmark.group = "minimum pitch"
     assert benchmark(core.minimum_pitch, DRAGON).limited_by is core.LimitedBy.GRAZE
+
+
+@pytest.mark.parametrize("pitch", CLEAR_PITCHES)
+def test_first_contact_clear(benchmark: BenchmarkFixture, pitch: float) -> None:
+    benchmark.group = "first contact"
+    dance = core.Dance(DRAGON, core.Spiral(pitch))
+    assert benchmark(core.first_contact, dance).outcome is core.Outcome.CLEAR
 
 
 @pytest.mark.parametrize("kept", ["margin", "stray"])
