@@ -13,18 +13,15 @@ import sys
 import warnings
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager, closing
-from pathlib import Path
 from typing import Any
 
 from fastapi import Depends, FastAPI, Request, Response
-from fastapi.responses import FileResponse, HTMLResponse
 from prometheus_client import CollectorRegistry, generate_latest
 from prometheus_client.exposition import CONTENT_TYPE_LATEST
 from prometheus_client.multiprocess import MultiProcessCollector
 from pydantic import Field
 from pydantic.warnings import UnsupportedFieldAttributeWarning
 from starlette.middleware import Middleware
-from starlette.staticfiles import StaticFiles
 
 import core
 from app.jobs import routes as jobs
@@ -35,6 +32,7 @@ from app.service.examples import EXAMPLES
 from app.service.graders import Graders
 from app.service.load import Glances, KeptAnswers, Lanes
 from app.service.middleware import HeadAsGet, Metrics, Mistakes, RequestId, RequestLimits, SafetyHeaders
+from app.service.pages import add_pages
 from app.service.reply import VERSION, build, refuse_query
 from app.settings import SHARED_COUNTS, Settings
 from app.wire.models import JSON, Answer
@@ -53,7 +51,6 @@ class State(Answer):
     status: str = Field(description="ok or ready")
 
 
-PAGE = Path(__file__).parent.parent / "page"
 DESCRIPTION = """Where is every bench of a bench dragon and how fast, when do two benches first touch, and how
 tight may the spiral be? SI units and radians throughout. A collision is an answer, never an error; errors are problem
 details (RFC 9457). An answer depends on its request alone and carries a strong ETag.
@@ -69,23 +66,6 @@ TAGS = [
     {"name": "Jobs", "description": "Answers computed later; no kill of a process loses them."},
     {"name": "Service", "description": "Liveness and readiness."},
 ]
-# Swagger UI comes from a pip package; its start script is a separate file because the policy forbids inline scripts.
-DOCS = """<!doctype html>
-<html lang="en">
-<head>
-<meta charset="utf-8">
-<title>Bench Dragon: all calls</title>
-<link rel="stylesheet" href="docs/assets/swagger-ui.css">
-<link rel="icon" href="docs/assets/favicon-32x32.png">
-</head>
-<body>
-<div id="calls"></div>
-<script src="docs/assets/swagger-ui-bundle.js"></script>
-<script src="docs/start.js"></script>
-</body>
-</html>
-"""
-DOCS_START = 'SwaggerUIBundle({ url: "openapi.json", dom_id: "#calls", deepLinking: true });\n'
 
 # Known answers for the self-test, computed once in 256-bit ball arithmetic: first contact of the default dance [s]
 # and x of its handle 1 at the start [m].
@@ -157,6 +137,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
         servers=[{"url": "/", "description": "This service"}],
         license_info={"name": "MIT", "identifier": "MIT"},
         openapi_tags=TAGS,
+        openapi_url=None,
         docs_url=None,
         redoc_url=None,
         redirect_slashes=False,
@@ -189,7 +170,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     app.include_router(jobs.router)
     app.add_exception_handler(sqlite3.Error, jobs.store_problem)
     _add_health(app)
-    _add_pages(app)
+    add_pages(app)
     return app
 
 
@@ -254,32 +235,3 @@ def _add_health(app: FastAPI) -> None:
             MultiProcessCollector(registry)  # type: ignore[no-untyped-call]
             registry.register(JobMetrics(lambda: request.app.state.jobs))
         return Response(generate_latest(registry), media_type=CONTENT_TYPE_LATEST)
-
-
-class _Files(StaticFiles):
-    """Files of a page; not the Python beside them that makes their folder a package."""
-
-    def lookup_path(self, path: str) -> tuple[str, os.stat_result | None]:
-        return ("", None) if path.endswith((".py", ".pyc")) else super().lookup_path(path)
-
-
-def _add_pages(app: FastAPI) -> None:
-    @app.get("/docs", include_in_schema=False)
-    async def docs() -> Response:
-        return HTMLResponse(DOCS)
-
-    @app.get("/docs/start.js", include_in_schema=False)
-    async def docs_start() -> Response:
-        return Response(DOCS_START, media_type="text/javascript")
-
-    @app.get("/", include_in_schema=False)
-    async def index() -> Response:
-        return FileResponse(PAGE / "index.html")
-
-    @app.get("/how", include_in_schema=False)
-    async def how() -> Response:
-        return FileResponse(PAGE / "how.html")
-
-    app.mount("/docs/assets", _Files(packages=[("fastapi_swagger", "resources")]))
-    app.mount("/page/uplot", _Files(packages=[("uplot", "static")]))
-    app.mount("/page", _Files(directory=PAGE))

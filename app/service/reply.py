@@ -93,7 +93,7 @@ class Reply:
             "Cache-Control": f"public, max-age={self.settings.cache_seconds}",
             "Vary": "Accept, Accept-Encoding",
         }
-        known = _tags(self.request.headers.get("if-none-match", ""))
+        known = tags_in(self.request.headers.get("if-none-match", ""))
         for one in (headers["ETag"], f'"{tag}{GZIPPED}"'):
             if one in known:
                 return Response(status_code=304, headers={**headers, "ETag": one})
@@ -223,7 +223,8 @@ QueryReply = Annotated[Reply, Depends(reply_query)]
 BodyReply = Annotated[Reply, Depends(reply_body)]
 
 
-def _tags(header: str) -> list[str]:
+def tags_in(header: str) -> list[str]:
+    """Tags of an If-None-Match."""
     return [tag.strip().removeprefix("W/") for tag in header.split(",")]
 
 

@@ -1,0 +1,122 @@
+"""The web pages and their files: sent as gzip to who takes it, and asked again by browsers that have them."""
+
+from __future__ import annotations
+
+import gzip
+import hashlib
+import os
+from functools import cache, lru_cache
+from mimetypes import guess_type
+from pathlib import Path
+
+import orjson
+from fastapi import FastAPI, Response
+from starlette.concurrency import run_in_threadpool
+from starlette.datastructures import Headers
+from starlette.exceptions import HTTPException
+from starlette.requests import Request
+from starlette.staticfiles import StaticFiles
+from starlette.types import Scope
+
+from app.service.reply import GZIPPED, accepted, tags_in
+from app.wire.models import JSON
+
+PAGE = Path(__file__).parent.parent / "page"
+# Swagger UI comes from a pip package; its start script is a separate file because the policy forbids inline scripts.
+DOCS = b"""<!doctype html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<title>Bench Dragon: all calls</title>
+<link rel="stylesheet" href="docs/assets/swagger-ui.css">
+<link rel="icon" href="docs/assets/favicon-32x32.png">
+</head>
+<body>
+<div id="calls"></div>
+<script src="docs/assets/swagger-ui-bundle.js"></script>
+<script src="docs/start.js"></script>
+</body>
+</html>
+"""
+DOCS_START = b'SwaggerUIBundle({ url: "openapi.json", dom_id: "#calls", deepLinking: true });\n'
+# Files that gzip makes smaller.
+TEXT = ("text/", "application/javascript", "application/json", "image/svg")
+# Files kept in memory: those of the page, of uPlot and of Swagger UI are about 70.
+KEPT_FILES = 256
+
+
+@lru_cache(KEPT_FILES)
+def _forms(content: bytes, kind: str) -> tuple[str, bytes | None]:
+    """Tag of a content, and its gzip where that is smaller."""
+    packed = gzip.compress(content, mtime=0) if kind.startswith(TEXT) else content
+    tag = hashlib.blake2b(content, digest_size=16).hexdigest()
+    return tag, packed if len(packed) < len(content) else None
+
+
+def reply_with(request: Headers, content: bytes, kind: str) -> Response:
+    """A file in the form that the client takes; 304 if it has it. Its tag depends on the content and the form."""
+    tag, packed = _forms(content, kind)
+    headers = {"ETag": f'"{tag}"', "Vary": "Accept-Encoding"}
+    if packed is not None and accepted(request.get("accept-encoding", "identity"), ["identity", "gzip"]) == "gzip":
+        content = packed
+        headers |= {"ETag": f'"{tag}{GZIPPED}"', "Content-Encoding": "gzip"}
+    known = tags_in(request.get("if-none-match", ""))
+    if headers["ETag"] in known or "*" in known:
+        return Response(status_code=304, headers={name: headers[name] for name in ("ETag", "Vary")})
+    return Response(content, headers=headers, media_type=kind)
+
+
+@lru_cache(KEPT_FILES)
+def _content(path: str, changed: int) -> bytes:
+    """Content of a file that was last changed then [ns]."""
+    return Path(path).read_bytes()
+
+
+class Files(StaticFiles):
+    """Files of a page; not the Python beside them that makes their folder a package."""
+
+    def lookup_path(self, path: str) -> tuple[str, os.stat_result | None]:
+        return ("", None) if path.endswith((".py", ".pyc")) else super().lookup_path(path)
+
+    async def get_response(self, path: str, scope: Scope) -> Response:
+        """raises: HTTPException 405 for another method, 404 for a path that is no file"""
+        if scope["method"] not in ("GET", "HEAD"):
+            raise HTTPException(status_code=405)
+        return await run_in_threadpool(self._found, path, Headers(scope=scope))
+
+    def _found(self, path: str, headers: Headers) -> Response:
+        found, stat = self.lookup_path(path)
+        if stat is None or not os.path.isfile(found):
+            raise HTTPException(status_code=404)
+        return reply_with(headers, _content(found, stat.st_mtime_ns), guess_type(found)[0] or "text/plain")
+
+
+def add_pages(app: FastAPI) -> None:
+    """The pages for people and where their files are, and the description of all calls."""
+    description = cache(lambda: orjson.dumps(app.openapi()))
+
+    @app.get("/docs", include_in_schema=False)
+    async def docs(request: Request) -> Response:
+        return reply_with(request.headers, DOCS, "text/html")
+
+    @app.get("/docs/start.js", include_in_schema=False)
+    async def docs_start(request: Request) -> Response:
+        return reply_with(request.headers, DOCS_START, "text/javascript")
+
+    @app.get("/openapi.json", include_in_schema=False)
+    async def described(request: Request) -> Response:
+        return reply_with(request.headers, description(), JSON)
+
+    files = Files(directory=PAGE)
+
+    @app.get("/", include_in_schema=False)
+    async def index(request: Request) -> Response:
+        return await files.get_response("index.html", request.scope)
+
+    @app.get("/how", include_in_schema=False)
+    async def how(request: Request) -> Response:
+        return await files.get_response("how.html", request.scope)
+
+    app.mount("/docs/assets", Files(packages=[("fastapi_swagger", "resources")]))
+    app.mount("/page/uplot", Files(packages=[("uplot", "static")]))
+    app.mount("/page", files)
