@@ -244,7 +244,7 @@ def test_the_policy_lets_the_page_load_from_its_service_alone(open_page: Any, se
 
 
 def loaded(browser: Any, settled: Any, server: str) -> tuple[dict[str, int], float]:
-    """What goes over the wire to a browser that has nothing yet, as it counts it [bytes]; time of first contact [ms]."""
+    """What goes to a browser that has nothing yet, as it counts it [bytes]; time of first contact [ms]."""
     context = browser.new_context(viewport={"width": 1440, "height": 900}, locale="en-GB")
     page = context.new_page()
     wire = context.new_cdp_session(page)
