@@ -246,6 +246,7 @@ ORDER = (
     "app.service.logs",
     "app.service.load",
     "app.service.reply",
+    "app.service.pages",
     "app.service.middleware",
     "app.service.bodies",
     "app.service.protocol",
