@@ -10,17 +10,23 @@ import typer
 
 from app.command import show
 from app.command.options import asks
+from app.command.paths import PathOptions, dance_of
 from app.extras import require
 from app.files.disk import checked_output, write_whole
 from app.files.shooting import ENDINGS, GIF_TYPE
 from app.questions import films
-from app.questions.films import FilmQuery, FilmRequest
+from app.questions.films import FilmFields, FilmRequest
 from app.questions.question import Terms
 
 
-@asks(FilmQuery, FilmRequest)
+class FilmOptions(FilmFields, PathOptions):
+    """The fields of POST /films as options."""
+
+
+@asks(FilmOptions, FilmRequest)
 def film(
-    asked: FilmQuery | FilmRequest,
+    asked: FilmOptions | FilmRequest,
+    context: typer.Context,
     output: Annotated[Path, typer.Option(help="Write a .mp4 file (extra film), or a .gif.")] = Path("dance.mp4"),
 ) -> None:
     """A film of the dance, of any dragon on any path and in any venue with a FILE."""
@@ -28,6 +34,7 @@ def film(
     require("figures" if gif else "film", "output", "A .gif" if gif else "A .mp4 (a .gif needs less)")
     form = GIF_TYPE if gif else films.FORM
     with show.waiting(f"film {output}") as progress:
-        data = films.films(asked, Terms(progress=progress), form)
+        terms = Terms(progress=progress)
+        data = films.filmed(asked, dance_of(asked, context, terms.settings.drawn_benches_max), terms, form)
     write_whole(output, data)
     print(output, file=sys.stderr)

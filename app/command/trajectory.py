@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated
 
 import numpy as np
 import typer
@@ -14,15 +14,15 @@ from pydantic import Field
 import core
 from app.command import show
 from app.command.options import Json, asks, given, numbers, unused
+from app.command.paths import PathOptions, dance_of
 from app.files import tables
 from app.files.disk import checked_output, write_whole
 from app.files.tables import TABLE_ENDINGS, trajectory_writer
 from app.questions.trajectory import TrajectoryRequest
 from app.settings import Settings
-from app.wire.dances import DanceQuery, TimeRange
+from app.wire.dances import TimeRange
 from app.wire.messages import checked
-from app.wire.models import TurningDiameter, measure
-from app.wire.paths import EntryRadius, TurnFields
+from app.wire.models import measure
 from core import Dance, Dragon, InvalidValue, RunEnd, Spiral, Trajectory
 from core.values import Floats
 
@@ -37,7 +37,7 @@ NEAR_FOLD = " *"
 EVEN_INSTANTS = 5
 
 
-class TrajectoryOptions(TimeRange, DanceQuery):
+class TrajectoryOptions(TimeRange, PathOptions):
     """The fields of POST /trajectory as options."""
 
     decimals: int | None = Field(
@@ -47,12 +47,6 @@ class TrajectoryOptions(TimeRange, DanceQuery):
         description="Decimals of x, y and speed; default: all (6 for xlsx and for the table on a terminal)",
     )
     times: str | None = measure("s", "Instants such as 0,60,120, instead of --start, --stop and --step", None)
-    path: Literal["spiral", "turn"] = Field(
-        "spiral", description="Path: a spiral inwards, or the contest's turn between two coils"
-    )
-    turning_diameter: TurningDiameter = measure("m", "Diameter of the circle in which the turn lies", 9.0)
-    ratio: float = Field(2.0, ge=0.01, le=100, description="Radius of the first arc of the turn divided by the second")
-    entry_radius: EntryRadius = None
     handles: str | None = Field(
         None, description="Handles in the table, such as 0,1,51; default: those that the contest asks for"
     )
@@ -79,7 +73,7 @@ def trajectory(
     clock = asked.start_clock if isinstance(asked, TrajectoryRequest) else None
     write = trajectory_writer(ending, asked.decimals, language, clock) if ending else None
     settings = Settings()
-    dance = _dance(asked, context, settings.benches_max)
+    dance = dance_of(asked, context, settings.benches_max)
     handles, times = _handles(context.params["handles"], dance.dragon), asked.times
     if given(context, "times") and (ranged := given(context, "start", "stop", "step")):
         raise InvalidValue("times", f"--times replaces --{ranged[0]}: give one of the two")
@@ -99,22 +93,6 @@ def trajectory(
         fold, all_instants = dance.end if dance.end.bench is not None else None, isinstance(times, (str, list))
         shown = trajectory_tables(result, handles, all_instants=all_instants, decimals=asked.decimals, fold=fold)
         show.print_parts(*shown)
-
-
-TURN_FIELDS = ("turning_diameter", "ratio", "entry_radius")
-
-
-def _dance(asked: TrajectoryOptions | TrajectoryRequest, context: typer.Context, benches_max: int) -> Dance:
-    """The dance on the path asked for, whose own pitch is the default. raises: TooLarge, InvalidValue"""
-    if isinstance(asked, TrajectoryRequest) or asked.path == "spiral":
-        unused(context, TURN_FIELDS, "belongs to a turn: give --path turn too, or leave it out")
-    if isinstance(asked, TrajectoryRequest):
-        unused(context, ["path"], "cannot be combined with FILE, which describes the dance")
-        return asked.to_dance(benches_max)
-    if asked.path == "spiral":
-        return asked.to_dance(benches_max)
-    told = {name: getattr(asked, name) for name in given(context, "pitch", "start_turns", *TURN_FIELDS)}
-    return Dance(asked.to_dragon(benches_max), TurnFields(**told).to_turn(), asked.head_speed)
 
 
 def _warn_before_start(dance: Dance, instants: Floats) -> None:

@@ -97,15 +97,15 @@ def _why_pitch(found: MinimumPitch, say: Say) -> str:
     pair = found.benches or ()
     whose = say(" of benches {} and {}", "（第 {} 节与第 {} 节板凳）").format(*pair) if pair else ""
     words = {
-        "graze": say("a graze on the way", "途中的擦碰"),
-        "circle": say("contact on the circle", "到达调头圆时的碰撞"),
-        "start": say("contact at the start", "起点处的碰撞"),
+        "graze": say(f"a graze{whose} on the way", f"途中的擦碰{whose}"),
+        "circle": say(f"contact{whose} on the circle", f"到达调头圆时的碰撞{whose}"),
+        "start": say(f"contact{whose} at the start", f"起点处的碰撞{whose}"),
         "fold": say("a bench that can no longer follow", "板凳无法继续跟随"),
     }
     every = found.proven_up_to is None and found.scan_step is None
     proven = say("every larger pitch is proven feasible", "已证明更大的螺距全部可行")
     sampled = say("larger pitches are partly sampled, not proven", "更大的螺距有一部分是抽样而非证明")
-    limit = say("limited by ", "限制因素：") + words[found.limited_by.value] + whose
+    limit = say("limited by ", "限制因素：") + words[found.limited_by.value]
     return f"{limit}{say('; ', '；')}{proven if every else sampled}"
 
 

@@ -115,7 +115,8 @@ def snapshots(solved: Solved, say: Say) -> tuple[Figure, str]:
         axes.fill(*outlines[0].T, color=VERMILION, zorder=4, label=say("head", "龙头"))
         title = f"{time:g} s"
         if time == solved.met_at and pair:
-            axes.fill(*outlines[pair[1]].T, color=BLUE, zorder=4, label=say(f"bench {pair[1]}", f"第 {pair[1]} 节板凳"))
+            for k in filter(None, pair):  # Bench 0 is the head.
+                axes.fill(*outlines[k].T, color=BLUE, zorder=4, label=say(f"bench {k}", f"第 {k} 节板凳"))
             title = say(f"First contact, {time:.6f} s", f"首次碰撞，{time:.6f} s")
         axes.set(xlim=(-extent, extent), ylim=(-extent, extent))
         axes.set_title(title, fontsize=10)
@@ -183,11 +184,10 @@ def staircase(solved: Solved, say: Say) -> tuple[Figure, str]:
     near.set(xlim=(0.995 * least, 1.005 * least), ylim=(0.94 * radius, 1.05 * radius))
     near.tick_params(labelsize=7)
     axes.indicate_inset_zoom(near, edgecolor="black", linewidth=0.7)
-    caption = say(
-        "The head's radius at first contact falls in jumps as the pitch grows: no pitch stops it on the circle.",
-        "首次碰撞时龙头的半径随螺距增大而跳跃式下降，因此没有任何螺距使龙头恰好停在调头圆上。",
-    )
-    return figure, caption
+    over = solved.pitch.limited_by.value == "graze"
+    jump = say(", and jumps over the circle at the minimum pitch", "，在最小螺距处跳过调头圆") if over else ""
+    falls = say("The head's radius at first contact falls in jumps", "首次碰撞时龙头的半径随螺距增大而跳跃式下降")
+    return figure, falls + say(f" as the pitch grows{jump}.", f"{jump}。")
 
 
 def _stairs(axes: Axes, scan: core.PitchScan, radius: float, least: float, say: Say) -> None:

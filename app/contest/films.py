@@ -38,12 +38,13 @@ def films(
     inwards = say("Bench dragon, to first contact", "板凳龙：盘入至首次碰撞")
     if solved.contact.time is None:
         inwards = say("Bench dragon, to the end of the run", "板凳龙：盘入至终点")
-    kinds = [(FILMS[0], solved.spiral, 0.0, solved.met_at, inwards)]
+    pair = solved.contact.benches if solved.contact.time is not None else None
+    kinds = [(FILMS[0], solved.spiral, 0.0, solved.met_at, inwards, pair)]
     if solved.turned:
-        kinds.append((FILMS[1], solved.turned.dance, -span, span, say("Bench dragon, the turn", "板凳龙：调头")))
+        kinds.append((FILMS[1], solved.turned.dance, -span, span, say("Bench dragon, the turn", "板凳龙：调头"), None))
     forms = list(ENDINGS) if wanted.gif else list(ENDINGS)[:1]
-    for name, dance, start, stop, title in kinds:
+    for name, dance, start, stop, title, touching in kinds:
         for form in forms:
-            shooting = Shooting(start, stop, wanted.seconds, *LOOKS[form], say.language)
+            shooting = Shooting(start, stop, wanted.seconds, *LOOKS[form], say.language, touching=touching)
             file = name + ENDINGS[form]
             yield file, film.film(dance, shooting, form, title=title, progress=partial(progress, file))

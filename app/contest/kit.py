@@ -1,8 +1,8 @@
 """The kit: all files of a folder, which changes only when all are ready.
 
-They are written into a folder of their own inside it. Then the earlier kit's report goes first, the new files take
-their places, what the earlier kit has and this one has not is removed, and the new report comes last: where there is a
-report, all files are of its run.
+One run writes at a time. Files are written into a folder of their own inside it. Then the earlier kit's report goes
+first, the new files take their places, what the earlier kit has and this one has not is removed, and the new report
+comes last: where there is a report, all files are of its run.
 """
 
 from __future__ import annotations
@@ -22,14 +22,16 @@ from app.contest.solved import ContestRequest, Solved, solve
 from app.contest.tables import paper_tables
 from app.extras import MissingPackage, require
 from app.files.disk import write_whole
+from app.files.lock import FolderLock
 from app.files.tables import XLSX_DECIMALS, Language, instant_sheet, trajectory_sheets
 from app.files.words import Say
 from app.files.workbooks import workbook
 from app.questions.question import Terms
+from core import InvalidValue
 
 FIGURES, TABLES = "figures", "tables"
-# Where files are until all are ready, and the file that comes last.
-UNFINISHED, REPORT = ".unfinished", "report.md"
+# Where files are until all are ready, the file that comes last, and the name of the lock.
+UNFINISHED, REPORT, ROLE = ".unfinished", "report.md", ".contest"
 # What a kit may hold and need not.
 OPTIONAL = (
     "result4.xlsx",
@@ -66,9 +68,22 @@ def write_kit(
     """Write everything. Without a font for the language, or without matplotlib, all but figures and films.
 
     progress: called with what is being done, and the share of it that is done
-    raises: InvalidValue, OutsideRun, TooMuchWork, OSError
+    raises: InvalidValue, also while another run writes into the folder; OutsideRun, TooMuchWork, OSError
     """
-    say, kit = Say(language), Kit()
+    lock = FolderLock(folder, ROLE)
+    if not lock.take():
+        raise InvalidValue("folder", f"another run writes into {folder}: wait until it is done, or give another FOLDER")
+    try:
+        return _written(folder, asked, Say(language), shot, progress)
+    finally:
+        lock.give_back()
+
+
+def _written(
+    folder: Path, asked: ContestRequest, say: Say, shot: films.Wanted, progress: Callable[[str, float], None]
+) -> Kit:
+    """What write_kit() does under its lock."""
+    kit = Kit()
     solved = solve(asked, Terms(), lambda share: progress(say("answers", "求解"), share))
     kit.given, kit.no_turn = answers(solved, say), solved.why_no_turn
     unfinished = folder / UNFINISHED

@@ -18,8 +18,10 @@ from typing import Any
 
 import matplotlib
 import numpy as np
+from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
 from matplotlib.patches import PathPatch
 from matplotlib.path import Path as Outline
@@ -32,7 +34,7 @@ from app.files.tables import Language
 from app.wire.clocks import time_of_day
 from core import Budget, Dance, Venue, bench_outlines, trajectory
 from core.budget import bounded
-from core.plots import BLUE, VERMILION, draw_dance
+from core.plots import BLUE, PALE, VERMILION, draw_dance
 from core.values import Floats
 
 DPI = 100
@@ -48,10 +50,20 @@ WAITING = 4
 # file and take twice the time (measured 2026-11-22).
 OPTIONS, THREADS = {"crf": "24", "preset": "superfast", "x264-params": "bframes=0:subme=0"}, 2
 FAST_START = {"movflags": "faststart"}
+BODY_EDGE = "#003A5D"
 # A GIF shows every frame for whole hundredths of a second.
 GIF_TICK = 100
+# Colours of a GIF: steps from one colour to another, for edges are smooth. A palette of the most frequent colours would
+# lack the head's, as one bench of hundreds.
+GIF_STEPS = 9
+GIF_BLENDS = (
+    ("white", "black"), ("white", BLUE), ("white", BODY_EDGE), ("white", VERMILION), (BLUE, BODY_EDGE),
+    (BLUE, VERMILION), (BODY_EDGE, VERMILION), ("black", VERMILION), ("black", BLUE), ("white", PALE),
+)  # fmt: skip
 WORDS = {Language.ENGLISH: "{time:.2f} s", Language.CHINESE: "时间 {time:.2f} 秒"}
-BODY_EDGE = "#003A5D"
+TOUCHING = {Language.ENGLISH: "benches {} and {} touch\n", Language.CHINESE: "第 {} 节与第 {} 节板凳相碰（龙头为 0）\n"}
+# Edge of benches [points], and of those that touch, as a share of the height of the picture.
+EDGE, TOUCHING_SHARE = 0.8, 0.0025
 
 
 @bounded("the film was not drawn")
@@ -89,9 +101,9 @@ def frames(
     for first in range(0, times.size, BATCH):
         some = times[first : first + BATCH]
         outlines = bench_outlines(dance.dragon, trajectory(dance, some, budget=budget).position)
-        for time, benches in zip(some, outlines, strict=True):
+        for k, (time, benches) in enumerate(zip(some, outlines, strict=True), start=first):
             budget.look()
-            yield stage.frame(float(time), benches)
+            yield stage.frame(float(time), benches, shooting.touching if k == times.size - 1 else None)
 
 
 class Stage:
@@ -100,7 +112,7 @@ class Stage:
     def __init__(self, dance: Dance, shooting: Shooting, venue: Venue | None, title: str) -> None:
         size = (shooting.width / DPI, shooting.height / DPI)
         points = TYPE_SHARE * shooting.height * 72.0 / DPI
-        self.words, self.start_clock = WORDS[shooting.language], shooting.start_clock
+        self.language, self.start_clock = shooting.language, shooting.start_clock
         with matplotlib.rc_context({"font.family": families(shooting.language), "font.size": points}):
             figure = Figure(figsize=size, dpi=DPI)
             self.canvas = FigureCanvasAgg(figure)
@@ -116,6 +128,7 @@ class Stage:
         count = dance.dragon.benches
         self.head = self._benches(1, VERMILION, "black")
         self.body = self._benches(count - 1, BLUE, BODY_EDGE)
+        self.touching = self._benches(2, VERMILION, "black", TOUCHING_SHARE * shooting.height * 72.0 / DPI)
         self.canvas.draw()
         self.still = self.canvas.copy_from_bbox(figure.bbox)
 
@@ -130,22 +143,28 @@ class Stage:
         self.axes.set_axis_off()
         scale_bar(self.axes, middle - np.array([shape * tall, tall]), tall)
 
-    def _benches(self, count: int, face: str, edge: str) -> PathPatch:
+    def _benches(self, count: int, face: str, edge: str, linewidth: float = EDGE) -> PathPatch:
         codes = np.tile([Outline.MOVETO, Outline.LINETO, Outline.LINETO, Outline.LINETO, Outline.CLOSEPOLY], count)
         path = Outline(np.zeros((5 * count, 2)), codes.astype(Outline.code_type))
-        patch = PathPatch(path, facecolor=face, edgecolor=edge, linewidth=0.8, animated=True, zorder=3)
+        patch = PathPatch(path, facecolor=face, edgecolor=edge, linewidth=linewidth, animated=True, zorder=3)
         self.axes.add_patch(patch)
         return patch
 
-    def frame(self, time: float, outlines: Floats) -> NDArray[np.uint8]:
-        """The picture at one instant. outlines: (n, 4, 2) [m]"""
+    def frame(self, time: float, outlines: Floats, touching: tuple[int, int] | None = None) -> NDArray[np.uint8]:
+        """The picture at one instant. outlines: (n, 4, 2) [m]; touching: the benches that are marked and named"""
         closed = np.concatenate([outlines, outlines[:, :1]], axis=1)
         self.head.get_path().vertices = closed[0]
         self.body.get_path().vertices = closed[1:].reshape(-1, 2)
         clock = f"{time_of_day(time, self.start_clock)}  " if self.start_clock else ""
-        self.time.set_text(clock + self.words.format(time=time))
+        words = clock + WORDS[self.language].format(time=time)
+        artists: list[Artist] = [self.body, self.head, self.time]
+        if touching:
+            self.touching.get_path().vertices = closed[list(touching)].reshape(-1, 2)
+            words = TOUCHING[self.language].format(*touching) + words
+            artists.append(self.touching)
+        self.time.set_text(words)
         self.canvas.restore_region(self.still)
-        for artist in (self.body, self.head, self.time):
+        for artist in artists:
             self.axes.draw_artist(artist)
         return np.array(self.canvas.buffer_rgba())
 
@@ -215,11 +234,13 @@ def encoded_gif(sink: io.BytesIO, shooting: Shooting) -> Iterator[Take]:
     from PIL import Image
 
     pictures: list[Image.Image] = []
+    palette = Image.new("P", (1, 1))
+    ends = np.array([[to_rgb(colour) for colour in blend] for blend in GIF_BLENDS])
+    blends = ends[:, :1] + np.linspace(0.0, 1.0, GIF_STEPS)[:, None] * (ends[:, 1:] - ends[:, :1])
+    palette.putpalette(np.rint(255.0 * blends).astype(np.uint8).tobytes())
 
     def take(picture: NDArray[np.uint8]) -> None:
-        image = Image.fromarray(picture[..., :3])
-        palette = pictures[0] if pictures else None
-        pictures.append(image.quantize(64, palette=palette, dither=Image.Dither.NONE))
+        pictures.append(Image.fromarray(picture[..., :3]).quantize(palette=palette, dither=Image.Dither.NONE))
 
     yield take
     ticks = max(round(GIF_TICK * shooting.seconds / len(pictures)), 2)

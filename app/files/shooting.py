@@ -20,7 +20,7 @@ LOOKS = {MP4_TYPE: (30, 1080), GIF_TYPE: (12, 360)}
 @dataclass(frozen=True)
 class Shooting:
     """start, stop: of the dance [s]; seconds: the film plays [s]; rate: [frames/s]; height: [pixels], width 16 : 9
-    start_clock: time of day at time 0, see time_of_day()"""
+    start_clock: time of day at time 0, see time_of_day(); touching: benches that touch at the last instant"""
 
     start: float
     stop: float
@@ -29,6 +29,7 @@ class Shooting:
     height: int = 1080
     language: Language = Language.ENGLISH
     start_clock: str | None = None
+    touching: tuple[int, int] | None = None
 
     @property
     def width(self) -> int:

@@ -19,7 +19,7 @@ from tempfile import TemporaryDirectory
 from threading import BoundedSemaphore, Event, Thread, current_thread, main_thread
 from types import FrameType
 
-from app.jobs.lock import FolderLock
+from app.files.lock import FolderLock
 from app.jobs.store import Store
 from app.settings import SHARED_COUNTS, Settings
 

@@ -28,9 +28,9 @@ from typing import Any
 
 import orjson
 
+from app.files.lock import FolderLock
 from app.jobs.job import SWEEP
 from app.jobs.keeper import start
-from app.jobs.lock import FolderLock
 from app.jobs.store import Store
 from app.settings import Settings
 from app.wire.problem import problem_of

@@ -7,7 +7,7 @@ from pydantic import Field
 from app.files.shooting import ENDINGS, GIF_TYPE, LOOKS, MP4_TYPE, Shooting
 from app.files.tables import Language
 from app.questions.question import Question, Terms
-from app.wire.dances import DanceQuery, PlacedDance
+from app.wire.dances import PlacedDance
 from app.wire.models import Instant, Wire, check_limit, measure
 from core import Dance, EndReason, InvalidValue, Outcome, first_contact
 from core.errors import said
@@ -37,30 +37,31 @@ class FilmFields(Wire):
     title: str = Field("", max_length=80, description="Words at the upper right")
 
 
-class FilmQuery(FilmFields, DanceQuery):
-    """A film of a uniform dragon on a spiral."""
-
-
 class FilmRequest(FilmFields, PlacedDance):
     """A film of any dragon on any path, in any venue."""
 
     language: Language = Field(Language.ENGLISH, description="Language of the words in the picture", strict=False)
 
 
-def films(asked: FilmQuery | FilmRequest, terms: Terms, form: str = FORM) -> bytes:
+def films(asked: FilmRequest, terms: Terms, form: str = FORM) -> bytes:
     """A film of the dance: every bench at every instant, as MP4 or GIF."""
+    return filmed(asked, asked.to_dance(terms.settings.drawn_benches_max), terms, form)
+
+
+def filmed(asked: FilmFields, dance: Dance, terms: Terms, form: str) -> bytes:
+    """The film of a dance, in the venue and with the time of day that its request may tell."""
     from app.files import film
 
-    dance = asked.to_dance(terms.settings.drawn_benches_max)
-    venue = asked.to_place(dance.dragon).venue if isinstance(asked, PlacedDance) else None
+    placed = asked if isinstance(asked, FilmRequest) else None
     rate, height = look(asked, form)
     megapixels = round(asked.seconds * rate * height * height * 16 / 9 / 1e6)
     check_limit(
         "seconds", "millions of pixels", megapixels, terms.settings.film_megapixels_max, "take fewer or smaller"
     )
-    start, stop = stretch(asked, dance, terms)
-    clock = asked.start_clock if isinstance(asked, FilmRequest) else None
-    shooting = Shooting(start, stop, asked.seconds, rate, height, asked.language, clock)
+    start, stop, touching = stretch(asked, dance, terms)
+    clock = placed.start_clock if placed else None
+    shooting = Shooting(start, stop, asked.seconds, rate, height, asked.language, clock, touching)
+    venue = placed.to_place(dance.dragon).venue if placed else None
     return film.film(
         dance, shooting, form, venue=venue, title=asked.title, budget=terms.budget, progress=terms.progress
     )
@@ -72,18 +73,22 @@ def look(asked: FilmFields, form: str) -> tuple[int, int]:
     return asked.rate or rate, asked.height or height
 
 
-def stretch(asked: FilmFields, dance: Dance, terms: Terms) -> tuple[float, float]:
-    """First and last instant of the film [s]. raises: InvalidValue; OutsideRun"""
+def stretch(asked: FilmFields, dance: Dance, terms: Terms) -> tuple[float, float, tuple[int, int] | None]:
+    """First and last instant of the film [s], and the benches that touch at the last.
+
+    raises: InvalidValue; OutsideRun
+    """
     start = dance.default_start if asked.start is None else asked.start
     if asked.stop is not None:
-        return dance.span(start, asked.stop)
+        return *dance.span(start, asked.stop), None
     end = dance.end
     until = min(end.time - (BEFORE_FOLD if end.reason is EndReason.FOLD else 0.0), start + LONGEST)
     if until <= start:
         raise InvalidValue("start", f"start must be before {said(until)} s, when {end.why}, got {said(start)} s")
     found = first_contact(dance, start=start, stop=until, budget=terms.budget)
-    meets = found.outcome is Outcome.CONTACT and found.time is not None
-    return dance.span(start, found.time if meets else until)
+    if found.outcome is Outcome.CONTACT and found.time is not None:
+        return *dance.span(start, found.time), found.benches
+    return *dance.span(start, until), None
 
 
 def _cost(asked: FilmFields, form: str = FORM) -> float:

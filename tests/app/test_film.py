@@ -10,11 +10,11 @@ import av
 import httpx
 import numpy as np
 import pytest
-from PIL import Image
+from PIL import Image, ImageSequence
 
 from app.files.film import Stage, film
 from app.files.shooting import GIF_TYPE, MP4_TYPE, Shooting
-from core import Budget, Dance, Dragon, Spiral, TooMuchWork, Turn, bench_poses, trajectory
+from core import Budget, Dance, Dragon, Spiral, TooMuchWork, Turn, bench_poses, first_contact, trajectory
 from tests.app.command import run
 
 # Of the head and of the body, as drawn; video keeps colours to within a few parts of 255.
@@ -59,6 +59,50 @@ def test_every_frame_shows_every_bench_where_it_is(path: Spiral | Turn, tmp_path
         assert all(is_like(picture[tuple(place)], BODY) for place in places[1:]), instant
         orange = np.argwhere((np.abs(picture.astype(int) - HEAD) < NEAR).all(axis=-1))
         assert np.abs(orange.mean(axis=0) - places[0]).max() < 3.0, instant
+
+
+@pytest.mark.parametrize("ending", ["mp4", "gif"])
+def test_the_last_frame_alone_marks_both_benches_that_touch(ending: str, tmp_path: Path) -> None:
+    file = tmp_path / f"dance.{ending}"
+    done = run(
+        "film", "--output", str(file), "--seconds", "1", "--rate", "2", "--height", "1080", "--head-length", "1.55"
+    )
+    assert done.returncode == 0, done.stderr
+    dance = Dance(Dragon(head_length=1.55), Spiral())
+    found = first_contact(dance)
+    assert found.time is not None
+    assert found.benches == (1, 8)
+    if ending == "mp4":
+        before, last = decoded(file.read_bytes())
+    else:
+        with Image.open(file) as picture:
+            before, last = (np.array(frame.convert("RGB")) for frame in ImageSequence.Iterator(picture))
+    stage = Stage(dance, Shooting(0.0, found.time), None, "")
+    for instant, picture, marked in ((0.0, before, {0}), (found.time, last, {0, 1, 8})):
+        places = centres(stage, dance, instant)
+        assert {k for k, place in enumerate(places) if is_like(picture[tuple(place)], HEAD)} == marked
+
+
+def test_the_contest_s_turn_is_filmed_by_its_name(tmp_path: Path) -> None:
+    """As `trajectory --path turn` tables it: with the pitch of the turn, not of the spiral."""
+    file = tmp_path / "turn.mp4"
+    times = ("--start", "-20", "--stop", "40", "--seconds", "1", "--rate", "4")
+    done = run("film", "--path", "turn", "--benches", "30", *times, "--output", str(file))
+    assert done.returncode == 0, done.stderr
+    dance, shooting = Dance(Dragon(benches=30), Turn(1.7)), Shooting(-20.0, 40.0, 1.0, 4)
+    stage = Stage(dance, shooting, None, "")
+    for instant, picture in zip(shooting.times, decoded(file.read_bytes()), strict=True):
+        places = centres(stage, dance, float(instant))
+        assert is_like(picture[tuple(places[0])], HEAD), instant
+        assert all(is_like(picture[tuple(place)], BODY) for place in places[1:]), instant
+
+
+def test_numbers_of_a_turn_are_refused_on_a_spiral(tmp_path: Path) -> None:
+    done = run("film", "--ratio", "3", "--output", str(tmp_path / "dance.mp4"))
+    assert (done.returncode, done.stderr) == (
+        2,
+        "Error: --ratio belongs to a turn: give --path turn too, or leave it out\n",
+    )
 
 
 def test_a_film_plays_as_long_as_asked_and_a_gif_too(client: httpx.Client) -> None:

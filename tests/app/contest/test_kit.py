@@ -6,6 +6,7 @@ import csv
 import json
 import re
 import subprocess
+import time
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -16,6 +17,7 @@ import pytest
 from PIL import Image
 
 from app.contest.answers import answers
+from app.contest.kit import UNFINISHED
 from app.contest.sensitivity import panels
 from app.contest.solved import ContestRequest, solve
 from app.files.tables import Language
@@ -222,10 +224,37 @@ def test_a_second_run_leaves_nothing_of_the_first_and_keeps_what_is_not_ours(tmp
     assert done.returncode == 1
     found = {str(file.relative_to(tmp_path)) for file in tmp_path.rglob("*") if file.is_file()}
     tables = {f"tables/{name}.{kind}" for name in TABLES[:3] for kind in ("csv", "md", "tex")}
-    assert found == {"result1.xlsx", "result2.xlsx", "answers.json", "report.md", *tables, *mine}
+    assert found == {"result1.xlsx", "result2.xlsx", "answers.json", "report.md", ".contest.lock", *tables, *mine}
     given = json.loads((tmp_path / "answers.json").read_bytes())
     assert {one["question"] for one in given} == {1, 2, 3}
     assert "result4" not in (tmp_path / "report.md").read_text(encoding="utf-8")
+
+
+def test_a_second_run_into_the_same_folder_is_refused_until_the_first_has_ended_or_was_killed(tmp_path: Path) -> None:
+    first = subprocess.Popen([COMMAND, "contest", tmp_path, "--no-films"], stderr=subprocess.DEVNULL)
+    try:
+        while not (tmp_path / UNFINISHED).is_dir():
+            assert first.poll() is None
+            time.sleep(0.02)
+        begun = time.monotonic()
+        done = run("contest", str(tmp_path), "--no-films")
+        assert time.monotonic() - begun < 10.0  # Before any work is done.
+        words = f"Error: another run writes into {tmp_path}: wait until it is done, or give another FOLDER\n"
+        assert (done.returncode, done.stdout, done.stderr) == (2, "", words)
+        assert (tmp_path / UNFINISHED).is_dir()
+    finally:
+        first.kill()
+        first.wait()
+    assert without_fonts(tmp_path, "zh", "--benches", "20").returncode == 1
+    assert (tmp_path / "report.md").is_file()
+    assert not (tmp_path / UNFINISHED).exists()
+
+
+def test_a_folder_that_cannot_be_locked_is_told_in_one_line(tmp_path: Path) -> None:
+    (tmp_path / ".contest.lock").mkdir()
+    done = run("contest", str(tmp_path), "--no-films")
+    words = f"Error: {tmp_path}/.contest.lock: cannot be locked: unable to open database file\n"
+    assert (done.returncode, done.stdout, done.stderr) == (2, "", words)
 
 
 def test_a_run_without_contact_says_why_it_ends() -> None:

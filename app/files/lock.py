@@ -1,13 +1,14 @@
-"""One holder of a role in a data folder at a time, by a lock that the system takes back when its holder dies."""
+"""One holder of a role in a folder at a time, by a lock that the system takes back when its holder dies."""
 
 from __future__ import annotations
 
+import errno
 import sqlite3
 from pathlib import Path
 
 
 class FolderLock:
-    """The right to a role in a data folder, among all processes.
+    """The right to a role in a folder, among all processes.
 
     It is the exclusive lock of an empty SQLite database: SQLite knows how to lock a file on every system, and no
     process that the holder starts inherits it.
@@ -18,18 +19,20 @@ class FolderLock:
         self._held: sqlite3.Connection | None = None
 
     def take(self, patience: float = 0.0) -> bool:
-        """Is the lock ours now, or was it before? patience: how long to wait for it [s]"""
+        """Is the lock ours now, or was it before? patience: how long to wait for it [s]; raises: OSError"""
         if self._held is not None:
             return True
-        connection = sqlite3.connect(self._file, timeout=patience, isolation_level=None, check_same_thread=False)
+        connection = None
         try:
+            connection = sqlite3.connect(self._file, timeout=patience, isolation_level=None, check_same_thread=False)
             connection.execute("PRAGMA journal_mode = MEMORY")  # Nothing is ever written.
             connection.execute("BEGIN EXCLUSIVE")
         except sqlite3.OperationalError as error:
-            connection.close()
+            if connection is not None:
+                connection.close()
             if error.sqlite_errorcode == sqlite3.SQLITE_BUSY:
                 return False
-            raise
+            raise OSError(errno.EACCES, f"cannot be locked: {error}", str(self._file)) from error
         self._held = connection
         return True
 
