@@ -115,7 +115,7 @@ def _cost(asked: CollisionQuery | CollisionRequest) -> float:
     if asked.strays:
         return UNKNOWN_COST
     judged = min(asked.benches, JUDGED_MOST) if asked.cross_check == "dragon" else 0
-    return 0.005 + 5e-5 * judged + 2e-6 * asked.benches
+    return 0.003 + 5e-5 * judged + 2e-6 * asked.benches
 
 
 QUESTION = Question(collision_time, CollisionTime, flat=CollisionQuery, body=CollisionRequest, cost=_cost)

@@ -32,6 +32,8 @@ CHEAP = 0.1
 # The event loop itself makes a computation that should take no longer than this [s]: a thread costs a third of a
 # millisecond, a sixth of the answer (2026-11-22). One that takes longer is stopped, and made anew in a thread.
 GLANCE = 0.005
+# After one that was stopped the loop makes none for so long [s]: of 40 at once each would keep everybody else waiting.
+REST = 0.1
 # After so many looks at nothing the thread that stops them waits until the next one begins [1].
 LOOKS_IDLE = 200
 # An answer that takes more than this part of the room is not kept [1].
@@ -161,10 +163,20 @@ class Glances:
 
     def __init__(self) -> None:
         self.turn = asyncio.Lock()
+        self._rests_until = 0.0
         self._now: tuple[float, Budget] | None = None
         self._clock: Callable[[], float] | None = None
         self._wake = Event()
         Thread(target=self._look, name="glances", daemon=True).start()
+
+    @property
+    def rests(self) -> bool:
+        """Should computations be left to threads, as one took too long a moment ago?"""
+        return time.monotonic() < self._rests_until
+
+    def rest(self) -> None:
+        """One took too long."""
+        self._rests_until = time.monotonic() + REST
 
     @contextmanager
     def budget(self) -> Iterator[Budget]:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import asyncio
 import hashlib
 import zlib
 from collections import Counter
@@ -36,8 +35,6 @@ VERSION = version("bench-dragon")
 RESPOND_ASYNC = "respond-async"
 # Packages on whose bytes the answers depend.
 PACKAGES = tuple(Path(__file__).parents[2] / name for name in ("core", "app"))
-# The wait for everybody else [s]; uvloop reads no connection during one of 0.
-YIELD = 1e-3
 # gzip: level 1 makes 1.8 MB of a trajectory of 3.8 MB in 60 ms; level 6 makes 1.7 MB in 350 ms (2026-11-22).
 GZIP_LEVEL, GZIP_WINDOW = 1, 31
 # End of the tag of a compressed answer: other bytes need another tag.
@@ -71,12 +68,12 @@ class Reply:
         """The answer to a request without a body: at once where it is expected to be quick, else from a thread."""
         if not form and self._is_quick(call, asked):
             async with self._glances.turn:
-                with suppress(TooMuchWork), self._glances.budget() as budget:
-                    self.request.state.budget = budget
-                    return self(call, asked)
-                if budget.stopped:
-                    await asyncio.sleep(YIELD)  # Everybody else first: the next one in turn may take as long.
-            self._least_cost = UNKNOWN_COST
+                if not self._glances.rests:
+                    with suppress(TooMuchWork), self._glances.budget() as budget:
+                        self.request.state.budget = budget
+                        return self(call, asked)
+                    self._glances.rest()
+                    self._least_cost = UNKNOWN_COST
         async with watched(self.request, self.settings.deadline_seconds):
             return await run_in_threadpool(self, call, asked, *form)
 
