@@ -9,6 +9,7 @@ from .contact.first_contact import (
     Outcome,
     first_contact,
 )
+from .contact.walls import AreaClearance, Misplaced, Nearest, VenueClearance, venue_clearance
 from .course import Course, TightBend, course
 from .dance import Dance, EndReason, RunEnd
 from .design.minimum_pitch import LimitedBy, MinimumPitch, minimum_pitch
@@ -16,6 +17,7 @@ from .design.pitch_scan import PitchScan, pitch_scan
 from .design.shortest_turn import ShortestTurn, TurnLimit, shortest_turn
 from .dragon import Dragon
 from .errors import BenchDragonError, InvalidValue, OutsideRun, ProofRefused, TooLarge, TooMuchWork
+from .failures import Failure, FailureKind
 from .ground.envelope import Envelope, SweepProof, envelope
 from .motion.joints import SharpestBend, sharpest_bend
 from .motion.speed import (
@@ -43,8 +45,8 @@ from .tolerance.stray import Stray
 from .tolerance.tolerance import Limit, StrayProof, Tolerance, tolerance
 from .tolerance.uncertain import uncertain_tolerance
 from .tolerance.wobble import Wobble
-from .venue import Area, AreaClearance, Misplaced, Nearest, Venue, VenueClearance, venue_clearance
-from .verdict import Failure, FailureKind, Judgement, Report, check, quick_check
+from .venue import Area, Venue
+from .verdict import Judgement, Report, check, quick_check
 
 __all__ = [
     "Arc",

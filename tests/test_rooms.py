@@ -12,6 +12,9 @@ ROOT = Path(__file__).parent.parent
 CORE, TESTS = ROOT / "core", ROOT / "tests" / "core"
 # Modules that are tested with others, as the parts of one answer.
 TESTED_WITH = {
+    "contact/march.py": "contact/test_search.py",
+    "contact/walls.py": "test_venue.py",
+    "failures.py": "test_verdict.py",
     "kernels/bends.py": "kernels/test_pairs.py",
     "kernels/faces.py": "kernels/test_hulls.py",
     "tolerance/exhibit.py": "tolerance/test_tolerance.py",

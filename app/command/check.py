@@ -145,7 +145,7 @@ def _measured(report: Report, margin: float, benches: int) -> Iterator[tuple[str
             "highest speed",
             f"{speed.speed:.6f} m/s",
             speed.time,
-            f"{show.plural('handle', speed.handles)} {show.shown(speed.handles)}",
+            f"{'handle' if len(speed.handles) == 1 else 'handles'} {show.shown(speed.handles)}",
         )
     elif any(one.kind is FailureKind.FOLDS for one in report.failures):
         yield "highest speed", "grows without bound", report.stop, "towards the fold"

@@ -18,6 +18,7 @@ from rich.text import Text
 from app.wire import answers
 from app.wire.models import Answer, unit_of
 from core.errors import said
+from core.shown import counted
 
 # Decimals of lengths and speeds on a terminal.
 SHOWN_DECIMALS = 6
@@ -116,7 +117,7 @@ def _polygon_words(value: answers.Polygon | answers.MultiPolygon) -> str:
     several = [value.coordinates] if isinstance(value, answers.Polygon) else value.coordinates
     rings = [ring for polygon in several for ring in polygon]
     holes, points = len(rings) - len(several), sum(map(len, rings))
-    return f"{len(several)} {plural('polygon', several)}, {holes} {plural('hole', range(holes))}, {points} points"
+    return f"{counted(len(several), 'polygon')}, {counted(holes, 'hole')}, {points} points"
 
 
 def near(word: str, margin: float) -> str:
@@ -198,7 +199,3 @@ def new_table(title: str, *columns: str, header: bool = True) -> Table:
     for k, name in enumerate(columns):
         table.add_column(name, justify="right" if k and header else "left", overflow="fold")
     return table
-
-
-def plural(word: str, things: Sequence[Any]) -> str:
-    return word if len(things) == 1 else f"{word}s"

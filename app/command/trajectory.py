@@ -24,6 +24,7 @@ from app.wire.dances import TimeRange
 from app.wire.messages import checked
 from app.wire.models import measure
 from core import Dance, Dragon, InvalidValue, RunEnd, Spiral, Trajectory
+from core.shown import counted
 from core.values import Floats
 
 # Handles of a trajectory on a terminal, as the contest asks, and the number of instants if that many fit.
@@ -145,8 +146,7 @@ def trajectory_tables(
                 table.add_row(label, *(_entry(value, places) for value in values[block, k]))
             shown.append(table)
     count = sum(map(len, blocks))
-    of_handles, of_instants = show.plural("handle", range(number)), show.plural("instant", range(instants))
-    words = f"{len(rows)} of {number} {of_handles}, {count} of {instants} {of_instants}"
+    words = f"{len(rows)} of {counted(number, 'handle')}, {count} of {counted(instants, 'instant')}"
     choose = ["--handles"] * (handles is None) + ["--times"] * (not all_instants)
     verb = "choose" if len(choose) > 1 else "chooses"
     advice = ["--output has all", *([f"{' and '.join(choose)} {verb}"] if choose else [])]

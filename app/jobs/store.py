@@ -284,36 +284,22 @@ class Store:
             os.replace(written, result)
             flush_folder(self.results)
         size = result.stat().st_size if result.exists() else 0
-        words = "It is done."
-        moves = {
-            "state": JobState.SUCCESSFUL,
-            "finished": time.time(),
-            "message": words,
-            "progress": 100,
-            "time_left": 0.0,
-        }
-        with self._change() as run:
-            moved = self._move(
-                run, job, "state = 'running'", media_type=media_type, size=size, client="", rate=None, **moves
-            )
+        done = {"progress": 100, "rate": None, "time_left": 0.0, "media_type": media_type, "size": size}
+        moved = self._finish(job, JobState.SUCCESSFUL, "It is done.", done)
         found = self.get(job)
         if not moved and (found is None or found.state is not JobState.SUCCESSFUL):
             result.unlink(missing_ok=True)
 
     def fail(self, job: str, problem: bytes) -> None:
         """Finish a job with a problem."""
-        words = orjson.loads(problem)["detail"]
-        now = time.time()
-        moves = {
-            "state": JobState.FAILED,
-            "finished": now,
-            "message": words,
-            "rate": None,
-            "time_left": None,
-            "size": 0,
-        }
+        failed = {"rate": None, "time_left": None, "problem": problem, "size": 0}
+        self._finish(job, JobState.FAILED, orjson.loads(problem)["detail"], failed)
+
+    def _finish(self, job: str, state: JobState, message: str, more: dict[str, Any]) -> bool:
+        """End a running job: True if it was running."""
+        ended = more | {"state": state, "finished": time.time(), "message": message, "client": ""}
         with self._change() as run:
-            self._move(run, job, "state = 'running'", problem=problem, client="", **moves)
+            return self._move(run, job, "state = 'running'", **ended)
 
     def die(self, job: str, problem: bytes) -> None:
         """The job's process ended without a word: it is tried again, but for the third time fails with this problem."""

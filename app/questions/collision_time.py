@@ -8,7 +8,7 @@ from pydantic import Field
 
 import core
 from app.questions.question import UNKNOWN_COST, Question, Terms
-from app.wire.answers import ALLOWED, End, Feature, Graze, Head, Pair, PairCheck, Point
+from app.wire.answers import TOTAL_STRAY, End, Feature, Graze, Head, Pair, PairCheck, Point
 from app.wire.dances import DanceFields, DanceQuery, Strays, UniformDragon
 from app.wire.models import Answer, CrossCheck, Instant, Margin, measure
 from app.wire.paths import SpiralPath
@@ -61,7 +61,7 @@ class CollisionTime(Answer):
         description="How the search ended; contact: two benches come nearer than the margin, or touch if it is 0"
     )
     margin: float = measure("m", "Required clearance; 0: only a touch counts as a contact")
-    stray: float | None = ALLOWED
+    stray: float | None = TOTAL_STRAY
     time: float | None = measure(
         "s", "First time nearer than the margin, or touching if it is 0; null when clear or undecided"
     )
@@ -92,7 +92,7 @@ class CollisionTime(Answer):
         if asked.cross_check != "none":
             whole = asked.cross_check == "dragon"
             check = core.contact_check(contact, dance, margin=asked.margin, whole=whole, budget=terms.budget)
-        return cls.known(contact, margin=asked.margin, stray=asked.allowed, cross_check=check)
+        return cls.known(contact, margin=asked.margin, stray=asked.total_stray, cross_check=check)
 
 
 def collision_time(asked: CollisionQuery | CollisionRequest, terms: Terms) -> CollisionTime:

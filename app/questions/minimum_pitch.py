@@ -8,9 +8,10 @@ from pydantic import Field
 
 import core
 from app.questions.question import UNKNOWN_COST, Question, Terms
-from app.wire.answers import ALLOWED, Pair, PairCheck, Point
-from app.wire.dances import BenchByBench, Circle, DragonFields, Strays, UniformDragon, WayToCircle
+from app.wire.answers import TOTAL_STRAY, Pair, PairCheck, Point
+from app.wire.dances import BenchByBench, DragonFields, Strays, UniformDragon
 from app.wire.models import PITCH_MAX, Answer, CrossCheck, measure
+from app.wire.paths import Circle, WayToCircle
 from core import Dragon, InvalidValue, LimitedBy
 from core.errors import said
 
@@ -61,7 +62,7 @@ class MinimumPitch(Answer):
     evaluations: int = Field(
         description="Number of ways to the circle computed, for single pitches or for whole strips of pitches"
     )
-    stray: float | None = ALLOWED
+    stray: float | None = TOTAL_STRAY
     cross_check: PairCheck | None = Field(
         description="Verdicts of the engines at a pitch 1e-6 m larger and smaller, with the head where the pair is in "
         "contact (with a stray shapely's alone, on the grounds that benches may cover); null without a pair or if not "
@@ -74,7 +75,7 @@ class MinimumPitch(Answer):
         if asked.cross_check != "none":
             whole, stray = asked.cross_check == "dragon", asked.to_stray()
             check = core.pitch_check(found, dragon, margin=asked.margin, stray=stray, whole=whole, budget=terms.budget)
-        return cls.known(found, stray=asked.allowed, cross_check=check)
+        return cls.known(found, stray=asked.total_stray, cross_check=check)
 
 
 def allowed(found: core.MinimumPitch, asked: WayToCircle, dragon: Dragon) -> core.MinimumPitch:

@@ -8,8 +8,9 @@ from pydantic import Field
 from app.questions.minimum_pitch import allowed
 from app.questions.question import UNKNOWN_COST, Question, Terms
 from app.wire.answers import Columns, Pair, Point
-from app.wire.dances import Circle, DragonFields, UniformDragon
+from app.wire.dances import DragonFields, UniformDragon
 from app.wire.models import Answer, measure
+from app.wire.paths import Circle
 from core.design.pitch_scan import JUMP, pitches_near, scan_near_minimum
 
 # Time of a first contact near the minimum pitch, measured 2026-11-22 [s].

@@ -9,7 +9,7 @@ from pydantic import Field
 import core
 from app.questions.question import Question, Terms
 from app.questions.turn import Turn
-from app.wire.answers import ALLOWED, Pair, Point
+from app.wire.answers import TOTAL_STRAY, Pair, Point
 from app.wire.dances import DragonFields, Strays, UniformDragon
 from app.wire.models import Margin, measure
 from app.wire.paths import TurnCircle
@@ -45,11 +45,11 @@ class ShortestTurn(Turn):
         "infeasible ones between two is not excluded",
     )
     evaluations: int = Field(description="Number of entries tried")
-    stray: float | None = ALLOWED
+    stray: float | None = TOTAL_STRAY
 
     @classmethod
     def of_shortest(cls, found: core.ShortestTurn, asked: ShortestTurnFields) -> Self:
-        return cls.known(found, stray=asked.allowed, **Turn.of(found.turn).model_dump())
+        return cls.known(found, stray=asked.total_stray, **Turn.of(found.turn).model_dump())
 
 
 def shortest_turn(asked: ShortestTurnQuery | ShortestTurnRequest, terms: Terms) -> ShortestTurn:

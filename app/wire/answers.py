@@ -25,7 +25,7 @@ LEFT_OUT = (
 
 
 # Field of an answer that allows for a stray.
-ALLOWED: Any = measure(
+TOTAL_STRAY: Any = measure(
     "m", "How far every hole may be from its place, by people and by play, in this answer; null: none was asked for"
 )
 

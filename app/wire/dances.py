@@ -6,7 +6,7 @@ Queries are flat and bodies are nested; both consist of the same groups of field
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Annotated, Any, TypedDict
+from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
 from pydantic import AfterValidator, Discriminator, Field, Tag
@@ -19,10 +19,7 @@ from app.wire.models import (
     Coordinates,
     Instant,
     Length,
-    Margin,
     Overhang,
-    StartTurns,
-    TurningDiameter,
     Width,
     Wire,
     check_limit,
@@ -116,7 +113,7 @@ class Strays(Wire):
         return self.stray > 0.0 or self.hole > 0.0
 
     @property
-    def allowed(self) -> float | None:
+    def total_stray(self) -> float | None:
         """The stray in all, as an answer tells it; None for none [m]."""
         return self.to_stray().total or None
 
@@ -322,31 +319,3 @@ class DanceQuery(HeadSpeed, SpiralFields, UniformDragon):
     def to_dance(self, benches_max: int) -> Dance:
         """raises: TooLarge, InvalidValue"""
         return Dance(self.to_dragon(benches_max), self.to_path(), self.head_speed)
-
-
-class CoreCircle(TypedDict):
-    """Arguments of core for a circle."""
-
-    turning_radius: float
-    start_turns: float
-    margin: float
-
-
-class WayToCircle(Wire):
-    """A circle that the head must reach from a start on a spiral of any pitch."""
-
-    turning_diameter: TurningDiameter = measure("m", "Diameter of the circle that the head must reach", 9.0)
-    start_turns: StartTurns = 16.0
-
-
-class Circle(WayToCircle):
-    """The same, with a margin on the way."""
-
-    margin: Margin = 0.0
-
-    def to_circle(self) -> CoreCircle:
-        return {
-            "turning_radius": self.turning_diameter / 2,
-            "start_turns": self.start_turns,
-            "margin": self.margin,
-        }

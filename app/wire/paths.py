@@ -5,12 +5,12 @@ A refusal of core is renamed to its place in the body: core does not put `path.`
 
 from __future__ import annotations
 
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Literal, TypedDict
 
 from pydantic import ConfigDict, Discriminator, Field, Tag
 
 import core
-from app.wire.models import Angle, Coordinate, Pitch, StartTurns, TurningDiameter, Wire, check_limit, measure
+from app.wire.models import Angle, Coordinate, Margin, Pitch, StartTurns, TurningDiameter, Wire, check_limit, measure
 from core import InvalidValue, Route, Spiral
 
 # A sharp zigzag of 1,000 points, or a route of 1,000 arcs, becomes a path in 0.02 s (measured 2026-11-21).
@@ -29,6 +29,34 @@ EntryRadius = Annotated[
     float | None,
     measure("m", "Distance from the centre at which the turn begins; null: on the circle", ge=1e-3, le=100),
 ]
+
+
+class CoreCircle(TypedDict):
+    """Arguments of core for a circle."""
+
+    turning_radius: float
+    start_turns: float
+    margin: float
+
+
+class WayToCircle(Wire):
+    """A circle that the head must reach from a start on a spiral of any pitch."""
+
+    turning_diameter: TurningDiameter = measure("m", "Diameter of the circle that the head must reach", 9.0)
+    start_turns: StartTurns = 16.0
+
+
+class Circle(WayToCircle):
+    """The same, with a margin on the way."""
+
+    margin: Margin = 0.0
+
+    def to_circle(self) -> CoreCircle:
+        return {
+            "turning_radius": self.turning_diameter / 2,
+            "start_turns": self.start_turns,
+            "margin": self.margin,
+        }
 
 
 class SpiralFields(Wire):

@@ -13,8 +13,9 @@ from numpy.typing import NDArray
 from core import plots
 from core.budget import Budget, bounded
 from core.clock import Clock
-from core.contact.fold import least_to_fold
-from core.contact.search import NEAR_WORK_BUDGET, TOUCHES, Ended, Search
+from core.contact.fold import last_travel, least_to_fold
+from core.contact.march import TOUCHES, Ended
+from core.contact.search import NEAR_WORK_BUDGET, Search
 from core.dance import Dance, RunEnd
 from core.errors import InvalidValue
 from core.motion.trajectory import instants
@@ -209,7 +210,7 @@ def least_clearance(
     to_fold = dance.nears_fold(until)
     strayed = checked_stray(stray, dance.dragon)
     search = Search(dance.dragon, dance.path, 0.0, work=NEAR_WORK_BUDGET, budget=budget, stray=strayed)
-    last = search.last_travel(clock.place(until), to_fold)
+    last = last_travel(clock.place(until), to_fold)
     fold = end if to_fold else None
     (distance, travel, pair), at_least = least_over(search, clock.place(begin), last, clock.slowest, fold)
     if distance == 0.0:

@@ -1,6 +1,5 @@
 """Two coils of one route: the radius beyond which nothing on them touches, so that a search may end there.
 
-
 It serves a dance through the turn, and any other that comes in along a coil and leaves along one with the same centre
 and pitch.
 """
@@ -8,13 +7,14 @@ and pitch.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 
 from core import kernels
 from core.dragon import Dragon
-from core.kernels.constants import COIL_ARC, PIECE_KIND
+from core.kernels.constants import COIL_ARC, COIL_GROWTH, FREE, PIECE_KIND, S_END, S_START
 from core.paths.route import Route
 from core.values import Floats
 
@@ -164,3 +164,29 @@ def _sideways(dragon: Dragon) -> tuple[float, float]:
     """The longest overhang and half the largest width [m]."""
     alike = dragon.uniform_from + 1
     return float(dragon.overhangs[:alike].max()), 0.5 * float(dragon.widths[:alike].max())
+
+
+def clear_places(
+    path: Route, dragon: Dragon, margin: float, radius: float, rounding: Callable[[float], float]
+) -> tuple[float, float]:
+    """Rings.clear_place and Rings.end_place of a route that begins (and ends) with a coil [m]; FREE and -FREE if not
+    known.
+
+    radius: clear_radius of the first coil, FREE if it is not known or the path begins otherwise [m]; rounding: largest
+        error of a travel [m]
+    Both are PLACE_SPARE further than their bounds ask, for the rounding of handles, and the latter beyond what travels
+    may be off by; the former is BLEND behind the end of the coil, where the coil may be led to the next piece.
+    """
+    if radius >= FREE:
+        return FREE, -FREE
+    first = path.table[0].tolist()
+    growth = first[COIL_GROWTH]
+    arc = growth * float(kernels.spiral_arc(radius / growth)) * (1.0 + ARC_ROUNDING)
+    clear = min(first[S_END] - kernels.BLEND, first[S_START] + first[COIL_ARC] - arc) - kernels.PLACE_SPARE
+    clear -= rounding(clear)
+    coils = two_coils(path)
+    out = None if coils is None else way_out(dragon, coils, margin)
+    if out is None:
+        return -clear, -FREE
+    end = float(path.table[-1, S_START]) + out + kernels.PLACE_SPARE
+    return -clear, -end - rounding(end)

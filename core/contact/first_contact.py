@@ -21,9 +21,10 @@ from core.budget import Budget, bounded
 from core.clock import Clock
 from core.contact.claim import ENDS, UNDECIDED_THEN, claim, claim_at_start, claim_undecided, contact_then
 from core.contact.clearance import Graze
-from core.contact.fold import approach_fold
+from core.contact.fold import approach_fold, last_travel
+from core.contact.march import BRACKETS_GRAZING, Ended, Marched
 from core.contact.near_graze import narrowed
-from core.contact.search import BRACKETS_GRAZING, MARGIN_MAX, Ended, Marched, Search
+from core.contact.search import MARGIN_MAX, Search
 from core.dance import Dance, EndReason, RunEnd
 from core.errors import InvalidValue, said
 from core.kernels.constants import FRONT, MX, UY
@@ -238,7 +239,7 @@ def contact_within(
     search = Search(dance.dragon, dance.path, margin, budget=budget, stray=strayed)
     search.timing = clock.rounding(until)
     to_fold = dance.nears_fold(until)
-    last = search.last_travel(clock.place(until), to_fold)
+    last = last_travel(clock.place(until), to_fold)
     if to_fold:
         state, found, tolerance = approach_fold(search, clock.place(begin), last, head_speed, end)
     else:
@@ -295,20 +296,11 @@ def _result(
     travel = found.touching if at_start else found.touching - tolerance
     pair = found.benches
     corner, edge, point, gap = _touching_features(search, travel, pair)
-    return FirstContact(
-        outcome,
-        span[0] if at_start else clock.time(travel),
-        None if at_start else (proven, clock.time(found.touching)),
-        search.path.head(travel),
-        pair,
-        corner,
-        edge,
-        point,
-        None,
-        certificate,
-        gap if at_start or search.stray else search.margin,
-        **asked,
-    )
+    time = span[0] if at_start else clock.time(travel)
+    meeting = None if at_start else (proven, clock.time(found.touching))
+    gap = gap if at_start or search.stray else search.margin
+    head = search.path.head(travel)
+    return FirstContact(outcome, time, meeting, head, pair, corner, edge, point, None, certificate, gap, **asked)
 
 
 def _method(

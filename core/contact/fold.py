@@ -12,11 +12,14 @@ import math
 import numpy as np
 
 from core import kernels
-from core.contact.search import TOUCHES, Ended, Marched, Search
+from core.contact.march import TOUCHES, TRAVEL_ROUNDING, Ended, Marched
+from core.contact.search import Search
 from core.dance import RunEnd
 from core.kernels.constants import CHORD, ERROR, FREE, HALF_LENGTH, HALF_WIDTH, NO_ROOT, THETA
 from core.values import Floats
 
+# The last stretch before a fold, where handle speeds grow without bound: dismissed by a bound on the motion left [m].
+FOLD_SLIVER = 1e-9
 # The march is left where so much of the chord of the bench that folds is left to go [1]: first where the bound suffices
 # at pitches from 0.66 to 2 m, after half of the steps, then where it suffices with a fifth of that clearance. (First at
 # 1e-3, it suffices from 0.75 m on, and 0.66 to 0.74 m take 2.7 instead of 2.1 times as long as a contact; 2026-11-22.)
@@ -30,6 +33,11 @@ FOLD_STRETCHES = 200
 THETA_ROUNDING = 1e-12
 # Work of one stretch, and of each bench in it [1].
 STRETCH_WORK, FOLD_WORK = 1000.0, 20.0
+
+
+def last_travel(until: float, to_fold: bool) -> float:
+    """Travel to march to for a run until a travel [m]: a little short of a fold."""
+    return until - (FOLD_SLIVER + 5e2 * TRAVEL_ROUNDING * until if to_fold else 0.0)
 
 
 # A march that goes on begins at twice that way before the fold, so that it sees a graze at the seam too. It need not
@@ -154,7 +162,7 @@ def least_left(search: Search, travel: float, theta: float) -> float:
     gap, _ = search.clearance(travel)
     arcs, moved = moved_until(search, theta)
     reached = 2.0 * float(moved.max())
-    rounding = search.gap_rounding(travel, min(gap, FREE) + reached)
+    rounding = gap_rounding(search, travel, min(gap, FREE) + reached)
     arcs += search.rows[0, search.room - 1, ERROR]
     radii = search.growth * search.rows[0, : search.room + 1, THETA]
     outside = np.flatnonzero(radii[:-1] - arcs[:-1] >= search.clear_radius)
@@ -205,3 +213,12 @@ def _deltas(growth: float, low: float, high: float, chord: float) -> tuple[float
         fold = float(kernels.first_crest(kernels.fold_theta(chord2)))
         inner, outer = (fold if delta == NO_ROOT else delta for delta in (inner, outer))
     return inner, outer
+
+
+def gap_rounding(search: Search, travel: float, within: float) -> float:
+    """Largest error of gaps up to `within` [m] after a travel, see core/kernels/pairs.py [m]."""
+    search.place_leaders(travel, search.room)
+    kernels.chain_rounding(search.curve, search.room, search.sizes, search.rows[0])
+    error, sway = search.rows[0, : search.room, kernels.ERROR].max(), search.rows[0, : search.room, kernels.SWAY].max()
+    reach = 4.0 * search.rings.all_radius + within
+    return float(2.0 * (2.0 * error + (2.0 * sway + 50.0 * kernels.ULP) * reach))

@@ -22,7 +22,8 @@ import numpy as np
 
 from core import kernels
 from core.budget import Budget
-from core.contact.search import Marched, Search
+from core.contact.march import Marched
+from core.contact.search import Search
 from core.kernels.constants import (
     ARC_ANGLE,
     ARC_RADIUS,

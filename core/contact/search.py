@@ -7,17 +7,25 @@ The proof of a march is written above the loops that carry it out: `core/kernels
 from __future__ import annotations
 
 import math
-from enum import StrEnum
-from typing import NamedTuple
 
 import numpy as np
 
 from core import kernels
 from core.budget import Budget
-from core.contact.coils import two_coils, way_out
+from core.contact.coils import clear_places
+from core.contact.march import (
+    BRACKET,
+    BRACKET_MIN,
+    BRACKETS_GRAZING,
+    ENDS,
+    TOUCHES,
+    TRAVEL_ROUNDING,
+    Dip,
+    Ended,
+    Marched,
+)
 from core.dragon import Dragon
 from core.kernels.constants import (
-    COIL_ARC,
     COIL_GROWTH,
     EDGES_PER_WORK,
     FREE,
@@ -26,8 +34,6 @@ from core.kernels.constants import (
     MY,
     RADIUS,
     RATE,
-    S_END,
-    S_START,
     UX,
     UY,
 )
@@ -46,80 +52,11 @@ NEAR_WORK_BUDGET = 5e6
 # Largest number of samples of a dance [1], and the share of the work that they may take [1].
 SAMPLES = 20_000
 SAMPLED_SHARE = 0.1
-# Half width of the bracket around a contact [m of head travel] at head speeds of 1 m/s and more, and the least that
-# rounding of the travel allows at lower ones.
-BRACKET = 1e-10
-BRACKET_MIN = 2e-11
-# The same where benches meet so slowly that rounding hides the gap that near, for contacts within about 5e-5 m of a
-# graze: the first one is 1e-9 s in all at 1 m/s, and core/contact/near_graze.py narrows the wider ones to it [m of head
-# travel]. Below 1 m/s the same in seconds come first.
-BRACKETS_GRAZING = (4.9e-10, 5e-9, 5e-8, 5e-7, 5e-6, 5e-5)
-# Largest error of a travel, relative to the way [1], u = 2^-53: on a spiral its length to 5 u, two differences from it
-# and the polar angle there 10 u (spiral_theta() ends within 7 u of the arc length left), a time from a travel and back
-# 2 u.
-TRAVEL_ROUNDING = 2e-15
-# The last stretch before a fold, where handle speeds grow without bound: dismissed by a bound on the motion left [m].
-FOLD_SLIVER = 1e-9
 # Width to which the clear radius is bisected, relative [1].
 CLEAR_WIDTH = 1e-3
 # Largest error of the ring bound, relative to the lengths in it [1]: at most 64 sums, products and roots, with d^2 =
 # radius^2 - foot^2 at least a thousandth of radius^2 (core/kernels/rings.py), so that d is good to 2,000 u.
 RING_ROUNDING = 1e-11
-
-
-class Ended(StrEnum):
-    """How a march ended, in the order of the kernels' states: see core/kernels/marching.py, strips.py for TURNED.
-
-    No kernel ends with the last two: a bench folds on the way, or no bound holds for a band of pitches.
-    """
-
-    REACHED = "reached"
-    TOUCHED = "touched"
-    TOUCHED_AT_START = "touched_at_start"
-    STUCK = "stuck"
-    CAPACITY = "capacity"
-    TURNED = "turned"
-    FOLDED = "folded"
-    UNBOUNDED = "unbounded"
-
-
-ENDS = tuple(Ended)
-TOUCHES = (Ended.TOUCHED, Ended.TOUCHED_AT_START)
-
-
-class Dip(NamedTuple):
-    """A local minimum of the clearance [m], at a travel of the head [m], of a pair."""
-
-    gap: float
-    travel: float
-    benches: tuple[int, int]
-
-
-class Marched(NamedTuple):
-    """Result of a march.
-
-    proven: nothing comes within the margin up to this travel [m]; touching: benches are within it at this one [m], None
-        where nothing was found; benches: that pair
-    steps: taken; bend: the largest bound on the second derivative of a gap that proved one of them [1/m]
-    graze: the least local minimum of the clearance seen on the way
-    """
-
-    proven: float
-    touching: float | None = None
-    benches: tuple[int, int] = (0, 0)
-    steps: int = 0
-    bend: float = 0.0
-    graze: Dip | None = None
-
-    def followed_by(self, further: Marched) -> Marched:
-        """The result of this march and of one that went on from where it was proven."""
-        grazes = [march.graze for march in (self, further) if march.graze is not None]
-        return further._replace(
-            proven=max(self.proven, further.proven),
-            steps=self.steps + further.steps,
-            bend=max(self.bend, further.bend),
-            graze=min(grazes, default=None),
-        )
 
 
 class Search:
@@ -135,8 +72,8 @@ class Search:
         room + 1 + e of a pair
     scene: the same benches on the path used; probe: an interval of it to look at single pairs
     clear_radius: on a spiral, no pair whose inner bench leads at this radius or further out comes within the margin [m]
-    rings.clear_place, rings.end_place: on a route that begins (and ends) with a coil the same as places; where they are
-        known there is room for the leading benches only, as on a spiral
+    rings.clear_place, rings.end_place: see clear_places(); where they are known there is room for the leading benches
+        only, as on a spiral
     work: work that its marches may still do, see WORK_BUDGET, within the budget of the whole question. Once that is
         stopped, whatever examines benches raises Halted
     timing: how far the head may be from its place at a rounded time, besides the rounding of its travel [m]
@@ -184,15 +121,20 @@ class Search:
             rings.lay(ground.corners, ground.middle_half_width, ground.within)
         self.room = 0
         self.use(path, margin)
-        self.resize(dragon.benches if self.follows_all else min(dragon.benches, 255))
+        # On a route for which no benches are known to be out of reach a march follows all of them.
+        everyone = isinstance(path, Route) and rings.clear_place >= FREE
+        self.resize(dragon.benches if everyone else min(dragon.benches, 255))
 
     def use(self, path: Spiral | Route, margin: float) -> None:
         """Search another path, or with another margin."""
         self.path, self.margin = path, margin
         self.growth, self.place, self.curve = path.growth, path.place, path.curve
         if isinstance(path, Route):
-            self.clear_radius = FREE
-            self.rings.clear_place, self.rings.end_place = self._clear_places(path)
+            self.clear_radius = radius = FREE
+            if path.tail_begin is None and not len(self.edges) and self.dragon.benches >= 3:
+                radius = self._clear_radius(float(path.table[0, COIL_GROWTH]))
+            places = clear_places(path, self.dragon, margin, radius, self.travel_rounding)
+            self.rings.clear_place, self.rings.end_place = places
         else:
             self.clear_radius = self._clear_radius(path.growth)
         self.rings.clear_radius = self.clear_radius
@@ -249,13 +191,10 @@ class Search:
         self.work -= work
         self.budget.spend(work)
 
-    @property
-    def _step_work(self) -> float:
-        return float(self.room * (1.0 + len(self.edges) / EDGES_PER_WORK))
-
     def samples(self, span: float, step: float) -> int:
         """Number of samples over a span [m] at a step [m], or fewer if the work left allows only fewer."""
-        affordable = min(float(SAMPLES), SAMPLED_SHARE * min(self.work, self.budget.left) / self._step_work)
+        step_work = self.room * (1.0 + len(self.edges) / EDGES_PER_WORK)
+        affordable = min(float(SAMPLES), SAMPLED_SHARE * min(self.work, self.budget.left) / step_work)
         return max(3, int(min(3.0 + span / step, affordable)))
 
     def ring_least(self, radius: float) -> float:
@@ -266,11 +205,6 @@ class Search:
     def ring_rounding(self, radius: float, growth: float) -> float:
         """Largest error of kernels.ring_least() for growths up to this one [m]."""
         return RING_ROUNDING * (radius + 2.0 * math.pi * growth + float(self.longest))
-
-    @property
-    def follows_all(self) -> bool:
-        """Must a march follow all benches? Yes on a route for which no benches are known to be out of reach."""
-        return isinstance(self.path, Route) and self.rings.clear_place >= FREE
 
     def _clear_radius(self, growth: float) -> float:
         """The least radius, within CLEAR_WIDTH, from which the ring bound exceeds the margin, and CLEAR_SPARE more, so
@@ -286,31 +220,6 @@ class Search:
             if high > 1e9:
                 return FREE
         return bisected(clear, 0.0, high, relative=CLEAR_WIDTH)[1] * (1.0 + float(kernels.CLEAR_SPARE))
-
-    def _clear_places(self, path: Route) -> tuple[float, float]:
-        """Rings.clear_place and Rings.end_place [m]: FREE and -FREE of the kernels if not known, or where edges at rest
-        may lie anywhere.
-
-        Both are PLACE_SPARE further than their bounds ask, for the rounding of handles, and the latter beyond what
-        travels may be off by; the former is BLEND behind where the coil ends, which is where it may be led to the next
-        piece.
-        """
-        if path.tail_begin is not None or len(self.edges) or self.dragon.benches < 3:
-            return FREE, -FREE
-        first = path.table[0].tolist()
-        growth = first[COIL_GROWTH]
-        radius = self._clear_radius(growth)
-        if radius >= FREE:
-            return FREE, -FREE
-        arc = growth * float(kernels.spiral_arc(radius / growth)) * (1.0 + TRAVEL_ROUNDING)
-        clear = min(first[S_END] - kernels.BLEND, first[S_START] + first[COIL_ARC] - arc) - kernels.PLACE_SPARE
-        clear -= self.travel_rounding(clear)
-        coils = two_coils(path)
-        out = None if coils is None else way_out(self.dragon, coils, self.margin)
-        if out is None:
-            return -clear, -FREE
-        end = float(path.table[-1, S_START]) + out + kernels.PLACE_SPARE
-        return -clear, -end - self.travel_rounding(end)
 
     def travel_at(self, theta: float) -> float:
         """Head travel from the start of a spiral to theta [m]."""
@@ -369,11 +278,6 @@ class Search:
         state, _ = self.march(stop, 0.0, start=start)
         self.scene.left_out = self.scene.left_out_too = kernels.NO_BENCH
         return state is Ended.REACHED
-
-    @staticmethod
-    def last_travel(until: float, to_fold: bool) -> float:
-        """Travel to march to for a run until a travel [m]: a little short of a fold, see core/contact/fold.py."""
-        return until - (FOLD_SLIVER + 5e2 * TRAVEL_ROUNDING * until if to_fold else 0.0)
 
     def approach(
         self, begin: float, until: float, head_speed: float, *, opening: bool = True
@@ -444,11 +348,3 @@ class Search:
         travel = float(kernels.bottom_between(self.scene, low, high, *pair, width, self.rows[1]))
         self.budget.look()
         return travel
-
-    def gap_rounding(self, travel: float, within: float) -> float:
-        """Largest error of gaps up to `within` [m] after a travel, see core/kernels/pairs.py [m]."""
-        self.place_leaders(travel, self.room)
-        kernels.chain_rounding(self.curve, self.room, self.sizes, self.rows[0])
-        error, sway = self.rows[0, : self.room, kernels.ERROR].max(), self.rows[0, : self.room, kernels.SWAY].max()
-        reach = 4.0 * self.rings.all_radius + within
-        return float(2.0 * (2.0 * error + (2.0 * sway + 50.0 * kernels.ULP) * reach))

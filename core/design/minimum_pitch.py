@@ -9,7 +9,8 @@ from enum import StrEnum
 import numpy as np
 
 from core.budget import Budget, Halted
-from core.contact.search import MARGIN_MAX, TOUCHES, Ended, Search
+from core.contact.march import TOUCHES, Ended
+from core.contact.search import MARGIN_MAX, Search
 from core.dance import end_theta
 from core.design.pitch_bands import BORDER_WIDTH
 from core.design.straight import Straight, too_near

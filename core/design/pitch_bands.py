@@ -10,7 +10,8 @@ import math
 import numpy as np
 
 from core import kernels
-from core.contact.search import ENDS, TRAVEL_ROUNDING, Ended, Marched, Search
+from core.contact.march import ENDS, TRAVEL_ROUNDING, Ended, Marched
+from core.contact.search import Search
 from core.design.straight import Straight
 from core.paths.spiral import Spiral
 

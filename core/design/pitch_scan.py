@@ -11,8 +11,9 @@ import numpy as np
 
 from core import plots
 from core.budget import Budget, Halted, within
-from core.contact.fold import clear_to_fold
-from core.contact.search import MARGIN_MAX, WORK_BUDGET, Ended, Search
+from core.contact.fold import clear_to_fold, last_travel
+from core.contact.march import Ended
+from core.contact.search import MARGIN_MAX, WORK_BUDGET, Search
 from core.dance import Dance, EndReason
 from core.design.minimum_pitch import MinimumPitch, minimum_pitch
 from core.dragon import Dragon
@@ -111,7 +112,7 @@ class Stops:
         end = Dance(self.dragon, path).end
         search = self._search(path)
         to_fold = end.reason is EndReason.FOLD
-        last = search.last_travel(end.time, to_fold)
+        last = last_travel(end.time, to_fold)
         tolerance = max(RADIUS_WIDTH, 2.0 * search.travel_rounding(last))
         state, found = search.march(last, tolerance)
         if state is Ended.STUCK and found.touching is not None:

@@ -6,8 +6,9 @@ import math
 
 from core import kernels
 from core.budget import Budget, within
-from core.contact.fold import THETA_ROUNDING, clear_to_fold
-from core.contact.search import Ended, Marched, Search
+from core.contact.fold import THETA_ROUNDING, clear_to_fold, last_travel
+from core.contact.march import Ended, Marched
+from core.contact.search import Search
 from core.dance import EndReason, RunEnd, end_theta
 from core.design.pitch_bands import Bands
 from core.dragon import Dragon
@@ -82,7 +83,7 @@ class Ways:
         if bench is None or search.travel_at(fold) - stop > FINE_NEAR_FOLD:
             return search.march(stop, width)
         end = RunEnd(EndReason.FOLD, search.travel_at(fold), fold, bench)
-        last = min(stop, search.last_travel(end.time, True))
+        last = min(stop, last_travel(end.time, True))
         state, found = search.march(last, width or CONTACT_WIDTH)
         if (state is Ended.STUCK and found.touching is None) or (state is Ended.REACHED and last < stop):
             state = Ended.REACHED if clear_to_fold(search, min(found.proven, last), end) else Ended.STUCK

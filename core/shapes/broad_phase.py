@@ -1,6 +1,11 @@
-"""Pairs of benches that may touch: those whose upright boxes come within the margin. It misses none."""
+"""Pairs of benches that may touch: those whose upright boxes come within the margin. It misses none.
+
+And those of them that are within it, by the exact separation of two rectangles.
+"""
 
 from __future__ import annotations
+
+from collections.abc import Iterator
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -8,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from core import kernels
 from core.budget import Budget
 from core.errors import InvalidValue, TooLarge
-from core.shapes.rectangles import POSE, SIZE, checked_array, checked_columns
+from core.shapes.rectangles import POSE, SIZE, checked_array, checked_columns, frames, frames_separation
 from core.values import SIZE_MAX, Floats, checked_number
 
 Pairs = NDArray[np.int64]
@@ -88,3 +93,19 @@ def _tree_order(centres: Floats, leaves: int) -> Pairs:
     strip_of = np.empty(len(centres), dtype=np.int64)
     strip_of[np.argsort(centres[:, 0], kind="stable")] = np.arange(len(centres)) // strip
     return np.lexsort((centres[:, 1], strip_of))
+
+
+def pairs_within(poses: Floats, sizes: Floats, margin: float, chained: bool, budget: Budget) -> Iterator[Pairs]:
+    """The pairs within the margin at each instant, by the separating axis. poses: (T, n, 3); sizes: (n, 2)"""
+    reach = margin + ROUNDING * (margin + 2.0 * sizes.sum(axis=1).max(initial=0.0))
+    for frame in frames(poses, sizes):
+        pairs = meeting_pairs(frame, reach, chained, exact=True, budget=budget)
+        yield pairs[frames_separation(frame[pairs[:, 0]], frame[pairs[:, 1]]).separation <= margin]
+
+
+def pair_within(poses: Floats, sizes: Floats, margin: float) -> list[bool]:
+    """Is a single pair within the margin, at each instant? poses: (T, 2, 3); sizes: (2, 2)"""
+    pairs, gaps = frames(poses, sizes), np.empty(len(poses))
+    first, second = (np.ascontiguousarray(pairs[:, bench]) for bench in (0, 1))
+    kernels.pair_gaps(first, second, kernels.NO_LIMIT, gaps)
+    return [gap <= margin for gap in gaps.tolist()]

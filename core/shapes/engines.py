@@ -16,16 +16,12 @@ from threading import Lock
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from core import kernels
 from core.budget import Budget
-from core.errors import InvalidValue, said
-from core.shapes.angle_sum import ANGLE_TOLERANCE, angle_sum_overlap, angle_sums, paper_corners
-from core.shapes.broad_phase import CROSS_CANDIDATES_MAX, ROUNDING, Pairs, meeting_pairs
-from core.shapes.rectangles import corners, frames, frames_separation
+from core.shapes.angle_sum import angle_sum_judged, angle_sum_pairs
+from core.shapes.broad_phase import CROSS_CANDIDATES_MAX, ROUNDING, Pairs, meeting_pairs, pair_within, pairs_within
+from core.shapes.rectangles import corners, frames
 from core.values import Floats
 
-# Pairs that the angle-sum rule judges at once: 32 angles a pair stay within 60 MB.
-ANGLE_BATCH = 50_000
 # Number of dragons whose FCL objects are kept, and their largest number of benches: 8 MB in all.
 KEPT_DRAGONS = 8
 KEPT_BENCHES = 2_000
@@ -73,23 +69,10 @@ def found_pairs(
     return found
 
 
-# -- separating axis ------------------------------------------------------------------------------------------
-
-
-def _separating_axis(poses: Floats, sizes: Floats, margin: float, chained: bool, budget: Budget) -> Iterator[Pairs]:
-    reach = margin + ROUNDING * (margin + 2.0 * sizes.sum(axis=1).max(initial=0.0))
-    for frame in frames(poses, sizes):
-        pairs = meeting_pairs(frame, reach, chained, exact=True, budget=budget)
-        yield pairs[frames_separation(frame[pairs[:, 0]], frame[pairs[:, 1]]).separation <= margin]
-
-
 def _refuse_hopeless(frame: Floats, margin: float, chained: bool, budget: Budget) -> None:
     """raises: TooLarge if too many boxes meet for FCL and shapely, which search for pairs themselves"""
     if len(frame) ** 2 > 2 * CROSS_CANDIDATES_MAX:
         meeting_pairs(frame, margin, chained, exact=False, budget=budget)
-
-
-# -- FCL ------------------------------------------------------------------------------------------------------
 
 
 # FCL's yes/no is exact for two boxes and for a sphere and a box; its distance is not. The points within the margin
@@ -215,9 +198,6 @@ def _fcl_within(poses: Floats, sizes: Floats, margin: float, budget: Budget) -> 
     return any(fcl.collide(body, other, fcl.CollisionRequest(), fcl.CollisionResult()) for body in bodies)
 
 
-# -- shapely --------------------------------------------------------------------------------------------------
-
-
 # Prepared geometries crash the process when threads share them; these live and die in this call.
 def _shapely(poses: Floats, sizes: Floats, margin: float, chained: bool, budget: Budget) -> Iterator[Pairs]:
     import shapely
@@ -338,45 +318,16 @@ def distance_from(polygons: Polygons, line: Floats) -> float:
     return float(shapely.distance(ground, shapely.LineString(line) if len(line) > 1 else shapely.Point(line[0])))
 
 
-# -- the paper's angle-sum rule -------------------------------------------------------------------------------
-
-
-def _angle_sum(poses: Floats, sizes: Floats, margin: float, chained: bool, budget: Budget) -> Iterator[Pairs]:
-    if margin != 0.0:
-        raise InvalidValue(
-            "margin",
-            f"margin must be 0 m for the angle-sum rule, which knows only inside and outside, got {said(margin)} m",
-        )
-    for frame, corner in zip(frames(poses, sizes), paper_corners(poses, sizes), strict=True):
-        pairs = meeting_pairs(frame, margin, chained, exact=False, budget=budget)
-        batches = [pairs[k : k + ANGLE_BATCH] for k in range(0, len(pairs), ANGLE_BATCH)]
-        seen = []
-        for batch in batches:
-            budget.look()
-            seen.append(angle_sum_overlap(corner[batch[:, 0]], corner[batch[:, 1]]))
-        yield pairs[np.concatenate(seen)] if seen else pairs
-
-
 FINDERS: dict[Engine, Callable[[Floats, Floats, float, bool, Budget], Iterator[Pairs]]] = {
-    Engine.SEPARATING_AXIS: _separating_axis,
+    Engine.SEPARATING_AXIS: pairs_within,
     Engine.FCL: _fcl,
     Engine.SHAPELY: _shapely,
-    Engine.ANGLE_SUM: _angle_sum,
+    Engine.ANGLE_SUM: angle_sum_pairs,
 }
-
-
-# -- one pair at several instants -----------------------------------------------------------------------------
 
 
 # One pair needs no search. poses: (T, 2, 3); sizes: (2, 2); each judge tells for each of the T instants whether the
 # pair is within the margin, by the method of its engine above.
-def _judged_by_separating_axis(poses: Floats, sizes: Floats, margin: float) -> list[bool]:
-    pairs, gaps = frames(poses, sizes), np.empty(len(poses))
-    first, second = (np.ascontiguousarray(pairs[:, bench]) for bench in (0, 1))
-    kernels.pair_gaps(first, second, kernels.NO_LIMIT, gaps)
-    return [gap <= margin for gap in gaps.tolist()]
-
-
 def _judged_by_fcl(poses: Floats, sizes: Floats, margin: float) -> list[bool]:
     return [_fcl_within(pair, sizes, margin, Budget()) for pair in poses]
 
@@ -389,16 +340,9 @@ def _judged_by_shapely(poses: Floats, sizes: Floats, margin: float) -> list[bool
     return within
 
 
-def _judged_by_angle_sum(poses: Floats, sizes: Floats, margin: float) -> list[bool]:
-    corner = paper_corners(poses, sizes)
-    sums = angle_sums(corner, corner[:, ::-1])  # each bench's corners in the other
-    overlap: list[bool] = np.any(sums >= 2.0 * np.pi - ANGLE_TOLERANCE, axis=(1, 2)).tolist()
-    return overlap
-
-
 JUDGES: dict[Engine, Callable[[Floats, Floats, float], list[bool]]] = {
-    Engine.SEPARATING_AXIS: _judged_by_separating_axis,
+    Engine.SEPARATING_AXIS: pair_within,
     Engine.FCL: _judged_by_fcl,
     Engine.SHAPELY: _judged_by_shapely,
-    Engine.ANGLE_SUM: _judged_by_angle_sum,
+    Engine.ANGLE_SUM: angle_sum_judged,
 }

@@ -18,8 +18,10 @@ import numpy as np
 
 from core.budget import Budget, bounded
 from core.contact.clearance import PROFILE_STEP, Dip, refined_dip, sampled_least
-from core.contact.fold import clear_to_fold
-from core.contact.search import NEAR_WORK_BUDGET, TOUCHES, Ended, Search
+from core.contact.fold import clear_to_fold, last_travel
+from core.contact.march import TOUCHES, Ended
+from core.contact.search import NEAR_WORK_BUDGET, Search
+from core.contact.walls import own_edges, venue_route
 from core.dance import Dance, RunEnd
 from core.errors import said
 from core.kernels.constants import HALF_LENGTH, MX, MY, UX, UY
@@ -29,7 +31,7 @@ from core.shapes.rectangles import frames, frames_separation
 from core.shown import Shown, worded
 from core.tolerance.exhibit import Body, Exhibit, exhibit
 from core.values import Floats, asked_of, checked_type
-from core.venue import Venue, own_edges, venue_route
+from core.venue import Venue
 
 # How far below the least stray at which benches can meet the proof is tried [1 of that stray]; the second one where the
 # first takes too many steps.
@@ -179,7 +181,7 @@ def _fields(dance: Dance, venue: Venue | None, span: tuple[float, float], budget
     fields, travels = [], (dance.clock.place(span[0]), dance.clock.place(span[1]))
     if dance.dragon.benches > 2:
         to_fold = dance.nears_fold(span[1])
-        last = Search.last_travel(travels[1], to_fold)
+        last = last_travel(travels[1], to_fold)
         fold = dance.end if to_fold else None
         fields.append(_Field(dance, None, None, (travels[0], last), fold, NEAR_WORK_BUDGET, budget))
     if venue is not None:

@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 
 from core import Dance, Dragon, Outcome, Turn, first_contact
-from core.contact.search import BRACKET, Search
+from core.contact.march import BRACKET
+from core.contact.search import Search
 from core.kernels import FREE
 from tests.core.contact.test_first_contact import ACCURACY
 

@@ -25,6 +25,7 @@ from core import (
     minimum_pitch,
     trajectory,
 )
+from core.contact.fold import gap_rounding
 from core.contact.search import Search
 from core.design.ways import Ways
 from core.kernels.constants import CLIMB, CLIMB_ERROR, ERROR, RATE, RATE_ERROR
@@ -118,8 +119,8 @@ def test_a_margin_within_rounding_of_the_clearance_at_the_start_is_undecided(ben
     assert found.time_bracket[0] == 0.0
     apart = exact_gap(dragon, spiral, 0.0, 1.0, tuple(profile.benches[0].tolist()))
     search = Search(dragon, spiral, margin)
-    assert abs(apart - margin) <= search.gap_rounding(0.0, margin)
-    certain = margin + 2.0 * search.gap_rounding(0.0, margin) + 4.0 * search.travel_rounding(0.0)
+    assert abs(apart - margin) <= gap_rounding(search, 0.0, margin)
+    certain = margin + 2.0 * gap_rounding(search, 0.0, margin) + 4.0 * search.travel_rounding(0.0)
     assert first_contact(Dance(dragon, spiral), margin=certain).outcome is Outcome.CONTACT_AT_START
 
 

@@ -22,7 +22,8 @@ from core import (
     first_contact,
     minimum_pitch,
 )
-from core.contact.search import BRACKET, MARGIN_MAX
+from core.contact.march import BRACKET
+from core.contact.search import MARGIN_MAX
 from core.design.pitch_bands import BORDER_WIDTH
 from tests.core.slow_search import SlowDance
 

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from core import Dragon, Spiral, Turn
-from core.contact.search import Ended, Search
+from core.contact.march import Ended
+from core.contact.search import Search
 from tests.core.slow_search import SlowDance, arc_length
 
 DRAGON, SPIRAL = Dragon(30), Spiral()

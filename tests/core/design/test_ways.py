@@ -7,7 +7,7 @@ import pytest
 
 import core.design.ways
 from core import Dragon, Spiral, TooMuchWork, minimum_pitch
-from core.contact.search import TOUCHES, Ended
+from core.contact.march import TOUCHES, Ended
 from core.design.ways import CONTACT_WIDTH, Ways
 from tests.core.design.test_minimum_pitch import FOLDING
 from tests.core.slow_pitch import SlowWay

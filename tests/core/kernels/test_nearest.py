@@ -9,7 +9,8 @@ import pytest
 import shapely
 
 from core import Dance, Dragon, Line, Route, Spiral, Turn, bench_poses, kernels, trajectory
-from core.contact.search import Ended, Search
+from core.contact.march import Ended
+from core.contact.search import Search
 from core.design.pitch_bands import Bands
 from core.shapes.rectangles import corners
 

@@ -1,0 +1,254 @@
+"""How near the benches come to the edges of a venue, and when."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from core import kernels
+from core.budget import Budget, bounded
+from core.clock import Clock
+from core.contact.clearance import Pair, least_over
+from core.contact.first_contact import Outcome
+from core.contact.fold import moved_until
+from core.contact.march import Ended
+from core.contact.search import MARGIN_MAX, NEAR_WORK_BUDGET, Search
+from core.dance import Dance
+from core.motion.trajectory import bench_poses, trajectory
+from core.paths.frame import Frame
+from core.paths.pieces import Coil
+from core.paths.route import Route
+from core.paths.spiral import Spiral
+from core.shapes.engines import inside
+from core.shown import Shown, worded
+from core.tolerance.stray import Stray, checked_stray
+from core.values import Floats, Point, asked_of, checked_number, checked_type
+from core.venue import Area, Venue
+
+# A spiral is laid out this far beyond the last instant, so that rounding cannot put that instant outside it [m].
+SPARE = 1e-3
+# Places of handles are good to 1e-12 m (trajectory()), so a computed place this far beyond a radius is beyond it [m].
+SURELY = 1e-9
+
+
+@dataclass(frozen=True, slots=True, repr=False)
+class Nearest(Shown):
+    """Smallest distance between the benches and an area's edges, holes included.
+
+    distance: the least found [m], reached at `time` [s] by `bench`; 0 at the first touch
+    at_least: proven [m]: no bench comes nearer than this, see LeastClearance; None where the search gave up first
+    point: of the bench; wall: of the area (x, y) [m]
+    """
+
+    distance: float
+    at_least: float | None
+    time: float
+    bench: int
+    point: Point
+    wall: Point
+
+
+@dataclass(frozen=True, slots=True, repr=False)
+class AreaClearance(Shown):
+    """The benches and the edges of one area, by the name of the area.
+
+    outcome: does a bench come within the margin; time: when the first one does [s], None when clear or undecided
+    time_bracket: (proven clear up to, within the margin at) [s]; for undecided up to the end; None when clear or at the
+        start
+    bench, point (x, y) [m]: the first one within the margin, and where it is nearest
+    gap: between that bench and the edge at that time [m]: the margin to rounding, but for contact_at_start
+    nearest: None if it was not asked for
+    """
+
+    name: str
+    outcome: Outcome
+    time: float | None
+    time_bracket: tuple[float, float] | None
+    bench: int | None
+    point: Point | None
+    nearest: Nearest | None
+    gap: float | None = None
+
+    def _line(self) -> str:
+        nearest = f", nearest {self.nearest._line()}" if self.nearest else ""
+        return f"{self.name!r} {self.outcome.value}{nearest}"
+
+
+@dataclass(frozen=True, slots=True, repr=False)
+class Misplaced(Shown):
+    """A bench that starts outside the square or in an obstacle: the area's name, the bench, its centre (x, y) [m]."""
+
+    name: str
+    bench: int
+    point: Point
+
+
+@dataclass(frozen=True, slots=True, repr=False)
+class VenueClearance(Shown):
+    """misplaced: first bench that starts outside the square or in an obstacle; areas: square, then obstacles."""
+
+    misplaced: Misplaced | None
+    areas: tuple[AreaClearance, ...]
+
+    def _line(self) -> str:
+        misplaced = f"{self.misplaced!r}; " if self.misplaced else ""
+        known = [(area.nearest, area.name) for area in self.areas if area.nearest]
+        if not known:
+            return misplaced + "; ".join(area._line() for area in self.areas)
+        near, name = min(known, key=lambda one: one[0].distance)
+        distance, time = worded(near.distance, "m"), worded(near.time, "s")
+        return f"{misplaced}nearest to {name!r}: bench {near.bench}, {distance} at {time}"
+
+    def _rows(self) -> list[tuple[str, str]]:
+        misplaced = self.misplaced._line() if self.misplaced else "none"
+        return [("misplaced", misplaced), *((area.name, area._line()) for area in self.areas)]
+
+
+@asked_of("dance", Dance)
+@bounded("how near the benches come to the venue was not found")
+def venue_clearance(
+    dance: Dance,
+    venue: Venue,
+    *,
+    margin: float = 0.0,
+    stray: float | Stray = 0.0,
+    start: float = 0.0,
+    stop: float | None = None,
+    nearest: bool = True,
+    budget: Budget | None = None,
+) -> VenueClearance:
+    """Distance of the benches from the square's edges and from each obstacle, and the first time within the margin.
+
+    An edge counts as a rectangle of no width at rest: benches and edges are marched like pairs of benches, with the
+    same proof. The centre of a bench that touches no edge stays inside an area, or outside, as it started.
+    margin: [m]; stray: how far every hole may be from its place [m], where benches may come then counts; start, stop:
+        [s], None for the end of the run; nearest: also find how near the benches come, which takes most of the time
+    raises: InvalidValue, also for a path that bends too tightly for a chord by the stop; OutsideRun;
+        TooMuchWork
+    """
+    checked_type("venue", venue, Venue)
+    margin = checked_number("margin", margin, "m", 0.0, MARGIN_MAX)
+    begin, until = dance.span(start, stop)
+    clock, frame = dance.clock, dance.path.frame
+    path = replace(dance, path=venue_route(dance.path, clock.place(until))).path  # refuses a bend too tight
+    strayed = checked_stray(stray, dance.dragon)
+    share = NEAR_WORK_BUDGET / len(venue.areas)
+    areas = tuple(
+        _area_clearance(
+            Search(dance.dragon, path, margin, own_edges(area, frame), work=share, budget=budget, stray=strayed),
+            area.name,
+            (begin, until),
+            clock,
+            frame,
+            nearest,
+        )
+        for area in venue.areas
+    )
+    return VenueClearance(_misplaced(dance, venue, begin), areas)
+
+
+def own_edges(area: Area, frame: Frame) -> Floats:
+    """The edges of an area (E, 4) in the frame in which a path is computed [m]."""
+    return frame.back(area.edges.reshape(-1, 2, 2)).reshape(-1, 4)
+
+
+def venue_route(path: Spiral | Route, stop: float) -> Route:
+    """The path in its own frame up to a head travel [m]: a spiral as a coil."""
+    if isinstance(path, Route):
+        return path
+    theta = float(path.theta(min(max(stop, 0.0) + SPARE, path.length)))
+    return Route([Coil(path.pitch, path.start_turns, theta / (2.0 * math.pi))])
+
+
+def venue_end(dance: Dance) -> float:
+    """Last time to which venue_clearance() can follow the dance [s]: a spiral may bend too tightly for a chord."""
+    end, path = dance.end.time, dance.path
+    if isinstance(path, Route):
+        return end
+    theta = min(path.gentle_theta(2.0 * kernels.ROUTE_BEND_LIMIT / float(dance.dragon.chords.max())), path.start_theta)
+    travel = path.length - path.growth * float(kernels.spiral_arc(theta)) - 2.0 * SPARE
+    return min(end, dance.clock.time(travel))
+
+
+def is_clear_beyond(
+    dance: Dance, venue: Venue, *, margin: float, stray: float = 0.0, start: float, seen: float
+) -> bool:
+    """Is a spiral dance proven to stay clear of the venue to its end, if it was clear from start to `seen` [s]?
+
+    The head goes inwards, so neither it nor a bench before the first of the equal ones leaves the disc around the
+    centre that the chords from the head to that bench span. Every other bench, once it has passed where the bench
+    before it began, stands where that one stood since the start, unless it slides back behind its own start (family
+    lemma, core/kernels/repeats.py). So nothing new is met if all edges lie outside the disc by more than the margin.
+    """
+    search = Search(dance.dragon, dance.path, margin, stray=stray)
+    dragon = search.dragon
+    frame, clock = dance.path.frame, dance.clock
+    ends = np.linalg.norm(trajectory(dance.steady, dance.steady_times(np.array([start, seen]))).position, axis=-1)
+    if (ends[1, 1:] + SURELY > ends[0, :-1]).any():
+        return False
+    alike = dragon.uniform_from + 1
+    search.resize(dragon.benches)
+    search.place_leaders(clock.place(seen), dragon.benches)
+    arcs, _ = moved_until(search, dance.end.theta or 0.0)
+    rates = np.hypot(1.0, search.rows[0, : dragon.benches + 1, kernels.THETA])
+    outwards = arcs / rates  # radii grow by this part of an arc
+    if (ends[1] + outwards + SURELY > ends[0])[alike:].any():
+        return False
+    reach = (
+        ends[1, 0] + dragon.chords[:alike].sum() + dragon.overhangs[:alike].max() + 0.5 * dragon.widths[:alike].max()
+    )
+    edges = np.concatenate([own_edges(area, frame) for area in venue.areas])
+    along = edges[:, 2:] - edges[:, :2]
+    share = np.clip(-(edges[:, :2] * along).sum(axis=1) / (along**2).sum(axis=1), 0.0, 1.0)
+    nearest = np.linalg.norm(edges[:, :2] + share[:, None] * along, axis=1).min()
+    return bool(nearest > reach + margin + SURELY)
+
+
+def _area_clearance(
+    search: Search, name: str, span: tuple[float, float], clock: Clock, frame: Frame, with_nearest: bool
+) -> AreaClearance:
+    """The benches and one area between two times [s]. frame: of the search"""
+    (begin, until), slowest = span, clock.slowest
+    first, last, search.timing = clock.place(begin), clock.place(until), clock.rounding(until)
+    state, found, tolerance = search.approach(first, last, slowest)
+    outcome, time, bracket, bench, point, gap = Outcome.CLEAR, None, None, None, None, None
+    if state is Ended.STUCK:
+        outcome, bracket = Outcome.UNDECIDED, (max(clock.time(found.proven), begin), until)
+    elif state is not Ended.REACHED:
+        at_start = state is Ended.TOUCHED_AT_START
+        assert found.touching is not None
+        travel = found.touching - (0.0 if at_start else tolerance)
+        outcome, time = (
+            Outcome.CONTACT_AT_START if at_start else Outcome.CONTACT,
+            begin if at_start else clock.time(travel),
+        )
+        bracket = None if at_start else (max(clock.time(found.proven), begin), clock.time(found.touching))
+        pair = found.benches
+        bench, (point, _, gap) = pair[0], _witnesses(search, travel, pair, frame)
+    if not with_nearest:
+        return AreaClearance(name, outcome, time, bracket, bench, point, None, gap)
+    (distance, travel, pair), at_least = least_over(search, first, last, slowest)
+    nearest = Nearest(
+        distance, at_least, max(clock.time(travel), begin), pair[0], *_witnesses(search, travel, pair, frame)[:2]
+    )
+    return AreaClearance(name, outcome, time, bracket, bench, point, nearest, gap)
+
+
+def _witnesses(search: Search, travel: float, pair: Pair, frame: Frame) -> tuple[Point, Point, float]:
+    """The points of a bench and an edge that are nearest to each other, and their separation [m]."""
+    search.clearance(travel)
+    kernels.meet(search.scene, *pair, search.rows[0])
+    met = search.scene.met
+    return frame.point(met.ax, met.ay), frame.point(met.bx, met.by), float(met.separation)
+
+
+def _misplaced(dance: Dance, venue: Venue, begin: float) -> Misplaced | None:
+    centres = bench_poses(trajectory(dance, [begin]).position[0])[:, :2]
+    for area in venue.areas:
+        wrong = np.flatnonzero(inside(area.rings, centres) != (area is venue.square))
+        if wrong.size:
+            x, y = centres[wrong[0]].tolist()
+            return Misplaced(area.name, int(wrong[0]), (x, y))
+    return None
