@@ -6,6 +6,7 @@ Queries are flat and bodies are nested; both consist of the same groups of field
 from __future__ import annotations
 
 import math
+from functools import lru_cache
 from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
@@ -52,6 +53,10 @@ Names = Annotated[
 ]
 
 
+# Most requests are about the same dragon, and laying one out is a twentieth of a quick answer.
+uniform_dragon = lru_cache(maxsize=4)(Dragon)
+
+
 class UniformDragon(Wire):
     """A head and a body of equal benches."""
 
@@ -64,7 +69,7 @@ class UniformDragon(Wire):
     def to_dragon(self, benches_max: int) -> Dragon:
         """raises: TooLarge, InvalidValue"""
         check_limit("dragon.benches", "benches", self.benches, benches_max, "shorten the dragon")
-        return Dragon(self.benches, self.head_length, self.body_length, self.width, self.overhang)
+        return uniform_dragon(self.benches, self.head_length, self.body_length, self.width, self.overhang)
 
     def most_benches(self, settings: Settings) -> int:
         """Largest number of benches: equal benches repeat one another, so the limit is high."""
