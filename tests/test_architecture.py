@@ -101,6 +101,7 @@ ORDER = (
     "core.motion.places",
     "core.ground.tracks",
     "core.ground.envelope",
+    "core.tolerance.between",
     "core.tolerance.exhibit",
     "core.tolerance.tolerance",
     "core.tolerance.curve",

@@ -241,7 +241,7 @@ def tolerance(
         stray, shown = asked.stray, None
         if stray is None:
             found = core.tolerance(dance, stop=stop)
-            stray, shown = found.stray, found.exhibit
+            stray, shown = found.independent, found.exhibit  # balls know nothing of the bench between
             if stray == 0.0:
                 raise ProofRefused("stray", "no stray is known to be safe until the head is on the circle")
         certificate = prove_tolerance(

@@ -58,6 +58,9 @@ class Tolerance(Answer):
     stray: float = measure(
         "m", "Proven safe: while no hole is further from its place, nothing touches; 0: no stray is known to be safe"
     )
+    simple: float = measure(
+        "m", "What the simple bound knows: no point of a bench moves further than a factor of its own times the stray"
+    )
     stray_bracket: tuple[float, float | None] = measure(
         "m", "Proven safe; shown to touch, null where no such pose was found"
     )

@@ -7,6 +7,7 @@ The proof of a march is written above the loops that carry it out: `core/kernels
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 
 import numpy as np
 
@@ -40,7 +41,7 @@ from core.kernels.constants import (
 from core.paths.route import Route
 from core.paths.spiral import Spiral
 from core.sampling import bisected
-from core.tolerance.reach import directions, reach
+from core.tolerance.reach import Reach, directions, reach
 from core.values import Floats
 
 MARGIN_MAX = 1e4  # [m]
@@ -63,7 +64,7 @@ class Search:
     """The kernels' arrays for one dragon, with the current path and margin.
 
     dragon: the one searched: with a stray each bench is as large as the ground that it may cover; nominal: as given
-    stray: [m]; kinds: the hulls of that ground, none without a stray
+    stray: [m]; kinds: the hulls of that ground, none without a stray; `covered` tells them
     extremes: longest and shortest chord, longest overhang, half width of all benches, chord and half width of those
         that can be the outer of a pair [m]; rings: the same and more for the kernels, with the bounds that hold of the
         path and the margin used
@@ -77,6 +78,7 @@ class Search:
     work: work that its marches may still do, see WORK_BUDGET, within the budget of the whole question. Once that is
         stopped, whatever examines benches raises Halted
     timing: how far the head may be from its place at a rounded time, besides the rounding of its travel [m]
+    between: pairs with fewer benches between them are not asked for, at least 1 [1]
     place: origin of the kernels' places, at time 0: arc length from the centre of a spiral, minus s on a route [m]
     """
 
@@ -93,10 +95,11 @@ class Search:
         work: float = WORK_BUDGET,
         budget: Budget | None = None,
         stray: float = 0.0,
+        covered: Callable[[Dragon, float], Reach] = reach,
     ) -> None:
         self.work, self.budget, self.nominal, self.stray = work, budget or Budget(), dragon, stray
-        self.timing, self.kinds = 0.0, kernels.Kinds()
-        ground = reach(dragon, stray) if stray > 0.0 else None
+        self.timing, self.kinds, self.between = 0.0, kernels.Kinds(), 1
+        ground = covered(dragon, stray) if stray > 0.0 else None
         if ground is not None:
             self.kinds.lay(ground.hulls.reshape(-1, 2), ground.kinds, directions())
             dragon = ground.bounds
@@ -143,7 +146,11 @@ class Search:
 
     def _set_scene(self) -> None:
         self.scene.curve, self.scene.place, self.scene.margin = self.curve, self.place, self.margin
-        self.scene.halt, self.scene.kinds = self.budget.halt, self.kinds
+        self.scene.halt, self.scene.kinds, self.scene.between = self.budget.halt, self.kinds, self.between
+
+    def ask_beyond(self, between: int) -> None:
+        """Ask only for pairs with at least so many benches between them."""
+        self.between = self.scene.between = between
 
     def clear_beyond(self, radius: float) -> None:
         """Set clear_radius to a radius from which another bound exceeds the margin on this spiral [m]."""

@@ -153,6 +153,7 @@ class Scene:
     halt: Halt
     margin: float
     left_out: int
+    between: int
     left_out_too: int
     kinds: Kinds
     met: Witnesses

@@ -92,7 +92,7 @@ def row_clearance(scene, active, handles, best, chain, boxes):
             best = least_with(scene, i, handles + 1, handles + 1 + scene.edges, best, chain)
         return best
     if active > 0:  # a first value to compare with
-        best = least_with(scene, 0, 2, handles, best, chain)
+        best = least_with(scene, 0, scene.between + 1, handles, best, chain)
     blocks = block_boxes(handles, scene.sizes, chain, boxes)
     widest = 0.0
     for i in range(handles):
@@ -108,7 +108,7 @@ def row_clearance(scene, active, handles, best, chain, boxes):
                 continue
             for i in range(a * BLOCK, min(a * BLOCK + BLOCK, active)):
                 if not beyond_box(i, b, scene.sizes[i, RADIUS] + max(best.gap, 0.0), boxes, chain):
-                    first = max(i + 2, b * BLOCK)
+                    first = max(i + scene.between + 1, b * BLOCK)
                     best = least_with(scene, i, first, min(b * BLOCK + BLOCK, handles), best, chain)
     return best
 
@@ -123,7 +123,7 @@ def clearance_left(scene, leaders, benches, chain, moved):
     for i in range(leaders):
         if scene.halt.stopped:
             break
-        for j in range(i + 2, benches):
+        for j in range(i + scene.between + 1, benches):
             dx = chain[j, MX] - chain[i, MX]
             dy = chain[j, MY] - chain[i, MY]
             far = sizes[i, RADIUS] + sizes[j, RADIUS] + moved[i] + moved[j] + best

@@ -43,7 +43,7 @@ def interval_least(scene, interval, active):
         if scene.halt.stopped:
             return Nearest(-FREE, 0.0, 0, 0, 0.0, 0.0, 0)
         far = reach_of(scene, interval, i, rounding.point)
-        first = i + 2
+        first = i + scene.between + 1
         end = interval.handles
         if scene.against == EDGES:  # after the last handle's row, which holds no bench
             first = interval.handles + 1

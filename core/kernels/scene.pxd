@@ -24,6 +24,7 @@ cdef class Scene:
     cdef public Halt halt
     cdef public Py_ssize_t left_out
     cdef public Py_ssize_t left_out_too
+    cdef public Py_ssize_t between
     cdef readonly Witnesses met
 
 @cython.final

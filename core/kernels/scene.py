@@ -26,6 +26,7 @@ class Scene:
     halt: what ends the loops before they are done
     kinds: the hulls of benches that are no rectangles; sizes then hold the rectangles around them
     margin: the clearance required [m]; left_out, left_out_too: a pair of benches not asked for, or NO_BENCH
+    between: pairs with at least so many benches between them are asked for, 1 at least
     """
 
     def __init__(self, curve, place, rings, sizes, benches, edges):
@@ -40,6 +41,7 @@ class Scene:
         self.room = min(benches, sizes.shape[0] - 1 - edges)
         self.margin = 0.0
         self.left_out = self.left_out_too = NO_BENCH
+        self.between = 1
         self.halt = Halt(NO_LIMIT)
         self.met = Witnesses()
 

@@ -25,9 +25,10 @@ from core.errors import InvalidValue, said
 from core.motion.trajectory import trajectory
 from core.paths.spiral import Spiral
 from core.shown import Shown, counted, worded
+from core.tolerance.reach import gains
 from core.tolerance.tolerance import tolerance
 from core.tolerance.union_bound import union_bound
-from core.tolerance.wobble import INSTANTS_PER_TIME, Wobble, check_sizes, gains
+from core.tolerance.wobble import INSTANTS_PER_TIME, Wobble, check_sizes
 from core.values import Floats, asked_of, checked_type
 
 # Instants whose numbers come from one counter. It is a part of what a sample is: with another value samples change [1].

@@ -25,6 +25,7 @@ from core.dragon import Dragon
 from core.motion.trajectory import bench_poses
 from core.shapes.rectangles import frames, frames_separation
 from core.shown import Shown, worded
+from core.tolerance.between import DEPTH, touching_pose
 from core.values import Floats
 
 # Points of a grid over each turn and over the direction [1], the range of directions around the nominal normal [rad],
@@ -32,8 +33,6 @@ from core.values import Floats
 TURNS, BEARINGS = 11, 11
 BEARING_RANGE = 0.7
 NARROWER, ROUNDS = 0.35, 16
-# Depth of the overlap that is exhibited, far above the rounding of places up to 1e4 m [m].
-DEPTH = 1e-7
 # Chords are restored to this [m] in at most so many steps.
 CHORD_WITHIN, CHORD_STEPS = 1e-13, 40
 # Strays are tried up to this factor of the one at which two benches alone would overlap, in steps of this much [1].
@@ -159,6 +158,8 @@ def exhibit(
     a = body(dragon, handles, first)
     other = edge if second is None else body(dragon, handles, second)
     assert other is not None
+    if second == first + 2:
+        return _folded(dragon, handles, first, time)
     high = min(TRIED_TO * safe + 2.0 * DEPTH, 0.5 * float(dragon.chords.min()))
     # With a stray larger by x the middle of each bench can go x further in any direction, so the gap closes by that.
     stray = safe + max(0.0, nearest_turns(a, other, bearing, safe)[0] + DEPTH) / (1 if second is None else 2)
@@ -168,13 +169,32 @@ def exhibit(
         if second is not None:
             wanted[second] = other.strays(way + math.pi, turn_b, stray)
         moved = extended(dragon.chords, handles, wanted)
-        if moved is not None:
-            gap = _overlap(dragon, moved, pair, edge)
-            if gap < 0.0:
-                furthest = float(np.hypot(*(moved - handles).T).max())
-                return Exhibit(time, moved, pair, -gap, furthest)
+        shown = None if moved is None else _shown(dragon, handles, moved, (*pair, edge), time)
+        if shown is not None:
+            return shown
         stray += TRIED_STEP * safe + DEPTH
     return None
+
+
+def _folded(dragon: Dragon, handles: Floats, first: int, time: float) -> Exhibit | None:
+    """A pose in which a bench and the next but one overlap: the bench between couples them (between.py)."""
+    three = slice(first, first + 3)
+    sizes = np.stack([dragon.chords[three], dragon.lengths[three], dragon.widths[three]], axis=1)
+    pose = touching_pose(sizes, handles[first : first + 4])
+    if pose is None:
+        return None
+    strays = pose - handles[first : first + 4]
+    moved = extended(dragon.chords, handles, {first: strays[:2], first + 2: strays[2:]})
+    return None if moved is None else _shown(dragon, handles, moved, (first, first + 2, None), time)
+
+
+def _shown(
+    dragon: Dragon, handles: Floats, moved: Floats, met: tuple[int, int | None, Body | None], time: float
+) -> Exhibit | None:
+    """A pose that shows a contact, if it does. met: the pair, and the edge in place of a second bench"""
+    gap = _overlap(dragon, moved, met[:2], met[2])
+    furthest = float(np.hypot(*(moved - handles).T).max())
+    return Exhibit(time, moved, met[:2], -gap, furthest) if gap < 0.0 else None
 
 
 def _overlap(dragon: Dragon, handles: Floats, pair: tuple[int, int | None], edge: Body | None) -> float:
@@ -196,7 +216,7 @@ def extended(chords: Floats, handles: Floats, wanted: dict[int, Floats]) -> Floa
     """All handles (n + 1, 2), the holes of some benches displaced as wanted, every chord kept; None if that fails.
 
     wanted: bench -> strays (2, 2) of its two holes, whose chord they keep [m]; of two benches that are next but one to
-    each other, both give way a little, as the bench between shares a hole with either
+        each other, the bench between shares a hole with either: its chord is kept by all four
     """
     moved = handles.copy()
     for k, strays in wanted.items():

@@ -38,7 +38,7 @@ this is added.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache, lru_cache
 
@@ -96,12 +96,38 @@ def _sampled() -> tuple[Floats, Floats]:
     return np.stack([np.sin(psi), np.cos(psi)]), np.ascontiguousarray(directions().T)
 
 
+def gain(chords: Floats, overhangs: Floats, half_widths: Floats) -> Floats:
+    """How far a point of each bench goes at most where both of its holes go 1 m [1]: the simple bound.
+
+    |d0 (1/2 + z/l) + d1 (1/2 - z/l)| is at most (|l/2 + z| + |l/2 - z|) / l of the larger; convex in z, so that it is
+    largest in a corner.
+    """
+    near, far = np.hypot(overhangs, half_widths), np.hypot(chords + overhangs, half_widths)
+    most: Floats = (near + far) / chords
+    return most
+
+
+def gains(dragon: Dragon) -> Floats:
+    """The gain (n,) of every bench."""
+    return gain(dragon.chords, dragon.overhangs, 0.5 * dragon.widths)
+
+
+@lru_cache(maxsize=4)  # a march that goes on asks again
+def simple_reach(dragon: Dragon, stray: float) -> Reach:
+    """The same by the simple bound, never less: every bench with its gain times the stray all around."""
+    return _reach(dragon, stray, _simple_supports)
+
+
 @lru_cache(maxsize=4)  # a question asks several times, and so does someone who drags the pitch
 def reach(dragon: Dragon, stray: float) -> Reach:
     """What the benches of a dragon may cover while every hole is within the stray of its place [m].
 
     raises: InvalidValue for a dragon with more than SIZES_MAX sizes of benches
     """
+    return _reach(dragon, stray, supports)
+
+
+def _reach(dragon: Dragon, stray: float, supports: Callable[..., Floats]) -> Reach:
     alike = dragon.uniform_from + 1
     columns = (column[:alike].tolist() for column in (dragon.chords, dragon.overhangs, 0.5 * dragon.widths))
     numbers: dict[tuple[float, float, float], int] = {}
@@ -110,7 +136,7 @@ def reach(dragon: Dragon, stray: float) -> Reach:
         rule = f"must have at most {SIZES_MAX} different sizes of benches with a stray of {said(stray)} m"
         raise InvalidValue("dragon.lengths", f"dragon.lengths {rule}, got {len(numbers)}")
     kinds = np.array(of, dtype=np.int64)
-    hulls = _hulls(list(numbers), stray)
+    hulls = _hulls(np.stack([supports(*size, stray) for size in numbers], axis=1))
     half_lengths, half_widths = np.abs(hulls).max(axis=(1, 2)).T
     spread = np.full(dragon.benches, kinds[-1])
     spread[:alike] = kinds
@@ -137,13 +163,13 @@ def _ring_bounds(chords: Floats, hulls: Floats, kinds: NDArray[np.int64]) -> tup
 
 def bench_hulls(chord: float, overhang: float, half_width: float, stray: float) -> Floats:
     """Corners (3, DIRECTIONS, 2) of the hulls of one bench's front end, middle and rear end [m]."""
-    hulls: Floats = _hulls([(chord, overhang, half_width)], stray)[0]
+    hulls: Floats = _hulls(supports(chord, overhang, half_width, stray)[:, None])[0]
     return hulls
 
 
-def _hulls(sizes: Sequence[tuple[float, float, float]], stray: float) -> Floats:
-    """bench_hulls() (n, 3, DIRECTIONS, 2) of sizes, each a chord, an overhang and a half width [m]."""
-    front, middle = _polygon(np.stack([supports(*size, stray) for size in sizes], axis=1))
+def _hulls(supports: Floats) -> Floats:
+    """bench_hulls() (n, 3, DIRECTIONS, 2) of benches with these supports (2, n, DIRECTIONS) [m]."""
+    front, middle = _polygon(supports)
     return np.stack([front, middle, _turned(front)], axis=1)
 
 
@@ -165,6 +191,15 @@ def supports(chord: float, overhang: float, half_width: float, stray: float) -> 
         bend = stray * (1.0 + 2.0 * kappa + kappa * kappa + steep) + furthest * (4.0 * kappa * kappa + 2.0 * steep)
         best[part] += 0.125 * bend * (0.5 * math.pi / SAMPLES) ** 2 + SUPPORT_ROUNDING * (furthest + stray)
     return best[:, _MIRRORED]
+
+
+def _simple_supports(chord: float, overhang: float, half_width: float, stray: float) -> Floats:
+    """supports() of a bench's front end and middle with its gain times the stray around them [m]."""
+    cosine, sine = directions().T
+    far = np.array([[0.5 * chord, 0.5 * chord + overhang], [-0.5 * chord, 0.5 * chord]])
+    grown = gain(*np.array([chord, overhang, half_width])) * stray
+    support: Floats = (far[:, :, None] * cosine).max(axis=1) + half_width * np.abs(sine) + grown
+    return support
 
 
 def _polygon(support: Floats) -> Floats:

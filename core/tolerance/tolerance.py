@@ -6,11 +6,15 @@ The least stray at which two benches can meet, over the dance, is found as the l
 (core/tolerance/reach.py) with a stray a little smaller. It either reaches the end, which proves that no dance within
 that stray touches; or two grounds meet. Then the stray at which these two just graze is found, and the march goes on
 from there with it: what it has passed is clear with the larger stray, and so with the smaller one.
+
+All of that takes benches to stray independently. Where two with one bench between them limit the stray so, that bench
+may be shown to hold all such pairs apart with more (core/tolerance/between.py): then the others are asked once more.
 """
 
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from enum import StrEnum
 
@@ -23,13 +27,16 @@ from core.contact.march import TOUCHES, Ended
 from core.contact.search import NEAR_WORK_BUDGET, Search
 from core.contact.walls import own_edges, venue_route
 from core.dance import Dance, RunEnd
+from core.dragon import Dragon
 from core.errors import said
 from core.kernels.constants import HALF_LENGTH, MX, MY, UX, UY
 from core.motion.trajectory import bench_poses, trajectory
 from core.paths.frame import Frame
 from core.shapes.rectangles import frames, frames_separation
 from core.shown import Shown, worded
+from core.tolerance.between import held_apart
 from core.tolerance.exhibit import Body, Exhibit, exhibit
+from core.tolerance.reach import Reach, reach, simple_reach
 from core.values import Floats, asked_of, checked_type
 from core.venue import Venue
 
@@ -67,6 +74,10 @@ class Tolerance(Shown):
 
     stray: [m], proven safe: while no hole is further from its place at any instant, nothing touches; 0: none is known
         to be safe, as where benches touch without any stray
+    independent: what is proven without counting on the benches between others [m]; equal to stray unless such a bench
+        is known to hold its neighbours apart
+    simple: what the simple bound knows, that no point moves further than its bench's gain times the stray [m]; from
+        samples, and safe because it is not above the stray
     stray_bracket: (proven safe, shown to touch) [m]; the second None where nothing was shown
     limited_by: see Limit; time: when those that limit it are nearest to meeting [s]; benches: they, the second None for
         the venue; area: its name. All None where nothing limits it
@@ -75,6 +86,8 @@ class Tolerance(Shown):
     """
 
     stray: float
+    independent: float
+    simple: float
     stray_bracket: tuple[float, float | None]
     limited_by: Limit
     time: float | None
@@ -101,6 +114,7 @@ class _Field:
     """What may be met: the dance's other benches, or the edges of one area.
 
     dance: on the path as it is searched; work: of all its searches together; span: of head travel [m]
+    between: pairs of benches with fewer between them are not asked for [1]
     """
 
     dance: Dance
@@ -110,22 +124,31 @@ class _Field:
     fold: RunEnd | None
     work: float
     budget: Budget
+    between: int = 1
 
-    def search(self, stray: float) -> Search:
+    def search(self, stray: float, covered: Callable[[Dragon, float], Reach] = reach) -> Search:
         """The ground that benches may cover."""
-        return Search(
-            self.dance.dragon, self.dance.path, 0.0, self.edges, work=self.work, budget=self.budget, stray=stray
-        )
+        found = Search(
+            self.dance.dragon, self.dance.path, 0.0, self.edges,
+            work=self.work, budget=self.budget, stray=stray, covered=covered,
+        )  # fmt: skip
+        found.ask_beyond(self.between)
+        return found
 
 
 @dataclass(frozen=True, slots=True)
 class _Found:
-    """A stray that is safe in one field, and the dip that limits it. touches: is there a contact without any stray?"""
+    """A stray that is safe in one field, and the dip that limits it.
+
+    touches: is there a contact without any stray? independent, simple: see Tolerance
+    """
 
     stray: float
     dip: Dip | None
     steps: int
     touches: bool = False
+    independent: float = math.inf
+    simple: float = math.inf
 
 
 @asked_of("dance", Dance)
@@ -159,22 +182,23 @@ def tolerance(
     begin, until = dance.span(dance.begin if start is None else start, stop)
     most = 0.5 * float(dance.dragon.chords.min())
     found, limit = _Found(most, None, 0), None
-    steps = 0
+    steps, independent, simple = 0, most, most
     for field in _fields(dance, venue, (begin, until), budget):
-        safe = _safe_stray(field, found.stray)
-        steps += safe.steps
+        safe = _held_stray(field, found.stray)
+        steps, independent, simple = steps + safe.steps, min(independent, safe.independent), min(simple, safe.simple)
         if safe.dip is not None:
             found, limit = safe, field
-    proof = StrayProof(_method(dance, found, (begin, until), venue), steps)
+    known = (found.stray, min(independent, found.stray), min(simple, found.stray))
+    proof = StrayProof(_method(dance, found, known[1], (begin, until), venue), steps)
     if found.dip is None or limit is None:
-        return Tolerance(most, (most, None), Limit.CHORD, None, None, None, None, begin, until, proof)
+        return Tolerance(*known, (most, None), Limit.CHORD, None, None, None, None, begin, until, proof)
     _, travel, (a, b) = found.dip
     time = min(max(dance.clock.time(travel), begin), until)
     second = b if limit.edges is None else None
     shown = _exhibit(limit, found, time, dance.path.frame)
     bracket = (found.stray, None if shown is None else shown.stray)
     by = Limit.BENCHES if limit.edges is None else Limit.VENUE
-    return Tolerance(found.stray, bracket, by, time, (a, second), limit.area, shown, begin, until, proof)
+    return Tolerance(*known, bracket, by, time, (a, second), limit.area, shown, begin, until, proof)
 
 
 def _fields(dance: Dance, venue: Venue | None, span: tuple[float, float], budget: Budget) -> list[_Field]:
@@ -190,6 +214,39 @@ def _fields(dance: Dance, venue: Venue | None, span: tuple[float, float], budget
         placed = [(area.name, own_edges(area, dance.path.frame)) for area in venue.areas]
         fields += [_Field(danced, edges, name, travels, None, share, budget) for name, edges in placed]
     return fields
+
+
+def _held_stray(field: _Field, most: float) -> _Found:
+    """_safe_stray(), or more where the bench between two others is known to hold them apart with more."""
+    safe = _safe_stray(field, most)
+    simple, independent = _simple(field, safe), safe.stray
+    found = replace(safe, independent=independent, simple=simple)
+    if safe.touches or field.edges is not None or safe.dip is None or safe.dip[2][1] != safe.dip[2][0] + 2:
+        return found
+    held = held_apart(field.dance, field.span[1], most, field.budget)
+    if held <= safe.stray:
+        return found
+    others = _Found(held, None, 0)
+    if field.dance.dragon.benches > 3:
+        others = _safe_stray(replace(field, between=2), held)
+    if others.stray <= safe.stray:
+        return found
+    dip = safe.dip if others.dip is None and held < most else others.dip
+    return _Found(others.stray, dip, safe.steps + others.steps, False, independent, simple)
+
+
+def _simple(field: _Field, safe: _Found) -> float:
+    """The simple bound [m], or the safe stray if that is less."""
+    stray = safe.stray
+    for _ in range(GRAZE_STEPS):
+        if stray < STRAY_MIN:
+            return 0.0
+        search = field.search(stray, simple_reach)
+        dip = sampled_least(search, *field.span)
+        if dip[0] >= -GRAZE_WITHIN * stray:
+            break
+        stray = _grazing(field, stray, dip, simple_reach)[0]
+    return stray
 
 
 def _safe_stray(field: _Field, most: float) -> _Found:
@@ -223,14 +280,16 @@ def _safe_stray(field: _Field, most: float) -> _Found:
             if met.touching is None:
                 break
             proven_to = max(proven_to, met.proven)
-            reach = PROFILE_STEP * search.extremes[1]
-            around = (max(begin, met.touching - reach), met.touching, min(until, met.touching + reach))
+            step = PROFILE_STEP * search.extremes[1]
+            around = (max(begin, met.touching - step), met.touching, min(until, met.touching + step))
             found, limiting = _grazing(field, tried, refined_dip(search, *around))
             stray = min(found, tried)
     return _Found(0.0, limiting or nominal, steps)  # nothing was proven of any stray
 
 
-def _grazing(field: _Field, stray: float, dip: Dip) -> tuple[float, Dip]:
+def _grazing(
+    field: _Field, stray: float, dip: Dip, covered: Callable[[Dragon, float], Reach] = reach
+) -> tuple[float, Dip]:
     """The stray near this one at which the grounds that meet in a dip only graze, to GRAZE_WITHIN of it [m]; that dip.
 
     Where the stray is larger by x, the ground of each bench reaches at least x further in every direction: so the gap
@@ -241,9 +300,9 @@ def _grazing(field: _Field, stray: float, dip: Dip) -> tuple[float, Dip]:
         if abs(dip[0]) <= slope * GRAZE_WITHIN * stray:
             break
         last, stray = (stray, dip[0]), max(stray + dip[0] / slope, 0.0)
-        search = field.search(stray)
-        reach, travel = PROFILE_STEP * search.extremes[1], dip[1]
-        dip = refined_dip(search, max(field.span[0], travel - reach), travel, min(field.span[1], travel + reach))
+        search = field.search(stray, covered)
+        around, travel = PROFILE_STEP * search.extremes[1], dip[1]
+        dip = refined_dip(search, max(field.span[0], travel - around), travel, min(field.span[1], travel + around))
         if stray != last[0]:
             slope = max(slope, (dip[0] - last[1]) / (last[0] - stray))
     return stray, dip
@@ -271,15 +330,23 @@ def _exhibit(field: _Field, found: _Found, time: float, frame: Frame) -> Exhibit
     return None if shown is None else replace(shown, handles=frame.points(shown.handles))
 
 
-def _method(dance: Dance, found: _Found, span: tuple[float, float], venue: Venue | None) -> str:
+def _method(dance: Dance, found: _Found, independent: float, span: tuple[float, float], venue: Venue | None) -> str:
     square = " or an edge of the venue" if venue is not None else ""
     what = f"{dance.dragon._line()} on {dance.path.words()}: from {said(span[0])} s to {said(span[1])} s"
     if found.stray <= 0.0:
         why = f"a bench touches another{square} as it is" if found.touches else "nothing was proven of any stray"
         return f"{what} no stray is known to be safe: {why}."
+    between = ""
+    if independent < found.stray:
+        between = " Of two benches with one between them distances of handles prove it: that bench holds them apart."
+    elif found.dip is not None and found.dip[2][1] == found.dip[2][0] + 2:
+        between = (
+            " The two benches that limit it have one between them, which is not counted on here: they are taken to "
+            "stray independently, so the stray is lower than it could be."
+        )
     return (
         f"{what}, while every hole is within {said(found.stray)} m of its place and every chord keeps its length, no "
         f"bench touches another that it shares no handle with{square}. Proven in steps for the hulls of all places "
         "that benches can have then, as first contacts are for benches; computed in doubles, with allowances for their "
-        "rounding."
+        f"rounding.{between}"
     )

@@ -6,23 +6,19 @@ how long and how short chords can be, not where they begin, and it holds for a r
 all chords l within the error of theirs, two benches that share no handle are L apart at least while the head is
 outside the circle, each in its place.
 
-With its holes displaced by d0 and d1, |d| <= stray, a point z of a bench moves by d0 (1/2 + z / l) + d1 (1/2 - z / l),
-see core/tolerance/reach.py, so by no more than stray (|z + l / 2| + |z - l / 2|) / l. That is convex in z, hence
-largest in a corner, where it is stray A with
-    A = (sqrt(o^2 + w^2 / 4) + sqrt((l + o)^2 + w^2 / 4)) / l,
-which falls as l grows. Two benches cannot touch while 2 A stray < L, A the largest of all.
+No point of a bench moves further than A stray, A its gain (core/tolerance/reach.py), which falls as its chord grows.
+Two benches cannot touch while 2 A stray < L, A the largest of all.
 """
 
 from __future__ import annotations
 
 import math
 
-import numpy as np
-
 from core import kernels
 from core.contact.search import Search
 from core.dragon import Dragon
 from core.paths.spiral import Spiral
+from core.tolerance.reach import gain
 from core.values import asked_of, checked_number, checked_size
 
 # Taken off the bound, for the rounding of A and of chords [1].
@@ -57,7 +53,6 @@ def uncertain_tolerance(
     search.rings.between_shortest -= 2.0 * error
     low, high = ((spiral.pitch + off) / (2.0 * math.pi) for off in (-spread, spread))
     least = float(kernels.ring_least(low, high, radius, search.rings)) - search.ring_rounding(radius, high)
-    chords, half = dragon.chords - error, 0.5 * dragon.widths
-    reach = (np.hypot(dragon.overhangs, half) + np.hypot(chords + dragon.overhangs, half)) / chords
-    stray = (1.0 - ROUNDING) * least / (2.0 * float(reach.max()))
+    most = float(gain(dragon.chords - error, dragon.overhangs, 0.5 * dragon.widths).max())
+    stray = (1.0 - ROUNDING) * least / (2.0 * most)
     return min(max(stray, 0.0), 0.5 * (shortest - error))

@@ -42,7 +42,8 @@ from core.errors import TooLarge
 from core.motion.trajectory import bench_poses, trajectory
 from core.shapes.broad_phase import meeting_pairs
 from core.shapes.rectangles import CORNER_SIDES, frames, frames_separation
-from core.tolerance.wobble import Wobble, gains
+from core.tolerance.reach import gains
+from core.tolerance.wobble import Wobble
 from core.values import Floats
 
 # Numbers m of standard deviations that are tried, and how many numbers of a bench are assumed to be within them [1].

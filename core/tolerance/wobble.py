@@ -5,14 +5,11 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-import numpy as np
-
 from core.dance import Dance
-from core.dragon import Dragon
 from core.errors import InvalidValue, said
 from core.paths.spiral import Spiral
 from core.shown import Shown
-from core.values import SIZE_MAX, Floats, checked_number
+from core.values import SIZE_MAX, checked_number
 
 # Instants in a correlation time, at least [1].
 INSTANTS_PER_TIME = 5
@@ -98,15 +95,3 @@ def check_sizes(dance: Dance, model: Wobble) -> None:
         if model.pitch_error > most:
             rule = f"must be at most {PITCH_PART} of the pitch ({said(most)} m)"
             raise InvalidValue.of("model.pitch_error", rule, model.pitch_error, "m")
-
-
-def gains(dragon: Dragon) -> Floats:
-    """How far a point of each bench (n,) goes at most where both of its holes go 1 m [1].
-
-    A point with the complex coordinate z from the middle of the chord l, along it, goes by d0 (1/2 + z/l) + d1 (1/2 -
-    z/l) where the holes go by d0 and d1 (core/tolerance/reach.py), so at most by (|l/2 + z| + |l/2 - z|) / l of the
-    larger: that is largest in a corner.
-    """
-    chords, overhangs, half_widths = dragon.chords, dragon.overhangs, 0.5 * dragon.widths
-    gain: Floats = (np.hypot(overhangs, half_widths) + np.hypot(chords + overhangs, half_widths)) / chords
-    return gain

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from core import Dragon, InvalidValue
 from core.kernels.constants import DIRECTIONS
-from core.tolerance.reach import SIZES_MAX, bench_hulls, directions, reach, supports
+from core.tolerance.reach import SIZES_MAX, bench_hulls, directions, gains, reach, supports
 from tests.core.tolerance.places import moved_points, random_strays
 
 ROUNDING = 1e-11  # [m]
@@ -97,3 +97,14 @@ def test_a_dragon_of_too_many_sizes_is_refused() -> None:
     dragon = Dragon.of(lengths, np.full(lengths.size, 0.3), np.full(lengths.size, 0.2))
     with pytest.raises(InvalidValue, match=rf"at most {SIZES_MAX} different sizes .* 0.01 m, got {SIZES_MAX + 2}"):
         reach(dragon, 0.01)
+
+
+def test_a_corner_goes_as_far_as_the_gain_says_and_no_point_further() -> None:
+    dragon, stray = Dragon(2), 0.01
+    for k, gain in enumerate(gains(dragon).tolist()):
+        chord, x, y = float(dragon.chords[k]), 0.5 * float(dragon.lengths[k]), 0.15
+        corners = np.array([[x, y], [x, -y], [-x, y], [-x, -y]])
+        strays = random_strays(np.random.default_rng(k), chord, stray, 20_000)
+        moved = moved_points(corners, strays, chord)
+        furthest = np.hypot(*np.moveaxis(moved - corners, -1, 0)).max()
+        assert 0.99 * gain * stray < furthest <= gain * stray * (1.0 + 1e-12)

@@ -37,6 +37,9 @@ CHORD_ERROR = 1e-12  # [m]
 # pitch [m], a bound by hand and a contact found by hand [m], both sampled in time and rounded to 1e-5.
 KNOWN = [(0.5, 0.02321, 0.02325), (0.55, 0.04654, 0.04668), (0.7, 0.11662, 0.11749), (1.0, 0.24298, 0.26305)]
 ROUNDED = 2e-5
+# By the simple bound at these pitches [m], and by how much less of it the hulls may know [1].
+SIMPLE = {0.5: 0.01931, 0.55: 0.03874, 0.7: 0.09735, 1.0: 0.21590}
+SIMPLE_SHORT = 1e-3
 
 
 def to_circle(pitch: float) -> tuple[Dance, float]:
@@ -62,6 +65,8 @@ def test_brackets_lie_between_the_bounds_and_the_contacts_known(pitch: float, bo
     assert bound - ROUNDED < safe < shown < contact + ROUNDED
     assert shown < safe * (1.0 + BRACKET)
     assert found.limited_by is Limit.BENCHES
+    assert found.independent == safe
+    assert SIMPLE[pitch] * (1.0 - SIMPLE_SHORT) < found.simple < SIMPLE[pitch] + ROUNDED
 
 
 def test_the_shown_contact_is_one(default: Tolerance) -> None:
@@ -173,13 +178,41 @@ def test_benches_of_many_sizes_on_a_route() -> None:
     assert 0.01 < safe < shown < safe * (1.0 + BRACKET)
 
 
-def test_of_benches_next_but_one_to_each_other_a_safe_stray_is_known_but_no_contact() -> None:
-    """The bench between them holds them apart; the bound does not count on it."""
+def test_benches_next_but_one_to_each_other_are_held_apart_by_the_one_between() -> None:
     dance = Dance(Dragon(20), Route([Line((0.0, 0.0), (80.0, 0.0))]))
     found = tolerance(dance)
-    assert found.benches in {(k, k + 2) for k in range(18)}
-    assert found.stray == pytest.approx(0.5 * (1.65 - 2.0 * 0.275), rel=0.05)
-    assert found.stray_bracket[1] is None
+    assert found.limited_by is Limit.CHORD
+    assert found.stray == 0.5 * dance.dragon.chords.min()
+    assert found.independent == pytest.approx(0.5 * (1.65 - 2.0 * 0.275), rel=0.05)
+    assert "that bench holds them apart" in found.certificate.method
+
+
+def test_on_a_wide_spiral_the_next_turn_limits_the_stray_and_not_the_next_bench_but_one() -> None:
+    dance = Dance(Dragon(60), Spiral(2.0))
+    found = tolerance(dance, stop=dance.path.travel_to(CIRCLE))
+    safe, shown = found.stray_bracket
+    assert shown is not None
+    assert found.benches is not None
+    assert found.benches[1] is not None
+    assert found.benches[1] - found.benches[0] > 2
+    assert found.independent < safe < shown < 1.03 * safe
+
+
+def test_where_benches_next_but_one_limit_the_stray_a_pose_of_all_three_shows_a_contact() -> None:
+    """Short chords and wide benches: the bound takes the two to be independent and is low, about half of the truth."""
+    dragon = Dragon(20, body_length=1.2, width=0.5)
+    found = tolerance(Dance(dragon, Route([Line((0.0, 0.0), (50.0, 0.0))])))
+    safe, shown = found.stray_bracket
+    assert shown is not None
+    assert found.exhibit is not None
+    a, b = found.exhibit.benches
+    assert b == a + 2
+    assert "lower than it could be" in found.certificate.method
+    assert 0.0 < safe < shown < 2.0 * safe
+    chords = np.hypot(*np.diff(found.exhibit.handles, axis=0).T)
+    assert np.abs(chords - dragon.chords).max() < CHORD_ERROR
+    rows = [shapely.Polygon(bench_outlines(dragon, found.exhibit.handles)[k]) for k in (a, b)]
+    assert rows[0].intersection(rows[1]).area > 0.0
 
 
 def test_two_benches_on_a_line_have_nothing_to_touch() -> None:

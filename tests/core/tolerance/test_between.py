@@ -1,0 +1,148 @@
+"""Benches next but one: no pose within the bound touches, chords bend as the bound says, and a pose that does touch."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from core import Arc, Budget, Dance, Dragon, Line, Route, Spiral, bench_outlines, trajectory
+from core.dance import follows
+from core.tolerance.between import _smallest_circles, held_apart, touching_pose
+from core.tolerance.exhibit import exhibit
+from core.values import Floats
+
+CHORD_ERROR = 1e-12  # [m]
+FAR = 9.0  # a stray above all that are found [m]
+
+
+def hairpin(radius: float) -> Route:
+    line, back = Line((0.0, 0.0), (40.0, 0.0)), Line((40.0, 2.0 * radius), (0.0, 2.0 * radius))
+    return Route([line, Arc((40.0, radius), radius, -0.5 * math.pi, math.pi), back])
+
+
+def held(dragon: Dragon, radius: float) -> float:
+    return held_apart(Dance(dragon, hairpin(radius)), 0.0, FAR, Budget())
+
+
+def strayed_three(rng: np.random.Generator, chords: Floats, places: Floats, stray: float, count: int) -> Floats:
+    """Handles (N, 4, 2) of three benches within the stray of their places, many of them at its edge [m]."""
+    seek = places.mean(axis=0)
+    found = np.empty((0, 4, 2))
+    moved = np.repeat(places[None], count, axis=0)
+    for spread in (1.0, 1.0, 0.5, 0.3, 0.1):
+        step = rng.normal(0.0, spread * stray, moved.shape) + rng.uniform(0.0, 0.6, (len(moved), 1, 1)) * (seek - moved)
+        moved = moved + step
+        for _ in range(300):  # chords and discs, in turn
+            for k, chord in enumerate(chords):
+                link = moved[:, k] - moved[:, k + 1]
+                length = np.hypot(link[:, 0], link[:, 1])[:, None]
+                moved[:, k] += 0.5 * link * (chord / length - 1.0)
+                moved[:, k + 1] -= 0.5 * link * (chord / length - 1.0)
+            off = moved - places
+            moved = places + off * np.minimum(1.0, stray / np.maximum(np.linalg.norm(off, axis=-1), 1e-9))[..., None]
+        wrong = np.abs(np.linalg.norm(np.diff(moved, axis=1), axis=-1) - chords).max(axis=1)
+        found = np.concatenate([found, moved[wrong < 1e-6]])
+    return found
+
+
+@pytest.mark.parametrize(("radius", "dragon"), [(2.2, Dragon(9)), (1.5, Dragon(9, 2.2)), (6.0, Dragon(9, 1.2))])
+def test_no_pose_within_the_bound_touches(radius: float, dragon: Dragon) -> None:
+    """Nor does it come near: what is proven is little less than what a pose shows."""
+    safe, rng = held(dragon, radius), np.random.default_rng(3)
+    assert safe > 0.5 * dragon.chords.min()
+    dance = Dance(dragon, hairpin(radius))
+    tried = 0
+    for time in (41.0, 42.5, 44.0):
+        handles = trajectory(dance, time).position
+        for k in (0, 1):
+            poses = strayed_three(rng, dragon.chords[k : k + 3], handles[k : k + 4], 0.999 * safe, 300)
+            tried += len(poses)
+            rows = np.array([bench_outlines(dragon.leading(k + 3), np.concatenate([handles[:k], p])) for p in poses])
+            assert not overlapping(rows[:, k], rows[:, k + 2]).any()
+    assert tried > 1_000
+
+
+def overlapping(a: Floats, b: Floats) -> Floats:
+    """Do two rectangles (N, 4, 2) overlap: is there no side of either that parts them?"""
+    parted = np.zeros(len(a), dtype=bool)
+    for sides in (a, b):
+        for k in (0, 1):
+            across = (sides[:, k + 1] - sides[:, k]) @ np.array([[0.0, 1.0], [-1.0, 0.0]])
+            first, second = ((rows * across[:, None]).sum(axis=-1) for rows in (a, b))
+            parted |= (first.max(axis=1) < second.min(axis=1)) | (second.max(axis=1) < first.min(axis=1))
+    return ~parted
+
+
+@pytest.mark.parametrize("radius", [1.6, 2.0, 3.0, 10.0])
+def test_the_bound_is_not_above_what_a_pose_shows(radius: float) -> None:
+    dragon = Dragon(9, 2.2)
+    dance, safe = Dance(dragon, hairpin(radius)), held(dragon, radius)
+    for time in np.linspace(40.0, 52.0, 7).tolist():
+        handles = trajectory(dance, time).position
+        shown = exhibit(dragon, handles, (1, 3), None, 0.0, safe, time)
+        assert shown is not None
+        assert shown.stray > safe
+        chords = np.hypot(*np.diff(shown.handles, axis=0).T)
+        assert np.abs(chords - dragon.chords).max() < CHORD_ERROR
+        rows = bench_outlines(dragon, shown.handles)
+        assert overlapping(rows[1][None], rows[3][None]).all()
+        assert np.hypot(*(shown.handles - handles).T).max() == shown.stray
+    assert safe > (0.7 if radius >= 3.0 else 0.5) * shown.stray
+
+
+def test_a_pose_on_a_line_strays_little_more_than_must_be() -> None:
+    """By another search (SLSQP from 30 starts, 2026-11-22): 1.4326 m on a line, 1.0939 m on an arc of 1.45 m."""
+    three = np.array([[1.65, 2.2, 0.3]] * 3)
+    turn = 2.0 * math.asin(0.825 / 1.45)
+    arc = 1.45 * np.array([[-math.sin(k * turn), 1.0 - math.cos(k * turn)] for k in range(4)])
+    line = np.array([[-1.65 * k, 0.0] for k in range(4)])
+    for places, least in ((line, 1.4326), (arc, 1.0939)):
+        pose = touching_pose(three, places)
+        assert pose is not None
+        assert least - 1e-4 < np.hypot(*(pose - places).T).max() < 1.02 * least
+
+
+def test_three_that_cannot_fold_onto_each_other_have_no_pose() -> None:
+    three = np.array([[1.0, 1.0, 0.1], [9.0, 9.0, 0.1], [1.0, 1.0, 0.1]])
+    assert touching_pose(three, np.array([[11.0, 0.0], [10.0, 0.0], [1.0, 0.0], [0.0, 0.0]])) is None
+
+
+@pytest.mark.parametrize("radius", [1.44, 1.6, 2.5])
+def test_two_chords_in_a_row_bend_by_no_more_than_two_half_arcs(radius: float) -> None:
+    dragon = Dragon(12)
+    dance = Dance(dragon, hairpin(radius))
+    assert follows(dragon, dance.path)
+    handles = trajectory(dance, np.linspace(dance.begin, dance.end.time, 4_000)).position
+    along = np.diff(handles, axis=1) @ [1.0, 1j]
+    bends = np.abs(np.angle(along[:, 1:] / along[:, :-1]))
+    leans = np.arcsin(dragon.chords / (2.0 * radius))
+    most = leans[1:] + leans[:-1]
+    assert (bends.max(axis=0) <= most + 1e-9).all()
+    assert (bends.max(axis=0) > 0.85 * most).all()
+
+
+def test_a_spiral_is_as_bent_as_where_its_head_ends() -> None:
+    dragon, spiral = Dragon(30), Spiral(2.0)
+    bounds = [
+        held_apart(Dance(dragon, spiral), spiral.travel_to(radius), FAR, Budget()) for radius in (1.5, 2.0, 4.5, 9.0)
+    ]
+    assert bounds == sorted(bounds)
+    assert 0.0 <= bounds[0] < bounds[-1] < 1.4326
+    assert held_apart(Dance(dragon, spiral), spiral.length, FAR, Budget()) == 0.0
+
+
+def test_dragons_of_too_many_sizes_get_no_bound() -> None:
+    dragon = Dragon.of(np.linspace(2.0, 2.4, 200), [0.3] * 200, [0.2] * 200)
+    assert held_apart(Dance(dragon, Spiral(3.0)), 1.0, FAR, Budget()) == 0.0
+
+
+def test_the_smallest_circle_holds_all_four_and_three_or_two_on_its_edge() -> None:
+    points = np.random.default_rng(0).normal(size=(500, 4, 2)) @ [1.0, 1j]
+    radii, centres = _smallest_circles(points)
+    far = np.sort(np.abs(points - centres[:, None]), axis=1)
+    assert np.abs(far[:, -1] - radii).max() < 1e-9
+    assert np.abs(far[:, -2] - radii).max() < 1e-9
+    opposite = np.abs(points[:, :, None] - points[:, None]).max(axis=(1, 2)) > 2.0 * radii * (1.0 - 1e-9)
+    assert (opposite | (np.abs(far[:, -3] - radii) < 1e-9)).all()
