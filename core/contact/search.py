@@ -148,10 +148,6 @@ class Search:
         self.scene.curve, self.scene.place, self.scene.margin = self.curve, self.place, self.margin
         self.scene.halt, self.scene.kinds, self.scene.between = self.budget.halt, self.kinds, self.between
 
-    def ask_beyond(self, between: int) -> None:
-        """Ask only for pairs with at least so many benches between them."""
-        self.between = self.scene.between = between
-
     def clear_beyond(self, radius: float) -> None:
         """Set clear_radius to a radius from which another bound exceeds the margin on this spiral [m]."""
         self.clear_radius = self.rings.clear_radius = radius * (1.0 + kernels.CLEAR_SPARE)

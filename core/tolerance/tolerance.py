@@ -128,11 +128,9 @@ class _Field:
 
     def search(self, stray: float, covered: Callable[[Dragon, float], Reach] = reach) -> Search:
         """The ground that benches may cover."""
-        found = Search(
-            self.dance.dragon, self.dance.path, 0.0, self.edges,
-            work=self.work, budget=self.budget, stray=stray, covered=covered,
-        )  # fmt: skip
-        found.ask_beyond(self.between)
+        where = (self.dance.dragon, self.dance.path, 0.0, self.edges)
+        found = Search(*where, work=self.work, budget=self.budget, stray=stray, covered=covered)
+        found.between = found.scene.between = self.between
         return found
 
 
@@ -338,7 +336,7 @@ def _method(dance: Dance, found: _Found, independent: float, span: tuple[float, 
         return f"{what} no stray is known to be safe: {why}."
     between = ""
     if independent < found.stray:
-        between = " Of two benches with one between them distances of handles prove it: that bench holds them apart."
+        between = " Two benches with one between them are held apart by it: distances of handles prove that."
     elif found.dip is not None and found.dip[2][1] == found.dip[2][0] + 2:
         between = (
             " The two benches that limit it have one between them, which is not counted on here: they are taken to "
