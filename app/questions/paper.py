@@ -12,8 +12,7 @@ import numpy as np
 from pydantic import Field
 
 from app.files.tables import Language
-from app.grade.report import DiagnosisAnswer, typed
-from app.grade.shortcuts import (
+from app.grade.contacts import (
     EXACT_ANGLE,
     LOOSE_ANGLE,
     PITCH_RANGE,
@@ -25,6 +24,7 @@ from app.grade.shortcuts import (
     head_touches_at_start,
     largest_sum,
 )
+from app.grade.report import DiagnosisAnswer, typed
 from app.grade.words import say
 from app.questions.question import Question, Terms
 from app.wire.models import Answer, Wire

@@ -1,0 +1,119 @@
+"""Contact as papers and students judge it: by the angle sum, by the pose on the circle alone, or in steps of time.
+
+Each function recomputes what such a rule gives. State: the angle sums of the whole run, sampled once for each shape.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from functools import cache
+
+import numpy as np
+
+from core import Dance, Dragon, Spiral, bench_outlines, bench_poses, clearance_profile, separation
+from core import trajectory as trajectory_of
+from core.sampling import bisected
+from core.shapes.angle_sum import angle_sums
+from core.values import Floats
+
+TURNING_RADIUS = 4.5  # [m], of the contest's turning circle
+# Angle sum [deg] that must be counted as 360 to obtain the paper's time, 0.9 degrees less.
+LOOSE_ANGLE = 359.1
+# Rounding of an angle sum [deg]: corners inside give 360 within 1e-12, corners 1e-9 m outside give less than this.
+EXACT_ANGLE = 360.0 - 1e-6
+# The head's neighbourhood: the ring around it has at most 34 benches; benches further back lie in a ring further out.
+RING_BENCHES = 40
+# Steps of the searches for a first time [s] and for sign changes in the pitch [m], and where bisection stops.
+TIME_STEP, PITCH_STEP, RESOLUTION = 0.1, 0.001, 1e-10
+# Pitches that students try [m], as the paper does.
+PITCH_RANGE = (0.30, 0.55)
+# Head radius from which the way to the circle is looked at: the least clearance is reached within it [m].
+WAY_RADIUS = 4.8
+# The angle sums of the whole run in one array would take 500 MB.
+SUM_BATCHES = 20
+# Poses (..., 3) and sizes (..., 2) -> corners (..., 4, 2).
+Outline = Callable[[Floats, Floats], Floats]
+
+
+def _largest_sums(outline: Outline, times: Floats) -> Floats:
+    """The paper's rule, eqs. 13-16: the largest angle sum between head and body benches at every time.
+
+    outline: function from poses and sizes to corners (..., 4, 2); times: (T,) [s]; returns (T,) [deg]
+    """
+    dragon = Dragon(benches=RING_BENCHES)
+    poses = bench_poses(trajectory_of(Dance(dragon, Spiral()), times).position)
+    outlines = outline(poses, np.stack([dragon.lengths, dragon.widths], axis=-1))
+    head, body = outlines[:, :1], outlines[:, 2:]
+    sums = np.maximum(angle_sums(body, head), angle_sums(head, body))
+    return np.asarray(np.degrees(sums.max(axis=(1, 2))))
+
+
+def largest_sum(outline: Outline, time: float) -> float:
+    """The largest angle sum between head and body benches at a time [deg]."""
+    return float(_largest_sums(outline, np.array([time]))[0])
+
+
+@cache
+def _sampled_sums(outline: Outline) -> tuple[Floats, Floats]:
+    """Instants TIME_STEP apart over the whole run [s], and the largest angle sum at each [deg]."""
+    times = np.arange(0.0, Dance(Dragon(), Spiral()).end.time, TIME_STEP)
+    batches = np.array_split(times, SUM_BATCHES)
+    return times, np.concatenate([_largest_sums(outline, batch) for batch in batches])
+
+
+def angle_sum_time(outline: Outline, angle: float) -> float:
+    """First time [s] at which an angle sum reaches an angle [deg], among instants TIME_STEP apart, then bisected."""
+    times, sums = _sampled_sums(outline)
+    high = float(times[np.flatnonzero(sums >= angle)[0]])
+    return bisected(lambda time: largest_sum(outline, time) >= angle, high - TIME_STEP, high, width=RESOLUTION)[1]
+
+
+def stepped_pitch(step: float, right: float) -> float:
+    """The smallest pitch whose way to the circle has no contact at the instants of a grid [m]. right: the exact one"""
+    sizes = np.stack([Dragon(RING_BENCHES).lengths, Dragon(RING_BENCHES).widths], axis=-1)
+
+    def clear(pitch: float) -> bool:
+        spiral = Spiral(pitch)
+        late, first = (spiral.length - Spiral(pitch, radius / pitch).length for radius in (TURNING_RADIUS, WAY_RADIUS))
+        times = step * np.arange(math.ceil(first / step), math.floor(late / step) + 1, dtype=np.float64)
+        poses = bench_poses(trajectory_of(Dance(Dragon(RING_BENCHES), spiral), times).position)
+        found = separation(poses[:, :1], sizes[:1], poses[:, 2:], sizes[2:])
+        return bool(found.separation.min() > 0.0)
+
+    return bisected(clear, right - PITCH_STEP, right, width=RESOLUTION)[1]
+
+
+def any_touch_at_start(path: Spiral) -> bool:
+    return bool(clearance_profile(Dance(Dragon(), path), np.array([0.0])).clearance[0] <= 0.0)
+
+
+def head_touches_at_start(path: Spiral) -> bool:
+    dragon = Dragon()
+    poses = bench_poses(trajectory_of(Dance(dragon, path), [0.0]).position[0])
+    sizes = np.stack([dragon.lengths, dragon.widths], axis=-1)
+    return bool(separation(poses[0], sizes[0], poses[2:], sizes[2:]).separation.min() <= 0.0)
+
+
+def corner_at_start(path: Spiral) -> bool:
+    """Is the outer front corner of the head inside a body bench?"""
+    dragon = Dragon(RING_BENCHES)
+    handles = trajectory_of(Dance(dragon, path), [0.0]).position[0]
+    corner, poses = bench_outlines(dragon, handles)[0, 0], bench_poses(handles)[2:]
+    away = corner - poses[:, :2]
+    along = np.abs(away[:, 0] * np.cos(poses[:, 2]) + away[:, 1] * np.sin(poses[:, 2]))
+    across = np.abs(away[:, 1] * np.cos(poses[:, 2]) - away[:, 0] * np.sin(poses[:, 2]))
+    return bool(((along <= 0.5 * dragon.lengths[2:]) & (across <= 0.5 * dragon.widths[2:])).any())
+
+
+def circle_pitch(touches: Callable[[Spiral], bool]) -> float:
+    """The largest pitch in PITCH_RANGE at which the pose on the circle, without the way there, touches [m]."""
+
+    def touching(pitch: float) -> bool:
+        # On a spiral that starts at the circle the head is there at time 0.
+        return touches(Spiral(pitch, TURNING_RADIUS / pitch))
+
+    pitches = np.arange(*PITCH_RANGE, PITCH_STEP).tolist()
+    last = max(k for k, pitch in enumerate(pitches) if touching(pitch))
+    apart = bisected(lambda pitch: not touching(pitch), pitches[last], pitches[last + 1], width=RESOLUTION)
+    return apart[0]
