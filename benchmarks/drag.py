@@ -2,12 +2,14 @@
 
 `.venv/bin/python -m benchmarks.drag [ADDRESS]`, while `bench-dragon serve` runs there: 60 benches on a path of 20
 waypoints, without a square and in one with three obstacles. A verdict counts for a move if it was asked for at the move
-or after it, so a move that a newer one replaced waits for the newer one's verdict.
+or after it, so a move that a newer one replaced waits for the newer one's verdict. Behind it stands the part that the
+service took, from the request to its answer; the machine's load stands there too, as others make all of it slower.
 """
 
 from __future__ import annotations
 
 import math
+import os
 import sys
 
 from playwright.sync_api import Page, sync_playwright
@@ -30,12 +32,13 @@ DRAG = """async (moves) => {
   const fire = (type, dx, dy) =>
     knot.dispatchEvent(new PointerEvent(type, { clientX: left + dx, clientY: top + dy, bubbles: true }));
   knot.setPointerCapture = () => {};
-  const [real, asked, found] = [window.fetch, [], []];
+  const [real, asked, found, service] = [window.fetch, [], [], []];
   let waiting = [];
   window.fetch = async (url, options) => {
     const sent = performance.now();
     const response = await real(url, options);
     if (url === "check") {
+      service.push(performance.now() - sent);
       const json = response.json.bind(response);
       response.json = async () => (asked.push(sent), json());
     }
@@ -55,17 +58,26 @@ DRAG = """async (moves) => {
   await new Promise((resolve) => setTimeout(resolve, 1000));
   fire("pointerup", 0, 0);
   window.fetch = real;
-  return found.sort((a, b) => a - b);
+  return [found, service].map((times) => times.sort((a, b) => a - b));
 }"""
 
 
-def measure(page: Page, base: str, square: str) -> list[float]:
-    """Times in order [ms]."""
+def measure(page: Page, base: str, square: str) -> list[list[float]]:
+    """Times of verdicts, and of the service's answers, each in order [ms]."""
     page.goto(f"{base}/?path=route&benches=60&limit=1.5&route={ROUTE}{square}")
     page.locator("#tolerance[aria-busy=false]").wait_for()
     page.locator("#edit").click()
-    times: list[float] = page.evaluate(DRAG, MOVES)
+    times: list[list[float]] = page.evaluate(DRAG, MOVES)
     return times
+
+
+def told(times: list[float]) -> str:
+    p50, p90 = times[len(times) // 2], times[len(times) * 9 // 10]
+    return f"p50 {p50:.0f} ms, p90 {p90:.0f} ms, most {times[-1]:.0f} ms"
+
+
+def load() -> str:
+    return f"load {os.getloadavg()[0]:.1f} on {os.cpu_count()} cores"
 
 
 def main() -> None:
@@ -73,9 +85,8 @@ def main() -> None:
     with sync_playwright() as playwright:
         browser = playwright.chromium.launch(executable_path=found(), args=ARGUMENTS)
         for words, square in (("no square", ""), ("a square with three obstacles", SQUARE)):
-            times = measure(browser.new_page(viewport=WIDE), base, square)
-            p50, p90 = times[len(times) // 2], times[len(times) * 9 // 10]
-            print(f"{words}: {len(times)} moves, p50 {p50:.0f} ms, p90 {p90:.0f} ms, most {times[-1]:.0f} ms")
+            verdicts, service = measure(browser.new_page(viewport=WIDE), base, square)
+            print(f"{words}: {len(verdicts)} moves, {told(verdicts)}; service {told(service)}; {load()}")
         browser.close()
 
 

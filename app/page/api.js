@@ -1,7 +1,10 @@
 /** The service: only the newest question of a kind is answered, and a lost service is retried until it is back. */
 
-/** Superseded questions this young [ms] may still answer, so that a dragged slider always sees answers. */
-const GRACE = 150;
+/**
+ * A superseded question may still answer for this long [ms], and for twice as long as the last one took, up to the most:
+ * so a slider that is dragged sees answers of a busy service too.
+ */
+const [GRACE, GRACE_MOST] = [150, 2_000];
 /** Between two looks whether the service lives, and the longest wait for its answer [ms]: together less than 3 s. */
 const [HEARTBEAT, PATIENCE] = [600, 1_600];
 const [RETRY_FIRST, RETRY_LAST] = [1_000, 8_000];
@@ -34,24 +37,27 @@ const wait = (milliseconds) => new Promise((resolve) => setTimeout(resolve, mill
 class Channel {
   #newest = null;
   #running = null;
+  #grace = GRACE;
 
   async ask(question) {
     this.#newest = question;
     while (this.#running) {
       const { since, abort, settled } = this.#running;
-      setTimeout(() => abort.abort(), since + GRACE - performance.now());
+      setTimeout(() => abort.abort(), since + this.#grace - performance.now());
       await settled;
       if (question !== this.#newest) throw new Superseded();
     }
     const abort = new AbortController();
     const answer = question(abort.signal);
-    this.#running = { since: performance.now(), abort, settled: Promise.allSettled([answer]) };
+    const since = performance.now();
+    this.#running = { since, abort, settled: Promise.allSettled([answer]) };
     try {
       return await answer;
     } catch (error) {
       throw abort.signal.aborted ? new Superseded() : error;
     } finally {
       this.#running = null;
+      this.#grace = Math.min(Math.max(GRACE, 2 * (performance.now() - since)), GRACE_MOST);
     }
   }
 

@@ -38,7 +38,7 @@ export class Chart {
     this.#now = x;
     if (!this.#plot) return;
     const left = x === null ? NaN : this.#plot.valToPos(x, "x");
-    this.#marker.hidden = !(left >= -1 && left <= this.#plot.over.clientWidth + 1);
+    this.#marker.hidden = !(left >= -1 && left <= this.#plot.bbox.width / devicePixelRatio + 1);
     this.#marker.style.transform = `translateX(${left}px)`;
   }
 

@@ -3,13 +3,15 @@
  * service's message if it is wrong.
  */
 
-import { make, onClick } from "./elements.js";
+import { $$, make, onClick } from "./elements.js";
 import { FIELDS } from "./state.js";
 import { refusalWords, say } from "./text.js";
 
 /** A typed number counts after this pause [ms], or with Enter, so that half-typed numbers are not asked. */
 const TYPING = 300;
 const ENDS = ["min", "max"];
+/** Numbers -> the part of the bench in the sketch. */
+const PARTS = { head_length: "length", body_length: "length", width: "width", overhang: "overhang", hole: "hole", pin: "hole" };
 
 /** Limits and unit of every number: name -> [low, high, unit]. paths: of the service's OpenAPI document */
 export function limitsIn(paths) {
@@ -37,6 +39,12 @@ export class Controls {
     state.listen((names) => names.forEach((name) => this.#show(name === "path" ? "pitch" : name)));
     state.listen((names) => names.has("path") && this.#offer());
     this.#offer();
+    for (const type of ["focusin", "focusout"]) form.addEventListener(type, ({ target }) => this.#point(type === "focusin" ? target.id : null));
+  }
+
+  /** Mark the part of the bench in the sketch that the chosen number is about. */
+  #point(name) {
+    for (const part of $$("#sketch [data-part]")) part.classList.toggle("chosen", PARTS[name] === part.dataset.part);
   }
 
   #row({ name, slider: [min, max, step] }) {

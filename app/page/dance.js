@@ -106,8 +106,8 @@ function smooth({ x, y }) {
 
 /** Draws in metres on a cleared canvas centred at (x, y); radii and line widths are in pixels. */
 class Pen {
-  constructor(canvas, { x, y, scale }) {
-    const [width, height] = [canvas.clientWidth, canvas.clientHeight].map((size) => Math.round(size * devicePixelRatio));
+  constructor(canvas, { x, y, scale, width: wide, height: high }) {
+    const [width, height] = [wide, high].map((size) => Math.round(size * devicePixelRatio));
     if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, { width, height });
     const [context, zoom] = [canvas.getContext("2d"), scale * devicePixelRatio];
     context.resetTransform();
@@ -202,6 +202,7 @@ export class Dance {
   }
 
   restyle() {
+    this.view.measure();
     const style = getComputedStyle(this.canvas);
     for (const name of ["text", "outline", "path", "circle", "head", "first", "second", "pick", "card", "halo", "thing", "ground", "drawn"])
       this.#colours[name] = style.getPropertyValue(`--${name}`).trim();
@@ -325,7 +326,8 @@ export class Dance {
   #drawInset() {
     const { pose, dragon, contact } = this.scene;
     const [x, y] = contact.point;
-    const pen = new Pen(this.inset, { x, y, scale: this.inset.clientHeight / (2 * INSET_WIDTHS * dragon.width) });
+    const { clientWidth: width, clientHeight: height } = this.inset;
+    const pen = new Pen(this.inset, { x, y, scale: height / (2 * INSET_WIDTHS * dragon.width), width, height });
     this.#grounds(pen);
     this.#benches(pen);
     this.#pair(pen);

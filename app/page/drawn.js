@@ -2,7 +2,7 @@
 
 import { EMPTY } from "./drawing.js";
 import { Editor } from "./edit.js";
-import { $, $$, make } from "./elements.js";
+import { $, $$, hide, make } from "./elements.js";
 import { Files } from "./files.js";
 import { Steps } from "./history.js";
 import { Judgement } from "./judgement.js";
@@ -79,7 +79,7 @@ export class Drawn {
     this.editor.show();
     const empty = drawn && points.length < 2 && !path;
     $("main").classList.toggle("empty", empty);
-    $("#invite").hidden = !empty || points.length > 0 || this.editor.active;
+    hide($("#invite"), !empty || points.length > 0 || this.editor.active);
     if (!drawn) return;
     this.form.show();
     for (const box of SPIRAL_ALONE) $(box).setAttribute("aria-busy", false);

@@ -44,7 +44,7 @@ export class Editor {
   /** Begin or end drawing. */
   turn(active) {
     this.active = active;
-    this.show();
+    this.chosen();
   }
 
   /** Draw with this tool from now on; another obstacle begins with the next tap. */
@@ -58,7 +58,6 @@ export class Editor {
   edit(item) {
     this.item = item;
     if (item !== null) this.tool = this.#drawing.things[item].kind;
-    this.show();
     this.chosen();
   }
 
@@ -78,7 +77,7 @@ export class Editor {
     $("#delete").disabled = !this.#points.length;
     $("#draw-help").hidden = !on;
     $("#draw-help").textContent = say(`draw_${this.tool}`);
-    this.place();
+    this.#fit();
   }
 
   /** The points of the item that is edited; of the path only while it is drawn itself. */
@@ -87,13 +86,18 @@ export class Editor {
     return pointsOf(this.#drawing, this.item);
   }
 
-  /** Put the buttons where the points are in the picture. */
+  /** As many buttons as points. */
+  #fit() {
+    const { length } = this.#points;
+    while (this.#knots.length > length) this.#knots.pop().remove();
+    while (this.#knots.length < length) this.box.append(this.#knot(this.#knots.length));
+  }
+
+  /** Put the buttons where the points are in the picture, whenever that is drawn. */
   place() {
-    const { canvas, view } = this.dance;
+    const { view } = this.dance;
     const points = this.#points;
-    Object.assign(this.box.style, { left: `${canvas.offsetLeft}px`, top: `${canvas.offsetTop}px`, width: `${canvas.clientWidth}px`, height: `${canvas.clientHeight}px` });
-    while (this.#knots.length > points.length) this.#knots.pop().remove();
-    while (this.#knots.length < points.length) this.box.append(this.#knot(this.#knots.length));
+    this.#fit();
     points.forEach(([x, y], k) => {
       const knot = this.#knots[k];
       const [px, py] = view.toScreen(x, y);

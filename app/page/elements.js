@@ -4,6 +4,11 @@ export const $ = (selector) => document.querySelector(selector);
 export const $$ = (selector) => [...document.querySelectorAll(selector)];
 export const onClick = (selector, act) => $(selector).addEventListener("click", act);
 
+/** To hide what is hidden would cost a new look at all styles. */
+export function hide(element, hidden) {
+  if (element.hidden !== hidden) element.hidden = hidden;
+}
+
 /** An element with these properties and children; attributes with a dash go in by name. */
 export function make(tag, properties = {}, ...children) {
   const element = document.createElement(tag);

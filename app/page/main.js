@@ -46,6 +46,7 @@ const state = new State();
 const service = new Service({
   busy(channel, busy) {
     for (const box of BUSY[channel] ?? []) $(box).setAttribute("aria-busy", busy);
+    if (channel === "contact") $("main").classList.toggle("waiting", busy && Boolean(questions.dance));
   },
   lost(seconds) {
     $("#lost").hidden = false;

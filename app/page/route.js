@@ -1,7 +1,7 @@
 /** The form of a drawn dance: presets, its points and its venue as lists, files in and out. */
 
 import { EMPTY, bent, freeName, moved, removed, withThing } from "./drawing.js";
-import { $, make } from "./elements.js";
+import { $, hide, make } from "./elements.js";
 import { PRESETS } from "./presets.js";
 import { say } from "./text.js";
 
@@ -74,8 +74,8 @@ export class RouteForm {
     put(this.corner, radius);
     put(this.limit, limit ?? "");
     put(this.begin, begin);
-    this.limit.placeholder = say("none");
-    this.cornerLine.hidden = !straight.some((leg) => straight.includes(leg + 1));
+    if (this.limit.placeholder !== say("none")) this.limit.placeholder = say("none");
+    hide(this.cornerLine, !straight.some((leg) => straight.includes(leg + 1)));
     this.pointsTitle.textContent = path ? say("pathFile") : say("pointsTitle", { count: points.length });
     this.thingsTitle.textContent = say("thingsTitle", { count: things.length });
     this.note.textContent = this.state.fits ? "" : say("tooLong");
@@ -90,7 +90,7 @@ export class RouteForm {
       const { name, kind, radius: own } = things[k];
       put(row.name, name);
       put(row.radius, own ?? "");
-      row.radius.hidden = row.unit.hidden = own === undefined;
+      for (const part of [row.radius, row.unit]) hide(part, own === undefined);
       row.edit.textContent = say(`thing_${kind}`);
       row.edit.setAttribute("aria-pressed", this.editor.item === k);
       row.edit.setAttribute("aria-label", say("editThing", { name }));

@@ -15,18 +15,18 @@ export class View {
   /** moved(panned): called after a change of the view; clicked(x, y): in pixels of the canvas */
   constructor(canvas, { moved, clicked }) {
     Object.assign(this, { canvas, moved, clicked, x: 0, y: 0, scale: 20, fitted: true });
+    new ResizeObserver(() => this.measure()).observe(canvas);
+    this.measure();
     canvas.addEventListener("wheel", (event) => this.#wheel(event), { passive: false });
     canvas.addEventListener("pointerdown", (event) => this.#down(event));
     canvas.addEventListener("pointermove", (event) => this.#move(event));
     for (const type of ["pointerup", "pointercancel"]) canvas.addEventListener(type, (event) => this.#up(event));
   }
 
-  get width() {
-    return this.canvas.clientWidth;
-  }
-
-  get height() {
-    return this.canvas.clientHeight;
+  /** Take the size of the canvas. Kept, because to read it while something changes costs a layout of the whole page. */
+  measure() {
+    const { clientWidth: width, clientHeight: height } = this.canvas;
+    Object.assign(this, { width, height });
   }
 
   toScreen(x, y) {

@@ -171,6 +171,35 @@ def test_superseded_questions_are_aborted_and_the_slider_does_not_wait(
     assert page.evaluate("window.aborted") >= 1
 
 
+def test_a_dragged_slider_sees_answers_of_a_service_that_takes_longer_than_the_grace(
+    open_page: Any, settled: Any
+) -> None:
+    page = open_page()
+    settled(page)
+    shown = page.evaluate("""async () => {
+      const ask = window.fetch;
+      window.fetch = async (url, options) => {
+        if (!String(url).startsWith("collision-time")) return ask(url, options);
+        await new Promise((resolve, reject) => {
+          setTimeout(resolve, 400);
+          options.signal.addEventListener("abort", () => reject(options.signal.reason));
+        });
+        return ask(url, options);
+      };
+      let shown = 0;
+      const answers = document.querySelector("#first-contact");
+      new MutationObserver(() => shown++).observe(answers, { childList: true });
+      const slider = document.querySelector("#controls input[type=range]");
+      for (let k = 0; k < 60; k++) {
+        slider.value = 0.6 + 0.001 * k;
+        slider.dispatchEvent(new Event("input", { bubbles: true }));
+        await new Promise((resolve) => setTimeout(resolve, 50));
+      }
+      return shown;
+    }""")
+    assert shown >= 2
+
+
 def test_a_wait_of_more_than_half_a_second_shows_its_progress(open_page: Any, settled: Any) -> None:
     page = open_page()
     settled(page)
