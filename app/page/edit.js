@@ -86,24 +86,22 @@ export class Editor {
     return pointsOf(this.#drawing, this.item);
   }
 
-  /** As many buttons as points. */
+  /** As many buttons as points, each with its name. */
   #fit() {
-    const { length } = this.#points;
-    while (this.#knots.length > length) this.#knots.pop().remove();
-    while (this.#knots.length < length) this.box.append(this.#knot(this.#knots.length));
+    const points = this.#points;
+    while (this.#knots.length > points.length) this.#knots.pop().remove();
+    while (this.#knots.length < points.length) this.box.append(this.#knot(this.#knots.length));
+    points.forEach(([x, y], k) => {
+      const label = say("knot", { k: k + 1, count: points.length, x, y });
+      if (this.#knots[k].getAttribute("aria-label") !== label) this.#knots[k].setAttribute("aria-label", label);
+    });
   }
 
   /** Put the buttons where the points are in the picture, whenever that is drawn. */
   place() {
-    const { view } = this.dance;
-    const points = this.#points;
-    this.#fit();
-    points.forEach(([x, y], k) => {
-      const knot = this.#knots[k];
-      const [px, py] = view.toScreen(x, y);
-      knot.style.transform = `translate(${px}px, ${py}px)`;
-      const label = say("knot", { k: k + 1, count: points.length, x, y });
-      if (knot.getAttribute("aria-label") !== label) knot.setAttribute("aria-label", label);
+    this.#points.forEach(([x, y], k) => {
+      const [px, py] = this.dance.view.toScreen(x, y);
+      if (this.#knots[k]) this.#knots[k].style.transform = `translate(${px}px, ${py}px)`;
     });
   }
 

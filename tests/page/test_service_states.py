@@ -16,6 +16,7 @@ import pytest
 ROOT = Path(__file__).parents[2]
 OWN_MAX, ALL_MAX = 150_000, 1_600_000  # [bytes] over the wire
 FIRST_MAX = 2_000  # [ms] from the request for the page to first contact shown
+BUSY = 1.5  # load for each core from which on times say nothing about the page
 LOADS = 3  # the quickest counts: others share the machine
 
 
@@ -299,4 +300,6 @@ def test_the_page_is_light_and_quick(browser: Any, settled: Any, server: str) ->
         assert sum(weights[one] for one in files) < OWN_MAX
         assert sum(weights.values()) < ALL_MAX
         times.append(shown)
+    if os.getloadavg()[0] > BUSY * (os.cpu_count() or 1):
+        pytest.skip(f"a machine this busy tells no times; here {min(times):.0f} ms")
     assert min(times) < FIRST_MAX
