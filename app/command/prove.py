@@ -25,7 +25,7 @@ import core
 from app.command.options import asks
 from app.files.disk import checked_output, read_dance, write_whole
 from app.questions.check import CheckRequest
-from app.questions.tolerance import ToleranceQuery
+from app.questions.tolerance import CircleQuery
 from app.settings import Settings
 from app.wire.dances import DanceQuery, HeadSpeed, UniformDragon
 from app.wire.messages import checked
@@ -80,7 +80,7 @@ class TurnClaim(_Thorough, HeadSpeed, TurnFields, UniformDragon):
     margin: Margin = 0.0
 
 
-class StrayClaim(_Thorough, ToleranceQuery):
+class StrayClaim(_Thorough, CircleQuery):
     """How far people may stray until the head is on the circle."""
 
     stray: float | None = measure(

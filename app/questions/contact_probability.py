@@ -9,7 +9,7 @@ from pydantic import Field
 
 import core
 from app.questions.question import Question, Terms
-from app.questions.tolerance import ToleranceQuery
+from app.questions.tolerance import CircleQuery
 from app.wire.answers import Pair
 from app.wire.dances import DanceFields
 from app.wire.models import Answer, Instant, Wire, check_limit, measure
@@ -53,7 +53,7 @@ class Wobbling(Wire):
         return core.Wobble(**{name: getattr(self, name) for name in core.Wobble.__slots__})
 
 
-class ContactProbabilityQuery(Wobbling, ToleranceQuery):
+class ContactProbabilityQuery(Wobbling, CircleQuery):
     """How likely is it that benches touch on the way to a turning circle?"""
 
 

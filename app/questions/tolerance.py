@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Self
+from typing import Annotated, Self
 
 from pydantic import Field
 
@@ -10,18 +10,31 @@ import core
 from app.questions.question import Question, Terms
 from app.wire.answers import Point
 from app.wire.dances import DanceFields, DanceQuery, PlacedDance
-from app.wire.models import Answer, Instant, TurningDiameter, measure
+from app.wire.models import Answer, Instant, TurningDiameter, Wire, measure
 from core import Exhibit, InvalidValue, Limit
 from core.tolerance.curve import time_on_circle
 
+SizeError = Annotated[float, Field(ge=0, le=5)]
 
-class ToleranceQuery(DanceQuery):
-    """How far may people stray on the way to a turning circle?"""
+
+class CircleQuery(DanceQuery):
+    """A dance on the way to a turning circle."""
 
     turning_diameter: TurningDiameter = measure("m", "Diameter of the circle at which the head stops", 9.0)
 
 
-class ToleranceRequest(PlacedDance, DanceFields, strict=True):
+class SizeErrors(Wire):
+    """How well sizes are known, on the way to a turning circle."""
+
+    length_error: SizeError = measure("m", "Every bench is at most so much longer or shorter, from hole to hole", 0.0)
+    pitch_error: SizeError = measure("m", "The pitch of the painted spiral is at most so much larger or smaller", 0.0)
+
+
+class ToleranceQuery(SizeErrors, CircleQuery):
+    """How far may people stray on the way to a turning circle?"""
+
+
+class ToleranceRequest(SizeErrors, PlacedDance, DanceFields, strict=True):
     """How far may people stray in any dance, between each other and to a venue?"""
 
     start: Instant | None = measure(
@@ -61,6 +74,11 @@ class Tolerance(Answer):
     simple: float = measure(
         "m", "What the simple bound knows: no point of a bench moves further than a factor of its own times the stray"
     )
+    stray_with_errors: float | None = measure(
+        "m",
+        "Proven safe whatever the sizes are within length_error and pitch_error, 0: none is known to be; null without "
+        "such errors",
+    )
     stray_bracket: tuple[float, float | None] = measure(
         "m", "Proven safe; shown to touch, null where no such pose was found"
     )
@@ -79,8 +97,8 @@ class Tolerance(Answer):
     certificate: StrayProof = Field(description="How the safe stray is known")
 
     @classmethod
-    def of(cls, found: core.Tolerance) -> Self:
-        return cls.known(found, exhibit=Shown.of(found.exhibit))
+    def of(cls, found: core.Tolerance, with_errors: float | None) -> Self:
+        return cls.known(found, exhibit=Shown.of(found.exhibit), stray_with_errors=with_errors)
 
 
 def tolerance(asked: ToleranceQuery | ToleranceRequest, terms: Terms) -> Tolerance:
@@ -93,7 +111,19 @@ def tolerance(asked: ToleranceQuery | ToleranceRequest, terms: Terms) -> Toleran
         if not isinstance(dance.path, core.Spiral) or stop is not None:
             raise InvalidValue("turning_diameter", "turning_diameter ends a dance on a spiral that has no stop")
         stop = time_on_circle(dance, asked.turning_diameter / 2)
-    return Tolerance.of(core.tolerance(dance, venue, start=start, stop=stop, budget=budget))
+    with_errors = _with_errors(asked, dance, placed=venue is not None)
+    return Tolerance.of(core.tolerance(dance, venue, start=start, stop=stop, budget=budget), with_errors)
+
+
+def _with_errors(asked: ToleranceQuery | ToleranceRequest, dance: core.Dance, *, placed: bool) -> float | None:
+    errors = {"length_error": asked.length_error, "pitch_error": asked.pitch_error}
+    if not any(errors.values()):
+        return None
+    if asked.turning_diameter is None or placed or not isinstance(dance.path, core.Spiral):
+        field = next(name for name, error in errors.items() if error)
+        rule = "must be 0 but for a dance without a venue on a spiral that ends on a circle (turning_diameter)"
+        raise InvalidValue.of(field, rule, errors[field], "m")
+    return core.uncertain_tolerance(dance.dragon, dance.path.pitch, **errors, turning_radius=asked.turning_diameter / 2)
 
 
 QUESTION = Question(tolerance, Tolerance, flat=ToleranceQuery, body=ToleranceRequest)

@@ -161,7 +161,8 @@ def contact_probability(
         bound = None if model.pitch_error or model.play else union_bound(steady, model, at, budget)
     except Halted as halted:
         rule = "must be fewer, or the time asked about shorter: the probability of a contact was not found {then}"
-        raise halted.budget.too_much("samples", rule, len(which), "") from halted
+        many = ("samples", rule, len(which)) if len(which) > 1 else ("dragon.benches", rule, dance.dragon.benches)
+        raise halted.budget.too_much(*many, "") from halted
     safe = None if model.pitch_error else tolerance(dance, start=begin, stop=until, budget=budget).stray
     touched = np.flatnonzero(found.instant < count)
     contacts, total = touched.size, len(which)

@@ -142,10 +142,10 @@ def _reach(dragon: Dragon, stray: float, supports: Callable[..., Floats]) -> Rea
     spread[:alike] = kinds
     overhangs = half_lengths[spread] * (1.0 + SUPPORT_ROUNDING) - 0.5 * dragon.chords
     bounds = dragon.outlined(overhangs, 2.0 * half_widths[spread])
-    return Reach(bounds, hulls, kinds, *_ring_bounds(dragon.chords[:alike], hulls, kinds))
+    return Reach(bounds, hulls, kinds, *ring_bounds(dragon.chords[:alike], hulls, kinds))
 
 
-def _ring_bounds(chords: Floats, hulls: Floats, kinds: NDArray[np.int64]) -> tuple[Floats, float, float]:
+def ring_bounds(chords: Floats, hulls: Floats, kinds: NDArray[np.int64]) -> tuple[Floats, float, float]:
     """Reach.corners, middle_half_width and within; no corners are further out and aside than the first of front ends.
 
     Benches from the third on, or the last, can be the outer one of a pair.

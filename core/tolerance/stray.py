@@ -54,5 +54,5 @@ def checked_stray(stray: object, dragon: Dragon) -> float:
     most = 0.5 * float(dragon.chords[bench])
     if total > most:
         rule = f"must be at most half the chord of bench {bench} ({most:.9g} m)"
-        raise InvalidValue("stray", f"stray {rule}, got {said(total)} m")
+        raise InvalidValue("stray", f"stray {rule}, got {total:.9g} m")
     return total

@@ -2,27 +2,34 @@
 
 Errors of chords add up along the chain: after a turn nobody knows any more which bench stands beside which. So the
 bound must hold whatever the phase of a turn against the next one. The ring bound does (core/kernels/rings.py): it asks
-how long and how short chords can be, not where they begin, and it holds for a range of growths. With L its value for
-all chords l within the error of theirs, two benches that share no handle are L apart at least while the head is
-outside the circle, each in its place.
+how long and how short chords can be, not where they begin, and it holds for a range of growths. Asked of the ground
+that benches may cover (core/tolerance/reach.py) with chords l within the error of theirs, it tells whether two benches
+that share no handle stay apart while the head is outside the circle. The largest stray for which it does is bisected.
 
-No point of a bench moves further than A stray, A its gain (core/tolerance/reach.py), which falls as its chord grows.
-Two benches cannot touch while 2 A stray < L, A the largest of all.
+The ground of a bench whose chord is not known. In the frame of its nominal place, with the hole that a point p is near
+at 0, let the bench turn by phi. Then p moves by d + (exp(i phi) - 1) p, d the stray of that hole, and the other hole
+may stray too if |d - l (exp(i phi) - 1)| <= stray. If that holds of l, then of any shorter chord: d lies in the discs
+around 0 and around l (exp(i phi) - 1), so in that around each point between. Hence beyond a hole the ground of the
+shortest chord holds that of any other. Between the holes a point of the centre line goes aside by no more than the
+stray, as it is between two that do, and a side by half of the width more.
 """
 
 from __future__ import annotations
 
-import math
+from dataclasses import replace
+
+import numpy as np
 
 from core import kernels
 from core.contact.search import Search
 from core.dragon import Dragon
 from core.paths.spiral import Spiral
-from core.tolerance.reach import gain
+from core.sampling import bisected
+from core.tolerance.reach import SUPPORT_ROUNDING, Reach, reach, ring_bounds
 from core.values import asked_of, checked_number, checked_size
 
-# Taken off the bound, for the rounding of A and of chords [1].
-ROUNDING = 1e-12
+# The largest stray is bisected to this part of half a chord [1].
+WIDTH = 1e-6
 
 
 @asked_of("dragon", Dragon)
@@ -42,17 +49,39 @@ def uncertain_tolerance(
     raises: InvalidValue
 
     >>> round(uncertain_tolerance(Dragon(), 0.7, length_error=0.01, pitch_error=0.005), 4)
-    0.0765
+    0.094
     """
     radius, spiral = checked_size("turning_radius", turning_radius), Spiral(pitch)
     shortest = float(dragon.chords.min())
     error = checked_number("length_error", length_error, "m", 0.0, 0.5 * shortest)
     spread = checked_number("pitch_error", pitch_error, "m", 0.0, 0.5 * spiral.pitch)
-    longer = Dragon.of(dragon.lengths + error, dragon.widths, dragon.overhangs)
-    search = Search(longer, spiral, 0.0)
-    search.rings.between_shortest -= 2.0 * error
-    low, high = ((spiral.pitch + off) / (2.0 * math.pi) for off in (-spread, spread))
-    least = float(kernels.ring_least(low, high, radius, search.rings)) - search.ring_rounding(radius, high)
-    most = float(gain(dragon.chords - error, dragon.overhangs, 0.5 * dragon.widths).max())
-    stray = (1.0 - ROUNDING) * least / (2.0 * most)
-    return min(max(stray, 0.0), 0.5 * (shortest - error))
+    low, high = ((spiral.pitch + off) / (2.0 * np.pi) for off in (-spread, spread))
+    longer, shorter = (Dragon.of(dragon.lengths + off, dragon.widths, dragon.overhangs) for off in (error, -error))
+
+    def covered(longer: Dragon, stray: float) -> Reach:
+        return _longer_reach(reach(shorter, stray), longer, stray)
+
+    def touches(stray: float) -> bool:
+        search = Search(longer, spiral, 0.0, stray=stray, covered=covered)
+        search.rings.between_shortest -= 2.0 * error
+        return float(kernels.ring_least(low, high, radius, search.rings)) <= search.ring_rounding(radius, high)
+
+    most = 0.5 * float(shorter.chords.min())
+    if not touches(most):
+        return most
+    return bisected(touches, 0.0, most, width=WIDTH * most)[0]
+
+
+def _longer_reach(ground: Reach, longer: Dragon, stray: float) -> Reach:
+    """What benches may cover whose chords are unknown, up to those of a dragon; ground: of the shortest chords [m]."""
+    alike = len(ground.kinds)
+    hulls = ground.hulls.copy()
+    further = np.empty(len(hulls))
+    further[ground.kinds] = 0.5 * (longer.chords - ground.bounds.chords)[:alike]
+    hulls[:, 0, :, 0] += further[:, None]
+    hulls[:, 2, :, 0] -= further[:, None]
+    sides = 0.5 * longer.widths + stray * (1.0 + SUPPORT_ROUNDING)
+    bounds = longer.outlined(ground.bounds.overhangs, np.maximum(ground.bounds.widths, 2.0 * sides))
+    corners, middle, within = ring_bounds(longer.chords[:alike], hulls, ground.kinds)
+    middle = max(middle, float(sides.max()))
+    return replace(ground, bounds=bounds, hulls=hulls, corners=corners, middle_half_width=middle, within=within)

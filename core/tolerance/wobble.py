@@ -63,7 +63,7 @@ class Wobble(Shown):
         step = checked_number("model.step", given, "s", 0.0, CORRELATION_MAX, open_low=True)
         most = self.correlation_time / INSTANTS_PER_TIME
         if step > most and not math.isclose(step, most):
-            rule = f"{{field}} must be at most {said(most)} s, 1 / {INSTANTS_PER_TIME} of {{time}}, got {said(step)} s"
+            rule = f"{{field}} must be at most {most:.9g} s, 1 / {INSTANTS_PER_TIME} of {{time}}, got {said(step)} s"
             raise InvalidValue("model.step", rule, time="model.correlation_time")
         return step
 
@@ -82,16 +82,18 @@ def check_sizes(dance: Dance, model: Wobble) -> None:
     """raises: InvalidValue for a model whose sizes do not fit a dance"""
     bench = int(dance.dragon.chords.argmin())
     most = SIZE_PART * float(dance.dragon.chords[bench])
-    for name, size in (("lateral", model.lateral), ("forward", model.forward), ("hole", model.play)):
+    of = f"{SIZE_PART} of the chord of bench {bench} ({most:.9g} m)"
+    for name, size in (("lateral", model.lateral), ("forward", model.forward)):
         if size > most:
-            what = "leave a play of at most" if name == "hole" else "be at most"
-            rule = f"must {what} {SIZE_PART} of the chord of bench {bench} ({said(most)} m)"
-            raise InvalidValue.of(f"model.{name}", rule, size, "m")
+            raise InvalidValue.of(f"model.{name}", f"must be at most {of}", size, "m")
+    if model.play > most:
+        rule = f"{{field}} must leave a play of at most {of} around its {{pin}}, got {model.play:.9g} m of play"
+        raise InvalidValue("model.hole", rule, pin="model.pin")
     if model.pitch_error > 0.0:
         if not isinstance(dance.path, Spiral):
             rule = "must be 0 on a path that is no spiral"
             raise InvalidValue.of("model.pitch_error", rule, model.pitch_error, "m")
         most = PITCH_PART * dance.path.pitch
         if model.pitch_error > most:
-            rule = f"must be at most {PITCH_PART} of the pitch ({said(most)} m)"
+            rule = f"must be at most {PITCH_PART} of the pitch ({most:.9g} m)"
             raise InvalidValue.of("model.pitch_error", rule, model.pitch_error, "m")

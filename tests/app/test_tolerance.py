@@ -22,11 +22,13 @@ from core import (
     overlaps,
     tolerance,
     tolerance_curve,
+    uncertain_tolerance,
 )
 from core.tolerance.curve import time_on_circle
 
 ROOT = Path(__file__).parent.parent.parent
 SMALL = {"benches": 40, "start_turns": 9}
+SQUARE = {"type": "Polygon", "coordinates": [[[-15, -15], [15, -15], [15, 15], [-15, 15], [-15, -15]]]}
 
 
 def test_the_way_to_the_circle_has_the_tolerance_of_core_and_a_pose_that_overlaps(client: httpx.Client) -> None:
@@ -50,6 +52,36 @@ def test_any_dance_in_any_venue_has_one(client: httpx.Client) -> None:
     assert got["limited_by"] == "venue"
     assert got["benches"][1] is None
     assert 0.0 < got["stray"] < alone["stray"]
+
+
+def test_sizes_may_be_known_only_to_within_an_error(client: httpx.Client) -> None:
+    errors = {"length_error": 0.01, "pitch_error": 0.005}
+    got = client.get("/tolerance", params=SMALL | errors | {"pitch": 0.7}).raise_for_status().json()
+    assert got["stray_with_errors"] == uncertain_tolerance(Dragon(40), 0.7, **errors)
+    assert 0.0 < got["stray_with_errors"] < got["stray"]
+    spiral = {"kind": "spiral", "pitch": 0.7, "start_turns": 9}
+    body = {"dragon": {"benches": 40}, "path": spiral, "turning_diameter": 9} | errors
+    assert client.post("/tolerance", json=body).raise_for_status().json() == got
+    exact = client.get("/tolerance", params=SMALL | {"pitch": 0.7}).json()
+    assert exact == got | {"stray_with_errors": None}
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        ({"turning_diameter": None}, "length_error must be 0 but for a dance without a venue on a spiral that ends on"),
+        ({"venue": SQUARE}, "length_error must be 0 but for a dance without a venue"),
+        ({"path": {"kind": "turn"}, "turning_diameter": None}, "length_error must be 0 but for a dance"),
+        ({"length_error": 0.9}, "length_error must be at most 0.825 m, got 0.9 m"),
+    ],
+    ids=["no circle", "venue", "turn", "too large"],
+)
+def test_errors_of_sizes_are_for_a_spiral_to_a_circle(client: httpx.Client, change: dict[str, Any], words: str) -> None:
+    body = {"dragon": {"benches": 12}, "turning_diameter": 9, "length_error": 0.01}
+    refused = client.post("/tolerance", json=body | change)
+    assert refused.status_code == 422
+    assert refused.json()["errors"][0]["pointer"] == "/length_error"
+    assert refused.json()["detail"].startswith(words)
 
 
 def test_the_curve_begins_at_the_minimum_pitch_and_holds_the_tolerances_of_core(client: httpx.Client) -> None:

@@ -24,7 +24,7 @@ def test_no_benches_and_no_pitch_within_their_errors_allow_less(seed: int) -> No
     drawn = Dragon.of(dragon.lengths + error * off[:70], dragon.widths, dragon.overhangs)
     dance = Dance(drawn, Spiral(pitch + spread * off[70], 9.0))
     known = tolerance(dance, stop=time_on_circle(dance, CIRCLE)).stray
-    assert 0.0 < safe < known < 2.5 * safe
+    assert 0.0 < safe < known < 2.0 * safe
 
 
 @pytest.mark.parametrize(

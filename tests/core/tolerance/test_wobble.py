@@ -34,9 +34,13 @@ def test_a_model_that_cannot_be_is_refused(given: dict[str, Any], message: str) 
 @pytest.mark.parametrize(
     ("dance", "model", "words"),
     [
-        (DANCE, Wobble(lateral=0.2), "model.lateral must be at most 0.1 of the chord of bench 1 (0.165"),
-        (DANCE, Wobble(hole=0.5), "model.hole must leave a play of at most 0.1 of the chord of bench 1"),
-        (DANCE, Wobble(pitch_error=0.06), "model.pitch_error must be at most 0.1 of the pitch (0.055"),
+        (DANCE, Wobble(lateral=0.2), "model.lateral must be at most 0.1 of the chord of bench 1 (0.165 m), got 0.2 m"),
+        (
+            DANCE,
+            Wobble(hole=0.5),
+            "model.hole must leave a play of at most 0.1 of the chord of bench 1 (0.165 m) around",
+        ),
+        (DANCE, Wobble(pitch_error=0.06), "model.pitch_error must be at most 0.1 of the pitch (0.055 m), got 0.06 m"),
         (Dance(Dragon(5), Turn(1.7)), Wobble(pitch_error=0.01), "model.pitch_error must be 0 on a path that is no"),
     ],
     ids=["lateral", "play", "pitch error", "no spiral"],
