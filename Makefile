@@ -1,7 +1,7 @@
 # The first `make` in a fresh clone creates .venv, installs the locked versions and compiles core/kernels.
 SHELL := /bin/bash
 .DEFAULT_GOAL := help
-.PHONY: help setup serve test rounding lint sweep-pitch sweep-kills job-kills soak fuzz bench ccd examples figures dist lock clean
+.PHONY: help setup serve test rounding libreoffice lint sweep-pitch sweep-kills job-kills soak fuzz bench ccd examples figures dist lock clean
 
 VENV := .venv
 BIN := $(VENV)/bin
@@ -17,6 +17,7 @@ help:
 	@echo 'make serve    the service on http://$(HOST):$(PORT) (HOST=, PORT=)'
 	@echo 'make test     all tests (ARGS= for pytest)'
 	@echo 'make rounding 10,000 computed gaps against 50-digit arithmetic and the bounds on rounding (ARGS="GAPS SEED")'
+	@echo 'make libreoffice  the three workbooks as LibreOffice writes them, graded (needs libreoffice-calc; ARGS=--renew: the small ones)'
 	@echo 'make lint     ruff and mypy'
 	@echo 'make sweep-pitch  the minimum pitch of 2,000 random dragons against a slow scan, 10 minutes (DRAGONS=, FIRST=)'
 	@echo 'make sweep-kills  a sweep of 200,000 designs on a Dask cluster with 50 kills, half an hour (DESIGNS=, KILLS=, FIRST=)'
@@ -58,6 +59,9 @@ test: setup
 
 rounding: setup
 	@$(BIN)/python -m tests.core.rounding_sweep $(or $(ARGS),10000)
+
+libreoffice: setup
+	@$(BIN)/python -m tests.app.grade.libreoffice $(ARGS)
 
 lint: setup
 	@$(BIN)/ruff check .

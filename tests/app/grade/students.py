@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 import math
 from collections.abc import Callable
+from functools import cache
 from typing import Any
 
 import numpy as np
@@ -24,6 +25,8 @@ Sheets = dict[str, list[list[Any]]]
 SPIRAL_TIMES, TURN_TIMES = np.arange(301.0), np.arange(-100.0, 101.0)
 B, START = 0.55 / (2.0 * math.pi), 32.0 * math.pi
 CONTACT = 412.47383768211466  # [s]
+# Cells of the contest's three workbooks.
+ALL_CELLS = 338_016
 
 
 def of(dance: Dance, times: Floats) -> Results:
@@ -257,3 +260,13 @@ def by_xlsxwriter(sheets: Sheets) -> bytes:
 def few() -> Sheets:
     """A result1 of a few instants."""
     return rows_of(spiral(SPIRAL_TIMES[:4]), SPIRAL_TIMES[:4])
+
+
+@cache
+def three() -> list[Sheets]:
+    """Rows of the contest's workbooks, by the titles of their sheets."""
+    [[position], [speed]] = spiral(np.array([CONTACT]))
+    lines = zip(labels("speed"), position.tolist(), speed.tolist(), strict=True)
+    contact = [[label.removesuffix(" (m/s)"), *(round(value, 6) for value in (*p, v))] for label, p, v in lines]
+    second = {"Sheet1": [[None, "横坐标x (m)", "纵坐标y (m)", "速度 (m/s)"], *contact]}
+    return [rows_of(spiral(), SPIRAL_TIMES), second, rows_of(turn(), TURN_TIMES)]

@@ -50,7 +50,39 @@ def transposed_bare(rows: list[list[Any]]) -> list[list[Any]]:
     return transposed(bare_times(rows))
 
 
-LAYOUTS = [transposed, transposed_bare, full_width, bare_times, below_a_title]
+def by_wps(rows: list[list[Any]]) -> list[list[Any]]:
+    """A title, a head of two lines, labels without blanks and with full-width brackets, a note below."""
+    labels = [[str(row[0]).replace(" ", "").replace("(", "（").replace(")", "）"), *row[1:]] for row in rows[1:]]
+    heads = [["把手", "时间（s）"], [None, *range(len(rows[0]) - 1)]]
+    return [["表1 问题一结果"], *heads, *labels, [], ["注：保留六位小数"]]
+
+
+def by_google(rows: list[list[Any]]) -> list[list[Any]]:
+    """Blanks to the end of a sheet that nobody filled: 1,000 lines of 26 columns, times as text."""
+    wide = [[*row, *[None] * (26 - len(row))] for row in rows]
+    return [*wide, *[[""] * 26] * (1000 - len(rows))]
+
+
+def by_pandas_without_index(rows: list[list[Any]]) -> list[list[Any]]:
+    return [["Unnamed: 0", *rows[0][1:]], *rows[1:]]
+
+
+def by_pandas_with_numbers(rows: list[list[Any]]) -> list[list[Any]]:
+    """The labels are a column of the table, and its own index stands before them."""
+    return [[None, "handle", *rows[0][1:]], *([k, *row] for k, row in enumerate(rows[1:]))]
+
+
+LAYOUTS = [
+    by_wps,
+    by_google,
+    by_pandas_without_index,
+    by_pandas_with_numbers,
+    transposed,
+    transposed_bare,
+    full_width,
+    bare_times,
+    below_a_title,
+]
 
 
 @pytest.mark.parametrize("change", LAYOUTS, ids=lambda change: change.__name__)
