@@ -28,6 +28,7 @@ ORDER = (
     "core.kernels.route",
     "core.kernels.rounding",
     "core.kernels.chain",
+    "core.kernels.stretches",
     "core.kernels.bounds",
     "core.kernels.rings",
     "core.kernels.scene",

@@ -16,6 +16,7 @@ TESTED_WITH = {
     "contact/walls.py": "test_venue.py",
     "failures.py": "test_verdict.py",
     "kernels/bends.py": "kernels/test_pairs.py",
+    "kernels/stretches.py": "kernels/test_bounds.py",
     "kernels/faces.py": "kernels/test_hulls.py",
     "tolerance/exhibit.py": "tolerance/test_tolerance.py",
 }

@@ -8,11 +8,12 @@ Angles are in radians, lengths on a spiral in units of its growth unless a name 
 
 constants    columns of the arrays, shared numbers       records     values with names that inner loops hand on
 halt         what ends a loop before it is done
-spiral       arc length, next handle, trajectory, chain        fold        where a run ends
+spiral       arc length, next handle, trajectory               fold        where a run ends
 rectangles   signed separation of two                          boxes       which may touch
-route        points and chain on a table of pieces             chain       curves of either kind
+route        points and chain on a table of pieces             chain       of a spiral, and of either kind
 rounding     how far all of these may be from the truth
 scene        who dances where, intervals of head travel        bounds      how fast handles and benches move at most
+stretches    how curved the path under a bench is
 hulls        benches as unions of hulls                        bends       how a gap of two curves at most
 faces        how near two unions of hulls come                 pairs       how near two benches come at most
 nearest      how near any two come                             rings       benches too far out to touch
@@ -27,11 +28,13 @@ from core.kernels.boxes import BOXES_PER_LEAF, Meetings, grow_tree
 from core.kernels.chain import (
     Curve,
     chain_rounding,
+    extend_chain,
     place_chain,
     route_curve,
     route_tail,
     route_trajectory,
     spiral_curve,
+    start_chain,
 )
 from core.kernels.clearance import bottom_between, clearance_at, clearance_left, gap_at, gap_rate_at, meet
 from core.kernels.constants import *
@@ -51,7 +54,6 @@ from core.kernels.speed import Peak
 from core.kernels.spiral import (
     COMPILED,
     LANES_PER_BLOCK,
-    extend_chain,
     first_crest,
     first_root,
     spiral_arc,
@@ -59,8 +61,7 @@ from core.kernels.spiral import (
     spiral_theta,
     spiral_thetas,
     spiral_trajectory,
-    start_chain,
-    steepest_bend,
 )
+from core.kernels.stretches import steepest_bend
 from core.kernels.strips import Strip
 from core.kernels.wobble import Wobbler

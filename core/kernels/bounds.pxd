@@ -1,13 +1,13 @@
 cimport cython
 from core.kernels.constants cimport *
 from core.kernels.records cimport Cosines, Link, Stretch
-from core.kernels.spiral cimport spiral_curvature, steepest_bend
+from core.kernels.spiral cimport spiral_curvature
+from core.kernels.stretches cimport blur_of, link_stretch, parts_between
 from core.kernels.rounding cimport spiral_rounding
 
 cdef double TRIAL
 cdef double RATIO_FOLLOWED
 cdef double SPIRAL_TURN
-cdef double ROUTE_TURN
 cdef double LOOSEN
 cdef double TIGHTEN
 cdef double ROUTE_BEND_ROUNDED
@@ -15,8 +15,6 @@ cdef double ROUTE_BEND_ROUNDED
 cdef void stand_between(
     Py_ssize_t k, double[:, ::1] before, double[:, ::1] after, double widened, double[:, ::1] motion
 ) noexcept nogil
-
-cdef double blur_of(Py_ssize_t k, double turned, double[:, ::1] before, double[:, ::1] after) noexcept nogil
 
 cdef void bench_bounds(
     Py_ssize_t k, double rate_a, double rate_b, double omega, double spin, double pull, double[:, ::1] sizes,
@@ -40,37 +38,10 @@ cpdef bint motion_bounds(
     double[:, ::1] motion
 ) noexcept nogil
 
-@cython.locals(p=cython.Py_ssize_t)
-cdef (double, double) stretch_curvature(
-    const double[:, ::1] pieces, Py_ssize_t rear, double k_rear, Py_ssize_t front, double k_front
-) noexcept nogil
-
-@cython.locals(p=cython.Py_ssize_t)
-cdef Py_ssize_t reached_piece(
-    const double[:, ::1] pieces, Py_ssize_t k, double way, double[:, ::1] chain
-) noexcept nogil
-
-@cython.locals(p=cython.Py_ssize_t)
-cdef double stretch_slope(
-    const double[:, ::1] pieces, Py_ssize_t k, Py_ssize_t rear, Py_ssize_t front, double[:, ::1] before,
-    double[:, ::1] after
-) noexcept nogil
-
 cdef (double, double) link_cosines(Py_ssize_t k, double[:, ::1] chain) noexcept nogil
 
 cdef double swing_bound(
     double low, double high, double rate, double rate_low, double ratio, double ratio_low
-) noexcept nogil
-
-@cython.locals(rear=cython.Py_ssize_t, front=cython.Py_ssize_t)
-cdef double parts_between(
-    const double[:, ::1] pieces, Py_ssize_t k, double[:, ::1] before, double[:, ::1] after
-) noexcept nogil
-
-@cython.locals(p=cython.Py_ssize_t, q=cython.Py_ssize_t)
-cdef Stretch link_stretch(
-    const double[:, ::1] pieces, Py_ssize_t k, Py_ssize_t benches, double[:, ::1] sizes, double[:, ::1] before,
-    double[:, ::1] after
 ) noexcept nogil
 
 cdef Cosines route_cosines(

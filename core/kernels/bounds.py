@@ -5,9 +5,10 @@ from cython.cimports.libc.math import fabs, sqrt
 
 if not cython.compiled:  # for the compiler the same stands in the .pxd
     from core.kernels.constants import *
-    from core.kernels.records import Cosines, Link, Stretch
+    from core.kernels.records import Cosines, Link
     from core.kernels.rounding import spiral_rounding
-    from core.kernels.spiral import spiral_curvature, steepest_bend
+    from core.kernels.spiral import spiral_curvature
+    from core.kernels.stretches import blur_of, link_stretch, parts_between
 
 # The head's travel sigma [m] is the variable; ' is d / d sigma. On [L, R] of width h every quantity below is an
 # upper (or _low lower) bound over the whole interval, from the curvature range [k_low, k_high] of the stretch
@@ -83,7 +84,6 @@ RATIO_FOLLOWED = 1.001
 #                a factor LOOSEN (for lower bounds TIGHTEN) a link keeps them above (below) the truth.
 # What is computed from a motion row once, and not from link to link, is good to 1e-13 of itself, which h makes up for.
 SPIRAL_TURN = 13.0
-ROUTE_TURN = 2.2
 LOOSEN = 1.0 + 4e-15
 TIGHTEN = 1.0 - 4e-15
 # A bend just at the limit of what a chord can follow, widened.
@@ -96,15 +96,6 @@ def stand_between(k, before, after, widened, motion):
     motion[k, THETA_HIGH] = before[k, THETA]
     motion[k, CURVATURE_LOW] = spiral_curvature(before[k, THETA]) * (1.0 - widened)
     motion[k, CURVATURE_HIGH] = spiral_curvature(after[k, THETA]) * (1.0 + widened)
-
-
-def blur_of(k, turned, before, after):
-    """How far the cosines of a link's angles may be from the true ones at either end of an interval [1].
-
-    turned: how far the tangent at either handle turns at most while that is displaced along the path [1/m]
-    """
-    slip = max(before[k + 1, SLIP], after[k + 1, SLIP])
-    return 2.0 * max(before[k, SWAY], after[k, SWAY]) + turned * slip + 16.0 * ULP
 
 
 def bench_bounds(k, rate_a, rate_b, omega, spin, pull, sizes, motion):
@@ -223,56 +214,6 @@ def motion_bounds(growth, h, benches, sizes, before, after, motion):
     return True
 
 
-def stretch_curvature(pieces, rear, k_rear, front, k_front):
-    """Lowest and highest curvature from a place on piece `rear` to one on piece `front` [1/m].
-
-    Within a piece it lies between its ends; for a crest the row holds bounds.
-    """
-    low = FREE
-    high = -FREE
-    for p in range(rear, front + 1):
-        start = pieces[p, K_START]
-        end = pieces[p, K_END]
-        if pieces[p, PIECE_KIND] != CREST:
-            if p == rear:
-                start = k_rear
-            if p == front:
-                end = k_front
-        low = start if start < low else low
-        low = end if end < low else low
-        high = start if start > high else high
-        high = end if end > high else high
-    return low, high
-
-
-def reached_piece(pieces, k, way, chain):
-    """The piece of handle k, or where rounding may hide that it has crossed a joint that way (1 forwards), the next."""
-    p = cython.cast(cython.Py_ssize_t, chain[k, PIECE])
-    s = -chain[k, PLACE]
-    slip = chain[k, SLIP] + 8.0 * ULP * fabs(s)
-    if way > 0.0 and p + 1 < pieces.shape[0] and s + slip > pieces[p, S_END]:
-        return p + 1
-    if way < 0.0 and p > 0 and s - slip < pieces[p, S_START]:
-        return p - 1
-    return p
-
-
-def stretch_slope(pieces, k, rear, front, before, after):
-    """Bound on |d curvature / d s| from the rear of bench k, on piece `rear`, to its front over an interval, jumps left
-    out [1/m^2].
-
-    On a spiral it falls with theta, so that the innermost handle's serves (see steepest_bend()).
-    """
-    slope = 0.0
-    if rear == front and pieces[rear, PIECE_KIND] == SPIRAL:
-        theta = min(before[k + 1, PIECE_THETA], after[k, PIECE_THETA])
-        if theta >= 0.5:
-            return steepest_bend(theta) / (pieces[rear, COIL_GROWTH] * pieces[rear, COIL_GROWTH])
-    for p in range(rear, front + 1):
-        slope = max(slope, pieces[p, K_SLOPE])
-    return slope
-
-
 def link_cosines(k, chain):
     """Cosines of the angles between bench k and the tangents at its front and its rear handle."""
     return (
@@ -286,33 +227,6 @@ def swing_bound(low, high, rate, rate_low, ratio, ratio_low):
     follower's ratio to them."""
     fastest = rate * max(1.0, ratio)
     return high * fastest - low * (rate_low * min(1.0, ratio_low) if low > 0.0 else fastest)
-
-
-def parts_between(pieces, k, before, after):
-    """Number of parts by which handle k has advanced in the second of two chains."""
-    rear = cython.cast(cython.Py_ssize_t, before[k, PIECE])
-    front = cython.cast(cython.Py_ssize_t, after[k, PIECE])
-    return pieces[front, PART] - pieces[rear, PART]
-
-
-def link_stretch(pieces, k, benches, sizes, before, after):
-    """The stretch of a route that bench k sweeps: how curved it is, see Stretch in records.py."""
-    chord = sizes[k, CHORD]
-    p = reached_piece(pieces, k + 1, -1.0, before)
-    q = reached_piece(pieces, k, 1.0, after)
-    low, high = stretch_curvature(pieces, p, before[k + 1, CURVATURE], q, after[k, CURVATURE])
-    slope = stretch_slope(pieces, k, p, q, before, after)
-    widened = 32.0 * ULP * (benches + 8.0) / chord + pieces[0, BENT]
-    widened += slope * max(before[k + 1, SLIP], after[k + 1, SLIP])
-    high += widened
-    low -= widened
-    if high <= 0.0:
-        low, high = -high, -low
-    elif low < 0.0:
-        high = high if high > -low else -low
-        low = -high
-    blur = blur_of(k, ROUTE_TURN / chord, before, after)
-    return Stretch(chord, low, high, slope, widened, 0.5 * high * chord, blur)
 
 
 def route_cosines(k, h, stretch, rate_a, rate_low, before, after):

@@ -1,6 +1,6 @@
 cimport cython
 from core.kernels.constants cimport *
-from core.kernels.spiral cimport extend_chain, spiral_theta, start_chain
+from core.kernels.spiral cimport first_guess, next_handle, spiral_theta
 from core.kernels.route cimport extend_route, start_route
 from core.kernels.rounding cimport route_rounding, spiral_rounding
 
@@ -12,6 +12,13 @@ cdef class Curve:
 
 cpdef Curve spiral_curve(double growth)
 cpdef Curve route_curve(const double[:, ::1] pieces)
+
+cpdef void start_chain(double theta, double[:, ::1] chain) noexcept nogil
+
+@cython.locals(k=cython.Py_ssize_t, alike=cython.Py_ssize_t)
+cpdef Py_ssize_t extend_chain(
+    double growth, Py_ssize_t first, Py_ssize_t last, double radius, double[:, ::1] sizes, double[:, ::1] chain
+) noexcept nogil
 
 cdef Py_ssize_t extend(
     Curve curve, Py_ssize_t first, Py_ssize_t last, double[:, ::1] sizes, double[:, ::1] chain

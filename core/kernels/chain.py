@@ -1,16 +1,16 @@
-"""Either kind of path, and the chain of one instant on it.
+"""Either kind of path, and the chain of one instant on it: on a spiral, or (core/kernels/route.py) on a route.
 
 `place` falls in the direction of travel: the arc length from the centre of a spiral, minus s on a route.
 """
 
 import cython
-from cython.cimports.libc.math import fabs
+from cython.cimports.libc.math import fabs, sqrt
 
 if not cython.compiled:  # for the compiler the same stands in the .pxd
     from core.kernels.constants import *
     from core.kernels.rounding import route_rounding, spiral_rounding
     from core.kernels.route import extend_route, start_route
-    from core.kernels.spiral import extend_chain, spiral_theta, start_chain
+    from core.kernels.spiral import first_guess, next_handle, spiral_theta
 
 
 class Curve:
@@ -30,6 +30,79 @@ def spiral_curve(growth):
 def route_curve(pieces):
     """The route of a table of pieces."""
     return Curve(ON_ROUTE, 1.0, pieces)
+
+
+def start_chain(theta, chain):
+    """Row 0: the head at polar angle 0."""
+    length = sqrt(1.0 + theta * theta)
+    chain[0, COS] = 1.0
+    chain[0, SIN] = 0.0
+    chain[0, TX] = -1.0 / length
+    chain[0, TY] = -theta / length
+    chain[0, THETA] = theta
+    chain[0, REST] = 0.0
+    chain[0, RATE] = 1.0
+    chain[0, FILLED] = chain[0, SLIP] = 0.0
+
+
+def extend_chain(growth, first, last, radius, sizes, chain):
+    """Handles after `first` until one stands at `radius` [m] or is the `last`; returns its index, FOLDED at a fold."""
+    delta = 0.0
+    k = first
+    alike = 0
+    while alike < 5 and alike < first < last and sizes[first - 1 - alike, CHORD] == sizes[first, CHORD]:
+        alike += 1
+    while k < last and growth * chain[k, THETA] < radius:
+        theta = chain[k, THETA]
+        chord = sizes[k, CHORD]
+        inverse = 1.0 / chord
+        reach = (chord / growth) * (chord / growth)
+        if k > first:
+            alike = alike + 1 if sizes[k - 1, CHORD] == chord else 0
+        if alike > 4:
+            delta = 5.0 * (theta - chain[k - 1, THETA] - (chain[k - 3, THETA] - chain[k - 4, THETA]))
+            delta += 10.0 * (chain[k - 2, THETA] - chain[k - 3, THETA] - (chain[k - 1, THETA] - chain[k - 2, THETA]))
+            delta += chain[k - 4, THETA] - chain[k - 5, THETA]
+        elif alike > 2:
+            delta = 3.0 * (theta - chain[k - 1, THETA] - (chain[k - 1, THETA] - chain[k - 2, THETA]))
+            delta += chain[k - 2, THETA] - chain[k - 3, THETA]
+        else:
+            delta = first_guess(theta, reach)
+        delta, s, c = next_handle(theta, reach, delta)
+        if delta == NO_ROOT:
+            return FOLDED
+        turn = 2.0 * s * c
+        rise = 2.0 * s * s
+        x = chain[k, COS]
+        y = chain[k, SIN]
+        chain[k + 1, COS] = x - (x * rise + y * turn)
+        chain[k + 1, SIN] = y - (y * rise - x * turn)
+        x = growth * theta * x
+        y = growth * theta * y
+        rest = delta + chain[k, REST]
+        rear = theta + rest
+        length = rear - theta
+        chain[k + 1, REST] = (theta - (rear - length)) + (rest - length)
+        chain[k + 1, THETA] = theta = rear
+        length = sqrt(1.0 + theta * theta)
+        slope = 1.0 / length
+        c = chain[k + 1, COS]
+        s = chain[k + 1, SIN]
+        chain[k + 1, TX] = (theta * s - c) * slope
+        chain[k + 1, TY] = -(theta * c + s) * slope
+        c = growth * theta * c
+        s = growth * theta * s
+        chain[k, MX] = 0.5 * (x + c)
+        chain[k, MY] = 0.5 * (y + s)
+        chain[k, UX] = (x - c) * inverse
+        chain[k, UY] = (y - s) * inverse
+        chain[k + 1, RATE] = (
+            chain[k, RATE]
+            * (chain[k, TX] * chain[k, UX] + chain[k, TY] * chain[k, UY])
+            / (chain[k + 1, TX] * chain[k, UX] + chain[k + 1, TY] * chain[k, UY])
+        )
+        k += 1
+    return k
 
 
 def extend(curve, first, last, sizes, chain):

@@ -39,7 +39,7 @@ cdef class March(Found):
     cdef double h
     cdef bint aims
     cdef double target
-    cdef double allowed
+    cdef double allowance
     cdef double floor
     cdef double older_clearance
     cdef double older_travel

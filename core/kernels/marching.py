@@ -97,7 +97,7 @@ class March(Found):
         self.start = self.stop = self.tolerance = self.rounding = self.budget = 0.0
         self.leaders = self.followers = self.active = self.placed = self.opened = 0
         self.at_start = self.opens = self.turning = self.grazes = self.grazed = self.aims = False
-        self.travel = self.h = self.target = self.allowed = 0.0
+        self.travel = self.h = self.target = self.allowance = 0.0
         self.floor = self.older_clearance = self.older_travel = self.last_travel = 0.0
         self.last = Closest(FREE, 0, 0)
         self.bend = self.graze_gap = self.graze_travel = 0.0
@@ -151,9 +151,9 @@ class March(Found):
         """Lay out the chain at the start: ADVANCED if no pair is within the margin there, else how the march ends."""
         self.followers = scene.room if self.at_start else min(self.leaders, scene.room)
         self.opens = self.at_start and scene.curve.kind == ON_SPIRAL
-        self.allowed = CLEAR_SPARE * scene.rings.clear_radius
+        self.allowance = CLEAR_SPARE * scene.rings.clear_radius
         if scene.curve.kind == ON_ROUTE:
-            self.allowed = 0.5 * PLACE_SPARE if scene.rings.clear_place < FREE else FREE
+            self.allowance = 0.5 * PLACE_SPARE if scene.rings.clear_place < FREE else FREE
         self.travel = self.older_travel = self.last_travel = self.start
         self.h = scene.rings.shortest
         self.begin(self.start)
@@ -215,7 +215,7 @@ class March(Found):
             nearest = interval_least(scene, interval, self.active)
             self.work += nearest.tried
             # a bench beyond the clear radius or place might not be there
-            if nearest.least == -FREE or nearest.error > self.allowed:
+            if nearest.least == -FREE or nearest.error > self.allowance:
                 return self.refuse(0.5)
             if nearest.least <= scene.margin:
                 return self.narrow(scene, interval, nearest)

@@ -170,16 +170,16 @@ def corner_axis(scene, i, j, chain):
 
 def proven_gap(scene, interval, i, j, distance, rounding):
     """pair_least(), less what it may be off by. rounding: of any gap, 0 where only the sums of this pair serve [m]"""
-    allowed = rounding
+    allowance = rounding
     if rounding <= 0.0:
-        allowed = pair_rounding(i, j, distance, scene.sizes, interval.before, interval.after)
-    least, bend = pair_least(scene, interval, i, j, scene.margin + allowed, distance)
+        allowance = pair_rounding(i, j, distance, scene.sizes, interval.before, interval.after)
+    least, bend = pair_least(scene, interval, i, j, scene.margin + allowance, distance)
     if rounding > 0.0:
         if not (scene.margin < least <= scene.margin + rounding):
             return least - rounding, bend
         interval.round()
-        allowed = pair_rounding(i, j, distance, scene.sizes, interval.before, interval.after)
-    return least - allowed, bend
+        allowance = pair_rounding(i, j, distance, scene.sizes, interval.before, interval.after)
+    return least - allowance, bend
 
 
 # What a strip of pitches needs of its pairs, see strips.py: shift_bounds() adds up terms >= 0, at most 60 roundings a
@@ -236,12 +236,12 @@ def band_pair_rounding(scene, band, i, j, distance):
 
 def proven_band_gap(scene, band, i, j, distance, rounding):
     """proven_gap() over a band."""
-    allowed = rounding if rounding > 0.0 else band_pair_rounding(scene, band, i, j, distance)
-    least, bend = band_pair(scene, band, i, j, scene.margin + allowed, distance)
+    allowance = rounding if rounding > 0.0 else band_pair_rounding(scene, band, i, j, distance)
+    least, bend = band_pair(scene, band, i, j, scene.margin + allowance, distance)
     if rounding > 0.0:
         if not (scene.margin < least <= scene.margin + rounding):
             return least - rounding, bend
         band.low.round()
         band.high.round()
-        allowed = band_pair_rounding(scene, band, i, j, distance)
-    return least - allowed, bend
+        allowance = band_pair_rounding(scene, band, i, j, distance)
+    return least - allowance, bend

@@ -4,12 +4,13 @@ import cython
 from cython.cimports.libc.math import fabs
 
 if not cython.compiled:  # for the compiler the same stands in the .pxd
-    from core.kernels.bounds import LOOSEN, SPIRAL_TURN, blur_of, followed_error, link_cosines
-    from core.kernels.chain import extend
+    from core.kernels.bounds import LOOSEN, SPIRAL_TURN, followed_error, link_cosines
+    from core.kernels.chain import extend, extend_chain, start_chain
     from core.kernels.constants import *
     from core.kernels.rings import drift
     from core.kernels.route import extend_route, first_place, start_route
-    from core.kernels.spiral import extend_chain, spiral_curvature, spiral_theta, start_chain, steepest_bend
+    from core.kernels.spiral import spiral_curvature, spiral_theta
+    from core.kernels.stretches import blur_of, steepest_bend
 
 
 # Rates are Lipschitz: |d rate / d sigma| = |s''| is bounded over an interval (bounds.py), so between two ends a rate is

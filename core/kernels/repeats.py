@@ -5,12 +5,12 @@ from cython.cimports.libc.math import fabs
 
 if not cython.compiled:  # for the compiler the same stands in the .pxd
     from core.kernels.bounds import followed_error
-    from core.kernels.chain import chain_rounding
+    from core.kernels.chain import chain_rounding, extend_chain, start_chain
     from core.kernels.constants import *
     from core.kernels.records import Laid
     from core.kernels.rings import coil_place, coil_radius, coil_reach, drift, leaders_reach, radius_beyond
     from core.kernels.route import extend_route, stands_first, start_route
-    from core.kernels.spiral import extend_chain, spiral_curvature, spiral_theta, start_chain
+    from core.kernels.spiral import spiral_curvature, spiral_theta
 
 # Handles have passed a place when they are this much beyond it, of 1 + |theta| or 1 + |s| [1], and beyond what both may
 # be off by. On a spiral where no handle is followed it is more than SLIP alone: u (32 n c + 16 r (theta - theta_0) +

@@ -74,10 +74,3 @@ cpdef Py_ssize_t spiral_trajectory(
 ) noexcept
 
 cpdef double spiral_curvature(double theta) noexcept nogil
-cpdef double steepest_bend(double theta) noexcept nogil
-cpdef void start_chain(double theta, double[:, ::1] chain) noexcept nogil
-
-@cython.locals(k=cython.Py_ssize_t, alike=cython.Py_ssize_t)
-cpdef Py_ssize_t extend_chain(
-    double growth, Py_ssize_t first, Py_ssize_t last, double radius, double[:, ::1] sizes, double[:, ::1] chain
-) noexcept nogil

@@ -1,4 +1,4 @@
-"""The spiral: arc length, the next handle, the trajectory, and the chain of one instant.
+"""The spiral: arc length, the next handle, and the trajectory.
 
 r = growth theta. Arc length from the centre, in units of growth: (theta sqrt(1 + theta^2) + asinh theta) / 2.
 Its derivative sqrt(1 + theta^2) increases, so Newton from theta = sqrt(2 arc) >= the root falls monotonically.
@@ -193,9 +193,8 @@ def first_guess(theta, chord2):
 # whose first step is the same to the last bit: no lane's digits depend on its neighbours or on its place in the block.
 # The number of lanes stays a variable, because gcc unrolls a fixed one before it can vectorise it (0.85 ms for
 # 0.6 ms below), and so that one instant costs one.
-# Measured on 301 x 224 with SSE2, 2026-11-21: 1.23 ms (3.2 ms one instant after the other). Of it 0.58 ms is this loop
-# (perf: the Halley step 70 %, positions and velocities 13 %, ratio and rotation 11 %) and 0.5 ms the operating system,
-# which gives the tables 2.7 MB of fresh memory. AVX2 would save 0.2 ms; 4 lanes cost 0.07 ms more, 16 gain nothing.
+# Measured on 301 x 224 with SSE2, 2026-11-21: 1.23 ms (3.2 ms one instant after the other), of which this loop takes
+# 0.58 ms and fresh memory for the tables 0.5 ms. AVX2 would save 0.2 ms; 4 lanes cost 0.07 ms more, 16 gain nothing.
 LANES_PER_BLOCK = 8
 LANES = LANES_PER_BLOCK
 Lanes = cython.typedef(cython.double[8])  # LANES_PER_BLOCK, which the C compiler wants as a literal
@@ -313,10 +312,8 @@ def write_handles(block, row, k, position, velocity, speed):
         speed[row + lane, k] = pace[lane]
 
 
-# Input:  a head angle for every instant; growth, chords and the head's speed, the same for all.
 # State:  `row`, the first instant of the block; `block`, what is known of its lanes at handle k; `alike`, how many
 #         chords up to this one are the same, so that its delta can be told from the ones before it.
-# Output: position, velocity and speed of every handle, up to the first instant that folds.
 
 
 def spiral_trajectory(growth, thetas, chords, head_speed, position, velocity, speed, halt):
@@ -351,85 +348,3 @@ def spiral_curvature(theta):
     """Curvature of the spiral times its growth, falling with theta."""
     square = 1.0 + theta * theta
     return (1.0 + square) / (square * sqrt(square))
-
-
-def steepest_bend(theta):
-    """No |d curvature / d s| of the spiral from theta outwards exceeds this over the square of its growth.
-
-    It is theta (4 + theta^2) / (1 + theta^2)^3, which is at most 1.09022, near 0.476, and falls from there.
-    """
-    square = 1.0 + theta * theta
-    return 1.0903 if theta < 0.5 else theta * (3.0 + square) / (square * square * square)
-
-
-def start_chain(theta, chain):
-    """Row 0: the head at polar angle 0."""
-    length = sqrt(1.0 + theta * theta)
-    chain[0, COS] = 1.0
-    chain[0, SIN] = 0.0
-    chain[0, TX] = -1.0 / length
-    chain[0, TY] = -theta / length
-    chain[0, THETA] = theta
-    chain[0, REST] = 0.0
-    chain[0, RATE] = 1.0
-    chain[0, FILLED] = chain[0, SLIP] = 0.0
-
-
-def extend_chain(growth, first, last, radius, sizes, chain):
-    """Handles after `first` until one stands at `radius` [m] or is the `last`; returns its index, FOLDED at a fold."""
-    delta = 0.0
-    k = first
-    alike = 0
-    while alike < 5 and alike < first < last and sizes[first - 1 - alike, CHORD] == sizes[first, CHORD]:
-        alike += 1
-    while k < last and growth * chain[k, THETA] < radius:
-        theta = chain[k, THETA]
-        chord = sizes[k, CHORD]
-        inverse = 1.0 / chord
-        reach = (chord / growth) * (chord / growth)
-        if k > first:
-            alike = alike + 1 if sizes[k - 1, CHORD] == chord else 0
-        if alike > 4:
-            delta = 5.0 * (theta - chain[k - 1, THETA] - (chain[k - 3, THETA] - chain[k - 4, THETA]))
-            delta += 10.0 * (chain[k - 2, THETA] - chain[k - 3, THETA] - (chain[k - 1, THETA] - chain[k - 2, THETA]))
-            delta += chain[k - 4, THETA] - chain[k - 5, THETA]
-        elif alike > 2:
-            delta = 3.0 * (theta - chain[k - 1, THETA] - (chain[k - 1, THETA] - chain[k - 2, THETA]))
-            delta += chain[k - 2, THETA] - chain[k - 3, THETA]
-        else:
-            delta = first_guess(theta, reach)
-        delta, s, c = next_handle(theta, reach, delta)
-        if delta == NO_ROOT:
-            return FOLDED
-        turn = 2.0 * s * c
-        rise = 2.0 * s * s
-        x = chain[k, COS]
-        y = chain[k, SIN]
-        chain[k + 1, COS] = x - (x * rise + y * turn)
-        chain[k + 1, SIN] = y - (y * rise - x * turn)
-        x = growth * theta * x
-        y = growth * theta * y
-        rest = delta + chain[k, REST]
-        rear = theta + rest
-        length = rear - theta
-        chain[k + 1, REST] = (theta - (rear - length)) + (rest - length)
-        chain[k + 1, THETA] = theta = rear
-        length = sqrt(1.0 + theta * theta)
-        slope = 1.0 / length
-        c = chain[k + 1, COS]
-        s = chain[k + 1, SIN]
-        chain[k + 1, TX] = (theta * s - c) * slope
-        chain[k + 1, TY] = -(theta * c + s) * slope
-        c = growth * theta * c
-        s = growth * theta * s
-        chain[k, MX] = 0.5 * (x + c)
-        chain[k, MY] = 0.5 * (y + s)
-        chain[k, UX] = (x - c) * inverse
-        chain[k, UY] = (y - s) * inverse
-        chain[k + 1, RATE] = (
-            chain[k, RATE]
-            * (chain[k, TX] * chain[k, UX] + chain[k, TY] * chain[k, UY])
-            / (chain[k + 1, TX] * chain[k, UX] + chain[k + 1, TY] * chain[k, UY])
-        )
-        k += 1
-    return k

@@ -1,6 +1,7 @@
 cimport cython
 from core.kernels.constants cimport *
-from core.kernels.spiral cimport extend_chain, spiral_arc, spiral_theta, start_chain
+from core.kernels.chain cimport extend_chain, start_chain
+from core.kernels.spiral cimport spiral_arc, spiral_theta
 from core.kernels.rings cimport leaders_reach, radius_beyond
 from core.kernels.pairs cimport STRIP_ROUNDING
 from core.kernels.nearest cimport band_least

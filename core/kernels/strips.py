@@ -4,13 +4,14 @@ import cython
 from cython.cimports.libc.math import cos, sin, sqrt
 
 if not cython.compiled:  # for the compiler the same stands in the .pxd
+    from core.kernels.chain import extend_chain, start_chain
     from core.kernels.clearance import row_gap
     from core.kernels.constants import *
     from core.kernels.nearest import band_least
     from core.kernels.pairs import STRIP_ROUNDING
     from core.kernels.rings import leaders_reach, radius_beyond
     from core.kernels.scene import Band, Found
-    from core.kernels.spiral import extend_chain, spiral_arc, spiral_theta, start_chain
+    from core.kernels.spiral import spiral_arc, spiral_theta
 
 # A strip is given up where handles may turn back in steps shorter than this part of the head's radius [1].
 TURNED_WITHIN = 1e-3

@@ -1,0 +1,107 @@
+"""The stretch of a route that a bench sweeps over an interval of head travel: how curved it is."""
+
+import cython
+from cython.cimports.libc.math import fabs
+
+if not cython.compiled:  # for the compiler the same stands in the .pxd
+    from core.kernels.constants import *
+    from core.kernels.records import Stretch
+
+# On a route a handle displaced along the path turns the direction of its bench at most so much: times SLIP / chord [1],
+# see the rounding of bounds.py.
+ROUTE_TURN = 2.2
+
+
+def steepest_bend(theta):
+    """No |d curvature / d s| of the spiral from theta outwards exceeds this over the square of its growth.
+
+    It is theta (4 + theta^2) / (1 + theta^2)^3, which is at most 1.09022, near 0.476, and falls from there.
+    """
+    square = 1.0 + theta * theta
+    return 1.0903 if theta < 0.5 else theta * (3.0 + square) / (square * square * square)
+
+
+def blur_of(k, turned, before, after):
+    """How far the cosines of a link's angles may be from the true ones at either end of an interval [1].
+
+    turned: how far the tangent at either handle turns at most while that is displaced along the path [1/m]
+    """
+    slip = max(before[k + 1, SLIP], after[k + 1, SLIP])
+    return 2.0 * max(before[k, SWAY], after[k, SWAY]) + turned * slip + 16.0 * ULP
+
+
+def stretch_curvature(pieces, rear, k_rear, front, k_front):
+    """Lowest and highest curvature from a place on piece `rear` to one on piece `front` [1/m].
+
+    Within a piece it lies between its ends; for a crest the row holds bounds.
+    """
+    low = FREE
+    high = -FREE
+    for p in range(rear, front + 1):
+        start = pieces[p, K_START]
+        end = pieces[p, K_END]
+        if pieces[p, PIECE_KIND] != CREST:
+            if p == rear:
+                start = k_rear
+            if p == front:
+                end = k_front
+        low = start if start < low else low
+        low = end if end < low else low
+        high = start if start > high else high
+        high = end if end > high else high
+    return low, high
+
+
+def reached_piece(pieces, k, way, chain):
+    """The piece of handle k, or where rounding may hide that it has crossed a joint that way (1 forwards), the next."""
+    p = cython.cast(cython.Py_ssize_t, chain[k, PIECE])
+    s = -chain[k, PLACE]
+    slip = chain[k, SLIP] + 8.0 * ULP * fabs(s)
+    if way > 0.0 and p + 1 < pieces.shape[0] and s + slip > pieces[p, S_END]:
+        return p + 1
+    if way < 0.0 and p > 0 and s - slip < pieces[p, S_START]:
+        return p - 1
+    return p
+
+
+def stretch_slope(pieces, k, rear, front, before, after):
+    """Bound on |d curvature / d s| from the rear of bench k, on piece `rear`, to its front over an interval, jumps left
+    out [1/m^2].
+
+    On a spiral it falls with theta, so that the innermost handle's serves (see steepest_bend()).
+    """
+    slope = 0.0
+    if rear == front and pieces[rear, PIECE_KIND] == SPIRAL:
+        theta = min(before[k + 1, PIECE_THETA], after[k, PIECE_THETA])
+        if theta >= 0.5:
+            return steepest_bend(theta) / (pieces[rear, COIL_GROWTH] * pieces[rear, COIL_GROWTH])
+    for p in range(rear, front + 1):
+        slope = max(slope, pieces[p, K_SLOPE])
+    return slope
+
+
+def parts_between(pieces, k, before, after):
+    """Number of parts by which handle k has advanced in the second of two chains."""
+    rear = cython.cast(cython.Py_ssize_t, before[k, PIECE])
+    front = cython.cast(cython.Py_ssize_t, after[k, PIECE])
+    return pieces[front, PART] - pieces[rear, PART]
+
+
+def link_stretch(pieces, k, benches, sizes, before, after):
+    """The stretch of a route that bench k sweeps: how curved it is, see Stretch in records.py."""
+    chord = sizes[k, CHORD]
+    p = reached_piece(pieces, k + 1, -1.0, before)
+    q = reached_piece(pieces, k, 1.0, after)
+    low, high = stretch_curvature(pieces, p, before[k + 1, CURVATURE], q, after[k, CURVATURE])
+    slope = stretch_slope(pieces, k, p, q, before, after)
+    widened = 32.0 * ULP * (benches + 8.0) / chord + pieces[0, BENT]
+    widened += slope * max(before[k + 1, SLIP], after[k + 1, SLIP])
+    high += widened
+    low -= widened
+    if high <= 0.0:
+        low, high = -high, -low
+    elif low < 0.0:
+        high = high if high > -low else -low
+        low = -high
+    blur = blur_of(k, ROUTE_TURN / chord, before, after)
+    return Stretch(chord, low, high, slope, widened, 0.5 * high * chord, blur)
