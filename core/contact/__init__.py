@@ -1,1 +1,1 @@
-"""When and how near benches come to each other."""
+"""When benches come near each other, and how near."""

@@ -25,8 +25,10 @@ ENDS = {
 
 
 def claim(dance: Dance, margin: float, stray: float, span: tuple[float, float], then: str) -> str:
-    """Dragon, path, head speed, margin, stray, and in which span of time [s] no two benches come within it; then: what
-    follows that, to the end of the sentence."""
+    """The claim in words: dragon, path, head speed, margin, stray, and the span of time [s] without a contact.
+
+    then: the rest of the sentence
+    """
     start, stop = map(said, span)
     near = f"are nearer to each other than {said(margin)} m" if margin else "touch"
     never = f"from {start} s to {stop} s no two benches that share no handle {near}"

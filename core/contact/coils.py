@@ -43,8 +43,8 @@ class TwoCoils:
     """A coil inwards and one outwards around one centre, with other pieces between them.
 
     growth: of both [m/rad]; offset: angle between them at one radius, at most pi [rad]
-    extent: no point of the path between them, nor of theirs within BLEND of it, where they may be led to it, is further
-        from the centre [m]
+    extent: no point of the path between them is further from the centre [m], and none of the last BLEND of either coil,
+        where the coil may be led to that path
     length: of the path between them [m]; radius: where the one outwards begins [m]
     """
 
@@ -55,13 +55,13 @@ class TwoCoils:
     radius: float
 
     def arc(self, radius: float) -> float:
-        """Arc of the coil outwards from its beginning to a radius, or up to ARC_ROUNDING of all of it more [m]."""
+        """Arc of the coil outwards from its beginning to a radius, longer by up to ARC_ROUNDING of the whole [m]."""
         end, begin = (float(kernels.spiral_arc(r / self.growth)) for r in (radius, self.radius))
         return self.growth * (end - begin + ARC_ROUNDING * end)
 
 
 def two_coils(path: Route) -> TwoCoils | None:
-    """The coils that a route begins and ends with, None where it does not, or not around one centre with one pitch."""
+    """The coils with which a route begins and ends; None if it has no such two of one centre and one pitch."""
     table = path.table
     first, last = table[0].tolist(), table[-1].tolist()
     spirals = [kernels.PIECE_KINDS[int(row[PIECE_KIND])] == "spiral" for row in (first, last)]
@@ -91,16 +91,16 @@ def _extent(path: Route, row: Floats, centre: Floats) -> float:
 
 
 # Let `rings` >= extent be a radius from which the bounds of core/kernels/rings.py hold: two benches of one coil are
-# apart by more than the margin (ring_least()), and so are two of different coils. Of these, polar angles on their own
-# coils differ by offset + 2 pi m + x, |x| <= pi, for points in directions that differ by x, in one order or the other,
-# so that in place of a pitch there is growth offset, and no bench lies beside another of its turn.
+# apart by more than the margin (ring_least()), and so are two of different coils. For points of different coils in
+# directions that differ by x, |x| <= pi, the polar angles on their own coils differ by offset + 2 pi m + x, in one
+# order or the other. So growth offset takes the place of the pitch, and no bench lies beside another of its turn.
 #
 # A bench with a handle within `rings` has its other one on a coil not further out than pi c / 2 of arc, as no arc
 # under a chord is longer, and so no point further out than that radius + o + w / 2. If the path between the coils is
 # longer than that arc, no bench stands on both. From radius_beyond() of that radius and the margin outwards nothing
 # comes near a bench on a coil. So once all handles of the leading benches, up to the first of the equal ones, are
-# there, on the coil outwards, these meet nothing any more; and every bench behind repeats in place what one of them met
-# (core/kernels/repeats.py), or is there too: nothing touches, however long the coils.
+# there, on the coil outwards, these benches meet nothing any more. Every bench behind them repeats in place what one of
+# them met (core/kernels/repeats.py), or is there too. Hence nothing touches, however long the coils are.
 
 
 def rings_clear(dragon: Dragon, coils: TwoCoils, margin: float) -> float | None:
@@ -136,13 +136,13 @@ def way_out(dragon: Dragon, coils: TwoCoils, margin: float) -> float | None:
 
 
 def beyond(dragon: Dragon, growth: float, handles: float, margin: float) -> float:
-    """Radius from which outwards a bench on a coil is clear of all benches whose handles are within a radius [m]."""
+    """A radius: a bench on a coil from there outwards is clear of all benches with handles within `handles` [m]."""
     overhang, half = _sideways(dragon)
     return wholly_outside(dragon, growth, handles + overhang + half + margin + CLEARLY)
 
 
 def wholly_outside(dragon: Dragon, growth: float, radius: float) -> float:
-    """A radius such that every bench whose handles are on a coil from there outwards lies wholly outside `radius` [m].
+    """A radius: every bench with both handles on a coil at this radius or further out lies wholly outside `radius` [m].
 
     sqrt((radius + w / 2)^2 + c^2 / 4), but only where the foot of the perpendicular from the centre is no further from
     the inner handle than c / 2; else by the triangle inequality: core/kernels/rings.py

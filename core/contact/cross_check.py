@@ -43,8 +43,8 @@ CHECK_PITCH = 1e-6
 # two benches near one another by at most twice the highest speed of a handle over that of the head, or by the turns
 # between them for each metre of pitch. Near a fold speeds are higher; such a pair counts as a different finding there.
 TOGETHER_DEPTH = 1e-5
-# Longest dragon that is judged whole [benches], and as many pairs of cubes around benches as may meet for that [1]:
-# FCL takes about 1 microsecond for each, 3 where they touch, and 30 where they touch with a margin.
+# Longest dragon that is judged whole [benches], and the largest number of pairs of cubes around benches that may meet
+# in it [1]: FCL takes about 1 microsecond for each, 3 where they touch, and 30 where they touch with a margin.
 WHOLE_BENCHES = 2_000
 CLOSE_MAX = 30_000
 
@@ -91,7 +91,7 @@ def contact_check(
     whole: bool = True,
     budget: Budget | None = None,
 ) -> ContactCheck | None:
-    """The engines on the dance CHECK_TRAVEL of head travel before and after the bracket of a first contact.
+    """The engines' verdicts CHECK_TRAVEL of head travel before and after the bracket of a first contact.
 
     A contact at the start is judged at the start and CHECK_TRAVEL after it, and counts if it is found at either.
     whole: judge the whole dragon, else only the reported pair. With a stray each pair has a distance of its own: the
@@ -116,7 +116,7 @@ def contact_check(
     rounding = CHECK_DIGITS * float(np.spacing(path.place + abs(first) * head_speed))
     travel = max(CHECK_TRAVEL, rounding) / head_speed
     times = [first if at_start else first - travel, last + travel]
-    front = dragon if whole else dragon.leading(contact.benches[1] + 1)  # No bench moves one in front of it.
+    front = dragon if whole else dragon.leading(contact.benches[1] + 1)  # A bench does not affect those in front of it.
     poses = _poses(replace(dance, dragon=front), times, budget)
     size = np.stack([dragon.lengths, dragon.widths], axis=-1)[: poses.shape[1]]
     pair = contact.benches
@@ -142,7 +142,7 @@ def pitch_check(
     whole: bool = True,
     budget: Budget | None = None,
 ) -> ContactCheck | None:
-    """The engines on the dance at a pitch CHECK_PITCH larger and CHECK_PITCH smaller than the minimum.
+    """The engines' verdicts at a pitch CHECK_PITCH larger and one CHECK_PITCH smaller than the minimum.
 
     The head stands where the pair meets just below that pitch, or at the start if the start limits the pitch.
     whole: judge the whole dragon, else only the reported pair; with a stray shapely judges the grounds that all may
@@ -258,7 +258,7 @@ def judged_grounds(
 
 
 def _grounds_met(pose: Floats, ground: Reach, margin: float, near: set[Pair]) -> set[Pair]:
-    """Those pairs whose grounds are within the margin, of those where the rectangles around them are."""
+    """Pairs of grounds within the margin. near: pairs whose bounding rectangles are within it"""
     if not near:
         return set()
     placed = []
@@ -281,8 +281,8 @@ def _told(words: dict[Engine, Verdict], judged: Indices, together: tuple[Pair, .
     return ContactCheck(agree, tuple(judged.tolist()), words, together, left_out)
 
 
-# Of the benches judged, only those that follow one another in the dragon are neighbours, so pairs are sought among all
-# of them and neighbours left out by their numbers.
+# Not all benches judged follow one another in the dragon, so the engines seek pairs among all of them, and neighbours
+# are left out by their numbers.
 def _found(
     engine: Engine, poses: Floats, sizes: Floats, margin: float, judged: Indices, budget: Budget | None
 ) -> list[set[Pair]]:
@@ -328,7 +328,7 @@ def judged_benches(poses: Floats, sizes: Floats, pair: Pair, margin: float) -> I
     return np.array(pair)
 
 
-# FCL's tree meets the pairs of upright cubes around the spheres around the boxes, not those of their own upright boxes.
+# FCL's tree compares upright cubes around the spheres around the boxes, not the upright boxes themselves.
 def _is_manageable(poses: Floats, sizes: Floats, margin: float) -> bool:
     """Do few enough cubes around benches meet for FCL to finish in 0.1 s, or in 1 s with a margin?"""
     if len(poses) * (len(poses) - 1) // 2 <= CLOSE_MAX:

@@ -3,8 +3,8 @@
 The proof is written above the loops that carry it out: `core/kernels/bounds.py`, `bends.py`, `pairs.py`, `rings.py`,
 `repeats.py` and `marching.py`. In short: the head advances from L to R only if, for every pair that can be near, one
 axis fixed in one of the two benches separates them by more than the margin over all of [L, R], because the gap along
-that axis is known at both ends and its second derivative is bounded in between. What lies further out than a radius
-known in closed form cannot touch. In a dragon whose body benches are alike, pair (i, j) repeats, in place, what pair
+that axis is known at both ends and its second derivative is bounded in between. Benches further out than a radius known
+in closed form cannot touch. In a dragon whose body benches are alike, pair (i, j) repeats, in place, what pair
 (m, m + j - i) met when handle m stood where handle i stands (m the first of the equal benches), so once every bench has
 passed the start of the one before it, only the pairs of the first m + 1 benches are followed.
 """
@@ -198,15 +198,15 @@ def first_contact(
     """When two benches that share no handle first come within the margin, proven not to miss an earlier one.
 
     margin: [m], the clearance required; contact means separation <= margin
-    stray: how far every hole may be from its place [m], see core/tolerance/reach.py: then what is found is the first
-        time at which two benches may come within the margin, because the grounds that they may cover do
+    stray: how far every hole may be from its place [m], see core/tolerance/reach.py: the answer is then the first time
+        at which two benches may come within the margin, because the grounds that they may cover come within it
     start, stop: the times between which to look [s]; None for the end of the run
     returns: see FirstContact. Times are good to 1e-10 s at 1 m/s. The bracket [proven clear up to, overlapping at] is
         at most 1e-9 s wide, except where arc lengths or times are less exact (beyond 1e5 m, below 1e-3 m/s), within
         about 5e-5 m of a graze along waypoints, behind bench 60, or where a second pair meets at once, and where
-        benches that stray nearly graze (1e-7 s). Both
-        ends hold in spite of rounding (core/kernels/rounding.py, pairs.py). Where rounding hides the answer it
-        is undecided: benches whose clearance at the start equals the margin to about 1e-12 m
+        benches that stray nearly graze (1e-7 s). Both ends hold in spite of rounding (core/kernels/rounding.py,
+        pairs.py). The answer is undecided where rounding hides it: benches whose clearance at the start equals the
+        margin to about 1e-12 m
     raises: InvalidValue; OutsideRun for a stop after the end of the run; TooMuchWork
     source: the model of Yang et al., sections 2.4 and 2.5, whose times differ: see app/questions/paper.py
 

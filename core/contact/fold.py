@@ -20,10 +20,11 @@ from core.values import Floats
 
 # The last stretch before a fold, where handle speeds grow without bound: dismissed by a bound on the motion left [m].
 FOLD_SLIVER = 1e-9
-# The march is left where so much of the chord of the bench that folds is left to go [1]: first where the bound suffices
-# at pitches from 0.66 to 2 m, after half of the steps, then where it suffices with a fifth of that clearance. (First at
-# 1e-3, it suffices from 0.75 m on, and 0.66 to 0.74 m take 2.7 instead of 2.1 times as long as a contact; 2026-11-22.)
-# A graze on that way is looked for at so many instants.
+# Distances before the fold at which the march is left, as shares of the chord of the bench that folds [1]: first where
+# the bound suffices at pitches from 0.66 to 2 m, after half of the steps, then where it suffices with a fifth of that
+# clearance. (With 1e-3 first it suffices from 0.75 m on, and 0.66 to 0.74 m take 2.7 instead of 2.1 times as long as a
+# contact; 2026-11-22.)
+# Number of instants on that way at which a graze is looked for [1].
 FOLD_WAYS = (3e-4, 3e-5)
 WAY_SAMPLES = 12
 # Largest number of stretches into which the way to a fold is cut; each takes 0.1 to 0.3 ms.
@@ -40,8 +41,9 @@ def last_travel(until: float, to_fold: bool) -> float:
     return until - (FOLD_SLIVER + 5e2 * TRAVEL_ROUNDING * until if to_fold else 0.0)
 
 
-# A march that goes on begins at twice that way before the fold, so that it sees a graze at the seam too. It need not
-# open again if the run begins where the ring bound clears all pairs (`rings_reach`): all before it is clear.
+# A march that goes on begins at twice that distance before the fold, so that it also sees a graze at the seam. If the
+# run begins where the ring bound clears all pairs (`rings_reach`), that march need not open again: all before it is
+# clear.
 def approach_fold(
     search: Search, begin: float, last: float, head_speed: float, end: RunEnd
 ) -> tuple[Ended, Marched, float]:
@@ -73,7 +75,7 @@ def approach_fold(
 
 
 def _joined(passed: Marched, found: Marched) -> Marched:
-    """A march with what was seen in the one before it."""
+    """A march together with what the march before it saw."""
     graze = min((dip for dip in (passed.graze, found.graze) if dip is not None), default=None)
     return found._replace(steps=passed.steps + found.steps, bend=max(passed.bend, found.bend), graze=graze)
 
@@ -89,7 +91,7 @@ def _leaves(search: Search, early: float, last: float, found: Marched, theta: fl
 def _dips_ahead(search: Search, early: float, last: float, found: Marched) -> bool:
     """Do samples between two travels [m] show a graze, narrower than the one found before?"""
     leaders = min(search.dragon.uniform_from + 1, search.dragon.benches)
-    left = (last - early) * np.linspace(1.0, 0.0, WAY_SAMPLES) ** 2  # evenly spaced for what moves as its root
+    left = (last - early) * np.linspace(1.0, 0.0, WAY_SAMPLES) ** 2  # evenly spaced for handles, which move as its root
     gaps = [search.clearance(travel, leaders)[0] for travel in (last - left).tolist()]
     known = found.graze.gap if found.graze is not None else FREE
     return any(
@@ -155,8 +157,8 @@ def least_to_fold(search: Search, travel: float, end: RunEnd) -> float | None:
 def least_left(search: Search, travel: float, theta: float) -> float:
     """No two benches come nearer than this, or than the margin, from a travel until the head is at theta [m].
 
-    Every pair's gap after that travel, less what both can still move, each bench by its own sizes; -FREE where
-    a bench that has no place in rows[0] could come near one that leads a pair.
+    The gap of every pair after that travel, less the distance that both benches can still move, computed from their own
+    sizes; -FREE where a bench that has no place in rows[0] could come near one that leads a pair.
     """
     search.spend(STRETCH_WORK + FOLD_WORK * search.room)
     gap, _ = search.clearance(travel)

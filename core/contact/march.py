@@ -9,13 +9,13 @@ from typing import NamedTuple
 # rounding of the travel allows at lower ones.
 BRACKET = 1e-10
 BRACKET_MIN = 2e-11
-# The same where benches meet so slowly that rounding hides the gap that near, for contacts within about 5e-5 m of a
-# graze: the first one is 1e-9 s in all at 1 m/s, and core/contact/near_graze.py narrows the wider ones to it [m of head
-# travel]. Below 1 m/s the same in seconds come first.
+# Wider half widths [m of head travel], one after the other, for contacts within about 5e-5 m of a graze, where benches
+# meet so slowly that rounding hides so small a gap. The first makes a bracket of 1e-9 s at 1 m/s, to which
+# core/contact/near_graze.py narrows the wider ones. Below 1 m/s the same numbers in seconds come first.
 BRACKETS_GRAZING = (4.9e-10, 5e-9, 5e-8, 5e-7, 5e-6, 5e-5)
-# Largest error of a travel, relative to the way [1], u = 2^-53: on a spiral its length to 5 u, two differences from it
-# and the polar angle there 10 u (spiral_theta() ends within 7 u of the arc length left), a time from a travel and back
-# 2 u.
+# Largest error of a travel, relative to the way [1], u = 2^-53: on a spiral its length is good to 5 u, two differences
+# from it and the polar angle there to 10 u (spiral_theta() ends within 7 u of the arc length left), and a travel made a
+# time and a travel again to 2 u.
 TRAVEL_ROUNDING = 2e-15
 
 

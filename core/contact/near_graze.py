@@ -22,7 +22,7 @@ import numpy as np
 
 from core import kernels
 from core.budget import Budget
-from core.contact.march import Marched
+from core.contact.march import Ended, Marched
 from core.contact.search import Search
 from core.kernels.constants import (
     ARC_ANGLE,
@@ -53,7 +53,7 @@ from core.sampling import falls_to_zero
 DIGITS = 40
 # Error allowed in a chord [m].
 NEGLIGIBLE = Decimal("1e-34")
-# Series end with terms below this [1]: the five doublings that follow enlarge an error at most a thousandfold.
+# Series end at terms below this [1]: the five doublings that follow enlarge an error at most a thousandfold.
 LAST_TERM = Decimal("1e-51")
 # Largest error of a gap [m]: each of up to LAST_BENCH links is met within NEGLIGIBLE, which a fold may enlarge a
 # hundred million times and overhangs ten thousand times, and coordinates of up to 1e5 m have DIGITS digits.
@@ -75,7 +75,7 @@ TANGENT, LINK = slice(TX, TX + 2), slice(UX, UX + 2)
 Vector = tuple[Decimal, Decimal]
 
 
-# Decimals hold Python's lock: several threads of them would be no quicker, and would keep all others from it.
+# Decimals hold Python's lock: several threads would be no quicker together, and would keep all others waiting.
 _TURN = Lock()
 # Between two looks at the budget while another thread has the turn [s].
 TURN_SECONDS = 0.01
@@ -104,8 +104,8 @@ class Bench(NamedTuple):
 class Axis(NamedTuple):
     """A unit vector fixed in the first (0) or the second (1) bench of a pair, by its parts along it and to its left.
 
-    It points to the other bench as that stood when the axis was chosen. A gap along it proves something of an interval
-    only with that sign kept: a bench that is apart on one side at its start and on the other at its end passed through.
+    It points to where the other bench stood when the axis was chosen. A gap along it proves an interval clear only if
+    it keeps that sign: a bench on one side at the start and on the other at the end has passed through.
     """
 
     owner: int
@@ -307,7 +307,7 @@ def _cos_sin(angle: Decimal) -> Vector:
 # The claims are about times, which are travels over the head speed in doubles: the pair is within the margin at the
 # true travel of the later time, and apart until a little beyond that of the earlier one.
 def narrowed(search: Search, found: Marched, half: float, head_speed: float = 1.0) -> Marched | None:
-    """A contact that was found in a wide bracket, in one of half width `half` [m]; None where that is not proven.
+    """A contact that was found in a wide bracket, bracketed to half width `half` [m]; None where that is not proven.
 
     found: of Search.march(): `proven`, `touching` and the pair; so is the result, with `touching` - `half` the contact
     head_speed: by which travels are divided for times [m/s]
@@ -316,7 +316,7 @@ def narrowed(search: Search, found: Marched, half: float, head_speed: float = 1.
     if (
         found.touching is None
         or not pair.can_follow
-        or not search.others_clear(pair.pair, found.proven, found.touching)
+        or not others_clear(search, pair.pair, found.proven, found.touching)
     ):
         return None
     search.budget.take_time()
@@ -333,3 +333,11 @@ def narrowed(search: Search, found: Marched, half: float, head_speed: float = 1.
         if pair.gap(later) > -GAP_ROUNDING or not pair.stays_apart(found.proven, beyond):
             return None
     return found._replace(proven=clear, touching=touching)
+
+
+def others_clear(search: Search, pair: tuple[int, int], start: float, stop: float) -> bool:
+    """Are all pairs but one proven to be clear between two travels [m]?"""
+    search.scene.left_out, search.scene.left_out_too = pair
+    state, _ = search.march(stop, 0.0, start=start)
+    search.scene.left_out = search.scene.left_out_too = kernels.NO_BENCH
+    return state is Ended.REACHED

@@ -45,9 +45,9 @@ from core.tolerance.reach import Reach, directions, reach
 from core.values import Floats
 
 MARGIN_MAX = 1e4  # [m]
-# Work after which a search gives up as undecided, see core/kernels/constants.py [1]: of first contact, 2 to
-# 8 s; of a least distance, whose steps end near a bench or an edge and cost more, about the same. The default case
-# takes about 5,000.
+# Work after which a search gives up as undecided, see core/kernels/constants.py [1]: 2 to 8 s for a first contact, and
+# about the same for a least distance, whose steps end near a bench or an edge and cost more. The default case takes
+# about 5,000.
 WORK_BUDGET = 2e7
 NEAR_WORK_BUDGET = 5e6
 # Largest number of samples of a dance [1], and the share of the work that they may take [1].
@@ -63,7 +63,7 @@ RING_ROUNDING = 1e-11
 class Search:
     """The kernels' arrays for one dragon, with the current path and margin.
 
-    dragon: the one searched: with a stray each bench is as large as the ground that it may cover; nominal: as given
+    dragon: as searched: with a stray each bench is as large as the ground that it may cover; nominal: as given
     stray: [m]; kinds: the hulls of that ground, none without a stray; `covered` tells them
     extremes: longest and shortest chord, longest overhang, half width of all benches, chord and half width of those
         that can be the outer of a pair [m]; rings: the same and more for the kernels, with the bounds that hold of the
@@ -77,7 +77,7 @@ class Search:
         only, as on a spiral
     work: work that its marches may still do, see WORK_BUDGET, within the budget of the whole question. Once that is
         stopped, whatever examines benches raises Halted
-    timing: how far the head may be from its place at a rounded time, besides the rounding of its travel [m]
+    timing: largest distance of the head from its place at a rounded time, besides the rounding of its travel [m]
     between: pairs with fewer benches between them are not asked for, at least 1 [1]
     place: origin of the kernels' places, at time 0: arc length from the centre of a spiral, minus s on a route [m]
     """
@@ -124,8 +124,7 @@ class Search:
             rings.lay(ground.corners, ground.middle_half_width, ground.within)
         self.room = 0
         self.use(path, margin)
-        # On a route for which no benches are known to be out of reach a march follows all of them.
-        everyone = isinstance(path, Route) and rings.clear_place >= FREE
+        everyone = isinstance(path, Route) and rings.clear_place >= FREE  # no benches are known to be out of reach
         self.resize(dragon.benches if everyone else min(dragon.benches, 255))
 
     def use(self, path: Spiral | Route, margin: float) -> None:
@@ -149,7 +148,7 @@ class Search:
         self.scene.halt, self.scene.kinds, self.scene.between = self.budget.halt, self.kinds, self.between
 
     def clear_beyond(self, radius: float) -> None:
-        """Set clear_radius to a radius from which another bound exceeds the margin on this spiral [m]."""
+        """Set clear_radius to the radius from which another bound exceeds the margin on this spiral [m]."""
         self.clear_radius = self.rings.clear_radius = radius * (1.0 + kernels.CLEAR_SPARE)
 
     def travel_rounding(self, *travels: float) -> float:
@@ -275,26 +274,18 @@ class Search:
             graze = Dip(float(march.graze_gap), float(march.graze_travel), (march.graze_first, march.graze_second))
         return ended, Marched(proven, touching, (march.first, march.second), march.steps, float(march.bend), graze)
 
-    def others_clear(self, pair: tuple[int, int], start: float, stop: float) -> bool:
-        """Are all pairs but one proven to be clear between two travels [m]?"""
-        self.scene.left_out, self.scene.left_out_too = pair
-        state, _ = self.march(stop, 0.0, start=start)
-        self.scene.left_out = self.scene.left_out_too = kernels.NO_BENCH
-        return state is Ended.REACHED
-
     def approach(
         self, begin: float, until: float, head_speed: float, *, opening: bool = True
     ) -> tuple[Ended, Marched, float]:
-        """march() between two travels [m] with the bracket of a contact: also its half width [m]."""
+        """march() between two travels [m], with a contact bracketed; the half width of that bracket comes third [m]."""
         tolerance = max(BRACKET * min(1.0, head_speed), BRACKET_MIN, 2.0 * self.travel_rounding(begin, until))
         state, found = self.march(until, tolerance, start=begin, opening=opening)
-        slowed = [wider * min(1.0, head_speed) for wider in BRACKETS_GRAZING]
-        for wider in sorted({*slowed, *BRACKETS_GRAZING}):
+        for wider in sorted({*BRACKETS_GRAZING, *(wider * min(1.0, head_speed) for wider in BRACKETS_GRAZING)}):
             if state is not Ended.STUCK or found.touching is None:
                 break
             if wider > tolerance:
                 tolerance = wider
-                if self.kinds.some:  # a step of hulls costs more than to lay out all benches where the last one ended
+                if self.kinds.some:  # one step of hulls costs more than laying out all benches anew
                     state, further = self.march(until, tolerance, start=found.proven)
                     found = found.followed_by(further)
                 else:

@@ -87,7 +87,10 @@ class Misplaced(Shown):
 
 @dataclass(frozen=True, slots=True, repr=False)
 class VenueClearance(Shown):
-    """misplaced: first bench that starts outside the square or in an obstacle; areas: square, then obstacles."""
+    """The benches in the venue.
+
+    misplaced: the first bench that starts outside the square or in an obstacle; areas: the square, then the obstacles
+    """
 
     misplaced: Misplaced | None
     areas: tuple[AreaClearance, ...]
@@ -123,8 +126,9 @@ def venue_clearance(
 
     An edge counts as a rectangle of no width at rest: benches and edges are marched like pairs of benches, with the
     same proof. The centre of a bench that touches no edge stays inside an area, or outside, as it started.
-    margin: [m]; stray: how far every hole may be from its place [m], where benches may come then counts; start, stop:
-        [s], None for the end of the run; nearest: also find how near the benches come, which takes most of the time
+    margin: [m]; stray: how far every hole may be from its place [m], so that the ground that benches may cover counts
+    start, stop: [s], None for the end of the run
+    nearest: also find how near the benches come, which takes most of the time
     raises: InvalidValue, also for a path that bends too tightly for a chord by the stop; OutsideRun;
         TooMuchWork
     """
@@ -132,7 +136,7 @@ def venue_clearance(
     margin = checked_number("margin", margin, "m", 0.0, MARGIN_MAX)
     begin, until = dance.span(start, stop)
     clock, frame = dance.clock, dance.path.frame
-    path = replace(dance, path=venue_route(dance.path, clock.place(until))).path  # refuses a bend too tight
+    path = replace(dance, path=venue_route(dance.path, clock.place(until))).path  # refuses a bend that is too tight
     strayed = checked_stray(stray, dance.dragon)
     share = NEAR_WORK_BUDGET / len(venue.areas)
     areas = tuple(

@@ -23,10 +23,10 @@ from core.shown import Shown, worded
 from core.tolerance.stray import Stray, checked_stray
 from core.values import SIZE_MAX, asked_of, checked_number, checked_size
 
-# Distance below the proven bands at which an infeasible pitch is sought: the error that this may leave [m of pitch].
+# An infeasible pitch is sought this far below the proven bands, so the answer may be off by as much [m of pitch].
 PASSED_OVER = 1e-9
-# The same relative to the pitch, on spirals so wide that a clearance hardly changes with it, and the width of the
-# bracket there [1].
+# The same relative to the pitch, on spirals so wide that a clearance hardly changes with the pitch; it is also the
+# width of the bracket there [1].
 PASSED_OVER_WIDE = 1e-6
 # The pitch is bisected to this width [m]; closer to a graze or a contact on the circle rounding hides which it is.
 PITCH_WIDTH = 2.0 * BORDER_WIDTH
@@ -36,9 +36,9 @@ UNDECIDED_MAX = 4
 SCAN_SAMPLES = 1000
 # Number of evenly spaced pitches at which islands below the minimum pitch are sought.
 ISLAND_SAMPLES = 400
-# Relative width to which the growth is found from which a bound clears every spiral [1].
+# Relative width to which the least growth is found at which a bound clears that spiral and every wider one [1].
 TOP_WIDTH = 0.02
-# From there downwards the bounds are asked about ranges of growths; the lower end as a part of the upper one [1].
+# Below that growth the bounds are asked about ranges of growths; this is their lower end over their upper end [1].
 RANGES = (0.95, 0.99, 0.998)
 # What limits the pitch is examined this far below it, where a graze has become a contact of some length [m of pitch].
 BELOW = 1e-11
@@ -165,10 +165,10 @@ class _PitchSearch:
             step = max(PITCH_WIDTH, 2.0 * math.ulp(pitch))
             while step <= max(PASSED_OVER, PASSED_OVER_WIDE * pitch) and pitch - step > self.lowest:
                 if self.ways.grazes(pitch - step) or self.is_clear(pitch - step) is False:
-                    # single pitches below the bands may be clear too, but are not proven with all between
+                    # single pitches below the bands may be clear too, but not all pitches in between are proven
                     return self.bisect(pitch - step, pitch)[0] if step <= PASSED_OVER else pitch - step, pitch, "bound"
                 step *= 2.0
-        # bands are proven however far outside a way starts; this one may begin inside what stops them
+        # bands are proven for ways from any distance; this way may begin inside the contact that stops them
         return *self.scan(pitch), "scan"
 
     def scan(self, pitch: float) -> tuple[float, float]:
@@ -240,7 +240,7 @@ class _PitchSearch:
             return self._met(travel, travel, graze[0])
         below = BELOW
         state, found = self.ways.march(infeasible - below, width=CONTACT_WIDTH)
-        # on a wide spiral rounding hides what meets so little below
+        # on a wide spiral rounding hides a contact so little below
         while state is Ended.STUCK and found.touching is None and below < PASSED_OVER_WIDE * infeasible:
             below *= 10.0
             state, found = self.ways.march(infeasible - below, width=CONTACT_WIDTH)
@@ -256,7 +256,7 @@ class _PitchSearch:
         return self._met(travel, travel + BOTTOM_WITHIN, pair)
 
     def _met(self, travel: float, end: float, pair: tuple[int, int]) -> tuple[LimitedBy, tuple[int, int], float]:
-        """Whether a pair that meets after a travel meets on the circle, or else where its dip, before `end`, is [m]."""
+        """Does a pair that meets after a travel meet on the circle? If not: the travel of its dip before `end` [m]."""
         search, growth = self.search, self.search.growth
         stop = search.travel_at(self.radius / growth)
         end = min(end, stop)
@@ -278,13 +278,13 @@ def minimum_pitch(
     """The smallest pitch such that every larger one lets the head reach the turning circle without contact.
 
     turning_radius: [m]; start_turns: turns from the centre to the start; margin: [m], clearance required
-    stray: how far every hole may be from its place [m]: the pitch is then one at which none of that can touch
+    stray: how far every hole may be from its place [m]: at the answer no benches can touch with such strays
     budget: of PITCH_WORK where none is given
-    From some pitch on all are feasible, without end: the spiral is so wide there that the dragon stands nearly straight
-    (`core/design/straight.py`). Downwards from there bands of pitches are proven clear, each for all its pitches at
-    once (`core/design/pitch_bands.py`), to where a pair of benches grazes: no infeasible pitch is stepped over. Where
-    bands have no bound (benches so long that handles turn back on the way, or a start inside the region where benches
-    can touch while ways from further out do touch) a stated scan takes their place.
+    Every pitch above a certain one is feasible: the spiral is so wide there that the dragon stands nearly straight
+    (`core/design/straight.py`). Below it bands of pitches are proven clear, each for all its pitches at once
+    (`core/design/pitch_bands.py`), down to where a pair of benches grazes: no infeasible pitch is stepped over. A
+    stated scan takes their place where bands have no bound: if benches are so long that handles turn back on the way,
+    or if the start lies inside the region where benches can touch while ways from further out do touch.
     raises: InvalidValue; also where benches touch on a straight line, so that no pitch is large enough. TooMuchWork
     source: the model of Yang et al., section 2.5; their bisection of the contact radius cannot converge, because that
         radius jumps over the circle

@@ -1,4 +1,4 @@
-"""Bands of pitches: are all pitches between two free of contact? Proven for all of them at once.
+"""Bands of pitches: proofs that all pitches between two are free of contact, for all of them at once.
 
 The proof of one band is written above the loop that carries it out: `core/kernels/strips.py`.
 """
@@ -15,7 +15,7 @@ from core.contact.search import Search
 from core.design.straight import Straight
 from core.paths.spiral import Spiral
 
-# A descent first asks for a band down to this part of the top, which is seldom far above the border, then for the
+# A descent first asks for a band down to this part of the top, which is seldom far above the border, and then for the
 # rest [1]. It takes 14.7 ms for the default and 5.9 ms for a circle of 4 m; without this 17.7 and 9.0 ms (2026-11-21).
 FIRST_BAND = 0.9
 # Half width of the bracket around the border of what is feasible [m of pitch]: a graze this far above its border must
@@ -23,18 +23,20 @@ FIRST_BAND = 0.9
 BORDER_WIDTH = 5e-13
 # A band narrower than this that is neither proven nor touched ends the descent [m of pitch].
 BAND_MIN = 1e-11
-# A band is not cut into steps finer than this part of its width, for it is too wide rather than its steps too long
-# [m of travel per m of pitch]; nor finer than STEP_MIN, as a march without a bracket to reach [m of travel].
+# Shortest step in a band: this part of the width of the band, because then the band is too wide rather than its steps
+# too long [m of travel per m of pitch], and STEP_MIN, as in a march without a bracket to reach [m of travel].
 STEP_PER_WIDTH = 0.2
 STEP_MIN = 1e-7
-# The border is looked for along one graze only in bands up to this part of their pitch; wider ones are halved [1].
+# Only in bands narrower than this part of their pitch is the border looked for along one graze; wider ones are halved
+# [1].
 WIDTH_FOLLOWED = 0.1
 # Smallest width of a band that is still halved if no bound holds, as a part of its pitch [1].
 UNBOUNDED_WITHIN = 1e-3
 # Largest work of all bands of a descent together, see core/kernels/constants.py [1]: about a second;
 # the default case does about 130,000.
 BAND_WORK = 1e7
-# Nothing is marched if no bound of `clears` holds within this many turning radii, starts or pitches [1].
+# Nothing is marched if no bound of `clears` holds within this multiple of the turning radius, the start or the pitch
+# [1].
 FAR = 2.0
 # First stride along the way in search of the bottom of a dip [m of travel], and largest number of its doublings.
 STRIDE, STRIDES = 2e-3, 10
@@ -50,8 +52,8 @@ class Bands:
     A proven band holds for all ways to the circle, however far outside they start: by a bound that needs no chain from
     where it holds outwards, and from there inwards by the march for the leading benches, whose every pose the body
     repeats.
-    work: that all bands did; marches: bands tried; graze: the pair that ends the last descent and where the head
-        then is [m], if that was found
+    work: of all bands together; marches: bands tried; graze: the pair that ends the last descent, and the radius of
+        the head then [m], if it was found
     """
 
     def __init__(self, search: Search, radius: float, start_turns: float, margin: float) -> None:
@@ -59,7 +61,7 @@ class Bands:
         self.work, self.marches = 0.0, 0
         self.graze: tuple[tuple[int, int], float] | None = None
         self.straight = Straight(search.dragon)
-        # the benches are bent little enough everywhere outside the circle: none turns back, none folds
+        # outside the circle the path bends so little everywhere that no handle turns back and no bench folds
         most = 0.5 * kernels.SPIRAL_CURVATURE_MOST * float(search.extremes[0]) / radius
         self.bent_little = most <= kernels.BEND_LIMIT
         self.total = self.straight.total
@@ -92,9 +94,9 @@ class Bands:
     def prove(self, low: float, high: float, outer: float) -> tuple[Ended, Marched]:
         """Are all pitches in [low, high] clear while the head's radius falls from outer to the circle [m]?
 
-        'reached': yes; 'touched': not the lowest one; 'stuck': not provable in one band; 'turned', 'unbounded': nor,
-        perhaps, by splitting it, as a handle may turn back or no bound holds far out. What it found: `proven` down to
-        that radius, `touching` at one.
+        'reached': yes; 'touched': the lowest one is not clear; 'stuck': not provable in one band; 'turned' and
+        'unbounded': perhaps not in narrower bands either, because a handle may turn back or no bound holds far out. The
+        march found is `proven` down to a radius, and `touching` at one.
         """
         search = self.search
         search.use(Spiral(low, self.start_turns), self.margin)
@@ -120,7 +122,7 @@ class Bands:
             self._make_room(search.room)
 
     def _clear_radius(self, low: float, high: float) -> float:
-        """A radius from which a bound exceeds the margin for all growths in [low, high]; FREE if too far."""
+        """A radius from which on a bound exceeds the margin for all growths in [low, high]; FREE if too far out."""
         clear, far = self.radius, FAR * max(self.radius, 2.0 * math.pi * high * max(self.start_turns, 1.0))
         while not self.clears(low, high, clear):
             clear *= 1.05
@@ -131,9 +133,9 @@ class Bands:
     def descend(self, top: float, lowest: float) -> tuple[float, str]:
         """The pitch down to which, from `top`, all are proven clear [m], and what stopped there.
 
-        'lowest': nothing, all is clear; 'border': a contact that, by the doubles, is a graze less than 2 BORDER_WIDTH
-        below; 'stuck': nothing was proven of the next BAND_MIN; 'unbounded': no bound holds, a handle turns back, or
-        BAND_WORK is done.
+        'lowest': nothing, all is clear; 'border': a contact which, as computed, is a graze less than 2 BORDER_WIDTH
+        below; 'stuck': the next BAND_MIN could not be proven; 'unbounded': no bound holds, a handle turns back, or
+        BAND_WORK is spent.
         A band that is not proven is halved, the upper half first. Where its lowest pitch touches, the pitch at
         which that contact becomes a graze is looked for, and the band ends there instead.
         """

@@ -104,7 +104,7 @@ class Stops:
         """The radius [m], None when nothing touches.
 
         It is good to RADIUS_WIDTH. Near a graze, where rounding hides when the contact begins, the bracket is wider
-        (BRACKETS_GRAZING in core/contact/search.py).
+        (BRACKETS_GRAZING in core/contact/march.py).
 
         An undecided search has met a graze too close to the margin to decide; then the radius is the one of that graze.
         raises: InvalidValue as Dance
@@ -151,11 +151,12 @@ def pitch_scan(
 ) -> PitchScan:
     """First-contact radius at every pitch, and between samples wherever it falls by more than JUMP.
 
-    Such an interval is halved until the fall is gone, then the curve is continuous there, or until it is narrower
-    than JUMP_WIDTH, then it is a jump. A jump smaller than JUMP between two samples is not found.
+    Such an interval is halved until the fall is gone, and then the curve is continuous there, or until it is narrower
+    than JUMP_WIDTH, and then it is a jump. A jump smaller than JUMP between two samples is not found.
 
     pitches: (N,) [m], ascending; progress: called with the share of the samples that is done
-    locate: False computes the samples alone, many times faster: a fall of more than JUMP between two parts two pieces
+    locate: False computes the samples alone, many times faster; a fall of more than JUMP between two then separates
+        two pieces
     budget: SCAN_WORK by default
     raises: TooMuchWork if the budget ends before the scan does; InvalidValue
     """
@@ -241,7 +242,7 @@ def scan_near_minimum(
 ) -> tuple[PitchScan, MinimumPitch]:
     """The scan at pitches_near() the minimum pitch and at its bracket, and that minimum.
 
-    locate: as pitch_scan(); budget: of both together; of each its own where none is given
+    locate: as pitch_scan(); budget: of both together; without one, each has its own
     raises: InvalidValue and TooMuchWork as minimum_pitch() and pitch_scan()
     """
     least = minimum_pitch(dragon, turning_radius=turning_radius, start_turns=start_turns, margin=margin, budget=budget)

@@ -35,16 +35,16 @@ from core.tolerance.reach import reach
 from core.tolerance.stray import Stray, checked_stray
 from core.values import asked_of, checked_number, checked_size
 
-# Entry radii are tried in steps of this part of the turning radius [1], down to one step from the centre ...
+# Entry radii are tried in steps of this part of the turning radius [1], down to one step from the centre,
 ENTRY_STEP = 0.01
-# ... and the border is bisected to this width [m].
+# and the border is bisected to this width [m].
 ENTRY_WIDTH = 1e-9
 # Largest work of all entries together, see core/kernels/constants.py: about 8 s, because a step on a route takes
 # longer than one on a spiral. The default turn takes about 90,000 [1].
 TURN_WORK = 2.5e7
-# Turn takes no deeper entry [m].
+# The deepest entry that Turn accepts [m].
 ENTRY_MIN = 1e-3
-# Coils are made longer than needed by this part, so that rounding cannot end them before the instant asked for [1].
+# Coils are longer than needed by this part of themselves, so that rounding cannot end them too early [1].
 SPARE_TURNS = 1e-9
 
 # The pair and the time [s] of a first contact; None where the search is undecided.
@@ -146,7 +146,7 @@ def shortest_turn(
         if budget.left <= 0.0:
             return None
         evaluations, found = evaluations + 1, touching(entry, feasible)
-        if found == UNDECIDED and budget.left <= 0.0:  # only because the work is spent
+        if found == UNDECIDED and budget.left <= 0.0:  # undecided only because the work is spent
             return None
         if found is None:
             feasible = entry
@@ -159,7 +159,7 @@ def shortest_turn(
 
 
 def _follow_border(dragon: Dragon, turn_at: Callable[[float], Turn], radius: float) -> tuple[float | None, float]:
-    """Entry radii between which a chord begins to follow [m]; None for the first if it follows at the deepest one.
+    """Entry radii between which chords begin to fit the bends [m]; the first is None if they fit at the deepest entry.
 
     raises: InvalidValue (turning_radius) when one cannot follow even at the circle
     """

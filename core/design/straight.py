@@ -15,11 +15,11 @@ from core.values import SIZE_MAX, Floats
 # Rounding of the bound, in units of the lengths that it adds up, u = 2^-53 [1]. k is good to 8 u of itself, angles to
 # 14 u, 1 - cos phi to 12 u + 14 u phi sin phi; so what is multiplied by a length is good to fewer than 60 u, and the
 # lengths of one sum are, all together, at most 4 times those named in least(). Where `across` is longer than these it
-# exceeds every margin that the gap does. Angles at their limits need no more, as the bound goes on smoothly there;
-# whether a dragon is too short to go half around is asked with as much to spare.
+# exceeds every margin that the gap does. Angles at their limits need no more, because the bound is smooth there.
+# Whether a dragon is too short to go half around is asked with the same allowance.
 STRAIGHT_ROUNDING = 3e-14
-# S is such that benches further apart along the path are apart by the gap on a straight line, at least by this part of
-# what two benches can bridge [1].
+# S is chosen so that benches further apart along the path are apart by the gap on a straight line, and at least by this
+# part of the distance that two benches can bridge [1].
 SPARE = 0.05
 
 # The curvature of the spiral r = b theta at a radius r is (r^2 + 2 b^2) / (r^2 + b^2)^(3/2). It falls with r, and, at a
@@ -106,10 +106,10 @@ class Straight:
         return min(further, self._next_but_one(curvature_most(growth, radius))) - rounding
 
     def _further(self, growth: float, radius: float) -> float:
-        """The same for benches with two others or more between them, rounding aside [m]; FREE without such benches."""
+        """The same for benches with two others or more between them, without rounding [m]; FREE if there are none."""
         width, diagonals = 2.0 * self.half_width, 2.0 * math.hypot(self.overhang, self.half_width)
         half_around = (1.0 - STRAIGHT_ROUNDING) * math.pi * radius
-        if 2.0 * math.pi * growth <= diagonals and self.total >= half_around:  # a ring may lie on the next
+        if 2.0 * math.pi * growth <= diagonals and self.total >= half_around:  # a turn may lie on the next one
             return -FREE
         curvature = curvature_most(growth, radius)
         sine = 0.5 * curvature * self.chord

@@ -26,8 +26,8 @@ WAY_WORK = 5e6
 FINER_WORK = 1e6
 # A way that ends this close to a fold, where handles are fast, is marched in finer steps [m of head travel].
 FINE_NEAR_FOLD = 0.1
-# The bound for wide spirals is used if it lets a march begin at this part of the radius that the ring bound gives, or
-# nearer; radii are tried in steps of this factor [1].
+# The bound for wide spirals is used if it lets a march begin at most at this part of the radius that the ring bound
+# gives; radii are tried in steps of this factor [1].
 NEARER = 0.8
 # Number of leading benches whose pairs are examined at both ends of a way before it is marched.
 LOOKED_AT = 2
@@ -36,8 +36,8 @@ LOOKED_AT = 2
 class Ways:
     """The ways of one dragon from the start to the circle, one for each pitch.
 
-    lowest: the pitch whose way begins on the circle, or SIZE_MIN [m]; marched: how many ways were; tried: the last
-        pitch that was asked for one [m]; bands: proofs for whole intervals of pitches
+    lowest: the pitch whose way begins on the circle, or SIZE_MIN [m]; marched: number of ways marched; tried: the last
+        pitch whose way was asked for [m]; bands: proofs for whole intervals of pitches
     """
 
     def __init__(
@@ -59,7 +59,8 @@ class Ways:
     def march(self, pitch: float, width: float = 0.0, work: float = WAY_WORK) -> tuple[Ended, Marched]:
         """March from the start to the circle: REACHED proves every clearance on the way larger than the margin.
 
-        width: half width of the bracket around a contact, 0 if any instant of it will do [m of travel]; work: at most
+        width: half width of the bracket around a contact, 0 if any instant of it will do [m of travel]
+        work: the most that it may do
         raises: Halted when the budget of all ways and bands together is spent or stopped
         """
         search, self.tried = self.search, pitch
@@ -76,7 +77,7 @@ class Ways:
         if fold > circle * (1.0 - THETA_ROUNDING):
             return Ended.FOLDED if fold > circle * (1.0 + THETA_ROUNDING) else Ended.STUCK, Marched(0.0)
         for state, travel in () if width else ((Ended.TOUCHED_AT_START, 0.0), (Ended.TOUCHED, stop)):
-            # Both ends alone decide most ways that are not clear, without laying out a long dragon.
+            # Most ways that are not clear show it at one of their ends, and no long dragon need be laid out.
             gap, pair = search.clearance(travel, min(LOOKED_AT, search.room))
             if gap <= self.margin and search.surely_within(travel, pair):
                 return state, Marched(0.0, travel, pair)
@@ -123,7 +124,7 @@ class Ways:
         return float(kernels.gap_at(scene, place, a, b, search.rows[0])) <= self.margin
 
     def _start_nearer(self, path: Spiral) -> None:
-        """Let the march begin at the radius beyond which the bound for wide spirals excludes a touch.
+        """Let the march begin at the radius beyond which the bound for wide spirals excludes a contact.
 
         It is used only if that is at most NEARER of the radius from the ring bound: for short benches on wide spirals.
         """

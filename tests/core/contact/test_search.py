@@ -7,6 +7,7 @@ import pytest
 
 from core import Dragon, Spiral, Turn
 from core.contact.march import Ended
+from core.contact.near_graze import others_clear
 from core.contact.search import Search
 from tests.core.slow_search import SlowDance, arc_length
 
@@ -50,8 +51,8 @@ def test_a_pair_parts_as_fast_as_its_gap_grows_and_turns_at_the_bottom_of_its_di
 
 def test_all_pairs_but_the_touching_one_are_clear_and_it_is_followed_again_afterwards() -> None:
     search, stop = Search(DRAGON, SPIRAL, 0.0), CONTACT + 1e-3
-    assert not search.others_clear(GRAZING, 400.0, stop)
-    assert search.others_clear(PAIR, 400.0, stop)
+    assert not others_clear(search, GRAZING, 400.0, stop)
+    assert others_clear(search, PAIR, 400.0, stop)
     state, found = search.march(stop, 1e-10, start=400.0)
     assert (state, found.benches) == (Ended.TOUCHED, PAIR)
     assert found.touching == pytest.approx(CONTACT, abs=1e-9)
