@@ -29,7 +29,7 @@ def film(
     context: typer.Context,
     output: Annotated[Path, typer.Option(help="Write a .mp4 file (extra film), or a .gif.")] = Path("dance.mp4"),
 ) -> None:
-    """A film of the dance, of any dragon on any path and in any venue with a FILE."""
+    """A film of the dance; with a FILE, of any dragon on any path and in any venue."""
     gif = checked_output("output", output, (".mp4", ".gif")) == ENDINGS[GIF_TYPE]
     require("figures" if gif else "film", "output", "A .gif" if gif else "A .mp4 (a .gif needs less)")
     form = GIF_TYPE if gif else films.FORM

@@ -64,7 +64,7 @@ def show_job(job: Name, data: Data = None, url: Url = "", token: Token = "", jso
 
 @jobs.command()
 def cancel(job: Name, data: Data = None, url: Url = "", token: Token = "") -> None:
-    """Dismiss a job that is not finished; of a finished one remove everything."""
+    """Dismiss an unfinished job; remove a finished one with its result."""
     print(f"{job}: {_at(data, url, token).cancel(job)}")
 
 
@@ -76,7 +76,7 @@ def result(
     url: Url = "",
     token: Token = "",
 ) -> None:
-    """What a job has found, as the service would have answered."""
+    """The answer of a finished job, as the service would have given it."""
     if output is not None:
         checked_output("output", output)
     found = _at(data, url, token).result(job)

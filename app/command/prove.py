@@ -228,7 +228,7 @@ def tolerance(
     asked: StrayClaim,
     output: Annotated[Path, typer.Option(help="File for the certificate.")] = Path("tolerance.proof.json"),
 ) -> None:
-    """Prove how far people may stray: nothing touches within it until the head is on the circle.
+    """Prove how far people may stray: within that distance nothing touches until the head is on the circle.
 
     Without --stray also a pose of the whole dragon is proven in which two benches overlap with strays a little larger.
     """

@@ -25,7 +25,9 @@ INTERRUPTED = 130
 
 Folder = Annotated[Path, typer.Argument(help="Folder of the sweep.")]
 
-sweep = typer.Typer(help="A question over some of its parameters: up to 10^8 designs, into a folder that goes on.")
+sweep = typer.Typer(
+    help="A question over some of its parameters: up to 10^8 designs in a folder, which a later run continues."
+)
 
 
 @contextmanager
@@ -51,7 +53,7 @@ def run(
         int | None, typer.Option(min=1, max=WORKERS_MAX, help="Processes of this machine; else one for each core.")
     ] = None,
 ) -> None:
-    """Answer every design that has no answer yet. Ctrl-C, or a kill, leaves a folder that goes on."""
+    """Answer every design that has no answer yet. After Ctrl-C or a kill the next run continues."""
     require("sweep", "sweep", "sweep")
     from app.sweeps.call import engine_of
     from app.sweeps.run import run as run_sweep

@@ -273,7 +273,7 @@ class Store:
             self._move(run, job, "state = 'running'", progress=int(100.0 * share), rate=percent, time_left=left, **more)
 
     def resume(self, job: str, kept: int) -> None:
-        """A sweep goes on from so many designs; were there fewer when it last began, its deaths are forgotten."""
+        """Note from how many designs a sweep continues; if it began with fewer last time, its deaths are forgotten."""
         with self._change() as run:
             self._move(run, job, f"state = 'running' AND kept < {kept:d}", kept=kept, deaths=0)
 

@@ -1,4 +1,4 @@
-"""The job of a sweep: its shards stand in a folder of the job, from which it goes on when its process was killed.
+"""The job of a sweep: its shards stand in a folder of the job, from which it continues if its process is killed.
 
 The table has the bytes that `bench-dragon sweep` gives to the same spec.
 """

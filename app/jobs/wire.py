@@ -80,7 +80,7 @@ class JobStatus(BaseModel):
     updated: str = Field(description="When any of this last changed")
     progress: int = measure("%", "Share of the work that is done, 0 to 100; 0 where a question cannot say")
     rate: float | None = measure("%/s", "How fast it goes on average")
-    time_left: float | None = measure("s", "How long it will still run if it goes on like that")
+    time_left: float | None = measure("s", "Time left at that rate")
     done: int | None = Field(
         description="Designs of a sweep that are answered; null before that, and for other questions"
     )

@@ -95,7 +95,7 @@ class _Reader:
             self.seen += 1
             if self.seen > ENTITIES_MAX:
                 words = f"file must draw at most {ENTITIES_MAX} entities, those of blocks counted each time, got more"
-                raise InvalidValue("file", f"{words}: leave out what is no part of the square")
+                raise InvalidValue("file", f"{words}: leave out everything that does not belong to the square")
             if entity.dxftype() == "INSERT" and depth < DEPTH_MAX:
                 yield from self.entities(entity.virtual_entities(), depth + 1)
             else:

@@ -12,20 +12,16 @@ from app.questions.question import UNKNOWN_COST, Question, Terms
 from app.wire import degrees
 from app.wire.answers import Head, Pair, Point
 from app.wire.clocks import time_of_day
-from app.wire.dances import PlacedDance
-from app.wire.models import Answer, Instant, SpeedLimit, measure
+from app.wire.dances import PlacedDance, SpanFields
+from app.wire.models import Answer, SpeedLimit, measure
 from app.wire.paths import WaypointsPath
 from core import Outcome
 
 
-class CheckRequest(Contact, PlacedDance, strict=True):
+class CheckRequest(Contact, SpanFields, PlacedDance, strict=True):
     """Can this dragon dance this path here?"""
 
     speed_limit: SpeedLimit | None = measure("m/s", "Highest speed allowed for any handle; null: no limit", None)
-    start: Instant | None = measure(
-        "s", "Start time; null: the start of the dance, or when the whole dragon is on the path", None
-    )
-    stop: Instant | None = measure("s", "End time; null: the end of the run", None)
     details: bool = Field(
         True,
         description="false: the verdict and the failures alone, in a tenth of the time; least clearance, highest speed "

@@ -9,8 +9,8 @@ from pydantic import Field
 import core
 from app.questions.question import UNKNOWN_COST, Question, Terms
 from app.wire.answers import TOTAL_STRAY, End, Feature, Graze, Head, Pair, PairCheck, Point
-from app.wire.dances import DanceFields, DanceQuery, Strays, UniformDragon
-from app.wire.models import Answer, CrossCheck, Instant, Margin, measure
+from app.wire.dances import DanceFields, DanceQuery, SpanFields, Strays, UniformDragon
+from app.wire.models import Answer, CrossCheck, Margin, measure
 from app.wire.paths import SpiralPath
 from core import Dance, Outcome
 
@@ -29,13 +29,8 @@ class CollisionQuery(Contact, DanceQuery):
     """When do two benches first touch, or come nearer than a margin?"""
 
 
-class CollisionRequest(Contact, DanceFields, strict=True):
+class CollisionRequest(Contact, SpanFields, DanceFields, strict=True):
     """When do two benches first touch, or come nearer than a margin, on any path?"""
-
-    start: Instant | None = measure(
-        "s", "Start time; null: the start of the dance, or when the whole dragon is on the path", None
-    )
-    stop: Instant | None = measure("s", "End time; null: the end of the run", None)
 
 
 class Certificate(Answer):

@@ -11,8 +11,8 @@ import core
 from app.questions.question import Question, Terms
 from app.questions.tolerance import CircleQuery
 from app.wire.answers import Pair
-from app.wire.dances import DanceFields
-from app.wire.models import Answer, Instant, Wire, check_limit, measure
+from app.wire.dances import DanceFields, SpanFields
+from app.wire.models import Answer, Wire, check_limit, measure
 from core.tolerance.chance import CONFIDENCE, SEED_MAX
 from core.tolerance.curve import time_on_circle
 
@@ -31,21 +31,21 @@ class Wobbling(Wire):
     forward: Spread = measure("m", "The same along the path", 0.01)
     correlation_time: Correlation = measure(
         "s",
-        "Time after which a person has kept 1 / e of where they stood; at two steps a second 5 s are ten steps",
+        "Time after which 1 / e of a person's displacement is left; at two steps a second 5 s are ten steps",
         5.0,
     )
     step: Correlation | None = measure(
         "s", "Time between two instants, at most a fifth of the correlation time; null: that fifth", None
     )
     correlation_benches: Correlation = Field(
-        2.0, description="Number of benches between two people who share 1 / e of where they stand"
+        2.0, description="Number of benches between two people whose displacements have a correlation of 1 / e"
     )
     hole: Diameter = measure("m", "Diameter of the holes in the benches, if the play of the pins is to count", 0.0)
     pin: Diameter = measure("m", "Diameter of the pins in these holes, each of which lies anywhere in its holes", 0.0)
     pitch_error: Spread = measure("m", "Standard deviation of the pitch of the painted spiral", 0.0)
     samples: int = Field(500, ge=1, description="Number of dances drawn at random")
     seed: int = Field(
-        1, ge=0, le=SEED_MAX, description="Seed of the random numbers: the same dances come of the same seed"
+        1, ge=0, le=SEED_MAX, description="Seed of the random numbers: the same seed gives the same dances"
     )
 
     def to_model(self) -> core.Wobble:
@@ -57,13 +57,8 @@ class ContactProbabilityQuery(Wobbling, CircleQuery):
     """How likely is it that benches touch on the way to a turning circle?"""
 
 
-class ContactProbabilityRequest(Wobbling, DanceFields, strict=True):
+class ContactProbabilityRequest(Wobbling, SpanFields, DanceFields, strict=True):
     """How likely is it that benches touch when people wobble in any dance?"""
-
-    start: Instant | None = measure(
-        "s", "Start time; null: the start of the dance, or when the whole dragon is on the path", None
-    )
-    stop: Instant | None = measure("s", "End time; null: the end of the run", None)
 
 
 class ContactProbability(Answer):
@@ -83,7 +78,7 @@ class ContactProbability(Answer):
     )
     strayed: int | None = Field(
         description="Number of samples in which a hole is further from its place than that before anything touches, or "
-        "as it does; null with a pitch error"
+        "when it does; null with a pitch error"
     )
     union_bound: float | None = Field(
         description="Proven without samples: the probability of the model is no larger at these instants; null with "

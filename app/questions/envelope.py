@@ -12,9 +12,9 @@ import core
 from app.files.outlines import DXF_TYPE, GEOJSON_TYPE, envelope_dxf, envelope_geojson
 from app.questions.question import Question, Terms
 from app.wire.answers import MultiPolygon, Polygon
-from app.wire.dances import DanceFields, DanceQuery
+from app.wire.dances import DanceFields, DanceQuery, SpanFields
 from app.wire.geojson import geometry_of
-from app.wire.models import JSON, Answer, Instant, Wire, measure
+from app.wire.models import JSON, Answer, Instant, measure
 from app.wire.paths import Point
 
 # Largest number of points of a line of spectators.
@@ -23,20 +23,17 @@ LINE_MOST = 1_000
 SECONDS = 2.5
 
 
-class SpanFields(Wire):
-    """A stretch of a dance."""
+class WholeSpan(SpanFields):
+    """A stretch of a dance, which a contact does not end."""
 
-    start: Instant | None = measure(
-        "s", "Start time; null: the start of the dance, or when the whole dragon is on the path", None
-    )
     stop: Instant | None = measure("s", "End time; null: the end of the run, also if benches touch before", None)
 
 
-class EnvelopeQuery(SpanFields, DanceQuery):
+class EnvelopeQuery(WholeSpan, DanceQuery):
     """The ground that a uniform dragon sweeps on a spiral."""
 
 
-class EnvelopeRequest(SpanFields, DanceFields, strict=True):
+class EnvelopeRequest(WholeSpan, DanceFields, strict=True):
     """The ground that benches sweep in any dance."""
 
     spectators: list[Point] | None = measure(

@@ -9,8 +9,8 @@ from pydantic import Field
 import core
 from app.questions.question import Question, Terms
 from app.wire.answers import Point
-from app.wire.dances import DanceFields, DanceQuery, PlacedDance
-from app.wire.models import Answer, Instant, TurningDiameter, Wire, measure
+from app.wire.dances import DanceQuery, PlacedDance, SpanFields
+from app.wire.models import Answer, TurningDiameter, Wire, measure
 from core import Exhibit, InvalidValue, Limit
 from core.tolerance.curve import time_on_circle
 
@@ -34,13 +34,9 @@ class ToleranceQuery(SizeErrors, CircleQuery):
     """How far may people stray on the way to a turning circle?"""
 
 
-class ToleranceRequest(SizeErrors, PlacedDance, DanceFields, strict=True):
+class ToleranceRequest(SizeErrors, SpanFields, PlacedDance, strict=True):
     """How far may people stray in any dance, between each other and to a venue?"""
 
-    start: Instant | None = measure(
-        "s", "Start time; null: the start of the dance, or when the whole dragon is on the path", None
-    )
-    stop: Instant | None = measure("s", "End time; null: the end of the run", None)
     turning_diameter: TurningDiameter | None = measure(
         "m", "Diameter of the circle at which the head stops, on a spiral, in place of an end time", None
     )

@@ -16,7 +16,7 @@ from core import Dragon, InvalidValue, Limit, TooMuchWork
 from core.errors import said
 from core.values import Floats
 
-# Where nobody says up to which pitch: up to this many times the lowest one [1].
+# Default highest pitch, as a multiple of the lowest one [1].
 WIDEST = 2.0
 # At the minimum pitch itself the dance may begin on the circle; so much above it there is a way to judge [1].
 ABOVE_MINIMUM = 1e-6

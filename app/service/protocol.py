@@ -1,4 +1,4 @@
-"""HTTP/1.1 by uvicorn and h11, with an end to every wait and problems for what is no HTTP.
+"""HTTP/1.1 by uvicorn and h11, with an end to every wait and problem details for requests that are not HTTP.
 
 uvicorn ends a connection on which no request begins. It waits for ever for the rest of one that has begun, and for a
 client that takes nothing of its answer. It also reads all that has arrived before it does anything else: 200,000 chunks

@@ -167,7 +167,7 @@ def run(
 
     engine: makes where they are answered, and is not called when nothing is missing
     progress: called at least every TICK
-    raises: InvalidValue, OSError, and what the engine raises; KeyboardInterrupt leaves a folder that goes on
+    raises: InvalidValue, OSError, and what the engine raises; after KeyboardInterrupt the next run continues
     """
     begin(folder, spec)
     missing = missing_shards(folder, spec)

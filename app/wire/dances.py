@@ -102,14 +102,14 @@ class Strays(Wire):
     """How far every hole may be from its place, by people and by the play of its pin."""
 
     stray: float = measure(
-        "m", "How far each person may be from their place at any time; adds to the margin what benches may move", 0.0,
+        "m", "How far each person may be from their place; the margin grows by what benches may then move", 0.0,
         ge=0, le=STRAY_MAX,
     )  # fmt: skip
     hole: float = measure(
         "m", "Diameter of the holes in the benches, if the play of the pins is to count", 0.0, ge=0, le=1
     )
     pin: float = measure(
-        "m", "Diameter of the pins in these holes; half of what it lacks adds to the stray", 0.0, ge=0, le=1
+        "m", "Diameter of the pins in these holes; half of the difference adds to the stray", 0.0, ge=0, le=1
     )
 
     @property
@@ -249,6 +249,15 @@ class DanceFields(HeadSpeed, DragonFields, strict=True):
     def to_passages(self) -> list[Passage]:
         """Passages, each checked by itself."""
         return [one.to_passage() for one in self.passages]
+
+
+class SpanFields(Wire):
+    """A stretch of a dance."""
+
+    start: Instant | None = measure(
+        "s", "Start time; null: the start of the dance, or when the whole dragon is on the path", None
+    )
+    stop: Instant | None = measure("s", "End time; null: the end of the run", None)
 
 
 class TimedDance(DanceFields):

@@ -45,7 +45,7 @@ def in_body(body: Any, before: str = "") -> Placing:
 
 
 def pointer(place: Sequence[Any], body: Any) -> str:
-    """JSON pointer to a place in a body, without names of shapes and indices into what is no list there.
+    """JSON pointer to a place in a body, without names of shapes, and without indices where the body has no list.
 
     >>> pointer(("dragon", "uniform", "width"), {"dragon": {"width": -1}})
     '/dragon/width'

@@ -27,7 +27,7 @@ class Wobble(Shown):
     lateral, forward: how far a person wants to stand from their place, across the path and along it [m]: normal, with
         these standard deviations, so at one step in twenty further than twice as far. Chords are rigid: what comes of
         the latter is the first person's, and what the bends of the chain make of the former
-    correlation_time: [s] after it a person has kept 1 / e of where they stood, and the rest is new
+    correlation_time: [s] after it 1 / e of a person's displacement is left, and the rest is new
     step: [s] between two instants, at most 1 / INSTANTS_PER_TIME of the correlation time, which None stands for. The
         path of a person is as rough as that of a random walk, so at closer instants there are more contacts
     correlation_benches: [1] two people so many benches apart share 1 / e of where they stand, who carry the same bench
