@@ -294,8 +294,8 @@ OUTSIDE_CORE = {"app", "fastapi", "http", "json", "orjson", "pathlib", "pydantic
 OVERLAP_ENGINES = {"fcl", "shapely"}
 # Of continuous collision detection, which are only compared with.
 OTHER_ENGINES = {"Box2D", "ipctk"}
-# No function is longer, docstring included, or takes more parameters.
-LINES_MOST, PARAMETERS_MOST = 80, 8
+# No function is longer, docstring included, or takes more parameters; and no room is longer.
+LINES_MOST, PARAMETERS_MOST, ROOM_MOST = 80, 8, 350
 HEAVY = ("fcl", "flint", "matplotlib", "pandas", "scipy", "shapely", "xarray")
 
 
@@ -387,3 +387,14 @@ def test_functions_are_short_and_take_few_parameters(module: str) -> None:
         assert len([name for name in parameters if name and name.arg not in ("self", "cls")]) <= PARAMETERS_MOST, (
             function.name
         )
+
+
+PAGE = [path for kind in ("js", "html", "css") for path in sorted((ROOT / "app" / "page").rglob(f"*.{kind}"))]
+# Longer, and to be cut.
+LONG = {"app/page/dance.js", "app/page/main.js", "app/page/words.js"}
+ROOMS = sorted({path.relative_to(ROOT).as_posix() for path in (*MODULES.values(), *PAGE)} - LONG)
+
+
+@pytest.mark.parametrize("room", ROOMS)
+def test_rooms_are_small(room: str) -> None:
+    assert len((ROOT / room).read_text(encoding="utf-8").splitlines()) <= ROOM_MOST
