@@ -19,6 +19,8 @@ from core.values import Floats
 Motion = Callable[[Floats], Floats]
 # Steps of Newton for the next angle, and of the false position for the next place: both reach 1e-12 long before.
 NEWTON_STEPS, FALSE_STEPS = 8, 40
+# The nearest place a chord away is looked for in steps of so many chords: where a path turns back, it is far [1].
+WIDER = 0.05
 
 
 def motion(position: Floats, speed: Floats) -> Floats:
@@ -140,8 +142,12 @@ def _behind(path: Bent, s: Floats, point: Floats, chord: float) -> Floats:
         found: Floats = np.linalg.norm(path.place(at)[0] - point, axis=-1) - chord
         return found
 
-    near, far = s - 0.9 * chord, s - 1.6 * chord
-    f_near, f_far = excess(near), excess(far)
+    near = far = s - 0.9 * chord
+    f_near = f_far = excess(far)
+    while (short := f_far < 0.0).any():
+        near, f_near = np.where(short, far, near), np.where(short, f_far, f_near)
+        far = np.where(short, far - WIDER * chord, far)
+        f_far = excess(far)
     middle = near
     for _ in range(FALSE_STEPS):
         span = np.where(f_far != f_near, f_far - f_near, 1.0)

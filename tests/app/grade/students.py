@@ -191,6 +191,33 @@ def semicircles() -> Results:
     return position, right[1]
 
 
+def mirrored_arcs() -> Results:
+    """Both arcs on the other side of the line from the entry to the exit, which they reach all the same."""
+    path, right = Turn(1.7), turn()
+    along = np.array(path.exit) - np.array(path.entry)
+    along /= np.linalg.norm(along)
+
+    def place(s: Floats) -> Floats:
+        point = np.asarray(path.position(s))
+        away = point - path.entry
+        across = away - (away @ along)[:, None] * along
+        return np.where(((s > 0.0) & (s < path.length))[:, None], point - 2.0 * across, point)
+
+    s, points = TURN_TIMES, [place(TURN_TIMES)]
+    for chord in Dragon().chords:
+
+        def excess(u: Floats, point: Floats = points[-1], chord: float = chord) -> Floats:
+            return np.linalg.norm(place(u) - point, axis=-1) - chord
+
+        # The first place behind that is a chord away: at the kinks it is several chords behind along the path.
+        far = s - 0.9 * chord
+        while (short := excess(far) < 0.0).any():
+            far = np.where(short, far - 0.05, far)
+        s = bisected(excess, far, far + 0.05)
+        points.append(place(s))
+    return np.stack(points, axis=1), right[1]
+
+
 def labels(kind: str) -> list[str]:
     names = ["龙头", *(f"第{k}节龙身" for k in range(1, 222)), "龙尾", "龙尾（后）"]
     if kind == "position":

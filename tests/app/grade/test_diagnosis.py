@@ -1,4 +1,4 @@
-"""Twenty results with one known error each are diagnosed; five with errors of no known kind are not."""
+"""Twenty-one results with one known error each are diagnosed; five with errors of no known kind are not."""
 
 from __future__ import annotations
 
@@ -43,6 +43,7 @@ KNOWN = {
     "shifted_time": lambda: first(spiral(SPIRAL_TIMES + 1.0)),
     "ratio_inverted": lambda: fourth(turn(ratio=0.5)),
     "arcs_not_tangent": lambda: fourth(students.semicircles()),
+    "wrong_centre": lambda: fourth(students.mirrored_arcs()),
     "turn: shifted_time": lambda: fourth(turn(TURN_TIMES + 13.621245)),
     "turn: backward_difference": lambda: fourth(students.quotient(-0.01, 0.0, turn)),
     "contact: other_instant": lambda: students.contact_workbook(spiral(np.array([412.48]))),
@@ -89,8 +90,8 @@ def known(name: str) -> FileAnswer:
     return grade(KNOWN[name]())
 
 
-def test_there_are_twenty_known_errors_and_five_unknown_ones() -> None:
-    assert (len(KNOWN), len(UNKNOWN)) == (20, 5)
+def test_there_are_twenty_one_known_errors_and_five_unknown_ones() -> None:
+    assert (len(KNOWN), len(UNKNOWN)) == (21, 5)
 
 
 @pytest.mark.parametrize("name", KNOWN)
