@@ -38,7 +38,7 @@ setup: $(VENV)/compiled
 $(VENV)/installed: requirements.lock
 	@PYTHON='$(PYTHON)' bash .ci/make-venv $(VENV)
 	@echo 'Installing the locked packages into $(VENV) (some minutes, once)'
-	@$(PIP) install -r requirements.lock
+	@grep -v '^#' requirements.lock | xargs -n 24 -P 2 $(PIP) install --no-deps
 	@touch $@
 
 # The normal install, editable: it compiles core/kernels in place, or reports why it runs uncompiled.

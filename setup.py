@@ -82,6 +82,7 @@ def kernels() -> list[Extension]:
         build_dir="build",
         compiler_directives=DIRECTIVES,
         shared_utility_qualified_name=SHARED,
+        nthreads=os.cpu_count() or 1,  # the same C from any number of processes
     )
     for extension in extensions:
         extension.optional = True  # cythonize (3.3) drops this option of Extension

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 
 import httpx
@@ -86,7 +87,9 @@ def ask(app: FastAPI, path: str, method: str = "GET") -> httpx.Response:
         async with httpx.AsyncClient(transport=transport, base_url="http://here") as client:
             return await client.request(method, path)
 
-    return asyncio.run(answer())
+    # In the main thread the browser of other tests has its event loop.
+    with ThreadPoolExecutor(1) as thread:
+        return thread.submit(asyncio.run, answer()).result()
 
 
 ERRORS = [kind for kind in vars(core).values() if isinstance(kind, type) and issubclass(kind, core.BenchDragonError)]

@@ -14,8 +14,8 @@ from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
 
-# Commands that start one, in the order of preference.
-NAMES = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable", "chrome")
+# Commands that start one, in the order of preference: the one without windows opens a page for less.
+NAMES = ("chromium-headless-shell", "chromium", "chromium-browser", "google-chrome", "google-chrome-stable", "chrome")
 # Where one is installed without being in PATH.
 PLACES = (
     "/usr/bin/chromium",

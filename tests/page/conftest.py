@@ -35,8 +35,9 @@ PIXELS_UNLIKE = 1e-3
 FAILED_REQUEST = "Failed to load resource"
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture(scope="session")
 def browser() -> Iterator[Browser]:
+    """One browser for all tests of a process: starting one costs two seconds of a core."""
     expect.set_options(timeout=TIMEOUT)
     with sync_playwright() as playwright:
         browser = playwright.chromium.launch(executable_path=found(), args=ARGUMENTS)
@@ -44,9 +45,9 @@ def browser() -> Iterator[Browser]:
         browser.close()
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture(scope="session")
 def contexts() -> dict[str, BrowserContext]:
-    """One browser's memory for each way of opening pages, so that its cache serves all tests of a module."""
+    """One browser's memory for each way of opening pages, so that its cache serves all tests."""
     return {}
 
 
