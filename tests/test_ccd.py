@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 from flint import arb
 
-from benchmarks.ccd.__main__ import run
+from benchmarks.ccd.__main__ import main, run
 from benchmarks.ccd.dances import KINDS, dance_of
 from benchmarks.ccd.engines import ENGINES, Engine
 from benchmarks.ccd.files import COLUMNS, ENDS, Shard, load, load_shard, save, save_shard
@@ -20,7 +20,7 @@ from benchmarks.ccd.march import least_between
 from benchmarks.ccd.motion import Stage
 from benchmarks.ccd.pieces import pieces_of
 from benchmarks.ccd.queries import CONTACT, EXACT, FAR, GRAZE, SAMPLES, dance_queries
-from benchmarks.ccd.report import SAMPLE, SAMPLED, Results, by_depth, score
+from benchmarks.ccd.report import BEGIN, END, PAGE, SAMPLE, SAMPLED, Results, by_depth, report, score
 from benchmarks.ccd.running import Worker, answers, answers_path, installed, save_answers
 from benchmarks.ccd.series import Expansion
 from benchmarks.ccd.truth import covered, track
@@ -32,10 +32,8 @@ EVERYTHING = np.ones(len(SHARD), dtype=bool)
 # Largest errors of our own times of contact [s]: the corner comes to a graze of 1e-9 m at 1e-5 m/s, so slowly that what
 # doubles leave of its place, 1e-14 m and more, is 1e-9 s and more.
 OURS, OURS_AT_GRAZES = 1e-9, 1e-8
-# Every engine answers so many queries of the sample, spread over all of it, in the time that it takes on them: those
-# that take milliseconds answer fewer.
-ASKED = {"ours": SAMPLED, "ipctk": SAMPLED, "Box2D": SAMPLED, "ipctk 0.9999": 40}
-ASKED_ELSE = 200
+# Every engine answers the whole sample, but for one that takes half a minute for it: so many, spread over all of it.
+ASKED = {"ipctk 0.9999": 200}
 # Largest difference of two computations in balls of the same point [m].
 SAME = 1e-11
 
@@ -50,7 +48,7 @@ def results(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Results]:
     """The answers of every engine to its part of the sample, read back from the files that a run writes."""
     folder, found = tmp_path_factory.mktemp("answers"), {}
     for engine in ENGINES:  # the last one answers as its process has it: docs/dragon-ccd.md
-        shard = part(ASKED.get(engine.name, ASKED_ELSE))
+        shard = part(ASKED.get(engine.name, SAMPLED))
         save_answers(folder / "answers.npz", list(answers(engine, shard)))
         found[engine.name] = Results(shard, {engine.name: load(folder / "answers.npz")})
     return found
@@ -176,6 +174,57 @@ def test_a_crash_and_a_hang_are_rows_and_a_run_goes_on_where_it_was(tmp_path: Pa
     run(tmp_path, 0, len(shard), ("ours", "ipctk"))
     assert load(kept)["travel"].tolist() == told["travel"].tolist()
     assert load(answers_path(tmp_path / "queries-0000.npz", "ours"))["end"].tolist() == [0] * 6
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (["--queries", "0"], "argument --queries: must be a whole number from 1 on, got 0"),
+        (["--seed", "-1"], "argument --seed: must be a whole number from 0 on, got -1"),
+        (
+            ["--docs", "nowhere"],
+            "--docs must be a folder with dragon-ccd.md, the page that gets the tables, got nowhere",
+        ),
+        (
+            ["--only-report", "--folder", "nothing"],
+            "--folder has no answered queries of the seed 2026: nothing/seed-2026",
+        ),
+    ],
+)
+def test_bad_input_of_a_run_is_one_line(
+    arguments: list[str], said: str, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr("sys.argv", ["benchmarks.ccd", *arguments])
+    with pytest.raises(SystemExit) as ended:
+        main()
+    assert ended.value.code == 2
+    assert capsys.readouterr().err.splitlines()[-1] == f"python -m benchmarks.ccd: error: {said}"
+
+
+def test_an_interrupted_run_says_that_it_goes_on(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    def interrupted(*_: object) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("benchmarks.ccd.__main__.run", interrupted)
+    monkeypatch.setattr("sys.argv", ["benchmarks.ccd", "--folder", str(tmp_path)])
+    with pytest.raises(SystemExit) as ended:
+        main()
+    assert ended.value.code == 128 + signal.SIGINT
+    kept = f"interrupted: {tmp_path}/seed-2026 keeps what was answered, and the same command goes on there\n"
+    assert capsys.readouterr().err == kept
+
+
+def test_an_engine_that_hangs_at_every_query_is_a_row_of_the_report(tmp_path: Path) -> None:
+    shard = SHARD.taken(np.flatnonzero(SHARD.columns["depth"] == -1e-3)[:3])
+    save_answers(tmp_path / "box2d.npz", [(False, math.nan, math.nan, 0, ENDS.index("hang"))] * len(shard))
+    save_answers(tmp_path / "ours.npz", list(answers(ENGINES[0], shard)))
+    (tmp_path / PAGE).write_text(f"{BEGIN}{END}", encoding="utf-8")
+    results = Results(shard, {"ours": load(tmp_path / "ours.npz"), "Box2D": load(tmp_path / "box2d.npz")})
+    told = report(results, tmp_path)
+    assert "| Box2D | 0 | 0 | 0 / 0 / 3 | 0 | 0 | 0 | 0 (0) | 0 |" in told
+    assert {"ccd-time.png", "ccd-depth.png"} <= {path.name for path in tmp_path.iterdir()}
 
 
 def test_scores_count_what_differs_from_the_truth() -> None:

@@ -6,12 +6,13 @@ A run that was interrupted goes on where it was: what stands in its folder is no
 from __future__ import annotations
 
 import argparse
-from collections.abc import Iterable
+import sys
+from collections.abc import Callable, Iterable
 from pathlib import Path
 
 from benchmarks.ccd.files import load_shard, save_csv, save_shard, shard_of
 from benchmarks.ccd.queries import dance_queries
-from benchmarks.ccd.report import SAMPLE, SAMPLED, collected, report
+from benchmarks.ccd.report import PAGE, SAMPLE, SAMPLED, collected, report
 from benchmarks.ccd.running import Worker, answers_path, installed, save_answers
 
 ROOT = Path(__file__).parents[2]
@@ -40,20 +41,39 @@ def run(folder: Path, seed: int, count: int, names: Iterable[str]) -> None:
         worker.stop()
 
 
+def at_least(least: int) -> Callable[[str], int]:
+    """Reads a whole number that is not below the least one."""
+
+    def read(text: str) -> int:
+        if not text.lstrip("-").isdecimal() or int(text) < least:
+            raise argparse.ArgumentTypeError(f"must be a whole number from {least} on, got {text}")
+        return int(text)
+
+    return read
+
+
 def main() -> None:
     """Run, then write what was found."""
     parser = argparse.ArgumentParser(prog="python -m benchmarks.ccd", description=__doc__)
-    parser.add_argument("--queries", type=int, default=100_000, help="how many at least (100,000)")
-    parser.add_argument("--seed", type=int, default=2026, help="of the random dances (2026)")
+    parser.add_argument("--queries", type=at_least(1), default=100_000, help="how many at least (100,000)")
+    parser.add_argument("--seed", type=at_least(0), default=2026, help="of the random dances (2026)")
     parser.add_argument("--folder", type=Path, default=ROOT / "build" / "ccd", help="of the files (build/ccd)")
     parser.add_argument("--docs", type=Path, default=ROOT / "docs", help="where the page and the figures are (docs)")
     parser.add_argument("--sample", action="store_true", help=f"also write {SAMPLED} of the queries to {SAMPLE.name}")
     parser.add_argument("--only-report", action="store_true", help="ask nothing, write what the folder has")
     asked = parser.parse_args()
     folder = asked.folder / f"seed-{asked.seed}"
+    if not (asked.docs / PAGE).is_file():
+        parser.error(f"--docs must be a folder with {PAGE}, the page that gets the tables, got {asked.docs}")
     if not asked.only_report:
-        run(folder, asked.seed, asked.queries, installed())
+        try:
+            run(folder, asked.seed, asked.queries, installed())
+        except KeyboardInterrupt:
+            print(f"interrupted: {folder} keeps what was answered, and the same command goes on there", file=sys.stderr)
+            sys.exit(130)
     results = collected(folder)
+    if results is None:
+        parser.error(f"--folder has no answered queries of the seed {asked.seed}: {folder}")
     if asked.sample:
         sample = results.sample(SAMPLED)
         save_shard(SAMPLE, sample)

@@ -27,6 +27,7 @@ HEADINGS = (
     "µs, median (99 %)",
     "evaluations",
 )
+PAGE = "dragon-ccd.md"
 BEGIN, END = "<!-- dragon-ccd:begin -->", "<!-- dragon-ccd:end -->"
 # The committed sample, and how many queries it has.
 SAMPLE = Path(__file__).with_name("sample.npz")
@@ -84,8 +85,8 @@ class Score(NamedTuple):
     evaluations: float
 
 
-def collected(folder: Path) -> Results:
-    """All files of queries in a folder that every engine with answers there has answered."""
+def collected(folder: Path) -> Results | None:
+    """All files of queries in a folder that every engine with answers there has answered; None without any."""
     names = [
         engine.name for engine in ENGINES if any(folder.glob(answers_path(Path("queries-*.npz"), engine.name).name))
     ]
@@ -96,6 +97,8 @@ def collected(folder: Path) -> Results:
             shards.append(load_shard(path))
             for name, file in files.items():
                 parts[name].append(load(file))
+    if not shards or not names:
+        return None
     answers = {
         name: {key: np.concatenate([part[key] for part in each]) for key in each[0]} for name, each in parts.items()
     }
@@ -125,7 +128,7 @@ def score(results: Results, name: str, rows: NDArray[np.bool_]) -> Score:
         float(-off.min(initial=0.0)),
         float(np.median(np.abs(off))) if off.size else 0.0,
         (float(np.median(spent)), float(np.percentile(spent, 99))) if spent.size else (0.0, 0.0),
-        float(np.median(answers["evaluations"][rows])),
+        float(np.median(answers["evaluations"][rows])) if rows.any() else 0.0,
     )
 
 
@@ -202,7 +205,7 @@ def section(results: Results) -> str:
 def report(results: Results, docs: Path) -> str:
     """Rewrite the part of docs/dragon-ccd.md between its markers, and both figures; returns that part."""
     text = section(results)
-    page = docs / "dragon-ccd.md"
+    page = docs / PAGE
     before, _, rest = page.read_text(encoding="utf-8").partition(BEGIN)
     _, end, after = rest.partition(END)
     if not end:
@@ -253,6 +256,8 @@ def draw(results: Results, docs: Path) -> None:
             for depth in depths
         ]
         kept = [(depth, np.percentile(each, [50, 100])) for depth, each in zip(depths, found, strict=True) if each.size]
+        if not kept:  # an engine that crashed or hung at every graze
+            continue
         x, values = [depth for depth, _ in kept], np.maximum([pair for _, pair in kept], FLOOR)
         axes.plot(x, values[:, 0], MARKERS[name] + "-", color=COLOURS[name], label=name)
         axes.plot(x, values[:, 1], ":", color=COLOURS[name], lw=1)

@@ -61,6 +61,7 @@ def answers(engine: Engine, shard: Shard, first: int = 0) -> Iterator[Row]:
 
 def work(connection: Connection, name: str) -> None:
     """The process of one engine: takes the file of a shard and the first query, sends one answer after the other."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is for the process that asks
     engine = next(engine for engine in ENGINES if engine.name == name)
     while True:
         try:
@@ -74,7 +75,10 @@ def work(connection: Connection, name: str) -> None:
             signal.setitimer(signal.ITIMER_PROF, 0.0)
             if row is None:
                 break
-            connection.send(row)
+            try:
+                connection.send(row)
+            except BrokenPipeError:  # nor here
+                return
 
 
 class Worker:
