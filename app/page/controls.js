@@ -24,6 +24,11 @@ export function limitsIn(paths) {
   );
 }
 
+/** A number in another unit, without the noise of binary fractions; what is no number stays as it is. */
+const times = (text, factor) => (factor !== 1 && text !== "" && Number.isFinite(Number(text)) ? String(Number((Number(text) * factor).toPrecision(12))) : text);
+/** How many of the unit that is shown are one of the service's. */
+const SHOWN = Object.fromEntries(FIELDS.map(({ name, centimetres }) => [name, centimetres ? 100 : 1]));
+
 export class Controls {
   #rows = new Map();
 
@@ -48,7 +53,7 @@ export class Controls {
   }
 
   #row({ name, slider: [min, max, step] }) {
-    const change = (event) => this.state.set({ [name]: event.target.value.trim() });
+    const change = (event) => this.state.set({ [name]: times(event.target.value.trim(), 1 / SHOWN[name]) });
     const described = { "aria-describedby": `${name}-help ${name}-limits ${name}-error` };
     const row = {
       text: make("input", { id: name, inputMode: "decimal", autocomplete: "off", spellcheck: false, ...described }),
@@ -96,11 +101,11 @@ export class Controls {
   #show(name) {
     const row = this.#rows.get(name);
     if (!row) return;
-    const text = this.state.get(name);
+    const text = times(this.state.get(name), SHOWN[name]);
     if (row.text.value.trim() !== text) row.text.value = text;
     row.slider.value = text;
     row.ends.forEach((field, k) => (field.value = row.slider[ENDS[k]]));
-    row.reset.disabled = text === this.state.initial(name);
+    row.reset.disabled = this.state.get(name) === this.state.initial(name);
   }
 
   /** limits: name -> [low, high, unit] as the service states them */
@@ -111,8 +116,8 @@ export class Controls {
       row.reset.setAttribute("aria-label", say("reset", named));
       row.ends.forEach((field, k) => field.setAttribute("aria-label", say(ENDS[k] === "min" ? "sliderFrom" : "sliderTo", named)));
       const [low, high, unit = ""] = limits[name] ?? [];
-      row.unit.textContent = unit === "turns" ? say(unit) : unit;
-      row.limits.textContent = low === undefined ? "" : say("limits", { low, high });
+      row.unit.textContent = unit === "turns" ? say(unit) : SHOWN[name] > 1 ? "cm" : unit;
+      row.limits.textContent = low === undefined ? "" : say("limits", { low: low * SHOWN[name], high: high * SHOWN[name] });
       if (this.state.initial(name) === "") row.text.placeholder = say(`${name}_none`);
     }
   }

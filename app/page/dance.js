@@ -214,8 +214,7 @@ export class Dance {
     this.#path = null;
     if (!path) return;
     const { x, y } = path;
-    this.#path = smooth({ x, y });
-    this.#points = { x, y };
+    [this.#path, this.#points] = [smooth(path), { x, y }];
     const [xs, ys] = [[...x, ...around.map((point) => point[0])], [...y, ...around.map((point) => point[1])]];
     this.#bounds = [least(xs), least(ys), largest(xs), largest(ys)];
   }
@@ -335,9 +334,8 @@ export class Dance {
       const ends = edge(outline(pose, dragon, contact.edge.bench), contact.edge.name);
       pen.stroke(trace(new Path2D(), ends), this.#colours.text, 4);
     }
-    const point = pen.circle(x, y, 6);
-    pen.fill(point, this.#colours.card);
-    pen.stroke(point, this.#colours.text, 3);
+    pen.fill(pen.circle(x, y, 6), this.#colours.card);
+    pen.stroke(pen.circle(x, y, 6), this.#colours.text, 3);
   }
 
   #nearest(px, py) {

@@ -5,21 +5,20 @@ import { Problem, Service } from "./api.js";
 import { BenchTable } from "./benches.js";
 import { Controls, limitsIn } from "./controls.js";
 import { Dance, spanOf, speedRange } from "./dance.js";
+import { Designs } from "./designs.js";
 import { Drawn } from "./drawn.js";
 import { $, $$, onClick } from "./elements.js";
 import { Graphs } from "./graphs.js";
 import { Grader } from "./grade.js";
-import { Jobs } from "./jobs.js";
 import { Keep } from "./keep.js";
 import { announce, markContact, placeInset } from "./overlays.js";
 import { Pace, passagesText, quickened, timeOfDay } from "./pace.js";
 import { Player } from "./player.js";
 import { Questions } from "./questions.js";
-import { SweepMap } from "./map.js";
 import { CONTACT, FIELDS, SAID, State, strayOf } from "./state.js";
-import { QUESTIONS, SweepForm } from "./sweeps.js";
 import { Table } from "./table.js";
 import { handleName, say, setLanguage } from "./text.js";
+import { tellRefusals } from "./told.js";
 
 const NUMBERS = [...FIELDS.map((field) => field.name), ...SAID, "path", "drawing"];
 /** The boxes that wait for each kind of answer. */
@@ -36,8 +35,6 @@ const BUSY = {
   scan: ["#scan"],
   grade: ["#grade"],
 };
-/** Titles of the boxes that show a refusal. */
-const TITLES = { contact: "firstContact", minimum: "minimumPitch", tolerance: "tolerance", shortest: "shortestTurn", head: "headSpeed", fastest: "highest" };
 const ZOOM = 1.5;
 /** On a run that ends in a fold, a handle this many times faster than the head shows that the fold is near [1]. */
 const FAST = 2;
@@ -73,11 +70,8 @@ const pace = new Pace($("[data-field=head_speed]"), state);
 const table = new Table($("#rows"), { choose, chosen: (handle) => state.set({ handle }) });
 const graphs = new Graphs(state, questions, (time) => player.seek(time));
 const route = new Drawn({ state, service, questions, dance, announce, draw });
-const map = new SweepMap($("#map"), openDesign);
-const jobs = new Jobs($("#jobs"), service, showMap, announce);
+const { jobs, map } = new Designs(state, service, NUMBERS);
 const keep = new Keep({ state, service, questions, jobs, canvas: $("#canvas"), announce });
-new SweepForm($("#sweep"), state, (spec) => jobs.start(spec));
-let swept = null;
 const grader = new Grader(service);
 let limits = {};
 let drawing = 0;
@@ -246,15 +240,7 @@ const TELL = {
     $("main").classList.toggle("stale", refusals.has("contact") && Boolean(questions.dance));
     // Without a dance there are no further questions.
     if (refusals.has("contact") && !questions.dance) for (const box of $$("[aria-busy=true]")) box.setAttribute("aria-busy", false);
-    // Each message stands once: beside its field, or in the first place that it concerns.
-    const told = new Set(questions.errors().values());
-    for (const [kind, { message, errors }] of refusals) {
-      const details = [message, ...errors.map(({ detail }) => detail)];
-      const detail = details.some((one) => told.has(one)) ? null : message;
-      for (const one of details) told.add(one);
-      if (kind in TITLES) answers.showRefusal($(BUSY[kind][0]), TITLES[kind], detail, questions.fieldsOf(kind));
-      graphs.refuse(kind, detail);
-    }
+    tellRefusals(questions, graphs, (kind) => BUSY[kind][0]);
     route.refused();
   },
 };
@@ -287,21 +273,6 @@ function showState(changed) {
   if (CONTACT.some((name) => changed.has(name))) graphs.help();
   if (NUMBERS.some((name) => changed.has(name))) questions.refresh();
   draw();
-}
-
-/** Show the map of a sweep. spec: null if another browser asked for it */
-function showMap(columns, spec) {
-  swept = spec ?? null;
-  map.show(columns, QUESTIONS[spec?.question]?.value, `value_${spec?.question}`);
-}
-
-/** Show the dance of one design. over: its parameters; row: all columns of it */
-function openDesign(over, row) {
-  const { path, value } = QUESTIONS[swept?.question] ?? { path: "spiral" };
-  const answered = value === "pitch" && row.pitch !== null ? { pitch: row.pitch } : {};
-  const known = Object.entries({ ...swept?.request, ...over, ...answered }).filter(([name]) => NUMBERS.includes(name));
-  state.set({ path, time: null, view: null, ...Object.fromEntries(known.map(([name, number]) => [name, String(number)])) });
-  $("#canvas").scrollIntoView({ block: "nearest" });
 }
 
 /** Mark the button of this value as pressed, among buttons that choose between values. */
@@ -345,16 +316,8 @@ function listen() {
   onClick("#zoom-out", () => dance.view.zoom(1 / ZOOM));
   onClick("#show-all", all);
   onClick("#follow", follow);
-  const keys = {
-    0: all,
-    f: follow,
-    F: follow,
-    "[": () => choose(-1),
-    "]": () => choose(1),
-    " ": () => player.toggle(),
-    Escape: () => state.set({ handle: null }),
-  };
-  dance.view.listen(keys);
+  const others = { " ": () => player.toggle(), Escape: () => state.set({ handle: null }) };
+  dance.view.listen({ 0: all, f: follow, F: follow, "[": () => choose(-1), "]": () => choose(1), ...others });
 }
 
 function restyle() {

@@ -27,6 +27,12 @@ const RULES = [
   [/^be the names of columns: .+$/, "应为各列名称：name,length,width,overhang"],
   [/^be the first bench, the head; got nothing$/, "应为第一节板凳，即龙头"],
   [/^be given$/, "应填写时刻"],
+  [/^be after the passage begins, at (.+ s)$/, "应晚于该段开始的时刻（$1）"],
+  [/^be further than where the passage begins, at (.+ m)$/, "应超过该段开始的位置（$1）"],
+  [/^be 0, for a pause, or at least (.+ m\/s)$/, "应为 0（停顿），或至少为 $1"],
+  [/^be a time of day such as .+$/, "应为时刻，例如 19:30 或 19:30:15"],
+  [/^be positive$/, "应大于 0"],
+  [/^be zero or more$/, "应为 0 或更大"],
   [/^be smaller$/, "应更小"],
   [/^be smaller, or the benches narrower$/, "应更小，或缩小板宽"],
   [/^be larger$/, "应更大"],
@@ -71,6 +77,8 @@ const WHOLE = [
   [/^a column must be named once, got '(.+)'$/, "列“$1”重复"],
   [/^a column must be .+, got '(.*)'$/, "列“$1”不可识别，应为 name、length、width 或 overhang"],
   [/^the column (.+) is missing$/, "缺少 $1 列"],
+  [/^(?:passages\[\d+\]|“.+?”) must end at until_s \[m\] or at until_time \[s\], got .+$/, "每段应以位置或时刻之一结束"],
+  [/^passages must be at most (\d+), got (\d+)$/, "变速段最多为 $1 段，现为 $2 段"],
   [/^HTTP (\d+)$/, "服务的回答为 HTTP $1"],
 ];
 /** Names in tables of benches and of passages: the key of their words. */

@@ -6,7 +6,7 @@ import { clockIn, passagesIn } from "./pace.js";
 
 /**
  * The numbers a person may set. Limits and units come from the service's OpenAPI document; `slider` is a useful range to
- * begin with: [from, to, step]; only: the path that has this number. An empty text leaves the number to the service.
+ * begin with: [from, to, step]; only: the path that has this number; centimetres: what people measure in, here and on the slider. An empty text leaves the number to the service.
  */
 export const FIELDS = [
   { name: "pitch", value: "0.55", group: "path", slider: [0.3, 2, 0.001] },
@@ -22,9 +22,9 @@ export const FIELDS = [
   { name: "head_speed", value: "1", group: "motion", slider: [0.1, 3, 0.05] },
   { name: "margin", value: "0", group: "motion", slider: [0, 0.2, 0.005] },
   { name: "speed_limit", value: "2", group: "motion", slider: [1, 4, 0.05], only: "turn" },
-  { name: "stray", value: "0", group: "people", slider: [0, 0.2, 0.001] },
-  { name: "hole", value: "0", group: "people", slider: [0, 0.1, 0.001] },
-  { name: "pin", value: "0", group: "people", slider: [0, 0.1, 0.001] },
+  { name: "stray", value: "0", group: "people", slider: [0, 20, 0.1], centimetres: true },
+  { name: "hole", value: "0", group: "people", slider: [0, 10, 0.1], centimetres: true },
+  { name: "pin", value: "0", group: "people", slider: [0, 10, 0.1], centimetres: true },
 ];
 
 const namesOf = (wanted) => FIELDS.filter(({ group }) => group === wanted).map(({ name }) => name);

@@ -83,7 +83,7 @@ export class SweepForm {
     for (const part of row.numbers) part.hidden = !name;
     for (const key of ["from", "to", "count"]) row[key].disabled = !name;
     const field = FIELDS.find((one) => one.name === name);
-    if (field) [row.from.value, row.to.value] = field.slider;
+    if (field) [row.from.value, row.to.value] = field.slider.map((one) => (field.centimetres ? one / 100 : one));
   }
 
   /** What is asked: the spec of a sweep. */

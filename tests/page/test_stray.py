@@ -117,7 +117,7 @@ def test_the_ground_of_the_benches_is_drawn_only_with_a_stray(
     settled(page)
     expect(page.locator("#halo")).to_be_hidden()
     before = picture(page)
-    page.locator("#stray").fill("0.05")
+    page.locator("#stray").fill("5")
     expect(page.locator("#halo")).to_be_visible()
     settled(page)
     assert not alike(picture(page), before)

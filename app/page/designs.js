@@ -1,0 +1,34 @@
+/** Many designs at once: the form, its jobs, and the map from which a design opens as a dance. */
+
+import { $ } from "./elements.js";
+import { Jobs } from "./jobs.js";
+import { SweepMap } from "./map.js";
+import { announce } from "./overlays.js";
+import { QUESTIONS, SweepForm } from "./sweeps.js";
+
+export class Designs {
+  /** What the map shows was asked by this; null if another browser asked for it. */
+  #spec = null;
+
+  /** names: of the state's numbers, which a design may set */
+  constructor(state, service, names) {
+    Object.assign(this, { state, names });
+    this.map = new SweepMap($("#map"), (over, row) => this.#open(over, row));
+    this.jobs = new Jobs($("#jobs"), service, (columns, spec) => this.#show(columns, spec), announce);
+    new SweepForm($("#sweep"), state, (spec) => this.jobs.start(spec));
+  }
+
+  #show(columns, spec) {
+    this.#spec = spec ?? null;
+    this.map.show(columns, QUESTIONS[spec?.question]?.value, `value_${spec?.question}`);
+  }
+
+  /** Show the dance of one design. over: its parameters; row: all columns of it */
+  #open(over, row) {
+    const { path, value } = QUESTIONS[this.#spec?.question] ?? { path: "spiral" };
+    const answered = value === "pitch" && row.pitch !== null ? { pitch: row.pitch } : {};
+    const known = Object.entries({ ...this.#spec?.request, ...over, ...answered }).filter(([name]) => this.names.includes(name));
+    this.state.set({ path, time: null, view: null, ...Object.fromEntries(known.map(([name, number]) => [name, String(number)])) });
+    $("#canvas").scrollIntoView({ block: "nearest" });
+  }
+}

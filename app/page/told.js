@@ -1,0 +1,20 @@
+/** Where a refusal is told: each message stands once. */
+
+import { showRefusal } from "./answers.js";
+import { $ } from "./elements.js";
+
+/** Titles of the boxes that show a refusal. */
+const TITLES = { contact: "firstContact", minimum: "minimumPitch", tolerance: "tolerance", shortest: "shortestTurn", head: "headSpeed", fastest: "highest" };
+
+/** boxOf(kind): selector of the box of this kind of answer */
+export function tellRefusals(questions, graphs, boxOf) {
+  // Each message stands once: beside its field, or in the first place that it concerns.
+  const told = new Set(questions.errors().values());
+  for (const [kind, { message, errors }] of questions.refusals) {
+    const details = [message, ...errors.map(({ detail }) => detail)];
+    const detail = details.some((one) => told.has(one)) ? null : message;
+    for (const one of details) told.add(one);
+    if (kind in TITLES) showRefusal($(boxOf(kind)), TITLES[kind], detail, questions.fieldsOf(kind));
+    graphs.refuse(kind, detail);
+  }
+}
