@@ -390,9 +390,7 @@ def test_functions_are_short_and_take_few_parameters(module: str) -> None:
 
 
 PAGE = [path for kind in ("js", "html", "css") for path in sorted((ROOT / "app" / "page").rglob(f"*.{kind}"))]
-# Longer, and to be cut.
-LONG = {"app/page/dance.js", "app/page/main.js", "app/page/words.js"}
-ROOMS = sorted({path.relative_to(ROOT).as_posix() for path in (*MODULES.values(), *PAGE)} - LONG)
+ROOMS = sorted(path.relative_to(ROOT).as_posix() for path in (*MODULES.values(), *PAGE))
 
 
 @pytest.mark.parametrize("room", ROOMS)

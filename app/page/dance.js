@@ -213,8 +213,8 @@ export class Dance {
   setPath(path, around = []) {
     this.#path = null;
     if (!path) return;
+    [this.#path, this.#points] = [smooth(path), path];
     const { x, y } = path;
-    [this.#path, this.#points] = [smooth(path), { x, y }];
     const [xs, ys] = [[...x, ...around.map((point) => point[0])], [...y, ...around.map((point) => point[1])]];
     this.#bounds = [least(xs), least(ys), largest(xs), largest(ys)];
   }
@@ -241,7 +241,7 @@ export class Dance {
     this.#drawWay(pen);
     if (contact) this.#pair(pen);
     if (contact?.point) pen.stroke(pen.circle(...contact.point, 9), colours.text, 3);
-    const [x, y] = [pose.x[0], pose.y[0]];
+    const [[x], [y]] = [pose.x, pose.y];
     pen.fill(pen.circle(x, y, 4), colours.head);
     pen.label(headName, x, y, colours.head, colours.card);
     if (handle !== null && handle < pose.x.length) {
@@ -343,8 +343,7 @@ export class Dance {
     let [best, radius] = [null, PICK_RADIUS];
     pose?.x.forEach((x, k) => {
       const [sx, sy] = this.view.toScreen(x, pose.y[k]);
-      const distance = Math.hypot(sx - px, sy - py);
-      if (distance < radius) [best, radius] = [k, distance];
+      if (Math.hypot(sx - px, sy - py) < radius) [best, radius] = [k, Math.hypot(sx - px, sy - py)];
     });
     return best;
   }
