@@ -32,8 +32,6 @@ EVERYTHING = np.ones(len(SHARD), dtype=bool)
 # Largest errors of our own times of contact [s]: the corner comes to a graze of 1e-9 m at 1e-5 m/s, so slowly that what
 # doubles leave of its place, 1e-14 m and more, is 1e-9 s and more.
 OURS, OURS_AT_GRAZES = 1e-9, 1e-8
-# Every engine answers the whole sample, but for one that takes half a minute for it: so many, spread over all of it.
-ASKED = {"ipctk 0.9999": 200}
 # Largest difference of two computations in balls of the same point [m].
 SAME = 1e-11
 
@@ -45,12 +43,11 @@ def part(count: int) -> Shard:
 
 @pytest.fixture(scope="module")
 def results(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Results]:
-    """The answers of every engine to its part of the sample, read back from the files that a run writes."""
+    """The answers of every engine to the sample, read back from the files that a run writes."""
     folder, found = tmp_path_factory.mktemp("answers"), {}
     for engine in ENGINES:  # the last one answers as its process has it: docs/dragon-ccd.md
-        shard = part(ASKED.get(engine.name, SAMPLED))
-        save_answers(folder / "answers.npz", list(answers(engine, shard)))
-        found[engine.name] = Results(shard, {engine.name: load(folder / "answers.npz")})
+        save_answers(folder / "answers.npz", list(answers(engine, SHARD)))
+        found[engine.name] = Results(SHARD, {engine.name: load(folder / "answers.npz")})
     return found
 
 
@@ -156,6 +153,11 @@ def test_a_missing_engine_is_named_and_left_out(capsys: pytest.CaptureFixture[st
     absent = Engine("nobody", "no-such-package", "", lambda: importlib.import_module("no_such_package"))
     assert list(installed((*ENGINES[:2], absent))) == ["ours", "ipctk"]
     assert capsys.readouterr().out == "nobody is left out: the package no-such-package is not installed\n"
+
+
+def test_an_engine_that_ends_its_process_when_it_is_loaded_is_left_out(capsys: pytest.CaptureFixture[str]) -> None:
+    assert list(installed((Engine("abrupt", "ipctk", "", os.abort), ENGINES[0]))) == ["ours"]
+    assert capsys.readouterr().out == "abrupt is left out: the package ipctk cannot be loaded\n"
 
 
 def test_a_crash_and_a_hang_are_rows_and_a_run_goes_on_where_it_was(tmp_path: Path) -> None:

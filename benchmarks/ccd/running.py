@@ -29,14 +29,23 @@ Installed = dict[str, str]
 
 
 def installed(engines: Sequence[Engine] = ENGINES) -> Installed:
-    """Version of each engine that is installed, by name; those that are not are named on the terminal."""
+    """Version of each engine that is installed, by name; those that are not are named on the terminal.
+
+    Each is loaded in a process of its own first, as one that ends its process must not end the run.
+    """
     found = {}
     for engine in engines:
         try:
-            engine.made()
             found[engine.name] = engine.version
-        except (ImportError, PackageNotFoundError):
+        except PackageNotFoundError:
             print(f"{engine.name} is left out: the package {engine.package} is not installed", flush=True)
+            continue
+        process = multiprocessing.get_context("fork").Process(target=engine.made)
+        process.start()
+        process.join()
+        if process.exitcode:
+            del found[engine.name]
+            print(f"{engine.name} is left out: the package {engine.package} cannot be loaded", flush=True)
     return found
 
 
