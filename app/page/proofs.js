@@ -28,6 +28,7 @@ const PARTS = [
   [/, where the search was to stop\./, "；搜索到此为止。"],
   [/Proven in steps, each by a bound on the second derivative of the gap along an axis fixed in a bench, and further out by ring bounds in closed form; computed in doubles, with allowances for their rounding\./, "逐步证明：每一步以固定在板凳上的轴向间距的二阶导数界为据，外圈以闭式的环间距界为据；以双精度计算，并计入舍入误差。"],
   [/Proven in steps for the hulls of all places that benches can have then, as first contacts are for benches; computed in doubles, with allowances for their rounding\./, "对板凳此时可能占据的全部位置的凸包逐步证明，方法与首次碰撞相同；以双精度计算，并计入舍入误差。"],
+  [/Two benches with one between them are held apart by it: distances of handles prove that\./, "中间只隔一节的两节板凳由中间那节撑开：由把手间的距离证明。"],
   [/Fewer than three benches have no two that share no handle\./, "少于三节时，没有两节不共用把手的板凳。"],
   [/Computed in doubles, with allowances for their rounding\./, "以双精度计算，并计入舍入误差。"],
   [/Measured at that instant, in doubles\./, "在该时刻以双精度测得。"],

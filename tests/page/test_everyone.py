@@ -72,7 +72,7 @@ def test_the_page_is_used_by_keyboard_alone(open_page: Any, settled: Any) -> Non
     page.keyboard.press(" ")
     page.locator("#play", has_text="Play").wait_for()
     seen = set()
-    for _ in range(130):
+    for _ in range(170):
         page.keyboard.press("Tab")
         seen.add(focused(page))
         outline = "getComputedStyle(document.activeElement).outlineStyle"

@@ -16,7 +16,7 @@ import pytest
 ROOT = Path(__file__).parents[2]
 OWN_MAX, ALL_MAX = 150_000, 1_600_000  # [bytes] over the wire
 FIRST_MAX = 2_000  # [ms] from the request for the page to first contact shown
-BUSY = 1.5  # load for each core from which on times say nothing about the page
+IN_CM = ("stray", "hole", "pin")  # shown to people in centimetres; the service takes metres
 LOADS = 3  # the quickest counts: others share the machine
 
 
@@ -139,10 +139,10 @@ def test_limits_and_units_are_the_services_own(open_page: Any, server: str) -> N
     assert words == ["cross_check"]
     for one in (one for one in parameters if one["name"] not in words):
         low = one["schema"].get("minimum", one["schema"].get("exclusiveMinimum"))
-        page.locator(f"#{one['name']}-limits", has_text=f"{low:.15g} to {one['schema']['maximum']:.15g}").wait_for(
-            state="attached"
-        )
-        assert page.locator(f".field:has(#{one['name']}) .unit").text_content() == one["schema"].get("x-unit", "")
+        scale, unit = (100, "cm") if one["name"] in IN_CM else (1, one["schema"].get("x-unit", ""))
+        limits = f"{scale * low:.15g} to {scale * one['schema']['maximum']:.15g}"
+        page.locator(f"#{one['name']}-limits", has_text=limits).wait_for(state="attached")
+        assert page.locator(f".field:has(#{one['name']}) .unit").text_content() == unit
 
 
 def test_superseded_questions_are_aborted_and_the_slider_does_not_wait(
@@ -300,6 +300,4 @@ def test_the_page_is_light_and_quick(browser: Any, settled: Any, server: str) ->
         assert sum(weights[one] for one in files) < OWN_MAX
         assert sum(weights.values()) < ALL_MAX
         times.append(shown)
-    if os.getloadavg()[0] > BUSY * (os.cpu_count() or 1):
-        pytest.skip(f"a machine this busy tells no times; here {min(times):.0f} ms")
     assert min(times) < FIRST_MAX
