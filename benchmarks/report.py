@@ -82,27 +82,27 @@ def table(results: Results) -> list[str]:
     return lines
 
 
+def beside(label: str, cases: list[str], times: list[float], words: str, one: float) -> list[str]:
+    """A column for each case: its time, and how many times as long as one time [s] it is, with words before that."""
+    return [
+        f"| {label} | {' | '.join(cases)} |",
+        f"|---|{'---|' * len(cases)}",
+        f"| time | {' | '.join(map(shown, times))} |",
+        f"| {words} | {' | '.join(f'{time / one:.2f}x' for time in times)} |",
+    ]
+
+
 def growth(results: Results) -> list[str]:
     """Rows on the growth of first contact with the number of benches."""
     times = [seconds(results, f"first_contact[{benches}]") for benches in BENCHES]
-    return [
-        f"| first contact, benches | {' | '.join(f'{benches:,}' for benches in BENCHES)} |",
-        f"|---|{'---|' * len(BENCHES)}",
-        f"| time | {' | '.join(map(shown, times))} |",
-        f"| growth | {' | '.join(f'{time / times[0]:.2f}x' for time in times)} |",
-    ]
+    return beside("first contact, benches", [f"{benches:,}" for benches in BENCHES], times, "growth", times[0])
 
 
 def clear(results: Results) -> list[str]:
     """Rows on a dance without a contact beside one with it."""
-    colliding = seconds(results, "first_contact[223]")
     times = [seconds(results, f"first_contact_clear[{pitch}]") for pitch in CLEAR_PITCHES]
-    return [
-        f"| no contact (must 2.5x a contact), pitch | {' | '.join(f'{pitch} m' for pitch in CLEAR_PITCHES)} |",
-        f"|---|{'---|' * len(CLEAR_PITCHES)}",
-        f"| time | {' | '.join(map(shown, times))} |",
-        f"| beside a contact at 0.55 m | {' | '.join(f'{time / colliding:.2f}x' for time in times)} |",
-    ]
+    pitches, one = [f"{pitch} m" for pitch in CLEAR_PITCHES], seconds(results, "first_contact[223]")
+    return beside("no contact (must 2.5x a contact), pitch", pitches, times, "beside a contact at 0.55 m", one)
 
 
 def strays(results: Results) -> list[str]:
