@@ -22,7 +22,7 @@ help:
 	@echo 'make sweep-pitch  the minimum pitch of 2,000 random dragons against a slow scan, 10 minutes (DRAGONS=, FIRST=)'
 	@echo 'make sweep-kills  a sweep of 200,000 designs on a Dask cluster with 50 kills, half an hour (DESIGNS=, KILLS=, FIRST=)'
 	@echo 'make job-kills  50 processes of the service killed at random while it works on jobs, 5 minutes (KILLS=, SEED=)'
-	@echo 'make soak     64 clients and all attacks at once, 5 minutes (SECONDS=)'
+	@echo 'make soak     attack by attack, then 64 clients and all attacks at once, 8 minutes (SECONDS=, FOLDER= for its curve)'
 	@echo 'make fuzz     10,000 requests by the description of the service and 12,000 odd ones (CASES=, MUTANTS=, SEED=)'
 	@echo 'make bench    benchmarks against a plain SciPy baseline, into docs/performance.md'
 	@echo 'make ccd      100,000 queries of continuous collision detection to every engine, into docs/dragon-ccd.md; it goes'
@@ -78,7 +78,7 @@ job-kills: setup
 	@$(BIN)/python -m tests.app.jobs.kills $(or $(KILLS),50) $(or $(SEED),0)
 
 soak: setup
-	@$(BIN)/python -m tests.app.attacks $(or $(SECONDS),300)
+	@$(BIN)/python -m tests.app.soak $(or $(SECONDS),300) $(or $(FOLDER),build)
 
 fuzz: setup
 	@$(BIN)/python -m tests.app.fuzz $(or $(CASES),10000) $(or $(MUTANTS),12000) $(or $(SEED),0)

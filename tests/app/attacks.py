@@ -1,7 +1,4 @@
-"""Requests that once took the service down, each as a function of its address, and a client that watches meanwhile.
-
-`make soak` runs them all together with ordinary clients: python -m tests.app.attacks SECONDS
-"""
+"""Requests that once took the service down, each as a function of its address, and a client that watches meanwhile."""
 
 from __future__ import annotations
 
@@ -9,15 +6,11 @@ import http.client
 import json
 import os
 import socket
-import sys
-import tempfile
 import threading
 import time
-from collections import Counter
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
-from pathlib import Path
 from urllib.parse import urlencode, urlsplit
 
 from app.files.tables import XLSX_TYPE
@@ -260,50 +253,3 @@ def memory(pid: int) -> float:
     with open(f"/proc/{pid}/statm") as pages:
         own = int(pages.read().split()[1]) * os.sysconf("SC_PAGE_SIZE") / 1e6
     return own + sum(memory(child) for child in children)
-
-
-def soak(seconds: float, connections: int = 64) -> None:
-    """Ordinary clients and all attacks at once; prints what the clients saw, and the memory of the service."""
-    from tests.app.serving import serving
-
-    with tempfile.TemporaryDirectory() as folder, serving(Path(folder) / "log", workers=2) as service:
-        end, counts, statuses = time.monotonic() + seconds, threading.Lock(), Counter[int]()
-
-        def client(number: int) -> None:
-            asked = 0
-            while time.monotonic() < end:
-                asked += 1
-                pitch = 0.45 + 1e-7 * (asked * connections + number)
-                path = ("/collision-time?pitch={:.9f}", "/minimum-pitch?turning_diameter={:.9f}")[asked % 8 == 0]
-                try:
-                    status, _ = ask(service.url, "GET", path.format(pitch if asked % 8 else 9.0 + pitch))
-                except OSError:
-                    status = 0
-                with counts:
-                    statuses[status] += 1
-
-        def attacker() -> None:
-            while time.monotonic() < end:
-                for name, one in ATTACKS.items():
-                    try:
-                        with suppress(OSError):
-                            one(service.url, 5.0)
-                    except AssertionError as error:
-                        watch.failures.append(f"{name}: {error}")
-
-        with watching(service.url) as watch:
-            clients = [threading.Thread(target=client, args=(k,), daemon=True) for k in range(connections)]
-            for thread in [*clients, threading.Thread(target=attacker, daemon=True)]:
-                thread.start()
-            while time.monotonic() < end:
-                time.sleep(min(10.0, seconds / 10))
-                print(f"{end - time.monotonic():6.0f} s left, {memory(service.process.pid):6.0f} MB", flush=True)
-            for thread in clients:
-                thread.join()
-        print("answers by status (0: no answer):", dict(statuses))
-        print("slowest of one more client [s]:", watch.slowest)
-        print(f"not answered well: {len(watch.failures)} of {watch.asked}", *watch.failures[:5], sep="\n  ")
-
-
-if __name__ == "__main__":
-    soak(float(sys.argv[1]))

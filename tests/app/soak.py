@@ -1,0 +1,146 @@
+"""What another client sees while the service is attacked, attack by attack and then by all at once for long.
+
+`make soak`: python -m tests.app.soak SECONDS FOLDER, which writes soak.csv and soak.png into FOLDER.
+"""
+
+from __future__ import annotations
+
+import csv
+import multiprocessing
+import sys
+import tempfile
+import threading
+import time
+from collections import Counter
+from contextlib import suppress
+from multiprocessing.queues import SimpleQueue
+from pathlib import Path
+
+from tests.app.attacks import ATTACKS, ask, memory, watching
+from tests.app.serving import serving
+
+# Ordinary clients at once, the length of one attack, and how often the curve has a point [s].
+CONNECTIONS, ATTACK_SECONDS = 64, 10.0
+POINTS = 180
+COLUMNS = ("seconds", "memory_mb", "answered", "busy", "other", "slowest_healthz_s", "slowest_collision_time_s")
+# The clients are processes of their own: none waits for Python's lock of another.
+SPAWN = multiprocessing.get_context("spawn")
+
+
+def ordinary_clients(url: str, seconds: float, statuses: SimpleQueue[int]) -> None:
+    """Clients that ask again as soon as they are answered: quick questions, and one in eight a heavy one."""
+    end = time.monotonic() + seconds
+
+    def client(number: int) -> None:
+        asked = 0
+        while time.monotonic() < end:
+            asked += 1
+            pitch = 0.45 + 1e-7 * (asked * CONNECTIONS + number)
+            heavy = f"/minimum-pitch?turning_diameter={9.0 + pitch:.9f}"
+            try:
+                status, _ = ask(url, "GET", heavy if asked % 8 == 0 else f"/collision-time?pitch={pitch:.9f}")
+            except OSError:
+                status = 0
+            statuses.put(status)
+
+    threads = [threading.Thread(target=client, args=(number,)) for number in range(CONNECTIONS)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+
+
+def attackers(url: str, seconds: float) -> None:
+    """All attacks in turn; what each must be answered with is judged by the tests."""
+    end = time.monotonic() + seconds
+    while time.monotonic() < end:
+        for attack in ATTACKS.values():
+            with suppress(OSError, AssertionError):
+                attack(url, ATTACK_SECONDS / 2)
+
+
+def one_by_one(url: str) -> None:
+    """The slowest answers that another client sees during each attack."""
+    print(f"{'attack':28} {'slowest /healthz [ms]':>22} {'/collision-time [ms]':>21}   others")
+    for name, attack in ATTACKS.items():
+        # An attack is a process of its own: its threads must not slow the client that watches.
+        attacker = SPAWN.Process(target=attack, args=(url, ATTACK_SECONDS), daemon=True)
+        attacker.start()
+        with watching(url) as watch:
+            attacker.join()
+        healthz, collision_time = (1e3 * watch.slowest[path] for path in ("/healthz", "/collision-time"))
+        verdict = "all answered" if not watch.failures else f"{len(watch.failures)} of {watch.asked} not answered well"
+        print(f"{name:28} {healthz:22.0f} {collision_time:21.0f}   {verdict}", flush=True)
+
+
+def all_at_once(url: str, pid: int, seconds: float) -> list[tuple[float, ...]]:
+    """Points of the curve: a row of COLUMNS for every part of the time."""
+    statuses: SimpleQueue[int] = SPAWN.SimpleQueue()
+    others = [
+        SPAWN.Process(target=ordinary_clients, args=(url, seconds, statuses), daemon=True),
+        SPAWN.Process(target=attackers, args=(url, seconds), daemon=True),
+    ]
+    for other in others:
+        other.start()
+    start, rows = time.monotonic(), []
+    step = max(seconds / POINTS, 5.0)
+    while (now := time.monotonic() - start) < seconds:
+        with watching(url) as watch:
+            time.sleep(step)
+        seen = Counter[int]()
+        while not statuses.empty():
+            seen[statuses.get()] += 1
+        other_statuses = sum(count for status, count in seen.items() if status not in {200, 503})
+        slowest = (watch.slowest["/healthz"], watch.slowest["/collision-time"])
+        rows.append((now + step, memory(pid), seen[200], seen[503], other_statuses, *slowest))
+        print(*(f"{value:8.3g}" if value < 100 else f"{value:8.0f}" for value in rows[-1]), flush=True)
+        for failure in watch.failures[:2]:
+            print("  one more client:", failure)
+    for other in others:
+        other.join()
+    return rows
+
+
+def draw(rows: list[tuple[float, ...]], picture: Path) -> None:
+    """Memory, answers and the slowest answers over time."""
+    from matplotlib.figure import Figure
+
+    seconds, megabytes, answered, busy, _, healthz, collision_time = zip(*rows, strict=True)
+    minutes = [one / 60.0 for one in seconds]
+    step = seconds[1] - seconds[0]
+    figure = Figure((8.0, 6.0), layout="constrained")
+    above, middle, below = figure.subplots(3, sharex=True)
+    above.plot(minutes, megabytes)
+    above.set_ylabel("memory [MB]")
+    middle.plot(minutes, [count / step for count in answered], label="200")
+    middle.plot(minutes, [count / step for count in busy], label="503 with Retry-After")
+    middle.set_ylabel("answers a second")
+    below.plot(minutes, healthz, label="/healthz")
+    below.plot(minutes, collision_time, label="/collision-time")
+    below.set_ylabel("slowest answer to\none more client [s]")
+    below.set_xlabel("minutes of all attacks and 64 clients at once")
+    for axes in (middle, below):
+        axes.legend(loc="upper right")
+    for axes in (above, middle, below):
+        axes.set_ylim(bottom=0.0)
+        axes.grid(alpha=0.3)
+    figure.savefig(picture, dpi=120)
+
+
+def soak(seconds: float, folder: Path) -> None:
+    folder.mkdir(exist_ok=True)
+    with tempfile.TemporaryDirectory() as scratch, serving(Path(scratch) / "log", workers=2) as service:
+        one_by_one(service.url)
+        print(*COLUMNS)
+        rows = all_at_once(service.url, service.process.pid, seconds)
+        lines = (Path(scratch) / "log").read_text(errors="replace").splitlines()
+    with (folder / "soak.csv").open("w", newline="") as table:
+        csv.writer(table).writerows([COLUMNS, *rows])
+    draw(rows, folder / "soak.png")
+    totals = [sum(column) for column in zip(*rows, strict=True)]
+    print(f"200: {totals[2]:.0f}, 503: {totals[3]:.0f}, anything else: {totals[4]:.0f}")
+    print("tracebacks in the log of the service:", sum(line.startswith("Traceback") for line in lines))
+
+
+if __name__ == "__main__":
+    soak(float(sys.argv[1]), Path(sys.argv[2]))
