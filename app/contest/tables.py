@@ -49,13 +49,17 @@ class Table:
         return "".join(f"| {' | '.join(line)} |\n" for line in lines)
 
     def to_latex(self) -> str:
-        """A table for the packages booktabs and, in Chinese, ctex."""
-        body = "".join(f"    {' & '.join(line)} \\\\\n" for line in self.lines())
+        """A table for the packages booktabs and, in Chinese, ctex. A minus is a minus, not a hyphen."""
+        head, *lines = (
+            " & ".join(f"$-${cell[1:]}" if cell.startswith("-") else cell for cell in line)
+            for line in [[self.corner, *self.columns], *self.lines()]
+        )
+        body = "".join(f"    {line} \\\\\n" for line in lines)
         return (
             "\\begin{table}[htbp]\n  \\centering\n"
             f"  \\caption{{{self.caption}}}\n  \\label{{tab:{self.name}}}\n"
             f"  \\begin{{tabular}}{{l{'r' * len(self.columns)}}}\n    \\toprule\n"
-            f"    {' & '.join([self.corner, *self.columns])} \\\\\n    \\midrule\n{body}"
+            f"    {head} \\\\\n    \\midrule\n{body}"
             "    \\bottomrule\n  \\end{tabular}\n\\end{table}\n"
         )
 
