@@ -19,6 +19,7 @@ TESTED_WITH = {
     "kernels/stretches.py": "kernels/test_bounds.py",
     "kernels/faces.py": "kernels/test_hulls.py",
     "tolerance/exhibit.py": "tolerance/test_tolerance.py",
+    "tolerance/safe.py": "tolerance/test_tolerance.py",
 }
 MODULES = [path.relative_to(CORE) for path in sorted(CORE.rglob("*.py")) if path.name != "__init__.py"]
 

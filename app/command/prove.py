@@ -231,6 +231,8 @@ def tolerance(
     """Prove how far people may stray: within that distance nothing touches until the head is on the circle.
 
     Without --stray also a pose of the whole dragon is proven in which two benches overlap with strays a little larger.
+    Benches next but one to each other are taken to stray independently: on straight paths and wide spirals less is
+    proven than the command tolerance answers, which knows that the bench between holds them apart.
     """
     checked_output("output", output, (".json",))
     dance = asked.to_dance(Settings().benches_max)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -234,7 +234,7 @@ def least_over(
     fold: where the run ends, if right after `until` and at a fold. Steps shrink to nothing before it, where handles
         are fast without bound, so a bound on the motion left takes the place of the last ones: least_to_fold()
     """
-    best = sampled_least(search, begin, until)
+    best = sampled_least(search, samples_between(search, begin, until))
     proven_to, proven = begin, None
     for width in PROOF_WIDTHS:
         for _ in range(ROUNDS):
@@ -271,13 +271,34 @@ def _first_touch(search: Search, begin: float, until: float, head_speed: float, 
     return (0.0, found.touching - (tolerance if state is Ended.TOUCHED else 0.0), found.benches), 0.0
 
 
-def sampled_least(search: Search, begin: float, until: float) -> Dip:
-    """The least clearance at the ends and in the dips that samples show."""
+class Samples(NamedTuple):
+    """Clearances at some travels [m]."""
+
+    travels: list[float]
+    gaps: Floats
+
+
+def samples_between(search: Search, begin: float, until: float) -> Samples:
+    """The clearance in even steps between two travels."""
     grid = _grid(search, begin, until)
-    leaders = min(search.dragon.uniform_from + 1, search.dragon.benches)
-    gaps = np.array([_affordable(search, travel, leaders)[0] for travel in grid])
-    ends = [(gap, travel, pair) for travel in (begin, until) for gap, pair in (search.clearance(travel),)]
-    return min(ends + [refined_dip(search, *grid[k - 1 : k + 2]) for k in dips(gaps, DIPS_REFINED).tolist()])
+    return Samples(grid, np.array([_sampled(search, travel) for travel in grid]))
+
+
+def samples_where(search: Search, known: Samples, within: float) -> Samples:
+    """Samples again, with what this search finds where the known gap is at most so much [m]."""
+    again = [_sampled(search, travel) if gap <= within else gap for travel, gap in zip(*known, strict=True)]
+    return Samples(known.travels, np.array(again))
+
+
+def _sampled(search: Search, travel: float) -> float:
+    return _affordable(search, travel, min(search.dragon.uniform_from + 1, search.dragon.benches))[0]
+
+
+def sampled_least(search: Search, samples: Samples) -> Dip:
+    """The least clearance at the ends and in the dips that samples show."""
+    grid = samples.travels
+    ends = [(gap, travel, pair) for travel in (grid[0], grid[-1]) for gap, pair in (search.clearance(travel),)]
+    return min(ends + [refined_dip(search, *grid[k - 1 : k + 2]) for k in dips(samples.gaps, DIPS_REFINED).tolist()])
 
 
 def refined_dip(search: Search, low: float, middle: float, high: float) -> Dip:

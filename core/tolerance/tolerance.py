@@ -1,54 +1,33 @@
 """How far may people stray: the largest stray that no motion within it can break, proven, and one little larger that
 is shown to break it.
 
-The least stray at which two benches can meet, over the dance, is found as the least clearance is
-(core/contact/clearance.py): an upper bound first, from samples; then a march of the ground that benches may cover
-(core/tolerance/reach.py) with a stray a little smaller. It either reaches the end, which proves that no dance within
-that stray touches; or two grounds meet. Then the stray at which these two just graze is found, and the march goes on
-from there with it: what it has passed is clear with the larger stray, and so with the smaller one.
-
-All of that takes benches to stray independently. Where two with one bench between them limit the stray so, that bench
-may be shown to hold all such pairs apart with more (core/tolerance/between.py): then the others are asked once more.
+What is safe among the benches, and between them and the edges of a venue, is found in core/tolerance/safe.py. Here the
+least of that is taken, and a pose is shown in which those that limit it overlap.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 from enum import StrEnum
 
 import numpy as np
 
 from core.budget import Budget, bounded
-from core.contact.clearance import PROFILE_STEP, Dip, refined_dip, sampled_least
-from core.contact.fold import clear_to_fold, last_travel
-from core.contact.march import TOUCHES, Ended
-from core.contact.search import NEAR_WORK_BUDGET, Search
+from core.contact.fold import last_travel
+from core.contact.search import NEAR_WORK_BUDGET
 from core.contact.walls import own_edges, venue_route
-from core.dance import Dance, RunEnd
-from core.dragon import Dragon
+from core.dance import Dance
 from core.errors import said
 from core.kernels.constants import HALF_LENGTH, MX, MY, UX, UY
 from core.motion.trajectory import bench_poses, trajectory
 from core.paths.frame import Frame
 from core.shapes.rectangles import frames, frames_separation
 from core.shown import Shown, worded
-from core.tolerance.between import held_apart
 from core.tolerance.exhibit import Body, Exhibit, exhibit
-from core.tolerance.reach import Reach, reach, simple_reach
-from core.values import Floats, asked_of, checked_type
+from core.tolerance.safe import Field, Found, held_stray
+from core.values import asked_of, checked_type
 from core.venue import Venue
-
-# How far below the least stray at which benches can meet the proof is tried [1 of that stray]; the second one where the
-# first takes too many steps.
-BELOW = (2e-4, 2e-3)
-# Largest number of times that a march may find a smaller stray.
-ROUNDS = 100
-# The stray at which two benches graze is found to this part of it [1], in at most so many steps.
-GRAZE_WITHIN, GRAZE_STEPS = 2e-5, 20
-# Strays below this are taken for none [m]: rounding hides what they do.
-STRAY_MIN = 1e-9
 
 
 class Limit(StrEnum):
@@ -109,46 +88,6 @@ class Tolerance(Shown):
         )
 
 
-@dataclass(frozen=True, slots=True)
-class _Field:
-    """What may be met: the dance's other benches, or the edges of one area.
-
-    dance: on the path as it is searched; work: of all its searches together; span: of head travel [m]
-    between: pairs of benches with fewer between them are not asked for [1]
-    """
-
-    dance: Dance
-    edges: Floats | None
-    area: str | None
-    span: tuple[float, float]
-    fold: RunEnd | None
-    work: float
-    budget: Budget
-    between: int = 1
-
-    def search(self, stray: float, covered: Callable[[Dragon, float], Reach] = reach) -> Search:
-        """The ground that benches may cover."""
-        where = (self.dance.dragon, self.dance.path, 0.0, self.edges)
-        found = Search(*where, work=self.work, budget=self.budget, stray=stray, covered=covered)
-        found.between = found.scene.between = self.between
-        return found
-
-
-@dataclass(frozen=True, slots=True)
-class _Found:
-    """A stray that is safe in one field, and the dip that limits it.
-
-    touches: is there a contact without any stray? independent, simple: see Tolerance
-    """
-
-    stray: float
-    dip: Dip | None
-    steps: int
-    touches: bool = False
-    independent: float = math.inf
-    simple: float = math.inf
-
-
 @asked_of("dance", Dance)
 @bounded("how far people may stray was not found")
 def tolerance(
@@ -179,10 +118,10 @@ def tolerance(
     budget = budget or Budget()
     begin, until = dance.span(dance.begin if start is None else start, stop)
     most = 0.5 * float(dance.dragon.chords.min())
-    found, limit = _Found(most, None, 0), None
+    found, limit = Found(most, None, 0), None
     steps, independent, simple = 0, most, most
     for field in _fields(dance, venue, (begin, until), budget):
-        safe = _held_stray(field, found.stray)
+        safe = held_stray(field, found.stray)
         steps, independent, simple = steps + safe.steps, min(independent, safe.independent), min(simple, safe.simple)
         if safe.dip is not None:
             found, limit = safe, field
@@ -199,114 +138,22 @@ def tolerance(
     return Tolerance(*known, bracket, by, time, (a, second), limit.area, shown, begin, until, proof)
 
 
-def _fields(dance: Dance, venue: Venue | None, span: tuple[float, float], budget: Budget) -> list[_Field]:
+def _fields(dance: Dance, venue: Venue | None, span: tuple[float, float], budget: Budget) -> list[Field]:
     fields, travels = [], (dance.clock.place(span[0]), dance.clock.place(span[1]))
     if dance.dragon.benches > 2:
         to_fold = dance.nears_fold(span[1])
         last = last_travel(travels[1], to_fold)
         fold = dance.end if to_fold else None
-        fields.append(_Field(dance, None, None, (travels[0], last), fold, NEAR_WORK_BUDGET, budget))
+        fields.append(Field(dance, None, None, (travels[0], last), fold, NEAR_WORK_BUDGET, budget))
     if venue is not None:
         danced = replace(dance, path=venue_route(dance.path, travels[1]))
         share = NEAR_WORK_BUDGET / len(venue.areas)
         placed = [(area.name, own_edges(area, dance.path.frame)) for area in venue.areas]
-        fields += [_Field(danced, edges, name, travels, None, share, budget) for name, edges in placed]
+        fields += [Field(danced, edges, name, travels, None, share, budget) for name, edges in placed]
     return fields
 
 
-def _held_stray(field: _Field, most: float) -> _Found:
-    """_safe_stray(), or more where the bench between two others is known to hold them apart with more."""
-    safe = _safe_stray(field, most)
-    simple, independent = _simple(field, safe), safe.stray
-    found = replace(safe, independent=independent, simple=simple)
-    if safe.touches or field.edges is not None or safe.dip is None or safe.dip[2][1] != safe.dip[2][0] + 2:
-        return found
-    held = held_apart(field.dance, field.span[1], most, field.budget)
-    if held <= safe.stray:
-        return found
-    others = _Found(held, None, 0)
-    if field.dance.dragon.benches > 3:
-        others = _safe_stray(replace(field, between=2), held)
-    if others.stray <= safe.stray:
-        return found
-    dip = safe.dip if others.dip is None and held < most else others.dip
-    return _Found(others.stray, dip, safe.steps + others.steps, False, independent, simple)
-
-
-def _simple(field: _Field, safe: _Found) -> float:
-    """The simple bound [m], or the safe stray if that is less."""
-    stray = safe.stray
-    for _ in range(GRAZE_STEPS):
-        if stray < STRAY_MIN:
-            return 0.0
-        search = field.search(stray, simple_reach)
-        dip = sampled_least(search, *field.span)
-        if dip[0] >= -GRAZE_WITHIN * stray:
-            break
-        stray = _grazing(field, stray, dip, simple_reach)[0]
-    return stray
-
-
-def _safe_stray(field: _Field, most: float) -> _Found:
-    """The largest stray up to `most` that is safe in a field, a little less than what its samples and marches show."""
-    begin, until = field.span
-    nominal = sampled_least(field.search(0.0), begin, until)
-    if nominal[0] <= 0.0:
-        state, touch, _ = field.search(0.0).approach(begin, until, field.dance.clock.slowest)
-        at_first = (0.0, touch.touching, touch.benches) if touch.touching is not None and state in TOUCHES else nominal
-        return _Found(0.0, at_first, touch.steps, touches=True)
-    # Two benches that approach each other by the stray each, in parallel, meet where it is half their clearance.
-    first = min(most, nominal[0] * (1.0 if field.edges is not None else 0.5))
-    dip = sampled_least(field.search(first), begin, until)
-    stray, limiting = (first, None) if dip[0] > 0.0 else _grazing(field, first, dip)
-    steps, proven_to = 0, begin
-    for below in BELOW:
-        for _ in range(ROUNDS):
-            tried = stray * (1.0 - below) if limiting is not None else stray
-            if tried < STRAY_MIN:
-                return _Found(0.0, limiting, steps)
-            search = field.search(tried)
-            state, met = search.march(until, 0.0, start=proven_to)
-            search.budget.afford()
-            steps += met.steps
-            if state is Ended.REACHED or (state is Ended.STUCK and met.touching is None):
-                if field.fold is not None and not clear_to_fold(search, min(met.proven, until), field.fold):
-                    break
-                if state is Ended.REACHED or field.fold is not None:
-                    return _Found(tried, limiting, steps)
-                break
-            if met.touching is None:
-                break
-            proven_to = max(proven_to, met.proven)
-            step = PROFILE_STEP * search.extremes[1]
-            around = (max(begin, met.touching - step), met.touching, min(until, met.touching + step))
-            found, limiting = _grazing(field, tried, refined_dip(search, *around))
-            stray = min(found, tried)
-    return _Found(0.0, limiting or nominal, steps)  # nothing was proven of any stray
-
-
-def _grazing(
-    field: _Field, stray: float, dip: Dip, covered: Callable[[Dragon, float], Reach] = reach
-) -> tuple[float, Dip]:
-    """The stray near this one at which the grounds that meet in a dip only graze, to GRAZE_WITHIN of it [m]; that dip.
-
-    Where the stray is larger by x, the ground of each bench reaches at least x further in every direction: so the gap
-    falls at least by that much for each bench, and as evenly as the slope of the last two strays says.
-    """
-    slope = 1.0 if field.edges is not None else 2.0
-    for _ in range(GRAZE_STEPS):
-        if abs(dip[0]) <= slope * GRAZE_WITHIN * stray:
-            break
-        last, stray = (stray, dip[0]), max(stray + dip[0] / slope, 0.0)
-        search = field.search(stray, covered)
-        around, travel = PROFILE_STEP * search.extremes[1], dip[1]
-        dip = refined_dip(search, max(field.span[0], travel - around), travel, min(field.span[1], travel + around))
-        if stray != last[0]:
-            slope = max(slope, (dip[0] - last[1]) / (last[0] - stray))
-    return stray, dip
-
-
-def _exhibit(field: _Field, found: _Found, time: float, frame: Frame) -> Exhibit | None:
+def _exhibit(field: Field, found: Found, time: float, frame: Frame) -> Exhibit | None:
     """A pose of the whole dragon in which the pair of a dip overlaps. frame: of the search"""
     assert found.dip is not None
     dragon, (a, b) = field.dance.dragon, found.dip[2]
@@ -328,7 +175,7 @@ def _exhibit(field: _Field, found: _Found, time: float, frame: Frame) -> Exhibit
     return None if shown is None else replace(shown, handles=frame.points(shown.handles))
 
 
-def _method(dance: Dance, found: _Found, independent: float, span: tuple[float, float], venue: Venue | None) -> str:
+def _method(dance: Dance, found: Found, independent: float, span: tuple[float, float], venue: Venue | None) -> str:
     square = " or an edge of the venue" if venue is not None else ""
     what = f"{dance.dragon._line()} on {dance.path.words()}: from {said(span[0])} s to {said(span[1])} s"
     if found.stray <= 0.0:

@@ -15,16 +15,25 @@ def random_strays(rng: np.random.Generator, chord: float, stray: float, count: i
     """
     q = stray * np.sin(rng.uniform(-0.5 * np.pi, 0.5 * np.pi, count))
     q = np.where(rng.random(count) < 0.5, np.copysign(stray * (1.0 - 1e-12), q), q)
-    half = np.arcsin(q / chord)
-    along = np.stack([np.cos(half), np.sin(half)], axis=-1)
-    across = np.stack([-along[:, 1], along[:, 0]], axis=-1)
     angle = rng.uniform(0.0, 2.0 * np.pi, count)
     way = np.stack([np.cos(angle), np.sin(angle)], axis=-1)
-    lean = q * (way * across).sum(axis=-1)
-    furthest = np.sqrt(np.maximum(lean * lean - q * q + stray * stray, 0.0)) - np.abs(lean)
     part = np.where(rng.random(count) < 0.5, 1.0, rng.random(count))
-    middle = (furthest * part)[:, None] * way
-    return np.stack([middle + q[:, None] * across, middle - q[:, None] * across], axis=1)
+    return strays_of(q, (2.0 * stray * part)[:, None] * way, chord, stray, part)
+
+
+def strays_of(q: Floats, middle: Floats, chord: float, stray: float, part: Floats | float = 1.0) -> Floats:
+    """Strays (N, 2, 2) of both holes of a bench that is turned by 2 asin(q / chord) and whose middle moves (N, 2) [m].
+
+    A turn or a middle that goes too far is taken back to `part` of what the discs of both holes allow.
+    """
+    q = np.clip(q, -stray, stray)
+    half = np.arcsin(q / chord)
+    across = np.stack([-np.sin(half), np.cos(half)], axis=-1)
+    length = np.maximum(np.hypot(middle[:, 0], middle[:, 1]), 1e-300)
+    lean = q * (middle * across).sum(axis=-1) / length
+    furthest = part * (np.sqrt(np.maximum(lean * lean - q * q + stray * stray, 0.0)) - np.abs(lean))
+    kept = np.minimum(1.0, furthest / length)[:, None] * middle
+    return np.stack([kept + q[:, None] * across, kept - q[:, None] * across], axis=1)
 
 
 def moved_points(points: Floats, strays: Floats, chord: float) -> Floats:

@@ -125,6 +125,41 @@ def test_play_is_uniform_in_the_hole() -> None:
         assert low - 0.002 < exact < high + 0.002  # the grid, and what is of second order in play over chord
 
 
+def test_play_and_an_error_of_the_pitch_together_are_those_of_chains_laid_out_one_by_one() -> None:
+    """Nobody wobbles; each dragon is laid out in Python, on its own spiral, with the play of its own pins."""
+    size, model, dragon = 0.02, Wobble(0.0, 0.0, hole=0.06, pin=0.05, pitch_error=0.02), SPIRAL.dragon
+    still = {"start": LATE["start"], "stop": LATE["start"] + 1e-6}
+    found = contact_probability(SPIRAL, model, 300, 5, **still)
+    radius, touching = float(SPIRAL.path.head(LATE["start"]).radius), []
+    sizes = np.stack([dragon.lengths, dragon.widths], axis=1)
+    first, second = np.triu_indices(20, 2)
+    for sample in range(300):
+        spiral = Spiral(0.55 + size * numbers(5, sample, 1).standard_normal(), 20.0)
+        places = trajectory(Dance(dragon, spiral), spiral.travel_to(radius)).position
+        distance, angle = numbers(5, sample, 0).random((2, 20, 2))
+        play = np.stack([np.cos(2.0 * np.pi * angle), np.sin(2.0 * np.pi * angle)], axis=-1)
+        play *= model.play * np.sqrt(distance)[..., None]
+        pin, holes = places[0], []
+        for k, chord in enumerate(dragon.chords.tolist()):
+            front = pin + play[k, 0]
+            way = places[k + 1] + play[k, 1] - front
+            rear = front + way * (chord / np.hypot(*way))
+            holes.append([front, rear])
+            pin = rear - play[k, 1]
+        held = np.array(holes)
+        strays = np.hypot(*np.moveaxis(held - np.stack([places[:-1], places[1:]], axis=1), -1, 0))
+        assert found.strays[sample] == pytest.approx(strays.max(), abs=1e-7)
+        poses = np.concatenate([bench_poses(two) for two in held])
+        gaps = separation(poses[first], sizes[first], poses[second], sizes[second]).separation
+        touching += [sample] if gaps.min() <= 0.0 else []
+    assert found.sample.tolist() == touching
+    assert 20 < len(touching) < 200
+
+
+def numbers(seed: int, sample: int, part: int) -> np.random.Generator:
+    return np.random.Generator(np.random.Philox(key=seed, counter=[0, part, sample, 0]))
+
+
 def test_a_sample_depends_on_no_other_sample() -> None:
     whole = contact_probability(SPIRAL, MODEL, 40, 7, **LATE)
     assert 5 < whole.contacts < 35

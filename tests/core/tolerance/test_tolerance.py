@@ -20,17 +20,14 @@ from core import (
     Turn,
     Venue,
     bench_outlines,
-    bench_poses,
     first_contact,
     tolerance,
     trajectory,
 )
 from core.sampling import bisected
-from core.shapes.rectangles import frames, frames_separation
 from core.tolerance.tolerance import Limit, Tolerance
-from tests.core.tolerance.places import random_strays
+from tests.core.tolerance.adversaries import CIRCLE, seek, to_circle
 
-CIRCLE = 4.5  # radius of the turning circle [m]
 # Largest width of a bracket, as a part of its proven end [1].
 BRACKET = 2e-3
 CHORD_ERROR = 1e-12  # [m]
@@ -40,14 +37,6 @@ ROUNDED = 2e-5
 # By the simple bound at these pitches [m], and by how much less of it the hulls may know [1].
 SIMPLE = {0.5: 0.01931, 0.55: 0.03874, 0.7: 0.09735, 1.0: 0.21590}
 SIMPLE_SHORT = 1e-3
-
-
-def to_circle(pitch: float) -> tuple[Dance, float]:
-    """The default dragon on a spiral, and when its head is on the circle [s]."""
-    spiral = Spiral(pitch)
-    theta = CIRCLE / spiral.growth
-    length = 0.5 * spiral.growth * (theta * math.hypot(1.0, theta) + math.asinh(theta))
-    return Dance(Dragon(), spiral), spiral.length - length
 
 
 @pytest.fixture(scope="module")
@@ -82,60 +71,15 @@ def test_the_shown_contact_is_one(default: Tolerance) -> None:
     assert a.intersection(b).area > 0.0
 
 
-def strayed_gaps(dance: Dance, time: float, pair: tuple[int, int], strays: np.ndarray) -> np.ndarray:
-    """Gaps of two benches with their holes displaced in their own frames: strays (N, bench, hole, 2) [m]."""
-    handles, dragon = trajectory(dance, time).position, dance.dragon
-    both = []
-    for k, own in zip(pair, strays.swapaxes(0, 1), strict=True):
-        _x, _y, heading = bench_poses(handles[k : k + 2])[0]
-        turn = np.array([[math.cos(heading), -math.sin(heading)], [math.sin(heading), math.cos(heading)]])
-        poses = bench_poses(handles[k : k + 2] + own @ turn.T)[:, 0]
-        both.append(frames(poses, np.broadcast_to([dragon.lengths[k], dragon.widths[k]], (len(poses), 2))))
-    return frames_separation(*both).separation
-
-
 def test_none_of_a_million_poses_that_seek_contact_find_it(default: Tolerance) -> None:
-    """Rounds of a search: the nearest poses of each round are varied in the next one, by less and less."""
-    dance, stop = to_circle(0.55)
-    stray, rng = 0.999 * default.stray, np.random.default_rng(7)
-    assert default.time is not None
-    tried, nearest = 0, math.inf
-    places = [
-        (default.time, (0, 19)),
-        (default.time - 1.0, (0, 19)),
-        (stop, (0, 18)),
-        (322.9, (0, 17)),
-        (320.0, (1, 20)),
-    ]
-    for time, pair in places:
-        draws = [random_strays(rng, dance.dragon.chords[k], stray, 100_000) for k in pair]
-        strays = np.stack(draws, axis=1)
-        for spread in (0.3, 0.1, 0.03, 0.01):
-            gaps = strayed_gaps(dance, time, pair, strays)
-            tried, nearest = tried + len(gaps), min(nearest, gaps.min())
-            best = np.repeat(strays[np.argsort(gaps)[:250]], 100, axis=0)
-            strays = varied(rng, best, dance.dragon.chords[list(pair)], spread * stray, stray)
-        for _ in range(2):
-            gaps = strayed_gaps(dance, time, pair, strays)
-            tried, nearest = tried + len(gaps), min(nearest, gaps.min())
-    for time in rng.uniform(0.0, stop, 30).tolist():
-        strays = np.stack([random_strays(rng, dance.dragon.chords[k], stray, 2000) for k in (0, 19)], axis=1)
-        tried, nearest = tried + 2000, min(nearest, strayed_gaps(dance, time, (0, 19), strays).min())
-    assert tried >= 1_000_000
-    assert 0.0 < nearest < 0.01 * stray  # of twice the stray and more in the nominal places: the search does come near
+    sought = seek(to_circle(0.55)[0], default)
+    assert sought.poses >= 1_000_000
+    # of twice the stray and more in the nominal places: the search does come near
+    assert 0.0 < sought.nearest < 0.005 * default.stray
 
 
-def varied(rng: np.random.Generator, strays: np.ndarray, chords: np.ndarray, by: float, most: float) -> np.ndarray:
-    """Strays near given ones that keep the chords and the limit: the front holes move, the rear ones follow."""
-    new = strays + rng.normal(0.0, by, strays.shape)
-    long = np.hypot(new[..., 0], new[..., 1])
-    new *= np.minimum(1.0, most / np.maximum(long, most * 1e-9))[..., None]
-    chord = np.stack([chords, np.zeros(2)], axis=-1)
-    link = chord + new[:, :, 0] - new[:, :, 1]
-    link *= (chords / np.hypot(link[..., 0], link[..., 1]))[..., None]
-    new[:, :, 1] = chord + new[:, :, 0] - link
-    kept = np.hypot(new[..., 0], new[..., 1]).max(axis=(1, 2)) <= most
-    return np.where(kept[:, None, None, None], new, strays)
+def test_the_same_search_finds_contacts_with_strays_beyond_the_bracket(default: Tolerance) -> None:
+    assert seek(to_circle(0.55)[0], default, part=1.002, draws=2_000).nearest < 0.0
 
 
 def test_all_lengths_times_k_make_the_answer_k_times_as_large(default: Tolerance) -> None:

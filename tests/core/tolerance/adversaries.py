@@ -1,0 +1,151 @@
+"""Poses that seek a contact: two benches of the default dragon, every chord kept, all holes within a little less than
+the answer of tolerance().
+
+`python -m tests.core.tolerance.adversaries` says how near a million of them come. Half of those drawn at random turn as
+far as the stray allows, half have the middle on the edge of all places for their turn. The nearest ones then go
+downhill along the gradient of the gap. The gap is the largest of several, so that way ends on the ridge between two:
+the best poses are then varied at random, by less and less. Poses beyond the stray are taken back to its edge.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from core import Dance, Dragon, Spiral, bench_poses, clearance_profile, tolerance, trajectory
+from core.shapes.rectangles import frames, frames_separation
+from core.tolerance.tolerance import Tolerance
+from core.values import Floats
+from tests.core.tolerance.places import random_strays, strays_of
+
+CIRCLE = 4.5  # radius of the turning circle [m]
+# Poses of a place drawn at random, how many of them go downhill, how many of those are varied, how often each [1].
+DRAWS, DOWNHILL, VARIED, VARIANTS = 80_000, 1_000, 100, 50
+# Steps downhill and rounds of variants; the first of each has this part of the stray, each one less than the last [1].
+STEPS, ROUNDS, FIRST, SHRINK = 10, 16, 0.3, 0.6
+# Step of a difference quotient [m].
+QUOTIENT = 1e-7
+# Poses of the two benches that are the nearest, at each of so many random times [1].
+ANY_TIMES, ANY_DRAWS = 30, 1_000
+
+
+@dataclass
+class Sought:
+    """What a search found: poses tried, the least gap of them [m]."""
+
+    poses: int = 0
+    nearest: float = math.inf
+
+    def add(self, gaps: Floats) -> Floats:
+        self.poses, self.nearest = self.poses + gaps.size, min(self.nearest, float(gaps.min()))
+        return gaps
+
+
+def to_circle(pitch: float) -> tuple[Dance, float]:
+    """The default dragon on a spiral, and when its head is on the circle [s]."""
+    spiral = Spiral(pitch)
+    theta = CIRCLE / spiral.growth
+    length = 0.5 * spiral.growth * (theta * math.hypot(1.0, theta) + math.asinh(theta))
+    return Dance(Dragon(), spiral), spiral.length - length
+
+
+@dataclass
+class Place:
+    """Two benches of a dance at a time, whose holes stray by at most so much [m]."""
+
+    dance: Dance
+    time: float
+    pair: tuple[int, int]
+    stray: float
+
+    def __post_init__(self) -> None:
+        handles = trajectory(self.dance, self.time).position
+        self.handles = np.array([handles[k : k + 2] for k in self.pair])
+        dragon, bench = self.dance.dragon, list(self.pair)
+        self.chords = dragon.chords[bench].tolist()
+        self.sizes = np.stack([dragon.lengths[bench], dragon.widths[bench]], axis=-1)
+        heading = bench_poses(self.handles)[:, 0, 2]
+        cosine, sine = np.cos(heading), np.sin(heading)
+        self.turns = np.moveaxis(np.array([[cosine, sine], [-sine, cosine]]), -1, 0)
+
+    def gaps(self, strays: Floats) -> Floats:
+        """Gaps (N,) with the holes displaced in the benches' own frames: strays (N, bench, hole, 2) [m]."""
+        both = []
+        for k in range(2):
+            poses = bench_poses(self.handles[k] + strays[:, k] @ self.turns[k])[:, 0]
+            both.append(frames(poses, np.broadcast_to(self.sizes[k], (len(poses), 2))))
+        gaps: Floats = frames_separation(*both).separation
+        return gaps
+
+    def drawn(self, rng: np.random.Generator, count: int) -> Floats:
+        """Strays (count, 2, 2, 2) at random."""
+        return np.stack([random_strays(rng, chord, self.stray, count) for chord in self.chords], axis=1)
+
+    def laid(self, shapes: Floats) -> Floats:
+        """Strays of shapes (..., bench, 3): q and the middle of each, see places.py."""
+        parts = [strays_of(shapes[:, k, 0], shapes[:, k, 1:], self.chords[k], self.stray) for k in range(2)]
+        return np.stack(parts, axis=1)
+
+    def downhill(self, strays: Floats, sought: Sought) -> Floats:
+        """Let poses go down the gradient of their gap, by less and less; a step that does not help is not taken."""
+        shapes, gaps = _shapes(strays), self.gaps(strays)
+        for k in range(STEPS):
+            slope = np.empty(shapes.shape)
+            for at in np.ndindex(2, 3):
+                off = shapes.copy()
+                off[:, *at] += QUOTIENT
+                slope[:, *at] = sought.add(self.gaps(self.laid(off))) - gaps
+            size = np.maximum(np.sqrt((slope**2).sum(axis=(1, 2), keepdims=True)), 1e-300)
+            tried = self.laid(shapes - FIRST * SHRINK**k * self.stray * slope / size)
+            found = sought.add(self.gaps(tried))
+            better = found < gaps
+            shapes = np.where(better[:, None, None], _shapes(tried), shapes)
+            gaps = np.where(better, found, gaps)
+        return shapes[np.argsort(gaps)[:VARIED]]
+
+    def vary(self, rng: np.random.Generator, shapes: Floats, sought: Sought) -> None:
+        """Vary the best shapes so far by less and less."""
+        for k in range(ROUNDS):
+            off = rng.normal(0.0, FIRST * SHRINK**k * self.stray, (VARIANTS, *shapes.shape))
+            off[0] = 0.0
+            strays = self.laid((shapes + off).reshape(-1, 2, 3))
+            shapes = _shapes(strays[np.argsort(sought.add(self.gaps(strays)))[:VARIED]])
+
+
+def _shapes(strays: Floats) -> Floats:
+    """q and the middle (N, bench, 3) of strays."""
+    middle, half = 0.5 * strays.sum(axis=2), 0.5 * (strays[:, :, 0] - strays[:, :, 1])
+    q = np.copysign(np.hypot(half[..., 0], half[..., 1]), half[..., 1])
+    return np.concatenate([q[..., None], middle], axis=-1)
+
+
+def seek(dance: Dance, known: Tolerance, part: float = 0.999, draws: int = DRAWS) -> Sought:
+    """Look for contacts of a default dance with this part of its tolerance, where and when benches are the nearest."""
+    assert known.time is not None
+    stray, rng, sought = part * known.stray, np.random.default_rng(7), Sought()
+    at = known.time
+    for time, pair in [(at, (0, 19)), (at - 1.0, (0, 19)), (known.stop, (0, 18)), (322.9, (0, 17)), (320.0, (1, 20))]:
+        place = Place(dance, time, pair, stray)
+        strays = place.drawn(rng, draws)
+        gaps = sought.add(place.gaps(strays))
+        place.vary(rng, place.downhill(strays[np.argsort(gaps)[:DOWNHILL]], sought), sought)
+    others = clearance_profile(dance, rng.uniform(0.0, known.stop, ANY_TIMES))
+    for time, (a, b) in zip(others.time.tolist(), others.benches.tolist(), strict=True):
+        place = Place(dance, time, (a, b), stray)
+        sought.add(place.gaps(place.drawn(rng, ANY_DRAWS)))
+    return sought
+
+
+def main() -> None:
+    dance, stop = to_circle(0.55)
+    known = tolerance(dance, stop=stop)
+    sought = seek(dance, known)
+    found = "none touches" if sought.nearest > 0.0 else "some touch"
+    most = 0.999 * known.stray
+    print(f"{sought.poses} poses with strays up to {most:.6f} m: {found}; the nearest gap is {sought.nearest:.2e} m")
+
+
+if __name__ == "__main__":
+    main()
