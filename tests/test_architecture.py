@@ -104,6 +104,7 @@ ORDER = (
     "core.ground.envelope",
     "core.tolerance.between",
     "core.tolerance.exhibit",
+    "core.tolerance.safe",
     "core.tolerance.tolerance",
     "core.tolerance.curve",
     "core.tolerance.uncertain",
