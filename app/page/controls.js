@@ -24,6 +24,8 @@ export function limitsIn(paths) {
   );
 }
 
+/** A number as it is typed, also with a decimal comma, which some phones alone offer. */
+const typed = (text) => text.trim().replace(/^([-+]?\d*),(\d+)$/, "$1.$2");
 /** A number in another unit, without the noise of binary fractions; what is no number stays as it is. */
 const times = (text, factor) => (factor !== 1 && text !== "" && Number.isFinite(Number(text)) ? String(Number((Number(text) * factor).toPrecision(12))) : text);
 /** How many of the unit that is shown are one of the service's. */
@@ -53,7 +55,7 @@ export class Controls {
   }
 
   #row({ name, slider: [min, max, step] }) {
-    const change = (event) => this.state.set({ [name]: times(event.target.value.trim(), 1 / SHOWN[name]) });
+    const change = (event) => this.state.set({ [name]: times(typed(event.target.value), 1 / SHOWN[name]) });
     const described = { "aria-describedby": `${name}-help ${name}-limits ${name}-error` };
     const row = {
       text: make("input", { id: name, inputMode: "decimal", autocomplete: "off", spellcheck: false, ...described }),
@@ -86,7 +88,7 @@ export class Controls {
     const field = make("input", { className: "end", inputMode: "decimal", autocomplete: "off", value });
     field.addEventListener("change", () => {
       const { slider } = this.#rows.get(name);
-      const [low, high] = [end === "min" ? field.value : slider.min, end === "max" ? field.value : slider.max].map((text) => Number(text.replace(",", ".")));
+      const [low, high] = [end === "min" ? field.value : slider.min, end === "max" ? field.value : slider.max].map((text) => Number(typed(text)));
       if (field.value.trim() && low < high) slider[end] = end === "min" ? low : high;
       this.#show(name);
     });

@@ -114,7 +114,7 @@ export class RouteForm {
     leg.addEventListener("change", () => this.steps.take(bent(this.#drawing, k)));
     const remove = labelled("button", "remove", { type: "button", className: "reset", textContent: "✕" });
     remove.addEventListener("click", () => this.steps.take(removed(this.#drawing, null, k)));
-    const cells = [...fields, leg, remove].map((part) => make("td", {}, part));
+    const cells = [...fields, make("label", { className: "tap" }, leg), remove].map((part) => make("td", {}, part));
     return { fields, leg, box: make("tr", {}, make("th", { scope: "row", textContent: k + 1 }), ...cells) };
   }
 

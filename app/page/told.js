@@ -2,6 +2,7 @@
 
 import { showRefusal } from "./answers.js";
 import { $ } from "./elements.js";
+import { refusalWords } from "./text.js";
 
 /** Titles of the boxes that show a refusal. */
 const TITLES = { contact: "firstContact", minimum: "minimumPitch", tolerance: "tolerance", shortest: "shortestTurn", head: "headSpeed", fastest: "highest" };
@@ -9,11 +10,12 @@ const TITLES = { contact: "firstContact", minimum: "minimumPitch", tolerance: "t
 /** boxOf(kind): selector of the box of this kind of answer */
 export function tellRefusals(questions, graphs, boxOf) {
   // Each message stands once: beside its field, or in the first place that it concerns.
-  const told = new Set(questions.errors().values());
+  const wordsOf = (detail) => refusalWords(detail).textContent;
+  const told = new Set([...questions.errors().values()].map(wordsOf));
   for (const [kind, { message, errors }] of questions.refusals) {
-    const details = [message, ...errors.map(({ detail }) => detail)];
-    const detail = details.some((one) => told.has(one)) ? null : message;
-    for (const one of details) told.add(one);
+    const words = [message, ...errors.map(({ detail }) => detail)].map(wordsOf);
+    const detail = words.some((one) => told.has(one)) ? null : message;
+    for (const one of words) told.add(one);
     if (kind in TITLES) showRefusal($(boxOf(kind)), TITLES[kind], detail, questions.fieldsOf(kind));
     graphs.refuse(kind, detail);
   }

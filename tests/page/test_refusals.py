@@ -1,0 +1,158 @@
+"""Refusals of the real service as the page tells them: sentences in both languages, with its labels and its units."""
+
+from __future__ import annotations
+
+import re
+from typing import Any
+
+import httpx
+
+# Latin letters that are no unit, no name and no symbol, outside of quotes.
+ENGLISH = re.compile(
+    r"(?<![A-Za-z])(?!GeoJSON|HTTP|TOML|JSON|KMZ?|DXF|DWG|ASCII|XML|name|length|width|overhang)[A-Za-z]{3,}"
+)
+QUOTED = re.compile("“[^”]*”")
+# What no person should read: names of fields, units in brackets, and words for programs.
+INSIDE = re.compile(r"[a-z]_[a-z]|\[|\bgot\b|venue|csv|dragon\.\w|path\.\w|POST|header|\bNone\b")
+FIELDS = {
+    "collision-time": ("pitch", "start_turns", "benches", "head_length", "overhang", "head_speed", "margin", "stray"),
+    "maximum-head-speed": ("ratio", "entry_radius", "speed_limit", "turning_diameter"),
+}
+WRONG = ("x", "", "-1", "1e9", "55cm")
+QUERIES = (
+    ("collision-time", {"hole": 0.01, "pin": 0.02}),
+    ("collision-time", {"start_turns": 2}),
+    ("collision-time", {"stray": 0.9}),
+    ("collision-time", {"overhang": 1.2, "body_length": 2.2}),
+    ("minimum-pitch", {"margin": 1.6}),
+    ("minimum-pitch", {"turning_diameter": 0.01}),
+    ("minimum-pitch", {"head_length": 2.2, "overhang": 0.8}),
+    ("minimum-pitch", {"start_turns": 1e-9}),
+    ("minimum-pitch", {"benches": 100_001}),
+    ("tolerance", {"turning_diameter": 0.5}),
+    ("clearance", {"start": 0, "stop": 4000, "step": 1}),
+    ("clearance", {"start": 0, "stop": 400, "step": 1e-4}),
+    ("maximum-head-speed", {"ratio": 50}),
+    ("maximum-head-speed", {"entry_radius": 1}),
+    ("shortest-turn", {"pitch": 0.5}),
+)
+PLAIN = [[-40, 0], [0, 5], [40, 0]]
+PATHS = (
+    {"points": [[0, 0]]},
+    {"points": [[-40, 0], [0, 0], [0, 0], [40, 0]]},
+    {"points": [[0, 0], [1, 0]]},
+    {"points": [[-40, 0], [0, 0], [1, 1], [0, 2], [-40, 2]]},
+    {"points": [[-4e5, 0], [4, 0]]},
+    {"points": [[0, 0], [40, 0], [0, 0]], "straight": [0, 1]},
+    {"points": [[0, 0], [40, 0], [0, 0]]},
+    {"points": [[0.1 * k, 0] for k in range(1001)]},
+    {"points": PLAIN, "start": 2e6},
+    {"points": PLAIN, "radius": 0},
+)
+SQUARE = [[-50, -50], [50, -50], [50, 50], [-50, 50], [-50, -50]]
+BOW = [[0, 0], [5, 5], [5, 0], [0, 5], [0, 0]]
+TABLES = (
+    "length,width\n1,2",
+    "length,length,width,overhang\n1,1,1,1",
+    "length,width,overhang,weight\n1,1,1,1",
+    "name,length,width,overhang",
+    "name,length,width,overhang\nA,3.41,.3",
+    "name,length,width,overhang\nA,341,30,27.5",
+    "name,length,width,overhang\nA,x,.3,.2",
+    "name,length,width,overhang\nA,1,.3,.7",
+    "name,length,width,overhang\n" + 300 * "n" + ",3.41,.3,.275",
+)
+PASSAGES = (
+    [{"speed": 0, "until_s": 5}],
+    [{"speed": 0, "until_time": 5}, {"speed": 0, "until_time": 3}],
+    [{"speed": 1, "until_s": 5}, {"speed": 1, "until_s": 4}],
+    [{"speed": "x", "until_s": 5}],
+    [{"speed": 1, "until_time": "y"}],
+    [{"speed": 30, "until_s": 5}],
+    [{"speed": 1e-5, "until_s": 5}],
+    [{"speed": 1}],
+)
+FILES = (
+    b"hello",
+    b"",
+    b"\x89PNG\r\n",
+    b"<kml><a></kml>",
+    b"<gpx/>",
+    b"<!DOCTYPE a><kml/>",
+    b"PK\x03\x04aaaa",
+    b"AC1027xxxx",
+    b"AutoCAD Binary DXF\r\n",
+    b'{"type":"FeatureCollection","features":[]}',
+    b'{"type":"LineString","coordinates":[[100,20],[150,30]]}',
+    b'{"type":"Polygon","coordinates":[[[0,0],[5,5],[5,0],[0,5],[0,0]]]}',
+    b'{"path":{"kind":"waypoints","points":[[0,0]]}}',
+)
+
+
+def feature(name: str, kind: str, coordinates: Any, **properties: Any) -> dict[str, Any]:
+    geometry = {"type": kind, "coordinates": coordinates}
+    return {"type": "Feature", "properties": {"name": name, **properties}, "geometry": geometry}
+
+
+SQUARES = (
+    [feature("square", "Polygon", [BOW])],
+    [feature("square", "Polygon", [SQUARE]), feature("square", "Polygon", [SQUARE])],
+    [feature("square", "Polygon", [SQUARE]), feature("stage", "Polygon", [BOW[:3]])],
+    [feature("square", "Polygon", [SQUARE]), feature(300 * "n", "Polygon", [SQUARE])],
+    [feature("square", "Polygon", [SQUARE]), feature("tree", "Point", [1, 1], radius=5000)],
+    [feature("square", "Polygon", [SQUARE]), feature("tree", "Point", [1, 1])],
+    [feature("square", "Polygon", [[[x / 10, x % 2 / 10] for x in range(6000)] + [[0, 9], [0, 0]]])],
+    [],
+)
+
+
+def refusals(server: str) -> list[str]:
+    """What the service says to wrong numbers, paths, squares, tables, passages and files."""
+    few, octets = {"dragon": {"benches": 9}}, {"Content-Type": "application/octet-stream"}
+    with httpx.Client(base_url=server, timeout=60.0) as client:
+        wrong = [(call, {name: text}) for call, names in FIELDS.items() for name in names for text in WRONG]
+        answers = [client.get(f"/{call}", params={"benches": 9} | query) for call, query in (*wrong, *QUERIES)]
+        path = {"kind": "waypoints", "points": PLAIN}
+        bodies: list[dict[str, Any]] = [few | {"path": {"kind": "waypoints", **one}} for one in PATHS]
+        bodies += [few | {"path": path, "passages": one} for one in PASSAGES]
+        bodies += [few | {"path": path, "venue": {"type": "FeatureCollection", "features": one}} for one in SQUARES]
+        bodies += [{"dragon": {"csv": one}} for one in TABLES]
+        bodies += [few | {"path": path, "start_clock": "7pm"}, {"dragon": {"benches": 400}, "path": path}]
+        answers += [client.post("/check", json=body) for body in bodies]
+        answers.append(client.post("/maps.kml", json=few | {"path": path}))
+        answers += [client.post("/places", content=data, headers=octets) for data in FILES]
+        answers.append(client.get("/jobs/" + 48 * "0"))
+    found = [answer.json() for answer in answers if answer.status_code >= 400]
+    assert len(found) > len(answers) - 25  # a few of the wrong texts are right for some field
+    told = [words for one in found for words in (one["detail"], *(error["detail"] for error in one["errors"]))]
+    return list(dict.fromkeys(told))
+
+
+def test_every_refusal_is_a_sentence_in_both_languages(open_page: Any, server: str) -> None:
+    page = open_page("?benches=9")
+    details = refusals(server)
+    assert len(details) > 100
+    spoken = """async (details) => {
+      const { refusalWords, setLanguage } = await import("/page/text.js");
+      return ["zh", "en"].map((one) => setLanguage(one) && details.map((detail) => refusalWords(detail).textContent));
+    }"""
+    chinese, english = page.evaluate(spoken, details)
+    assert [words for words in chinese if ENGLISH.search(QUOTED.sub("", words)) or not words.endswith("。")] == []
+    assert [words for words in english if INSIDE.search(words) or not words.endswith(".")] == []
+
+
+def test_what_is_asked_in_centimetres_is_refused_in_centimetres(open_page: Any) -> None:
+    page = open_page("?benches=9", failing=True)
+    stray = page.locator("#stray")
+    error = page.locator("#stray-error")
+    for text, words in (
+        ("900", "“Each may stray by” must be at most half the chord of body 1 (82.5 cm); it is 900 cm."),
+        ("x", "“Each may stray by” must be a number of centimetres, such as 2; you typed “x”."),
+        ("9000", "“Each may stray by” must be at most 2500 cm; it is 9000 cm."),
+    ):
+        stray.fill(text)
+        page.locator("#stray-error", has_text=words).wait_for()
+        assert error.inner_text() == words
+    stray.fill("2,5")
+    error.wait_for(state="hidden")
+    assert stray.input_value() == "2.5"

@@ -1,0 +1,85 @@
+"""Every kind of dance on a phone, a laptop and a wide screen: room for fingers, and nothing that scrolls inside."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+from playwright.sync_api import expect
+
+PHONE = {"viewport": {"width": 390, "height": 844}, "has_touch": True, "is_mobile": True}
+FINGER = 44  # [px]: the least width and height of what a finger should hit
+VILLAGE = (
+    "?path=route&route=*-67,-8_-12,-8_-3,-9_6,-8_10.5,-3_7,2.5_0,3.5_-4.5,7_-1,10.5_6,10.5_*12,15_12,62&begin=45&limit=1.1"
+    "&things=a.square..-70,-11_-20,-11_-20,-15_20,-15_20,15_15,15_15,65_9,65_9,15_-20,15_-20,-5_-70,-5"
+    "~c.well.1!5.6!5,-6!5~b.stage..-17,1!5_-6,1!5_-6,9!5_-17,9!5~w.fence.0!2.10!5,3!5_18,4"
+    "&passages=0.5@20m_0@90s&start_clock=19:30"
+)
+DANCES = {
+    "spiral": "?benches=12&time=0",
+    "turn": "?path=turn&benches=12&time=0",
+    "route": VILLAGE,
+    "nothing drawn": "?path=route",
+}
+# A point on the picture is hit in a circle around it, a tick or a file in all of its label.
+NARROW = """(least) => [...document.querySelectorAll("button, select, input, textarea, summary, a")]
+  .filter((one) => one.checkVisibility() && !one.matches(".skip, .knot"))
+  .map((one) => [one, one.matches("[type=checkbox], [type=file]") ? one.closest("label") : one])
+  .filter(([one, target]) => {
+    const { width, height, right } = target.getBoundingClientRect();
+    return Math.min(height, one.matches("button") ? width : height) < least - 0.5 || right > innerWidth + 1;
+  })
+  .map(([one]) => one.outerHTML)"""
+# The long list of handles draws only what is in sight of it, and a command is one line as in a terminal.
+SCROLLING = """[...document.querySelectorAll("body *")]
+  .filter((one) => one.checkVisibility() && !one.matches("#rows, pre, textarea"))
+  .filter((one) => /auto|scroll/.test(getComputedStyle(one).overflow))
+  .filter((one) => one.scrollHeight > one.clientHeight + 1 || one.scrollWidth > one.clientWidth + 1)
+  .map((one) => one.id || one.className || one.tagName)"""
+
+
+def answered(page: Any, query: str) -> None:
+    if query == DANCES["nothing drawn"]:
+        page.locator("#invite").wait_for()
+        return
+    page.locator("#judgement .value, #first-contact .value").first.wait_for()
+    expect(page.locator("#answers [aria-busy=true]")).to_have_count(0)
+    if query == VILLAGE:
+        page.locator("#edit").click()
+
+
+@pytest.mark.parametrize("locale", ["en-GB", "zh-CN"])
+@pytest.mark.parametrize("query", DANCES.values(), ids=list(DANCES))
+def test_on_a_phone_a_finger_hits_every_control(open_page: Any, query: str, locale: str) -> None:
+    page = open_page(query, locale=locale, **PHONE)
+    answered(page, query)
+    page.evaluate("document.querySelectorAll('details').forEach((one) => (one.open = true))")
+    if query != DANCES["nothing drawn"]:
+        page.locator("#paper table").wait_for()
+    assert page.evaluate(NARROW, FINGER) == []
+    assert page.evaluate("document.documentElement.scrollWidth") <= 390
+    header = page.locator("header").bounding_box()
+    assert header["height"] < 2.5 * FINGER
+
+
+@pytest.mark.parametrize("size", [(1440, 900), (1920, 1080)], ids=["1440", "1920"])
+@pytest.mark.parametrize("query", DANCES.values(), ids=list(DANCES))
+def test_nothing_scrolls_inside(open_page: Any, query: str, size: tuple[int, int]) -> None:
+    page = open_page(query, viewport=dict(zip(("width", "height"), size, strict=True)))
+    answered(page, query)
+    page.evaluate("document.querySelectorAll('#answers details').forEach((one) => (one.open = true))")
+    assert page.evaluate(SCROLLING) == []
+    # The picture stays in sight of answers and controls, however far down they reach.
+    page.locator("#answers > :not([hidden])").last.evaluate("one => one.scrollIntoView({ block: 'end' })")
+    canvas = page.locator("#canvas").bounding_box()
+    assert canvas["y"] >= 0
+    assert canvas["y"] + canvas["height"] <= size[1]
+
+
+def test_the_words_of_a_failure_stand_below_a_time_of_day_that_takes_their_room(open_page: Any) -> None:
+    page = open_page(VILLAGE)
+    row = page.locator(".failures li").nth(1)
+    row.wait_for()
+    words, button = row.locator("span").bounding_box(), row.locator("button").bounding_box()
+    assert words["width"] > 150
+    assert words["y"] >= button["y"] + button["height"]
