@@ -6,10 +6,15 @@ gives far too much away: the first and the last hang on the one between, and tou
 In the frame of the bench between, with its chord c_1 from handle 2 to handle 1 along x, the shape of the three is given
 by the headings a of the first and b of the last one, and
     d_02 = |c_0 e(a) + c_1|,   d_13 = |c_1 + c_2 e(b)|,   d_03 = |c_0 e(a) + c_1 + c_2 e(b)|,   e(a) = exp(i a),
-are the distances of handles. Strays within delta change no distance of two handles by more than 2 delta. So three
-benches whose shape in their places has the distances D can come into the shape (a, b) only if
-    delta >= N(a, b) = max(D_02 - d_02, D_13 - d_13, D_03 - d_03) / 2:
-they do not touch while delta is below the least N of all shapes in which they do.
+are the distances of handles. Their sags are how far handle j of three i, j, k is from the point between i and k where
+it is on a straight line. With L = c_0 + c_1 + c_2 that of
+    0, 1, 2 is |u (e(a) - 1) - v (e(b) - 1)| with u = c_0 c_1 / (c_0 + c_1), v = 0,   and of 1, 2, 3 likewise,
+    0, 1, 3 has u = c_0 (c_1 + c_2) / L, v = c_0 c_2 / L,   and 0, 2, 3 has u = c_0 c_2 / L, v = (c_0 + c_1) c_2 / L.
+Strays within delta change no distance of two handles and no sag by more than 2 delta. So three benches whose shape in
+their places has the distances D and the sags S can come into a shape (a, b) with d and s only if
+    delta >= N(a, b) = max(D - d, s - S) / 2 over all of them:
+they do not touch while delta is below the least N of all shapes in which they do. Distances tell of a fold; small bends
+change them with their squares only, and sags in proportion.
 
 The places. Let no curvature of the path exceed k, with k c / 2 <= 1 for every chord c. The next handle is
 where the path first comes to the distance c; by Schur's comparison with a circle that is after a length L of at most
@@ -17,13 +22,15 @@ where the path first comes to the distance c; by Schur's comparison with a circl
 tangent at either end by half of that at most: with x = k s - k L / 2, turned by x' <= x and x' >= -k s - k L / 2 >=
 -pi - x, sin x' <= sin x, and the integral of sin x over L is 0. Two chords in a row hence bend by at most
     A = asin(k c_0 / 2) + asin(k c_1 / 2),   B = asin(k c_1 / 2) + asin(k c_2 / 2),   both <= pi,
-    D_02^2 >= c_0^2 + c_1^2 + 2 c_0 c_1 cos A,   D_13 likewise,   D_03 >= c_0 cos A + c_1 + c_2 cos B.
+    D_02^2 >= c_0^2 + c_1^2 + 2 c_0 c_1 cos A,   D_13 likewise,   D_03 >= c_0 cos A + c_1 + c_2 cos B,
+    S <= u |e(A) - 1| + v |e(B) - 1|.
 
 The least N. Shapes are cut into cells of half width h. In one of them d_02 differs from that in its middle by
-min(c_0, c_1) h at most, d_13 likewise, d_03 by (c_0 + c_2) h, and the separation of the two benches by (r_0 + r_2) h,
-with r the distance of a bench's furthest corner from the handle that it hangs on. So a cell whose middle is further
-apart than that holds no touch, and of the others the least N less its change is a bound; they are cut on while they
-may be below what is wanted, and below N of a middle that does touch. Mirrored shapes are alike: 0 <= a <= pi is enough.
+min(c_0, c_1) h at most, d_13 likewise, d_03 by (c_0 + c_2) h, a sag by (u + v) h, and the separation of the two benches
+by (r_0 + r_2) h, with r the distance of a bench's furthest corner from the handle that it hangs on. So a cell whose
+middle is further apart than that holds no touch, and of the others the least N less its change is a bound; they are cut
+on while they may be below what is wanted, and below N of a middle that does touch. Mirrored shapes are alike: 0 <= a <=
+pi is enough.
 
 The pose. For a shape and a direction the least of the largest strays is the radius of the smallest circle around the
 four handles' differences from their places, and that is the largest of the radii of three of them. Grids that narrow
@@ -96,7 +103,10 @@ def _least_stray(triples: Floats, leans: Floats, most: float, budget: Budget) ->
     bends = leans[:, ::2] + leans[:, 1:2]
     places = _distances(chords, bends)
     places[:, 2] = chords[:, 1] + (chords[:, ::2] * np.cos(bends)).sum(axis=1)
-    slack = np.stack([chords[:, :2].min(axis=1), chords[:, 1:].min(axis=1), chords[:, 0] + chords[:, 2]], axis=1)
+    pulls = _pulls(chords)
+    most_sag = (pulls * np.abs(np.exp(1j * bends) - 1.0)[:, None]).sum(axis=2)
+    shorter, ends = np.minimum(chords[:, :2], chords[:, 1:]), chords[:, ::2].sum(axis=1, keepdims=True)
+    slack = np.concatenate([shorter, ends, pulls.sum(axis=2)], axis=1)
     corner = np.hypot(0.5 * (triples[..., 1] + chords), 0.5 * triples[..., 2])
     half = 0.5 * math.pi / CELLS
     a, b = np.meshgrid(half * np.arange(1, 2 * CELLS, 2), half * np.arange(1 - 2 * CELLS, 2 * CELLS, 2), indexing="ij")
@@ -105,8 +115,9 @@ def _least_stray(triples: Floats, leans: Floats, most: float, budget: Budget) ->
     for cut in range(CUTS + 1):
         budget.afford(CELL_WORK * len(of))
         gap = shape_gaps(triples[of], middles)
-        needed = 0.5 * (places[of] - _distances(chords[of], middles)).max(axis=1)
-        at_least = 0.5 * (places[of] - _distances(chords[of], middles) - slack[of] * half).max(axis=1)
+        fallen, risen = places[of] - _distances(chords[of], middles), _sags(pulls[of], middles) - most_sag[of]
+        change = np.concatenate([fallen, risen], axis=1)
+        needed, at_least = 0.5 * change.max(axis=1), 0.5 * (change - slack[of] * half).max(axis=1)
         most = min(most, float(needed[gap <= 0.0].min(initial=most)))
         going = (gap <= (corner[of, 0] + corner[of, 2]) * half) & (at_least < most)
         middles, of, at_least = middles[going], of[going], at_least[going]
@@ -123,6 +134,26 @@ def _distances(chords: Floats, bends: Floats) -> Floats:
     first, last = chords[:, [0, 2]].T * np.exp(1j * bends.T)
     distances: Floats = np.abs(np.stack([first, last, first + last], axis=1) + chords[:, 1:2])
     return distances
+
+
+def _pulls(chords: Floats) -> Floats:
+    """u and v (N, 4, 2) of the sags of handles 0, 1, 2, of 1, 2, 3, of 0, 1, 3 and of 0, 2, 3 [m]."""
+    first, middle, last = chords.T
+    whole, none = chords.sum(axis=1), np.zeros(len(chords))
+    pulls = [
+        [first * middle / (first + middle), none],
+        [none, middle * last / (middle + last)],
+        [first * (middle + last) / whole, first * last / whole],
+        [first * last / whole, (first + middle) * last / whole],
+    ]
+    return np.moveaxis(np.array(pulls), -1, 0)
+
+
+def _sags(pulls: Floats, bends: Floats) -> Floats:
+    """The four sags (N, 4) of shapes (N, 2) [m]."""
+    turned = np.exp(1j * bends)[:, None] - 1.0
+    sags: Floats = np.abs(pulls[..., 0] * turned[..., 0] - pulls[..., 1] * turned[..., 1])
+    return sags
 
 
 def shape_gaps(triples: Floats, headings: Floats) -> Floats:

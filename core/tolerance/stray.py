@@ -9,6 +9,9 @@ from core.errors import InvalidValue, said
 from core.shown import Shown, worded
 from core.values import SIZE_MAX, checked_number
 
+# Of a sum in metres: 1 cm and 0.5 cm are 0.015 m, not 0.015000000000000001 m [1].
+DECIMALS = 15
+
 
 @dataclass(frozen=True, slots=True)
 class Stray(Shown):
@@ -35,7 +38,7 @@ class Stray(Shown):
     @property
     def total(self) -> float:
         """How far a hole may be from its place in all [m]."""
-        return self.people + 0.5 * (self.hole - self.pin)
+        return round(self.people + 0.5 * (self.hole - self.pin), DECIMALS) if self.hole > self.pin else self.people
 
     def _line(self) -> str:
         return f"{worded(self.total, 'm')} in all"

@@ -9,7 +9,7 @@ import pytest
 
 from core import Arc, Budget, Dance, Dragon, Line, Route, Spiral, bench_outlines, trajectory
 from core.dance import follows
-from core.tolerance.between import _smallest_circles, held_apart, touching_pose
+from core.tolerance.between import _pulls, _sags, _smallest_circles, held_apart, touching_pose
 from core.tolerance.exhibit import exhibit
 from core.values import Floats
 
@@ -47,11 +47,20 @@ def strayed_three(rng: np.random.Generator, chords: Floats, places: Floats, stra
     return found
 
 
-@pytest.mark.parametrize(("radius", "dragon"), [(2.2, Dragon(9)), (1.5, Dragon(9, 2.2)), (6.0, Dragon(9, 1.2))])
-def test_no_pose_within_the_bound_touches(radius: float, dragon: Dragon) -> None:
-    """Nor does it come near: what is proven is little less than what a pose shows."""
+@pytest.mark.parametrize(
+    ("radius", "dragon", "least"),
+    [
+        (2.2, Dragon(9), 0.5),
+        (1.5, Dragon(9, 2.2), 0.5),
+        (6.0, Dragon(9, 1.2), 0.5),
+        (40.0, Dragon(9, 1.2, 1.2, 0.5), 0.1),
+        (40.0, Dragon.of([1.3, 1.5, 1.2] * 3, [0.5, 0.4, 0.6] * 3, [0.28] * 9), 0.05),
+    ],
+    ids=["long head", "equal", "short head", "wide", "of three sizes"],
+)
+def test_no_pose_within_the_bound_touches(radius: float, dragon: Dragon, least: float) -> None:
     safe, rng = held(dragon, radius), np.random.default_rng(3)
-    assert safe > 0.5 * dragon.chords.min()
+    assert safe > least * dragon.chords.min()
     dance = Dance(dragon, hairpin(radius))
     tried = 0
     for time in (41.0, 42.5, 44.0):
@@ -62,6 +71,19 @@ def test_no_pose_within_the_bound_touches(radius: float, dragon: Dragon) -> None
             rows = np.array([bench_outlines(dragon.leading(k + 3), np.concatenate([handles[:k], p])) for p in poses])
             assert not overlapping(rows[:, k], rows[:, k + 2]).any()
     assert tried > 1_000
+
+
+def test_sags_are_those_of_the_handles() -> None:
+    rng = np.random.default_rng(5)
+    chords, bends = rng.uniform(0.5, 3.0, (200, 3)), rng.uniform(-math.pi, math.pi, (200, 2))
+    turned = np.exp(1j * bends)
+    front = chords[:, 1] + chords[:, 0] * turned[:, 0]
+    handles = np.stack([front, chords[:, 1], 0.0 * front, -chords[:, 2] * turned[:, 1]], axis=1)
+    along = np.concatenate([np.zeros((200, 1)), np.cumsum(chords, axis=1)], axis=1)
+    for column, (i, j, k) in enumerate([(0, 1, 2), (1, 2, 3), (0, 1, 3), (0, 2, 3)]):
+        part = (along[:, j] - along[:, i]) / (along[:, k] - along[:, i])
+        sag = np.abs(handles[:, j] - (1.0 - part) * handles[:, i] - part * handles[:, k])
+        assert _sags(_pulls(chords), bends)[:, column] == pytest.approx(sag, abs=1e-12)
 
 
 def overlapping(a: Floats, b: Floats) -> Floats:

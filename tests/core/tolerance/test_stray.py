@@ -10,6 +10,7 @@ from core.tolerance.stray import checked_stray
 
 def test_people_and_play_add_up() -> None:
     assert Stray(0.02, 0.055, 0.045).total == pytest.approx(0.025, abs=1e-15)
+    assert Stray(0.01, 0.055, 0.045).total == 0.015  # and not 0.015000000000000001
     assert checked_stray(Stray(0.02, 0.055, 0.045), Dragon()) == Stray(0.02, 0.055, 0.045).total
     assert Stray(0.02, 0.055, 0.045).total > checked_stray(0.02, Dragon())
 
