@@ -131,11 +131,11 @@ def tolerance(
         return Tolerance(*known, (most, None), Limit.CHORD, None, None, None, None, begin, until, proof)
     _, travel, (a, b) = found.dip
     time = min(max(dance.clock.time(travel), begin), until)
-    second = b if limit.edges is None else None
     shown = _exhibit(limit, found, time, dance.path.frame)
+    benches = (a, b if limit.edges is None else None) if shown is None else shown.benches
     bracket = (found.stray, None if shown is None else shown.stray)
     by = Limit.BENCHES if limit.edges is None else Limit.VENUE
-    return Tolerance(*known, bracket, by, time, (a, second), limit.area, shown, begin, until, proof)
+    return Tolerance(*known, bracket, by, time, benches, limit.area, shown, begin, until, proof)
 
 
 def _fields(dance: Dance, venue: Venue | None, span: tuple[float, float], budget: Budget) -> list[Field]:

@@ -160,6 +160,17 @@ def test_where_benches_next_but_one_limit_the_stray_a_pose_of_all_three_shows_a_
     assert rows[0].intersection(rows[1]).area > 0.0
 
 
+def test_the_pose_is_of_those_three_in_a_row_that_fold_with_the_least_strays() -> None:
+    """The head and bench 2 come first where benches are taken to be independent, but fold with 10 cm only."""
+    dance = Dance(Dragon(20, body_length=1.2, width=0.5), Spiral(5.0))
+    found = tolerance(dance, stop=dance.path.travel_to(20.0))
+    safe, shown = found.stray_bracket
+    assert shown is not None
+    assert found.exhibit is not None
+    assert found.benches == found.exhibit.benches == (1, 3)
+    assert 0.06 < safe < shown < 1.03 * safe
+
+
 def test_two_benches_on_a_line_have_nothing_to_touch() -> None:
     found = tolerance(Dance(Dragon(benches=2), Route([Line((0.0, 0.0), (30.0, 0.0))])), start=5.0)
     assert found.limited_by is Limit.CHORD
