@@ -1,7 +1,7 @@
 # The first `make` in a fresh clone creates .venv, installs the locked versions and compiles core/kernels.
 SHELL := /bin/bash
 .DEFAULT_GOAL := help
-.PHONY: help setup serve test rounding libreoffice lint sweep-pitch sweep-kills job-kills soak fuzz bench ccd examples figures dist lock clean
+.PHONY: help setup serve test deep rounding libreoffice lint sweep-pitch sweep-kills job-kills soak fuzz bench ccd examples figures dist lock clean
 
 VENV := .venv
 BIN := $(VENV)/bin
@@ -16,6 +16,7 @@ PYTHON ?= $(shell for p in python3 python3.13 python3.12 python3.11; do \
 help:
 	@echo 'make serve    the service on http://$(HOST):$(PORT) (HOST=, PORT=)'
 	@echo 'make test     all tests (ARGS= for pytest)'
+	@echo 'make deep     the same with all of the random cases and samples, of which make test asks some'
 	@echo 'make rounding 10,000 computed gaps against 50-digit arithmetic and the bounds on rounding (ARGS="GAPS SEED")'
 	@echo 'make libreoffice  the three workbooks as LibreOffice writes them, graded (needs libreoffice-calc; ARGS=--renew: the small ones)'
 	@echo 'make lint     ruff and mypy'
@@ -56,6 +57,9 @@ serve: setup
 test: setup
 	@$(BIN)/python tests/page/browser.py
 	@$(BIN)/python -m pytest --numprocesses auto --dist worksteal $(ARGS)
+
+deep: setup
+	@DEEP=1 $(MAKE) --no-print-directory test
 
 rounding: setup
 	@$(BIN)/python -m tests.core.rounding_sweep $(or $(ARGS),10000)

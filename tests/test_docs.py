@@ -15,13 +15,13 @@ from urllib.parse import urlsplit
 import pytest
 
 from app.settings import Settings
+from tests.app.command import PATIENCE, bin_folder
 
 ROOT = Path(__file__).parents[1]
 DOCS = ROOT / "docs"
 FILES = [ROOT / "README.md", ROOT / "README.zh.md", *sorted(DOCS.glob("*.md"))]
 PAGES = {path.relative_to(ROOT).as_posix(): path.read_text(encoding="utf-8") for path in FILES}
 README_LINES_MOST = 250
-PATIENCE = 300.0  # [s]: only against a command that would hang
 WIDTH = "120"  # of the terminal for which the outputs are shown [characters]
 # Other processors round the last digit of a sine differently. The time of a least clearance changes most, because the
 # clearance is flat there: by up to 1e-8 s; all other numbers change less [s, m, rad, m/s].
@@ -138,7 +138,7 @@ def test_a_result_is_printed_by_the_command_beside_it(values: str, command: str,
 
 def run(command: str, folder: Path) -> subprocess.CompletedProcess[str]:
     """A command of a shell, with errors among its output, as a reader types it."""
-    path = os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]])
+    path = os.pathsep.join([str(bin_folder()), str(Path(sys.executable).parent), os.environ["PATH"]])
     environment = {**os.environ, "PATH": path, "COLUMNS": WIDTH}
     return subprocess.run(
         ["bash", "-c", command],

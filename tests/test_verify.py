@@ -14,6 +14,7 @@ import subprocess
 import sys
 import tokenize
 from collections.abc import Callable
+from functools import cache
 from pathlib import Path
 from types import ModuleType
 from typing import Any
@@ -50,21 +51,31 @@ FUZZED = 60
 BEND_WIDTH_MOST = 1e-20  # far below what the proofs need, about 1e-14 [rad]
 
 
-def run(path: Path | str) -> subprocess.CompletedProcess[str]:
+def alone(*arguments: str) -> subprocess.CompletedProcess[str]:
     """verify.py alone: -I and -S leave no path to any package but the standard library."""
-    command = [sys.executable, "-I", "-S", str(VERIFY), str(path)]
+    command = [sys.executable, "-I", "-S", str(VERIFY), *arguments]
     return subprocess.run(command, capture_output=True, text=True, timeout=PATIENCE)
 
 
+PROGRAM = compile(VERIFY.read_bytes(), str(VERIFY), "exec")
+
+
 @pytest.fixture
-def judged(tmp_path: Path) -> Callable[[Any], subprocess.CompletedProcess[str]]:
-    """Runs verify.py on a certificate, or on a text or bytes that are none."""
+def judged(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> Callable[[Any], subprocess.CompletedProcess[str]]:
+    """Runs verify.py in this process on a certificate, or on a text or bytes that are none."""
 
     def judge(content: Any) -> subprocess.CompletedProcess[str]:
         data = json.dumps(content) if isinstance(content, dict | list) else content
-        path = tmp_path / "certificate.json"
+        path, code = tmp_path / "certificate.json", 0
         path.write_bytes(data if isinstance(data, bytes) else data.encode())
-        return run(path)
+        monkeypatch.setattr("sys.argv", [str(VERIFY), str(path)])
+        try:
+            exec(PROGRAM, {"__name__": "__main__"})
+        except SystemExit as end:
+            code = int(end.code or 0)
+        return subprocess.CompletedProcess(sys.argv, code, *capsys.readouterr())
 
     return judge
 
@@ -84,6 +95,7 @@ def collision(name: str, **changes: Any) -> Certificate:
     return prove_collision_time(Dance(dragon, path, case["head_speed"]), case["time"], **changes)
 
 
+@cache
 def pitch(name: str, benches: int, start_turns: float = 16.0) -> Certificate:
     case = CASES[name]
     dragon = Dragon(**(case["dragon"] | {"benches": benches}))
@@ -170,11 +182,10 @@ CERTIFICATES: dict[str, tuple[Callable[[], Certificate], str]] = {
 
 
 @pytest.mark.parametrize("name", CERTIFICATES)
-def test_certificates_of_all_kinds_are_verified(
-    judged: Callable[[Any], subprocess.CompletedProcess[str]], name: str
-) -> None:
+def test_certificates_of_all_kinds_are_verified(tmp_path: Path, name: str) -> None:
     make, words = CERTIFICATES[name]
-    done = judged(make())
+    (tmp_path / "certificate.json").write_text(json.dumps(make()))
+    done = alone(str(tmp_path / "certificate.json"))
     assert (done.returncode, done.stderr) == (0, "")
     assert words in done.stdout
 
@@ -337,7 +348,7 @@ def test_a_true_certificate_of_another_kind_is_not_judged_and_its_kind_is_named(
 
 def test_wrong_usage_gets_exit_code_2(tmp_path: Path) -> None:
     for arguments in ([], ["a", "b"], [str(tmp_path / "nowhere")], [str(tmp_path)], ["--other"]):
-        done = subprocess.run([sys.executable, "-I", "-S", str(VERIFY), *arguments], capture_output=True, text=True)
+        done = alone(*arguments)
         assert (done.returncode, done.stdout) == (2, "")
         assert "usage: verify.py" in done.stderr
         assert "Traceback" not in done.stderr

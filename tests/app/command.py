@@ -1,64 +1,150 @@
-"""The command bench-dragon, asked in a process of its own each time.
+"""The command bench-dragon, asked from Python by run() and from a shell by the `bench-dragon` in bin_folder().
 
-A process needs about a second to start Python and to import the command, and often a tenth of that to answer. So most
-runs are forked from one process that has imported it already; everything after the import is theirs: arguments,
-folder, standard input, output and error, exit code. Where the start itself matters, a whole new process runs: for any
-environment, for a service, and in the tests of signals, terminals and pipes.
+A new process takes longer to start Python and to import the command than to answer. So one process imports every
+command and is forked for each run; everything after the import is the run's own: arguments, folder, environment,
+standard input, output and error, exit code. Where the start itself matters, a whole new process runs: for a service,
+for another path of modules, and in the tests of signals, terminals and pipes.
 """
 
 from __future__ import annotations
 
-import multiprocessing
+import atexit
+import contextlib
+import json
 import os
+import select
+import signal
+import socket
 import subprocess
 import sys
 import tempfile
+import traceback
+from collections.abc import Mapping, Sequence
+from functools import cache
+from importlib import import_module
 from pathlib import Path
-
-# In every forked process already; tests/app/test_modules_of_a_question.py and tests/app/test_extras.py see what a new
-# process imports.
-import app.command.main
-import core.shapes.engines  # noqa: F401
+from typing import Any, TextIO
 
 COMMAND = str(Path(sys.executable).with_name("bench-dragon"))
 ENVIRONMENT = {
     name: value for name, value in os.environ.items() if not name.startswith(("BENCH_DRAGON_", "FORCE_COLOR"))
 }
-PATIENCE = 120.0  # [s]: only against a test that would hang
-FORKS = multiprocessing.get_context("forkserver")
-FORKS.set_forkserver_preload([__name__])
+ROOT = Path(__file__).parents[2]
+PATIENCE = 300.0  # [s]: only against a test that would hang
+WORDS_MAX = 1 << 17  # of folder, environment and arguments together [bytes]
+# The command for a shell: it hands what it is given to the process that forks, and ends with the exit code of the run.
+SCRIPT = """#!{python} -IS
+import json, os, socket, sys
+with socket.socket(socket.AF_UNIX, socket.SOCK_SEQPACKET) as peer:
+    peer.connect({door!r})
+    words = json.dumps([os.getcwd(), dict(os.environ), sys.argv[1:]]).encode()
+    socket.send_fds(peer, [words], [0, 1, 2])
+    sys.exit(int(peer.recv(9) or 70))
+"""
 
 
 def run(*arguments: str, text: str | None = None, **environment: str) -> subprocess.CompletedProcess[str]:
     """What a run of the command leaves: exit code, standard output, standard error."""
-    if environment or arguments[0] == "serve":
-        return subprocess.run(
-            [COMMAND, *arguments],
-            input=text,
-            capture_output=True,
-            text=True,
-            timeout=PATIENCE,
-            env={**ENVIRONMENT, **environment},
-        )
-    with tempfile.TemporaryDirectory() as folder:
-        (Path(folder) / "0").write_text(text or "", encoding="utf-8")
-        process = FORKS.Process(target=_answer, args=(arguments, Path.cwd(), folder))
-        process.start()
-        process.join(PATIENCE)
-        if process.exitcode is None:
-            process.kill()
-            raise subprocess.TimeoutExpired([COMMAND, *arguments], PATIENCE)
-        told = [(Path(folder) / name).read_text(encoding="utf-8") for name in ("1", "2")]
-        return subprocess.CompletedProcess([COMMAND, *arguments], process.exitcode, *told)
+    command = [COMMAND, *arguments]
+    if arguments[:1] == ("serve",) or "PYTHONPATH" in environment:
+        given = ENVIRONMENT | environment
+        return subprocess.run(command, input=text, capture_output=True, text=True, timeout=PATIENCE, env=given)
+    with contextlib.ExitStack() as stack:
+        files = [stack.enter_context(tempfile.TemporaryFile("w+", encoding="utf-8")) for _ in range(3)]
+        files[0].write(text or "")
+        files[0].seek(0)
+        code = _forked(arguments, ENVIRONMENT | environment, files)
+        for file in files:
+            file.seek(0)
+        return subprocess.CompletedProcess(command, code, files[1].read(), files[2].read())
 
 
-def _answer(arguments: tuple[str, ...], here: Path, folder: str) -> None:
-    """The command as its script calls it, with standard input, output and error in files of a folder."""
-    for number in (0, 1, 2):
-        os.dup2(os.open(f"{folder}/{number}", os.O_RDWR | os.O_CREAT), number)
+def _forked(arguments: Sequence[str], environment: Mapping[str, str], files: Sequence[TextIO]) -> int:
+    """Exit code of a run in this folder with these files as its standard input, output and error."""
+    with socket.socket(socket.AF_UNIX, socket.SOCK_SEQPACKET) as peer:
+        peer.connect(f"{bin_folder()}/door")
+        words = json.dumps([str(Path.cwd()), dict(environment), arguments]).encode()
+        socket.send_fds(peer, [words], [file.fileno() for file in files])
+        code = peer.recv(9)
+    if not code:
+        raise subprocess.TimeoutExpired([COMMAND, *arguments], PATIENCE)
+    return int(code)
+
+
+@cache
+def bin_folder() -> Path:
+    """A folder with the command for a shell, and the door of the process that forks; it ends with this one."""
+    kept = tempfile.TemporaryDirectory()
+    place = Path(kept.name)
+    script = place / "bench-dragon"
+    script.write_text(SCRIPT.format(python=sys.executable, door=f"{place}/door"))
+    script.chmod(0o755)
+    with socket.socket(socket.AF_UNIX, socket.SOCK_SEQPACKET) as door:
+        door.bind(f"{place}/door")
+        door.listen()
+        given: dict[str, Any] = {"cwd": ROOT, "env": ENVIRONMENT, "stdin": subprocess.PIPE, "pass_fds": [door.fileno()]}
+        forks = subprocess.Popen([sys.executable, "-m", "tests.app.command", str(door.fileno())], **given)
+    atexit.register(kept.cleanup)
+    atexit.register(forks.communicate)
+    return place
+
+
+def main() -> None:
+    """Fork for everyone who comes to the door, until standard input ends: whoever started this process is gone then."""
+    commands, core = import_module("app.command.main"), import_module("core")
+    for room in set(commands.ROOMS.values()):
+        import_module(f"app.command.{room}")
+    import_module("core.shapes.engines")
+    for name in core.__all__:
+        getattr(core, name)
+    _build(import_module("pydantic").BaseModel)
+    sys.modules["__main__"].__package__ = None  # click names the program by its script, not by `python -m`
+    with socket.socket(fileno=int(sys.argv[1])) as door:
+        while sys.stdin not in select.select([door, sys.stdin], [], [])[0]:
+            peer, _ = door.accept()
+            if os.fork() == 0:
+                door.close()
+                _answer(peer, commands.app)
+            peer.close()
+            with contextlib.suppress(ChildProcessError):
+                while os.waitpid(-1, os.WNOHANG)[0]:
+                    pass
+
+
+def _build(model: Any) -> None:
+    """Builds the models of app/ below this one, which would be built at their first use."""
+    for inner in model.__subclasses__():
+        if inner.__module__.startswith("app."):
+            inner.model_rebuild()
+        _build(inner)
+
+
+def _answer(peer: socket.socket, app: Any) -> None:
+    """The command as its script calls it; ends this process."""
+    signal.alarm(int(PATIENCE))
+    words, files, _, _ = socket.recv_fds(peer, WORDS_MAX, 3)
+    here, environment, arguments = json.loads(words)
+    for number, file in enumerate(files):
+        os.dup2(file, number)
+        os.close(file)
     sys.stdin = open(0, encoding="utf-8")  # noqa: SIM115
     os.chdir(here)
     os.environ.clear()
-    os.environ.update(ENVIRONMENT)
+    os.environ.update(environment)
     sys.argv = [COMMAND, *arguments]
-    app.command.main.app()
+    code: Any = 1
+    try:
+        app()
+    except SystemExit as end:
+        code = end.code
+    except BaseException:
+        traceback.print_exc()
+    for stream in (sys.stdout, sys.stderr):
+        with contextlib.suppress(OSError):
+            stream.flush()
+    peer.send(str(int(code or 0)).encode())
+    os._exit(0)
+
+
+if __name__ == "__main__":
+    main()

@@ -7,23 +7,25 @@ import os
 import subprocess
 import sys
 import tomllib
+from collections.abc import Callable, Iterator
 from importlib.metadata import packages_distributions
 from pathlib import Path
+from typing import Any
 
 import pytest
 from packaging.requirements import Requirement
 from packaging.utils import canonicalize_name
 
 from app.extras import MODULES
-from tests.app.command import PATIENCE
 
 ROOT = Path(__file__).parents[2]
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
 # Alone in the extra service: what the service also runs without.
 DISPENSABLE = {"uvloop"}
-# Python's search for modules, but for the ones that are hidden: they are not there, as before any extra.
+# Python's search for modules, but for the ones that are hidden: they are not there, as before any extra. For each line
+# of standard input a run is forked: its arguments, its folder, and the folder for what it says.
 HIDDEN = f"""
-import sys
+import json, os, sys
 from importlib.machinery import PathFinder
 
 class Plain(PathFinder):
@@ -35,15 +37,33 @@ class Plain(PathFinder):
 sys.meta_path[:] = [Plain if finder is PathFinder else finder for finder in sys.meta_path]
 sys.argv[0] = "bench-dragon"
 from app.command.main import app
-app()
+for line in sys.stdin:
+    arguments, here, said = json.loads(line)
+    if os.fork() == 0:
+        for number in (1, 2):
+            os.dup2(os.open(said + "/" + str(number), os.O_WRONLY | os.O_CREAT), number)
+        os.chdir(here)
+        sys.argv[1:] = arguments
+        app()
+    print(os.waitstatus_to_exitcode(os.wait()[1]), flush=True)
 """
+Plain = Callable[..., subprocess.CompletedProcess[str]]
 
 
-def plain(*arguments: str, folder: Path = ROOT) -> subprocess.CompletedProcess[str]:
+@pytest.fixture(scope="module")
+def plain(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Plain]:
     """The command as without any extra."""
+    given: dict[str, Any] = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE, "text": True}
     environment = {**os.environ, "PYTHONPATH": str(ROOT)}
-    command = [sys.executable, "-c", HIDDEN, *arguments]
-    return subprocess.run(command, capture_output=True, text=True, timeout=PATIENCE, env=environment, cwd=folder)
+    with subprocess.Popen([sys.executable, "-c", HIDDEN], env=environment, **given) as process:
+
+        def answer(*arguments: str, folder: Path = ROOT) -> subprocess.CompletedProcess[str]:
+            said = tmp_path_factory.mktemp("said")
+            print(json.dumps([arguments, str(folder), str(said)]), file=process.stdin, flush=True)
+            code = int(process.stdout.readline()) if process.stdout else 1
+            return subprocess.CompletedProcess(arguments, code, *((said / name).read_text() for name in "12"))
+
+        yield answer
 
 
 @pytest.mark.parametrize(
@@ -61,7 +81,7 @@ def plain(*arguments: str, folder: Path = ROOT) -> subprocess.CompletedProcess[s
         "envelope --benches 5 --stop 5",
     ],
 )
-def test_every_question_is_answered_without_an_extra(line: str) -> None:
+def test_every_question_is_answered_without_an_extra(plain: Plain, line: str) -> None:
     done = plain(*line.split(), "--json")
     assert (done.returncode, done.stderr) == (0, "")
     assert json.loads(done.stdout)
@@ -106,13 +126,15 @@ def test_every_question_is_answered_without_an_extra(line: str) -> None:
         ("prove collision-time", "a proof needs python-flint: pip install 'bench-dragon[proof]'"),
     ],
 )
-def test_what_needs_an_extra_names_it_in_one_line_and_leaves_nothing(line: str, message: str, tmp_path: Path) -> None:
+def test_what_needs_an_extra_names_it_in_one_line_and_leaves_nothing(
+    plain: Plain, line: str, message: str, tmp_path: Path
+) -> None:
     done = plain(*line.split(), folder=tmp_path)
     assert (done.returncode, done.stdout, done.stderr) == (2, "", f"Error: {message}\n")
     assert list(tmp_path.iterdir()) == []
 
 
-def test_a_workbook_is_graded_with_the_extra_only(tmp_path: Path) -> None:
+def test_a_workbook_is_graded_with_the_extra_only(plain: Plain, tmp_path: Path) -> None:
     (tmp_path / "result2.xlsx").write_bytes(b"PK")
     done = plain("grade", "result2.xlsx", folder=tmp_path)
     words = "A workbook needs the package xlsxwriter, which is not installed: pip install 'bench-dragon[xlsx]'"

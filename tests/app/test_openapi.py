@@ -20,12 +20,13 @@ from app.settings import Settings
 from app.wire.models import JSON
 from tests.app.conftest import ANSWER_TIMEOUT
 from tests.app.renew_examples import text
+from tests.depth import examples
 
-EXAMPLES_PER_CALL = 25
+EXAMPLES_PER_CALL = examples(8, 25)
 # Of right values for the calls that take up to a second each, and of wrong ones for films, maps and plans: some of them
 # are drawn. A picture has no schema to conform to, and its request is that of the question that it draws.
 SLOW = ("POST /films", "POST /maps.{format}", "POST /plan")
-EXAMPLES_OF_SLOW = 8
+EXAMPLES_OF_SLOW = examples(4, 8)
 # Grazes are flat in time, so theirs is known to 1e-7 s only [m], [s], [rad] and relative.
 EXAMPLE_TOLERANCE = 1e-6
 SPENT = {"steps", "bound", "evaluations", "method", "evidence", "at_least", "head_speed_bracket", "speed_bracket"}
@@ -53,7 +54,7 @@ def can_be_asked(call: str, mode: GenerationMode) -> bool:
     return "requestBody" in description or "parameters" in description
 
 
-def examples(call: str, mode: GenerationMode) -> int:
+def examples_of(call: str, mode: GenerationMode) -> int:
     is_slow = call in SLOW or (mode.is_positive and ("/figures/" in call or "/minimum-pitch" in call))
     return EXAMPLES_OF_SLOW if is_slow else EXAMPLES_PER_CALL
 
@@ -72,7 +73,7 @@ def is_a_spiral_that_does_not_say_so(body: Any) -> bool:
 def test_every_call_conforms_to_its_description(server: str, call: str, mode: GenerationMode) -> None:
     @given(case=CALLS[call].as_strategy(generation_mode=mode))
     @settings(
-        max_examples=examples(call, mode), deadline=None, derandomize=True, suppress_health_check=list(HealthCheck)
+        max_examples=examples_of(call, mode), deadline=None, derandomize=True, suppress_health_check=list(HealthCheck)
     )
     def conforms(case: Any) -> None:
         assume(not (mode.is_negative and is_a_spiral_that_does_not_say_so(case.body)))

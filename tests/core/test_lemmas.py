@@ -12,6 +12,7 @@ from core.contact.march import BRACKET
 from core.contact.search import Search
 from core.kernels import FREE
 from tests.core.contact.test_first_contact import ACCURACY
+from tests.depth import some
 
 # Points of a random curve; its angles and chords are sums of that many terms, good to this [rad], relative [1].
 POINTS = 20_001
@@ -36,7 +37,7 @@ def random_curve(rng: np.random.Generator, k_low: float, k_high: float, growing:
     return phi, np.concatenate([[[0.0, 0.0]], np.cumsum(along, axis=0)])
 
 
-@pytest.mark.parametrize("seed", range(60))
+@pytest.mark.parametrize("seed", some(range(60), 20))
 def test_angles_of_a_chord_lie_between_those_of_two_circles(seed: int) -> None:
     """The chord lemma, one-sided and two-sided, and Vogt's theorem: core/kernels/bounds.py."""
     rng = np.random.default_rng(seed)
@@ -85,7 +86,7 @@ def test_points_of_two_rings_are_apart_as_said_wherever_they_stand_to_each_other
 # -- what is dismissed on coils: core/kernels/rings.py, core/contact/coils.py --
 
 
-@pytest.mark.parametrize("seed", range(40))
+@pytest.mark.parametrize("seed", some(range(40), 12))
 def test_on_a_turn_the_search_finds_what_it_finds_when_all_benches_are_followed(seed: int) -> None:
     rng = np.random.default_rng(seed)
     benches, overhang = int(rng.integers(4, 120)), rng.uniform(0.0, 0.3)

@@ -88,16 +88,22 @@ INPUTS = [
     Dance(Dragon(3), Spiral(), head_speed=0.5),
     Dance(Dragon(3), Spiral(), passages=(core.Passage(0.5, until_s=20.0),)),
 ]
-FOUND = {type(value).__name__: value for value in results()}
-GIVEN = {f"{type(value).__name__} {k}": value for k, value in enumerate(INPUTS)} | {
-    "Dragon bench by bench": Dragon.of(np.linspace(2.0, 3.0, 300), [0.3] * 300, [0.2] * 300),
-    "Waypoints, many": CURVE,
-    "Route, long": Route([CURVE]),
-    "Turn": Turn(1.7),
-    "Legs": core.Legs([(0, 0), (9, 0), (9, 9)], [0]),
-    "Venue": SQUARE,
-    "Area": SQUARE.square,
-}
+OTHERS = [
+    Dragon.of(np.linspace(2.0, 3.0, 300), [0.3] * 300, [0.2] * 300),
+    CURVE,
+    Route([CURVE]),
+    Turn(1.7),
+    core.Legs([(0, 0), (9, 0), (9, 9)], [0]),
+    SQUARE,
+    SQUARE.square,
+]
+
+
+@pytest.fixture(scope="module")
+def values() -> list[Any]:
+    """What is shown: results, one of each kind, and what is given."""
+    found = {type(value): value for value in results()}
+    return [*found.values(), *INPUTS, *OTHERS]
 
 
 def public() -> list[type]:
@@ -121,8 +127,8 @@ def hints(kind: type) -> dict[str, Any]:
     return {field.name: told[field.name] for field in fields(kind)}
 
 
-def test_every_public_result_is_shown_here() -> None:
-    shown = {type(value) for value in [*FOUND.values(), *GIVEN.values()]}
+def test_every_public_result_is_shown_here(values: list[Any]) -> None:
+    shown = set(map(type, values))
     assert {kind.__name__ for kind in public()} - {kind.__name__ for kind in shown} == set()
 
 
@@ -140,20 +146,20 @@ def test_every_number_of_a_public_result_has_its_unit(kind: type) -> None:
     assert floats - {*UNITS, *own} == set()
 
 
-@pytest.mark.parametrize("value", [*FOUND.values(), *GIVEN.values()], ids=[*FOUND, *GIVEN])
-def test_a_repr_is_one_short_line(value: object) -> None:
-    line = repr(value)
-    assert type(value).__name__ in line
-    assert "\n" not in line
-    assert len(line) <= LINE_MOST
+def test_a_repr_is_one_short_line(values: list[Any]) -> None:
+    for value in values:
+        line = repr(value)
+        assert type(value).__name__ in line
+        assert "\n" not in line
+        assert len(line) <= LINE_MOST, line
 
 
-@pytest.mark.parametrize("value", [*FOUND.values(), *GIVEN.values()], ids=[*FOUND, *GIVEN])
-def test_a_notebook_gets_a_table(value: Shown) -> None:
-    html = value._repr_html_()
-    assert html.startswith(f"<table><caption>{type(value).__name__}</caption><tr>")
-    assert html.count("<tr>") == html.count("</td></tr>") == html.count("<th") > 0
-    assert "object at 0x" not in html
+def test_a_notebook_gets_a_table(values: list[Any]) -> None:
+    for value in values:
+        html = value._repr_html_()
+        assert html.startswith(f"<table><caption>{type(value).__name__}</caption><tr>")
+        assert html.count("<tr>") == html.count("</td></tr>") == html.count("<th") > 0
+        assert "object at 0x" not in html
 
 
 @pytest.mark.parametrize("value", INPUTS, ids=repr)

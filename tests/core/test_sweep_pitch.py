@@ -8,7 +8,7 @@ from core import Dragon
 from tests.core.slow_pitch import SlowWay
 from tests.core.sweep_pitch import fault
 
-DRAGONS = 24
+DRAGONS = 8
 # Half the width of a reference value, see tests/reference [m].
 REFERENCE = 1e-9
 

@@ -3,17 +3,15 @@
 from __future__ import annotations
 
 import json
-import os
 import subprocess
-import sys
 from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 
+from tests.app import command
 from tests.app.jobs.service import SHORT, Service, direct
 
-COMMAND = Path(sys.executable).with_name("bench-dragon")
 TOKEN = "correct horse"
 
 
@@ -24,9 +22,8 @@ def service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Service]:
         yield service
 
 
-def run(*arguments: str) -> subprocess.CompletedProcess[bytes]:
-    outer = {name: value for name, value in os.environ.items() if not name.startswith("BENCH_DRAGON_")}
-    return subprocess.run([COMMAND, "jobs", *arguments], capture_output=True, env=outer | {"COLUMNS": "120"})
+def run(*arguments: str) -> subprocess.CompletedProcess[str]:
+    return command.run("jobs", *arguments)
 
 
 @pytest.fixture(params=["folder", "service"])
@@ -40,24 +37,24 @@ def test_a_job_is_listed_shown_answered_and_removed(service: Service, place: lis
     address = service.post(SHORT)
     job = address.rpartition("/")[2]
     service.finished(address)
-    listed = run("list", *place).stdout.decode()
+    listed = run("list", *place).stdout
     assert job in listed
     assert "successful" in listed
     assert json.loads(run("show", job, "--json", *place).stdout)["processID"] == "collision_time"
     output = tmp_path / "answer.json"
     assert run("result", job, "--output", str(output), *place).returncode == 0
     assert output.read_bytes() == direct(service.client, SHORT).content
-    assert run("cancel", job, *place).stdout.decode() == f"{job}: removed\n"
+    assert run("cancel", job, *place).stdout == f"{job}: removed\n"
     gone = run("show", job, *place)
     assert gone.returncode == 2
-    assert f"there is no job {job}" in gone.stderr.decode().lower().replace('"', "")
+    assert f"there is no job {job}" in gone.stderr.lower().replace('"', "")
 
 
 def test_a_result_goes_to_standard_output(service: Service) -> None:
     address = service.post(SHORT)
     service.finished(address)
     done = run("result", address.rpartition("/")[2], "--data", str(service.folder))
-    assert done.stdout == direct(service.client, SHORT).content
+    assert done.stdout == direct(service.client, SHORT).text
 
 
 @pytest.mark.parametrize(
@@ -74,11 +71,11 @@ def test_a_result_goes_to_standard_output(service: Service) -> None:
 def test_what_is_wrong_is_one_line(arguments: list[str], words: str) -> None:
     done = run(*arguments)
     assert done.returncode == 2
-    assert words in done.stderr.decode()
-    assert b"Traceback" not in done.stderr
+    assert words in done.stderr
+    assert "Traceback" not in done.stderr
 
 
 def test_a_service_says_what_it_refuses(service: Service) -> None:
     done = run("list", "--url", f"http://127.0.0.1:{service.port}")
     assert done.returncode == 2
-    assert "Jobs need the token" in done.stderr.decode()
+    assert "Jobs need the token" in done.stderr

@@ -30,7 +30,7 @@ HELD = 1.0
 
 @pytest.fixture(scope="module")
 def service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Service]:
-    with Service(tmp_path_factory.mktemp("jobs"), workers=2) as service:
+    with Service(tmp_path_factory.mktemp("jobs")) as service:
         yield service
 
 
@@ -232,10 +232,10 @@ def test_a_service_without_a_data_folder_keeps_jobs_while_it_lives(server: str) 
         assert client.delete(address).status_code == 204
 
 
-def test_a_store_that_is_slow_keeps_nobody_else_waiting(tmp_path: Path) -> None:
+def test_a_store_that_is_slow_keeps_nobody_else_waiting(service: Service) -> None:
     """Another process writes to the store; a quick question that is to become a job waits for it, and no one else."""
-    with Service(tmp_path, workers=1) as service, ThreadPoolExecutor(1) as thread:
-        with closing(sqlite3.connect(tmp_path / "jobs.sqlite", isolation_level=None)) as other:
+    with ThreadPoolExecutor(1) as thread:
+        with closing(sqlite3.connect(service.folder / "jobs.sqlite", isolation_level=None)) as other:
             other.execute("BEGIN IMMEDIATE")
             query = {"cross_check": "none", "pitch": 0.52}
             url, headers = f"http://127.0.0.1:{service.port}/collision-time", {"Prefer": "respond-async"}

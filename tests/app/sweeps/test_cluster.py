@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+import logging
 import socket
+from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import psutil
 import pytest
+from distributed import LocalCluster
 
 from app.sweeps.cluster import LOCAL, Cluster, NoScheduler
 from app.sweeps.engines import NoAnswer
@@ -18,34 +22,41 @@ from tests.app.sweeps.odd_questions import LAND, UNANSWERABLE
 from tests.app.sweeps.test_run import compacted, spec_of, undisturbed
 
 
-def test_a_local_cluster_answers_as_this_process_does(tmp_path: Path) -> None:
+def test_a_local_cluster_answers_as_this_process_does_and_leaves_no_worker(tmp_path: Path) -> None:
+    before = {child.pid for child in psutil.Process().children(recursive=True)}
     spec = spec_of(LAND)
     told: list[Progress] = []
     run(spec, tmp_path / "a", question=LAND, engine=lambda: Cluster(LOCAL, 2), progress=told.append)
     assert told[-1].designs == 60
     assert compacted(tmp_path / "a", spec) == undisturbed(tmp_path / "b", spec, LAND)
+    left = [child for child in psutil.Process().children(recursive=True) if child.pid not in before]
+    assert not [child for child in left if "resource_tracker" not in " ".join(child.cmdline())]
 
 
-def test_a_design_that_kills_workers_of_a_cluster_is_found_alone(tmp_path: Path) -> None:
+@pytest.fixture(scope="module")
+def address() -> Iterator[str]:
+    """Of a cluster that gives up a design as soon as it ends a worker."""
+    given: dict[str, Any] = {
+        "dashboard_address": None,
+        "silence_logs": logging.ERROR,
+        "scheduler_kwargs": {"allowed_failures": 0},
+    }
+    with LocalCluster(n_workers=2, threads_per_worker=1, **given) as cluster:
+        yield cluster.scheduler_address
+
+
+def test_a_design_that_kills_workers_of_a_cluster_is_found_alone(tmp_path: Path, address: str) -> None:
     told = {"question": LAND.name, "over": {"x": list(range(6))}, "request": {"deadly": [2.0]}, "shard_size": 2}
     spec = Spec.of(told, LAND)
-    run(spec, tmp_path / "a", question=LAND, engine=lambda: Cluster(LOCAL, 2))
+    run(spec, tmp_path / "a", question=LAND, engine=lambda: Cluster(address))
     rows = Sweep(tmp_path / "a", spec).table(["x", "error.code"]).to_pylist()
     assert [row["x"] for row in rows] == list(range(6))
     assert {row["x"]: row["error.code"] for row in rows if row["error.code"]} == {2: "killed"}
 
 
-def test_what_no_worker_can_answer_ends_the_run_in_words(tmp_path: Path) -> None:
+def test_what_no_worker_can_answer_ends_the_run_in_words(tmp_path: Path, address: str) -> None:
     with pytest.raises(NoAnswer, match=r"workers.* cannot answer: "):
-        run(spec_of(UNANSWERABLE), tmp_path, question=UNANSWERABLE, engine=lambda: Cluster(LOCAL, 2))
-
-
-def test_no_worker_of_a_local_cluster_is_left(tmp_path: Path) -> None:
-    before = {child.pid for child in psutil.Process().children(recursive=True)}
-    spec = spec_of(LAND, 6)
-    run(spec, tmp_path / "a", question=LAND, engine=lambda: Cluster(LOCAL, 1))
-    left = [child for child in psutil.Process().children(recursive=True) if child.pid not in before]
-    assert not [child for child in left if "resource_tracker" not in " ".join(child.cmdline())]
+        run(spec_of(UNANSWERABLE), tmp_path, question=UNANSWERABLE, engine=lambda: Cluster(address))
 
 
 def test_an_address_where_nobody_answers_is_named(monkeypatch: pytest.MonkeyPatch) -> None:

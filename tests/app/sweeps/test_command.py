@@ -19,7 +19,7 @@ from app.sweeps.run import begin
 from app.sweeps.shards import Piece, parts, write_part
 from app.sweeps.spec import Spec
 from app.sweeps.table import Sweep
-from tests.app.command import COMMAND, ENVIRONMENT, PATIENCE
+from tests.app.command import COMMAND, ENVIRONMENT, PATIENCE, run
 from tests.conftest import heed_ctrl_c
 
 SPEC = """
@@ -42,8 +42,7 @@ def spec(tmp_path: Path) -> Path:
 
 
 def sweep(*arguments: object) -> subprocess.CompletedProcess[str]:
-    command = [COMMAND, "sweep", *map(str, arguments)]
-    return subprocess.run(command, capture_output=True, text=True, timeout=PATIENCE, env=ENVIRONMENT)
+    return run("sweep", *map(str, arguments))
 
 
 @pytest.fixture(scope="module")

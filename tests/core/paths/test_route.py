@@ -38,6 +38,7 @@ from core import (
 )
 from core.paths.path import Path
 from core.shapes.rectangles import corners
+from tests.depth import examples
 
 TURN = Turn(1.7, 4.5, 2.0)
 SAME = 1e-10  # [m], [m/s], [s]: one curve written in two ways
@@ -375,7 +376,7 @@ def slow_clearance(route: Route, times: np.ndarray) -> np.ndarray:
     return least.min(axis=1)
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=examples(12, 40), deadline=None)
 @given(routes())
 def test_first_contact_on_any_route_is_that_of_a_slow_search(route: Route) -> None:
     times = np.linspace(float(instants(route, 2)[0]), route.end, 2_000)
