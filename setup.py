@@ -83,6 +83,7 @@ def kernels() -> list[Extension]:
         compiler_directives=DIRECTIVES,
         shared_utility_qualified_name=SHARED,
         nthreads=os.cpu_count() or 1,  # the same C from any number of processes
+        cache="CYTHON_CACHE_DIR" in os.environ,  # Cython's name of the folder
     )
     for extension in extensions:
         extension.optional = True  # cythonize (3.3) drops this option of Extension
