@@ -21,6 +21,8 @@ from core.venue import Ring
 METRES, VERSION = 6, "R2000"
 # Metres in the units of $INSUNITS: inch, foot, mile, millimetre, centimetre, metre, kilometre, yard, decimetre.
 UNITS = {1: 0.0254, 2: 0.3048, 3: 1609.344, 4: 0.001, 5: 0.01, 6: 1.0, 7: 1000.0, 10: 0.9144, 14: 0.1}
+# A drawing without a unit is in metres, if it is no wider: 2 km, or 2 m in millimetres, which is no square either [1].
+ACROSS_MAX = 2_000.0
 # How far a curve may be from the straight lines drawn for it [m].
 FLATTENED = 0.005
 # Deepest nesting of blocks, and most entities of a drawing, those of its blocks counted each time.
@@ -60,6 +62,8 @@ def _drawing(document: Any) -> Drawing:
     reader = _Reader(factor, told.get("names", {}))
     for entity in reader.entities(document.modelspace()):
         reader.take(entity)
+    if code not in UNITS:
+        _refuse_wide(reader.counted.features)
     origin, path = told.get("origin"), told.get("path")
     return Drawing(
         tuple(reader.named()),
@@ -68,6 +72,15 @@ def _drawing(document: Any) -> Drawing:
         path if isinstance(path, dict) else None,
         reader.counted.left_out,
     )
+
+
+def _refuse_wide(features: list[Feature]) -> None:
+    """Refuse a drawing that tells no unit and can be in metres no longer."""
+    points = [point for one in features for ring in one.rings for point in ring]
+    across = max((max(column) - min(column) for column in zip(*points, strict=True)), default=0.0)
+    if across > ACROSS_MAX:
+        words = f"file must tell its unit: without one it is in metres, and it draws {across:.6g} across"
+        raise InvalidValue("file", f"{words}: set $INSUNITS, 4 for millimetres, or scale it to metres")
 
 
 def _told(document: Any) -> Mapping[str, Any]:

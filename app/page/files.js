@@ -52,6 +52,7 @@ export class Files {
         this.state.set({ csv: await file.text() });
         return this.announce(say("opened", { name: file.name }));
       }
+      this.announce(say("opening", { name: file.name }));
       const found = (await ownDance(file)) ?? (await this.#places(file));
       if (found) this.#take(found, file.name);
     } catch (error) {

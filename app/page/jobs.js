@@ -89,7 +89,7 @@ export class Jobs {
         if (!(error instanceof Problem)) throw error;
         this.#forget(id);
       }
-      if (job.shown === false && job.status?.status === "successful") this.#open(id, job);
+      if (job.shown === false && job.status?.status === "successful" && isTable(job.status)) this.#open(id, job);
     }
     this.render();
     if ([...this.#jobs.values()].some(({ status }) => UNFINISHED.includes(status?.status))) {
@@ -150,10 +150,9 @@ export class Jobs {
     const row = make("li", { "data-state": status.status }, make("span", { className: "what", textContent: name }));
     row.append(make("span", { className: "state", textContent: stateWords(status) }));
     if (going) row.append(make("progress", { max: 100, value: status.progress, "aria-label": `${name}: ${status.progress} %` }));
-    const { href, type } = status.links.find(({ rel }) => rel === "results") ?? {};
-    const isTable = status.processID === "sweep" && type === "application/json";
+    const { href, type } = resultOf(status);
     const buttons = make("span", { className: "buttons" });
-    if (href && isTable) buttons.append(button("jobMap", () => this.#open(id, job)));
+    if (href && isTable(status)) buttons.append(button("jobMap", () => this.#open(id, job)));
     if (href) buttons.append(make("a", { href: `jobs/${id}/result`, download: `${status.processID}-${id.slice(0, 8)}${ENDINGS[type] ?? ""}`, textContent: say("jobResult") }));
     buttons.append(button(going ? "jobCancel" : "jobRemove", () => this.#end(id)));
     row.append(buttons);
@@ -161,6 +160,10 @@ export class Jobs {
     return row;
   }
 }
+
+const resultOf = ({ links }) => links.find(({ rel }) => rel === "results") ?? {};
+/** Is the result the table of a sweep, which the page draws? A film is a file. */
+const isTable = (status) => status.processID === "sweep" && resultOf(status).type === "application/json";
 
 function what(process, spec) {
   if (process !== "sweep") return process === "films" ? say("keepFilm") : process;

@@ -3,18 +3,20 @@
 import { $ } from "./elements.js";
 import { say } from "./text.js";
 
-/** How long a message stays [ms]. */
-const SAID = 6_000;
+/** How long a message stays, and for each letter of a long one [ms]. */
+const [SAID, LETTER] = [6_000, 80];
 /** Where the inset may stand, the favourite first; the lower left has the legend. */
 const CORNERS = ["top-right", "bottom-right", "top-left"];
 
 let said = 0;
 
-/** Say what happened; the words go away by themselves. */
+/** Say what happened; the words go away by themselves, or when they are clicked. */
 export function announce(words) {
-  $("#status").textContent = words;
+  const box = $("#status");
+  const end = () => (box.textContent = "");
+  Object.assign(box, { textContent: words, onclick: end });
   clearTimeout(said);
-  said = setTimeout(() => ($("#status").textContent = ""), SAID);
+  said = setTimeout(end, Math.max(SAID, LETTER * words.length));
 }
 
 /**

@@ -60,7 +60,7 @@ function labelled(detail, chinese, say) {
 /** The rule of a refusal with a unit in words and an example. */
 function asked(rule, field) {
   const { value, centimetres } = field ?? {};
-  const example = centimetres ? EXAMPLES.cm : value;
+  const example = centimetres ? EXAMPLES.cm : Number(value) && value;
   return rule
     .replace(/^be a(?: finite)? number \[(.+)\]$/, (_, unit) => `be a number of ${UNITS[unit] ?? unit}, such as ${example || (EXAMPLES[unit] ?? 1)}`)
     .replace(/^be a whole number$/, example ? `be a whole number, such as ${example}` : "$&");

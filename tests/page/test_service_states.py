@@ -81,12 +81,12 @@ def test_an_idle_page_notices_a_lost_service(open_page: Any, settled: Any, port:
 def test_a_wrong_value_is_told_once_in_a_sentence_beside_its_control(open_page: Any, settled: Any) -> None:
     page = open_page(failing=True)
     settled(page)
-    bench = "where bench 0 of this dragon folds; it is 0.5 turns."
+    bench = "where the head of this dragon folds; it is 0.5 turns."
     for name, text, words in (
         ("pitch", "55", "“Pitch” must be at most 10 m; it is 55 m. Lengths are in metres, and 55 cm is 0.55 m."),
         ("benches", "0", "“Benches” must be at least 1; it is 0."),
         ("start_turns", "0.5", f"“Start” must be more than 2.34509 turns, {bench}"),
-        ("turning_diameter", "wide", "“Turning circle” must be a number of metres, such as 0.55; you typed “wide”."),
+        ("turning_diameter", "wide", "“Turning circle” must be a number of metres, such as 9; you typed “wide”."),
     ):
         page.locator(f"#{name}").fill(text)
         page.locator(f"#{name}-error", has_text=words).wait_for()
@@ -108,15 +108,15 @@ def test_a_refusal_names_the_controls_in_the_language_of_the_page(open_page: Any
     for name, text, words in (
         ("overhang", "0.275", ""),
         ("pitch", "55", "“螺距”最多为 10 m，现为 55 m（长度以米为单位，55 cm 即 0.55 m）。"),
-        ("start_turns", "0.2", "“起始圈数”应大于 2.34509 圈（0 号板凳在该处折叠），现为 0.2 圈。"),
+        ("start_turns", "0.2", "“起始圈数”应大于 2.34509 圈（龙头在该处折叠），现为 0.2 圈。"),
         (
             "margin",
             "1.2",
-            "“安全间距”应小于 1.1 m，现为 1.2 m（在直线上，因而在足够宽的螺线上，0 号与 2 号板凳相距 1.1 m）。",
+            "“安全间距”应小于 1.1 m，现为 1.2 m（在直线上，因而在足够宽的螺线上，龙头与第2节龙身相距 1.1 m）。",
         ),
-        ("stray", "100", "“每人可离位”最多为 1 号板凳孔距的一半（0.825 m），现为 1 m。"),
-        ("pin", "10", "“插销直径”不得大于板孔直径（0 m），现为 0.1 m。"),
-        ("margin", "x", "“安全间距”应为数字，现为“x”。"),
+        ("stray", "100", "“每人可离位”最多为第1节龙身孔距的一半（82.5 cm），现为 100 cm。"),
+        ("pin", "10", "“插销直径”不得大于板孔直径（0 cm），现为 10 cm。"),
+        ("margin", "x", "“安全间距”应为数字（单位 m），例如 0.55，现为“x”。"),
         ("benches", "2.5", "“板凳节数”应为整数，现为 2.5。"),
     ):
         page.get_by_role("button", name="全部重置").click()
@@ -125,10 +125,10 @@ def test_a_refusal_names_the_controls_in_the_language_of_the_page(open_page: Any
     page.get_by_role("button", name="全部重置").click()
     page.get_by_role("button", name="调头", exact=True).click()
     page.locator("#turning_diameter").fill("4")
-    words = "“调头空间直径”应大于 4 m（调头的弯曲半径为 0.6727 m，而 0 号板凳至少需要"
+    words = "“调头空间直径”应大于 4 m（调头的弯曲半径为 0.6727 m，而龙头至少需要"
     page.locator("#turning_diameter-error", has_text=words).wait_for()
     page.locator("[data-lang=en]").click()
-    words = "“Turning circle” must be larger than 4 m. The turn bends to a radius of 0.6727 m, and bench 0"
+    words = "“Turning circle” must be larger than 4 m. The turn bends to a radius of 0.6727 m, and the head"
     page.locator("#turning_diameter-error:lang(en)", has_text=words).wait_for()
 
 

@@ -122,7 +122,7 @@ def test_refusals_stand_below_the_form_in_words(open_page: Any, service: Service
     page = open_page(base=base(service), failing=True)
     ask(page, "collision_time", ("pitch", 0.5, 0.6, 11), ("width", 0.2, 0.3, 11))
     expect(page.locator("#sweep-error")).to_have_text(
-        "designs must be at most 100 here; it is 121. Ask for fewer in one sweep."
+        "A sweep may have at most 100 designs here, and this one has 121."
     )
     ask(page, "collision_time", ("pitch", 0.5, 0.6, 11), ("pitch", 0.2, 0.3, 11))
     expect(page.locator("#sweep-error")).to_have_text("The two parameters must differ.")
@@ -163,3 +163,14 @@ def test_everyone_can_use_it(open_page: Any, service: Service, options: dict[str
       .filter((one) => one.checkVisibility() && one.getBoundingClientRect().right > width + 1)
       .map((one) => one.outerHTML)"""
     assert page.evaluate(outside, width) == []
+
+
+def test_a_film_is_a_job_whose_result_is_a_file(open_page: Any, service: Service) -> None:
+    page = open_page("?path=route&benches=3&route=-5,0_6,0", base=base(service))
+    page.locator("#judgement .value", has_text="Can be danced").wait_for()
+    page.get_by_role("button", name="Film of the dance, GIF").click()
+    row = page.locator("#jobs li[data-state=successful]", has_text="Film of the dance")
+    with page.expect_download() as download:
+        row.get_by_role("link", name="Result").click()
+    assert download.value.suggested_filename.endswith(".gif")
+    expect(row.get_by_role("button")).to_have_text(["Remove"])

@@ -164,6 +164,7 @@ export const DANCE = {
   removeThing: ["Remove {name}", "删除{name}"],
   open: ["Open …", "打开……"],
   save: ["Save", "保存文件"],
+  opening: ["Reading {name} …", "正在读取 {name}……"],
   opened: ["Opened {name}.", "已打开 {name}。"],
   tooLong: ["This drawing is too long for an address: save it as a file to share it.", "绘制内容过长，无法放入链接，请保存为文件分享。"],
   verdictTitle: ["Verdict", "判定"],

@@ -14,7 +14,6 @@ export const PLACES = [
   [/^(?:path\.)?points\[(\d+)\](?:\[\d\])?/, "A coordinate of point {1+1} of the path", "路径第 {1+1} 点的坐标"],
   [/^csv: dragon\.names\[(\d+)\]/, "The name of bench {1+1}", "第 {1+1} 节板凳的名称"],
   [/^passages(?= )/, "“Slower, faster, pauses”", "“变速与停顿”"],
-  [/^designs(?= )/, "The designs of a sweep", "一次计算的方案数"],
 ];
 
 /** Rules of messages that read `NAME must RULE, got VALUE: REASON`, in Chinese. */
@@ -72,7 +71,6 @@ export const REASONS = [
   [/^bench (\d+) folds at (.+), before the head is on that circle$/, "龙头到达该圆之前，{1b}已在 {2} 时折叠"],
   [/^the head is at the centre at .+, before the head is on that circle$/, "龙头先到达中心"],
   [/^shorten the dragon$/, "请缩短队伍"],
-  [/^ask for fewer in one sweep$/, "请减少一次计算的方案数"],
   [/^the minimum pitch is (.+), and pitches are at most (.+) here$/, "最小螺距为 {1}，而此处螺距最多为 {2}"],
   [/^(?:on a straight line, and so on every wide enough spiral|at a pitch of .+), benches (\d+) and (\d+) are (.+) apart: .+$/, "在直线上，因而在足够宽的螺线上，{1b}与{2b}相距 {3}"],
   [/^at a pitch of (.+) benches (\d+) and (\d+) .+, and on a straight line they are (.+) apart.*$/, "即使螺距为 {1}，{2b}与{3b}也过近；在直线上两者相距 {4}"],
@@ -168,6 +166,7 @@ export const WHOLE = [
   [/^the column (.+) is missing$/, null, "缺少 {1} 列"],
   [/^passages\[\d+\] must end at until_s \[m\] or at until_time \[s\], got .+$/, "A passage ends at a place or at a time", "每段应以位置或时刻之一结束"],
   [/^passages must (?:be|have) at most (\d+).*$/, "There may be at most {1} passages", "变速段最多为 {1} 段"],
+  [/^designs must be at most (.+) here, got (.+): .+$/, "A sweep may have at most {1} designs here, and this one has {2}", "一次最多计算 {1} 个方案，现为 {2} 个"],
   [/^over must have at least 1 entry.*$/, "Choose a parameter", "请选择一个参数"],
   [/^"(.+)" is unknown here.*$/, null, "“{1}”不可识别"],
   [/^HTTP (\d+)$/, "The service answered with HTTP {1} and no reason", "服务的回答为 HTTP {1}，没有说明原因"],

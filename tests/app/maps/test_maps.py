@@ -160,6 +160,22 @@ def test_a_foreign_drawing_is_understood() -> None:
     assert "Left out: 3DFACE, 1 times." in found.notes
 
 
+@pytest.mark.parametrize("version", ["R12", "R2010"])
+def test_a_drawing_without_a_unit_is_in_metres_or_refused_where_it_cannot_be(version: str) -> None:
+    for across, fits in ((60.0, True), (2_000.0, True), (60_000.0, False)):
+        document = ezdxf.new(version, units=ezdxf.units.M)
+        document.header["$INSUNITS"] = 0
+        square = [(0.0, 0.0), (across, 0.0), (across, 40.0), (0.0, 40.0)]
+        document.modelspace().add_polyline2d(square, close=True, dxfattribs={"layer": "square"})
+        sink = io.StringIO()
+        document.write(sink)
+        if fits:
+            assert rings(read(sink.getvalue().encode()))[0].max(axis=0).tolist() == [across, 40.0]
+            continue
+        with pytest.raises(InvalidValue, match=r"file must tell its unit: .* draws 60000 across"):
+            read(sink.getvalue().encode())
+
+
 def test_the_unit_is_told_by_the_range_or_by_who_asks() -> None:
     small = {"type": "Polygon", "coordinates": [[[10.0, 20.0], [10.1, 20.0], [10.1, 20.1], [10.0, 20.0]]]}
     data = json.dumps(small).encode()
