@@ -35,6 +35,7 @@ from core.proof import (
     prove_tolerance,
 )
 from tests.core.forgeries import FORGERIES, edit, put_at, stretches
+from tests.depth import DEEP
 
 ROOT = Path(__file__).parents[1]
 VERIFY = ROOT / "examples" / "verify.py"
@@ -179,6 +180,11 @@ CERTIFICATES: dict[str, tuple[Callable[[], Certificate], str]] = {
     "a pitch limited by the start": (lambda: pitch("default R=7", 11), "1e-6 m smaller the head starts nearer;"),
     "a pitch limited on the circle": (lambda: pitch("default R=2", 11, 5.0), "touch until the head is 2 m from"),
 }  # fmt: skip
+if DEEP:
+    CERTIFICATES["the contest's pitch"] = (
+        lambda: prove_minimum_pitch(Dragon(), 0.450337394),
+        "benches 0 and 19 overlap",
+    )
 
 
 @pytest.mark.parametrize("name", CERTIFICATES)
