@@ -1,28 +1,28 @@
-"""How much the gap of two benches along an axis bends, and so the least that it can be between two instants."""
+"""Bounds on the second derivative of a gap along an axis, and from it on the least gap between two instants."""
 
 import cython
 from cython.cimports.libc.math import fabs, sqrt
 
-if not cython.compiled:  # for the compiler the same stands in the .pxd
+if not cython.compiled:  # the .pxd imports the same names for the compiler
     from core.kernels.constants import *
     from core.kernels.records import Bends
 
 # Gap of bench i along an axis e fixed in bench j: g = min over corners X of i of e . (X - M_j) - support of j, and
 #   |(e . p)''| <= |X''| + |M_j''| + 2 omega_j |X' - M_j'| + (omega_j^2 + omega_j') |p|,  p = X - M_j:  call it K.
-# The same in a frame that turns with bench j about the spiral's centre, where neighbouring rings hardly move: with
-# Omega = omega_j (clockwise), xi = X' less the velocity Omega |X| of that rotation,
+# The same bound in a frame that turns with bench j about the spiral's centre, where neighbouring rings hardly move:
+# with Omega = omega_j (clockwise), xi = X' less the velocity Omega |X| of that rotation,
 #   |(e . p)''| <= |X'' + Omega^2 X| + |M_j'' + Omega^2 M_j| + 2 Omega (|xi_X| + |xi_M|) + omega_j' |p|,
 #   handle at radius r, b = growth:  |P'' + Omega^2 P| <= |s''| + |k s'^2 - Omega^2 r| + Omega^2 b,
 #                                    |xi_P| <= |s' - Omega r| + Omega b   (the tangent leans by at most b / r),
 #   corner of bench i:  |X'' + Omega^2 X| <= mean of its handles + (|Omega^2 - omega_i^2| + omega_i') rho,
 #                       |xi_X| <= mean of its handles + |Omega - omega_i| rho.
 # The smaller of the two bounds is used.
-# A function with |g''| <= K stays above its chord minus K x (h - x) / 2, so its least value follows from both ends:
-# two benches do not touch on [L, R] if that exceeds the margin for one axis. No step size is guessed.
+# A function with |g''| <= K stays above its chord minus K x (h - x) / 2, so its values at both ends bound it from
+# below: two benches do not touch on [L, R] if this bound exceeds the margin for one axis. No step size is guessed.
 
 
 def least_between(start, end, bend, h):
-    """Least value on an interval of width h of a function with the given end values and |second derivative| <= bend."""
+    """Lower bound on an interval of width h of a function with these end values and |second derivative| <= bend."""
     rise = end - start
     sag = bend * h * h
     if 2.0 * fabs(rise) >= sag:
@@ -102,7 +102,7 @@ def bend_along(scene, interval, i, j, distance):
 def pair_bends(scene, interval, place, h, a, b):
     """Bounds on the second derivative of gaps of two benches while the head travels h from a place [1/m].
 
-    returns: along axes fixed in bench a, and in bench b; FREE where no bound is known
+    returns: for axes fixed in bench a, and for axes fixed in bench b; FREE where no bound is known
     """
     if not interval.lay_out(place, h, b + 1):
         return FREE, FREE
@@ -124,7 +124,7 @@ def band_bends(scene, band, i, j, distance):
 
 
 def band_between(band, start, end, high_start, high_end, bends):
-    """Least value over a band of a gap with these values at its corners [m]."""
+    """Lower bound over a band of a gap with these values at the corners of the band [m]."""
     low = least_between(start, end, bends.low, band.low.h)
     low -= band.slack * (fabs(end - start) / band.low.h + bends.low * band.low.h)
     high = least_between(high_start, high_end, bends.high, band.high.h)

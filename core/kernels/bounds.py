@@ -3,7 +3,7 @@
 import cython
 from cython.cimports.libc.math import fabs, sqrt
 
-if not cython.compiled:  # for the compiler the same stands in the .pxd
+if not cython.compiled:  # the .pxd imports the same names for the compiler
     from core.kernels.constants import *
     from core.kernels.records import Cosines, Link
     from core.kernels.rounding import spiral_rounding
@@ -61,37 +61,37 @@ if not cython.compiled:  # for the compiler the same stands in the .pxd
 # A handle accelerates by |P''| <= |s''| + k s'^2. A point X of a bench with centre M at distance rho:
 #   |X'| <= |M'| + omega rho,  |X''| <= |M''| + (omega^2 + omega') rho.
 
-# Trial bound on a followed handle's rate, as a multiple of what the ends show [1]; any value > 1 is sound.
+# Trial bound on a followed handle's rate, as a multiple of the rate that both ends show [1]; any value > 1 is sound.
 TRIAL = 1.5
-# On a route the cosines of a link's angles are followed from the ends of the interval where the lemma leaves its rates
-# a ratio of more than this [1]: what it leaves multiplies from link to link.
+# On a route the lemma bounds the ratio of a link's rates. Where that bound exceeds this [1], the cosines of the link's
+# angles are also followed from the ends of the interval, because the excess multiplies from link to link.
 RATIO_FOLLOWED = 1.001
 
-# Rounding. The chains at both ends are those of heads that stand where their doubles say (rounding.py), and h
-# is at least what these travel (marching.py). What enters the bounds is widened by what it may lack, so that what comes
-# out bounds the truth, for any number of links:
+# Rounding. The chains at both ends belong to heads that stand exactly where their doubles say (rounding.py), and h is
+# at least the way between these two places (marching.py). Every input of the bounds is widened by its largest error, so
+# that the results bound the true motion, for any number of links:
 #   curvature    of a handle that is SLIP along the path from its true place: on a spiral |d k / d s| <= 2 k / growth,
 #                as theta (4 + theta^2) / ((2 + theta^2) (1 + theta^2)^(3/2)) <= 2, so k is good to 2 SLIP / growth of
 #                itself (up to the first handle that is followed SLIP <= spiral_error() with chords up to 2 r) besides a
-#                few u; on a route to K_SLOPE SLIP + BENT. `widened` adds 32 u (benches + 8), and so k_high and k_low
-#                also make up for the few u of sin_high, cos_low, cos_high and of differences like swing, wherever these
-#                are small against what they are differences of: d (1 - sin^2) = 2 sin^2 widened is more than its
-#                rounding, 3 u, unless sin^2 < 1 / 170, where cos is good to 3 u of itself.
+#                few u; on a route to K_SLOPE SLIP + BENT. `widened` adds 32 u (benches + 8), so that k_high and k_low
+#                also make up for the few u of sin_high, cos_low, cos_high and of differences like swing, even where
+#                these are much smaller than their terms: d (1 - sin^2) = 2 sin^2 widened is more than its rounding,
+#                3 u, unless sin^2 < 1 / 170, and there cos is good to 3 u of itself.
 #   cosines      followed from the ends: u of a link is off by SWAY or less, T by up to 13 SLIP / chord (rounding.py),
 #                on a route, whose curvature is below 2 / chord, by 2.2 SLIP / chord, and by the rotation of the frame,
-#                which SWAY has in it too: `blur` = 2 SWAY + 13 (2.2) SLIP / chord + 16 u.
-#   recurrences  from link to link sums, products and quotients of terms >= 0, each good to u: fewer than 30 a link, so
-#                a factor LOOSEN (for lower bounds TIGHTEN) a link keeps them above (below) the truth.
-# What is computed from a motion row once, and not from link to link, is good to 1e-13 of itself, which h makes up for.
+#                which SWAY includes too: `blur` = 2 SWAY + 13 (2.2) SLIP / chord + 16 u.
+#   recurrences  from link to link are sums, products and quotients of terms >= 0, each good to u, and fewer than 30 for
+#                each link: a factor LOOSEN (TIGHTEN for lower bounds) at each link keeps them above (below) the truth.
+# A number computed from a motion row only once, not from link to link, is good to 1e-13 of itself; h makes up for that.
 SPIRAL_TURN = 13.0
 LOOSEN = 1.0 + 4e-15
 TIGHTEN = 1.0 - 4e-15
-# A bend just at the limit of what a chord can follow, widened.
+# The sharpest bend that a chord can follow on a route, widened by its rounding [1].
 ROUTE_BEND_ROUNDED = ROUTE_BEND_LIMIT * (1.0 + 1e-9)
 
 
 def stand_between(k, before, after, widened, motion):
-    """Where on the spiral handle k stands during an interval, if it does not turn back, and how curved that is."""
+    """Fill in the ranges of theta and curvature of handle k of a spiral, if it does not turn back in the interval."""
     motion[k, THETA_LOW] = after[k, THETA]
     motion[k, THETA_HIGH] = before[k, THETA]
     motion[k, CURVATURE_LOW] = spiral_curvature(before[k, THETA]) * (1.0 - widened)
@@ -150,9 +150,9 @@ def followed_link(k, h, k_high, rate_a, sizes, before, after):
 
 
 # Input:  the chains at both ends of an interval of width h, each with all handles up to `benches`.
-# State:  rate_a, rate_low and second_a, the bounds on the rate of handle k and on |s''| of it; `followed`, whether a
-#         link before this one was; `filled`, whether the sums of spiral_rounding() are known, and `widened`, what
-#         curvatures are widened by.
+# State:  rate_a, rate_low and second_a, the bounds on the rate of handle k and on its |s''|; `followed`, whether a link
+#         before this one was followed; `filled`, whether the sums of spiral_rounding() are known; and `widened`, the
+#         part by which curvatures are widened.
 # Output: a motion row for every bench and the handle in front of it, see constants.py.
 
 
@@ -223,14 +223,14 @@ def link_cosines(k, chain):
 
 
 def swing_bound(low, high, rate, rate_low, ratio, ratio_low):
-    """Bound on |alpha'| of both angles of a link with curvatures in [low, high], from the rates of its leader and the
-    follower's ratio to them."""
+    """Bound on |alpha'| of both angles of a link with curvatures in [low, high], from bounds on its leader's rate and
+    on the ratio of the follower's rate to it."""
     fastest = rate * max(1.0, ratio)
     return high * fastest - low * (rate_low * min(1.0, ratio_low) if low > 0.0 else fastest)
 
 
 def route_cosines(k, h, stretch, rate_a, rate_low, before, after):
-    """Bounds on the cosines of both angles of a link: by the lemma, and followed from the ends where that leaves much.
+    """Bounds on the cosines of both angles of a link: by the lemma, and followed from the ends where they are wide.
 
     rate_a, rate_low: bounds on the rate of its leader
     """
@@ -250,7 +250,7 @@ def route_cosines(k, h, stretch, rate_a, rate_low, before, after):
 
 
 def bound_climb(k, h, stretch, cosines, before, after, motion):
-    """Lower the bounds on handle k + 1 of a route by its s'' at both ends, and fill in what rounding does to these."""
+    """Lower the bounds on handle k + 1 of a route by its s'' at both ends, and fill in the rounding of rate and s''."""
     rate_a = motion[k, RATE_HIGH]
     rate_b = motion[k + 1, RATE_HIGH]
     second_b = motion[k + 1, RATE_RATE]
@@ -271,15 +271,16 @@ def bound_climb(k, h, stretch, cosines, before, after, motion):
 
 
 def route_bounds(pieces, h, benches, sizes, before, after, climbing, motion):
-    """motion_bounds() on a route. The chord lemma serves throughout, as no handle turns back where k chord < 2.
+    """motion_bounds() on a route. The chord lemma serves throughout, because no handle turns back where k chord < 2.
 
-    Where the curvature changes sign between two handles the angles lie in [-k l / 2, k l / 2] for the larger |k|. The
+    Where the curvature changes sign between two handles, the angles lie in [-k l / 2, k l / 2] for the larger |k|. The
     cosines of the angles are also followed from both ends of the interval, as near the centre of a spiral: |cos alpha|'
-    <= sin alpha |alpha'|, and half an interval is the most that lies between an instant and the nearer end.
-    climbing: the chains hold s'' too, which with |s'''| bounds it from both ends, until a handle crosses into another
-    part, and with it the rate: so no bound grows from link to link. With angles good to `blur` the rounding e of a rate
-    obeys e_b cos alpha_b <= e_a cos alpha_a + 2 blur b', and that of s'', by rates.climbs(), d_b cos alpha_b <= d_a +
-    2 blur (|a''| + |b''|) + widened (a'^2 + b'^2) + 8 (a' + b') (e_a + e_b + blur (a' + b')) / c
+    <= sin alpha |alpha'|, and no instant is further than half an interval from the nearer end.
+    climbing: the chains hold s'' too. Until a handle crosses into another part, its values at both ends and the bound
+    on |s'''| bound s'', and so the rate, over the interval: these bounds do not grow from link to link. With angles
+    good to `blur`, the rounding e of a rate obeys e_b cos alpha_b <= e_a cos alpha_a + 2 blur b', and the rounding d of
+    s'', by rates.climbs(), obeys d_b cos alpha_b <= d_a + 2 blur (|a''| + |b''|) + widened (a'^2 + b'^2)
+    + 8 (a' + b') (e_a + e_b + blur (a' + b')) / c
     """
     rate_low = 1.0
     third_a = 0.0
@@ -320,8 +321,8 @@ def route_bounds(pieces, h, benches, sizes, before, after, climbing, motion):
     return True
 
 
-# Rates of followed handles. e_b cos alpha_b <= e_a cos alpha_a + 2 blur |b'| bounds the rounding e of a rate, as both
-# cosines are good to `blur`.
+# Rates of followed handles. Both cosines are good to `blur`, so e_b cos alpha_b <= e_a cos alpha_a + 2 blur |b'| bounds
+# the rounding e of a rate.
 
 
 def followed_error(k, error, sizes, before, after):

@@ -2,15 +2,15 @@
 
 import cython
 
-if not cython.compiled:  # for the compiler the same stands in the .pxd
+if not cython.compiled:  # the .pxd imports the same names for the compiler
     from core.kernels.constants import *
     from core.kernels.rectangles import framed, pair_gap_within
 
-# Broad phase: the rectangles' upright boxes, ordered so that neighbours in the list lie near each other, hang in
-# fours from a complete binary tree: node 1 is the root, node k has the children 2 k and 2 k + 1, node leaves + k
-# holds rows 4 k to 4 k + 3. A walk that needs no stack: down to 2 k where the node's box is met, else on to k + 1
-# and up while that is a left child (even), for its parent has the same first leaf. Starting row i's walk at its
-# own leaf meets every later row once, and every pair whose boxes meet.
+# Broad phase. The rectangles' upright boxes are ordered so that neighbours in the list lie near each other, and hang in
+# fours from a complete binary tree: node 1 is the root, node k has the children 2 k and 2 k + 1, node leaves + k holds
+# rows 4 k to 4 k + 3. The walk needs no stack: where the node's box is met it goes down to 2 k, elsewhere on to k + 1,
+# and up while that is a left child (even), because its parent has the same first leaf. The walk of row i starts at the
+# row's own leaf: it meets every later row once, and so finds every pair whose boxes meet.
 BOXES_PER_LEAF = 4
 LEAF = BOXES_PER_LEAF
 
@@ -49,18 +49,18 @@ def widen(tree, k, boxes, i):
     tree[k, Y_HIGH] = max(tree[k, Y_HIGH], boxes[i, Y_HIGH])
 
 
-# Input:  the tree and its boxes; which rectangles count (margin, exact, chained); when to stop (most_...).
-# State:  i, the row whose walk it is; k, the node where that stands.
-# Output: pairs as far as there is room, and how many pairs were found and boxes met.
+# Input:  the tree and its boxes; which pairs count (margin, exact, chained); when to stop (most_...).
+# State:  i, the row whose walk it is; k, the node that the walk has come to.
+# Output: pairs as far as there is room, the number of pairs found, and the number of boxes met.
 
 
 class Meetings:
     """Which of many rectangles come near each other.
 
-    frames: (n, FRAME_COLUMNS), boxes: (n, BOX_COLUMNS), order: (n,), all in the tree's order, which `order` says by
-        each row's own number; tree: as grow_tree() fills it
-    halt: what ends find() before it is done
-    found, met: how many pairs were found and how many boxes met by find()
+    frames: (n, FRAME_COLUMNS), boxes: (n, BOX_COLUMNS), order: (n,), all in the tree's order; `order` holds the number
+        of the rectangle in each row; tree: as grow_tree() fills it
+    halt: ends find() before it is done
+    found, met: number of pairs that find() found, and of boxes that it met
     """
 
     def __init__(self, frames, boxes, tree, order, halt):
@@ -74,7 +74,7 @@ class Meetings:
     def find(self, margin, exact, chained, most_found, most_met, pairs):
         """Fill in pairs (capacity, 2), a < b, whose boxes meet; with exact, only those within the margin.
 
-        chained: leave out pairs of consecutive numbers; most_found, most_met: find() stops beyond so many
+        chained: leave out pairs of consecutive numbers; most_found, most_met: find() stops when it exceeds one of them
         """
         boxes: cython.double[:, ::1] = self.boxes
         leaves = self.tree.shape[0] // 2
@@ -102,7 +102,7 @@ class Meetings:
                         break
 
     def note(self, i, j, margin, exact, chained, pairs):
-        """Note the pair of rows i and j where it counts."""
+        """Add the pair of rows i and j if it counts."""
         a = self.order[i] if self.order[i] < self.order[j] else self.order[j]
         b = self.order[j] if self.order[i] < self.order[j] else self.order[i]
         if chained and b - a == 1:

@@ -6,7 +6,7 @@
 import cython
 from cython.cimports.libc.math import fabs, sqrt
 
-if not cython.compiled:  # for the compiler the same stands in the .pxd
+if not cython.compiled:  # the .pxd imports the same names for the compiler
     from core.kernels.constants import *
     from core.kernels.rounding import route_rounding, spiral_rounding
     from core.kernels.route import extend_route, start_route
@@ -46,7 +46,7 @@ def start_chain(theta, chain):
 
 
 def extend_chain(growth, first, last, radius, sizes, chain):
-    """Handles after `first` until one stands at `radius` [m] or is the `last`; returns its index, FOLDED at a fold."""
+    """Place handles after `first` up to one at `radius` [m] or the `last`; returns its number, FOLDED at a fold."""
     delta = 0.0
     k = first
     alike = 0
@@ -106,14 +106,14 @@ def extend_chain(growth, first, last, radius, sizes, chain):
 
 
 def extend(curve, first, last, sizes, chain):
-    """Handles after `first` to the `last`; returns last, FOLDED at a fold."""
+    """Place handles after `first` up to the `last`; returns last, FOLDED at a fold."""
     if curve.kind == ON_SPIRAL:
         return extend_chain(curve.growth, first, last, FREE, sizes, chain)
     return extend_route(curve.pieces, first, last, FREE, sizes, chain)
 
 
 def start(curve, place, chain):
-    """Row 0 of a chain: the head at a place."""
+    """Fill in row 0 of a chain: the head at a place."""
     if curve.kind == ON_SPIRAL:
         start_chain(spiral_theta(place / curve.growth), chain)
     else:
@@ -121,13 +121,13 @@ def start(curve, place, chain):
 
 
 def place_chain(curve, place, last, sizes, chain):
-    """The chain with its head at a place, up to handle `last`; returns last, FOLDED at a fold."""
+    """Fill in the chain with its head at a place, up to handle `last`; returns last, FOLDED at a fold."""
     start(curve, place, chain)
     return extend(curve, 0, last, sizes, chain)
 
 
 def chain_rounding(curve, last, sizes, chain):
-    """Fills in SLIP, ERROR and SWAY of a chain up to handle `last`: largest errors of its handles and benches."""
+    """Fill in SLIP, ERROR and SWAY of a chain up to handle `last`: the largest errors of its handles and benches."""
     if curve.kind == ON_SPIRAL:
         spiral_rounding(curve.growth, last, sizes, chain)
     else:

@@ -1,8 +1,8 @@
-"""The clearance at an instant, and where a gap closes or stops closing."""
+"""The clearance at an instant, and the travel at which a gap closes or stops closing."""
 
 import cython
 
-if not cython.compiled:  # for the compiler the same stands in the .pxd
+if not cython.compiled:  # the .pxd imports the same names for the compiler
     from core.kernels.chain import place_chain
     from core.kernels.constants import *
     from core.kernels.hulls import hulls_met, nearest_hulls
@@ -16,7 +16,7 @@ def row_gap(scene, i, j, chain):
 
 
 def row_gap_within(scene, i, j, limit, chain):
-    """row_gap() where it is at most limit, else some value of limit or more, and not above row_gap() [m]."""
+    """row_gap() where that is at most limit; elsewhere a value between limit and row_gap() [m]."""
     gap = pair_gap(bench_of(i, scene.sizes, chain), bench_of(j, scene.sizes, chain))
     if scene.kinds.some and gap < limit:
         return nearest_hulls(scene.kinds, i, j, j > scene.room, limit, scene.sizes, chain).gap
@@ -31,12 +31,12 @@ def meet(scene, i, j, chain):
         row_separation(i, j, scene.sizes, chain, scene.met)
 
 
-# Benches this many in a row share one upright box, so that most of what is far apart is passed over together.
+# Number of consecutive benches that share one upright box, so that most distant pairs are skipped together [1].
 BLOCK = 8
 
 
 def block_boxes(benches, sizes, chain, boxes):
-    """Box around every block of benches, columns X_LOW to Y_HIGH [m]; returns how many there are."""
+    """Fill in the box around every block of benches, columns X_LOW to Y_HIGH [m]; returns the number of blocks."""
     blocks = (benches + BLOCK - 1) // BLOCK
     for block in range(blocks):
         boxes[block, X_LOW] = boxes[block, Y_LOW] = FREE
@@ -50,21 +50,21 @@ def block_boxes(benches, sizes, chain, boxes):
 
 
 def boxes_apart(a, b, within, boxes):
-    """Are the boxes of two blocks further apart than this [m]?"""
+    """Whether the boxes of two blocks are further apart than `within` [m]."""
     dx = max(boxes[b, X_LOW] - boxes[a, X_HIGH], boxes[a, X_LOW] - boxes[b, X_HIGH], 0.0)
     dy = max(boxes[b, Y_LOW] - boxes[a, Y_HIGH], boxes[a, Y_LOW] - boxes[b, Y_HIGH], 0.0)
     return dx * dx + dy * dy > within * within
 
 
 def beyond_box(i, b, within, boxes, chain):
-    """Is the centre of row i further from the box of a block than this [m]?"""
+    """Whether the centre of row i is further than `within` [m] from the box of a block."""
     dx = max(boxes[b, X_LOW] - chain[i, MX], chain[i, MX] - boxes[b, X_HIGH], 0.0)
     dy = max(boxes[b, Y_LOW] - chain[i, MY], chain[i, MY] - boxes[b, Y_HIGH], 0.0)
     return dx * dx + dy * dy > within * within
 
 
 def least_with(scene, i, first, end, best, chain):
-    """The closer of `best` and the closest of rows first to end - 1 to row i."""
+    """The nearer pair: `best`, or row i with the nearest of the rows from first to end - 1."""
     sizes: cython.double[:, ::1] = scene.sizes
     for j in range(first, end):
         dx = chain[j, MX] - chain[i, MX]
@@ -78,14 +78,16 @@ def least_with(scene, i, first, end, best, chain):
 
 
 def row_clearance(scene, active, handles, best, chain, boxes):
-    """Least separation among the pairs led by the first `active` benches, and that pair; best: that of one, if known.
+    """Least separation among the pairs led by the first `active` benches, and that pair.
 
-    handles: the last one of the chain; boxes: (handles / BLOCK, BOX_COLUMNS) at least, scratch
-    On a spiral radii r grow from handle to handle, and no point of a bench is further in than its r less two of the
-    largest half diagonals, nor further out than its rear handle's r and one of them: far enough out all is passed over.
+    handles: the last handle of the chain; best: the separation of one of these pairs, if known; boxes: scratch of at
+        least (handles / BLOCK, BOX_COLUMNS)
+    On a spiral radii r grow from handle to handle. No point of a bench is further in than its front handle's r less two
+    of the largest half diagonals, nor further out than its rear handle's r plus one: benches far enough out are
+    skipped.
     """
     growth = scene.curve.growth
-    if scene.against == EDGES:  # after the last handle's row, which holds no bench
+    if scene.against == EDGES:  # they follow the last handle's row, which holds no bench
         for i in range(active):
             if scene.halt.stopped:
                 break
@@ -114,9 +116,9 @@ def row_clearance(scene, active, handles, best, chain, boxes):
 
 
 def clearance_left(scene, leaders, benches, chain, moved):
-    """The least, over pairs led by the first `leaders` benches, of a separation less what both benches still move [m].
+    """Least separation, less the ways of both benches, of all pairs led by the first `leaders` benches [m].
 
-    moved: (benches,) [m]; FREE without pairs
+    moved: (benches,) the way that each bench still moves [m]; returns FREE without pairs
     """
     sizes: cython.double[:, ::1] = scene.sizes
     best = FREE
@@ -133,10 +135,9 @@ def clearance_left(scene, leaders, benches, chain, moved):
 
 
 def clearance_at(scene, place, benches, leaders, chain, boxes):
-    """Clearance with the head at a place over all pairs led by the first `leaders` benches [m], and the pair; FREE
-    without pairs, or where the chain folds.
+    """Clearance over all pairs led by the first `leaders` benches with the head at a place [m], and the nearest pair.
 
-    benches: how many are laid out; chain, boxes: scratch
+    benches: number of benches to lay out; chain, boxes: scratch; returns FREE without pairs, or where the chain folds
     """
     if place_chain(scene.curve, place, benches, scene.sizes, chain) == FOLDED:
         return FREE, 0, 0
@@ -145,21 +146,21 @@ def clearance_at(scene, place, benches, leaders, chain, boxes):
 
 
 def last_handle(scene, a, b):
-    """Last handle of a chain that benches a and b need, or bench a and the edge at rest in row b."""
+    """Number of the last handle that benches a and b need, or bench a and the edge at rest in row b."""
     return b + 1 if b < scene.room else a + 1
 
 
 def gap_at(scene, place, a, b, chain):
-    """Separation of bench a and bench, or edge at rest, b with the head at a place [m]; FREE if the chain folds."""
+    """Separation of bench a from bench b, or from edge at rest b, with the head at a place [m]; FREE at a fold."""
     if place_chain(scene.curve, place, last_handle(scene, a, b), scene.sizes, chain) == FOLDED:
         return FREE
     return row_gap(scene, a, b, chain)
 
 
 def gap_rate_at(scene, place, a, b, chain):
-    """How fast benches a and b part per metre of head travel: normal . (velocity of witness b - of witness a) [1].
+    """Rate at which benches a and b part per metre of head travel: normal . (velocity of witness b - of witness a) [1].
 
-    A bench moves with its handles: its centre by their mean, and it turns at omega = u x (a' T_a - b' T_b) / chord.
+    The velocity of a bench's centre is the mean of its handles'; it turns at omega = u x (a' T_a - b' T_b) / chord.
     """
     if place_chain(scene.curve, place, last_handle(scene, a, b), scene.sizes, chain) == FOLDED:
         return 0.0
@@ -171,7 +172,7 @@ def gap_rate_at(scene, place, a, b, chain):
 
 
 def speed_along(scene, k, x, y, chain):
-    """Speed of a point of bench k along the normal of the pair last met, per metre of head travel [1]."""
+    """Speed of a point of bench k along the normal of the last pair met, per metre of head travel [1]."""
     vx = chain[k, RATE] * chain[k, TX] - chain[k + 1, RATE] * chain[k + 1, TX]
     vy = chain[k, RATE] * chain[k, TY] - chain[k + 1, RATE] * chain[k + 1, TY]
     omega = (chain[k, UX] * vy - chain[k, UY] * vx) / scene.sizes[k, CHORD]
@@ -183,24 +184,25 @@ def speed_along(scene, k, x, y, chain):
 
 
 def contact_between(scene, low, high, a, b, width, chain):
-    """Head travel in [low, high] at which benches a, b come within the margin [m]: apart at low, within it at high."""
+    """Head travel in [low, high] at which a and b come within the margin [m]: apart at low, within it at high."""
     return crossing(scene, low, high, Pair(a, b), width, False, chain)
 
 
 def bottom_between(scene, low, high, a, b, width, chain):
-    """Head travel in [low, high] at which benches a, b stop approaching [m]: approaching at low, parting at high."""
+    """Head travel in [low, high] at which a and b stop approaching [m]; they approach at low and part at high."""
     return crossing(scene, low, high, Pair(a, b), width, True, chain)
 
 
 # Input:  a bracket [low, high] of travels, and a function that is positive at low and negative at high.
-# State:  the bracket; above and below, the function at its ends, halved where an end stays; `last`, which end moved.
-# Output: the later end of a bracket no wider than `width`.
+# State:  the bracket; `above` and `below`, the function at its ends, halved where an end stays; `last`, the end that
+#         moved last.
+# Output: the upper end of a bracket no wider than `width`.
 
 
 def crossing(scene, low, high, pair, width, of_rate, chain):
-    """Where the gap of a pair less the margin, or (of_rate) the rate at which it closes, falls to 0 [m].
+    """Travel at which the gap of a pair less the margin, or (of_rate) the rate at which it closes, falls to 0 [m].
 
-    The Illinois form of the false position with a bisection now and then.
+    Method: the Illinois form of the false position, with a bisection now and then.
     """
     above = 1.0
     below = -1.0

@@ -2,31 +2,33 @@
 
 import cython
 
-if not cython.compiled:  # for the compiler the same stands in the .pxd
+if not cython.compiled:  # the .pxd imports the same names for the compiler
     from core.kernels.constants import *
     from core.kernels.rates import certain_rate, lay_ahead, lively_chain, rate_bound
 
 
 # Input:  a run from start to stop, and the limit of every |rate|.
-# State:  travel, up to which no |rate| exceeded `kept`; h, the step that is tried; both chains at its ends.
-# Output: kept, all the way; exceeded, between `proven` and `found`, at most `width` apart; stuck, proven so far.
+# State:  travel, up to which no |rate| exceeded `kept`; h, the step to try; both chains at its ends.
+# Output: KEPT all the way; EXCEEDED between `proven` and `found`, at most `width` apart; or GIVEN_UP, proven so far.
 #
-# No |rate| between the ends of a step exceeds rate_bound() (rates.py), so a step with a bound below the limit is
-# passed, and any other halved. At `width` it is one of three. Its end exceeds the limit: then the first excess lies
-# in this step or at its end, as no step before had one. Or its bound is below `kept`, a limit only so little higher
-# that it counts as the same: then it is passed, a peak that just reaches the limit. Or neither: the search gives up.
+# No |rate| between the ends of a step exceeds rate_bound() (rates.py). So a step with a bound below the limit is
+# passed, and any other step is halved. A step of `width` ends in one of three ways. If the limit is exceeded at its
+# end, the first excess lies in this step or at its end, because no step before had one. If its bound is below `kept`, a
+# limit
+# so little higher that it counts as the same, the step is passed: its peak just reaches the limit. Otherwise the search
+# gives up.
 #
-# Rounding. The way begins before `start` and ends after `stop` by what a travel may be off by, and `proven` is so much
-# before what was passed. A step ends `rounding` after the travel at which it is asked for an excess, so that this one
-# lies in the step whatever its end is off by, and there the limit is exceeded for certain (certain_rate()).
+# Rounding. The way begins before `start` and ends after `stop` by the error of a travel, and `proven` lies by as much
+# before the last step passed. A step ends `rounding` after the travel at which an excess is looked for. So this travel
+# lies in the step, whatever the error of its end, and there the limit is exceeded for certain (certain_rate()).
 
 
 class Excess:
     """The first travel in a run at which a |rate| exceeds a limit.
 
     interval: of a scene with room for all benches; calm: as in rates.lively_chain()
-    proven: no |rate| exceeds the limit that counts as the same before this travel [m]; found: one does there [m], or
-        the end of the run; handle, rate: that handle and its rate
+    proven: travel before which no |rate| exceeds the limit that counts as the same [m]; found: travel at which one
+        exceeds it, or the end of the run [m]; handle, rate: that handle and its rate
     """
 
     def __init__(self, interval, calm):
@@ -36,10 +38,10 @@ class Excess:
         self.handle = 0
 
     def run(self, start, stop, step, limit, kept, width, rounding, budget):
-        """Look for it from start to stop [m of head travel]; how that ended: KEPT, EXCEEDED or GIVEN_UP.
+        """Search from start to stop [m of head travel]; returns how it ended: KEPT, EXCEEDED or GIVEN_UP.
 
-        step: the first one tried [m]; limit, kept, width: see above; rounding: what a travel may be off by [m];
-        budget: links followed before the search gives up
+        step: the first one tried [m]; limit, kept, width: see above; rounding: largest error of a travel [m];
+        budget: number of links followed before the search gives up
         """
         scene = self.interval.scene
         travel = start - rounding
@@ -51,7 +53,7 @@ class Excess:
         self.handle = 0
         self.rate = 0.0
         with cython.nogil:
-            if scene.curve.kind == ON_SPIRAL and end > scene.place:  # no further than the centre
+            if scene.curve.kind == ON_SPIRAL and end > scene.place:  # the centre ends the way
                 end = max(stop, scene.place)
             placed = lively_chain(
                 scene.curve, scene.place - travel, scene.benches, self.calm, scene.sizes, self.interval.before

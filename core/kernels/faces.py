@@ -1,9 +1,9 @@
-"""How near two benches that are unions of hulls come at most, over an interval of head travel or over a band."""
+"""Lower bounds on the separation of benches that are unions of hulls, over an interval of head travel or a band."""
 
 import cython
 from cython.cimports.libc.math import cos
 
-if not cython.compiled:  # for the compiler the same stands in the .pxd
+if not cython.compiled:  # the .pxd imports the same names for the compiler
     from core.kernels.bends import band_bends, band_between, bend_along, least_between
     from core.kernels.constants import *
     from core.kernels.hulls import (
@@ -22,13 +22,13 @@ if not cython.compiled:  # for the compiler the same stands in the .pxd
     )  # fmt: skip
     from core.kernels.records import Views
 
-# Of two benches that are unions of hulls all pairs of these must be apart, each along an axis of its own. Most pairs
-# are shown to be no nearer than another by the half plane of one bench that faces the other, or by those across its
-# ends.
+# Two benches that are unions of hulls are apart if every pair of these hulls is, each along an axis of its own. For
+# most pairs the half plane of one bench that faces the other, or those across its ends, shows that another pair is
+# nearer.
 
 
 def hulls_least(scene, interval, i, j, enough, bend, bend_back):
-    """pair_least() of benches with hulls, without the rectangles around them [m]; 0 or less once it does not serve.
+    """pair_least() of benches with hulls, without the rectangles around them [m]; 0 or less: no bound.
 
     bend, bend_back: K along axes fixed in i and in j [1/m]
     """
@@ -63,7 +63,7 @@ def hulls_least(scene, interval, i, j, enough, bend, bend_back):
 
 
 def turned_least(scene, interval, i, j, hulls, bend, enough):
-    """face_least() along axes fixed in i; where that shows nothing, along the best of all at the end [m]."""
+    """face_least() along axes fixed in i; where that shows nothing, along the best axis of all at the end [m]."""
     start = view_of(i, j, interval.before)
     end = view_of(i, j, interval.after)
     k = facing(end, i, j, scene.sizes)
@@ -80,7 +80,7 @@ def face_along(kinds, start, end, hulls, k, bend, h):
 
 
 def face_least(kinds, start, end, hulls, k, bend, h, enough):
-    """Proven least gap over an interval beyond one of the half planes uphill from k at its ends [m]."""
+    """Proven least gap over an interval beyond one of the two half planes uphill from k at its ends [m]."""
     axis = uphill(kinds, end, hulls, k, FREE)
     best = least_between(gap_beyond(kinds, start, hulls, axis.k), axis.gap, bend, h)
     if best > enough:
@@ -90,9 +90,9 @@ def face_least(kinds, start, end, hulls, k, bend, h, enough):
 
 
 def hulls_most(scene, interval, a, b, distance):
-    """Upper bound of the separation of benches a and b over an interval, but for rounding [m]; 0 or less: touching.
+    """Upper bound of the separation of benches a and b over an interval, without rounding [m]; 0 or less: touching.
 
-    See corner_beyond(); distance: no further are their centres apart [m]
+    See corner_beyond(); distance: upper bound of the distance of their centres [m]
     """
     edge = b > scene.room
     faced = nearest_hulls(scene.kinds, a, b, edge, FREE, scene.sizes, interval.after)
@@ -118,7 +118,7 @@ def views_of(i, j, band):
 
 
 def band_hulls(scene, band, i, j, enough, distance):
-    """band_pair() of benches with hulls, without the rectangles around them [m]; the margin or less: no bound."""
+    """band_pair() of benches with hulls, without the rectangles around them [m]; no bound where the margin or less."""
     best = FREE
     bends = band_bends(scene, band, i, j, distance)
     bends_back = band_bends(scene, band, j, i, distance)
@@ -151,8 +151,8 @@ def band_turned(scene, band, i, j, hulls, bends, enough):
 
 
 def band_face(scene, band, views, hulls, k, bends, enough):
-    """Proven least gap over a band beyond one of the half planes uphill from k at two corners [m]; where that shows
-    nothing, beyond the one of all that is best at the first of these."""
+    """Proven least gap over a band beyond one of the half planes uphill from k at two of its corners [m]; where these
+    show nothing, beyond the best half plane of all at the first of these corners."""
     axis = uphill(scene.kinds, views.low_end, hulls, k, FREE)
     best = band_beyond(scene.kinds, band, views, hulls, axis.k, bends)
     if best > enough:

@@ -3,23 +3,23 @@
 import cython
 from cython.cimports.libc.math import cos, fabs, sin, sqrt
 
-if not cython.compiled:  # for the compiler the same stands in the .pxd
+if not cython.compiled:  # the .pxd imports the same names for the compiler
     from core.kernels.constants import *
     from core.kernels.spiral import first_root, half_slope
 
-# The fold's delta lies between pi and this angle [rad]; chords whose square in units of growth is less than the second
-# number [1] never fold. Both are derived below; to more digits 4.876650491316303265 and 33.44973623331110255.
+# Upper bound of the fold's delta, which is above pi [rad]; and the square of the shortest chord that folds, in units of
+# growth [1]. Both are derived below; with more digits they are 4.876650491316303265 and 33.44973623331110255.
 CREST_DELTA = 4.876650491316303
 FOLDING_CHORD2 = 33.4497362333111
-# A follower counts as arrived within this relative angle (60 bisections leave 1e-16) [1].
+# Relative angle within which a follower counts as arrived [1]; 60 bisections leave 1e-16.
 ARRIVAL = 1e-12
 
 
 # On f = chord^2 (spiral.py), theta is an explicit function of delta:
 #     theta(delta) = -delta / 2 + sqrt(delta^2 / 4 + (chord^2 - delta^2) / (2 (1 - cos delta))).
-# The chain follows it from large theta (delta small) until theta stops falling. As f_theta > 0 that is where
-# h = f_delta / 2 first vanishes along it: the fold. Up to delta = pi h > 0. With chord <= pi the head reaches the
-# centre, where delta = chord.
+# The chain follows this function from large theta (small delta) until theta stops falling. As f_theta > 0, that is
+# where h = f_delta / 2 first vanishes along it: the fold. Up to delta = pi, h > 0. With chord <= pi the head reaches
+# the centre, where delta = chord.
 #
 # There is at most one place to look, and it is found by bisection. With S = -sin delta > 0 and K = 1 - cos delta > 0,
 # on pi < delta < 2 pi
@@ -36,8 +36,8 @@ ARRIVAL = 1e-12
 # chord^2 = f(theta(delta), delta), and f grows with theta, so
 #     h(theta(delta), delta) > 0   <=>   theta(delta) < H(delta)   <=>   chord^2 < C(delta).
 # Hence with chord^2 < C(D) h stays positive: no fold. With more, h changes sign once on (pi, D], from + to -, and this
-# is its first change: the fold. (From D on it may change back, when the chain is gone.) D and C(D) are two numbers that
-# depend on nothing.
+# is its first change: the fold. (From D on it may change back, but the chain does not get that far.) D and C(D) are two
+# constants.
 
 
 def theta_of_delta(delta, chord2):
@@ -47,7 +47,7 @@ def theta_of_delta(delta, chord2):
 
 
 def fold_theta(chord2):
-    """theta of the leading handle at which its bench folds; 0.0 when it never does."""
+    """theta of the leading handle at which its bench folds; 0.0 if it never folds."""
     if chord2 < FOLDING_CHORD2:
         return 0.0
     low = PI
@@ -62,10 +62,11 @@ def fold_theta(chord2):
 
 
 def previous_theta(theta, chord2):
-    """theta of the handle one chord further in whose follower stands at theta; NO_ROOT if none got that far.
+    """theta of the leader whose follower, one chord behind, stands at theta; NO_ROOT if no follower gets that far in.
 
-    The follower falls with its leader until T . u = 0 and rises after it, so the first arrival is the largest
-    leader angle: the border of "a root exists, the follower still falls, and stands outside theta".
+    The follower's theta falls with its leader's until T . u = 0 and rises afterwards, so the first arrival has the
+    largest leader angle. The bisection seeks the border of "a root exists, the follower still falls and is above
+    theta".
     """
     low = 0.0
     high = theta

@@ -1,11 +1,11 @@
-"""How much a question may still do, and a flag by which another thread ends it: what loops look at as they go."""
+"""Work that a question may still do, and a flag by which another thread ends it: every loop checks both as it runs."""
 
 
 class Halt:
-    """left: work, see constants.py [1]; stopped: has anybody asked the loops to end?
+    """left: work that remains, see constants.py [1]; stopped: whether another thread asked the loops to end.
 
-    A loop that finds itself stopped ends at once, as one that gave up; whoever started it looks at the flag too, and
-    takes nothing from what that loop found.
+    A loop that finds the flag set ends at once, like one that gave up. Its caller checks the flag too, and uses nothing
+    that a stopped loop found.
     """
 
     def __init__(self, left):
@@ -13,6 +13,6 @@ class Halt:
         self.stopped = False
 
     def spend(self, work):
-        """Take work from what is left; True where the loop has to end."""
+        """Subtract work from what is left; True if the loop has to end."""
         self.left -= work
         return self.stopped or self.left <= 0.0

@@ -1,25 +1,25 @@
-"""Benches that are the union of three convex hulls each, in place of rectangles: separation, and proven gaps."""
+"""Benches that are unions of three convex hulls instead of rectangles: their separation, and proven gaps."""
 
 import cython
 from cython.cimports.libc.math import atan2, fabs, floor, sqrt
 
-if not cython.compiled:  # for the compiler the same stands in the .pxd
+if not cython.compiled:  # the .pxd imports the same names for the compiler
     from core.kernels.constants import *
     from core.kernels.records import Axis, Corner, Faced, Hulls, View
 
-# A bench of a scene with hulls covers the union of the three hulls of its kind (core/tolerance/reach.py), an edge at
-# rest its segment. The hulls of a kind stand in DIRECTIONS rows each, one for each corner; corner k lies between the
-# half planes of directions k and k + 1, which are even in the frame of the bench.
+# In a scene with hulls a bench covers the union of the three hulls of its kind (core/tolerance/reach.py), and an edge
+# at rest covers its segment. Each hull of a kind takes DIRECTIONS rows, one for each corner; corner k lies between the
+# half planes of directions k and k + 1, which are evenly spaced in the frame of the bench.
 #
-# Separation. Two convex polygons are apart exactly if one of them has a half plane beyond which the other lies; the
-# largest of these gaps is at most their distance, and falls short of it by 1 - cos(pi / DIRECTIONS) = 0.0012 of it at
-# most. That gap counts as the separation here, so a margin is kept for certain. The separation of two benches is the
-# least of their hulls'. As gaps along axes that are fixed in one bench, all of these are what faces.py proves.
+# Separation. Two convex polygons are apart exactly if one of them has a half plane beyond which the other lies. The
+# largest of these gaps is at most their distance, and at most 1 - cos(pi / DIRECTIONS) = 0.0012 of the distance below
+# it. This gap counts as the separation here, so that a margin is kept for certain. The separation of two benches is the
+# least one of their hulls. All these gaps are along axes fixed in one bench, and such gaps are what faces.py proves.
 #
-# Seen from bench i, direction m of bench j stands at the angle of m turned by that between both: the corner of j that
-# is the furthest in it has the number of m shifted by one and the same number for all m, so that each gap is two
-# products and no trigonometry. Where the angle is within rounding of a direction, a few u, the corner may be the one
-# beside it, whose support is the same to that angle times a side: pair_rounding() (pairs.py) has room for it.
+# Seen from bench i, the directions of bench j are turned by the angle between both benches. So the number of the corner
+# of j that is furthest in direction m is m plus a shift that is the same for all m, and each gap takes two products and
+# no trigonometry. Where the angle is within rounding of a direction, a few u, the corner may be the next one; its
+# support differs by that angle times a side at most, for which pair_rounding() (pairs.py) has room.
 #
 # The best half plane. The gap along a direction n, not scaled to length 1, is a concave function G of n that grows in
 # proportion to its length. Let n, of length 1, lie between n1 and n2: n = a n1 + b n2, a + b > 1. If both gaps are
@@ -30,20 +30,17 @@ STEP = TWO_PI / DIRECTIONS
 
 
 class Kinds:
-    """The hulls of a scene's benches; none of them where benches are rectangles.
-
-    some: are there any?
-    """
+    """The hulls of a scene's benches; some: whether there are any, because benches may be rectangles."""
 
     def __init__(self):
         self.some = False
         self.alike = 0
 
     def lay(self, hulls, of, directions):
-        """Take hulls.
+        """Set the hulls.
 
-        hulls: (kinds * HULLS * DIRECTIONS, 2) corners; of: (n,) which kind each of the leading benches is, the last
-        entry for all behind it too; directions: (DIRECTIONS, 2) unit vectors
+        hulls: (kinds * HULLS * DIRECTIONS, 2) corners; of: (n,) kind of each of the leading benches, where the last
+        entry holds for all benches behind too; directions: (DIRECTIONS, 2) unit vectors
         """
         self.hulls = hulls
         self.of = of
@@ -53,7 +50,7 @@ class Kinds:
 
 
 def hulls_of(kinds, edge):
-    """How many hulls a bench, or an edge at rest, has."""
+    """Number of hulls of a bench, or of an edge at rest."""
     return 1 if edge else HULLS
 
 
@@ -63,45 +60,45 @@ def first_corner(kinds, i, hull):
 
 
 def sector(y, x):
-    """Number of the direction at or before that of a vector."""
+    """Number of the last direction that is not beyond that of a vector."""
     return cython.cast(cython.Py_ssize_t, floor(atan2(y, x) / STEP))
 
 
 def wrapped(k):
-    """A direction's number, from 0 to before DIRECTIONS, of one from -DIRECTIONS to before 2 DIRECTIONS."""
+    """Number of a direction, in [0, DIRECTIONS), from one in [-DIRECTIONS, 2 DIRECTIONS)."""
     if k < 0:
         return k + DIRECTIONS
     return k - DIRECTIONS if k >= DIRECTIONS else k
 
 
 def corner(kinds, first, k, half_length):
-    """A corner of the hull in these rows; first < 0: of an edge at rest, whose half length is given."""
+    """Corner k of the hull whose rows begin at `first`; of an edge at rest of this half length where first < 0."""
     if first >= 0:
         return Corner(kinds.hulls[first + k, HULL_X], kinds.hulls[first + k, HULL_Y])
-    forward = k < DIRECTIONS // 4 or k >= DIRECTIONS - DIRECTIONS // 4  # up to the next direction, as a corner is
+    forward = k < DIRECTIONS // 4 or k >= DIRECTIONS - DIRECTIONS // 4  # a corner serves up to the next direction
     return Corner(half_length if forward else -half_length, 0.0)
 
 
 def hulls_in(kinds, i, j, own, other, edge, sizes):
-    """Hull `own` of row i, against hull `other` of row j; edge: 1 where row i is an edge at rest, 2 where j is."""
+    """Hull `own` of row i and hull `other` of row j; edge: 1 if row i is an edge at rest, 2 if row j is, else 0."""
     first = -1 if edge == 1 else first_corner(kinds, i, own)
     second = -1 if edge == 2 else first_corner(kinds, j, other)
     return Hulls(first, second, sizes[i, HALF_LENGTH], sizes[j, HALF_LENGTH])
 
 
 def view_of(i, j, chain):
-    """Row j as row i sees it."""
+    """Row j in the frame of row i."""
     dx = chain[j, MX] - chain[i, MX]
     dy = chain[j, MY] - chain[i, MY]
     c = chain[i, UX] * chain[j, UX] + chain[i, UY] * chain[j, UY]
     s = chain[i, UX] * chain[j, UY] - chain[i, UY] * chain[j, UX]
-    shift = (sector(-s, c) + DIRECTIONS // 2) % DIRECTIONS  # in the rows whatever the numbers are
+    shift = (sector(-s, c) + DIRECTIONS // 2) % DIRECTIONS  # a valid row, even if the numbers are not finite
     shift = shift + DIRECTIONS if shift < 0 else shift
     return View(dx * chain[i, UX] + dy * chain[i, UY], dy * chain[i, UX] - dx * chain[i, UY], c, s, shift)
 
 
 def view_back(view):
-    """Row i as row j sees it, from view_of(i, j)."""
+    """Row i in the frame of row j, from view_of(i, j)."""
     shift = (sector(view.s, view.c) + DIRECTIONS // 2) % DIRECTIONS
     shift = shift + DIRECTIONS if shift < 0 else shift
     along = -(view.along * view.c + view.left * view.s)
@@ -109,7 +106,7 @@ def view_back(view):
 
 
 def facing(view, i, j, sizes):
-    """The half plane across or along row i beyond which the rectangle around row j is furthest."""
+    """Number of the half plane across or along row i beyond which the rectangle around row j is furthest."""
     across = fabs(view.left) - sizes[i, HALF_WIDTH]
     across -= fabs(view.s) * sizes[j, HALF_LENGTH] + fabs(view.c) * sizes[j, HALF_WIDTH]
     along = fabs(view.along) - sizes[i, HALF_LENGTH]
@@ -130,7 +127,7 @@ def gap_beyond(kinds, view, hulls, k):
 
 
 def uphill(kinds, view, hulls, k, enough):
-    """The half plane of the first hull where going uphill from half plane k ends, or one whose gap is enough."""
+    """The half plane of the first hull that going uphill from half plane k leads to, or one whose gap is enough."""
     best = gap_beyond(kinds, view, hulls, k)
     for side in range(2):
         step = 1 - 2 * side
@@ -158,19 +155,20 @@ def best_beyond(kinds, view, hulls):
     return Axis(found, best)
 
 
-# Input:  two benches, or a bench and an edge at rest, in rows i and j; what counts as near.
+# Input:  two benches, or a bench and an edge at rest, in rows i and j; the limit below which they count as near.
 # State:  the nearest pair of hulls so far, with its half plane.
 # Output: the record Faced.
 #
-# A pair of hulls is passed over once any half plane shows it to be no nearer than the nearest so far: the one that
-# faces the other bench, or those across the ends. Else the way goes uphill on both hulls. Where only one of them then
-# has a positive gap, the best half plane of the other, if it has a better one, is one of the two around the opposite
-# direction: the sides of both hulls together, in the order of their directions, are those of the difference of the
-# hulls, and the two between which the nearest direction lies are neighbours there.
+# A pair of hulls is skipped once a half plane shows it to be no nearer than the nearest pair so far: the half plane
+# that faces the other bench, or one across the ends. Otherwise the search goes uphill on both hulls. Where only one of
+# them
+# then has a positive gap, a better half plane of the other must be one of the two around the opposite direction: the
+# sides of both hulls together, in the order of their directions, are those of the difference of the hulls, and the two
+# between which the nearest direction lies are neighbours there.
 
 
 def nearest_hulls(kinds, i, j, edge, limit, sizes, chain):
-    """The nearest hulls of rows i and j, where they are nearer than the limit; edge: is j an edge at rest?"""
+    """The nearest hulls of rows i and j, if they are nearer than the limit; edge: whether j is an edge at rest."""
     best = Faced(0, 0, 0, 0, limit)
     view = view_of(i, j, chain)
     back = view_back(view)
@@ -179,7 +177,7 @@ def nearest_hulls(kinds, i, j, edge, limit, sizes, chain):
     others = hulls_of(kinds, edge)
     for n in range(HULLS * others):
         own = n % HULLS
-        other = (n // HULLS + 1) % others  # first the middle, which most contacts are with
+        other = (n // HULLS + 1) % others  # the middle first, because most contacts are with it
         hulls = hulls_in(kinds, i, j, own, other, 2 if edge else 0, sizes)
         if gap_beyond(kinds, view, hulls, start) >= best.gap:
             continue
@@ -209,14 +207,14 @@ def nearest_hulls(kinds, i, j, edge, limit, sizes, chain):
 
 
 def nearest_corner(kinds, view, hulls, k):
-    """The corner of the second hull that is furthest against half plane k of the first, in its own bench's frame."""
+    """The corner of the second hull that is deepest against half plane k of the first, in its own bench's frame."""
     x = kinds.directions[k, HULL_X]
     y = kinds.directions[k, HULL_Y]
     along = x * view.c + y * view.s
     left = y * view.c - x * view.s
     best = FREE
     found = Corner(0.0, 0.0)
-    for shift in range(-1, 2):  # the angle may be off by rounding
+    for shift in range(-1, 2):  # rounding of the angle may point to the next corner
         at = corner(kinds, hulls.second, wrapped(wrapped(k + view.shift) + shift), hulls.other_half_length)
         if along * at.x + left * at.y < best:
             best = along * at.x + left * at.y
@@ -225,7 +223,7 @@ def nearest_corner(kinds, view, hulls, k):
 
 
 def hulls_met(kinds, i, j, edge, sizes, chain, out):
-    """Fill in the separation of the hulls in rows i and j, with its witnesses; edge: is j an edge at rest?"""
+    """Fill in the separation of the hulls in rows i and j, with its witnesses; edge: whether j is an edge at rest."""
     faced = nearest_hulls(kinds, i, j, edge, FREE, sizes, chain)
     a = j if faced.turned else i
     b = i if faced.turned else j
@@ -252,15 +250,15 @@ def hulls_faced(kinds, a, b, edge, faced, sizes):
     return hulls_in(kinds, a, b, faced.own, faced.other, at_rest, sizes)
 
 
-# Within the margin for certain, for hulls as for rectangles (pairs.py). Let X be a corner of the second hull. How far
-# it is beyond half plane k of the first is a gap along an axis fixed in that one's bench, so it stays below the larger
-# of its ends plus K h^2 / 8; call the largest of these bounds, over all k, E. If E <= 0, X stays in the first hull: the
-# hulls overlap, and every gap is 0 or less. Else X stays in the polygon of the half planes moved out by E, whose
-# corners are E / cos(STEP / 2) from those of the hull: no gap along an axis is more than that.
+# Within the margin for certain, for hulls as for rectangles (pairs.py). Let X be a corner of the second hull. Its
+# distance beyond half plane k of the first hull is a gap along an axis fixed in the first bench, so it stays below the
+# larger of its values at both ends plus K h^2 / 8; let E be the largest of these bounds over all k. If E <= 0, X stays
+# in the first hull: the hulls overlap, and every gap is 0 or less. If E > 0, X stays in the polygon of the half planes
+# moved out by E, whose corners are E / cos(STEP / 2) from those of the hull: no gap along an axis is more than that.
 
 
 def corner_beyond(kinds, view, hulls, at):
-    """How far a corner of the second hull, in its own bench's frame, is beyond the half planes of the first [m]."""
+    """Largest distance of a corner of the second hull, in its bench's frame, beyond a half plane of the first [m]."""
     x = view.along + view.c * at.x - view.s * at.y
     y = view.left + view.s * at.x + view.c * at.y
     most = -FREE
@@ -270,9 +268,9 @@ def corner_beyond(kinds, view, hulls, at):
     return most
 
 
-# Input:  a bench, the stray, and samples of psi by sine and cosine; see core/tolerance/reach.py.
-# State:  for each direction the largest value so far of the front end, and of the middle.
-# Output: these.
+# Input:  a bench, the stray, and sines and cosines of samples of psi; see core/tolerance/reach.py.
+# State:  for each direction the largest value so far for the front end, and for the middle.
+# Output: these values.
 
 
 def largest_supports(chord, overhang, half_width, stray, samples, directions, found):

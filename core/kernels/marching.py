@@ -3,7 +3,7 @@
 import cython
 from cython.cimports.libc.math import fabs
 
-if not cython.compiled:  # for the compiler the same stands in the .pxd
+if not cython.compiled:  # the .pxd imports the same names for the compiler
     from core.kernels.chain import extend
     from core.kernels.clearance import bottom_between, contact_between, gap_at, row_clearance, row_gap
     from core.kernels.constants import *
@@ -16,77 +16,79 @@ if not cython.compiled:  # for the compiler the same stands in the .pxd
 
 # March.
 #
-# Input. A scene: a chain for every head travel, the margin, the bounds on rings; start and stop; which pairs must be
-# followed (leaders, at_start); and how near a contact is to be bracketed (tolerance).
-# State. `travel`; the interval with the chains at travel and at travel + h, of all handles that matter there; h, the
-# step to try; `aims`, whether this step stops short of a contact, and `target`, where that is; `opening`, the chain at
-# the start.
-# Output. One of five ends, and what is known then: see Found and March.
+# Input. A scene: a chain for every head travel, the margin, the bounds on rings; start and stop; the pairs that must be
+# followed (leaders, at_start); and the half width of the bracket around a contact (tolerance).
+# State. `travel`; the interval with the chains at travel and at travel + h, up to the last handle that matters there;
+# h, the step to try; `aims`, whether this step stops short of a contact, and `target`, the travel of that contact;
+# `opening`, the chain at the start.
+# Output. One of five ends, and the results in Found and March.
 #
 # Invariant, whenever the loop begins: no two benches that share no handle come within the margin in [start, travel].
 # 1. A step is taken only if interval_least() proves more than the margin, after rounding, for every pair led by the
-# first `active` benches at every instant of [travel, travel + h] (nearest.py, bends.py). The proof assumes nothing of
+# first `active` benches at every instant of [travel, travel + h] (nearest.py, bends.py). The proof does not depend on
 # the size of the step: between two ends a gap along an axis cannot fall further below its chord than K x (h - x) / 2,
-# with K bounded over the very interval (bounds.py). So a graze cannot be stepped over: a dip within the interval that
-# reached the margin would need a larger second derivative. Where the bound does not reach, the step is shortened, never
-# taken.
+# where K is a bound over this same interval (bounds.py). So a graze cannot be stepped over: a dip within the interval
+# that reached the margin would need a larger second derivative. A step that this bound does not prove is shortened,
+# never taken.
 # 2. Of the other pairs, those whose inner bench leads at clear_radius or further out are clear by the ring bound,
 # and those whose outer bench stands beyond radius_beyond(leaders_reach()) lie outside all that the leaders can touch
 # over the interval, which interval_least() checks with the handles' drift (rings.py). On a route all handles are laid
-# out.
-# 3. While at_start all benches are followed. Then only the pairs of the first `leaders` benches, of which the last, m =
-# leaders - 1, is the first of the alike: bench i > m at a place, and all behind it, stand as bench i - 1 and all behind
-# that did when handle i - 1 stood there, in the same benches (family lemma, repeats.py). passed() says that every
-# handle i has come to where handle i - 1 began; so that was after the start, and clear by the invariant for i - 1, down
-# to m. From there on it stays so, as no handle turns back before the one ahead does. A handle that began beyond
-# `opened` is led by benches that 2 clears, until it is where a predecessor has been.
-# 4. Consecutive steps share a chain to the last bit, so the intervals tile the way of the true head without a gap. What
-# is not the same to the last bit is the travel: the head of the chain at `travel` has truly travelled within `rounding`
-# of it. So h, which the bounds take for its true way, is widened by twice that, and the caller begins and ends the
-# march beyond what it says of it by as much.
+# out, except on a coil at its beginning (rings.py).
+# 3. While at_start all benches are followed; afterwards only the pairs of the first `leaders` benches. The last of
+# these leaders, m = leaders - 1, is the first of the benches that are alike. When handle i > m is at a place, bench i
+# and all behind it stand as bench i - 1 and all behind that stood when handle i - 1 was at this place, and these
+# benches are equal (family lemma, repeats.py). passed() says that every handle i has come to the place where handle i -
+# 1 began. So handle i - 1 was there after the start, and clear by the invariant for i - 1, and so on down to m. This
+# stays true, because no handle turns back before the one ahead of it does. A bench behind `opened` leads no pair that
+# may touch, by 2, until its handle comes to a place where a predecessor has been.
+# 4. Consecutive steps share a chain to the last bit, so the intervals tile the way of the true head without a gap. The
+# travel is not exact to the last bit: the head of the chain at `travel` has truly travelled within `rounding` of it. So
+# h, which the bounds take for the true way, is widened by twice `rounding`, and the caller begins and ends the march
+# that much beyond the span that it claims.
 #
-# How h is chosen only decides how soon a proof succeeds: at most twice the last step, and at most 0.95 of the width at
-# which the same bounds would just have proven the pairs of the last interval (`room`), both after a step taken and,
-# where that is a shorter one, after a step refused; else half.
+# The choice of h only decides how soon a proof succeeds. It is at most twice the last step, and at most 0.95 of the
+# width at which the same bounds would just have proven the pairs of the last interval (`room`). After a refused step
+# it is this width if that lies between half the step and the step, else half the step.
 #
 # Ends.
 # REACHED: travel >= stop, so the invariant is the claim.
-# TOUCHED: the pair of the least bound is within the margin at the far end of a refused step; crossing() finds a
-# `target` up to there (or, where steps are short already, up to PEEK on) where its gap falls to the margin. The next
-# step ends at target - tolerance. If it is proven, for all pairs, and the pair is within the margin for certain around
-# target + tolerance, for all true travels within `rounding` of it (pair_most()), the first contact of all lies between:
-# proven = travel, touching = target + tolerance. If travel is beyond target - tolerance already, the second condition
-# suffices. An earlier crossing, of this pair or another, makes the step fail and is found instead. Without a bracket
-# (tolerance 0) touching is the far end itself, if it is certain.
+# TOUCHED: the pair with the least bound is within the margin at the far end of a refused step. crossing() finds a
+# `target` before that end (or, where steps are short already, at most PEEK beyond it) where the gap of this pair falls
+# to the margin. The next step ends at target - tolerance. If it is proven for all pairs, and the pair is within the
+# margin for certain around target + tolerance, for all true travels within `rounding` of it (pair_most()), the first
+# contact of all lies between: proven = travel, touching = target + tolerance. If travel is beyond target - tolerance
+# already, the second condition suffices. An earlier crossing, of this pair or another, makes the step fail and is found
+# instead. Without a bracket (tolerance 0) touching is the far end itself, if the contact there is certain.
 # TOUCHED_AT_START: the nearest pair is within the margin at the start, for certain. Where rounding hides that: STUCK.
-# STUCK: h is below what could help (LEAST_STEP of the bracket, or rounding), the budget is spent, the scene's halt is
-# stopped, or the chain folds at the start. proven = travel still holds. touching is then a crossing that could not be
-# bracketed this narrowly, a pair that closes slowly: a wider bracket may do.
+# STUCK: h is too short to help (LEAST_STEP of the bracket, or rounding), the budget is spent, the scene's halt is
+# stopped, or the chain folds at the start. proven = travel still holds. touching is then a crossing of a pair that
+# closes too slowly for this bracket: a wider bracket may succeed.
 # CAPACITY: more handles matter than there are rows; nothing is claimed.
-# graze_...: what was seen on the way, refined but not proven to be the least.
+# graze_...: the least dip seen on the way, refined but not proven to be the least of all.
 
 # Width to which the place of a graze is found [m]: 1e-10 s at 1 m/s.
 DIP_WIDTH = 1e-10
-# Shortest useful step, as a part of the bracket [1].
+# Shortest useful step, relative to the bracket [1].
 LEAST_STEP = 0.05
-# Without a bracket to reach, a step this short means that the way is not clear enough to be proven [m].
+# Shortest useful step without a bracket [m]: below it the way is not clear enough to be proven.
 LEAST_WAY = 1e-7
-# The chain is laid out so many drifts further than the pose needs; if that is too little the step is halved [1].
+# Number of drifts by which the chain is laid out further than the pose needs [1]; if they are too few, the step is
+# halved.
 ALLOWANCE = 2.0
-# How far ahead a contact is looked for whose beginning rounding hides [m]: the widest bracket of
-# core/contact/search.py, twice.
+# Distance ahead at which a contact is looked for whose beginning rounding hides [m]: twice the widest bracket of
+# core/contact/search.py.
 PEEK = 1e-4
-# Width of a crossing, as a part of the bracket that is proven around it [1].
+# Width of a crossing, relative to the bracket that is proven around it [1].
 CROSSING_WIDTH = 1e-3
 
 
 class March(Found):
-    """The head of a scene, marched by proven steps until a pair comes within the margin: see the top of this file.
+    """A march of a scene's head, by proven steps, until a pair comes within the margin: see the top of this file.
 
-    interval: the chains of a step; probe: an interval to look at a pair alone; opening: rows for the chain at the start
+    interval: the chains of a step; probe: an interval to look at one pair; opening: rows for the chain at the start
     bend: the largest K that proved a step [1/m]
-    grazed: the clearance had a local minimum on the way; graze_gap: the least one [m]; graze_travel, graze_first,
-        graze_second: where, and its pair
+    grazed: whether the clearance had a local minimum on the way; graze_gap: the least of these [m]; graze_travel,
+        graze_first, graze_second: its travel [m] and its pair
     """
 
     def __init__(self, interval, probe, opening):
@@ -104,13 +106,13 @@ class March(Found):
         self.graze_first = self.graze_second = 0
 
     def run(self, start, stop, leaders, at_start, tolerance, grazes, rounding, budget):
-        """Advance the head from `start` to `stop` [m of travel]; how that ended: REACHED to CAPACITY.
+        """Advance the head from `start` to `stop` [m of travel]; returns how it ended, from REACHED to CAPACITY.
 
-        leaders: benches whose pairs must be followed; at_start: follow all pairs until every bench has passed the start
-            of the one before it
-        tolerance: half width of the bracket around a contact [m], 0 for none: to end at any instant found to be within
-            the margin; grazes: note the least one on the way
-        rounding: what a travel may be off by [m]; budget: of work
+        leaders: number of benches whose pairs must be followed; at_start: follow all pairs until every bench has passed
+            the start of the one before it
+        tolerance: half width of the bracket around a contact [m]; 0: no bracket, end at any instant found to be within
+            the margin; grazes: note the least graze on the way
+        rounding: largest error of a travel [m]; budget: of work
         """
         self.start = start
         self.stop = stop
@@ -140,7 +142,7 @@ class March(Found):
             return REACHED
 
     def repeats_ahead(self, scene):
-        """May something still touch that no body repeats from further back?"""
+        """Whether the head is still before rings.end_place, beyond which nothing touches (rings.py)."""
         return scene.place - self.travel > scene.rings.end_place
 
     def least_step(self):
@@ -148,7 +150,7 @@ class March(Found):
         return LEAST_STEP * self.tolerance if self.tolerance > 0.0 else LEAST_WAY
 
     def open(self, scene):
-        """Lay out the chain at the start: ADVANCED if no pair is within the margin there, else how the march ends."""
+        """Lay out the chain at the start; returns ADVANCED if no pair is within the margin, else how the march ends."""
         self.followers = scene.room if self.at_start else min(self.leaders, scene.room)
         self.opens = self.at_start and scene.curve.kind == ON_SPIRAL
         self.allowance = CLEAR_SPARE * scene.rings.clear_radius
@@ -182,20 +184,20 @@ class March(Found):
         return TOUCHED_AT_START
 
     def surely_within(self, scene, place):
-        """Is the pair `first`, `second` within the margin with the head at a place, whatever that is off by?"""
+        """Whether the pair `first`, `second` is within the margin with the head at a place, whatever its rounding."""
         return (
             pair_most(scene, self.probe, place + self.rounding, 2.0 * self.rounding, self.first, self.second)
             <= scene.margin
         )
 
     def refuse(self, part):
-        """Try this part of the step next, without stopping short of a crossing."""
+        """Make this part of the step the next one, without stopping short of a crossing."""
         self.h *= part
         self.aims = False
         return REFUSED
 
     def try_step(self, scene, interval):
-        """One step: ADVANCED if it is proven, REFUSED if it is to be shorter, else how the march ends."""
+        """Try one step; returns ADVANCED if it is proven, REFUSED if it must be shorter, else how the march ends."""
         outer = scene.curve.growth * interval.before[1, THETA] if scene.curve.kind == ON_SPIRAL else 0.0
         allowance = ALLOWANCE * drift(fabs(interval.before[1, RATE]) + 1.0, self.h, scene.curve.growth, outer)
         place = scene.place - self.travel - self.h
@@ -240,9 +242,9 @@ class March(Found):
         return ADVANCED
 
     def must_follow(self, scene, interval):
-        """Must more benches be followed over this step, as a handle of the spiral may turn back?
+        """Whether more benches must be followed over this step, because a handle of the spiral may turn back.
 
-        The first one behind the leaders may come within the clear radius (`turning`), or one may stand behind its own
+        The first bench behind the leaders may come within the clear radius (`turning`), or one may stand behind its own
         start: then all pairs are followed again.
         """
         k = self.active
@@ -263,7 +265,7 @@ class March(Found):
         return False
 
     def narrow(self, scene, interval, nearest):
-        """A step whose bound does not exceed the margin: look for the contact that it may end in, or shorten it."""
+        """After a step whose bound does not exceed the margin: look for a contact at its end, or shorten it."""
         far = self.travel + self.h
         if row_gap(scene, nearest.first, nearest.second, interval.after) > scene.margin:
             room = 0.95 * nearest.room
@@ -296,7 +298,7 @@ class March(Found):
         return self.refuse(0.5)
 
     def peek(self, scene, a, b):
-        """A travel a little ahead at which a pair is within the margin, as rounding hides a slow contact; else FREE."""
+        """A travel a little ahead at which a pair is within the margin, else FREE: rounding hides a slow contact."""
         width = 2.0 * self.tolerance
         while width <= PEEK:
             if gap_at(scene, scene.place - self.travel - width, a, b, self.probe.before) <= scene.margin:

@@ -1,9 +1,9 @@
-"""How near any two benches come at most over an interval of head travel, or over a band of pitches too."""
+"""Lower bounds on the separation of any two benches over an interval of head travel, or over a band of pitches too."""
 
 import cython
 from cython.cimports.libc.math import sqrt
 
-if not cython.compiled:  # for the compiler the same stands in the .pxd
+if not cython.compiled:  # the .pxd imports the same names for the compiler
     from core.kernels.constants import *
     from core.kernels.pairs import STRIP_ROUNDING, any_rounding, proven_band_gap, proven_gap
     from core.kernels.records import Nearest, Rounding
@@ -11,18 +11,18 @@ if not cython.compiled:  # for the compiler the same stands in the .pxd
     from core.kernels.rounding import spiral_error
     from core.kernels.route import stands_first
 
-# Input:  an interval whose chains are laid out, and how many benches lead pairs (`active`).
+# Input:  an interval whose chains are laid out, and the number of benches that lead pairs (`active`).
 # State:  the least bound so far with its K and its pair; `room`, the widest interval that the pairs so far would allow.
 # Output: the record Nearest.
 #
-# Each pair that is near enough gets a bound of its own from pair_least(), less what its gaps may be off by: roughly for
-# all, where no handle had to be followed, or pair by pair (proven_gap()). Those too far apart at the beginning to come
-# within the margin are passed over, and on a spiral all further ones once one is out of reach of bench i, as handles
-# stand in order.
+# Each pair that is near enough gets a bound of its own from pair_least(), less the rounding of its gaps: one rough
+# bound for all pairs where no handle had to be followed, else a bound for each pair (proven_gap()). Pairs too far apart
+# at the beginning to come within the margin are skipped. On a spiral handles stand in order of their radius, so that
+# once one bench is out of reach of bench i, all further ones are skipped.
 
 
 def interval_least(scene, interval, active):
-    """Proven least separation over an interval of all pairs led by the first `active` benches; -FREE: too wide."""
+    """Proven least separation over an interval of all pairs led by the first `active` benches; -FREE if too wide."""
     before: cython.double[:, ::1] = interval.before
     motion: cython.double[:, ::1] = interval.motion
     sizes: cython.double[:, ::1] = scene.sizes
@@ -45,7 +45,7 @@ def interval_least(scene, interval, active):
         far = reach_of(scene, interval, i, rounding.point)
         first = i + scene.between + 1
         end = interval.handles
-        if scene.against == EDGES:  # after the last handle's row, which holds no bench
+        if scene.against == EDGES:  # they follow the last handle's row, which holds no bench
             first = interval.handles + 1
             end = first + scene.edges
         for j in range(first, end):
@@ -60,7 +60,7 @@ def interval_least(scene, interval, active):
                 continue
             tried += 1
             least, k = proven_gap(scene, interval, i, j, distance + sqrt(square), rounding.gap)
-            if least != least:  # no number is no bound
+            if least != least:  # NaN is no bound
                 return Nearest(-FREE, 0.0, 0, 0, 0.0, 0.0, 0)
             width = 8.0 * (least - scene.margin) / k + interval.h * interval.h
             room = min(room, sqrt(width) if width > 0.0 else 0.0)
@@ -87,13 +87,13 @@ def interval_rounding(scene, interval):
 
 
 def innermost(scene, interval, k, rate):
-    """Lower bound of the radius of handle k of a spiral, no faster than the rate, during an interval [m]."""
+    """Lower bound of the radius of handle k of a spiral during an interval [m]. rate: upper bound of its rate [1]"""
     inner = scene.curve.growth * min(interval.before[k, THETA], interval.after[k, THETA])
     return inner - drift(rate, interval.h, scene.curve.growth, inner)
 
 
 def reach_of(scene, interval, i, error):
-    """Benches led from beyond this radius of a spiral stay clear of bench i during an interval [m]; FREE on a route."""
+    """Radius of a spiral beyond which benches stay clear of bench i during an interval [m]; FREE on a route."""
     if scene.curve.kind == ON_ROUTE:
         return FREE
     growth = scene.curve.growth
@@ -105,7 +105,7 @@ def reach_of(scene, interval, i, error):
 
 
 def stays_beyond(scene, interval, leaders, error):
-    """Do the benches that were not laid out stay beyond the reach of those that lead pairs, during an interval?"""
+    """Whether benches that are not laid out stay out of reach of those that lead pairs, during an interval."""
     if interval.handles == scene.benches:
         return True
     if scene.curve.kind == ON_ROUTE:
@@ -123,9 +123,9 @@ def stays_beyond(scene, interval, leaders, error):
 def coil_stays_beyond(scene, interval, leaders, error):
     """stays_beyond() on a route that begins with a coil.
 
-    A leader's centre is at most h / 2 of travel from where it stands at one of the ends. The last handle goes inwards,
-    so it is nearest to the centre at the far end. error: of points of the chains [m], which has u (|x| + |y|) and more
-    in it (rounding.py), so that 8 times that covers the roundings of radii too
+    At any instant a leader's centre is at most h / 2 of travel from its place at one of the ends. The last handle goes
+    inwards, so it is nearest to the centre at the far end. error: of points of the chains [m]; it includes u (|x| +
+    |y|) and more (rounding.py), so that 8 times it covers the rounding of radii too
     """
     reach = 0.0
     for i in range(leaders):
@@ -175,7 +175,7 @@ def band_least(scene, band, leaders):
     growth_high = band.high.scene.curve.growth
     rounding = band_rounding(scene, band)
     error = rounding.point
-    if error > CLEAR_SPARE * growth * band.low.after[leaders, THETA]:  # what a strip lays the chains out further by
+    if error > CLEAR_SPARE * growth * band.low.after[leaders, THETA]:  # the spare length of the chains of a strip
         return Nearest(-FREE, 0.0, 0, 0, 0.0, 0.0, 0)
     for i in range(leaders):
         if scene.halt.stopped:

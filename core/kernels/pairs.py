@@ -3,7 +3,7 @@
 import cython
 from cython.cimports.libc.math import fabs, sqrt
 
-if not cython.compiled:  # for the compiler the same stands in the .pxd
+if not cython.compiled:  # the .pxd imports the same names for the compiler
     from core.kernels.bends import band_bends, band_between, bend_along, centres_apart, least_between
     from core.kernels.clearance import last_handle, meet
     from core.kernels.constants import *
@@ -14,7 +14,7 @@ if not cython.compiled:  # for the compiler the same stands in the .pxd
 #     G = E_i + E_j + u (|M_i| + |M_j| + D) + (W_i + W_j + 40 u) (D + rho_i + rho_j),  D = |M_j - M_i|,
 # as each corner of j is within rho_j of M_j, and within D + rho_j of M_i. The last term has room for the operations of
 # gap_along(), pair_gap() and least_between(), fewer than 32 on lengths up to D + rho_i + rho_j in all, and for a corner
-# axis whose length is 1 +- 8 u. An interval proves nothing unless what it leaves exceeds the margin by G.
+# axis whose length is 1 +- 8 u. A bound over an interval counts as proven only if it exceeds the margin by G.
 
 
 def gap_along(i, j, along, left, sizes, chain):
@@ -32,7 +32,7 @@ def gap_along(i, j, along, left, sizes, chain):
 
 
 def best_axis(i, j, sizes, chain):
-    """The face normal of bench i with the largest gap to bench j, in i's frame: gap [m], along, left."""
+    """The face normal of bench i with the largest gap to bench j, in i's frame; returns gap [m], along, left."""
     dx = chain[j, MX] - chain[i, MX]
     dy = chain[j, MY] - chain[i, MY]
     along = 1.0 if dx * chain[i, UX] + dy * chain[i, UY] > 0.0 else -1.0
@@ -44,13 +44,13 @@ def best_axis(i, j, sizes, chain):
     return lengthwise, along, 0.0
 
 
-# Within the margin for certain. Over an interval too short to matter, so that both benches hardly move:
-#   any points of the two approach or part by no more than their speeds together, so no separation, nor depth, exceeds
-#   the mean of those at both ends by more than half of that times h;
+# Within the margin for certain. The interval is so short that both benches hardly move. Two bounds serve:
+#   any two points of the benches approach or part no faster than the sum of their speeds, so no separation or depth
+#   exceeds the mean of its values at both ends by more than half of this sum times h;
 #   the coordinates p, q of a corner X of j in the frame of i are gaps along axes fixed in i, so |p| stays below the
-#   larger of its ends plus K h^2 / 8. Where both stay within i's half length and width X lies in i all along; else X is
-#   no further from i than the two excesses make it.
-# The first serves benches that overlap deep or without a corner, the second ones that touch, slowly too.
+#   larger of its values at both ends plus K h^2 / 8. If both stay within i's half length and half width, X lies in i
+#   throughout; otherwise the two excesses bound its distance from i.
+# The first bound serves benches that overlap deeply or without a corner, the second those that just touch, even slowly.
 
 
 def corner_most(i, j, bend, h, sizes, before, after):
@@ -77,16 +77,16 @@ def corner_in(i, j, length, width, chain):
 
 
 def pair_most(scene, interval, place, h, a, b):
-    """Benches a and b stay within any margin >= 0 of at least this while the head travels h from a place [m].
+    """Upper bound of the separation of benches a and b while the head travels h from a place [m]; 0 or less: touching.
 
-    interval: scratch; b: a bench or an edge at rest; FREE where no bound is known
+    interval: scratch; b: a bench or an edge at rest; returns FREE where no bound is known
     """
     if not interval.lay_out(place, h, last_handle(scene, a, b)):
         return FREE
     distance = centres_apart(interval, a, b)
     meet(scene, a, b, interval.before)
     most = interval.motion[a, CORNER_SPEED] + interval.motion[b, CORNER_SPEED]
-    if scene.kinds.some:  # the largest gap along an axis, which also turns with its bench
+    if scene.kinds.some:  # the largest gap along an axis that turns with its bench
         most += (interval.motion[a, TURN] + interval.motion[b, TURN]) * distance
     most = scene.met.separation + most * h
     meet(scene, a, b, interval.after)
@@ -102,7 +102,7 @@ def pair_most(scene, interval, place, h, a, b):
 
 
 def pair_rounding(i, j, distance, sizes, before, after):
-    """G above: computed gaps of two benches at either end are off by no more than this [m]; distance: of centres."""
+    """G above: largest error of computed gaps of two benches at either end [m]. distance: of their centres [m]"""
     around = fabs(before[i, MX]) + fabs(before[i, MY]) + fabs(before[j, MX]) + fabs(before[j, MY]) + distance
     turned = max(before[i, SWAY], after[i, SWAY]) + max(before[j, SWAY], after[j, SWAY])
     return (
@@ -114,7 +114,7 @@ def pair_rounding(i, j, distance, sizes, before, after):
 
 
 def any_rounding(error, handles, h, margin, rings):
-    """pair_rounding() of any pair that is not far apart, or more, from spiral_error() [m]; 0 if that does not serve."""
+    """Upper bound of pair_rounding() for all pairs not far apart, from spiral_error() [m]; 0: no bound is known."""
     if handles * error > SMALL * rings.all_shortest:
         return 0.0
     return 4.0 * error + (4.0 * error / rings.all_shortest + 60.0 * ULP) * (
@@ -132,10 +132,10 @@ def axis_least(scene, interval, i, j, after_decides, bend):
 
 
 def pair_least(scene, interval, i, j, enough, distance):
-    """A proven lower bound of the separation of benches i and j over the interval, but for rounding [m].
+    """Lower bound of the separation of benches i and j over the interval, without rounding [m].
 
-    Tries axes until one exceeds what is enough, the margin and more. distance: no further are their centres apart [m]
-    returns: the bound, and the bound K of the last axis [1/m]
+    Tries axes until the bound of one exceeds `enough`, which is more than the margin.
+    distance: upper bound of the distance of their centres [m]; returns: the bound, and K of the last axis [1/m]
     """
     back = bend_along(scene, interval, j, i, distance)
     best = axis_least(scene, interval, j, i, True, back)
@@ -160,7 +160,7 @@ def pair_least(scene, interval, i, j, enough, distance):
 
 
 def corner_axis(scene, i, j, chain):
-    """Where two corners are nearest each other, the direction between them, in the frame of bench i."""
+    """Normal of benches i and j in the frame of bench i: the direction between two corners if these are nearest."""
     meet(scene, i, j, chain)
     return (
         scene.met.nx * chain[i, UX] + scene.met.ny * chain[i, UY],
@@ -169,7 +169,7 @@ def corner_axis(scene, i, j, chain):
 
 
 def proven_gap(scene, interval, i, j, distance, rounding):
-    """pair_least(), less what it may be off by. rounding: of any gap, 0 where only the sums of this pair serve [m]"""
+    """pair_least() less its rounding [m]. rounding: a bound for any gap, or 0 if this pair needs its own [m]"""
     allowance = rounding
     if rounding <= 0.0:
         allowance = pair_rounding(i, j, distance, scene.sizes, interval.before, interval.after)
@@ -182,8 +182,8 @@ def proven_gap(scene, interval, i, j, distance, rounding):
     return least - allowance, bend
 
 
-# What a strip of pitches needs of its pairs, see strips.py: shift_bounds() adds up terms >= 0, at most 60 roundings a
-# bench, which this part of the strip's width makes up for [1].
+# Pairs over a strip of pitches, see strips.py. shift_bounds() adds up terms >= 0 with at most 60 roundings for each
+# bench; widening the strip by this part of its width makes up for them [1].
 STRIP_ROUNDING = 1e-9
 
 
@@ -197,7 +197,7 @@ def band_along(scene, band, i, j, along, left, bends):
 
 
 def band_pair(scene, band, i, j, enough, distance):
-    """A proven lower bound of the separation of benches i and j over a band, but for rounding [m].
+    """Lower bound of the separation of benches i and j over a band, without rounding [m].
 
     enough, distance: as for pair_least(); returns: the bound, and the bend along the path of the last axis tried [1/m]
     """

@@ -1,9 +1,9 @@
-"""How fast handles are at most over an interval of head travel, in metres per metre that the head travels."""
+"""Upper bounds on the rates of handles over an interval of head travel, in metres per metre of head travel."""
 
 import cython
 from cython.cimports.libc.math import fabs
 
-if not cython.compiled:  # for the compiler the same stands in the .pxd
+if not cython.compiled:  # the .pxd imports the same names for the compiler
     from core.kernels.bounds import LOOSEN, SPIRAL_TURN, followed_error, link_cosines
     from core.kernels.chain import extend, extend_chain, start_chain
     from core.kernels.constants import *
@@ -17,16 +17,16 @@ if not cython.compiled:  # for the compiler the same stands in the .pxd
 # at most (start + end + bound h) / 2, and never above its own bound over the interval.
 #
 # Calm handles. Where curvature does not fall in the direction of travel and the lemma holds, |b'| <= |a'| (Vogt,
-# bounds.py): on an inward spiral, a line, an arc. On a route handles only go forward, so if handle n stands on such a
-# first piece at the end of an interval it did so all along, and no handle behind it is faster than it. On a spiral that
-# holds from a radius outwards; the chain is laid out to twice that radius, so that handle n may drift by half of its
-# own.
+# bounds.py): on an inward spiral, a line, an arc. On a route handles only go forward. So if handle n stands on such a
+# first piece at the end of an interval, it stood there throughout, and no handle behind it is faster. On a spiral this
+# holds from a radius outwards; the chain is laid out to twice this radius, so that handle n may drift by half its own.
 
 
 def lively_chain(curve, place, last, calm, sizes, chain):
-    """The chain with its head at a place up to the first calm handle, or the last; returns that one, FOLDED at a fold.
+    """Fill in a chain up to the first calm handle, or the last; returns that handle's number, FOLDED at a fold.
 
-    calm: on a spiral the radius from which handles are calm [m]; on a route > 0 if its first piece is calm
+    place: of the head; calm: on a spiral the radius from which handles are calm [m]; on a route > 0 if its first piece
+    is calm
     """
     if curve.kind == ON_SPIRAL:
         start_chain(spiral_theta(place / curve.growth), chain)
@@ -36,7 +36,7 @@ def lively_chain(curve, place, last, calm, sizes, chain):
 
 
 def fastest(benches, chain):
-    """The handle with the largest |rate|, the first of equals."""
+    """Number of the handle with the largest |rate|, the first one of equals."""
     best = 0
     for k in range(1, benches + 1):
         if fabs(chain[k, RATE]) > fabs(chain[best, RATE]):
@@ -45,9 +45,9 @@ def fastest(benches, chain):
 
 
 def climbs(curve, last, sizes, chain):
-    """Fills in d rate / d sigma of the handles of a chain [1/m], and on a spiral, which bends clockwise, the curvature.
+    """Fill in d rate / d sigma of the handles of a chain [1/m], and on a spiral, which bends clockwise, curvatures.
 
-    With D = P_a - P_b twice differentiated, |D| constant, N to the left of T and signed curvature:
+    From the second derivative of D = P_a - P_b, with |D| constant, N to the left of T and signed curvature:
     b'' (D . T_b) = |D'|^2 + D . (a'' T_a + k_a a'^2 N_a - k_b b'^2 N_b),  D' = a' T_a - b' T_b.
     """
     second = 0.0
@@ -70,24 +70,24 @@ def climbs(curve, last, sizes, chain):
 
 
 # Within a part rates are smooth: with |r''| <= J a rate stays below its chord plus J h^2 / 8; and where its slope at an
-# end exceeds J h, it rises or falls throughout, so that it is largest at an end. (A slope that is d off in truth
-# changes that, and all that follows, by d h at most.) Where one handle crosses one joint at
-# x = y in [0, h], r stays below p = r_0 + s_0 x + J h^2 / 2 for x <= y and below q = r_h + s_h (x - h) + J h^2 / 2 for
-# x >= y. If s_0 >= J h and s_h <= -J h it rises up to y and falls from there, so that its largest value r(y) <=
-# min(p(y), q(y)), which is largest where p and q cross.
+# end exceeds J h, it rises or falls throughout, so that it is largest at an end. (An error d of a slope changes this
+# bound, and all bounds below, by d h at most.) Where one handle crosses one joint at x = y in [0, h], r stays below
+# p = r_0 + s_0 x + J h^2 / 2 for x <= y and below q = r_h + s_h (x - h) + J h^2 / 2 for x >= y. If s_0 >= J h and
+# s_h <= -J h, r rises up to y and falls from there, so that its largest value is r(y) <= min(p(y), q(y)), which is
+# largest where p and q cross.
 #
-# On a spiral J follows from what motion_bounds() found, by "link, once more" in bounds.py, at handles no further in
-# than `inner`. There |alpha'| <= swing = k_high s' + omega for either handle, so that half an interval from the nearer
-# end the cosine of alpha_b is known from below; sines and the other cosine count as 1. A rate may change its sign, but
-# its amount too is largest at an end if it rises or falls throughout.
+# On a spiral J follows from the results of motion_bounds(), by "link, once more" in bounds.py, for handles no further
+# in than `inner`. There |alpha'| <= swing = k_high s' + omega for either handle, so that half an interval from the
+# nearer end a lower bound of the cosine of alpha_b is known; sines and the other cosine count as 1. A rate may change
+# its sign, but if it rises or falls throughout, its absolute value is largest at an end too.
 #
-# Rounding. What motion_bounds() found holds, so do `inner`, less what the handle may be off by, and the cosine, less
-# `blur`. Curvature, its slope and all that follows are sums and products of terms >= 0, fewer than 60 roundings a link,
-# which LOOSEN twice makes up for.
+# Rounding. The results of motion_bounds() hold as they are; the error of the handle is subtracted from `inner`, and
+# `blur` from the cosine. Curvature, its slope and all that follows are sums and products of terms >= 0, with fewer than
+# 60 roundings for each link, and LOOSEN twice makes up for these.
 
 
 def spiral_jerks(growth, h, handles, sizes, before, after, motion):
-    """Fills in bounds on |s'''| of the handles of a spiral over an interval [1/m^2]; FREE where a link may fold."""
+    """Fill in bounds on |s'''| of the handles of a spiral over an interval [1/m^2]; FREE where a link may fold."""
     jerk = 0.0
     for k in range(handles):
         rate_a = motion[k, RATE_HIGH]
@@ -112,7 +112,7 @@ def spiral_jerks(growth, h, handles, sizes, before, after, motion):
 
 
 def smooth_bound(start, start_slope, end, end_slope, jerk, h, kink):
-    """No rate with these ends, |second derivative| <= jerk and at most this one kink exceeds this between them."""
+    """Upper bound of a rate between two ends, with |second derivative| <= jerk and at most one kink."""
     most = max(start, end)
     if not kink:
         if fabs(start_slope) >= jerk * h or fabs(end_slope) >= jerk * h:
@@ -126,23 +126,25 @@ def smooth_bound(start, start_slope, end, end_slope, jerk, h, kink):
     return most + 0.5 * jerk * h * h
 
 
-# Rounding. Rates and slopes at the ends are good to RATE_ERROR and CLIMB_ERROR: on a route by route_bounds(), on a
-# spiral by spiral_errors(). There no rate exceeds 1 unless a handle is followed. What is computed from them once is
-# good to BOUND_ROUNDING of itself, and h is widened by what both travels may be off by, for the bounds (scene.py).
-# A handle that is calm by less than rounding is calm: on a spiral the lemma holds up to a bend of 1, and calm is what
-# bends by BEND_LIMIT at most, on a route stands_first() leaves BLEND to spare.
+# Rounding. Rates and slopes at the ends are good to RATE_ERROR and CLIMB_ERROR, on a route by route_bounds(), on a
+# spiral by spiral_errors(). On a spiral no rate exceeds 1 unless a handle is followed. Numbers computed from these only
+# once are good to BOUND_ROUNDING of themselves, and for the bounds h is widened by the errors of both travels
+# (scene.py).
+# Rounding cannot make a handle count as calm that is not: on a spiral the lemma holds up to a bend of 1, and only bends
+# up to BEND_LIMIT count as calm; on a route stands_first() leaves BLEND to spare.
 #
 # The rounding d of a slope. By climbs(), divided by the chord, with e the rounding of a rate, curvature good to
-# `widened` (|d k / d s| <= 2 k / growth, bounds.py), directions to `blur`, and q = e_a + e_b + blur (|a'| + |b'|),
-# which D' is good to:
+# `widened` (|d k / d s| <= 2 k / growth, bounds.py), directions good to `blur`, and D' good to
+# q = e_a + e_b + blur (|a'| + |b'|):
 #     d_b cos alpha_b <= d_a + 2 blur (|a''| + |b''|) + 4 (|a'| + |b'|) q / c
-#                        + for both (widened + 2 blur k) s'^2 + 4 k |s'| e.
-# Each product of two that are off counts twice: that covers both being off, and its own roundings, as blur >= 16 u.
+#                        + for both handles (widened + 2 blur k) s'^2 + 4 k |s'| e.
+# Each product of two inexact factors counts twice, which covers the errors of both factors and its own rounding, as
+# blur >= 16 u.
 BOUND_ROUNDING = 1e-14  # [1]
 
 
 def spiral_errors(growth, handles, sizes, before, after, motion):
-    """Fills in RATE_ERROR and CLIMB_ERROR of the handles of a spiral, FREE where nothing is known."""
+    """Fill in RATE_ERROR and CLIMB_ERROR of the handles of a spiral; FREE where no bound is known."""
     error = 0.0
     climb = 0.0
     motion[0, RATE_ERROR] = motion[0, CLIMB_ERROR] = 0.0
@@ -172,7 +174,7 @@ def spiral_errors(growth, handles, sizes, before, after, motion):
 
 
 def rate_bound(scene, interval, calm):
-    """No |rate| exceeds this over an interval whose chains are laid out; FREE where that is too wide."""
+    """Upper bound of every |rate| over an interval whose chains are laid out; FREE if the interval is too wide."""
     handles = interval.handles
     upper = 1.0
     if handles == 0:
@@ -199,7 +201,7 @@ def rate_bound(scene, interval, calm):
 
 
 def handle_bound(scene, interval, k, enough):
-    """The |rate| of handle k does not exceed this over a bounded interval, or else not what is enough."""
+    """Upper bound of the |rate| of handle k over a bounded interval, sharpened only while it exceeds `enough`."""
     h = interval.h
     start = interval.before[k, RATE]
     end = interval.after[k, RATE]
@@ -220,8 +222,10 @@ def handle_bound(scene, interval, k, enough):
 
 
 def certain_rate(curve, interval, rounding):
-    """A |rate| that a handle exceeds or has for certain from the end of a bounded interval back to 2 `rounding` [m]
-    before it, and the handle; at least the head's own 1."""
+    """Lower bound of one handle's |rate| over the last 2 `rounding` [m] of a bounded interval, and that handle.
+
+    The bound is at least 1, the rate of the head itself.
+    """
     best = 1.0
     at = 0
     if curve.kind == ON_ROUTE or interval.motion[interval.handles, RATE_LOW] <= 0.0:
@@ -235,9 +239,10 @@ def certain_rate(curve, interval, rounding):
 
 
 def lay_ahead(scene, interval, calm, placed, place):
-    """Lay out the end of an interval with its head at a place, and its beginning as far: the last handle of it.
+    """Lay out the end of an interval with its head at a place, and its beginning up to the same handle.
 
-    placed: the last handle of its beginning so far. interval.handles is the last one of its end, FOLDED at a fold
+    placed: the last handle of its beginning so far; returns: the last handle of its beginning afterwards
+    interval.handles: set to the last handle of its end, FOLDED at a fold
     """
     interval.handles = lively_chain(scene.curve, place, scene.benches, calm, scene.sizes, interval.after)
     if FOLDED < placed < interval.handles:

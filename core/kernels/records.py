@@ -1,6 +1,6 @@
 """Records: named values that inner loops pass to each other.
 
-Compiled, the same names are structs of C, from records.pxd.
+In compiled code the same names are C structs, from records.pxd.
 """
 
 from typing import NamedTuple
@@ -24,36 +24,36 @@ class Seen(NamedTuple):
     left: float
     c: float  # its unit vector
     s: float
-    hl: float  # half length and half width of the one from which it is seen [m]
+    hl: float  # half length and half width of the rectangle from which it is seen [m]
     hw: float
-    other_hl: float  # and its own
+    other_hl: float  # its own half length and half width [m]
     other_hw: float
 
 
 class Link(NamedTuple):
-    """Bounds on a link over an interval, the leader's rate given: see bounds.py."""
+    """Bounds on a link over an interval, from the rate of its leader: see bounds.py."""
 
-    cos_front: float  # at most the cosine of the angle at its front handle [1]
-    cos_rear: float  # at least that at its rear handle [1]
-    sine: float  # at most the sine of either [1]
-    rate: float  # at most the rear handle's rate [1]
-    rate_low: float  # at least that [1]
-    omega: float  # at most how fast its direction turns [1/m]
-    omega_low: float  # at least that [1/m]
-    swing_front: float  # at most |alpha'| at its front handle [1/m]
-    swing_rear: float  # and at its rear handle [1/m]
+    cos_front: float  # upper bound of the cosine of the angle at its front handle [1]
+    cos_rear: float  # lower bound of the cosine of the angle at its rear handle [1]
+    sine: float  # upper bound of the sine of either angle [1]
+    rate: float  # upper bound of the rear handle's rate [1]
+    rate_low: float  # lower bound of that rate [1]
+    omega: float  # upper bound of the rate at which its direction turns [1/m]
+    omega_low: float  # lower bound of that [1/m]
+    swing_front: float  # upper bound of |alpha'| at its front handle [1/m]
+    swing_rear: float  # upper bound of |alpha'| at its rear handle [1/m]
 
 
 class Stretch(NamedTuple):
     """The stretch of a route that a bench sweeps over an interval."""
 
     chord: float  # of the bench [m]
-    low: float  # the range of its curvature, in the sense in which it bends [1/m]
+    low: float  # range of its curvature, positive in the sense in which it bends [1/m]
     high: float
     slope: float  # bound on |d curvature / d s| [1/m^2]
-    widened: float  # what the curvature may be off by, and the range has in it [1/m]
+    widened: float  # error of the curvature, which the range includes [1/m]
     sine: float  # of the largest angle between path and bench, by the chord lemma [1]
-    blur: float  # what the cosines of these angles may be off by at either end [1]
+    blur: float  # error of the cosines of these angles at either end [1]
 
 
 class Cosines(NamedTuple):
@@ -84,31 +84,31 @@ class Laid(NamedTuple):
     """Extent of a chain that was laid out."""
 
     last: int  # its last handle, FOLDED at a fold
-    leading: int  # how many benches can be the inner one of a touching pair
+    leading: int  # number of benches that can be the inner one of a touching pair
 
 
 class Nearest(NamedTuple):
     """Proven bounds for all pairs over an interval."""
 
     least: float  # a lower bound of their separations [m], FREE without pairs, -FREE where nothing is known
-    bend: float  # K of the least pair [1/m]
+    bend: float  # K of the pair with that bound [1/m]
     first: int  # that pair
     second: int
-    room: float  # the widest interval that the same pairs would allow [m]
-    error: float  # what points may be off by [m]
-    tried: int  # how many pairs were near enough to be tried
+    room: float  # the widest interval for which the same pairs would have been proven [m]
+    error: float  # largest error of points [m]
+    tried: int  # number of pairs that were near enough to be tried
 
 
 class Rounding(NamedTuple):
     """Largest errors of points and gaps over an interval."""
 
     point: float  # [m]
-    gap: float  # of any pair that is not far apart [m]; 0 where only the sums of each pair serve
+    gap: float  # of any pair that is not far apart [m]; 0 where each pair needs a bound of its own
 
 
 class Bends(NamedTuple):
-    """Bounds on the second derivatives of a gap over a band: along the path at its lowest growth [1/m], at its highest
-    one [1/m], and across the growths [rad^2/m]."""
+    """Bounds on the second derivatives of a gap over a band: along the path at its lowest and at its highest growth
+    [1/m], and across the growths [rad^2/m]."""
 
     low: float
     high: float
@@ -130,8 +130,8 @@ class Axis(NamedTuple):
 
 
 class Hulls(NamedTuple):
-    """Two hulls, half planes of the first of which are looked at: their first rows, less than 0 for an edge at rest,
-    and half lengths for that case [m]."""
+    """Two hulls, of which the first gives the half planes: their first rows, negative for an edge at rest, and half
+    lengths of such edges [m]."""
 
     first: int
     second: int
@@ -146,7 +146,7 @@ class View(NamedTuple):
     left: float
     c: float  # its unit vector
     s: float
-    shift: int  # the corner of its hull that is furthest against half plane k has the number k + shift
+    shift: int  # corner k + shift of its hull is the deepest against half plane k
 
 
 class Views(NamedTuple):

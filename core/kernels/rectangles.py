@@ -3,14 +3,14 @@
 import cython
 from cython.cimports.libc.math import fabs, sqrt
 
-if not cython.compiled:  # for the compiler the same stands in the .pxd
+if not cython.compiled:  # the .pxd imports the same names for the compiler
     from core.kernels.constants import *
     from core.kernels.records import Rectangle, Seen
 
 # A rectangle is its centre, the unit vector u along its length, its half length hl and half width hw; v is u turned
 # left. FRONT_LEFT to REAR_LEFT are its corners, FRONT to LEFT its edges (constants.py).
 #
-# Everything is measured from one of the two centres, so that rectangles far from the origin lose nothing. In
+# Everything is measured from one of the two centres, so that rectangles far from the origin lose no digits. In
 # the frame of a, with d = b - a, the other centre is (d.ua, d.va) and its u is (c, s), c = ua.ub, s = ua x ub;
 # in the frame of b the other centre is (-d.ub, -d.vb) and its u is (c, -s).
 #
@@ -24,10 +24,10 @@ if not cython.compiled:  # for the compiler the same stands in the .pxd
 #       other gap is at most distance * (m.n) < distance, so it is g.
 #   g > 0, else: two corners are nearest. The least of the eight distances from a corner to the other rectangle
 #       is the distance in either case; taking all eight keeps a wrong choice between near-equal gaps harmless.
-# Error: a few ulp of the larger of the distance and the sizes.
+# Error: a few ulp of the largest of the distance and the sizes.
 
-# Edges whose directions differ by less than this sine count as parallel: headings that should be equal differ by
-# an ulp or two (4e-16 each), and a witness so placed is off the edge by 1e-15 of its length [1].
+# Sine of the largest angle between two edges that count as parallel [1]. Headings that should be equal differ by an ulp
+# or two (4e-16 each), and a witness placed on an edge that counts as parallel misses it by 1e-15 of its length.
 PARALLEL_SINE = 2e-15
 
 
@@ -94,7 +94,7 @@ def point_gap_squared(x, y, hl, hw):
 
 
 def corners_gap_squared(seen):
-    """Least squared distance of the four corners of a rectangle to the one from which it is seen [m^2]."""
+    """Least squared distance of the four corners of a rectangle from the rectangle that sees it [m^2]."""
     # half diagonals of the other to its front-left and front-right corners
     px = seen.c * seen.other_hl - seen.s * seen.other_hw
     py = seen.s * seen.other_hl + seen.c * seen.other_hw
@@ -119,9 +119,9 @@ def pair_gap(a, b):
 
 
 def pair_gap_within(a, b, limit):
-    """pair_gap() where it is at most limit >= 0, else some value above limit and not above pair_gap() [m].
+    """pair_gap() where that is at most limit >= 0; elsewhere a value above limit and not above pair_gap() [m].
 
-    Where the two are equal but for rounding, either may come back.
+    Where limit and pair_gap() differ by rounding alone, either case may apply.
     """
     b_seen = seen_from(a, b)
     from_a = face_gap(b_seen)
@@ -155,15 +155,15 @@ def pair_separation(a, b, out):
         out.reverse()
 
 
-# In the two functions below the rectangle `a` is the one from which the other, b, is seen; pair_separation() swaps the
-# roles. Turn the frame so that the chosen face's outward normal is e, f to its left: the other's centre is (p, q) with
+# In the two functions below rectangle `a` sees rectangle b; pair_separation() swaps the roles. Turn the frame so that
+# the chosen face's outward normal is e, and f is to its left: the other's centre is (p, q) with
 # p >= 0, its u is (ue, uf), hence its v is (-uf, ue). Its corner deepest against e lies along f at
 # t = q - sign(ue) uf hl' + sign(uf) ue hw'; with an edge parallel to the face the whole stretch q +- (hw' or
-# hl') is equally deep, and the middle of what it shares with the face is taken.
+# hl') is equally deep, and the witness is the middle of the part that it shares with the face.
 
 
 def edge_witness(a, seen, out):
-    """Fill out for the face of a with the largest gap; False when the rectangles are apart and corners are nearest."""
+    """Fill out for the face of a with the largest gap; False if the rectangles are apart and corners are nearest."""
     gap = fabs(seen.along) - seen.hl - (fabs(seen.c) * seen.other_hl + fabs(seen.s) * seen.other_hw)
     sideways = fabs(seen.left) - seen.hw - (fabs(seen.s) * seen.other_hl + fabs(seen.c) * seen.other_hw)
     side = side_of(seen.along)

@@ -1,9 +1,9 @@
-"""Which benches repeat, at the same places, what benches before them met, and the chain of the others."""
+"""Benches that repeat, at the same places, what benches ahead of them met; and the chain of the other benches."""
 
 import cython
 from cython.cimports.libc.math import fabs
 
-if not cython.compiled:  # for the compiler the same stands in the .pxd
+if not cython.compiled:  # the .pxd imports the same names for the compiler
     from core.kernels.bounds import followed_error
     from core.kernels.chain import chain_rounding, extend_chain, start_chain
     from core.kernels.constants import *
@@ -12,16 +12,17 @@ if not cython.compiled:  # for the compiler the same stands in the .pxd
     from core.kernels.route import extend_route, stands_first, start_route
     from core.kernels.spiral import spiral_curvature, spiral_theta
 
-# Handles have passed a place when they are this much beyond it, of 1 + |theta| or 1 + |s| [1], and beyond what both may
-# be off by. On a spiral where no handle is followed it is more than SLIP alone: u (32 n c + 16 r (theta - theta_0) +
-# 2 r n) at most (spiral_error()), with n c <= r theta, which is an angle below u (48 theta + 2 n), n < 1e6.
+# A handle counts as having passed a place once it is this far beyond it, relative to 1 + |theta| or 1 + |s| [1], and
+# further than the errors of both. On a spiral where no handle is followed this is more than SLIP: that is at most
+# u (32 n c + 16 r (theta - theta_0) + 2 r n) (spiral_error()), with n c <= r theta, an angle below
+# u (48 theta + 2 n), n < 1e6.
 PASSED_BY = 1e-9
 
 
 def chain_between(scene, place, leaders, allowance, turning, chain):
-    """The chain for a head at a place as far as its leading benches can touch, and how many of them can.
+    """Fill in the chain of a head at a place as far as its leading benches reach; returns its extent, and their number.
 
-    allowance: extra radius for what moves during an interval [m], for those that lead too if they are `turning`
+    allowance: extra radius for motion during an interval [m], also added to the leading benches if they are `turning`
     """
     if scene.curve.kind == ON_ROUTE:
         return route_between(scene, place, leaders, allowance, chain)
@@ -38,7 +39,7 @@ def chain_between(scene, place, leaders, allowance, turning, chain):
 
 
 def route_between(scene, place, leaders, allowance, chain):
-    """chain_between() on a route: as far as rings.py says where it begins with a coil inwards, else all benches."""
+    """chain_between() on a route: as far as rings.py says if the route begins with a coil inwards, else all benches."""
     start_route(scene.curve.pieces, -place, chain)
     if scene.rings.clear_place >= FREE:
         return Laid(extend_route(scene.curve.pieces, 0, scene.room, FREE, scene.sizes, chain), leaders)
@@ -64,8 +65,8 @@ def route_between(scene, place, leaders, allowance, chain):
 # of place_i alone, and for i >= m one of place_i and j - i alone, g_(j - i)(place_i). (m, m + j - i) is a pair too, as
 # m + j - i <= j.
 #
-# Places fall in the direction of travel, and are continuous in t. Let all pairs led by every bench that may touch be
-# followed from `start` to T, and only those led by benches 0 to m from then on to t; nothing came within the margin.
+# Places fall in the direction of travel, and are continuous in t. Let the pairs led by every bench that may touch be
+# followed from `start` to T, and only those led by benches 0 to m from T to t, and let nothing come within the margin.
 # Pairs led by 0 to m were followed throughout. For a pair (i, j), i > m, at t, and x = place_i(t), it suffices that
 # g_(j - i) was followed at x: in a pair led by some bench i' in [m, i], which has an outer bench i' + j - i <= j, at an
 # instant with place_i' = x. Bench m was followed over all places between place_m(start) and the least of place_m until
@@ -74,24 +75,24 @@ def route_between(scene, place, leaders, allowance, chain):
 # these stretches overlap, each with the one of the bench before it, and cover all from the least of place_m to
 # place_i(start); and x >= place_m(t), as no handle overtakes. So x is covered if
 #     place_i(t) <= place_i(start),
-# bench i not being further back than where it started. On a route that is always so: handles only go forward
+# that is, if bench i is not further back than where it started. On a route this always holds: handles only go forward
 # (route.py). On a spiral a handle turns back where the link before it stands across the path, near the fold: while one
 # may stand behind its start (slid_back()), all pairs are followed again.
 #
 # Bench i leads no pair that may touch while place_i >= clear, which is clear_place on a route and clear_radius / growth
-# on a spiral. So with `opened` the first bench that started there, benches behind it need neither of the two: x < clear
-# lies before place_opened(start), and the benches m to `opened` cover that by passed() alone. (With m >= opened bench m
-# itself covers all from clear on.) chain_between() leaves out those benches at the far end of every step. Where handles
-# only go forward they have been out there all along it; one that may turn back is kept among the leaders while it is
-# within a drift of clear_radius (`turning`).
+# on a spiral. Let `opened` be the first bench that started there. Benches behind it need neither of the two conditions:
+# x < clear lies before place_opened(start), and benches m to `opened` cover that by passed() alone. (If m >= opened,
+# bench m itself covers everything from clear on.) chain_between() leaves these benches out at the far end of every
+# step. Where handles only go forward, they were beyond `clear` during the whole step; a handle that may turn back is
+# kept among the leaders while it is within a drift of clear_radius (`turning`).
 #
-# With edges at rest in place of the second bench the same holds of g(place_i), the separation of a bench and an edge.
+# With edges at rest in place of the second bench the same holds for g(place_i), the separation of a bench and an edge.
 
 
 def passed(scene, first, last, placed, opening, chain):
-    """Has every handle from `first` to `last` passed where its predecessor began, by more than rounding?
+    """Whether every handle from `first` to `last` has passed where its predecessor began, by more than rounding.
 
-    A handle that is SLIP from its true place along a spiral is off by SLIP / growth in theta at most.
+    The theta of a handle that is SLIP along a spiral from its true place is off by at most SLIP / growth.
     """
     for i in range(first, last + 1):
         if i > placed or chain[i, THETA] + PASSED_BY * (1.0 + fabs(chain[i, THETA])) > opening[i - 1, THETA]:
@@ -106,17 +107,17 @@ def passed(scene, first, last, placed, opening, chain):
     return True
 
 
-# A rate is never below the mean of those at both ends by more than |s''| h / 2, and these are good to followed_error().
-# Where no handle is followed none turns back (RATE_LOW > 0).
+# A rate is at least the mean of its values at both ends less |s''| h / 2, and these values are good to
+# followed_error(). Where no handle is followed, none turns back (RATE_LOW > 0).
 
 
 def turns_back(k, h, error, before, after, motion):
-    """May handle k of a spiral go backwards during an interval? error: of its rates at both ends [1]"""
+    """Whether handle k of a spiral may go backwards during an interval. error: of its rates at both ends [1]"""
     return motion[k, RATE_LOW] <= 0.0 and before[k, RATE] + after[k, RATE] <= motion[k, RATE_RATE] * h + 2.0 * error
 
 
 def may_turn(k, h, sizes, before, after, motion):
-    """turns_back() without the error of the rates, which follows from link to link."""
+    """turns_back(), with the error of the rates computed from link to link."""
     error = 0.0
     if motion[k, RATE_LOW] > 0.0:
         return False
@@ -126,11 +127,11 @@ def may_turn(k, h, sizes, before, after, motion):
 
 
 def slid_back(scene, interval, first, last, opening):
-    """May a handle of a spiral from `first` to before `last` have stood behind its own start during an interval?
+    """Whether a handle of a spiral from `first` to before `last` may have been behind its own start during an interval.
 
-    Behind the last handle placed every other moves in the direction of its leader, where links bend no more than the
-    chord lemma asks (bounds.py): then what holds of that one holds of them. Radii are off by less than SLIP, and by
-    less than PASSED_BY of 1 + theta where no handle is followed.
+    Behind the last handle placed, links bend no more than the chord lemma asks (bounds.py), so every handle there moves
+    in the direction of its leader, and the answer for the last handle placed holds for all of them. Radii are off by
+    less than SLIP, and by less than PASSED_BY of 1 + theta where no handle is followed.
     """
     growth = scene.curve.growth
     placed = interval.handles

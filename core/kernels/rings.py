@@ -3,7 +3,7 @@
 import cython
 from cython.cimports.libc.math import asin, sin, sqrt
 
-if not cython.compiled:  # for the compiler the same stands in the .pxd
+if not cython.compiled:  # the .pxd imports the same names for the compiler
     from core.kernels.constants import *
     from core.kernels.route import first_place
     from core.kernels.spiral import spiral_arc
@@ -17,29 +17,32 @@ if not cython.compiled:  # for the compiler the same stands in the .pxd
 # delta <= theta. Otherwise the triangle inequality serves.
 
 
-# Columns of a corner of a hull that is o further than the hole: o (o + c) / 2 [m^2], and how far aside it is [m].
+# Columns of a corner of a hull that is o beyond the hole: o (o + c) / 2 [m^2], and its distance aside [m].
 RING_FURTHER = 0
 RING_ASIDE = 1
 
 
-# Rounding. The two bounds below are sums, products and roots of terms >= 0, good to 10 u together: RING_ROUNDING makes
-# up for it. What the radii of handles lack is added where they are compared.
+# Rounding. The two bounds below are sums, products and roots of terms >= 0, good to 10 u together; RING_ROUNDING makes
+# up for these. The errors of the radii of handles are added where radii are compared.
 RING_ROUNDING = 1e-12  # [1]
 
 
 class Rings:
     """Lengths of a dragon's benches that the bounds of this module need [m].
 
-    chord, shortest, overhang, half_width: the longest and the shortest chord, the longest overhang, the largest half
-        width of those that can be the outer one of a pair
+    chord, shortest, overhang, half_width: the longest and the shortest chord, the longest overhang and the largest half
+        width of the benches that can be the outer one of a pair
     all_chord, all_shortest, all_overhang, all_half_width, all_radius: the same, and the largest half diagonal, of all
-    between_shortest: shortest chord of those that can lie between two others
-    hulls: are benches unions of hulls? Then also corners: of all, see RING_FURTHER; middle_half_width, within: of those
-        that can be the outer one of a pair the largest half width of a middle, and how far ends reach in front of holes
-    clear_radius: no pair whose inner bench leads at this radius or more can touch
-    clear_place: on a route, no two benches of which the leading one's front handle stands at this place or further back
-        can touch, FREE if there is no such place; end_place: and once a body repeats itself, nothing touches while the
-        head is beyond this one, -FREE if there is none
+        benches
+    between_shortest: shortest chord of the benches that can lie between two others
+    hulls: whether benches are unions of hulls. Then also corners: of all hulls, see RING_FURTHER; middle_half_width,
+        within: of the benches that can be the outer one of a pair, the largest half width of a middle, and the largest
+        reach of an end in front of its hole
+    clear_radius: radius from which outwards no pair can touch whose inner bench has its front handle there
+    clear_place: on a route, place from which backwards no two benches can touch if the leading one has its front handle
+        there; FREE if there is no such place
+    end_place: on a route, place of the head from which forwards nothing touches once only repeated benches follow;
+        -FREE if there is no such place
     """
 
     def __init__(self):
@@ -51,7 +54,7 @@ class Rings:
         self.end_place = -FREE
 
     def lay(self, corners, middle_half_width, within):
-        """Take hulls."""
+        """Set the lengths of hulls."""
         self.corners = corners
         self.middle_half_width = middle_half_width
         self.within = within
@@ -59,7 +62,7 @@ class Rings:
 
 
 def settled(growth, radius, rings):
-    """Do all benches led from this radius outwards have 0 <= x0 <= 1.67 growth <= c?"""
+    """Whether all benches led from this radius outwards have 0 <= x0 <= 1.67 growth <= c."""
     return (
         rings.shortest >= 1.67 * growth
         and radius * radius >= 1.5708 * rings.chord * growth
@@ -68,7 +71,7 @@ def settled(growth, radius, rings):
 
 
 def radius_beyond(growth, radius, rings):
-    """A radius such that every bench led from there or further out lies wholly outside `radius` [m]."""
+    """A radius such that every bench whose front handle is there or further out lies wholly outside `radius` [m]."""
     target = radius + rings.half_width
     beyond = sqrt(target * target + 0.25 * rings.chord * rings.chord)
     if settled(growth, beyond, rings):
@@ -78,7 +81,7 @@ def radius_beyond(growth, radius, rings):
 
 
 def leaders_reach(growth, lead, rear, rings):
-    """No point of benches led from radius `lead` or more, rear handles at `rear` or less, is further out [m]."""
+    """Largest radius of benches with front handles at radius `lead` or more and rear handles at `rear` or less [m]."""
     chord = rings.all_chord
     overhang = rings.all_overhang
     if lead >= 0.5 * chord and lead * lead >= 1.5708 * chord * growth:
@@ -94,25 +97,27 @@ def leaders_reach(growth, lead, rear, rings):
 # |dE / dy| <= sqrt(1 + (growth / rho)^2).
 # Hence -I <= E <= O with the bows O and I below, both falling as 1 / r. Points X, Y of two benches whose polar angles
 # differ by 2 pi m + x, m >= 1, |x| <= pi, are apart radially by at least G + growth x, G = pitch - O - I, and sideways
-# by at least 2 rho |x| / pi: together by L = G / sqrt(1 + (pi growth / 2 rho)^2), if G > 0 (proof below). With m = 0 at
-# least one bench lies between them: its angle less the two overhangs' angles remains, each at most
-# (o + x_b w / 2 d) / (d - w / 2), and a chord spans at least c / sqrt(growth^2 + r_b^2); at an angle x they are at
-# least 2 rho sin(x / 2) apart. No angle is larger than that of the whole dragon, overhangs included, where a chord
-# spans at most 2 asin(c / 2 r): while that is less than 2 pi, 2 rho sin(x / 2) at that angle takes the place of the
-# bound with m >= 1. Every term grows with r, so the bound holds from r outwards.
+# by at least 2 rho |x| / pi; both together keep them apart by L = G / sqrt(1 + (pi growth / 2 rho)^2), if G > 0 (proof
+# below). With m = 0 at least one bench lies between them. Their angle x is at least that bench's angle less the angles
+# of the two overhangs: each overhang takes at most (o + x_b w / 2 d) / (d - w / 2), a chord spans at least
+# c / sqrt(growth^2 + r_b^2), and at an angle x they are at least 2 rho sin(x / 2) apart. No angle is larger than that
+# of the whole dragon, overhangs included, where a chord spans at most 2 asin(c / 2 r): while that is less than 2 pi,
+# 2 rho sin(x / 2) at that angle replaces the bound with m >= 1. Every term grows with r, so the bound holds from r
+# outwards.
 #
-# Why together. Let Y be the outer point, |Y| - |X| = u >= U = G + growth x, and V = 2 rho |x| / pi. As |X|, |Y| >= rho
-# and sin(|x| / 2) >= |x| / pi,
+# Why both together. Let Y be the outer point, |Y| - |X| = u >= U = G + growth x, and V = 2 rho |x| / pi. As |X|, |Y| >=
+# rho and sin(|x| / 2) >= |x| / pi,
 #     |X - Y|^2 = u^2 + 4 |X| |Y| sin^2(x / 2) >= u^2 + V^2.
-# (U, V) lies on one of the lines U -+ (pi growth / 2 rho) V = G, according to the sign of x, whose distance from the
+# (U, V) lies on one of the lines U -+ (pi growth / 2 rho) V = G, according to the sign of x. Their distance from the
 # origin is L. Where U >= 0, u^2 >= U^2, so |X - Y| >= L. Where U < 0 nothing is known of u. But then x < -G / growth,
-# so V > 2 rho G / (pi growth): that is V at the point of its line with U = 0, whose distance from the origin, again at
-# least L, is this V. So |X - Y| >= V > L.
+# so V > 2 rho G / (pi growth). This is the V of the point of the line with U = 0, whose distance from the origin is at
+# least L and equals this V. So |X - Y| >= V > L.
 
 
-# Hulls. The middle of a bench that is a union of hulls is narrower than its ends, and these have no sharp corners. So O
-# is the largest over their corners, o = `further` beyond the hole and y aside, and I is that of the middle, or of the
-# ends, which reach `within` in front of the hole: e >= -q within (c - within) / 2 there.
+# Hulls. The middle of a bench that is a union of hulls is narrower than its ends, and the ends have no sharp corners.
+# So O is the largest value over the corners of the ends, which are o = `further` beyond the hole and y aside. I is the
+# larger value of the middle and of the ends, which reach `within` in front of the hole: e >= -q within (c - within) / 2
+# there.
 
 
 def outward_bow(q, slope, rings):
@@ -129,18 +134,18 @@ def inward_bow(q, slope, rings):
     return max(0.125 * q * rings.chord * rings.chord + rings.middle_half_width * slope, ends)
 
 
-# d^2 is a difference: where it is less than this part of radius^2 nothing is said, so that rounding stays small [1].
+# Least d^2 at which the bound is used, relative to radius^2 [1]: d^2 is a difference, and its rounding must stay small.
 DISCERNED = 1e-3
 
-# For a range of growths: G is concave in growth (its only curved terms are -growth^2 and -sqrt(1 + growth^2 /
-# rho^2)), so it is at least the lesser of its values at both ends; everything else falls with growth.
+# Over a range of growths G is concave in growth (its only curved terms are -growth^2 and -sqrt(1 + growth^2 / rho^2)),
+# so it is at least the smaller of its values at both ends; all other terms fall with growth.
 
 
 def ring_least(growth_low, growth, radius, rings, total=1e150):
-    """Lower bound of the separation of any two non-neighbours whose inner bench leads at `radius` or further out [m].
+    """Lower bound of the separation of two non-neighbours, the inner one's front handle at `radius` or further out [m].
 
-    It holds for every growth in [growth_low, growth] [m/rad]. total: at least the sum of all chords, where that may
-    help; -FREE where the bound says nothing.
+    It holds for every growth in [growth_low, growth] [m/rad]. total: an upper bound of the sum of all chords, where
+    that may help [m]; returns -FREE where no bound is known
     """
     chord = rings.all_chord
     overhang = rings.all_overhang
@@ -186,14 +191,14 @@ def ring_least(growth_low, growth, radius, rings, total=1e150):
     return gap if gap < same_turn else same_turn
 
 
-# A route that begins with a coil inwards, which goes on outwards behind its beginning. On a route handles only go
-# forward (route.py), so a bench whose front handle stands on that coil has always been there, and so have all behind
-# it: they stand on one spiral (as long as it stays clear of where the coil is led together with the next piece, see
-# stands_first()), and all bounds above hold of them, around the coil's centre. Hence no two benches touch
-# of which the leading one's front handle stands at clear_place or further back, from where ring_least() exceeds the
-# margin; and no bench that stands on the coil with its front handle at radius_beyond(X) or further out touches one
-# within X of the centre. So only benches before clear_place lead pairs, and the chain need not be laid out further than
-# beyond the reach of these.
+# Routes that begin with a coil inwards, which continues outwards behind its beginning. On a route handles only go
+# forward (route.py), so a bench whose front handle stands on this coil has always been on it, and so have all benches
+# behind it: they stand on one spiral (as long as they keep away from the joint, where the path leaves the coil to meet
+# the next piece, see stands_first()), and all bounds above hold for them, around the coil's centre. Hence two benches
+# do not touch if the front handle of the leading one stands at clear_place or further back, where ring_least() exceeds
+# the margin; and a bench on the coil with its front handle at radius_beyond(X) or further out touches no bench within X
+# of the centre. So only benches before clear_place lead pairs, and the chain is laid out only beyond the reach of
+# these.
 
 
 def coil_radius(pieces, x, y):
@@ -204,13 +209,13 @@ def coil_radius(pieces, x, y):
 
 
 def coil_place(pieces, radius):
-    """Where handles on the first coil, before it is led to the next piece, are at least so far from its centre [m]."""
+    """Place from which backwards all handles are on the first coil itself and at least `radius` from its centre [m]."""
     growth = pieces[0, COIL_GROWTH]
     return max(first_place(pieces), growth * spiral_arc(radius / growth) - pieces[0, COIL_ARC] - pieces[0, S_START])
 
 
 def coil_reach(pieces, leaders, sizes, chain):
-    """No point of the first so many benches of a chain is further from the centre of the first coil than this [m]."""
+    """Largest distance of any point of the first `leaders` benches of a chain from the centre of the first coil [m]."""
     reach = 0.0
     for i in range(leaders):
         far = coil_radius(pieces, chain[i, MX], chain[i, MY]) + sizes[i, RADIUS]

@@ -1,20 +1,20 @@
-"""Rounding: how far computed handles and benches may be from the true ones."""
+"""Rounding: largest distances of computed handles and benches from the true ones."""
 
 import cython
 from cython.cimports.libc.math import fabs, sqrt
 
-if not cython.compiled:  # for the compiler the same stands in the .pxd
+if not cython.compiled:  # the .pxd imports the same names for the compiler
     from core.kernels.constants import *
     from core.kernels.route import cubic_point, cubic_speed, route_point, theta_at
 
 # On a spiral. u = ULP is the unit of rounding: each operation and square root errs by a factor within 1 +- u, each sin
 # and cos of the C library by 2 u of itself (one unit in the last place, as glibc and its peers promise). The doubles
-# growth, chords and the head's theta are exact. The frame turns with the head, so the truth is: handle k stands at
-# theta[k], angle theta[k] - theta[0]. Computed are Theta[k] = THETA + REST and a vector e[k] = (COS, SIN).
+# growth, chords and the head's theta are exact. The frame turns with the head, so the true handle k stands at theta[k],
+# at the angle theta[k] - theta[0]. Computed are Theta[k] = THETA + REST and a vector e[k] = (COS, SIN).
 #
 # 1. Displacement. Let the computed handle, put on the spiral at Theta[k], be at most SLIP[k] along the path away from
 # the true one. f is computed to 9 u f (its first term to 2 u; the second has theta + delta, two products, s twice with
-# s to 2 u, a sum), chord^2 to 3 u, and REST (at most u theta) is not in it: f_theta u theta <= 2 u chord^2, as
+# s to 2 u, a sum), chord^2 to 3 u, and f leaves out REST (at most u theta): f_theta u theta <= 2 u chord^2, as
 # theta f_theta <= 2 f. In all f misses chord^2 by 14 u chord^2, and delta by 14 u chord^2 / f_delta. As the chord grows
 # by T_b . u = cos alpha_b for each metre that b falls back, f_delta = 2 (chord / growth) length cos alpha_b with length
 # = sqrt(1 + theta_b^2): b is displaced by growth length 14 u chord^2 / (growth^2 f_delta) = 7 u chord / cos alpha_b.
@@ -27,31 +27,32 @@ if not cython.compiled:  # for the compiler the same stands in the .pxd
 #     local = 7 u chord / cos alpha_b + growth length u (2.5 delta + 0.05).
 # 2. From link to link a displacement is multiplied by the rate ratio cos alpha_a / cos alpha_b: at most 1 out on the
 # spiral, more towards the fold. The larger of it and 1 is taken, so that SLIP never falls from handle to handle.
-# 3. Second order. Both cosines are those of the computed handles, and change by no more than nu on the way to the true
-# ones: u turns by 1 / chord per metre of either handle; T_b by at most 2.2 / chord (curvature <= 1.0887 / r_b and chord
+# 3. Second order. Both cosines are those of the computed handles, and differ by at most nu from those of the true ones:
+# u turns by 1 / chord per metre of either handle; T_b by at most 2.2 / chord (curvature <= 1.0887 / r_b and chord
 # <= 2 r_b), T_a by 13 / chord (chord <= growth (2 theta_a + 2 pi), which times the curvature at theta_a is below 13);
-# and both are computed from points that are off by E, see 4, so
+# and both are computed from points with the errors E, see 4, so
 #     nu = (14 SLIP[a] + 3.2 SLIP[b] + E[a] + E[b]) / chord + 8 u.
-# While nu <= cos alpha_b / 6 a factor 1 + 3 nu / cos alpha_b covers that, as (|cos alpha_a| + nu) / (cos alpha_b - nu)
-# <= max(1, |ratio|) (1 + 1.2 * 2 nu / cos alpha_b); SLIP[b] without it is at most 1.5 times less. Beyond: FREE.
+# While nu <= cos alpha_b / 6 a factor 1 + 3 nu / cos alpha_b covers this, as (|cos alpha_a| + nu) / (cos alpha_b - nu)
+# <= max(1, |ratio|) (1 + 1.2 * 2 nu / cos alpha_b); SLIP[b] without this factor is at most 1.5 times smaller. For a
+# larger nu no bound is known: FREE.
 # 4. Turning. e[k] turns by delta with s, c to 3.75 u s, 1.75 u (4 u s, 4 u where the library serves). For m = 2 s the
-# matrix (rise, turn) is then good to 7.7 u m (12.2 u m), the four products and sums add 2.83 u m + u: per link e is off
-# by at most u (1 + 12 delta). A point growth THETA e has two more products and no REST, 3 u:
+# matrix (rise, turn) is then good to 7.7 u m (12.2 u m), the four products and sums add 2.83 u m + u: each link adds an
+# error of at most u (1 + 12 delta) to e. A point growth THETA e has two more products and no REST, 3 u:
 #     E[k] = SLIP[k] + r[k] u (k + 4 + 12 (theta[k] - theta[0])).
 # Row k holds it for both handles of bench k: ERROR = E[k + 1] >= E[k].
-# 5. The direction (P_a - P_b) / chord of a bench is better than 2 E / chord, for most of E is common to both handles:
-# with its leader displaced by x <= SLIP[a] along the path the whole link moves on and turns at omega = (|sin alpha_a| +
-# |ratio sin alpha_b|) / chord =: lean / chord, then its rear handle is off by `local` (2 and 3 included), the frame by
-# that of e[a], and what is left are the rotation of one link and the points' own 3 u each:
+# 5. The direction (P_a - P_b) / chord of a bench is better than 2 E / chord, because most of E is common to both
+# handles. If its leader is displaced by x <= SLIP[a] along the path, the whole link moves on and turns at omega = (|sin
+# alpha_a| + |ratio sin alpha_b|) / chord =: lean / chord. Its rear handle then has the error `local` (2 and 3
+# included), the frame has the error of e[a], and there remain the rotation of one link and the 3 u of each point:
 #     SWAY[k] = u (k + 12 (theta[k] - theta[0])) + 4 u + (lean SLIP[a] + 2 local + (what 3 added) + r_b u (7 + 12
 #     delta)) / chord
 
 
 def slipped(slip, ratio, slope, local, spots, inverse):
-    """Displacement of a rear handle from that of its leader [m], by 2 and 3 above; FREE where no bound is known.
+    """Displacement of a rear handle [m], from that of its leader by 2 and 3 above; FREE where no bound is known.
 
-    ratio: of their rates; slope: 1 / cos alpha_b; local: what the link itself adds; spots: E - SLIP of both together;
-    inverse: of the chord
+    ratio: of their rates; slope: 1 / cos alpha_b; local: error that the link itself adds [m]; spots: sum of E - SLIP of
+    both [m]; inverse: of the chord [1/m]
     """
     slip = slip * max(1.0, fabs(ratio)) + local
     ratio = ((64.0 * slip + 3.0 * spots) * inverse + 24.0 * ULP) * slope
@@ -59,10 +60,10 @@ def slipped(slip, ratio, slope, local, spots, inverse):
 
 
 def swayed(k, chain, ratio, local, spread, inverse):
-    """How far the direction of bench k may be from the true one but for its frame, by 5 above [1].
+    """Largest error of the direction of bench k in its frame, by 5 above [1].
 
-    spread: what lies between its computed points beyond common errors [m]; others as for slipped(), which has filled in
-    SLIP of both
+    spread: errors of its computed points that are not common to both [m]; others as for slipped(), which must have
+    filled in SLIP of both
     """
     ux = chain[k, UX]
     uy = chain[k, UY]
@@ -74,7 +75,7 @@ def swayed(k, chain, ratio, local, spread, inverse):
 
 
 def spiral_rounding(growth, last, sizes, chain):
-    """Fills in SLIP, ERROR and SWAY of a chain up to handle `last`."""
+    """Fill in SLIP, ERROR and SWAY of a chain up to handle `last`."""
     first = cython.cast(cython.Py_ssize_t, chain[0, FILLED])
     for k in range(first, last):
         chord = sizes[k, CHORD]
@@ -92,12 +93,12 @@ def spiral_rounding(growth, last, sizes, chain):
     chain[0, FILLED] = max(first, last)
 
 
-# Where no angle between a tangent and a chord exceeds asin(BEND_LIMIT), out from near the centre, cos alpha_b >= 0.243
-# and the ratios are at most 1 (bounds.py), so after n links with chords up to c, at r = r[n], with growth length <= r +
+# Away from the centre, where no angle between a tangent and a chord exceeds asin(BEND_LIMIT), cos alpha_b >= 0.243 and
+# the ratios are at most 1 (bounds.py). So after n links with chords up to c, at r = r[n], with growth length <= r +
 # growth, the sums above are at most
-#     E = u (32 n c + (r + growth) (16 (theta[n] - theta[0]) + 1.1 n + 5)),  SWAY <= 2 E / shortest + 8 u,
-# without a look at the chain: enough for all but the few pairs that come near the margin. 7 / 0.243 = 28.8, 2.5 + 12 =
-# 14.5 and 1.05 leave a tenth for the factors of 3, which together stay below exp(n 64 E / (0.243 shortest)) < 1.03
+#     E = u (32 n c + (r + growth) (16 (theta[n] - theta[0]) + 1.1 n + 5)),  SWAY <= 2 E / shortest + 8 u.
+# This needs no look at the chain and serves all but the few pairs that come near the margin. 7 / 0.243 = 28.8, 2.5 + 12
+# = 14.5 and 1.05 leave a tenth for the factors of 3, which together stay below exp(n 64 E / (0.243 shortest)) < 1.03
 # while n E <= SMALL shortest.
 
 
@@ -109,28 +110,28 @@ def spiral_error(growth, last, longest, chain):
     )
 
 
-# On a route. The assumptions above, SLIP, E and the second order serve here too. The table is exact, and the
-# path danced is the smooth one that its pieces nearly are: they may miss each other at a joint by up to 1e-9 m and
-# rad, so it runs within LOOSE of them, and within BLEND of a joint only (see Route). Where a handle stands is
-# said by the double of its piece, s - S_START on a line, the angle on an arc, theta on a spiral, t on a cubic: its s is
-# only where the search for it began. E - SLIP is what the computed point lacks to the piece's there:
+# On a route. The assumptions above, SLIP, E and the second order serve here too. The table is exact. The path of the
+# dance is the smooth one that its pieces nearly form: they may miss each other at a joint by up to 1e-9 m and rad, and
+# the path leaves them by at most LOOSE, and only within BLEND of a joint (see Route). The place of a handle is defined
+# by the double of its piece: s - S_START on a line, the angle on an arc, theta on a spiral, t on a cubic. Its s is only
+# where the search for it began. E - SLIP is the distance of the computed point from the point of the piece there:
 #   line     one product and the sum:                                             u (|x| + |y| + |s - S_START|)
 #   arc      cos and sin 2 u each, a product, the sum:                            u (|x| + |y| + 5 radius)
 #   spiral   the same, growth theta, and theta + rotation to u unless that is 0:  u (|x| + |y| + r (6 + |angle|))
 #   cubic    the sum of |c_k| end^k, k >= 1, of both coordinates =: C:            u (|x| + |y| + 12 C)
-# From link to link the distance of the computed points misses the chord by what is seen, however the search for it
-# ended, and by the points' own errors:
+# From link to link the distance of the computed points misses the chord by a difference that is measured, however the
+# search for it ended, and by the points' own errors:
 #     local = (|distance - chord| + (E - SLIP)[a] + (E - SLIP)[b] + 8 u chord) / cos alpha_b.
-# A place that is rounded beyond a joint stands on the piece before it, produced by as little: its point is off by the
-# square of that.
-# The head's double is not quite that of its s: slide_error() below, an error of the travel, not of the shape.
+# A place that rounding puts beyond a joint stands on the piece before it, extended by as much: the error of its point
+# is the square of that.
+# The head's double is not exactly that of its s: slide_error() below, an error of the travel, not of the shape.
 #   line     s - S_START:                                                         u |s - S_START|
 #   arc      that, the division, the angle:                                       u (3 |s - S_START| + radius |angle|)
 #   spiral   that, the division by growth, the inverse of the arc length A:       10 u A
 #   cubic    |r'| end and the length are at most 3 C; the quadrature, a sum of 8, is good to 57 u C, and the Newton
 #            steps that invert it end within 30 u C:                              100 u C
-# What the quadrature lacks to the true arc length of a cubic, 1e-13 of it (core/paths/cubics.py), is left out: s on a
-# cubic is what the quadrature says.
+# The error of the quadrature itself, 1e-13 of the arc length (core/paths/cubics.py), is left out: s on a cubic is
+# defined as the result of the quadrature.
 
 
 def cubic_size(pieces, p):
@@ -185,11 +186,11 @@ def piece_end(pieces, p, s):
 
 
 def joint_misses(pieces, out):
-    """By how much every piece misses the one before it at most: across and along the path [m], direction [rad],
-    curvature [1/m]. out: (rows, MISS_COLUMNS), of which the first row is left alone
+    """Fill in upper bounds of the gap between every piece and the one before it: across and along the path [m], in
+    direction [rad], in curvature [1/m]. out: (rows, MISS_COLUMNS), of which the first row stays as it is
 
-    A tangent is good to 10 u, and to u |angle| more on a turned spiral; on a cubic to 15 u C / (|r'| end), where
-    curvature is good to 72 u (C / (|r'| end))^2 / C.
+    A tangent is good to 10 u, and to u |angle| more on a turned spiral; on a cubic to 15 u C / (|r'| end), and there
+    the curvature is good to 72 u (C / (|r'| end))^2 / C.
     """
     for p in range(1, pieces.shape[0]):
         s = pieces[p, S_START]
@@ -217,13 +218,13 @@ def joint_misses(pieces, out):
 
 
 def piece_slides(pieces, out):
-    """The largest slide_error() on every piece [m]. out: (rows,)"""
+    """Fill in the largest slide_error() on every piece [m]. out: (rows,)"""
     for p in range(pieces.shape[0]):
         out[p] = slide_error(pieces, p, pieces[p, S_END])
 
 
 def route_rounding(pieces, last, sizes, chain):
-    """Fills in SLIP, ERROR and SWAY of a chain up to handle `last`."""
+    """Fill in SLIP, ERROR and SWAY of a chain up to handle `last`."""
     first = cython.cast(cython.Py_ssize_t, chain[0, FILLED])
     spot = chain_spot(pieces, first, chain)
     for k in range(first, last):
@@ -234,7 +235,7 @@ def route_rounding(pieces, last, sizes, chain):
         spots += spot
         slope = 1.0 / (chain[k + 1, TX] * chain[k, UX] + chain[k + 1, TY] * chain[k, UY])
         ratio = (chain[k, TX] * chain[k, UX] + chain[k, TY] * chain[k, UY]) * slope
-        # u is the difference of the points over the chord; | |u| - 1 | <= 0.6 | |u|^2 - 1 | unless all is lost anyway
+        # u is the difference of the points over the chord; | |u| - 1 | <= 0.6 | |u|^2 - 1 | unless the link is far off
         local = chain[k, UX] * chain[k, UX] + chain[k, UY] * chain[k, UY]
         local = (chord * (0.6 * fabs(local - 1.0) + 8.0 * ULP) + spots) * slope
         chain[k + 1, SLIP] = slipped(chain[k, SLIP], ratio, slope, local, spots, inverse)

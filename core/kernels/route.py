@@ -1,9 +1,9 @@
-"""Routes: points on a table of pieces, and the chain of one instant. The table is described in constants.py."""
+"""Routes: points on a table of pieces, whose columns constants.py describes, and the chain of one instant."""
 
 import cython
 from cython.cimports.libc.math import asin, cos, fabs, sin, sqrt
 
-if not cython.compiled:  # for the compiler the same stands in the .pxd
+if not cython.compiled:  # the .pxd imports the same names for the compiler
     from core.kernels.constants import *
     from core.kernels.spiral import next_arc, spiral_arc, spiral_curvature, spiral_theta
 
@@ -30,13 +30,13 @@ def cubic_arc(pieces, p, t):
 
 
 def cubic_arcs(pieces, out):
-    """Arc length of every row's cubic from 0 to its end [m]. out: (rows,)"""
+    """Fill in the arc length of every row's cubic from 0 to its end [m]. out: (rows,)"""
     for p in range(pieces.shape[0]):
         out[p] = cubic_arc(pieces, p, pieces[p, T_END])
 
 
 def piece_of(pieces, s, near):
-    """The piece that holds s, a joint the piece behind it: by steps that double from a near one, then halve."""
+    """Number of the piece that holds s, at a joint the one behind it: by steps that double from `near`, then halve."""
     low = near
     high = near
     step = 1
@@ -126,7 +126,7 @@ def spiral_point(pieces, p, theta):
 
 
 def route_points(pieces, s, out):
-    """The point at every s. out: (S, POINT_COLUMNS) PX, PY, TX, TY, POINT_CURVATURE"""
+    """Fill in the point at every s. out: (S, POINT_COLUMNS) PX, PY, TX, TY, POINT_CURVATURE"""
     p = 0
     with cython.nogil:
         for i in range(s.shape[0]):
@@ -135,23 +135,23 @@ def route_points(pieces, s, out):
 
 
 def set_piece_theta(pieces, p, k, chain):
-    """theta of handle k if it stands on a spiral."""
+    """Fill in theta of handle k if it stands on a spiral."""
     if pieces[p, PIECE_KIND] == SPIRAL:
         chain[k, PIECE_THETA] = theta_at(pieces, p, -chain[k, PLACE])
 
 
 def stands_first(pieces, k, chain):
-    """Does handle k stand on the first piece, where that is not led together with the next one?"""
+    """Whether handle k stands on the first piece itself, not where the path leaves it to meet the next piece."""
     return chain[k, PIECE] <= 0.0 and chain[k, PLACE] >= first_place(pieces)
 
 
 def first_place(pieces):
-    """The place from which backwards handles stand on the first piece, where that is not led together with the next."""
+    """Place from which backwards handles stand on the first piece itself, as stands_first() says."""
     return BLEND - pieces[0, S_END]
 
 
 def start_route(pieces, s, chain):
-    """Row 0 of a chain on a route: the head at s."""
+    """Fill in row 0 of a chain on a route: the head at s."""
     p = piece_of(pieces, s, 0)
     put_handle(0, route_point(pieces, p, s), chain)
     chain[0, PLACE] = -s
@@ -161,19 +161,20 @@ def start_route(pieces, s, chain):
     set_piece_theta(pieces, p, 0, chain)
 
 
-# Next handle. Let |curvature| <= k with k chord < 2 (routes are refused otherwise). As long as k l <= pi the distance
-# to the point l behind grows with l: its rate is the cosine of an angle <= k l / 2 (chord lemma, bounds.py). It reaches
-# the chord before l = pi chord / 2 <= pi / k, so in [chord, pi chord / 2] there is one root, it is the first along the
-# path, and whatever comes near further back along the path is never taken for it.
+# Next handle. Let |curvature| <= k with k chord < 2 (other routes are refused). As long as k l <= pi the distance to
+# the
+# point l behind grows with l: its rate is the cosine of an angle <= k l / 2 (chord lemma, bounds.py). It reaches the
+# chord before l = pi chord / 2 <= pi / k. So there is one root in [chord, pi chord / 2], and it is the first along the
+# path: no point further back that comes near is taken for it.
 
 
 def extend_route(pieces, first, last, until, sizes, chain):
-    """Handles after `first` to the `last`, each the first point behind its leader at the bench's chord.
+    """Place handles after `first` up to the `last`, each at the first point behind its leader at the bench's chord.
 
     returns: last, or a handle before it that stands at the place `until` or further back
     """
-    # the links before this one on its spiral: how many (since its chord came up, that and one more), what they turned
-    # by, the last one first, and the arc where they end
+    # the links before this one on the same spiral: their number (those of the same chord, plus one), the angles that
+    # they turned by, the last one first, and the arc length at their end
     alike = 0
     d1 = d2 = d3 = d4 = d5 = begin = 0.0
     for k in range(first, last):
@@ -232,9 +233,9 @@ def put_handle(k, point, chain):
 
 
 def seek_rear(pieces, k, p, step, chord, chain):
-    """Place handle k + 1 by Newton's method with bisections, from a step along the path behind handle k [m].
+    """Place handle k + 1 by Newton's method with bisections, starting a step along the path behind handle k [m].
 
-    p: the piece of handle k, from which the search for that of handle k + 1 sets out
+    p: the piece of handle k, from which the search for the piece of handle k + 1 starts
     """
     low = chord
     high = 0.5 * PI * chord
@@ -264,7 +265,7 @@ def seek_rear(pieces, k, p, step, chord, chain):
 
 
 def finish_link(k, chord, chain):
-    """Bench k between its placed handles, and the rate of the rear one by the rigid link."""
+    """Fill in bench k between its placed handles, and the rate of the rear one by the rigid link."""
     ux = (chain[k, PX] - chain[k + 1, PX]) / chord
     uy = (chain[k, PY] - chain[k + 1, PY]) / chord
     chain[k, MX] = 0.5 * (chain[k, PX] + chain[k + 1, PX])

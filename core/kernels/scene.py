@@ -1,8 +1,8 @@
-"""A scene, which is a dragon on a path; an interval of head travel in it; and what is found on the way."""
+"""A scene, which is a dragon on a path; an interval of head travel in it; and the results of proven steps."""
 
 import cython
 
-if not cython.compiled:  # for the compiler the same stands in the .pxd
+if not cython.compiled:  # the .pxd imports the same names for the compiler
     from core.kernels.bounds import motion_bounds, route_bounds
     from core.kernels.chain import chain_rounding, place_chain
     from core.kernels.constants import *
@@ -11,22 +11,22 @@ if not cython.compiled:  # for the compiler the same stands in the .pxd
     from core.kernels.rectangles import Witnesses
 
 
-# Widths are widened by this part of them, for the roundings of what a step computes once [1].
+# Part by which the width of an interval is widened, for the rounding of numbers that a step computes only once [1].
 WIDTH_ROUNDING = 1e-12
 
 
 class Scene:
-    """A dragon on a path, and the benches or edges from which its benches are kept apart.
+    """A dragon on a path, and the obstacles of its benches.
 
-    curve: the path; place: the head's at travel 0, see chain.py [m]; rings: extremes of the benches, and bounds
-    sizes: (room + 1 + edges, SIZE_COLUMNS), a row for every bench, one that holds none, then a row for every edge at
-        rest; chains have the same rows
-    benches: of the dragon; room: how many of them have a row
-    against: BENCHES, each other, or EDGES, the edges at rest alone, on a route only
-    halt: what ends the loops before they are done
-    kinds: the hulls of benches that are no rectangles; sizes then hold the rectangles around them
-    margin: the clearance required [m]; left_out, left_out_too: a pair of benches not asked for, or NO_BENCH
-    between: pairs with at least so many benches between them are asked for, 1 at least
+    curve: the path; place: of the head at travel 0, see chain.py [m]; rings: extremes of the benches, and bounds
+    sizes: (room + 1 + edges, SIZE_COLUMNS), a row for every bench, an empty one, then a row for every edge at rest;
+        chains have the same rows
+    benches: number in the dragon; room: number of these that have a row
+    against: the obstacles: BENCHES, each other, or EDGES, the edges at rest alone, on a route only
+    halt: ends the loops before they are done
+    kinds: the hulls of benches that are not rectangles; sizes then hold the rectangles around them
+    margin: the clearance required [m]; left_out, left_out_too: a pair of benches that does not count, or NO_BENCH
+    between: least number of benches between the two of a pair that counts, 1 at least
     """
 
     def __init__(self, curve, place, rings, sizes, benches, edges):
@@ -50,7 +50,7 @@ class Interval:
     """An interval of head travel: the chains at both of its ends, and bounds on the motion between them.
 
     before, after: rows of handles, (room + 1 + edges, CHAIN_COLUMNS); motion: (the same, MOTION_COLUMNS)
-    h: how far the head travels at most [m]; handles: the last handle that both chains have
+    h: upper bound of the head's travel [m]; handles: the last handle that both chains have
     """
 
     def __init__(self, scene, before, after, motion):
@@ -66,7 +66,7 @@ class Interval:
         self.before, self.after = self.after, self.before
 
     def widen(self, h, rounding):
-        """Set how far the head truly travels at most: the way computed, and what both its ends may be off by [m]."""
+        """Set the upper bound of the head's travel: the way computed plus the errors of both ends [m]."""
         self.h = h * (1.0 + WIDTH_ROUNDING) + 2.0 * rounding
 
     def round(self):
@@ -75,7 +75,7 @@ class Interval:
         chain_rounding(self.scene.curve, self.handles, self.scene.sizes, self.after)
 
     def bound(self, climbing):
-        """Bound the motion; False where no bound is known. climbing: see route_bounds(), which alone asks."""
+        """Bound the motion; False where no bound is known. climbing: see route_bounds(), which alone uses it."""
         if self.scene.curve.kind == ON_SPIRAL:
             return motion_bounds(
                 self.scene.curve.growth, self.h, self.handles, self.scene.sizes, self.before, self.after, self.motion
@@ -89,7 +89,7 @@ class Interval:
     def lay_out(self, place, h, last):
         """Lay out the chains up to handle `last` with the head at a place and h further on, and bound the motion.
 
-        False where no bound is known
+        returns: False where no bound is known
         """
         self.h = h
         self.handles = last
@@ -102,11 +102,12 @@ class Interval:
 
 
 class Found:
-    """What is found while the head goes its way by proven steps.
+    """Results of proven steps.
 
-    proven: nothing touches up to here [m]; a march counts the travel of the head, a strip its radius
-    meets: a pair of benches comes within the margin; touching: here [m]; first, second: that pair
-    steps, work: what was done
+    proven: nothing touches up to here [m], a travel of the head in a march, a radius of the head in a strip
+    meets: whether a pair of benches comes within the margin; touching: travel or radius where it does [m]; first,
+        second: that pair
+    steps, work: number of steps, and the work spent
     """
 
     def __init__(self):
@@ -115,23 +116,24 @@ class Found:
         self.first = self.second = self.steps = 0
 
     def begin(self, start):
-        """Forget what was found before; the way begins here [m]."""
+        """Discard earlier results; the way begins here [m]."""
         self.proven = start
         self.meets = False
         self.steps = 0
         self.work = 0.0
 
     def meet(self, touching):
-        """The pair `first`, `second` is within the margin here [m]."""
+        """Record that the pair `first`, `second` is within the margin here [m]."""
         self.meets = True
         self.touching = touching
 
 
 class Band:
-    """A rectangle of head radii and growths: the same interval of radii at its lowest and at its highest growth.
+    """A rectangle of head radii and growths: one interval of radii at the lowest and at the highest growth.
 
-    low, high: that interval; shifts: (room + 1, SHIFT_COLUMNS) bounds on how benches shift with the growth
-    width: of the growths at most [m/rad]; slack: what the travels at its corners may be off by [m]
+    low, high: this interval at either growth; shifts: (room + 1, SHIFT_COLUMNS) bounds on the shift of benches with the
+        growth
+    width: upper bound of the difference of the growths [m/rad]; slack: errors of the travels at its corners [m]
     """
 
     def __init__(self, low, high, shifts):

@@ -3,29 +3,29 @@
 import cython
 from cython.cimports.libc.math import fabs, sqrt
 
-if not cython.compiled:  # for the compiler the same stands in the .pxd
+if not cython.compiled:  # the .pxd imports the same names for the compiler
     from core.kernels.constants import *
     from core.kernels.rates import BOUND_ROUNDING, climbs, fastest, lay_ahead, lively_chain, rate_bound
     from core.kernels.spiral import spiral_curvature
 
-# Samples on a spiral, whose rates change ever faster towards its centre, lie nearer each other there: by this part of
-# what is left of the way [1], down to this part of a step [1].
+# Distance between samples near the centre of a spiral, where rates change ever faster: relative to the way that is left
+# [1], and its least value relative to a step [1].
 APPROACH = 0.25
 LAST_SAMPLE = 1e-6
-# Rates that differ by less are equal [1].
+# Difference below which two rates count as equal [1].
 NOISE = 1e-13
-# Width to which the place of a peak is found [m]: a kink's height is then good to 1e-11.
+# Width to which the travel of a peak is found [m]: the height of a kink is then good to 1e-11.
 PEAK_WIDTH = 1e-11
-# Cost of an interval besides its links, in links [1]: bounds, and a bisection where no Newton step converges.
+# Cost of an interval besides its links, in links [1]: its bounds, and a bisection where no Newton step converges.
 INTERVAL_LINKS = 20
-# Shortest steps, in chords, that are tried only for the sake of the bound on all that follows [1].
+# Shortest step that is tried only for the bound on the whole way that follows, in chords [1].
 LEAVING_STEP = 0.05
-# That bound is tried again when the part by which it exceeds the rates has fallen to this part [1].
+# Factor by which the excess of that bound over the rates must fall before the bound is tried again [1].
 LEAVING_AGAIN = 0.5
 
 
 def peaks_between(placed, handles, before, after):
-    """Does the fastest handle climb at the first of two chains, and not at the second?"""
+    """Whether the rate of the fastest handle rises at the first of two chains, and does not rise at the second."""
     if placed == FOLDED or handles == FOLDED:
         return False
     a = fastest(placed, before)
@@ -33,24 +33,26 @@ def peaks_between(placed, handles, before, after):
     return before[a, CLIMB] * before[a, RATE] > 0.0 >= after[b, CLIMB] * after[b, RATE]
 
 
-# Way out. Let a route end with a spiral outwards, and benches from number m on have the same chord. At travel L let
-# handle m stand at q on that spiral, at R so far ahead that handle m + 1 stands at q or beyond, and let no rate exceed
-# U on [L, R]. Handles 0 to m are on the spiral then, where curvature falls in the direction of travel: no handle is
-# slower than the one before it (Vogt read backwards, bounds.py), so the rate of handle m is at least 1. By the chord
-# lemma a link with front handle a and rear handle b multiplies rates by
+# Way out. Let a route end with a spiral outwards, and let the benches from number m on have the same chord. At travel L
+# let handle m stand at q on this spiral, at travel R let handle m + 1 stand at q or beyond, and let no rate exceed U on
+# [L, R]. Then handles 0 to m are on the spiral, where curvature falls in the direction of travel: no handle is slower
+# than the one before it (Vogt read backwards, bounds.py), so the rate of handle m is at least 1. By the chord lemma a
+# link with front handle a and rear handle b multiplies rates by
 #     cos alpha_a / cos alpha_b <= sqrt(1 - (k_a chord / 2)^2) / sqrt(1 - (k_b chord / 2)^2),   k_a <= k_b,
-# in which the roots of links of one chord cancel. So a handle at q or beyond is no faster than
+# where the roots of consecutive links of the same chord cancel. So no handle at q or beyond is faster than
 #     E = product over the benches 0 to m of 1 / sqrt(1 - (k(q) chord / 2)^2).
-# At any travel beyond R take a handle n that is not yet at q, and the last handle j < n that is: j >= m. Handle j + 1
-# is not at q yet, so handle j stands where handle m stood at an instant of [L, R], with the same benches behind it: the
-# ratio of the rates of n and j is that of the handles m + n - j and m then, at most U / 1. Hence
+# At any travel beyond R take a handle n that is not yet at q, and the last handle j < n that is at q or beyond: j >= m.
+# Handle j + 1 is not at q yet, so handle j stands where handle m stood at an instant of [L, R], with the same benches
+# behind it: the ratio of the rates of n and j is that of the handles m + n - j and m at that instant, at most U / 1.
+# Hence
 #     no rate exceeds E U from L on.
-# Rounding. Places are good to SLIP, which is checked to be less than half of PLACE_SPARE; the curvature is taken so
-# much further back, as theta changes by less than 1 / growth a metre. Beyond BLEND the path is the spiral itself.
+# Rounding. Places are good to SLIP, and the code checks that this is less than half of PLACE_SPARE. The curvature is
+# taken PLACE_SPARE further back, because theta changes by less than 1 / growth per metre. Further than BLEND from its
+# beginning the path is the spiral itself.
 
 
 def way_out(pieces, alike, sizes, chain):
-    """E above, with handle m = `alike` at q; FREE where that is not on a spiral outwards that ends the route."""
+    """E above, with handle m = `alike` at q; FREE if q is not on a spiral outwards that ends the route."""
     p = pieces.shape[0] - 1
     if pieces[p, PIECE_KIND] != SPIRAL or pieces[p, SIGN] < 0.0 or chain[alike, PIECE] < p:
         return FREE
@@ -68,10 +70,10 @@ def way_out(pieces, alike, sizes, chain):
 
 
 # Input:  a run from start to stop.
-# State:  `rate`, the largest |rate| seen, and `travel`, where. While it samples: the samples before and after that.
-#         While it proves: how far `upper` bounds every |rate|; h, the step that is tried; the chains at both of its
-#         ends; `links`, how many were followed since the tolerance grew; E = `ratio` from the place `left` = q on, FREE
-#         while no such place is known; `most` = U since then; `tried`, the E of the last try.
+# State:  `rate`, the largest |rate| seen, and its `travel`. While sampling: the samples before and after that one.
+#         While proving: the travel up to which `upper` bounds every |rate|; h, the step to try; the chains at both of
+#         its ends; `links`, the number followed since the tolerance grew; E = `ratio` from the place `left` = q on,
+#         FREE while no such place is known; `most` = U since then; `tried`, the E of the last try.
 # Output: see Peak.
 
 
@@ -80,10 +82,10 @@ class Peak:
 
     interval: of a scene with room for all benches; spare: rows for one more chain; calm: as in lively_chain()
     alike: the first of the benches that have the same chord up to the last
-    start, stop: the run [m of head travel]; rounding: what a travel may be off by [m], by which the way that is proven
-        begins before `start` and ends after `stop`
-    rate: the largest |rate| [1]; upper: a bound on all, FREE if the proof was given up; travel: where [m]; intervals:
-        how many were looked at
+    start, stop: the run [m of head travel]; rounding: largest error of a travel [m], by which the proven way begins
+        before `start` and ends after `stop`
+    rate: the largest |rate| [1], at `travel` [m]; upper: a bound on all rates, FREE if the proof was given up [1];
+        intervals: number of intervals that were tried
     """
 
     def __init__(self, interval, spare, calm, alike, start, stop, rounding):
@@ -103,7 +105,8 @@ class Peak:
     def sample(self, step):
         """Find the largest |rate|, by samples `step` apart [m], denser towards the centre of a spiral, then refined.
 
-        Where rates hardly grow any more ("way out" above) only the end of the run is sampled; prove() finds what does.
+        Where rates hardly grow any more ("way out" above) only the end of the run is sampled; prove() finds larger
+        rates.
         """
         scene = self.interval.scene
         low = high = last = travel = self.travel = self.start
@@ -143,7 +146,7 @@ class Peak:
         self.ratio = FREE
         h = step
         end = self.stop + self.rounding
-        if scene.curve.kind == ON_SPIRAL and end > scene.place:  # no further than the centre
+        if scene.curve.kind == ON_SPIRAL and end > scene.place:  # the centre ends the way
             end = max(self.stop, scene.place)
         with cython.nogil:
             placed = lively_chain(
@@ -191,7 +194,7 @@ class Peak:
             self.upper = max(self.upper, self.rate)
 
     def leaves(self, scene, upper, tolerance):
-        """Is `upper` a bound on the rates of all the way to come, from those of the last steps? See "way out" above."""
+        """Whether `upper` bounds the rates on all of the way to come, by those of the last steps ("way out" above)."""
         after = self.interval.after
         enough = self.rate + tolerance
         self.most = max(self.most, upper)
@@ -210,7 +213,7 @@ class Peak:
         return True
 
     def gone(self, scene):
-        """Does handle alike + 1 of the sample stand where handle `alike` stood when it was first on its way out?"""
+        """Whether handle alike + 1 of the sample has come to the first place of handle `alike` on its way out."""
         if scene.curve.kind != ON_ROUTE or self.laid <= self.alike:
             return False
         if self.ratio >= FREE:
@@ -221,7 +224,7 @@ class Peak:
         return -self.spare[self.alike + 1, PLACE] >= self.left
 
     def top_rate(self, scene, travel):
-        """The largest |rate| after a travel, 0 if the chain folds; the first handle that has it is self.at."""
+        """The largest |rate| after a travel, 0 if the chain folds; sets self.at to the first handle that has it."""
         last = lively_chain(scene.curve, scene.place - travel, scene.benches, self.calm, scene.sizes, self.spare)
         scene.halt.spend(max(last, 0))
         self.at = fastest(last, self.spare)
@@ -231,7 +234,7 @@ class Peak:
     def refine(self, scene, low, high, noise):
         """Find the peak of the largest rate in [low, high], and keep it if it is larger by more than the noise.
 
-        Bisected on whether the fastest handle still gains, which it stops to do at a kink too.
+        Method: bisection on whether the rate of the fastest handle still rises; it stops rising at a kink too.
         """
         while high - low > PEAK_WIDTH and not scene.halt.stopped:
             middle = 0.5 * (low + high)

@@ -7,15 +7,15 @@ Its derivative sqrt(1 + theta^2) increases, so Newton from theta = sqrt(2 arc) >
 import cython
 from cython.cimports.libc.math import asinh, cos, fabs, sin, sqrt
 
-if not cython.compiled:  # for the compiler the same stands in the .pxd
+if not cython.compiled:  # the .pxd imports the same names for the compiler
     from core.kernels.constants import *
 
 COMPILED = cython.compiled
 
-# Halley's iteration ends with a step of at most this part of delta and of f_delta / |f_delta_delta|: what it leaves is
-# below 0.32 ULP of delta, see rounding.py [1].
+# Largest last step of Halley's iteration, relative to delta and to f_delta / |f_delta_delta| [1]: the error that
+# remains is below 0.32 ULP of delta, see rounding.py.
 HALLEY_STEP = 2e-6
-# Up to this half angle the Taylor sums of half_sine() and half_cosine() leave out less than 5e-17 of themselves [rad].
+# Largest half angle at which the Taylor sums of half_sine() and half_cosine() are good to 5e-17 of themselves [rad].
 SERIES_LIMIT = 0.5
 
 
@@ -38,7 +38,7 @@ def spiral_theta(arc):
 
 
 def spiral_thetas(arcs, thetas):
-    """Polar angle for every arc length from the centre, in units of growth."""
+    """Fill in the polar angle for every arc length from the centre, in units of growth."""
     with cython.nogil:
         for i in range(arcs.shape[0]):
             thetas[i] = spiral_theta(arcs[i])
@@ -51,9 +51,9 @@ def spiral_thetas(arcs, thetas):
 # h > 0 on (0, pi], so a root there is the first. Beyond pi,
 #     h' = 1 + 2 theta sin delta + theta (theta + delta) cos delta,
 #     h'' = 3 theta cos delta - theta (theta + delta) sin delta
-# has one zero on (pi, 2 pi), from - to +: h' falls, then rises to h'(2 pi) > 0, so h has one least value after
-# its last fall, and at most one zero before it: the first crest of f. A root lies before that crest, or there is
-# none (the fold). As theta falls f falls, so the root grows: delta is a decreasing function of theta.
+# has one zero on (pi, 2 pi), from - to +: h' falls, then rises to h'(2 pi) > 0, so h has one minimum after its last
+# fall, and at most one zero before it: the first crest of f. A root lies before this crest, or there is none (the
+# fold). As theta falls f falls, so the root grows: delta is a decreasing function of theta.
 
 
 def half_sine(half):
@@ -80,7 +80,7 @@ def half_slope(theta, delta):
 
 
 def first_crest(theta):
-    """Where f first stops growing with delta, in (pi, 2 pi]; 2 pi if it grows throughout."""
+    """The delta at which f first stops growing, in (pi, 2 pi]; 2 pi if it grows throughout."""
     low = PI
     high = TWO_PI
     for i in range(60):
@@ -130,7 +130,7 @@ def first_root(theta, chord2):
 
 
 def halley_step(theta, chord2, delta, s, c):
-    """What Halley's iteration takes off delta, f_delta and f_delta_delta; s, c: sin and cos of delta / 2."""
+    """Step that Halley's iteration subtracts from delta, f_delta and f_delta_delta; s, c: sin and cos of delta / 2."""
     product = 2.0 * theta * (theta + delta)
     value = delta * delta + 2.0 * product * s * s - chord2
     slope = 2.0 * (delta + 2.0 * theta * s * s + product * s * c)
@@ -141,7 +141,7 @@ def halley_step(theta, chord2, delta, s, c):
 def next_handle(theta, chord2, guess):
     """delta, sin(delta / 2), cos(delta / 2) of the next handle; delta is NO_ROOT when the chain folds.
 
-    Halley's iteration from the guess; whatever leaves (0, pi] goes to the safe root.
+    Method: Halley's iteration from the guess; if it leaves (0, pi], the safe first_root().
     """
     delta = guess
     for i in range(12):
@@ -180,19 +180,19 @@ def theta_ratio(theta, delta, s, c):
 
 
 def first_guess(theta, chord2):
-    """A start for next_handle without history: f = chord^2 with 4 sin^2(delta / 2) = delta^2 (1 - delta^2 / 12)."""
+    """First guess of next_handle() with no history: f = chord^2, 4 sin^2(delta / 2) = delta^2 (1 - delta^2 / 12)."""
     delta = sqrt(chord2 / (1.0 + theta * theta))
     delta = delta if delta < 3.0 else 3.0
     delta = sqrt(chord2 / (1.0 + theta * (theta + delta) * (1.0 - delta * delta / 12.0)))
     return delta if delta < 3.0 else 3.0
 
 
-# Time lanes. A handle needs the handle before it, an instant needs no other: a block of LANES instants advances handle
-# by handle together. The loops over lanes that compute have no branch, and gcc -O3 makes SIMD code of each
-# (-fopt-info-vec). A lane that one Halley step leaves open, or that the series do not cover, is done by next_handle,
-# whose first step is the same to the last bit: no lane's digits depend on its neighbours or on its place in the block.
-# The number of lanes stays a variable, because gcc unrolls a fixed one before it can vectorise it (0.85 ms for
-# 0.6 ms below), and so that one instant costs one.
+# Time lanes. A handle depends on the handle before it, but an instant depends on no other. So a block of LANES instants
+# advances together, handle by handle. The loops over lanes that compute have no branch, and gcc -O3 makes SIMD code of
+# each (-fopt-info-vec). A lane that one Halley step leaves open, or that the series do not cover, is solved by
+# next_handle(), whose first step is the same to the last bit: so the digits of a lane depend neither on its neighbours
+# nor on its place in the block. The number of lanes stays a variable because gcc unrolls a loop of fixed length before
+# it can vectorise it (0.85 ms instead of the 0.6 ms below), and because one instant should cost only one lane.
 # Measured on 301 x 224 with SSE2, 2026-11-21: 1.23 ms (3.2 ms one instant after the other), of which this loop takes
 # 0.58 ms and fresh memory for the tables 0.5 ms. AVX2 would save 0.2 ms; 4 lanes cost 0.07 ms more, 16 gain nothing.
 LANES_PER_BLOCK = 8
@@ -201,11 +201,11 @@ Lanes = cython.typedef(cython.double[8])  # LANES_PER_BLOCK, which the C compile
 
 
 class Block:
-    """LANES instants that advance handle by handle together: what is known of the handle at which each of them stands.
+    """LANES instants that advance together, handle by handle: the state of the handle that each of them has come to.
 
-    standing: how many lanes no fold has stopped; theta: polar angle; x, y: the unit vector at it; rate: d theta / d
-    time; guess: of the next delta; d1, d2, d3: the last three of them; delta, sine, cosine: the next one, and sin and
-    cos of its half
+    standing: number of lanes that no fold has stopped; theta: polar angle; x, y: the unit vector there; rate: d theta /
+    d time; guess: of the next delta; d1, d2, d3: the last three deltas; delta, sine, cosine: the next delta, and sin
+    and cos of its half
     """
 
     def __init__(self, growth):
@@ -224,7 +224,7 @@ class Block:
         self.cosine = [0.0] * 8
 
     def start(self, row, thetas, head_speed):
-        """The heads of the instants from `row` on; returns how many lanes there are."""
+        """Place the heads of the instants from `row` on; returns the number of lanes."""
         lanes = thetas.shape[0] - row
         if lanes > LANES:
             lanes = LANES
@@ -238,7 +238,7 @@ class Block:
         return lanes
 
     def expect(self, chord2, alike):
-        """A first guess of delta in every lane that stands; alike: the last three links are of this chord too."""
+        """Guess delta in every lane that stands; alike: whether the last three links have this chord too."""
         if alike:
             for lane in range(self.standing):
                 self.guess[lane] = 3.0 * (self.d1[lane] - self.d2[lane]) + self.d3[lane]
@@ -247,7 +247,7 @@ class Block:
                 self.guess[lane] = first_guess(self.theta[lane], chord2)
 
     def solve(self, chord2):
-        """next_handle() in every lane that stands; those from the first that folds stand no more."""
+        """Solve for delta in every lane that stands; the first lane that folds, and all after it, stand no more."""
         for lane in range(self.standing):
             half = 0.5 * self.guess[lane]
             s = half_sine(half)
@@ -277,7 +277,7 @@ class Block:
                     break
 
     def advance(self):
-        """To the next handle, by the delta that solve() found."""
+        """Advance to the next handle, by the delta that solve() found."""
         for lane in range(self.standing):
             self.rate[lane] *= theta_ratio(self.theta[lane], self.delta[lane], self.sine[lane], self.cosine[lane])
             turn = 2.0 * self.sine[lane] * self.cosine[lane]
@@ -292,7 +292,7 @@ class Block:
 
 
 def write_handles(block, row, k, position, velocity, speed):
-    """Handle k of every lane that stands into the tables, from `row` on."""
+    """Write handle k of every lane that stands into the tables, from `row` on."""
     px = cython.declare(Lanes)
     py = cython.declare(Lanes)
     vx = cython.declare(Lanes)
@@ -312,15 +312,16 @@ def write_handles(block, row, k, position, velocity, speed):
         speed[row + lane, k] = pace[lane]
 
 
-# State:  `row`, the first instant of the block; `block`, what is known of its lanes at handle k; `alike`, how many
-#         chords up to this one are the same, so that its delta can be told from the ones before it.
+# State:  `row`, the first instant of the block; `block`, the state of its lanes at handle k; `alike`, the number of
+# equal
+#         chords up to this one, whose deltas predict the next one.
 
 
 def spiral_trajectory(growth, thetas, chords, head_speed, position, velocity, speed, halt):
-    """Position, velocity and speed of every handle for every head angle; returns how many rows come before a fold.
+    """Fill in position, velocity and speed of every handle for every head angle; returns how many rows precede a fold.
 
     thetas: (T,) head angles; chords: (n,) [m]; position, velocity: (T, n + 1, 2); speed: (T, n + 1)
-    halt: what ends it before it is done, as if no row folded
+    halt: ends it before it is done, as if no row folded
     """
     row = 0
     block = Block(growth)

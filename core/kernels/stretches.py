@@ -1,30 +1,30 @@
-"""The stretch of a route that a bench sweeps over an interval of head travel: how curved it is."""
+"""Curvature of the stretch of a route that a bench sweeps over an interval of head travel."""
 
 import cython
 from cython.cimports.libc.math import fabs
 
-if not cython.compiled:  # for the compiler the same stands in the .pxd
+if not cython.compiled:  # the .pxd imports the same names for the compiler
     from core.kernels.constants import *
     from core.kernels.records import Stretch
 
-# On a route a handle displaced along the path turns the direction of its bench at most so much: times SLIP / chord [1],
-# see the rounding of bounds.py.
+# Largest angle by which a handle displaced along a route turns its bench, times SLIP / chord [1]: see the rounding of
+# bounds.py.
 ROUTE_TURN = 2.2
 
 
 def steepest_bend(theta):
-    """No |d curvature / d s| of the spiral from theta outwards exceeds this over the square of its growth.
+    """Upper bound of |d curvature / d s| on a spiral from theta outwards, times the square of its growth.
 
-    It is theta (4 + theta^2) / (1 + theta^2)^3, which is at most 1.09022, near 0.476, and falls from there.
+    The function is theta (4 + theta^2) / (1 + theta^2)^3; its maximum is 1.09022, near 0.476, and it falls from there.
     """
     square = 1.0 + theta * theta
     return 1.0903 if theta < 0.5 else theta * (3.0 + square) / (square * square * square)
 
 
 def blur_of(k, turned, before, after):
-    """How far the cosines of a link's angles may be from the true ones at either end of an interval [1].
+    """Largest error of the cosines of a link's angles at either end of an interval [1].
 
-    turned: how far the tangent at either handle turns at most while that is displaced along the path [1/m]
+    turned: largest angle by which the tangent at either handle turns per metre of its displacement along the path [1/m]
     """
     slip = max(before[k + 1, SLIP], after[k + 1, SLIP])
     return 2.0 * max(before[k, SWAY], after[k, SWAY]) + turned * slip + 16.0 * ULP
@@ -53,7 +53,7 @@ def stretch_curvature(pieces, rear, k_rear, front, k_front):
 
 
 def reached_piece(pieces, k, way, chain):
-    """The piece of handle k, or where rounding may hide that it has crossed a joint that way (1 forwards), the next."""
+    """The piece of handle k, or the next one that way (1: forwards) if rounding may hide that it crossed a joint."""
     p = cython.cast(cython.Py_ssize_t, chain[k, PIECE])
     s = -chain[k, PLACE]
     slip = chain[k, SLIP] + 8.0 * ULP * fabs(s)
@@ -65,10 +65,10 @@ def reached_piece(pieces, k, way, chain):
 
 
 def stretch_slope(pieces, k, rear, front, before, after):
-    """Bound on |d curvature / d s| from the rear of bench k, on piece `rear`, to its front over an interval, jumps left
-    out [1/m^2].
+    """Bound on |d curvature / d s| from the rear of bench k, on piece `rear`, to its front over an interval [1/m^2].
 
-    On a spiral it falls with theta, so that the innermost handle's serves (see steepest_bend()).
+    Jumps of the curvature are left out. On a spiral the slope falls with theta, so that the value at the innermost
+    handle serves (see steepest_bend()).
     """
     slope = 0.0
     if rear == front and pieces[rear, PIECE_KIND] == SPIRAL:
@@ -81,14 +81,14 @@ def stretch_slope(pieces, k, rear, front, before, after):
 
 
 def parts_between(pieces, k, before, after):
-    """Number of parts by which handle k has advanced in the second of two chains."""
+    """Number of parts of the route by which handle k advances from the first chain to the second."""
     rear = cython.cast(cython.Py_ssize_t, before[k, PIECE])
     front = cython.cast(cython.Py_ssize_t, after[k, PIECE])
     return pieces[front, PART] - pieces[rear, PART]
 
 
 def link_stretch(pieces, k, benches, sizes, before, after):
-    """The stretch of a route that bench k sweeps: how curved it is, see Stretch in records.py."""
+    """The stretch of a route that bench k sweeps over an interval: see Stretch in records.py."""
     chord = sizes[k, CHORD]
     p = reached_piece(pieces, k + 1, -1.0, before)
     q = reached_piece(pieces, k, 1.0, after)

@@ -1,9 +1,9 @@
-"""March of all pitches between two at once: one strip of pitches, proven clear."""
+"""March of all pitches between two at once: a strip of pitches, proven clear."""
 
 import cython
 from cython.cimports.libc.math import cos, sin, sqrt
 
-if not cython.compiled:  # for the compiler the same stands in the .pxd
+if not cython.compiled:  # the .pxd imports the same names for the compiler
     from core.kernels.chain import extend_chain, start_chain
     from core.kernels.clearance import row_gap
     from core.kernels.constants import *
@@ -13,9 +13,9 @@ if not cython.compiled:  # for the compiler the same stands in the .pxd
     from core.kernels.scene import Band, Found
     from core.kernels.spiral import spiral_arc, spiral_theta
 
-# A strip is given up where handles may turn back in steps shorter than this part of the head's radius [1].
+# Shortest step in which handles may turn back before a strip is given up, relative to the head's radius [1].
 TURNED_WITHIN = 1e-3
-# A step lays out four chains, at 0.6 us a handle in all: so many times the work of a march's [1].
+# Work of a step relative to one of a march [1]: it lays out four chains, at 0.6 us for each handle in all.
 CHAIN_WORK = 5.0
 
 # The separation of two benches is now a function of the head's radius r_0 and of the growth b. Below, ' is d / db at a
@@ -71,24 +71,24 @@ CHAIN_WORK = 5.0
 # these come from both ends of the step in r_0 by bends.py. Four gaps prove a whole rectangle of (r_0, b).
 
 
-# Rounding. Gaps are as good as pairs.py says, and widths widened by what a travel may be off by and by WIDTH_ROUNDING
-# of them, for the bounds above. The radii at which the chains of b_L and of b_R begin and end a step are the same to a
-# rounding of theta, a travel of theta u r each: so the least values on b = b_L and on b = b_R are lowered by what the
-# gaps can change over 4 theta u r beyond both ends, no faster than their mean slope and the bend over the step.
+# Rounding. Gaps are as good as pairs.py says. For the bounds above, widths are widened by the error of a travel and by
+# WIDTH_ROUNDING of themselves. The radii at which the chains of b_L and of b_R begin and end a step are equal to within
+# a rounding of theta, a travel of theta u r each. So the least values on b = b_L and on b = b_R are lowered by the
+# change of the gaps over 4 theta u r beyond both ends, which their mean slope and the bend over the step bound.
 WIDTH_ROUNDING = 1e-9  # [1]
-# shift_bounds() is good to STRIP_ROUNDING (pairs.py) of what it says. It adds up products of terms >= 0, fewer than 60
-# roundings a bench, of angles between handles that are off by 2 SLIP / r, at most 1e-12 of them (rounding.py) where
-# anything is claimed, and of sines and tangents of half of them, which that is at most 1e3 times worse for: delta stays
-# ACROSS below pi. The one difference is `front`, A above, whose sign alone matters: it must exceed STRIP_ROUNDING of
-# its terms. sqrt(1 - c^2) has 4e-5 c^2 to spare under the root, as 2 / 1.5^(3/2) is that much less than
-# SPIRAL_CURVATURE_MOST.
+# shift_bounds() is good to STRIP_ROUNDING (pairs.py) of its results. It adds up products of terms >= 0, with fewer than
+# 60 roundings for each bench. These terms are angles between handles, with errors of 2 SLIP / r, at most 1e-12 of
+# themselves (rounding.py) where anything is claimed, and sines and tangents of half these angles, whose errors are at
+# most 1e3 times larger because delta stays ACROSS below pi. The only difference is `front`, A above, of which only the
+# sign matters: it must exceed STRIP_ROUNDING of its terms. sqrt(1 - c^2) has 4e-5 c^2 to spare under the root, because
+# 2 / 1.5^(3/2) is that much less than SPIRAL_CURVATURE_MOST.
 ACROSS = 1e-3  # [rad]
 
 
 def shift_bounds(low, high, benches, sizes, inner, outer, shifts):
-    """Bounds on how the first benches shift with the growth; inner: the chain at (r_L, b_L), outer: at (r_R, b_R).
+    """Fill in bounds on the shift of the first benches with the growth; inner: chain at (r_L, b_L), outer: (r_R, b_R).
 
-    False where a handle may turn back on the rectangle: there are no bounds then
+    returns: False if a handle may turn back on the rectangle, because there are no bounds then
     """
     grown = 0.0
     slides = 0.0
@@ -153,11 +153,11 @@ def shift_bounds(low, high, benches, sizes, inner, outer, shifts):
     return True
 
 
-# Input.  A band of growths (low, high: their intervals), the head radii from `outer` to `inner`, and how many benches
-#         lead pairs (leaders).
-# State.  `radius` and `place`, where the head is at the lowest growth; h, the travel to try there; `placed`, the last
-#         handle that the chains at the beginning have; `bounded`, whether bounds were known in the last step.
-# Output. How it ended, and what is known then: see Found.
+# Input.  A band of growths (low, high: their intervals), the head radii from `outer` to `inner`, and the number of
+#         benches that lead pairs (leaders).
+# State.  `radius` and `place` of the head at the lowest growth; h, the travel to try there; `placed`, the last handle
+#         that the chains at the beginning have; `bounded`, whether bounds were known in the last step.
+# Output. How it ended, and the results in Found.
 
 
 class Strip(Found):
@@ -176,10 +176,10 @@ class Strip(Found):
     def run(self, outer, inner, leaders, rounding, least_step, budget):
         """Prove that no pair led by the first `leaders` benches touches while the head goes from `outer` to `inner`.
 
-        outer, inner: head radii [m]; rounding: what a travel of the head may be off by [m]; least_step: head travel
-        below which it gives up [m]; budget: of work
-        returns: REACHED; TOUCHED at the lowest growth; STUCK: not provable in one strip; TURNED: nor, perhaps, in any,
-        because a handle turns back or a bench folds; CAPACITY
+        outer, inner: head radii [m]; rounding: largest error of a travel of the head [m]; least_step: head travel below
+        which it gives up [m]; budget: of work
+        returns: REACHED; TOUCHED at the lowest growth; STUCK: not provable in one strip; TURNED: perhaps not provable
+        in any strip, because a handle turns back or a bench folds; CAPACITY
         """
         low = self.band.low.scene.curve.growth
         high = self.band.high.scene.curve.growth
@@ -213,7 +213,7 @@ class Strip(Found):
             return REACHED
 
     def try_step(self, band, inner):
-        """One step inwards; REFUSED: the next one must be shorter."""
+        """Try one step inwards; REFUSED if the next one must be shorter."""
         low = band.low.scene.curve.growth
         high = band.high.scene.curve.growth
         next_radius = low * spiral_theta((self.place - self.h) / low)
@@ -234,7 +234,7 @@ class Strip(Found):
         )  # fmt: skip
         if self.bounded:
             nearest = band_least(band.low.scene, band, self.leaders)
-            self.bounded = nearest.least != -FREE  # else nothing is known of its gaps
+            self.bounded = nearest.least != -FREE  # -FREE: no bound on its gaps is known
         if not self.bounded:
             self.h *= 0.5
             return REFUSED
@@ -257,7 +257,7 @@ class Strip(Found):
         return ADVANCED
 
     def lay_out(self, band, next_radius):
-        """Lay out the four chains of a step, as far as the leaders can touch: ADVANCED, else how the strip ends."""
+        """Lay out the four chains of a step, as far as the leaders reach; returns ADVANCED, else how the strip ends."""
         low = band.low.scene.curve.growth
         high = band.high.scene.curve.growth
         start_chain(next_radius / low, band.low.after)

@@ -1,15 +1,16 @@
-"""Dances in which people wobble: where the benches are, and the first instant at which two of them touch."""
+"""Dances in which people wobble: the places of the benches, and the first instant at which two of them touch."""
 
 import cython
 from cython.cimports.libc.math import fabs, sqrt
 
-if not cython.compiled:  # for the compiler the same stands in the .pxd
+if not cython.compiled:  # the .pxd imports the same names for the compiler
     from core.kernels.clearance import BLOCK, block_boxes, boxes_apart
     from core.kernels.constants import *
     from core.kernels.rectangles import bench_of, pair_gap, pair_gap_within
 
-# Who wants to stand where. n_k is the nominal place of handle k at an instant, T its tangent, N that turned left.
-# Person k wants to stand at w_k = n_k + d_k, d_k = lateral z_k N + forward z'_k T, z and z' normal with variance 1,
+# Where each person wants to stand. n_k is the nominal place of handle k at an instant, T its tangent, N = T turned
+# left. Person k wants to stand at w_k = n_k + d_k, d_k = lateral z_k N + forward z'_k T, z and z' normal with variance
+# 1,
 #   z_k(t) = memory z_k(t - 1) + sqrt(1 - memory^2) x_k,
 #   x_k = along x_{k-1} + sqrt(1 - along^2) times a new number,
 # so that two people k apart have the correlation along^|k|, and one person at two instants the product of the memories
@@ -19,12 +20,12 @@ if not cython.compiled:  # for the compiler the same stands in the .pxd
 # of its pin there: its front hole is f = p_k + a_k. Its rear hole would be at g = w_{k+1} + b_k, with the play at its
 # other pin, but its chord c is rigid: on the circle of radius c about f the point nearest to g is
 #   r = f + c (g - f) / |g - f|.
-# That is the rear hole, and the pin behind is p_{k+1} = r - b_k. So what a person wants across the bench in front comes
-# about; along it the bench leads, and what the handle in front strays along the bench is handed on.
+# That is the rear hole, and the pin behind is p_{k+1} = r - b_k. So a person's wish across the bench in front is
+# fulfilled, but along the bench the chord decides: a stray of the handle in front along the bench is passed on.
 #
-# What need not be looked at. Each bench has a room: while the holes of each of two benches stray less than its room,
-# the two do not touch. A bench that leaves its room is loud, and a pair can touch only if one of the two is loud. A
-# bench that touches another in its nominal place has no room, and is always loud.
+# Pairs that can be skipped. Each bench has a room: while the holes of each of two benches stray less than its room, the
+# two do not touch. A bench that leaves its room is loud, and a pair can touch only if one of the two is loud. A bench
+# that touches another in its nominal place has no room, and is always loud.
 
 # Columns of the play of a bench: of its front hole and of its rear hole from their pins [m].
 FRONT_X = 0
@@ -37,11 +38,11 @@ class Wobbler:
     """A dragon in which people wobble.
 
     sizes: (benches + 1, SIZE_COLUMNS); boxes: (benches + 1, BOX_COLUMNS) scratch
-    lateral, forward: sizes of what people want [m]; along: see above [1]; all 0 until they are set
-    loud: (2 benches + 2,) scratch: of every bench, then of every block of them
-    chain: (benches + 1, UY + 1), the benches as last laid out: rows of a chain without what follows UY, which would
-        crowd the cache
-    first, second: the pair found last; furthest: how far any hole has been from its place since that was set to 0 [m]
+    lateral, forward: standard deviations of where people want to stand [m]; along: see above [1]; all 0 until set
+    loud: (2 benches + 2,) scratch: of every bench, then of every block of benches
+    chain: (benches + 1, UY + 1), the benches as last laid out: rows of a chain up to UY only, to save cache
+    first, second: the pair found last; furthest: largest distance of any hole from its place since this was set to 0
+    [m]
     """
 
     def __init__(self, sizes, halt, chain, boxes, loud):
@@ -56,10 +57,11 @@ class Wobbler:
         self.furthest = 0.0
 
     def dance(self, memory, numbers, play, places, tangents, rooms, state):
-        """How many instants come before the first at which two benches touch; all of them if none do.
+        """Number of instants before the first at which two benches touch; all T if none touch.
 
-        memory: (T,) of each instant for the one before [1]; numbers: (T, benches + 1, 2) new ones; play: (benches, 4)
-        [m]; places, tangents: (T, benches + 1, 2) nominal; rooms: (T, benches) [m]; state: (benches + 1, 2) z and z'
+        memory: (T,) of each instant for the one before [1]; numbers: (T, benches + 1, 2) new normal numbers [1]; play:
+        (benches, 4) [m]; places, tangents: (T, benches + 1, 2) nominal; rooms: (T, benches) [m]; state: (benches + 1,
+        2) z and z'
         """
         with cython.nogil:
             for t in range(memory.shape[0]):
@@ -71,7 +73,7 @@ class Wobbler:
         return memory.shape[0]
 
     def stand(self, t, memory, numbers, places, tangents, state):
-        """Lets every person go on to the next instant: `state`, and in the chain where they want to stand."""
+        """Advance `state` to the next instant, and write into the chain where each person wants to stand."""
         fresh = sqrt(1.0 - memory * memory)
         new = sqrt(1.0 - self.along * self.along)
         x = numbers[t, 0, 0]
@@ -88,7 +90,7 @@ class Wobbler:
             self.chain[k, PY] = places[t, k, 1] + (ahead * tangents[t, k, 1] + side * tangents[t, k, 0])
 
     def hang(self, t, play, places, rooms):
-        """Hangs every bench on the one before, where people want to stand if they can; is any bench loud?"""
+        """Hang every bench on the one before, with people where they want to stand if they can; whether one is loud."""
         chain: cython.double[:, ::1] = self.chain
         some = False
         px = chain[0, PX]
@@ -124,7 +126,7 @@ class Wobbler:
         return some
 
     def touching(self):
-        """Do two benches touch, one of them loud, as the chain is laid out? They are `first` and `second`."""
+        """Whether two benches touch, one of them loud, as the chain is laid out; they are `first` and `second`."""
         blocks = block_boxes(self.benches, self.sizes, self.chain, self.boxes)
         for a in range(blocks):
             self.loud[self.benches + 1 + a] = False
@@ -138,9 +140,9 @@ class Wobbler:
         return False
 
     def blocks_touch(self, a, b):
-        """Does a bench of block a touch one of block b, one of the two loud?
+        """Whether a bench of block a touches one of block b, one of the two loud.
 
-        Most pairs are apart along the face of the first: that is tried here, as calls of other modules cost more.
+        Most pairs are apart along the face of the first: this is tried here, because calls of other modules cost more.
         """
         chain: cython.double[:, ::1] = self.chain
         sizes: cython.double[:, ::1] = self.sizes
@@ -172,9 +174,9 @@ class Wobbler:
         return False
 
     def measure(self, most, gains, places, rooms):
-        """Fill in the room of every bench (T, benches) at every instant, at most so much [m]; negative without any.
+        """Fill in the room of every bench (T, benches) at every instant, `most` at most [m]; negative: it has no room.
 
-        gains: (benches,) how far a point of a bench goes at most where both of its holes go 1 m [1]
+        gains: (benches,) largest way of any point of a bench per metre that both of its holes stray [1]
         places: (T, benches + 1, 2) nominal [m]
         Benches i and j with a gap g cannot touch while holes of i and of j stray less than g / (gains_i + gains_j).
         """
@@ -204,7 +206,7 @@ class Wobbler:
                                 self.part(t, i, j, most, gains, rooms)
 
     def part(self, t, i, j, most, gains, rooms):
-        """Give benches i and j no more room than they have between them."""
+        """Reduce the rooms of benches i and j to the room between them."""
         chain: cython.double[:, ::1] = self.chain
         both = gains[i] + gains[j]
         dx = chain[j, MX] - chain[i, MX]
@@ -216,7 +218,7 @@ class Wobbler:
             rooms[t, j] = min(rooms[t, j], room)
 
 
-# Benches that are so much apart along a face are apart, whatever rounding does [m].
+# Gap along a face above which benches are apart, whatever the rounding [m].
 APART = 1e-9
-# What rooms and strays may be off by, far above the rounding of places up to 1e4 m [m].
+# Error allowed for rooms and strays, far above the rounding of places up to 1e4 m [m].
 ROOM_ROUNDING = 1e-9
