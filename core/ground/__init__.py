@@ -1,1 +1,1 @@
-"""The ground that benches sweep: over which places each of them goes, and polygons that hold all of it."""
+"""The ground that benches sweep: the places that each of them passes, and polygons that hold all of the ground."""

@@ -1,34 +1,38 @@
 """The ground that benches sweep: polygons proven to hold every pose of every bench, and hardly more.
 
-A lone bench of each size sweeps, over the places of its front handle, what all benches of that size do (tracks.py).
+All benches of one size together sweep the ground that a lone bench of that size sweeps over all their places
+(tracks.py).
 
-A cell [s_a, s_b] of those places, h wide. A point of the bench is fixed in it, so where it is, p(s), has |p''| <= K,
-which bounds a corner's (CORNER_PULL of core/kernels/bounds.py), and for s = (1 - t) s_a + t s_b
+Take a cell [s_a, s_b] of places of the front handle, h wide. A point of the bench is fixed in it, so its place p(s) has
+|p''| <= K, the bound for a corner (CORNER_PULL of core/kernels/bounds.py), and for s = (1 - t) s_a + t s_b
     |p(s) - (1 - t) p(s_a) - t p(s_b)| <= K h^2 / 8 =: bow.
-So up to the bow the bench sweeps what the quadrilateral R_t with the corners (1 - t) a_i + t b_i sweeps: R_0, and what
-each of its four edges sweeps, as R_t takes in a point only through an edge. Let an edge go from p to q, e = q - p, and
-let the lines of its first and its last place cross at X = p_a + m_a e_a = p_b + m_b e_b.
-    m_a, m_b < 0 or both > 1:   the ends make a convex quadrilateral, which is what the edge sweeps.
-    |e_b - e_a| / 4 small:      the convex hull of the ends, which is no further than that from what the edge sweeps, as
-                                it holds points like (1 - t) p_a + t q_b beside (1 - t) (p_a, q_a) + t (p_b, q_b).
-    else:                       the triangles (X, p_a, p_b) and (X, q_a, q_b). All that the edge sweeps is within
-        slip = |m_b - m_a| |e_b - e_a| / 4
-    of them. For the point Z at (1 - t) m_a + t m_b of its line is X + t (1 - t) (m_b - m_a) (e_a - e_b); the edge is
-    the broken line p, Z, q, or is part of one half of that; and no point of this moves further than Z does to X.
-        m_a, m_b in [0, 1]: then Z is on the edge, and all of the triangles is within slip of what the edge sweeps.
-        one outside, |m_b - m_a| <= 1/2: X is on the other of the edge's two places. What the triangles have besides is
+So up to the bow the bench sweeps the ground of the quadrilateral R_t with the corners (1 - t) a_i + t b_i. This is R_0
+and the ground that each of its four edges sweeps, because a point enters R_t only through an edge. Let an edge go from
+p to q, e = q - p, and let the lines of its first and its last place cross at X = p_a + m_a e_a = p_b + m_b e_b. The
+edge sweeps
+    m_a, m_b < 0 or both > 1:   the convex quadrilateral of its two ends.
+    |e_b - e_a| / 4 small:      the convex hull of its two ends up to this distance: the hull holds points like
+                                (1 - t) p_a + t q_b besides those of the edge from (1 - t) p_a + t p_b to
+                                (1 - t) q_a + t q_b.
+    else:                       the triangles (X, p_a, p_b) and (X, q_a, q_b), up to
+        slip = |m_b - m_a| |e_b - e_a| / 4.
+    For the point Z at (1 - t) m_a + t m_b of the edge's line is X + t (1 - t) (m_b - m_a) (e_a - e_b). The edge is the
+    broken line p, Z, q, or part of one half of it, and no point of it is further from the triangles than Z is from X.
+        m_a, m_b in [0, 1]: Z is on the edge, and all of the triangles is within slip of the swept ground.
+        one outside, |m_b - m_a| <= 1/2: X is on the other of the edge's two places. The rest of the triangles is
             within |m_b - m_a| |e_b - e_a| = 4 slip of that place, after 2 slip for Z: 6 slip in all.
 Both bow and slip are of the second order in h.
 
 Towards the fold of a spiral K grows without bound. There delta(theta) bounds the motion itself: while the front handle
 goes from theta_a in to theta_b, the rear one stays between theta_b + delta(theta_a) and theta_a + delta(theta_b). Every
-point of the bench moves with its handles, by 1/2 + z / chord and 1/2 - z / chord of each (core/tolerance/reach.py): by
-(1/2 + radius / chord) times both arcs together at most. Where this is small, the bench stays near its first place.
+point of the bench moves with its handles, by 1/2 + z / chord and 1/2 - z / chord of each (core/tolerance/reach.py), so
+by at most (1/2 + radius / chord) times the sum of both arcs. Where this is small, the bench stays near its first place.
 
-The union of it all, grown by the largest bow of any cell and the largest slip of any, or more, holds every pose, as a
-point may have come into R_t in a cell before. Polygons that lie within a little of the union of
-the others are left out of it, and it is grown by that little more. No point of it is further from ground that a bench
-covers than it is grown, and bow + slip; and, at the ends of a stretch, as the bench moves on what they have to spare.
+The union of all these polygons, grown by at least the largest bow and the largest slip of any cell, holds every pose;
+the largest of all cells counts because a point may have entered R_t in an earlier cell. Polygons that lie within a
+small distance of the union of the others are left out, and the union is grown by this distance too. No point of it is
+further from ground that a bench covers than this growth plus bow + slip; at the ends of a stretch the motion of the
+bench over the spare places there is added.
 """
 
 from __future__ import annotations
@@ -66,28 +70,28 @@ from core.shapes.engines import GRID, GROWTH_MOST, Polygons, distance_from, unit
 from core.shown import Shown, counted
 from core.values import Floats, asked_of, checked_number, checked_point, listed
 
-# Least and largest excess that may be asked for [m].
+# Least and largest excess that a question may ask for [m].
 EXCESS_MIN, EXCESS_MAX = 5e-4, 1.0
-# As parts of the excess: what the largest bow and the largest slip may come to together, the bow alone, and how far a
-# polygon that is left out of the union may be outside of it. The union is grown by the first and the last of these,
-# 0.93 of the excess with what it is for; the rest is for the grid of the union and for ends of stretches [1].
+# Parts of the excess [1]: the largest bow plus the largest slip, the largest bow alone, and the largest distance
+# outside the union of a polygon that is left out of it. The union is grown by the first and the last of these; with bow
+# and slip themselves that is 0.93 of the excess, and the rest is for the grid of the union and for ends of stretches.
 BENT, BOW, LEFT_OUT = 0.4, 0.125, 0.12
-# The convex hull of an edge's places serves where it has no more than this part of the excess besides [1].
+# Largest excess of the convex hull of an edge's places over its swept ground, relative to the whole excess [1].
 FLAT = 0.02
-# What the two triangles have besides where one crossing is outside of the edge, in slips; and how far apart the two
-# crossings may then be along the edge [1].
+# Excess of the two triangles over the swept ground where one crossing is outside the edge, in slips; and the largest
+# distance of the two crossings along the edge in that case [1].
 BESIDES, MIXED = 6.0, 0.5
 # Rounding of points and of the union [m]; places in a square are good to 1e-11 m.
 ROUNDING = 1e-8
-# Most cells that share one bound on the motion [1].
+# Largest number of cells that share one bound on the motion [1].
 CELLS = 16
-# Work of one cell, 0.1 to 0.2 ms with its share of the union, and what one question may take, 30 to 60 s [1].
+# Work of one cell, 0.1 to 0.2 ms with its share of the union, and the budget of one question, 30 to 60 s [1].
 CELL_WORK, ENVELOPE_WORK = 300.0, 1e8
 
 
 @dataclass(frozen=True, slots=True, repr=False)
 class SweepProof(Shown):
-    """How the envelope is known: the claim in sentences, and the number of cells."""
+    """Evidence of an envelope: the claim in sentences, and the number of cells."""
 
     method: str
     cells: int
@@ -97,9 +101,9 @@ class SweepProof(Shown):
 class Envelope(Shown):
     """The ground that benches sweep.
 
-    polygons: of each its outer ring, counter-clockwise, then its holes, clockwise; rings are closed, (points, 2) [m]
-    excess: no point of them is further than this from ground that a bench covers [m]; area: of all [m2]
-    start, stop: of the stretch asked about [s]
+    polygons: for each its outer ring, counter-clockwise, then its holes, clockwise; rings are closed, (points, 2) [m]
+    excess: largest distance of any point of them from ground that a bench covers [m]; area: of all polygons [m2]
+    start, stop: of the time asked about [s]
     """
 
     polygons: Polygons
@@ -121,7 +125,7 @@ class Envelope(Shown):
     def distance(self, line: object) -> float:
         """Least distance of a line through points, or of a single point, from the envelope; 0 where they meet [m].
 
-        line: [(x, y), ...] [m]. No bench comes nearer to it, and one comes as near as this and the excess together.
+        line: [(x, y), ...] [m]. No bench comes nearer to it than this, and one comes within this plus the excess.
         raises: InvalidValue (line)
         """
         points = [checked_point(f"line.{k}", point) for k, point in enumerate(listed("line", line, "a list of points"))]
@@ -142,10 +146,10 @@ def envelope(
 ) -> Envelope:
     """The ground that benches sweep, as polygons that are proven to hold every pose of every bench.
 
-    start, stop: [s], by default from 0 (on a route: from when the whole dragon is on it) to the end of the run
-    excess: how far a point of the polygons may be from ground that a bench covers [m]; more of it costs less. A run
-        to its fold may exceed this; see Envelope.excess
-    A contact does not end the dance: give its time as the stop.
+    start, stop: [s]; by default from 0 (on a route: from the time when the whole dragon is on it) to the end of the run
+    excess: largest distance of any point of the polygons from ground that a bench covers [m]; a larger excess costs
+        less time. A run to its fold may exceed it; see Envelope.excess
+    A contact does not end the dance: to end it there, give its time as the stop.
     raises: InvalidValue; OutsideRun; TooMuchWork
 
     >>> from core import Spiral
@@ -171,7 +175,7 @@ def envelope(
 
 
 def _in_world(polygons: Polygons, frame: Frame) -> Polygons:
-    """The polygons where they are, each ring still in the direction that it should have."""
+    """The polygons in the world frame, each ring still in its direction."""
     return tuple(tuple(frame.points(ring)[:: 1 if frame.clockwise else -1] for ring in rings) for rings in polygons)
 
 
@@ -189,10 +193,10 @@ def _method(found: list[Track], cells: int, span: tuple[float, float], most: flo
 
 @dataclass(frozen=True, slots=True)
 class _Part:
-    """What a lone bench sweeps over one stretch, but for `BENT` of the excess.
+    """Ground that a lone bench sweeps over one stretch, up to `BENT` of the excess.
 
-    core: arrays of convex polygons (N, corners, 2) that hold nearly all of it; rest: the others
-    over: how far the bench moves at its ends, on what they have to spare [m]
+    core: arrays of convex polygons (N, corners, 2) that hold nearly all of it; rest: the other polygons
+    over: largest motion of the bench over the spare places at the ends of the stretch [m]
     """
 
     core: list[Floats]
@@ -208,7 +212,7 @@ class _Part:
 
 
 class _Lone:
-    """A lone bench, by the place of its front handle."""
+    """A lone bench on the path, as a function of the place of its front handle."""
 
     def __init__(self, dance: Dance, track: Track, excess: float, budget: Budget) -> None:
         dragon, path, bench = dance.dragon, dance.path, slice(track.bench, track.bench + 1)
@@ -227,7 +231,7 @@ class _Lone:
         self.interval = kernels.Interval(scene, before, after, self.motion)
 
     def sweep(self) -> Iterator[_Part]:
-        """What it sweeps, stretch by stretch."""
+        """The ground that it sweeps, stretch by stretch."""
         for low, high, spare in self.stretches:
             nodes, pulls = self.laid_out(low, high, spare)
             while True:
@@ -243,7 +247,7 @@ class _Lone:
             yield _Part(core, rest, pulls.size, float((ends + bows[[0, -1]]).max()))
 
     def laid_out(self, low: float, high: float, spare: float) -> tuple[Floats, Floats]:
-        """Nodes and pulls of a stretch, its spares cells of their own."""
+        """Nodes and pulls of a stretch; its spare places at both ends are cells of their own."""
         nodes, pulls, s, h = [low], [], low, spare
         while s < high:
             h = min(h, high - spare - s) if s < high - 1.5 * spare else high - s
@@ -254,7 +258,7 @@ class _Lone:
                 count, pull = 1, 0.0
             if count > CELLS:
                 h *= 0.5
-                assert s + h > s, "a bench has a bound on its motion over short ways"
+                assert s + h > s, "the motion of a bench has a bound over short ways"
                 continue
             self.budget.afford(CELL_WORK * count)
             nodes += (s + h / count * np.arange(1, count + 1)).tolist()
@@ -269,7 +273,7 @@ class _Lone:
         return float(self.motion[0, CORNER_PULL]) if known else FREE
 
     def moved(self, s: float, h: float) -> float:
-        """No point is further than this from its place at s until s + h, on a spiral [m]."""
+        """Upper bound of the distance of any point from its place at s, up to s + h, on a spiral [m]."""
         if isinstance(self.path, Route):
             return FREE
         growth, chord2 = self.path.growth, (self.chord / self.path.growth) ** 2
@@ -296,11 +300,11 @@ class _Lone:
 
 
 def _swept(corners: Floats, moves: NDArray[np.bool_], flat: float) -> tuple[list[Floats], list[Floats], Floats]:
-    """What a bench sweeps between rows of corners (N, 4, 2): polygons that hold nearly all of it, others; slips.
+    """Ground of a bench between rows of corners (N, 4, 2): polygons that hold nearly all of it, other polygons, slips.
 
-    moves: (N - 1,) cells in which it does not stay near its first place; flat: largest quarter of an edge's change with
+    moves: (N - 1,) cells in which it does not stay near its first place; flat: largest quarter of an edge's change for
     which the convex hull of its ends serves [m]
-    The front edge and those triangles of the sides that its ends leave behind hold nearly all.
+    The front edge, and the triangles of the sides that the ends of this edge leave behind, hold nearly all of it.
     """
     core, rest, slips = [corners[:1], corners[:-1][~moves]], [corners[-1:]], np.zeros(len(corners) - 1)
     for i in range(4):

@@ -1,19 +1,19 @@
-"""Over which places benches go: the stretches of a path that benches of one size sweep together.
+"""Tracks: the stretches of a path that the front handles of benches of one size pass.
 
-Where a bench stands is known from its chord and from the place s of its front handle, for its rear handle is the first
-point of the path behind that at the chord. So bench k sweeps what a lone bench of its size sweeps while its front
-handle goes over all places that handle k has, and benches of one size sweep together what a lone one sweeps over the
-union of those stretches. In a dance each bench follows where the one before it was: the stretches of a uniform body are
-one, as long as the dragon and its way together. What a sweep costs follows from that length, not from the number of
-benches times the time.
+The place of a bench follows from its chord and the place s of its front handle, because its rear handle is the first
+point of the path behind that at the chord. So bench k sweeps the ground that a lone bench of its size sweeps while its
+front handle passes all places of handle k. Benches of one size together sweep the ground of a lone one over the union
+of these stretches. In a dance each bench follows the one before it, so that the stretches of a uniform body form one,
+as long as the dragon and its way together. The cost of a sweep follows from this length, not from the number of benches
+times the time.
 
-The places of handle k + 1 are those one chord behind the places of handle k, an interval like them. On a route no
-handle turns back, nor on a spiral while half of the chord times the curvature is at most BEND_LIMIT
-(core/kernels/bounds.py): so the ends of one interval give those of the next. Nearer to the centre of a spiral let
-g(theta) = theta + delta(theta) be the rear handle's angle. As delta falls with theta (core/kernels/spiral.py), on
-[a, b]
+The places of handle k + 1 are one chord behind those of handle k, and form an interval too. No handle turns back on a
+route, nor on a spiral while half of the chord times the curvature is at most BEND_LIMIT (core/kernels/bounds.py), so
+the ends of one interval give those of the next. Nearer to the centre of a spiral, let g(theta) = theta + delta(theta)
+be the rear handle's angle. As delta falls with theta (core/kernels/spiral.py), on [a, b]
     a + delta(b) <= g <= b + delta(a),
-both within b - a of values of g. Intervals that may hold the least or the largest value are halved down to TURNS.
+and both bounds are within b - a of values of g. Intervals that may hold the least or the largest value are halved down
+to TURNS.
 """
 
 from __future__ import annotations
@@ -41,17 +41,17 @@ from core.values import Floats
 
 # Width to which places are found where a handle turns back [m].
 TURNS = 1e-8
-# Rounding of places besides that of the chain: absolute [m], and relative to the longest way [1], above
+# Rounding of places, added to that of the chain: absolute [m], and relative to the longest way [1]; the latter exceeds
 # TRAVEL_ROUNDING of core/contact/search.py.
 PLACE_ROUNDING, WAY_ROUNDING = 1e-11, 1e-14
 
 
 @dataclass(frozen=True, slots=True)
 class Track:
-    """The places at which the front handles of all benches of one size are.
+    """The places that the front handles of all benches of one size pass.
 
-    bench: the first of them; stretches: (low, high, spare) [m], in order and apart: every place from low to high, both
-    of which are at most `spare` outside of what the handles reach
+    bench: the first of these benches; stretches: (low, high, spare) [m], in order and apart: every place from low to
+    high; each of these two is at most `spare` outside the places that the handles really pass
     """
 
     bench: int
@@ -59,7 +59,7 @@ class Track:
 
     @property
     def length(self) -> float:
-        """Of all stretches [m]."""
+        """Total length of the stretches [m]."""
         return sum(high - low for low, high, _ in self.stretches)
 
 
@@ -107,14 +107,14 @@ def _stretches(dance: Dance, begin: float, until: float) -> tuple[Floats, Floats
 
 
 def _arcs(theta: Floats) -> Floats:
-    """kernels.spiral_arc() of many."""
+    """kernels.spiral_arc() of many angles."""
     arcs: Floats = 0.5 * (theta * np.sqrt(1.0 + theta * theta) + np.arcsinh(theta))
     return arcs
 
 
 def _chain(path: Spiral | Route, place: float, chords: Floats) -> tuple[Floats, float]:
-    """The front handles of benches (n,), polar angles on a spiral and minus s on a route, as `place` gives the first;
-    and how far they may be from the true ones [m]."""
+    """The front handles of benches (n,) with the first one at `place`: polar angles on a spiral, minus s on a route;
+    and their largest distance from the true ones [m]."""
     last = chords.size
     sizes, chain = np.zeros((last + 1, SIZE_COLUMNS)), np.zeros((last + 1, CHAIN_COLUMNS))
     sizes[:last, CHORD] = chords
@@ -128,9 +128,9 @@ def _chain(path: Spiral | Route, place: float, chords: Floats) -> tuple[Floats, 
 
 
 def _behind(path: Spiral, low: float, high: float, chord: float, gentle: float) -> tuple[float, float]:
-    """Least and largest polar angle of a rear handle, within TURNS, while the front one is between two angles.
+    """Least and largest polar angle of a rear handle, to within TURNS, while the front one is between two angles.
 
-    gentle: from here on it does not turn back; low is further in
+    low: the angle further in; gentle: angle from which outwards the rear handle does not turn back
     """
     chord2 = (chord / path.growth) ** 2
     low = max(low, last_theta(path, chord))
@@ -140,7 +140,7 @@ def _behind(path: Spiral, low: float, high: float, chord: float, gentle: float) 
         return float(kernels.first_root(theta, chord2))
 
     def bound(sign: float) -> float:
-        """No less than the largest value of sign g up to `bent`, and at most the width of an interval more."""
+        """Upper bound of sign g up to `bent`, at most the width of an interval above its largest value."""
         width = TURNS / (path.growth * (bent + 1.0))
         heap = [(0.0, low, bent, delta(low), delta(bent))]
         while True:

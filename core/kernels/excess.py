@@ -14,9 +14,8 @@ if not cython.compiled:  # the .pxd imports the same names for the compiler
 # No |rate| between the ends of a step exceeds rate_bound() (rates.py). So a step with a bound below the limit is
 # passed, and any other step is halved. A step of `width` ends in one of three ways. If the limit is exceeded at its
 # end, the first excess lies in this step or at its end, because no step before had one. If its bound is below `kept`, a
-# limit
-# so little higher that it counts as the same, the step is passed: its peak just reaches the limit. Otherwise the search
-# gives up.
+# limit so little higher that it counts as the same, the step is passed: its peak just reaches the limit. Otherwise the
+# search gives up.
 #
 # Rounding. The way begins before `start` and ends after `stop` by the error of a travel, and `proven` lies by as much
 # before the last step passed. A step ends `rounding` after the travel at which an excess is looked for. So this travel

@@ -161,10 +161,9 @@ def best_beyond(kinds, view, hulls):
 #
 # A pair of hulls is skipped once a half plane shows it to be no nearer than the nearest pair so far: the half plane
 # that faces the other bench, or one across the ends. Otherwise the search goes uphill on both hulls. Where only one of
-# them
-# then has a positive gap, a better half plane of the other must be one of the two around the opposite direction: the
-# sides of both hulls together, in the order of their directions, are those of the difference of the hulls, and the two
-# between which the nearest direction lies are neighbours there.
+# them then has a positive gap, a better half plane of the other must be one of the two around the opposite direction:
+# the sides of both hulls together, in the order of their directions, are those of the difference of the hulls, and the
+# two between which the nearest direction lies are neighbours there.
 
 
 def nearest_hulls(kinds, i, j, edge, limit, sizes, chain):

@@ -162,10 +162,9 @@ def start_route(pieces, s, chain):
 
 
 # Next handle. Let |curvature| <= k with k chord < 2 (other routes are refused). As long as k l <= pi the distance to
-# the
-# point l behind grows with l: its rate is the cosine of an angle <= k l / 2 (chord lemma, bounds.py). It reaches the
-# chord before l = pi chord / 2 <= pi / k. So there is one root in [chord, pi chord / 2], and it is the first along the
-# path: no point further back that comes near is taken for it.
+# the point l behind grows with l: its rate is the cosine of an angle <= k l / 2 (chord lemma, bounds.py). It reaches
+# the chord before l = pi chord / 2 <= pi / k. So there is one root in [chord, pi chord / 2], and it is the first along
+# the path: no point further back that comes near is taken for it.
 
 
 def extend_route(pieces, first, last, until, sizes, chain):

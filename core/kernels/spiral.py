@@ -313,8 +313,7 @@ def write_handles(block, row, k, position, velocity, speed):
 
 
 # State:  `row`, the first instant of the block; `block`, the state of its lanes at handle k; `alike`, the number of
-# equal
-#         chords up to this one, whose deltas predict the next one.
+#         equal chords up to this one, whose deltas predict the next one.
 
 
 def spiral_trajectory(growth, thetas, chords, head_speed, position, velocity, speed, halt):

@@ -36,9 +36,9 @@ that turns with that handle, because neighbouring rings move slowly there. Bench
 four corners of one lie beyond one face of the other. Let g(theta) be the distance of one corner beyond a
 face, w = M - m, and D1 <= g' <= D2 on the stretch, from the exact velocities of rigid links. Then
     g >= g(m) + D1 (theta - m)   and   g >= g(M) - D2 (M - theta).
-  4. If g(m) > 0 and g(M) > 0, then g > 0 throughout when D1 >= 0, or D2 <= 0, or D2 g(m) - D1 g(M) + D1 D2 w > 0:
+  4. If g(m) > 0 and g(M) > 0, then g > 0 throughout if D1 >= 0, or D2 <= 0, or D2 g(m) - D1 g(M) + D1 D2 w > 0:
      both bounds can be 0 or less at one theta only if w >= g(m) / -D1 + g(M) / D2. Near the contact g is
-     monotone, so that the last stretch, down to 1e-10 s before it, is as wide as any.
+     monotone, so that the last stretch, down to 1e-10 s before it, can be as wide as any other.
   5. Every point of a bench is within h = hypot(overhang, width / 2) of the segment between its handles. A point
      that divides this segment as q : 1 - q has r^2 = q r1^2 + (1 - q) r2^2 - q (1 - q) c^2 >= min(r1, r2)^2 - c^2 / 4.
      Handles lie outwards along the chain. So, with the longest chord c and the largest h of the dragon, all the
@@ -91,7 +91,7 @@ of travel phi and the direction psi of the chord, alpha = phi - psi at the front
      and r of the next handle is f' r. Each encloses e and q from either end of the stretch through half of it. So
      4. applies with g' from e, e', q and q', and with a and b exchanged.
  10. Benches are apart if the distance of their centres exceeds the sum of their half diagonals. By the last of 9. this
-     distance is never less than half of: the sum of its values at both ends, less |e v_b - v_a| times the stretch.
+     distance is never less than half the sum of its values at both ends, less half of |e v_b - v_a| times the stretch.
  11. Let the first piece coil inwards; it continues outwards without end. If a handle stands on it and bench a is
      inside the circle, 5. holds for all benches from that handle on: a point of the way of its handle, of length w,
      is no farther from the centre than half the sum of w and its distances at both ends.
@@ -109,28 +109,29 @@ pitch need not prove how the dance gets to M: if a bench folds earlier, the head
      two benches have no pair, but a minimum pitch has sweep 0 for them too, which proves only that they follow.
 
 Strays. Let the two holes of every bench be within d of their places, and its chord c be kept, d < c.
- 14. The ground of a bench is the union of all its places then, in the frame of the bench where it should be. Whatever
-     the benches between two others allow, these two do not touch if their grounds do not meet. Cut the bench across
+ 14. The ground of a bench is the union of all its possible places, in the frame of its nominal place. Whatever the
+     benches between two others allow, these two do not touch if their grounds do not meet. Cut the bench across
      at its holes into three parts. Wherever a part is, it is the convex hull of its corners. So a polygon of SIDES half
-     planes in even directions that holds all places of its corners (15.) holds all places of the part; a fourth
-     polygon, with the largest of the three supports in each direction, holds the ground. A point of the segment
-     between the displaced handles is within d of the point that divides the segment between their places alike: so 5.
-     holds with h + d in place of h.
+     planes, evenly spaced, that holds all places of its corners (15.) holds all places of the part; a fourth polygon,
+     with the largest of the three supports in each direction, holds the ground. A point of the segment between the
+     displaced handles is within d of the point that divides the segment between their nominal places in the same
+     ratio: so 5. holds with h + d in place of h.
  15. Let the bench turn by phi, q = c sin(phi / 2): one hole moves by m + i q exp(i phi / 2), the other by m - i q
-     exp(i phi / 2), the point p of the bench from 0, the middle of the chord, to m + exp(i phi) p. So |q| <= d, and m
-     is in the lens of two discs of radius d. In the direction e, with t the argument of exp(i phi / 2) / e, m comes
-         d - |q sin t|   where |q| <= d |sin t|,   else   |cos t| sqrt(d^2 - q^2)
-     far. The second is never more than the first (Cauchy and Schwarz), which is used where the balls do not decide.
+     exp(i phi / 2); the point p of the bench, counted from the middle of the chord, moves to m + exp(i phi) p. So
+     |q| <= d, and m is in the lens of two discs of radius d. In the direction e, with t the argument of
+     exp(i phi / 2) / e, m comes as far as
+         d - |q sin t|   where |q| <= d |sin t|,   else   |cos t| sqrt(d^2 - q^2).
+     The second is never more than the first (Cauchy and Schwarz), which is used where the balls do not decide.
      Let q = d sin(psi), kappa = d / c, kappa' = kappa / sqrt(1 - kappa^2). By psi, |phi'| <= 2 kappa and |phi''| <= 2
      kappa', as sin(phi / 2) = kappa sin(psi). So the second derivatives are at most d (1 + 2 kappa + kappa^2 + kappa')
      for m, on either range, and |p| (4 kappa^2 + 2 kappa') for exp(i phi) p. On either side of psi = 0 values and
      slopes of the two ranges agree where they meet. So between two samples of psi that are w apart, and not on both
      sides of 0, nothing is more than K w^2 / 8 above the higher one, K the sum of these two bounds.
- 16. Let n be the outward normal of a side of a polygon, and u = -n seen from the other bench lie between the directions
-     of sides k and k + 1 of its polygon: u is the sum of these two with factors that are not negative. So no point of
-     that polygon is farther along u than the corner where its sides k and k + 1 meet. Two polygons are apart
-     over a stretch if 4. holds for the corners of all k that u passes. Two grounds are, if their fourth polygons are,
-     or each of the three of one from each of the three of the other.
+ 16. Let n be the outward normal of a side of a polygon, and let u = -n, seen from the other bench, lie between the
+     directions of sides k and k + 1 of its polygon: u is the sum of these two with factors that are not negative. So no
+     point of that polygon is farther along u than the corner where its sides k and k + 1 meet. Two polygons are apart
+     over a stretch if 4. holds for the corners of all k that u passes. Two grounds are apart if their fourth polygons
+     are, or if each of the three of one is apart from each of the three of the other.
  17. A pose is given by its first handle and the heading of every bench: each chord is exact. The place of a handle on
      the spiral is known from the time.
 

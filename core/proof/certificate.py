@@ -228,7 +228,7 @@ def _verified(content: Certificate, progress: Progress) -> Proof:
 
 
 def digest(content: Any) -> str:
-    """A fingerprint of a certificate without its digest: it detects accidents and careless edits; the proof decides."""
+    """A fingerprint of a certificate without its digest: it detects accidents and careless edits, not forgery."""
     return hashlib.sha256(_text(content).encode()).hexdigest()
 
 

@@ -233,7 +233,7 @@ def checked_pair(chain: AnyChain, a: int, b: int) -> tuple[int, int]:
     raises: Unproven
     """
     if not 0 <= a < b - 1 < chain.count - 1:
-        raise Unproven(f"benches {a} and {b} are no pair")
+        raise Unproven(f"benches {a} and {b} are not a pair that shares no handle")
     return a, b
 
 

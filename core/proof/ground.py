@@ -12,7 +12,7 @@ from flint import acb, arb
 from core.proof.pairs import above, below
 from core.values import Floats
 
-# Sides of each polygon, in even directions [1]: as many as the search has, so that what it finds apart is apart here.
+# Sides of each polygon, evenly spaced [1]: as many as in the search, so that grounds apart there are apart here too.
 SIDES = 64
 # Samples of psi on either side of 0 (15.): supports are then too large by 2e-4 of the stray at most [1].
 SAMPLES = 64
@@ -71,7 +71,7 @@ def _motions(chord: arb, stray: arb) -> list[tuple[arb, acb]]:
 
 
 def _support(way: acb, motions: Sequence[tuple[arb, acb]], stray: arb, points: Sequence[acb]) -> arb:
-    """The furthest that points of a bench come in a direction, at the samples (15.) [m]."""
+    """Largest distance that points of a bench reach in a direction, at the samples (15.) [m]."""
     back, best = way.conjugate(), arb("-inf")
     for q, half in motions:
         leaning = back * half
@@ -84,7 +84,7 @@ def _support(way: acb, motions: Sequence[tuple[arb, acb]], stray: arb, points: S
 
 
 def _spare(chord: arb, stray: arb, furthest: arb) -> arb:
-    """How much further they may come between two samples (15.) [m]. furthest: of the points from the middle [m]"""
+    """Distance by which they may reach further between two samples (15.) [m]. furthest: of them from the middle [m]"""
     kappa = stray / chord
     steep = kappa / (1 - kappa**2).sqrt()
     bend = stray * (1 + 2 * kappa + kappa**2 + steep) + furthest * (4 * kappa**2 + 2 * steep)
@@ -139,7 +139,7 @@ def best_side(
 
 
 def _gaps(own: Ground, mine: int, other: Ground, hull: int, to: complex, axis: complex) -> Floats:
-    """How far a polygon lies beyond each side of another (SIDES,) [m]."""
+    """Distance of a polygon beyond each side of another (SIDES,) [m]."""
     nearest = (NUMBERS + SIDES // 2 + math.floor(-math.atan2(axis.imag, axis.real) * SIDES / math.tau)) % SIDES
     corner = to + axis * other.rough_corners[hull, nearest]
     gaps: Floats = (ROUGH_OUTWARDS.conjugate() * corner).real - own.rough_supports[mine]

@@ -1,8 +1,8 @@
 """Checks of the members of a certificate: none is missing, none is unknown, and each has its form.
 
-Written by hand: a schema of msgspec refuses the same 4,749 changed certificates (measured 2026-11-21) in 80 lines less.
-But its messages name types of Python instead of the value and its rule, the rules that depend on the claim (faces,
-order of places, directions, overlap) remain, and a reader who only checks a certificate would need one more package.
+Written by hand. A schema of msgspec refuses the same 4,749 changed certificates with 80 lines less (measured on
+2026-11-21), but its messages name Python types instead of the value and its rule, the rules that depend on the claim
+(faces, order of places, directions, overlap) remain, and a reader who only checks a certificate needs one more package.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Two benches in balls: how far one lies beyond a line of the other, how near they are, which line separates them."""
+"""Two benches in balls: how far one is beyond a line of the other, their separation, and a line between them."""
 
 from __future__ import annotations
 
@@ -102,7 +102,7 @@ class Benches:
         return turn * (self.centres[other] - self.centres[owner]), turn * self.along[other]
 
     def gaps(self, partner: int) -> list[arb]:
-        """Distance of each beyond each face of the other: four of the first, four of partner (counted from it) [m]."""
+        """Distance of each bench beyond each face of the other: four faces of the first, four of partner [m]."""
         if partner not in self._gaps:
             self._gaps[partner] = [gap for pair in ((0, partner), (partner, 0)) for gap in self._beyond(*pair)]
         return self._gaps[partner]

@@ -62,7 +62,7 @@ class Piece:
         return self.curvature
 
     def behind(self, t: arb, chord: arb) -> arb:
-        """The parameter of the first point behind at a chord, if the piece goes on so far."""
+        """The parameter of the first point behind at a chord, if the piece is long enough."""
         half = abs(self.curvature) * chord / 2
         if self.curvature == 0:
             return t + chord
@@ -323,7 +323,7 @@ class RoutePose(Benches):
             self.along.append((self.points[k] - self.points[k + 1]) / self.sizes[k].chord)
 
     def far_from(self, count: int) -> bool:
-        """Never known for all benches at once: they are compared pair by pair, which is quick (10.)."""
+        """False: no bound covers all benches of a route at once; they are compared pair by pair, quickly (10.)."""
         return False
 
     def angles(self, k: int) -> tuple[arb, arb]:

@@ -1,4 +1,4 @@
-"""A claim about strays: nothing touches within one, and with one a little larger a pose is shown in which two do."""
+"""A claim about strays: nothing touches within a stray, and a pose with a slightly larger one shows a contact."""
 
 from __future__ import annotations
 

@@ -22,7 +22,7 @@ WIDTH_LEAST = 1e-13
 Progress = Callable[[float], None]
 AnyChain = Chain | RouteChain
 AnyStretch = Stretch | RouteStretch
-# What keeps a pair apart: a face, or with a stray one side of their grounds or nine (16.).
+# Proof that a pair is apart: a face, or with a stray one side of their grounds or nine (16.).
 Face = str | list[int]
 # (highest place, lowest place, one face for each bench from the next but one on, until all others are far, and the
 # directions)
@@ -84,18 +84,18 @@ def _face(stretch: AnyStretch, partner: int) -> tuple[Face, float]:
 
 
 def _met(stretch: AnyStretch, partner: int) -> tuple[int, int]:
-    """The first two benches that are where this pair is, by 6."""
+    """The first two benches that come to the places of this pair, by 6."""
     first = stretch.bench + stretch.chain.count - stretch.last
     return first, first + partner
 
 
 def _strays(stretch: AnyStretch) -> TypeGuard[Stretch]:
-    """Whether it is of grounds."""
+    """Whether the stretch is one of grounds, because the claim is about strays."""
     return isinstance(stretch, Stretch) and bool(stretch.chain.grounds)
 
 
 def _sides(stretch: Stretch, partner: int) -> list[int]:
-    """The one side, or the nine, that keep the grounds of this pair apart over the whole stretch."""
+    """The side, or the nine sides, that keep the grounds of this pair apart over the whole stretch."""
     grounds = stretch.grounds(partner)
     seen = [(complex(to), complex(axis)) for to, axis in (pose.seen(0, partner) for pose in stretch.ends)]
     for hulls in (AT_ONCE, ONE_BY_ONE):

@@ -1,40 +1,42 @@
-"""Benches next but one to each other: the bench between them holds them apart, and in which pose they touch.
+"""Benches with one bench between them: the stray up to which it holds them apart, and a pose in which they touch.
 
-To the march all benches stray independently (core/tolerance/reach.py). Of three benches that follow one another that
-gives far too much away: the first and the last hang on the one between, and touch only if they fold.
+The march takes all benches to stray independently (core/tolerance/reach.py). For three consecutive benches this bound
+is far too low: the first and the last hang on the one between, and touch only if the three fold up.
 
 In the frame of the bench between, with its chord c_1 from handle 2 to handle 1 along x, the shape of the three is given
-by the headings a of the first and b of the last one, and
-    d_02 = |c_0 e(a) + c_1|,   d_13 = |c_1 + c_2 e(b)|,   d_03 = |c_0 e(a) + c_1 + c_2 e(b)|,   e(a) = exp(i a),
-are the distances of handles. Their sags are how far handle j of three i, j, k is from the point between i and k where
-it is on a straight line. With L = c_0 + c_1 + c_2 that of
+by the headings a of the first and b of the last one. The distances of handles are
+    d_02 = |c_0 e(a) + c_1|,   d_13 = |c_1 + c_2 e(b)|,   d_03 = |c_0 e(a) + c_1 + c_2 e(b)|,   e(a) = exp(i a).
+The sag of handle j of three handles i, j, k is its distance from the point between i and k where it would be on a
+straight line. With L = c_0 + c_1 + c_2 the sag of
     0, 1, 2 is |u (e(a) - 1) - v (e(b) - 1)| with u = c_0 c_1 / (c_0 + c_1), v = 0,   and of 1, 2, 3 likewise,
     0, 1, 3 has u = c_0 (c_1 + c_2) / L, v = c_0 c_2 / L,   and 0, 2, 3 has u = c_0 c_2 / L, v = (c_0 + c_1) c_2 / L.
-Strays within delta change no distance of two handles and no sag by more than 2 delta. So three benches whose shape in
-their places has the distances D and the sags S can come into a shape (a, b) with d and s only if
-    delta >= N(a, b) = max(D - d, s - S) / 2 over all of them:
-they do not touch while delta is below the least N of all shapes in which they do. Distances tell of a fold; small bends
-change them with their squares only, and sags in proportion.
+Strays within delta change no distance of two handles and no sag by more than 2 delta. So three benches whose nominal
+shape has the distances D and the sags S can come into a shape (a, b) with d and s only if
+    delta >= N(a, b) = max(D - d, s - S) / 2 over all of them.
+They do not touch while delta is below the least N of all shapes in which they touch. Distances show a fold; small bends
+change them only by their squares, but change sags in proportion.
 
-The places. Let no curvature of the path exceed k, with k c / 2 <= 1 for every chord c. The next handle is
-where the path first comes to the distance c; by Schur's comparison with a circle that is after a length L of at most
-(2 / k) asin(k c / 2). The tangent turns by at most k L <= pi on it, so the chord, its mean, is turned against the
-tangent at either end by half of that at most: with x = k s - k L / 2, turned by x' <= x and x' >= -k s - k L / 2 >=
--pi - x, sin x' <= sin x, and the integral of sin x over L is 0. Two chords in a row hence bend by at most
+The nominal places. Let no curvature of the path exceed k, with k c / 2 <= 1 for every chord c. The next handle is where
+the path first comes to the distance c; by Schur's comparison with a circle, this is after a length L of at most
+(2 / k) asin(k c / 2). The tangent turns by at most k L <= pi over this length, and the angle between the chord, which
+is its mean, and the tangent at either end is at most half of that: let x = k s - k L / 2, and let the path turn by x'
+with x' <= x and x' >= -k s - k L / 2 >= -pi - x; then sin x' <= sin x, and the integral of sin x over L is 0. So two
+consecutive chords bend by at most
     A = asin(k c_0 / 2) + asin(k c_1 / 2),   B = asin(k c_1 / 2) + asin(k c_2 / 2),   both <= pi,
     D_02^2 >= c_0^2 + c_1^2 + 2 c_0 c_1 cos A,   D_13 likewise,   D_03 >= c_0 cos A + c_1 + c_2 cos B,
     S <= u |e(A) - 1| + v |e(B) - 1|.
 
-The least N. Shapes are cut into cells of half width h. In one of them d_02 differs from that in its middle by
-min(c_0, c_1) h at most, d_13 likewise, d_03 by (c_0 + c_2) h, a sag by (u + v) h, and the separation of the two benches
-by (r_0 + r_2) h, with r the distance of a bench's furthest corner from the handle that it hangs on. So a cell whose
-middle is further apart than that holds no touch, and of the others the least N less its change is a bound; they are cut
-on while they may be below what is wanted, and below N of a middle that does touch. Mirrored shapes are alike: 0 <= a <=
-pi is enough.
+The least N. The shapes are cut into cells of half width h. Within a cell d_02 differs from its value in the middle by
+at most min(c_0, c_1) h, d_13 likewise, d_03 by (c_0 + c_2) h, a sag by (u + v) h, and the separation of the two benches
+by (r_0 + r_2) h, with r the distance of a bench's furthest corner from the handle that it hangs on. So benches do not
+touch in a cell whose middle has a larger separation than this. For the other cells N in the middle less its change is a
+lower bound. They are cut further while this bound is below the stray asked for, and below N of a middle in which benches
+touch. Mirrored shapes are alike: 0 <= a <= pi is enough.
 
-The pose. For a shape and a direction the least of the largest strays is the radius of the smallest circle around the
-four handles' differences from their places, and that is the largest of the radii of three of them. Grids that narrow
-around their best find a shape that touches, and its direction: what they might miss costs some of the bracket.
+The pose. For a shape and a direction, the least value of the largest stray is the radius of the smallest circle around
+the four handles' differences from their places, and this is the largest of the radii for three of them. Grids that
+narrow around their best point find a shape in which benches touch, and its direction. If they miss a better one, the
+bracket is wider, but still true.
 """
 
 from __future__ import annotations
@@ -53,27 +55,27 @@ from core.paths.spiral import Spiral
 from core.shapes.rectangles import frames, frames_separation
 from core.values import Floats
 
-# Cells of a turn, at first, and how often they are cut in four: to 2e-4 rad in the end [1].
+# Number of cells of a turn at first, and the number of times that they are cut in four, down to 2e-4 rad [1].
 CELLS, CUTS = 24, 9
-# Most cells that are looked at together; beyond that what is known of them by then is the bound [1].
+# Largest number of cells that are tried together [1]; with more cells, the bound known by then is the result.
 CELLS_MOST = 200_000
-# Nothing is said of dragons with more different threes of benches than this: 0.1 s [1].
+# Largest number of different triples of benches in a dragon that are tried, which takes 0.1 s [1].
 TRIPLES_MOST = 100
-# Taken off the bound, for the rounding of fewer than 100 operations on lengths up to 1e3 m [m].
+# Subtracted from the bound, for the rounding of fewer than 100 operations on lengths up to 1e3 m [m].
 ROUNDING = 1e-9
-# Shapes of a first grid over each turn, how many of those that touch are tried in how many directions, points of a
-# further grid, how much narrower it is than the one before, and how many there are [1].
+# Number of shapes of the first grid over each turn; number of touching shapes that are tried, and of directions for
+# each; points of each further grid, its width relative to the one before, and the number of grids [1].
 SHAPES, SHAPES_TRIED, GRID, NARROWER, ROUNDS = 120, 600, 9, 0.7, 45
-# Depth of the overlap that is exhibited, far above the rounding of places up to 1e4 m [m].
+# Depth of the overlap in the pose shown, far above the rounding of places up to 1e4 m [m].
 DEPTH = 1e-7
-# Work of a cell, as of a pair of benches [1].
+# Work of a cell, in the unit of one pair of benches [1].
 CELL_WORK = 1.0
 
 
 def held_apart(dance: Dance, until: float, most: float, budget: Budget) -> float:
-    """The stray up to which no two benches with one between them touch, `most` or less, proven; 0 if none is [m].
+    """Stray proven safe for all pairs of benches with one between them, `most` at most; 0 if none is proven [m].
 
-    until: the head's travel up to which they are asked about [m]
+    until: travel of the head up to which the claim holds [m]
     """
     dragon = dance.dragon
     alike = min(dragon.benches, dragon.uniform_from + 3)
@@ -86,7 +88,7 @@ def held_apart(dance: Dance, until: float, most: float, budget: Budget) -> float
 
 
 def _sharpest(dance: Dance, until: float) -> float:
-    """No curvature of the path is larger where a dragon stands whose head has gone so far [1/m]."""
+    """Upper bound of the path's curvature under the dragon, with its head at this travel or before it [1/m]."""
     path = dance.path
     if isinstance(path, Spiral):
         innermost = float(path.theta(min(until, path.length)))
@@ -95,7 +97,7 @@ def _sharpest(dance: Dance, until: float) -> float:
 
 
 def _least_stray(triples: Floats, leans: Floats, most: float, budget: Budget) -> float:
-    """The least N of shapes in which the first and the last of three benches touch, or `most` if that is less [m].
+    """Lower bound of N over the shapes in which the first and the last of three benches touch, `most` at most [m].
 
     triples: (K, 3, 3) chord, length and width of three benches [m]; leans: (K, 3) asin(k c / 2)
     """
@@ -167,9 +169,9 @@ def shape_gaps(triples: Floats, headings: Floats) -> Floats:
 
 
 def touching_pose(triple: Floats, places: Floats) -> Floats | None:
-    """Handles (4, 2) of three benches, the first and the last of which overlap, with strays as small as is found [m].
+    """Handles (4, 2) of three benches of which the first and the last overlap, with the smallest strays found [m].
 
-    triple: (3, 3) chord, length and width; places: (4, 2) of the handles [m]; None: no shape overlaps by DEPTH
+    triple: (3, 3) chord, length and width; places: (4, 2) of the handles [m]; None if no shape overlaps by DEPTH
     """
     nominal = places @ [1.0, 1j]
     aim = float(np.angle(nominal[1] - nominal[2]))
@@ -203,8 +205,8 @@ def _overlapping(triple: Floats, headings: Floats) -> NDArray[np.bool_]:
 
 
 def _laid(chords: Floats, shapes: Floats, way: float) -> NDArray[np.complex128]:
-    """Handles (N, 4) of three benches: headings of the first and the last in the frame of the one between, and how far
-    that is turned from a direction [rad], its middle at 0."""
+    """Handles (N, 4) of three benches, from the headings of the first and the last in the frame of the bench between,
+    and the turn of that bench from a direction [rad]; its middle is at 0."""
     a, b, turn = shapes.T
     half = np.full(len(shapes), 0.5 * chords[1])
     handles = np.stack([half + chords[0] * np.exp(1j * a), half, -half, -half - chords[2] * np.exp(1j * b)], axis=1)

@@ -1,11 +1,11 @@
-"""How likely is it that benches touch when people wobble? Dances drawn at random, each to its first contact.
+"""Probability that benches touch when people wobble, from dances drawn at random, each up to its first contact.
 
-The model is Wobble; how a wobbling dragon is laid out stands above the code of core/kernels/wobble.py. The instants are
-the same for all samples, at most a fifth of the correlation time apart, and contacts between two instants are not seen.
+The model is Wobble; core/kernels/wobble.py describes above its code how a wobbling dragon is laid out. The instants are
+the same for all samples, at most a fifth of the correlation time apart; contacts between two instants are not seen.
 
-Numbers. Those of a sample depend on the seed, on the number of the sample, and on nothing else: Philox, the generator,
-turns a counter into random bits, and the counter holds the sample and which part of its numbers is wanted. So a sample
-is the same on any machine with the same release of NumPy, in any order, and beside any other samples.
+Numbers. The numbers of a sample depend only on the seed and on the number of the sample. The generator Philox turns a
+counter into random bits, and the counter holds the sample and the part of its numbers. So a sample is the same on every
+machine with the same release of NumPy, in any order, and beside any other samples.
 """
 
 from __future__ import annotations
@@ -31,32 +31,33 @@ from core.tolerance.union_bound import union_bound
 from core.tolerance.wobble import INSTANTS_PER_TIME, Wobble, check_sizes
 from core.values import Floats, asked_of, checked_type
 
-# Instants whose numbers come from one counter. It is a part of what a sample is: with another value samples change [1].
+# Number of instants whose numbers come from one counter [1]. It is part of the definition of a sample: another value
+# changes the samples.
 INSTANTS_PER_COUNTER = 32
-# Most instants of a dance, and most samples [1].
+# Largest number of instants of a dance, and of samples [1].
 INSTANTS_MAX, SAMPLES_MAX = 10_000_000, 10_000_000
 # Largest seed that every JSON and every spreadsheet holds exactly [1].
 SEED_MAX = 2**53 - 1
-# Handles of all samples that are danced side by side [1]: the nominal dance is laid out once for all of them.
+# Number of handles in a batch of samples that dance side by side [1]: the nominal dance is laid out once for a batch.
 HANDLES_TOGETHER = 1_000_000
-# No bench is given more room than this part of the shortest chord, see core/kernels/wobble.py [1].
+# Largest room of a bench, relative to the shortest chord [1]: see core/kernels/wobble.py.
 ROOM_PART = 0.25
-# The probability lies between its limits with this probability [1].
+# Confidence of the limits: probability with which the probability of the model lies between them [1].
 CONFIDENCE = 0.95
 
 
 @dataclass(frozen=True, slots=True, repr=False)
 class ContactProbability(Shown):
-    """How likely it is that two benches touch at one of some instants when people wobble.
+    """Probability that two benches touch at one of some instants when people wobble.
 
-    probability: the share of the samples with a contact; limits: Clopper and Pearson's, the probability of the model
-        lies between them with CONFIDENCE; contacts, samples: how many
-    time: (contacts,) of the first contact of each sample that has one [s]; sample: (contacts,) their numbers; benches:
+    probability: share of the samples with a contact; limits: Clopper and Pearson's, between which the probability of
+        the model lies with CONFIDENCE; contacts, samples: their numbers
+    time: (contacts,) first contact of each sample that has one [s]; sample: (contacts,) number of that sample; benches:
         (contacts, 2) the pair
-    strays: (samples,) how far the furthest hole was from its place up to then [m]
-    tolerance: the stray within which nothing can touch at any time, proven (core.tolerance) [m]: a sample whose strays
-        are smaller has no contact. None with a pitch error, which moves the places themselves
-    union_bound: no larger is the probability of the model, whatever the samples say (core/tolerance/union_bound.py);
+    strays: (samples,) largest distance of any hole from its place up to that contact, or to the end [m]
+    tolerance: stray within which nothing touches at any time, proven (core.tolerance) [m]: a sample with smaller strays
+        has no contact. None with a pitch error, which moves the places themselves
+    union_bound: upper bound of the probability of the model, whatever the samples say (core/tolerance/union_bound.py);
         None with play or a pitch error
     step: between two instants [s]; instants: their number, from start to stop [s]; seed: as given
     """
@@ -84,7 +85,7 @@ class ContactProbability(Shown):
 
     @property
     def method(self) -> str:
-        """How this is known, in sentences."""
+        """How the probability is known, in sentences."""
         told = (
             f"In {self.contacts} of {self.samples} dances drawn from the model two benches that share no handle touch "
             f"at one of {self.instants} instants {said(self.step)} s apart; what happens between two of them is not "
@@ -122,11 +123,11 @@ def contact_probability(
     budget: Budget | None = None,
     progress: Callable[[float], None] = lambda share: None,
 ) -> ContactProbability:
-    """How likely it is that two benches touch when people wobble, from so many dances drawn at random.
+    """Probability that two benches touch when people wobble, from dances drawn at random.
 
-    samples: how many; or which, so that others may be drawn elsewhere; seed: from 0 to SEED_MAX
-    start, stop: [s], by default from when the whole dragon is on the path, or 0, to the end of the run
-    budget: of all work, which is one for each handle of each instant of each sample; by default no limit
+    samples: their number, or a range of sample numbers, so that others can be drawn elsewhere; seed: from 0 to SEED_MAX
+    start, stop: [s]; by default from the time when the whole dragon is on the path, or 0, to the end of the run
+    budget: of all work, 1 for each handle of each instant of each sample; by default without limit
     progress: called with the share of the work that is done
     raises: InvalidValue; OutsideRun; TooMuchWork
 
@@ -173,7 +174,7 @@ def contact_probability(
 
 
 class _Found:
-    """What became of each sample: the instant of its first contact, or one past the last; the pair; largest stray."""
+    """Result of each sample: the instant of its first contact, or one past the last; the pair; the largest stray."""
 
     def __init__(self, samples: int) -> None:
         self.instant = np.zeros(samples, dtype=np.int64)
@@ -182,7 +183,7 @@ class _Found:
 
 
 class _Sampled:
-    """A dance whose people wobble: at some instants (T,) [s], with a memory of each for the one before [1]."""
+    """A dance whose people wobble at some instants (T,) [s], each with a memory of the one before [1]."""
 
     def __init__(self, dance: Dance, model: Wobble, times: Floats, memory: float, seed: int, budget: Budget) -> None:
         self.nominal, self.model, self.times, self.budget = dance, model, times, budget
@@ -204,7 +205,7 @@ class _Sampled:
         self.numbers = _Numbers(seed)
 
     def dance(self, batch: range, found: _Found, first: int) -> Iterator[float]:
-        """Let some samples dance side by side, the first of them `first` in what is found; yields the share done."""
+        """Let a batch of samples dance side by side, from entry `first` of `found` on; yields the share done."""
         handles = self.nominal.dragon.benches + 1
         state = np.zeros((len(batch), handles, 2))
         play = self._play(batch)
@@ -238,7 +239,7 @@ class _Sampled:
             yield rows.stop / count
 
     def _as_it_should_be(self, rows: slice) -> tuple[Floats, Floats, Floats]:
-        """Places and tangents (T, n + 1, 2) of all handles as they should be, and room of every bench (T, n) [m]."""
+        """Nominal places and tangents (T, n + 1, 2) of all handles, and room of every bench (T, n) [m]."""
         placed = trajectory(self.nominal, self.times[rows])
         places, tangents = placed.position, placed.velocity / placed.speed[..., None]
         rooms = np.empty((len(places), places.shape[1] - 1))
@@ -246,7 +247,7 @@ class _Sampled:
         return places, tangents, rooms
 
     def _play(self, batch: range) -> Sequence[Floats]:
-        """Where the holes of every bench are from their pins, for every sample (n, 4) [m]."""
+        """Offsets of the holes of every bench from their pins, (n, 4) for every sample [m]."""
         benches, most = self.nominal.dragon.benches, self.model.play
         if most == 0.0:
             return [np.zeros((benches, 4))] * len(batch)
@@ -276,8 +277,8 @@ class _Sampled:
 
 
 class _Numbers:
-    """The random numbers of every sample, in parts; see the top of this file. Part 0 is of its play, part 1 of its
-    pitch, each further one of INSTANTS_PER_COUNTER instants."""
+    """The random numbers of every sample, in parts; see the top of this file. Part 0 is for its play, part 1 for its
+    pitch, and each further part for INSTANTS_PER_COUNTER instants."""
 
     def __init__(self, seed: int) -> None:
         self._bits = np.random.Philox(key=seed)
@@ -293,10 +294,10 @@ class _Numbers:
 
 
 def clopper_pearson(contacts: int, samples: int) -> tuple[float, float]:
-    """Limits between which the probability of a contact lies with CONFIDENCE, for so many contacts among samples.
+    """Limits between which the probability of a contact lies with CONFIDENCE, from a number of contacts among samples.
 
-    source: Clopper and Pearson, Biometrika 26 (1934), 404-413: at the lower limit so many contacts or more would have
-    half of the probability that is left, and at the upper one so many or fewer
+    source: Clopper and Pearson, Biometrika 26 (1934), 404-413: at the lower limit this number of contacts or more has
+        the probability (1 - CONFIDENCE) / 2, and at the upper limit this number or fewer has it
 
     >>> [round(limit, 6) for limit in clopper_pearson(0, 100)]
     [0.0, 0.036217]

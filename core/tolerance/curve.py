@@ -1,4 +1,4 @@
-"""How far people may stray against the pitch of the spiral. The inverse is minimum_pitch(dragon, stray=...)."""
+"""Stray that is safe, as a function of the pitch of the spiral. The inverse is minimum_pitch(dragon, stray=...)."""
 
 from __future__ import annotations
 
@@ -23,13 +23,13 @@ if TYPE_CHECKING:
     import pandas
     from matplotlib.axes import Axes
 
-# Pitches of a curve are asked one by one; so many at most [1].
+# Largest number of pitches of a curve, each of which is a question of its own [1].
 CURVE_MOST = 10_000
 
 
 @dataclass(frozen=True, slots=True, repr=False)
 class ToleranceCurve(Shown):
-    """How far people may stray against the pitch of a spiral, on the way to a turning circle.
+    """Stray that is safe at each of some pitches of a spiral, on the way to a turning circle.
 
     pitch: (N,) [m], as given; stray: (N,) [m], proven safe; tolerances: the whole answers
     """
@@ -74,7 +74,7 @@ def tolerance_curve(
     progress: Callable[[float], None] = lambda share: None,
     budget: Budget | None = None,
 ) -> ToleranceCurve:
-    """How far people may stray at each of some pitches, from the start until the head is on the turning circle.
+    """Stray that is safe at each of some pitches, from the start until the head is on the turning circle.
 
     pitches: (N,) [m]; turning_radius: [m]; start_turns: turns from the centre to the start
     progress: called with the share of the pitches that is done
@@ -104,9 +104,9 @@ def tolerance_curve(
 
 
 def time_on_circle(dance: Dance, radius: float) -> float:
-    """When the head of a dance on a spiral is on a circle around the centre [s].
+    """Time at which the head of a dance on a spiral is on a circle around the centre [s].
 
-    raises: InvalidValue (turning_radius) for a circle that the dance starts on or in, or does not come to
+    raises: InvalidValue (turning_radius) for a circle that the dance starts on or inside, or does not reach
     """
     assert isinstance(dance.path, Spiral)
     first = dance.path.pitch * dance.path.start_turns

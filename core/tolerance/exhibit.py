@@ -1,17 +1,18 @@
-"""Poses in which people stray as little as can be and two benches overlap all the same: the other end of a bracket.
+"""Poses with the smallest strays at which two benches overlap: the upper end of the bracket around a tolerance.
 
 One bench turned by phi with its middle anywhere in its lens (core/tolerance/reach.py) covers the sum of the lens and
 the turned rectangle: a convex region with support lens(theta) + rectangle(theta) in each direction theta. Two benches
 turned by phi_a and phi_b can therefore overlap exactly if the largest gap
     g(phi_a, phi_b) = max over theta of  n . (M_b - M_a) - support_a(n) - support_b(-n)
-is at most 0, and both are in the lens's corner for that n when they begin to. The least of g over both turns falls with
-the stray; where it reaches 0, that stray exhibits a contact. Grids that narrow around their best find it: what they
-might miss costs some of the bracket, never the truth, as the overlap is then verified in the pose itself.
+is at most 0, and both are in the lens's corner for that n when they begin to overlap. The least g over both turns falls
+as the stray grows; the stray at which it reaches 0 shows a contact. Grids that narrow around their best point find it.
+If they miss a better one, the bracket is wider, but still true, because the overlap is then verified in the pose
+itself.
 
-The rest of the chain forbids nothing. In front of the pair and behind it each handle takes the place on its circle that
-is nearest to its own: its nominal place, moved along with the handle before it, is on that circle, so it strays no
-further than that one. Between the two benches both ends are given; there the chords are restored with the smallest
-strays (Newton steps of least length). What all people stray at most, measured in the pose, is reported.
+The rest of the chain can always follow. In front of the pair and behind it each handle takes the place on its circle
+that is nearest to its nominal one: the nominal place, moved along with the handle before it, is on this circle, so the
+handle strays no further than that one. Between the two benches both ends are given; there Newton steps of least length
+restore the chords with the smallest strays. The result reports the largest stray, measured in the pose.
 """
 
 from __future__ import annotations
@@ -28,14 +29,14 @@ from core.shown import Shown, worded
 from core.tolerance.between import DEPTH, touching_pose
 from core.values import Floats
 
-# Points of a grid over each turn and over the direction [1], the range of directions around the nominal normal [rad],
-# how much narrower the next grid is [1], and how many there are: the turns are then known to 1e-7 of their range.
+# Points of a grid over each turn and over the direction [1]; range of directions around the nominal normal [rad]; width
+# of the next grid relative to this one [1]; and number of grids [1], which give the turns to 1e-7 of their range.
 TURNS, BEARINGS = 11, 11
 BEARING_RANGE = 0.7
 NARROWER, ROUNDS = 0.35, 16
-# Chords are restored to this [m] in at most so many steps.
+# Error of restored chords [m], and the largest number of steps to restore them [1].
 CHORD_WITHIN, CHORD_STEPS = 1e-13, 40
-# Strays are tried up to this factor of the one at which two benches alone would overlap, in steps of this much [1].
+# Largest stray that is tried, relative to the one at which two benches alone would overlap, and the step to it [1].
 TRIED_TO, TRIED_STEP = 1.5, 0.01
 
 
@@ -75,7 +76,7 @@ class Body:
     half_width: float
 
     def turns(self, stray: float) -> float:
-        """The largest turn that a stray allows [rad]."""
+        """Largest turn that a stray allows [rad]."""
         return 2.0 * math.asin(min(1.0, stray / self.chord)) if self.chord else 0.0
 
     def faces(self, turn: Floats, bearing: float) -> Floats:
@@ -97,7 +98,7 @@ class Body:
         return reached + np.where(q <= stray * sine, stray - q * sine, tip)
 
     def strays(self, bearing: float, turn: float, stray: float) -> Floats:
-        """Strays (2, 2) of the front and the rear hole that take a bench as far as can be in a direction [m]."""
+        """Strays (2, 2) of the front and the rear hole that move a bench as far as possible in a direction [m]."""
         q = min(max(self.chord * math.sin(0.5 * turn), -stray), stray)
         axis = self.heading + 0.5 * turn
         along, across = np.array([math.cos(axis), math.sin(axis)]), np.array([-math.sin(axis), math.cos(axis)])
@@ -139,7 +140,7 @@ def nearest_turns(a: Body, b: Body, bearing: float, stray: float) -> tuple[float
 
 
 def body(dragon: Dragon, handles: Floats, k: int) -> Body:
-    """Bench k of a dragon in a place."""
+    """Bench k of a dragon with these handles."""
     x, y, heading = bench_poses(handles[k : k + 2])[0].tolist()
     half_length, half_width = 0.5 * float(dragon.lengths[k]), 0.5 * float(dragon.widths[k])
     return Body(x, y, heading, float(dragon.chords[k]), half_length, half_width)
@@ -154,10 +155,10 @@ def exhibit(
     safe: float,
     time: float,
 ) -> Exhibit | None:
-    """A pose of the whole dragon in which a pair overlaps, with strays little above those proven safe; None if lost.
+    """A pose of the whole dragon in which a pair overlaps, with strays little above the safe ones; None if not found.
 
-    handles: (n + 1, 2) where they should be [m]; edge: in place of a second bench; bearing: of the normal [rad]
-    With one bench between the pair, the pose may be one of other three benches in a row, which takes smaller strays.
+    handles: (n + 1, 2) nominal places [m]; edge: in place of a second bench; bearing: of the normal [rad]
+    With one bench between the pair, the pose may be one of other three consecutive benches, if that takes smaller strays.
     """
     first, second = pair
     a = body(dragon, handles, first)
@@ -168,7 +169,7 @@ def exhibit(
         folds = [found for k in sorted(threes) for found in [_folded(dragon, handles, k, time)] if found is not None]
         return min(folds, key=lambda found: found.stray, default=None)
     high = min(TRIED_TO * safe + 2.0 * DEPTH, 0.5 * float(dragon.chords.min()))
-    # With a stray larger by x the middle of each bench can go x further in any direction, so the gap closes by that.
+    # A stray larger by x lets the middle of each bench go x further in any direction, so the gap closes by as much.
     stray = safe + max(0.0, nearest_turns(a, other, bearing, safe)[0] + DEPTH) / (1 if second is None else 2)
     while stray <= high:
         _, turn_a, turn_b, way = nearest_turns(a, other, bearing, stray)
@@ -184,7 +185,7 @@ def exhibit(
 
 
 def _folded(dragon: Dragon, handles: Floats, first: int, time: float) -> Exhibit | None:
-    """A pose in which a bench and the next but one overlap: the bench between couples them (between.py)."""
+    """A pose in which two benches with one between them overlap: that bench couples them (between.py)."""
     three = slice(first, first + 3)
     sizes = np.stack([dragon.chords[three], dragon.lengths[three], dragon.widths[three]], axis=1)
     pose = touching_pose(sizes, handles[first : first + 4])
@@ -198,7 +199,7 @@ def _folded(dragon: Dragon, handles: Floats, first: int, time: float) -> Exhibit
 def _shown(
     dragon: Dragon, handles: Floats, moved: Floats, met: tuple[int, int | None, Body | None], time: float
 ) -> Exhibit | None:
-    """A pose that shows a contact, if it does. met: the pair, and the edge in place of a second bench"""
+    """The pose, if it shows a contact. met: the pair, and the edge in place of a second bench"""
     gap = _overlap(dragon, moved, met[:2], met[2])
     furthest = float(np.hypot(*(moved - handles).T).max())
     return Exhibit(time, moved, met[:2], -gap, furthest) if gap < 0.0 else None
@@ -220,10 +221,10 @@ def _overlap(dragon: Dragon, handles: Floats, pair: tuple[int, int | None], edge
 
 
 def extended(chords: Floats, handles: Floats, wanted: dict[int, Floats]) -> Floats | None:
-    """All handles (n + 1, 2), the holes of some benches displaced as wanted, every chord kept; None if that fails.
+    """All handles (n + 1, 2), with holes of some benches displaced as wanted and every chord kept; None if it fails.
 
-    wanted: bench -> strays (2, 2) of its two holes, whose chord they keep [m]; of two benches that are next but one to
-        each other, the bench between shares a hole with either: its chord is kept by all four
+    wanted: bench -> strays (2, 2) of its two holes, which keep its chord [m]; of two benches with one between them the
+        four strays also keep the chord of that bench, which shares a hole with either
     """
     moved = handles.copy()
     for k, strays in wanted.items():
@@ -240,7 +241,7 @@ def extended(chords: Floats, handles: Floats, wanted: dict[int, Floats]) -> Floa
 
 
 def _restored(chords: Floats, places: Floats, free: slice, first: int) -> bool:
-    """Give these chords their lengths, by moving handles `free` (numbered from `first`) as little as can be."""
+    """Give these chords their lengths by moving handles `free` (numbered from `first`) as little as possible."""
     start, stop = free.start - first, free.stop - first
     for _ in range(CHORD_STEPS):
         link = places[:-1] - places[1:]

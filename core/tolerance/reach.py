@@ -1,38 +1,39 @@
 """The ground that a bench may cover when the people who carry it stray: a region, and three hulls that hold it.
 
-What a stray does. A bench with chord l is rigid; the two people at its holes stand at d0 (front) and d1 (rear) from
-where they should, |d0|, |d1| <= delta, the stray. Let z be the complex coordinate of a point of the bench, from the
-middle of the chord along it. As a rigid motion is linear in the places of the two holes, that point moves by exactly
+Motion by a stray. A bench with chord l is rigid; the two people at its holes stand at d0 (front) and d1 (rear) from
+their nominal places, |d0|, |d1| <= delta, the stray. Let z be the complex coordinate of a point of the bench, from the
+middle of the chord along it. A rigid motion is linear in the places of the two holes, so that point moves by exactly
     d0 (1/2 + z / l) + d1 (1/2 - z / l),
 and the only condition besides the two discs is that the chord keeps its length. With phi the angle by which the bench
 turns, q = l sin(phi / 2), t the unit vector along the half-turned chord and n the one across it,
     d0 = m + q n,   d1 = m - q n,
-where m is how far the middle moves: it may be anywhere in the lens of the two discs of radius delta about -q n and q n,
-and |q| <= delta. The support of that lens in a direction at the angle theta to t is
+where m is the displacement of the middle: it may be anywhere in the lens of the two discs of radius delta about -q n
+and q n, and |q| <= delta. The support of this lens in a direction at the angle theta to t is
     delta - |q sin theta|                      where |q| <= delta |sin theta|   (one of the discs alone), else
     |cos theta| sqrt(delta^2 - q^2)            (its tip).
 
-Two benches. Benches that share no handle stray independently of one another, as far as a bound is concerned: whatever
-the benches between them allow, the strays of their four handles are among all those with |d| <= delta. Let U be the
-union of all places of one bench, a fixed region in the frame of its nominal place. Then some place of one bench meets
-some place of another exactly if their two regions meet. So the question of how far people may stray is the question
-of first contact, asked of regions instead of benches: no bound on the coupling of the two is needed, and nothing is
-lost. For a margin, their distance is to exceed it.
+Two benches. For a bound, benches that share no handle may be taken to stray independently: whatever the benches between
+them allow, the strays of their four handles are among all those with |d| <= delta. Let U be the union of all places of
+one bench, a fixed region in the frame of its nominal place. Then some place of one bench meets some place of another
+exactly if their two regions meet. So the largest safe stray is a question of first contact, asked of regions instead of
+benches: it needs no bound on the coupling of the two, and loses nothing. With a margin, the distance of the regions
+must exceed it.
 
 Three hulls. U is not convex: a person at a hole moves a side by delta there, and its overhanging end by more, so that U
-is a bone. Cut the bench (not U) across at its two holes. The part between the holes moves sideways by delta at most
-where it counts, and the ends are short, so the region of each part is convex but for terms of second order; U lies
-within the union of the three convex hulls. The hull of a part is known by its support in each direction n_k, at the
-angle theta_k,
+has the shape of a bone. Cut the bench (not U) across at its two holes. The part between the holes moves sideways by
+delta at most where it counts, and the ends are short, so the region of each part is convex up to terms of second order;
+U lies within the union of the three convex hulls. The support of the hull of a part in each direction n_k, at the angle
+theta_k, is
     H(k) = max over |q| <= delta, and over the part's corners c, of   lens(theta_k - phi / 2) + n_k . (c turned by phi),
-and the polygon of these half planes, for DIRECTIONS even directions, holds it.
+and the polygon of these half planes, for DIRECTIONS evenly spaced directions, holds the hull.
 
-The maximum. Let q = delta sin psi, kappa = delta / l. On each of the two ranges of the lens everything is smooth in psi
+The maximum. Let q = delta sin psi, kappa = delta / l. On each of the two ranges of the lens everything is smooth in
+psi:
     |phi'| <= 2 kappa,   |phi''| <= 2 kappa',   kappa' = kappa / sqrt(1 - kappa^2),
-    |lens''| <= delta (1 + 2 kappa + kappa^2 + kappa'),   |(n . c)''| <= |c| (4 kappa^2 + 2 kappa'),
-value and slope agree where the ranges meet, and at psi = 0 the slope only falls. So between two samples that are h
-apart, and on one side of psi = 0, no value exceeds the higher one by more than K h^2 / 8, K the sum of the two bounds:
-this is added.
+    |lens''| <= delta (1 + 2 kappa + kappa^2 + kappa'),   |(n . c)''| <= |c| (4 kappa^2 + 2 kappa').
+Value and slope agree where the ranges meet, and at psi = 0 the slope only falls. So between two samples that are h
+apart, and on one side of psi = 0, no value exceeds the higher one by more than K h^2 / 8, K the sum of the two bounds.
+This is added to the higher sample.
 """
 
 from __future__ import annotations
@@ -51,15 +52,14 @@ from core.errors import InvalidValue, said
 from core.kernels.constants import DIRECTIONS
 from core.values import Floats
 
-# Samples of psi on either side of 0: the supports are then too large by 2e-4 of the stray at most [1].
+# Number of samples of psi on either side of 0 [1]: the supports are then too large by at most 2e-4 of the stray.
 SAMPLES = 64
-# The largest gap of two hulls along a direction across a side of either falls short of their distance by no more than
-# this part of it [1].
+# Largest part of the distance of two hulls by which their largest gap across a side of either falls short of it [1].
 SHORT = 1.0 - math.cos(math.pi / DIRECTIONS)
-# Added to every support, for the rounding of fewer than 100 operations on lengths of the bench [1]; the corners of a
-# polygon with DIRECTIONS sides magnify an error of its supports tenfold.
+# Part added to every support, for the rounding of fewer than 100 operations on lengths of the bench [1]; the corners of
+# a polygon with DIRECTIONS sides magnify an error of its supports tenfold.
 SUPPORT_ROUNDING = 1e-13
-# Most benches of different size in one dragon whose regions are laid out: a millisecond each [1].
+# Largest number of different sizes of benches in a dragon with strays [1]: each takes a millisecond.
 SIZES_MAX = 1000
 
 
@@ -70,8 +70,8 @@ class Reach:
     bounds: the same dragon, each bench as long and as wide as its hulls
     hulls: (kinds, 3, DIRECTIONS, 2) corners of the hulls of front end, middle and rear end, counter-clockwise, in
         the bench's own frame [m]: corner k lies between the half planes of directions k and k + 1
-    kinds: (uniform_from + 1,) which of them is a bench's
-    corners, middle_half_width, within: what ring bounds need of them, see core/kernels/rings.py
+    kinds: (uniform_from + 1,) the kind of each bench
+    corners, middle_half_width, within: their lengths for the ring bounds, see core/kernels/rings.py
     """
 
     bounds: Dragon
@@ -97,10 +97,10 @@ def _sampled() -> tuple[Floats, Floats]:
 
 
 def gain(chords: Floats, overhangs: Floats, half_widths: Floats) -> Floats:
-    """How far a point of each bench goes at most where both of its holes go 1 m [1]: the simple bound.
+    """Largest way of any point of each bench per metre that both of its holes stray [1]: the simple bound.
 
-    |d0 (1/2 + z/l) + d1 (1/2 - z/l)| is at most (|l/2 + z| + |l/2 - z|) / l of the larger; convex in z, so that it is
-    largest in a corner.
+    |d0 (1/2 + z/l) + d1 (1/2 - z/l)| is at most (|l/2 + z| + |l/2 - z|) / l times the larger of |d0| and |d1|; this
+    factor is convex in z, so it is largest in a corner.
     """
     near, far = np.hypot(overhangs, half_widths), np.hypot(chords + overhangs, half_widths)
     most: Floats = (near + far) / chords
@@ -112,15 +112,15 @@ def gains(dragon: Dragon) -> Floats:
     return gain(dragon.chords, dragon.overhangs, 0.5 * dragon.widths)
 
 
-@lru_cache(maxsize=4)  # a march that goes on asks again
+@lru_cache(maxsize=4)  # a march that continues asks again
 def simple_reach(dragon: Dragon, stray: float) -> Reach:
-    """The same by the simple bound, never less: every bench with its gain times the stray all around."""
+    """reach() by the simple bound, never smaller: every bench widened on all sides by its gain times the stray."""
     return _reach(dragon, stray, _simple_supports)
 
 
 @lru_cache(maxsize=4)  # a question asks several times, and so does someone who drags the pitch
 def reach(dragon: Dragon, stray: float) -> Reach:
-    """What the benches of a dragon may cover while every hole is within the stray of its place [m].
+    """The ground that the benches of a dragon may cover while every hole is within the stray of its place [m].
 
     raises: InvalidValue for a dragon with more than SIZES_MAX sizes of benches
     """
@@ -146,8 +146,9 @@ def _reach(dragon: Dragon, stray: float, supports: Callable[..., Floats]) -> Rea
 
 
 def ring_bounds(chords: Floats, hulls: Floats, kinds: NDArray[np.int64]) -> tuple[Floats, float, float]:
-    """Reach.corners, middle_half_width and within; no corners are further out and aside than the first of front ends.
+    """Reach.corners, middle_half_width and within.
 
+    Only the first quarter of the corners of front ends counts: no other corner is both further out and further aside.
     Benches from the third on, or the last, can be the outer one of a pair.
     """
     chord = np.empty((len(hulls), 1))
@@ -194,7 +195,7 @@ def supports(chord: float, overhang: float, half_width: float, stray: float) -> 
 
 
 def _simple_supports(chord: float, overhang: float, half_width: float, stray: float) -> Floats:
-    """supports() of a bench's front end and middle with its gain times the stray around them [m]."""
+    """supports() of a bench's front end and middle, widened on all sides by its gain times the stray [m]."""
     cosine, sine = directions().T
     far = np.array([[0.5 * chord, 0.5 * chord + overhang], [-0.5 * chord, 0.5 * chord]])
     grown = gain(*np.array([chord, overhang, half_width])) * stray
@@ -212,6 +213,6 @@ def _polygon(support: Floats) -> Floats:
 
 
 def _turned(polygon: Floats) -> Floats:
-    """The same polygons half a turn about the middle of the bench."""
+    """The same polygons, half a turn about the middle of the bench."""
     half = DIRECTIONS // 2
     return -np.concatenate([polygon[..., half:, :], polygon[..., :half, :]], axis=-2)

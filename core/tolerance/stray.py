@@ -1,4 +1,4 @@
-"""How far people may be from where they should: a number, or people and the play of the pins in their holes."""
+"""Stray of holes from their nominal places: one number, or that of people and the play of pins in their holes."""
 
 from __future__ import annotations
 
@@ -15,10 +15,10 @@ DECIMALS = 15
 
 @dataclass(frozen=True, slots=True)
 class Stray(Shown):
-    """How far every hole may be from its place, by people and by play.
+    """Largest distance of every hole from its place, by people and by play.
 
-    people: how far a person may stand from where they should [m]; hole, pin: diameters in a joint [m]. A pin has
-    (hole - pin) / 2 of play on every side, which adds to what people do.
+    people: largest distance of a person from their place [m]; hole, pin: diameters in a joint [m]. A pin has
+    (hole - pin) / 2 of play on every side, which adds to the stray of people.
 
     >>> Stray(people=0.02, hole=0.055, pin=0.045).total
     0.025
@@ -37,7 +37,7 @@ class Stray(Shown):
 
     @property
     def total(self) -> float:
-        """How far a hole may be from its place in all [m]."""
+        """Largest distance of a hole from its place, people and play together [m]."""
         return round(self.people + 0.5 * (self.hole - self.pin), DECIMALS) if self.hole > self.pin else self.people
 
     def _line(self) -> str:

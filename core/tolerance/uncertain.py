@@ -1,17 +1,18 @@
-"""How far people may stray where the benches and the spiral are known only to within an error.
+"""Safe stray where the sizes of the benches and the pitch of the spiral are known only to within an error.
 
-Errors of chords add up along the chain: after a turn nobody knows any more which bench stands beside which. So the
-bound must hold whatever the phase of a turn against the next one. The ring bound does (core/kernels/rings.py): it asks
-how long and how short chords can be, not where they begin, and it holds for a range of growths. Asked of the ground
-that benches may cover (core/tolerance/reach.py) with chords l within the error of theirs, it tells whether two benches
-that share no handle stay apart while the head is outside the circle. The largest stray for which it does is bisected.
+Errors of chords add up along the chain: after one turn of the spiral it is unknown which bench stands beside which. So
+the bound must hold for every phase of a turn against the next one. The ring bound does (core/kernels/rings.py): it
+depends on the longest and the shortest chord, not on where chords begin, and it holds for a range of growths. Applied
+to the ground that benches may cover (core/tolerance/reach.py), with chords l within their error, it shows whether two
+benches that share no handle stay apart while the head is outside the circle. Bisection finds the largest stray for
+which it shows this.
 
-The ground of a bench whose chord is not known. In the frame of its nominal place, with the hole that a point p is near
-at 0, let the bench turn by phi. Then p moves by d + (exp(i phi) - 1) p, d the stray of that hole, and the other hole
-may stray too if |d - l (exp(i phi) - 1)| <= stray. If that holds of l, then of any shorter chord: d lies in the discs
-around 0 and around l (exp(i phi) - 1), so in that around each point between. Hence beyond a hole the ground of the
-shortest chord holds that of any other. Between the holes a point of the centre line goes aside by no more than the
-stray, as it is between two that do, and a side by half of the width more.
+The ground of a bench whose chord is not known. In the frame of its nominal place, with the hole nearest to a point p at
+0, let the bench turn by phi. Then p moves by d + (exp(i phi) - 1) p, d the stray of that hole, and the other hole may
+stray too if |d - l (exp(i phi) - 1)| <= stray. If this holds for l, it holds for any shorter chord: d lies in the discs
+around 0 and around l (exp(i phi) - 1), and so in the disc around each point between. Hence beyond a hole the ground of
+the shortest chord holds the ground of any other. Between the holes a point of the centre line goes aside by no more
+than the stray, because it lies between two points that do not, and a side goes half of the width further.
 """
 
 from __future__ import annotations
@@ -28,7 +29,7 @@ from core.sampling import bisected
 from core.tolerance.reach import SUPPORT_ROUNDING, Reach, reach, ring_bounds
 from core.values import asked_of, checked_number, checked_size
 
-# The largest stray is bisected to this part of half a chord [1].
+# Width to which the largest stray is bisected, relative to half a chord [1].
 WIDTH = 1e-6
 
 
@@ -41,11 +42,11 @@ def uncertain_tolerance(
     pitch_error: float = 0.0,
     turning_radius: float = 4.5,
 ) -> float:
-    """How far people may stray until the head is on the turning circle, whatever the errors of sizes are [m].
+    """Safe stray until the head is on the turning circle, whatever the errors of sizes are [m].
 
-    length_error: the chord of every bench is within it of that of the dragon [m], its overhangs and width are as given;
-        pitch_error: the pitch of the whole spiral is within it of the pitch given [m]; turning_radius: [m]
-    returns: proven safe, less than tolerance() knows for sizes without errors; 0 where the bound proves nothing
+    length_error: largest error of the chord of every bench, whose overhangs and width are as given [m]; pitch_error:
+        largest error of the pitch of the whole spiral [m]; turning_radius: [m]
+    returns: a stray proven safe, smaller than that of tolerance() for sizes without errors; 0 if the bound proves none
     raises: InvalidValue
 
     >>> round(uncertain_tolerance(Dragon(), 0.7, length_error=0.01, pitch_error=0.005), 4)
@@ -73,7 +74,7 @@ def uncertain_tolerance(
 
 
 def _longer_reach(ground: Reach, longer: Dragon, stray: float) -> Reach:
-    """What benches may cover whose chords are unknown, up to those of a dragon; ground: of the shortest chords [m]."""
+    """Ground of benches with unknown chords, up to those of the dragon `longer`; ground: of the shortest chords [m]."""
     alike = len(ground.kinds)
     hulls = ground.hulls.copy()
     further = np.empty(len(hulls))

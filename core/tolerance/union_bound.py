@@ -1,30 +1,32 @@
 """An upper bound of the probability of a contact when people wobble, without any sample: a union of unlikely events.
 
-It is of the same instants as the samples (core/tolerance/chance.py), for pins without play and the right pitch.
+It holds for the same instants as the samples (core/tolerance/chance.py), for pins without play and the exact pitch.
 
-The chain, in first order. In the symbols of core/kernels/wobble.py let e_k be how far handle k is from its place, d_k
-how far person k wants to be, u the direction of bench k from handle k + 1 to handle k, n across it, c its chord, and
-v = d_{k+1} - e_k. The chord keeps its length and turns by psi, with sin psi = (n . v) / |v - c u|, so that exactly
+The chain, in first order. In the symbols of core/kernels/wobble.py let e_k be the displacement of handle k from its
+place, d_k the displacement that person k wants, u the direction of bench k from handle k + 1 to handle k, n across it,
+c its chord, and v = d_{k+1} - e_k. The chord keeps its length and turns by psi, with sin psi = (n . v) / |v - c u|, so
+that exactly
     e_{k+1} = e_k + (n . v) n + s,    |u . s| = c (1 - cos psi),    |n . s| = |n . v| |c / |v - c u| - 1|.
 Without s, e is linear in normal numbers, e_{k+1} = u (u . e_k) + n (n . d_{k+1}), and its covariance follows along the
 chain, together with that of e_k and z_k, the numbers behind d_k, whose correlation from person to person is known.
 
-What that leaves out. Assume that u . e_k, n . e_k, u . v and n . v, in first order, are all within m of their standard
-deviations. Then with p and q, bounds of what e_k has beyond its first order along and across bench k,
+The remainder. Assume that u . e_k, n . e_k, u . v and n . v, in first order, are all within m of their standard
+deviations. Then with p and q, bounds of the remainder of e_k beyond its first order, along and across bench k,
     |u . v| <= V = m sd(u . v) + p,    |n . v| <= W = m sd(n . v) + q,
     |u . s| <= c (1 - sqrt(1 - (W / (c - V))^2)),    |n . s| <= W max(V / (c - V), (V + W^2 / (2 c)) / c),
-as c - V <= |v - c u| <= c + V + W^2 / (2 c). So along the chain p grows by |u . s|; q is that of n . s alone, because
-what e_k has across the bench is replaced by what the next person wants; and both turn with the next bench.
+as c - V <= |v - c u| <= c + V + W^2 / (2 c). So along the chain p grows by |u . s|. The bound q is that of n . s alone,
+because the displacement that the next person wants replaces that of e_k across the bench. Both turn with the next
+bench.
 
-The pairs. Let g be the gap of two benches along the normal of their separation, corner by corner: they stay apart while
-no corner of the one and corner of the other come nearer along that normal by their g. A corner z goes by
-e_k (1/2 + z / c) + e_{k+1} (1/2 - z / c) (core/tolerance/reach.py), along the normal by a normal number with a known
-standard deviation, and what is left out at most. Two such numbers, whatever their correlation, differ by a normal
-number whose standard deviation is at most the sum of theirs. Pairs too far apart for their corners to meet within the
-assumption are passed over.
+The pairs. Let g be the gap of a corner of one bench and a corner of another along the normal of their separation. The
+benches stay apart while no two such corners approach along this normal by their g. A corner z moves by
+e_k (1/2 + z / c) + e_{k+1} (1/2 - z / c) (core/tolerance/reach.py): along the normal by a normal number with a known
+standard deviation, plus at most the remainder. Two such numbers, whatever their correlation, differ by a normal number
+whose standard deviation is at most the sum of theirs. Pairs too far apart for their corners to meet within the
+assumption are skipped.
 
-The bound is the sum of the probabilities of all that: 2 Q(m) for each number assumed to be within m deviations, and
-Q((g - left out) / deviation) for each two corners. The least over some m is taken; computed in doubles.
+The bound is the sum of the probabilities of all these events: 2 Q(m) for each number assumed to be within m deviations,
+and Q((g - remainder) / deviation) for each pair of corners. The result is the least over some m, computed in doubles.
 """
 
 from __future__ import annotations
@@ -46,14 +48,15 @@ from core.tolerance.reach import gains
 from core.tolerance.wobble import Wobble
 from core.values import Floats
 
-# Numbers m of standard deviations that are tried, and how many numbers of a bench are assumed to be within them [1].
+# Numbers m of standard deviations that are tried [1], and number of quantities of a bench assumed to be within them
+# [1].
 DEVIATIONS = (8.0, 7.0, 6.0, 5.0)
 NUMBERS = 4
-# Beyond this sine of the turn of a bench, or this part of its chord, nothing is said of it [1].
+# Largest sine of the turn of a bench, and largest displacement relative to its chord, at which the bound is used [1].
 STEEPEST = 0.5
-# Benches of all instants whose covariances are held at once [1]: 64 MB.
+# Number of benches, over all instants, whose covariances are held at once [1]: 64 MB.
 BENCHES_TOGETHER = 250_000
-# Gaps are taken to be smaller by this, and deviations larger, far beyond the rounding of places up to 1e4 m [m].
+# Subtracted from gaps and added to deviations, far above the rounding of places up to 1e4 m [m].
 ROUNDING = 1e-9
 
 
@@ -72,7 +75,7 @@ class FirstOrder:
 
 
 def union_bound(dance: Dance, model: Wobble, times: Floats, budget: Budget) -> float:
-    """No larger is the probability that two benches touch at one of some instants (T,) [s]; 1 where nothing is known.
+    """Upper bound of the probability that two benches touch at one of some instants (T,) [s]; 1 if none is known.
 
     raises: Halted
     """
@@ -93,7 +96,7 @@ def union_bound(dance: Dance, model: Wobble, times: Floats, budget: Budget) -> f
 
 
 def _beyond(deviations: float, benches: int) -> float:
-    """Probability that the assumption fails for one of so many benches, at most."""
+    """Upper bound of the probability that the assumption fails for one of the benches."""
     from scipy.special import ndtr  # type: ignore[import-untyped]
 
     return 2.0 * NUMBERS * benches * float(ndtr(-deviations))

@@ -1,4 +1,4 @@
-"""How people wobble: the model of contact_probability() (core/tolerance/chance.py)."""
+"""The model of people who wobble, for contact_probability() (core/tolerance/chance.py)."""
 
 from __future__ import annotations
 
@@ -11,31 +11,31 @@ from core.paths.spiral import Spiral
 from core.shown import Shown
 from core.values import SIZE_MAX, checked_number
 
-# Instants in a correlation time, at least [1].
+# Least number of instants in a correlation time [1].
 INSTANTS_PER_TIME = 5
 # Longest correlation, in seconds and in benches [1].
 CORRELATION_MAX = 1e9
-# Sizes of what people want, and the play, are at most this part of the shortest chord, and the size of a pitch error
-# this part of the pitch [1]: no person ever wants to stand on the far side of the next, no pitch is ever negative.
+# Largest displacement and play relative to the shortest chord, and largest pitch error relative to the pitch [1]: so
+# nobody ever wants to stand on the far side of the next person, and no pitch is ever negative.
 SIZE_PART, PITCH_PART = 0.1, 0.1
 
 
 @dataclass(frozen=True, slots=True)
 class Wobble(Shown):
-    """How people wobble. Think of two steps a second: a correlation time of 5 s is that of ten steps.
+    """How people wobble. At two steps a second, a correlation time of 5 s is ten steps.
 
-    lateral, forward: how far a person wants to stand from their place, across the path and along it [m]: normal, with
-        these standard deviations, so at one step in twenty further than twice as far. Chords are rigid: what comes of
-        the latter is the first person's, and what the bends of the chain make of the former
+    lateral, forward: displacement that a person wants, across the path and along it [m]: normal numbers with these
+        standard deviations, so that one step in twenty is further than twice the deviation. Chords are rigid: of the
+        forward displacements only that of the first person remains, and the bends of the chain add some of the lateral
     correlation_time: [s] after it 1 / e of a person's displacement is left, and the rest is new
-    step: [s] between two instants, at most 1 / INSTANTS_PER_TIME of the correlation time, which None stands for. The
-        path of a person is as rough as that of a random walk, so at closer instants there are more contacts
-    correlation_benches: [1] two people so many benches apart share 1 / e of where they stand, who carry the same bench
-        exp(-1 / correlation_benches) of it
-    hole, pin: diameters in a joint [m]. Where a pin lies in each of its two holes is drawn once for a dance, uniformly
-        over the hole
-    pitch_error: [m] standard deviation of the pitch of the painted spiral, drawn once for a dance. The head is as far
-        from the centre at every instant as it would be without
+    step: [s] between two instants, at most 1 / INSTANTS_PER_TIME of the correlation time; None stands for this maximum.
+        The path of a person is as rough as a random walk, so closer instants show more contacts
+    correlation_benches: [1] number of benches over which two people share 1 / e of their displacement; people who carry
+        the same bench share exp(-1 / correlation_benches) of it
+    hole, pin: diameters in a joint [m]. The place of a pin in each of its two holes is drawn once for a dance,
+    uniformly over the hole
+    pitch_error: [m] standard deviation of the pitch of the painted spiral, drawn once for a dance. The head keeps the
+        distance from the centre, at every instant, that it has without an error
     """
 
     lateral: float = 0.01
@@ -69,7 +69,7 @@ class Wobble(Shown):
 
     @property
     def play(self) -> float:
-        """How far a hole may be from its pin [m]."""
+        """Largest distance of a hole from its pin [m]."""
         return 0.5 * (self.hole - self.pin)
 
     @property
@@ -91,7 +91,7 @@ def check_sizes(dance: Dance, model: Wobble) -> None:
         raise InvalidValue("model.hole", rule, pin="model.pin")
     if model.pitch_error > 0.0:
         if not isinstance(dance.path, Spiral):
-            rule = "must be 0 on a path that is no spiral"
+            rule = "must be 0 on a path that is not a spiral"
             raise InvalidValue.of("model.pitch_error", rule, model.pitch_error, "m")
         most = PITCH_PART * dance.path.pitch
         if model.pitch_error > most:
