@@ -111,6 +111,11 @@ def _working(what: str) -> Iterator[Callable[[float], None]]:
     raise typer.Exit(code)
 
 
+def _terms(asked: CollisionClaim | PitchClaim | ClearClaim, progress: Callable[[float], None]) -> dict[str, Any]:
+    """Keyword arguments that these proofs share."""
+    return {"margin": asked.margin, "every_pair": asked.every_pair, "progress": progress}
+
+
 prove = typer.Typer()
 
 
@@ -154,13 +159,7 @@ def collision_time(
         if time is None:
             near = f"no two benches come nearer than {said(asked.margin)} m" if asked.margin else "nothing touches"
             raise ProofRefused("time", f"{near}, so there is no collision time to prove: prove clear")
-        certificate = prove_collision_time(
-            Dance(dragon, path, asked.head_speed),
-            time,
-            margin=asked.margin,
-            every_pair=asked.every_pair,
-            progress=progress,
-        )
+        certificate = prove_collision_time(Dance(dragon, path, asked.head_speed), time, **_terms(asked, progress))
     _finish(certificate, output)
 
 
@@ -188,13 +187,7 @@ def minimum_pitch(
             if Fraction(pitch) * Fraction(asked.start_turns) < Fraction(radius):  # rounded down: within the circle
                 pitch = math.nextafter(pitch, math.inf)
         certificate = prove_minimum_pitch(
-            dragon,
-            pitch,
-            turning_radius=radius,
-            start_turns=asked.start_turns,
-            margin=asked.margin,
-            every_pair=asked.every_pair,
-            progress=progress,
+            dragon, pitch, turning_radius=radius, start_turns=asked.start_turns, **_terms(asked, progress)
         )
     _finish(certificate, output)
 
@@ -212,12 +205,7 @@ def clear(
         from core.proof import prove_clear
 
         certificate = prove_clear(
-            Dance(dragon, path, asked.head_speed),
-            asked.stop,
-            start=asked.start,
-            margin=asked.margin,
-            every_pair=asked.every_pair,
-            progress=progress,
+            Dance(dragon, path, asked.head_speed), asked.stop, start=asked.start, **_terms(asked, progress)
         )
     _finish(certificate, output)
 

@@ -134,7 +134,7 @@ class Failure(Answer):
     @classmethod
     def of(cls, found: core.Failure, dragon: core.Dragon, start_clock: str | None) -> Self:
         clock = None if start_clock is None else time_of_day(found.time, start_clock)
-        # A handle leads the bench of its number; the last one is at the rear of the last bench.
+        # A handle has the number of the bench behind it; the last handle is at the rear of the last bench.
         benches = [min(bench, dragon.benches - 1) for bench in found.benches]
         return cls.known(found, names=[dragon.names[bench] for bench in benches if dragon.names], clock=clock)
 

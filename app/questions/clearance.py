@@ -39,7 +39,7 @@ def clearance(asked: ClearanceQuery | ClearanceRequest, terms: Terms) -> Columns
 
 
 def profile(asked: ClearanceQuery | ClearanceRequest, terms: Terms) -> core.ClearanceProfile:
-    """The same as core has it. raises: TooLarge, InvalidValue"""
+    """The clearance as an object of core. raises: TooLarge, InvalidValue"""
     flat = isinstance(asked, ClearanceQuery)
     dance = asked.to_dance(terms.settings.benches_max if flat else terms.settings.checked_benches_max)
     return core.clearance_profile(dance, asked.times_of(dance, terms.settings.cells_max), budget=terms.budget)

@@ -14,7 +14,7 @@ from app.wire.models import Answer, CrossCheck, Margin, measure
 from app.wire.paths import SpiralPath
 from core import Dance, Outcome
 
-# Of longer dragons only the benches near the contact are judged.
+# Most benches of a dragon that are all judged; of a longer dragon only those near the contact are [1].
 JUDGED_MOST = 2_000
 
 
@@ -102,7 +102,7 @@ def collision_time(asked: CollisionQuery | CollisionRequest, terms: Terms) -> Co
 
 
 def _cost(asked: CollisionQuery | CollisionRequest) -> float:
-    """A search on a spiral does not grow with the benches; a judgement of the whole dragon does."""
+    """Estimated time [s]: a search on a spiral does not grow with the benches; a judgement of the whole dragon does."""
     if isinstance(asked, CollisionRequest):
         repeats = isinstance(asked.path, SpiralPath) and isinstance(asked.dragon, UniformDragon)
         if not repeats:

@@ -16,7 +16,7 @@ from app.wire.models import Answer, Wire, check_limit, measure
 from core.tolerance.chance import CONFIDENCE, SEED_MAX
 from core.tolerance.curve import time_on_circle
 
-# Quantiles of the times of first contact that are told [1].
+# Quantiles of the times of first contact in the answer [1].
 QUANTILES = (0.05, 0.5, 0.95)
 
 Spread = Annotated[float, Field(ge=0, le=5)]

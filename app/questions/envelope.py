@@ -19,7 +19,7 @@ from app.wire.paths import Point
 
 # Largest number of points of a line of spectators.
 LINE_MOST = 1_000
-# Time of the default dance up to its contact, measured 2026-11-22 [s].
+# Time for the default dance up to its contact [s], measured on 2026-11-22.
 SECONDS = 2.5
 
 
@@ -76,14 +76,14 @@ class Envelope(Answer):
         return cls.known(found, envelope=geometry_of(found), distance=distance)
 
 
-# Forms of an envelope besides JSON: media type -> function of it.
+# Forms of an envelope besides JSON: media type -> function of the envelope.
 FORMS: dict[str, Callable[[core.Envelope], bytes]] = {GEOJSON_TYPE: envelope_geojson}
 if find_spec("ezdxf"):
     FORMS[DXF_TYPE] = envelope_dxf
 
 
 def swept(asked: EnvelopeQuery | EnvelopeRequest, terms: Terms) -> core.Envelope:
-    """The envelope as core has it. raises: TooLarge, InvalidValue"""
+    """The envelope as an object of core. raises: TooLarge, InvalidValue"""
     dance = asked.to_dance(terms.settings.checked_benches_max)
     return core.envelope(dance, start=asked.start, stop=asked.stop, budget=terms.budget)
 

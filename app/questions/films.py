@@ -13,7 +13,7 @@ from core import Dance, EndReason, InvalidValue, Outcome, first_contact
 from core.errors import said
 
 FORM = next(iter(ENDINGS))
-# A film without a stop ends at first contact, or after this long, or this much before a fold [s].
+# Longest time of the dance in a film without a stop, unless benches touch earlier, and time left before a fold [s].
 LONGEST, BEFORE_FOLD = 1_000.0, 1e-3
 # Time to draw and encode a million pixels of a film, measured 2026-11-22 [s].
 SECONDS_PER_MEGAPIXEL = {MP4_TYPE: 0.012, GIF_TYPE: 0.04}
@@ -49,7 +49,7 @@ def films(asked: FilmRequest, terms: Terms, form: str = FORM) -> bytes:
 
 
 def filmed(asked: FilmFields, dance: Dance, terms: Terms, form: str) -> bytes:
-    """The film of a dance, in the venue and with the time of day that its request may tell."""
+    """The film of a dance, in the venue and with the time of day of its request, if these are given."""
     from app.files import film
 
     placed = asked if isinstance(asked, FilmRequest) else None

@@ -40,7 +40,7 @@ class OriginFields(Wire, strict=True):
 
 
 class Marked(CheckRequest, strict=True):
-    """A dance as /check takes it, and the marks along its path."""
+    """A dance, as for /check, and the marks along its path."""
 
     spacing: float = measure("m", "Distance of the chalk marks along the path", 5.0, ge=0.5, le=1_000)
     origin: OriginFields | None = Field(
@@ -49,7 +49,7 @@ class Marked(CheckRequest, strict=True):
     )
 
     def told_origin(self, place: degrees.Place) -> degrees.Origin | None:
-        """The origin asked for, else that of the venue."""
+        """The origin in the request, else that of the venue."""
         if self.origin is None:
             return place.origin
         return degrees.Origin(self.origin.longitude, self.origin.latitude)

@@ -15,7 +15,7 @@ from app.wire.paths import Circle, WayToCircle
 from core import Dragon, InvalidValue, LimitedBy
 from core.errors import said
 
-# A search with chords of at least this and circles of at most this takes 20 ms [m].
+# Shortest chord and largest circle of a search that takes 20 ms [m].
 CHORD_ORDINARY, CIRCLE_ORDINARY = 0.5, 30.0
 
 
@@ -108,7 +108,7 @@ def minimum_pitch(asked: MinimumPitchQuery | MinimumPitchRequest, terms: Terms) 
 
 
 def _cost(asked: MinimumPitchQuery | MinimumPitchRequest) -> float:
-    """Benches shorter than their way around the circle is long take thousands of times as long as ordinary ones."""
+    """Estimated time [s]: very short benches on a large circle take thousands of times as long as ordinary ones."""
     dragon = asked if isinstance(asked, MinimumPitchQuery) else asked.dragon
     if asked.strays or not isinstance(dragon, UniformDragon):
         return UNKNOWN_COST

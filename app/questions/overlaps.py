@@ -88,7 +88,7 @@ def overlaps(asked: OverlapsRequest, terms: Terms) -> OverlapsAnswer:
 
 
 def of_dance(asked: InstantQuery, terms: Terms) -> OverlapsAnswer:
-    """The same for the benches of a dance at one instant."""
+    """The overlaps of the benches of a dance at one instant."""
     dance = asked.to_dance(terms.settings.poses_max)
     handles = core.trajectory(dance, [asked.time], budget=terms.budget).position[0]
     dragon, poses = dance.dragon, core.bench_poses(handles)

@@ -40,7 +40,7 @@ PAPER_TIME = 406.43  # [s], figure 7
 PAPER_RADIUS = 2.883  # [m], section 3.3
 PAPER_PITCH = 0.474924  # [m], section 3.3
 
-# Numbers that others published: where, its number, and its name in app/grade/shortcuts.py.
+# Numbers that others published: the place, the name of the number in app/grade/shortcuts.py, and the number.
 PUBLISHED = (
     ("B. Zhang, Y. Shang, X. Lin, ICMMCT 2025, doi 10.25236/icmmct.2025.021", "collision_time", "412.478"),
     ("B. Zhang, Y. Shang, X. Lin, ICMMCT 2025, doi 10.25236/icmmct.2025.021", "pitch", "0.45035"),

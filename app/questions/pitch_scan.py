@@ -24,7 +24,7 @@ class ScanFields(Circle):
 
 
 class Located(ScanFields):
-    """The same, with or without the jumps."""
+    """A scan, with or without the jumps."""
 
     locate: bool = Field(True, description="Locate the jumps between the samples; false: a first look, much faster")
 

@@ -22,11 +22,11 @@ from core.shapes.engines import widened
 PDF_TYPE = "application/pdf"
 # Excess of the swept ground on paper [m]: 0.05 mm at 1:200.
 EXCESS = 0.01
-# Zone to keep clear where there is no margin [m].
+# Width of the zone to keep clear if there is no margin [m].
 CLEAR = 0.5
 # Time of the default dance's plan, measured 2026-11-22 [s].
 SECONDS = 4.0
-# The first character of Unicode that needs a Chinese font, roughly.
+# First character of Unicode that needs a Chinese font, approximately.
 FIRST_CHINESE = "\u2e80"
 # Words for each kind of failure.
 FAILURES = {
@@ -40,7 +40,7 @@ FAILURES = {
 
 
 class PlanRequest(Marked):
-    """A dance as /check takes it, and how its plan looks."""
+    """A dance, as for /check, and the look of its plan."""
 
     paper: Literal["A4", "A3"] = Field("A4", description="Size of the paper")
     clear: float | None = measure(

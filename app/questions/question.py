@@ -11,7 +11,7 @@ from app.settings import Settings
 from app.wire.models import JSON, Answer, Wire
 from core import Budget
 
-# Cost of a question without an estimate of its own: not a cheap one [s].
+# Estimated time of a question without an estimate of its own, which makes it a heavy one [s].
 UNKNOWN_COST = 1.0
 
 
@@ -37,7 +37,7 @@ class FileFormat(StrEnum):
 
 @dataclass(frozen=True)
 class Terms:
-    """What an answer may take, and who follows it.
+    """Limits of an answer, and the listener to its progress.
 
     settings: limits of the sizes
     budget: limit of the work, and the flag that ends it
@@ -58,8 +58,8 @@ class Question:
     model: type of the answer's JSON; None for a picture
     flat, body: the request as parameters of a query, and as a JSON object with a dragon and a path
     forms: media types of the answer; the first is the default
-    at: path of its address where that does not follow from its name
-    formats: endings of its address, one for each form, where that names the form of the answer
+    at: path of its address if that does not follow from its name
+    formats: endings of its address, one for each form, if the address names the form of the answer
     cost: estimated time of the answer [s], from a request and a form, before anything is computed
     """
 
@@ -86,7 +86,7 @@ class Question:
 
     @property
     def format_in_path(self) -> bool:
-        """Does its address name the form of the answer?"""
+        """Whether its address names the form of the answer."""
         return self.formats is not None
 
     @property
@@ -112,8 +112,8 @@ class Question:
 class Call:
     """One way to ask a question at the service: over a query (GET), or over a body (POST).
 
-    name: operation id, as the question is named; over a body, where it can be asked both ways, `collision_time_of`
-    asked: what the request becomes
+    name: operation id, the name of the question; with the ending `_of` for a body if a query can ask it too
+    asked: type of the request
     """
 
     name: str

@@ -18,7 +18,8 @@ from core.values import Floats
 
 # Default highest pitch, as a multiple of the lowest one [1].
 WIDEST = 2.0
-# At the minimum pitch itself the dance may begin on the circle; so much above it there is a way to judge [1].
+# Default lowest pitch relative to the minimum pitch, less 1 [1]: at the minimum itself the dance may begin on the
+# circle, which leaves no way to judge.
 ABOVE_MINIMUM = 1e-6
 
 

@@ -1,7 +1,7 @@
-"""Bodies of requests: counted before they are read, and read beside the event loop where they are large.
+"""Bodies of requests: their parts are counted before they are read, and large bodies are read in a thread.
 
-Python reads a list or an object of JSON in 1 us and holds its lock all the while: 1.3 million of them took 1.5 s
-(measured 2026-11-22), in whatever thread. So their number is limited, by a count of the brackets that begin them.
+Python reads a list or an object of JSON in 1 us and holds its lock meanwhile: 1.3 million of them took 1.5 s (measured
+on 2026-11-22), in any thread. So their number is limited, by a count of the brackets that begin them.
 """
 
 from __future__ import annotations
@@ -21,15 +21,15 @@ from app.wire.problem import ErrorItem
 
 # Larger bodies are read and answered in a thread of their own [bytes]; smaller ones take under 2 ms to read.
 LARGE = 64_000
-# How long the answer to a large body takes, as far as a full lane may say [s].
+# Estimated time to answer a large body, for the Retry-After of a full lane [s].
 LARGE_COST = 1.0
-# Escapes for the character NUL and for halves of characters: a text that holds one is no text.
+# Escapes for the character NUL and for halves of characters; a text that holds one is refused.
 ESCAPES = re.compile(rb"\\u(?:0000|[dD][89a-fA-F])")
 NO_TEXT = re.compile("[\0\ud800-\udfff]")
 
 
 class BodyRoute(WatchedRoute):
-    """A call with a body, which no body can keep from others."""
+    """A call with a body; large bodies do not delay other requests."""
 
     def unwatched(self) -> Handler:
         answer = super().unwatched()
@@ -42,7 +42,7 @@ class BodyRoute(WatchedRoute):
         async def in_thread(request: Request) -> Response:
             try:
                 return await small(request)
-            except RequestValidationError as error:  # Thousands of errors take as long to tell as the body to read.
+            except RequestValidationError as error:  # Thousands of errors take as long to write as the body to read.
                 return await validation_problem(request, error)
 
         async def handled(request: Request) -> Response:
@@ -56,14 +56,14 @@ class BodyRoute(WatchedRoute):
                 raise Refused(422, detail, [ErrorItem(pointer="", detail=detail)])
             lanes: Lanes = request.app.state.lanes
             with lanes.large_bodies.taken(LARGE_COST):
-                # Threads beside those that answer small requests.
+                # Threads separate from those that answer small requests.
                 return await to_thread.run_sync(asyncio.run, in_thread(request), limiter=CapacityLimiter(1))
 
         return handled
 
 
 async def _value(request: Request) -> Any:
-    """The body as JSON; None where it is none, which the answer will say."""
+    """The body as JSON; None if it is not JSON, which the answer reports."""
     try:
         return await request.json()
     except (ValueError, RecursionError):

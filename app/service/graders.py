@@ -1,11 +1,11 @@
-"""Files are read in processes of their own: python -m app.service.graders
+"""Reading of files in separate processes: python -m app.service.graders
 
-A file is read by Python code for seconds, and of all threads of a process one at a time runs Python code: beside four
-texts of 20 MB another client waited 1.8 s (measured 2026-11-22). So each file is read in another process, with low
-priority. The process is killed at the deadline, or when the client is gone; otherwise it may read the next file.
+Python code reads a file for seconds, and only one thread of a process at a time runs Python code: beside four texts of
+20 MB another client waited 1.8 s (measured on 2026-11-22). So each file is read in another process, with low priority.
+The process is killed at the deadline, or when the client is gone; otherwise it may read the next file.
 
-input   a function and its arguments besides a budget, again and again; its end: whoever started this process is gone
-output  what each function returns
+input   functions, each with its arguments except the budget; the input ends when the parent process ends
+output  the value that each function returns
 """
 
 from __future__ import annotations
@@ -26,9 +26,10 @@ from core import Budget
 from core.budget import Halted
 
 Answer = TypeVar("Answer")
-# Processes that wait for a file, of 60 to 90 MB each; and how often a file is tried whose process others kill.
+# Largest number of processes that wait for a file, of 60 to 90 MB each; and number of tries of a file whose process is
+# killed from outside [1].
 WAITING, TRIES = 1, 2
-# Between two looks at a budget [s].
+# Time between two looks at a budget [s].
 LOOK_SECONDS = 0.05
 
 
@@ -39,7 +40,7 @@ class Graders:
         self._waiting: list[subprocess.Popen[bytes]] = []
 
     def asked(self, budget: Budget, read: Callable[..., Answer], *given: object) -> Answer:
-        """What a function of a module says of a file; its last argument is a budget.
+        """The value that a function of a module returns for a file; its last argument is a budget.
 
         raises: Halted when the budget is stopped; EOFError when no process survives
         """
@@ -99,11 +100,11 @@ def _end(process: subprocess.Popen[bytes]) -> None:
 
 
 def main() -> None:
-    """Read what comes in until nothing does."""
+    """Answer inputs until they end."""
     if hasattr(os, "nice"):
         os.nice(NICENESS)
     sink = os.fdopen(os.dup(1), "wb")
-    os.dup2(2, 1)  # What a library prints is no answer.
+    os.dup2(2, 1)  # The output of libraries must not mix with the answers.
     with contextlib.suppress(EOFError, BrokenPipeError):
         while True:
             read, given = pickle.loads(receive(sys.stdin.buffer))

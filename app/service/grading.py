@@ -1,7 +1,7 @@
 """POST /grade: a workbook or CSV as the body, graded in the memory of a process; nothing of it is kept or logged.
 
-The file is the whole body, not a part of a form: its length is limited before it is read, and any HTTP client sends it
-with one option. Further numbers stand in the query.
+The file is the whole body, not a part of a form, so that its length is limited before it is read, and any HTTP client
+sends it with one option. Further numbers are in the query.
 """
 
 from __future__ import annotations
@@ -28,15 +28,15 @@ from core.budget import Halted
 
 FILE_TYPE = "application/octet-stream"
 TYPES = (FILE_TYPE, XLSX_TYPE, CSV_TYPE)
-# How long a file takes, as far as a full lane may say [s].
+# Estimated time of a file, for the Retry-After of a full lane [s].
 COST = 1.0
 STATUSES = (413, 414, 415, 422, 429, 500, 503)
-# A number as it was typed: its digits tell how far it is rounded.
+# A number as it was typed, because its digits show its rounding.
 TYPED = r"^[0-9]{1,6}(\.[0-9]{1,15})?$"
 
 
 class GradeQuery(Wire):
-    """What goes with the file."""
+    """Query parameters beside the file."""
 
     name: str = Field("upload", min_length=1, max_length=200, description="Name of the file, as result1.xlsx")
     language: Language = Field(Language.ENGLISH, description="Language of the words: en or zh")
@@ -59,7 +59,7 @@ router = APIRouter(tags=["Grading"], route_class=UploadRoute)
 
 
 def file_body(types: tuple[str, ...]) -> Callable[[Request], Coroutine[Any, Any, bytes]]:
-    """The function that gives the body of a request; it raises Refused (415) for one of another type."""
+    """A function that returns the body of a request; it raises Refused (415) for a body of another type."""
 
     async def uploaded(request: Request) -> bytes:
         data = await request.body()

@@ -1,9 +1,9 @@
-"""What keeps a busy service answering: lanes, an end to every computation, and answers that are kept.
+"""Load control: lanes, a limit on the time of every computation, and kept answers.
 
-Lanes limit how many computations run at once, apart for cheap calls, heavy ones, workbooks and large bodies. No call
-waits in a lane: a full lane answers 503 and says when the first of its computations should be done, so a heavy call
-never delays a cheap one. A computation ends at its deadline, when its client is gone, or soon if the event loop makes
-it itself. The latest answers stay in memory, because many people look at the same dance.
+Lanes limit how many computations run at once, separately for cheap calls, heavy calls, workbooks and large bodies. No
+call waits in a lane: a full lane answers 503 with the time at which the first of its computations should be done, so
+that a heavy call never delays a cheap one. A computation ends at its deadline or when its client is gone; one that the
+event loop runs itself ends much sooner. The latest answers stay in memory, because many people look at the same dance.
 """
 
 from __future__ import annotations
@@ -27,23 +27,23 @@ from app.service.problems import Refused
 from app.settings import Settings
 from core import Budget
 
-# An answer that is expected to take no longer than this is cheap [s].
+# Longest estimated time of a cheap answer [s].
 CHEAP = 0.1
-# The event loop itself makes a computation that should take no longer than this [s]: a thread costs a third of a
-# millisecond, a sixth of the answer (2026-11-22). One that takes longer is stopped, and made anew in a thread.
+# Longest estimated time of a computation that the event loop runs itself [s]: a thread costs a third of a millisecond,
+# a sixth of the answer (2026-11-22). A computation that takes longer is stopped, and repeated in a thread.
 GLANCE = 0.005
-# After one that was stopped the loop makes none for so long [s]: of 40 at once each would keep everybody else waiting.
+# Time after such a stop during which the loop runs no computation [s]: each one of 40 at once would delay all others.
 REST = 0.1
-# After so many looks at nothing the thread that stops them waits until the next one begins [1].
+# Number of looks without a computation after which the thread that stops them waits for the next one to begin [1].
 LOOKS_IDLE = 200
-# An answer that takes more than this part of the room is not kept [1].
+# Largest answer that is kept, relative to the room for all [1].
 SHARE_MAX = 1 / 16
 
 Handler = Callable[[Request], Coroutine[Any, Any, Response]]
 
 
 class Lane:
-    """At most so many computations at once, and so many of one client."""
+    """A limit on the computations at once, of all clients and of each one."""
 
     def __init__(
         self, name: str, most: int, of_client: int, retry_after: int, running: Gauge, refused: Counter
@@ -51,12 +51,12 @@ class Lane:
         self.name, self.most, self.of_client, self.retry_after = name, most, of_client, retry_after
         self._running, self._refused = running.labels(name), refused.labels(name)
         self._lock = Lock()
-        # Of each computation: when it began, how long it should take [s], and whose it is.
+        # For each computation: its beginning [s], its estimated time [s], and its client.
         self._begun: dict[object, tuple[float, float, str]] = {}
 
     @contextmanager
     def taken(self, cost: float, client: str = "") -> Iterator[None]:
-        """A place in the lane. cost: how long it is needed, as far as is known [s]. raises: Refused (429, 503)"""
+        """A place in the lane. cost: estimated time for which it is needed [s]. raises: Refused (429, 503)"""
         key = object()
         with self._lock:
             own = [one for one in self._begun.values() if one[2] == client]
@@ -76,7 +76,7 @@ class Lane:
                 del self._begun[key]
 
     def _full(self, status: int, words: str, begun: Iterable[tuple[float, float, str]]) -> Refused:
-        """Says when the first is expected to be done; one that is late is expected to take as long again."""
+        """A refusal with the expected end of the first computation; a late one is expected to take as long again."""
         self._refused.inc()
         now = time.monotonic()
         left = (began + cost - now if now < began + cost else now - began for began, cost, _ in begun)
@@ -108,7 +108,7 @@ class Lanes:
         )
 
     def of(self, cost: float, media_type: str) -> Lane:
-        """The lane of a computation. cost: how long it should take [s]"""
+        """The lane of a computation. cost: its estimated time [s]"""
         if media_type == XLSX_TYPE:
             return self._workbook
         return self._cheap if cost <= CHEAP else self._heavy
@@ -127,7 +127,7 @@ class WatchedRoute(APIRoute):
         return handled
 
     def seconds(self, settings: Settings) -> float:
-        """How long the computation may take [s]."""
+        """Longest time of the computation [s]."""
         return settings.deadline_seconds
 
     def unwatched(self) -> Handler:
@@ -136,8 +136,8 @@ class WatchedRoute(APIRoute):
 
 @asynccontextmanager
 async def watched(request: Request, seconds: float) -> AsyncIterator[None]:
-    """Gives the request a budget, which is stopped after so many seconds and when the client is gone."""
-    await request.body()  # What is received after it is the end of the connection.
+    """Context in which the request has a budget, which is stopped after `seconds` and when the client is gone."""
+    await request.body()  # After the body, the only message is the end of the connection.
     request.state.budget = Budget()
     task = asyncio.create_task(_watch(request, seconds))
     try:
@@ -147,18 +147,17 @@ async def watched(request: Request, seconds: float) -> AsyncIterator[None]:
 
 
 def clock_of_this_thread() -> Callable[[], float]:
-    """Clock of the processor time of the thread that asks for it, for any thread to read; elsewhere than on Unix of all
-    time [s]."""
+    """Clock of the calling thread's processor time [s], which any thread can read; outside Unix of elapsed time."""
     if not hasattr(time, "pthread_getcpuclockid"):
         return time.monotonic
     return partial(time.clock_gettime, time.pthread_getcpuclockid(get_ident()))
 
 
 class Glances:
-    """Computations that the event loop makes itself; a thread stops one that takes too long.
+    """Computations that the event loop runs itself; a thread stops one that takes too long.
 
-    turn: held by the one that is made, so that the loop looks after everybody else between two of them
-    What counts is the time that the loop computes: on a busy machine every wait is long.
+    turn: held by the computation that runs, so that the loop serves other requests between two of them
+    The limit is on the processor time of the loop, because on a busy machine every wait is long.
     """
 
     def __init__(self) -> None:
@@ -171,11 +170,11 @@ class Glances:
 
     @property
     def rests(self) -> bool:
-        """Should computations be left to threads, as one took too long a moment ago?"""
+        """Whether computations are left to threads, because one took too long a moment ago."""
         return time.monotonic() < self._rests_until
 
     def rest(self) -> None:
-        """One took too long."""
+        """Leave computations to threads for REST seconds, because one took too long."""
         self._rests_until = time.monotonic() + REST
 
     @contextmanager
@@ -219,9 +218,9 @@ async def _watch(request: Request, seconds: float) -> None:
 
 
 class KeptAnswers:
-    """Answers by their tags. A tag depends on all that an answer depends on: the request, its form and the build.
+    """Answers by their tags. A tag depends on everything that determines the answer: request, form and build.
 
-    bytes_max: room for all of them [bytes]; the one that has not been asked for longest goes first
+    bytes_max: room for all of them [bytes]; the answer that was asked for least recently goes first
     """
 
     def __init__(self, bytes_max: int, registry: CollectorRegistry) -> None:

@@ -1,4 +1,4 @@
-"""The log of the service: one line an event, with the name of its request, and JSON where that is asked for."""
+"""The log of the service: one line for each event, with the name of its request, as text or JSON."""
 
 from __future__ import annotations
 

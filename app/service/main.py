@@ -100,7 +100,7 @@ def _difference() -> str:
 
 @asynccontextmanager
 async def _lifespan(app: FastAPI) -> AsyncIterator[None]:
-    for name in core.__all__:  # Loading at the first request that needs it would keep everybody else waiting.
+    for name in core.__all__:  # Loading a module at the first request that needs it would delay all other requests.
         getattr(core, name)
     app.state.fault = fault()
     build()
@@ -108,18 +108,20 @@ async def _lifespan(app: FastAPI) -> AsyncIterator[None]:
         yield
 
 
-# How long a thread that computes in Python keeps Python's lock from others that want it [s]. With the default of 5 ms,
-# four such threads kept /healthz waiting for 1.6 s; 0.8 s with this, most of it the client's own (2026-11-22).
+# Longest time for which a thread that runs Python code holds Python's lock while others wait for it [s]. With the
+# default of 5 ms, four such threads delayed /healthz by 1.6 s; with this value by 0.8 s, most of it in the client
+# (2026-11-22).
 SWITCH_SECONDS = 5e-4
 
 
-# glibc returns blocks from this size to the system when they are freed [bytes]. Left alone it raises the size to that
-# of the largest block freed, 24 MB of a table: five times 24 tables left 847 MB behind, with this 206 MB (2026-11-22).
+# Size from which glibc returns freed blocks to the system [bytes]. By default glibc raises this size to that of the
+# largest block freed, 24 MB for a table: five times 24 tables left 847 MB behind, and 206 MB with this fixed size
+# (2026-11-22).
 RETURNED_BYTES, M_MMAP_THRESHOLD = 1_000_000, -3
 
 
 def return_memory() -> None:
-    """Give the memory of large tables back to the system, where the C library is glibc."""
+    """Return the memory of large tables to the system, if the C library is glibc."""
     if sys.platform == "linux":
         mallopt = getattr(ctypes.CDLL(None), "mallopt", None)
         if mallopt:

@@ -28,7 +28,7 @@ REQUEST_ID = re.compile(r"[A-Za-z0-9._:-]{1,100}")
 
 
 class RequestLimits:
-    """Answers 414 to a long query, 400 to two statements of one length, and 413 as soon as a body is too long."""
+    """Answers 414 to a long query, 400 to a length stated twice, and 413 as soon as a body is too long."""
 
     def __init__(self, app: ASGIApp, settings: Settings) -> None:
         self.app, self.bytes_max, self.query_max = app, settings.body_bytes_max, settings.query_bytes_max
@@ -69,7 +69,7 @@ class RequestLimits:
 
 
 class RequestId:
-    """Names each request, as its client does in X-Request-ID, or anew: in the answer and in the log."""
+    """Gives each request a name, in the answer and in the log: that of its client in X-Request-ID, or a new one."""
 
     def __init__(self, app: ASGIApp) -> None:
         self.app = app

@@ -1,4 +1,4 @@
-"""The web pages and their files: sent as gzip to who takes it, and asked again by browsers that have them."""
+"""The web pages and their files, sent as gzip to clients that accept it; browsers that have them ask again."""
 
 from __future__ import annotations
 
@@ -47,14 +47,14 @@ KEPT_FILES = 256
 
 @lru_cache(KEPT_FILES)
 def _forms(content: bytes, kind: str) -> tuple[str, bytes | None]:
-    """Tag of a content, and its gzip where that is smaller."""
+    """Tag of a content, and its gzip if that is smaller."""
     packed = gzip.compress(content, mtime=0) if kind.startswith(TEXT) else content
     tag = hashlib.blake2b(content, digest_size=16).hexdigest()
     return tag, packed if len(packed) < len(content) else None
 
 
 def reply_with(request: Headers, content: bytes, kind: str) -> Response:
-    """A file in the form that the client takes; 304 if it has it. Its tag depends on the content and the form."""
+    """A file in a form that the client accepts; 304 if the client has it. Its tag depends on content and form."""
     tag, packed = _forms(content, kind)
     headers = {"ETag": f'"{tag}"', "Vary": "Accept-Encoding"}
     if packed is not None and accepted(request.get("accept-encoding", "identity"), ["identity", "gzip"]) == "gzip":
@@ -68,18 +68,18 @@ def reply_with(request: Headers, content: bytes, kind: str) -> Response:
 
 @lru_cache(KEPT_FILES)
 def _content(path: str, changed: int) -> bytes:
-    """Content of a file that was last changed then [ns]."""
+    """Content of a file. changed: time of its last change [ns]"""
     return Path(path).read_bytes()
 
 
 class Files(StaticFiles):
-    """Files of a page; not the Python beside them that makes their folder a package."""
+    """Files of a page, without the Python file that makes their folder a package."""
 
     def lookup_path(self, path: str) -> tuple[str, os.stat_result | None]:
         return ("", None) if path.endswith((".py", ".pyc")) else super().lookup_path(path)
 
     async def get_response(self, path: str, scope: Scope) -> Response:
-        """raises: HTTPException 405 for another method, 404 for a path that is no file"""
+        """raises: HTTPException 405 for another method, 404 for a path that is not a file"""
         if scope["method"] not in ("GET", "HEAD"):
             raise HTTPException(status_code=405)
         return await run_in_threadpool(self._found, path, Headers(scope=scope))

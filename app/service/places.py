@@ -21,7 +21,7 @@ from app.wire.models import JSON, Coordinates, Wire
 from app.wire.problem import ErrorItem
 from core.budget import Halted
 
-# A map tells its form by its first bytes, so any of these will do.
+# Accepted media types; the form of a map follows from its first bytes, whichever of these is given.
 TYPES = (
     FILE_TYPE,
     *MapFormat.media_types(),
@@ -36,7 +36,7 @@ TYPES = (
 
 
 class PlacesQuery(Wire):
-    """What goes with the file."""
+    """Query parameters beside the file."""
 
     name: str | None = Field(None, max_length=200, description="Name of the file; its form is told by its bytes")
     units: Coordinates | None = Field(

@@ -16,7 +16,7 @@ from app.wire.messages import shown
 from app.wire.problem import PROBLEM_TYPE, ErrorItem, Problem, problem_of, title
 from core import BenchDragonError, TooMuchWork
 
-# What a client may do whose answer takes too much work.
+# Advice to a client whose answer takes too much work.
 A_JOB = "Ask for it as a job, which may take longer: POST /jobs, or this request with the header Prefer: respond-async."
 METHODS = ("DELETE", "GET", "PATCH", "POST", "PUT")
 
@@ -75,7 +75,7 @@ def _takes_file(request: Request) -> bool:
 
 
 async def _placing(request: Request) -> Placing:
-    # The body of a call that takes a file is no JSON, so what it refuses stands in its query.
+    # The body of a call that takes a file is not JSON, so the fault is in its query.
     if request.method in ("GET", "HEAD") or _takes_file(request):
         return in_query
     return in_body(await request.json() if await request.body() else {})

@@ -1,8 +1,8 @@
-"""HTTP/1.1 by uvicorn and h11, with an end to every wait and problem details for requests that are not HTTP.
+"""HTTP/1.1 by uvicorn and h11, with a limit on every wait and problem details for requests that are not HTTP.
 
-uvicorn ends a connection on which no request begins. It waits for ever for the rest of one that has begun, and for a
-client that takes nothing of its answer. It also reads all that has arrived before it does anything else: 200,000 chunks
-of one byte, 1.6 s (measured 2026-11-22).
+uvicorn ends a connection on which no request begins, but it waits for ever for the rest of a request that has begun,
+and for a client that takes nothing of its answer. It also reads everything that has arrived before it does anything
+else: 200,000 chunks of one byte took 1.6 s (measured on 2026-11-22).
 """
 
 from __future__ import annotations
@@ -18,16 +18,16 @@ from uvicorn.protocols.http.h11_impl import H11Protocol
 from app.service.problems import problem
 from app.settings import Settings
 
-# Chunked bodies are read in pieces of this many bytes, other work in between: 700 chunks of one byte, 6 ms.
+# Size of the pieces in which chunked bodies are read, with other work in between [bytes]: 700 chunks of one byte, 6 ms.
 PIECE = 4096
 
 
-# Read once: the environment takes 2 ms to read, and a connection might ask but one question.
+# Read once, because reading the environment takes 2 ms and a connection may ask only one question.
 _settings = cache(Settings)
 
 
 class _Flow(FlowControl):
-    """Reads no more from the client while pieces of what it sent are left."""
+    """Flow control that reads no more from the client while pieces of its last bytes are unread."""
 
     held = False
 
@@ -81,7 +81,7 @@ class Protocol(H11Protocol):
         return b"chunked" in data.lower()
 
     def _read_on(self) -> None:
-        """Reads one piece, and the next one when the loop has looked after everybody else."""
+        """Read one piece; the next one follows when the loop has served other connections."""
         if self.transport.is_closing():
             return
         piece = bytes(self.left[:PIECE])
@@ -109,7 +109,7 @@ class Protocol(H11Protocol):
             self._stalled.cancel()
 
     def _watch(self) -> None:
-        """Starts, keeps or stops the timer by what the client owes now."""
+        """Start, keep or stop the timer, by what the client owes now."""
         state = self.conn.their_state
         begun = self.timeout_keep_alive_task is None  # Between requests uvicorn has a timer of its own.
         owed = "head" if state is h11.IDLE and begun else "body" if state is h11.SEND_BODY else ""
@@ -126,7 +126,7 @@ class Protocol(H11Protocol):
         if self.transport.is_closing():
             return
         if self.conn.our_state in (h11.IDLE, h11.SEND_RESPONSE) and owed == "head":
-            self._refuse(408, "request-timeout", f"The head of the request was not whole within {seconds:g} s.")
+            self._refuse(408, "request-timeout", f"The head of the request was not complete within {seconds:g} s.")
         else:
             self.transport.abort()
 
@@ -136,7 +136,7 @@ class Protocol(H11Protocol):
                 timer.cancel()
 
     def send_400_response(self, msg: str) -> None:
-        self._refuse(400, "malformed-http", "The request is no HTTP/1.1 that this service understands.")
+        self._refuse(400, "malformed-http", "The request is not valid HTTP/1.1.")
 
     def _refuse(self, status: int, code: str, detail: str) -> None:
         answer = problem(status, code, detail, headers={"Connection": "close"})

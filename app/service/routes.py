@@ -23,7 +23,7 @@ from app.wire.problem import PROBLEM_TYPE
 
 PROBLEM = {PROBLEM_TYPE: {"schema": {"$ref": "#/components/schemas/Problem"}}}
 FILE = {"schema": {"type": "string", "format": "binary"}}
-# Of forms that are no plain files.
+# Endings of forms that are not plain files.
 SCHEMAS = {CSV_TYPE: {"schema": {"type": "string"}}, GEOJSON_TYPE: {"schema": {"type": "object"}}}
 PROBLEMS = {
     400: "The body is not JSON",

@@ -35,12 +35,12 @@ from core import InvalidValue
 
 logger = logging.getLogger("uvicorn.error")
 
-# Built on h11, not httptools, although that saves a fifteenth of the time: httptools answers an unknown method itself,
-# with 400 and without problem details.
+# h11 serves, although httptools would save a fifteenth of the time: httptools answers an unknown method itself, with
+# 400 and without problem details.
 PARSER = Protocol
-# Room for the counts of one process: three kinds of metrics, a file of 1 MiB each.
+# Room for the counts of one process [bytes]: three kinds of metrics, each in a file of 1 MiB.
 COUNTS_BYTES = 4 << 20
-# A process that says nothing for this long is replaced [s]. On a busy machine a process takes ten seconds to start.
+# Longest silence of a process before it is replaced [s]. On a busy machine a process takes ten seconds to start.
 SILENT_SECONDS = 60
 BACKLOG = 2048  # Connections that may wait to be accepted; uvicorn's default.
 
@@ -70,7 +70,7 @@ def listen(host: str, port: int) -> socket.socket:
     shared.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
     try:
         shared.bind((host, port))
-        # Listen here and not in the processes: until one listens, a second service could bind the port and fail later.
+        # Listen here, not in the processes: before one listens, a second service could bind the port and fail later.
         shared.listen(BACKLOG)
     except OSError:
         shared.close()
@@ -80,7 +80,7 @@ def listen(host: str, port: int) -> socket.socket:
 
 
 class _Supervisor(Multiprocess):
-    """uvicorn's supervisor; its processes ignore Ctrl-C while they start and leave no gauge behind when they die.
+    """uvicorn's supervisor, whose processes ignore Ctrl-C while they start, and leave no gauge behind when they die.
 
     It asks each process in turn whether it is alive and waits for the answer. This process closes its own copy of the
     other end of that pipe: the pipe then ends with a process that is killed, and the next one is started at once.
@@ -92,8 +92,8 @@ class _Supervisor(Multiprocess):
         self.counted: set[int | None] = set()
 
     def init_processes(self) -> None:
-        # A terminal sends Ctrl-C to all processes, and one that still imports would end with a traceback: they ignore
-        # it until they serve, and this process ends them.
+        # A terminal sends Ctrl-C to all processes, and one that still imports modules would end with a traceback. So
+        # they ignore it until they serve, and this process ends them.
         handler = signal.signal(signal.SIGINT, signal.SIG_IGN)
         super().init_processes()
         signal.signal(signal.SIGINT, handler)
@@ -114,9 +114,9 @@ class _Supervisor(Multiprocess):
 
 @contextmanager
 def _counts_folder(workers: int) -> Iterator[str | None]:
-    """A folder in which the processes count; None, and a word in the log, where the system has no room for it.
+    """A folder for the counts of the processes; None, with a line in the log, if the system has no room for it.
 
-    Their files are mapped into memory: on a full disk a process would die of its first count.
+    The files are mapped into memory, so that on a full disk a process would die at its first count.
     """
     with ExitStack() as kept:
         try:
@@ -177,7 +177,7 @@ def serve(host: str, port: int, workers: int) -> None:
     with listen(host, port) as shared, _counts_folder(workers) as counts, ExitStack() as stack:
         if settings.data is None:
             os.environ[DATA] = stack.enter_context(scratch())
-        if counts:  # Folder in which the processes add up the counts of /metrics; prometheus_client reads the variable.
+        if counts:  # The folder in which processes add up the counts of /metrics; prometheus_client reads the variable.
             os.environ[SHARED_COUNTS] = counts
         shown = f"[{host}]" if ":" in host else host
         at = f"http://{shown}:{shared.getsockname()[1]}"

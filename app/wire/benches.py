@@ -15,9 +15,9 @@ from app.wire.models import LENGTHS, OVERHANGS, WIDTHS, Wire, check_limit
 from core import Dragon, InvalidValue
 from core.errors import said
 
-# What separates columns, as far as the first line shows: the first of them that it holds.
+# Separators of columns; a table uses the first of these that stands in its first line.
 SEPARATORS = "\t;,"
-# Words for the columns, of which the first ones are those of messages. A column of another name is refused.
+# Names that each column may have; messages use the first one. A column of another name is refused.
 WORDS = {
     "name": ("name", "名称", "姓名"),
     "length": ("length", "长度", "长"),
@@ -49,7 +49,7 @@ class BenchTable(NamedTuple):
 def bench_table(text: str) -> BenchTable:
     """A table with the columns name (which may be missing), length, width and overhang [m], in any order.
 
-    Columns are separated by tabs, semicolons or commas; beside semicolons and tabs a decimal comma is read too. Empty
+    Columns are separated by tabs, semicolons or commas; with semicolons or tabs a decimal comma is read too. Empty
     lines are left out.
     raises: InvalidValue, whose message begins with the number of the line
 

@@ -30,7 +30,7 @@ StartClock = Annotated[
 
 
 def time_of_day(time: float, start_clock: str) -> str:
-    """The time of day at a time of the dance [s], down to the whole second; after midnight it begins again.
+    """The time of day at a time of the dance [s], rounded down to the second; after midnight it begins again at 00:00.
 
     start_clock: at time 0
 

@@ -39,7 +39,7 @@ if TYPE_CHECKING:
 # The last instant of a range may miss `stop` by this share of a step, so that 0 to 0.3 by 0.1 has four instants.
 LAST_STEP_TOLERANCE = 1e-9
 FEWER_CELLS = "take a larger step, a shorter range or fewer benches"
-# Half of the longest chord there can be; half of a dragon's shortest chord is the limit that counts [m].
+# Largest stray in a request [m]: half of the longest possible chord. The real limit is half of the shortest chord.
 STRAY_MAX = 25
 # Nesting depth of objects and lists: a collection of features of polygons has nine levels.
 VENUE_DEPTH_MAX = 20
@@ -114,7 +114,7 @@ class Strays(Wire):
 
     @property
     def strays(self) -> bool:
-        """Is any stray asked for? Then a search takes longer."""
+        """Whether any stray is asked for, which makes a search slower."""
         return self.stray > 0.0 or self.hole > 0.0
 
     @property
@@ -188,7 +188,7 @@ def _shape_of_times(value: Any) -> str:
     return "list" if isinstance(value, list) else "range"
 
 
-# Names of shapes: pydantic puts them into the place of an error, although no body contains them.
+# Names of shapes, which pydantic puts into the place of an error although no body contains them.
 SHAPES = frozenset({"uniform", "bench_by_bench", "bench_csv", "range", "list"}) | KINDS
 
 # The type with required fields comes first: generated clients take the first that fits.

@@ -29,7 +29,7 @@ GEOGRAPHIC = re.compile(r"CRS:?84|\bEPSG:+[\d.]*:*(?:4326|4979|4490|4258|4269)$"
 
 DEGREES: Scale = ("degrees", 180.0, 90.0)
 LATITUDE_FIRST: Scale = ("degrees", 90.0, 180.0)
-# Steps of Newton's method from a plane back to the ellipsoid: 10 km from the middle each takes four digits more.
+# Steps of Newton's method from a plane back to the ellipsoid; 10 km from the middle each step adds four digits.
 STEPS = 4
 SWAPPED = "longitude comes first and latitude second, and here they look swapped"
 
@@ -91,8 +91,8 @@ def place_of(geometry: Mapping[str, object], coordinates: Coordinates | None, dr
     """The venue in a GeoJSON object.
 
     coordinates: unit of its coordinates; None: as its member `crs` says, otherwise metres
-    raises: InvalidValue, also for metres that can only be degrees: all coordinates within 180 and 90, in either order,
-        and the square narrower than a bench
+    raises: InvalidValue, also for metres that must be degrees: all coordinates are within 180 and 90, in either order,
+        and the square is narrower than a bench
     """
     named = named_system(geometry)
     for member in ("geometry", "features", "geometries"):
@@ -115,7 +115,7 @@ def place_of(geometry: Mapping[str, object], coordinates: Coordinates | None, dr
 
 
 def _told_origin(told: object) -> Origin | None:
-    """Place of x = y = 0 that a venue in metres tells in its member `origin`. raises: InvalidValue"""
+    """Place of x = y = 0, from the member `origin` of a venue in metres. raises: InvalidValue"""
     if told is None:
         return None
     if not isinstance(told, Mapping) or set(told) != {"longitude", "latitude"}:

@@ -1,4 +1,4 @@
-"""What is wrong with a request, as a problem: each fault with its place in the query or the body."""
+"""Faults of a request as a problem, each with its place in the query or the body."""
 
 from __future__ import annotations
 
@@ -10,9 +10,9 @@ from app.wire.messages import message
 from app.wire.problem import ERRORS_MAX, PLACE_MAX, ErrorItem, Problem, plain, problem_of
 from core import BenchDragonError
 
-# What pydantic says of a union, though it is the field `kind` that is wrong.
+# Kinds of pydantic's errors about a union, where the field `kind` is wrong.
 UNION_ERRORS = frozenset({"union_tag_invalid", "union_tag_not_found"})
-# An error from the steps that lead to its place and its words.
+# A function of the steps to the place of an error and its words; it returns the error of the problem.
 Placing = Callable[[Sequence[Any], str], ErrorItem]
 
 
@@ -40,7 +40,7 @@ def in_query(place: Sequence[Any], detail: str) -> ErrorItem:
 
 
 def in_body(body: Any, before: str = "") -> Placing:
-    """body: JSON of the request; before: pointer to it in what holds it"""
+    """Places in a body. body: JSON of the request; before: pointer to it in the object that holds it"""
     return lambda place, detail: ErrorItem(pointer=before + pointer(place, body), detail=detail)
 
 

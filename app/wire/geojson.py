@@ -1,6 +1,6 @@
 """GeoJSON: the polygons of a venue by name, in any nesting of features and collections; and polygons written.
 
-Read by hand and not by geojson-pydantic (2.2.0, measured 2026-11-22). That package names three places for one missing
+Read by hand, not by geojson-pydantic (2.2.0, measured on 2026-11-22). That package names three places for one missing
 number, with its own classes in them (`FeatureCollection.features.0.geometry.Polygon.coordinates.0.1.Position2D.1`).
 It accepts a feature without geometry, a name that is not a text, and coordinates of any size, so the checks below
 would stay. It also reads all of 140,000 rings, in 1.7 s, before anyone can count them; here they are refused
@@ -26,7 +26,7 @@ Found = tuple[str | None, str, object, float | None]
 Scale = tuple[str, float, float]
 METRES: Scale = ("m", COORDINATE_MAX, COORDINATE_MAX)
 
-# Enough for a collection of features of collections of polygons.
+# Largest nesting depth [1]: a collection of features of collections of polygons.
 DEPTH_MAX = 8
 # Radius of a round obstacle, and half of the width of a wall [m].
 RADIUS_MIN, RADIUS_MAX = 1e-3, 1e3

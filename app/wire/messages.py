@@ -20,7 +20,7 @@ from core import InvalidValue
 from core.errors import said, spoken
 
 Model = TypeVar("Model", bound=BaseModel)
-# What JSON calls an object.
+# An object, in the words of JSON.
 OBJECT = "a JSON object"
 # Longer values are shortened [characters].
 SHOWN_MAX = 60
@@ -31,9 +31,9 @@ IN_WORDS = {"m": "lengths are in metres", "m/s": "speeds are in metres per secon
 
 
 def checked(model: type[Model], values: object, thing: str = OBJECT) -> Model:
-    """The values as the service's own request; a wrong one is refused in the service's words.
+    """The values as a request of the service, which refuses wrong ones in its own words.
 
-    thing: what the author of the values calls an object
+    thing: name of an object in the format of these values
     """
     try:
         return model.model_validate(values)
@@ -63,7 +63,7 @@ def shown(value: Any) -> str:
 def message(error: Mapping[str, Any], asked: Any, thing: str = OBJECT) -> str:
     """Message for one wrong field: its name, the value, the unit, the limit, and what to change.
 
-    asked: type of the request; thing: what its author calls an object
+    asked: type of the request; thing: name of an object in the format of its values
     """
     units = known_units()
     names = [part for part in error["loc"][1:] if isinstance(part, str)]

@@ -1,6 +1,6 @@
 """Paths in requests, distinguished by `kind`: spiral, turn, waypoints, and a route of pieces.
 
-A refusal of core is renamed to its place in the body: core does not put `path.` before the fields of a turn.
+A refusal of core is renamed to its place in the body, because core does not put `path.` before the fields of a turn.
 """
 
 from __future__ import annotations
@@ -47,7 +47,7 @@ class WayToCircle(Wire):
 
 
 class Circle(WayToCircle):
-    """The same, with a margin on the way."""
+    """A way to a circle, with a margin on it."""
 
     margin: Margin = 0.0
 

@@ -11,7 +11,7 @@ from pydantic import BaseModel, Field
 PROBLEM_TYPE = "application/problem+json"
 # Errors beyond this number in one request are counted, not listed.
 ERRORS_MAX = 20
-# Longest detail and place; longer ones are cut, so that a problem has less than 20 kB [characters].
+# Longest detail and place [characters]; longer ones are cut, so that a problem has less than 20 kB.
 DETAIL_MAX, PLACE_MAX = 300, 200
 # Titles by RFC 9110, which newer Pythons know by these names and older ones do not.
 TITLES = {413: "Content Too Large", 414: "URI Too Long", 422: "Unprocessable Content"}
@@ -39,7 +39,7 @@ class Problem(BaseModel):
 
 
 def problem_of(status: int, code: str, detail: str, errors: Iterable[ErrorItem] = ()) -> Problem:
-    """What is said of a request that failed. code: kind of problem, such as invalid-value"""
+    """The problem of a request that failed. code: kind of problem, such as invalid-value"""
     return Problem(
         type=f"urn:problem-type:bench-dragon:{code}",
         title=title(status),

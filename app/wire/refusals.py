@@ -22,14 +22,14 @@ from core.errors import said
 
 # A request without an object of this name holds the object's fields itself.
 OUTER = re.compile(r"^(dragon|model|path|times)\.(?=[a-z])")
-# Fields of a turn that can make it too tight although their defaults would do; otherwise its circle is too small.
+# Fields of a turn that can make it too tight where their defaults would not; otherwise its circle is too small.
 MEND_A_TURN = ("entry_radius", "ratio", "pitch")
 INSTANT = re.compile(r"times(?:\.(\d+))?")
 
 
 @contextmanager
 def refusing(request: BaseModel) -> Iterator[None]:
-    """Context in which refusals of core name fields that the request gave or could have given."""
+    """Context in which refusals of core name fields that the request has or could have."""
     try:
         yield
     except BenchDragonError as error:
@@ -52,7 +52,7 @@ def reworded(error: BenchDragonError, request: BaseModel) -> BenchDragonError:
 
 
 def _of_instants(error: BenchDragonError, request: Any, index: int) -> BenchDragonError:
-    """The error for one instant; for a range, it names its start or the field that lets it run too far."""
+    """The error for one instant; of a range it names the start, or the field by which the range is too long."""
     names = type(request).model_fields
     if "time" in names:
         return error.named("time")
@@ -84,7 +84,7 @@ def _of_a_turn(error: BenchDragonError, request: Any) -> BenchDragonError:
 
 
 def _mends(name: str, fields: TurnFields, dragon: Dragon) -> bool:
-    """Can the dragon follow the turn if this field has its default?"""
+    """Whether the dragon can follow the turn if this field has its default."""
     default = TurnFields.model_fields[name].default
     if getattr(fields, name) == default:
         return False

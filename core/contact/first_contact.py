@@ -22,12 +22,13 @@ from core.clock import Clock
 from core.contact.claim import ENDS, UNDECIDED_THEN, claim, claim_at_start, claim_undecided, contact_then
 from core.contact.clearance import Graze
 from core.contact.fold import approach_fold, last_travel
-from core.contact.march import BRACKETS_GRAZING, Ended, Marched
+from core.contact.march import BRACKETS_GRAZING, Ended
 from core.contact.near_graze import narrowed
 from core.contact.search import MARGIN_MAX, Search
 from core.dance import Dance, EndReason, RunEnd
 from core.errors import InvalidValue, said
 from core.kernels.constants import FRONT, MX, UY
+from core.kernels.results import Marched
 from core.motion.trajectory import bench_outlines, trajectory
 from core.paths.path import HeadState
 from core.paths.spiral import Spiral

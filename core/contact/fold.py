@@ -12,10 +12,11 @@ import math
 import numpy as np
 
 from core import kernels
-from core.contact.march import TOUCHES, TRAVEL_ROUNDING, Ended, Marched
+from core.contact.march import TOUCHES, TRAVEL_ROUNDING, Ended
 from core.contact.search import Search
 from core.dance import RunEnd
 from core.kernels.constants import CHORD, ERROR, FREE, HALF_LENGTH, HALF_WIDTH, NO_ROOT, THETA
+from core.kernels.results import Marched
 from core.values import Floats
 
 # The last stretch before a fold, where handle speeds grow without bound: dismissed by a bound on the motion left [m].
@@ -61,23 +62,17 @@ def approach_fold(
         early = min(last, search.travel_at(end.theta) - way)
         if start < early - way:
             state, found, tolerance = search.approach(start, early, head_speed, opening=opening)
-            found = _joined(passed, found)
+            found = passed.followed_by(found)
             if state in TOUCHES or (state is Ended.REACHED and _leaves(search, early, last, found, end.theta)):
                 return state, found, tolerance
             if state is not Ended.REACHED or not rings_reach:
                 break
             start, opening, passed = early - way, False, found
     state, found, tolerance = search.approach(start, last, head_speed, opening=opening)
-    found = _joined(passed, found)
+    found = passed.followed_by(found)
     if state is Ended.REACHED or (state is Ended.STUCK and found.touching is None):
         state = Ended.REACHED if clear_to_fold(search, min(found.proven, last), end) else Ended.STUCK
     return state, found, tolerance
-
-
-def _joined(passed: Marched, found: Marched) -> Marched:
-    """A march together with what the march before it saw."""
-    graze = min((dip for dip in (passed.graze, found.graze) if dip is not None), default=None)
-    return found._replace(steps=passed.steps + found.steps, bend=max(passed.bend, found.bend), graze=graze)
 
 
 def _leaves(search: Search, early: float, last: float, found: Marched, theta: float) -> bool:

@@ -1,9 +1,8 @@
-"""A march: how narrow its bracket is, how it ended, and what it found."""
+"""A march: the width of its bracket, the error of its travels, and how it ended."""
 
 from __future__ import annotations
 
 from enum import StrEnum
-from typing import NamedTuple
 
 # Half width of the bracket around a contact [m of head travel] at head speeds of 1 m/s and more, and the least that
 # rounding of the travel allows at lower ones.
@@ -37,38 +36,3 @@ class Ended(StrEnum):
 
 ENDS = tuple(Ended)
 TOUCHES = (Ended.TOUCHED, Ended.TOUCHED_AT_START)
-
-
-class Dip(NamedTuple):
-    """A local minimum of the clearance [m], at a travel of the head [m], of a pair."""
-
-    gap: float
-    travel: float
-    benches: tuple[int, int]
-
-
-class Marched(NamedTuple):
-    """Result of a march.
-
-    proven: nothing comes within the margin up to this travel [m]; touching: benches are within it at this one [m], None
-        where nothing was found; benches: that pair
-    steps: taken; bend: the largest bound on the second derivative of a gap that proved one of them [1/m]
-    graze: the least local minimum of the clearance seen on the way
-    """
-
-    proven: float
-    touching: float | None = None
-    benches: tuple[int, int] = (0, 0)
-    steps: int = 0
-    bend: float = 0.0
-    graze: Dip | None = None
-
-    def followed_by(self, further: Marched) -> Marched:
-        """The result of this march and of one that went on from where it was proven."""
-        grazes = [march.graze for march in (self, further) if march.graze is not None]
-        return further._replace(
-            proven=max(self.proven, further.proven),
-            steps=self.steps + further.steps,
-            bend=max(self.bend, further.bend),
-            graze=min(grazes, default=None),
-        )

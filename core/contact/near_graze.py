@@ -22,7 +22,7 @@ import numpy as np
 
 from core import kernels
 from core.budget import Budget
-from core.contact.march import Ended, Marched
+from core.contact.march import Ended
 from core.contact.search import Search
 from core.kernels.constants import (
     ARC_ANGLE,
@@ -47,6 +47,7 @@ from core.kernels.constants import (
     TX,
     UX,
 )
+from core.kernels.results import Marched
 from core.paths.spiral import Spiral
 from core.sampling import falls_to_zero
 

@@ -21,9 +21,7 @@ from core.contact.march import (
     ENDS,
     TOUCHES,
     TRAVEL_ROUNDING,
-    Dip,
     Ended,
-    Marched,
 )
 from core.dragon import Dragon
 from core.kernels.constants import (
@@ -38,6 +36,7 @@ from core.kernels.constants import (
     UX,
     UY,
 )
+from core.kernels.results import Marched
 from core.paths.route import Route
 from core.paths.spiral import Spiral
 from core.sampling import bisected
@@ -257,22 +256,19 @@ class Search:
         while True:
             budget = max(min(self.work, self.budget.left), 1.0)
             ended = ENDS[self._march.run(start, stop, leaders, opening, tolerance, grazes, rounding, budget)]
-            march = self._march
-            self.spend(float(march.work))
+            self.spend(float(self._march.work))
             self.budget.look()
             if ended is not Ended.CAPACITY:
                 break
             self.resize(min(4 * self.room, self.dragon.benches))
-        proven = asked[1] if ended is Ended.REACHED else max(float(march.proven) - rounding, asked[0])
-        touching = float(march.touching) if march.meets else None
+        found = self._march.result()
+        proven = asked[1] if ended is Ended.REACHED else max(found.proven - rounding, asked[0])
+        touching = found.touching
         if touching is not None and touching < 0.0 and ended not in TOUCHES:
             touching = None  # before time 0 a crossing that could not be bracketed does not count
         if ended is Ended.TOUCHED_AT_START:
             touching = asked[0]
-        graze = None
-        if march.grazed:
-            graze = Dip(float(march.graze_gap), float(march.graze_travel), (march.graze_first, march.graze_second))
-        return ended, Marched(proven, touching, (march.first, march.second), march.steps, float(march.bend), graze)
+        return ended, found._replace(proven=proven, touching=touching)
 
     def approach(
         self, begin: float, until: float, head_speed: float, *, opening: bool = True

@@ -10,9 +10,10 @@ import math
 import numpy as np
 
 from core import kernels
-from core.contact.march import ENDS, TRAVEL_ROUNDING, Ended, Marched
+from core.contact.march import ENDS, TRAVEL_ROUNDING, Ended
 from core.contact.search import Search
 from core.design.straight import Straight
+from core.kernels.results import Marched
 from core.paths.spiral import Spiral
 
 # A descent first asks for a band down to this part of the top, which is seldom far above the border, and then for the
@@ -116,8 +117,7 @@ class Bands:
             search.spend(float(band.work))
             search.budget.look()
             if ended is not Ended.CAPACITY:
-                touching = float(band.touching) if band.meets else None
-                return ended, Marched(float(band.proven), touching, (band.first, band.second), band.steps)
+                return ended, band.result()
             search.resize(min(4 * search.room, search.dragon.benches))
             self._make_room(search.room)
 

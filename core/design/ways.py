@@ -7,12 +7,13 @@ import math
 from core import kernels
 from core.budget import Budget, within
 from core.contact.fold import THETA_ROUNDING, clear_to_fold, last_travel
-from core.contact.march import Ended, Marched
+from core.contact.march import Ended
 from core.contact.search import Search
 from core.dance import EndReason, RunEnd, end_theta
 from core.design.pitch_bands import Bands
 from core.dragon import Dragon
 from core.errors import TooMuchWork
+from core.kernels.results import Marched
 from core.paths.spiral import Spiral
 from core.values import SIZE_MIN
 

@@ -7,7 +7,7 @@ refuses Python objects inside loops. `setup.py` compiles all modules or none.
 Angles are in radians, lengths on a spiral in units of its growth unless a name says otherwise; no function allocates.
 
 constants    columns of the arrays, shared numbers       records     values with names that inner loops hand on
-halt         what ends a loop before it is done
+halt         what ends a loop before it is done         results     what a march hands to its caller
 spiral       arc length, next handle, trajectory               fold        where a run ends
 rectangles   signed separation of two                          boxes       which may touch
 route        points and chain on a table of pieces             chain       of a spiral, and of either kind

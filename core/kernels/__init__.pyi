@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from core.kernels.constants import *
+from core.kernels.results import Marched
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -186,21 +187,10 @@ def pair_most(scene: Scene, interval: Interval, place: float, h: float, a: int, 
 # -- searches --
 
 class Found:
-    proven: float
-    meets: bool
-    touching: float
-    first: int
-    second: int
-    steps: int
     work: float
+    def result(self) -> Marched: ...
 
 class March(Found):
-    bend: float
-    grazed: bool
-    graze_gap: float
-    graze_travel: float
-    graze_first: int
-    graze_second: int
     def __init__(self, interval: Interval, probe: Interval, opening: Floats) -> None: ...
     def run(
         self,

@@ -45,12 +45,12 @@ cdef class March(Found):
     cdef double older_travel
     cdef double last_travel
     cdef Closest last
-    cdef readonly double bend
-    cdef readonly bint grazed
-    cdef readonly double graze_gap
-    cdef readonly double graze_travel
-    cdef readonly Py_ssize_t graze_first
-    cdef readonly Py_ssize_t graze_second
+    cdef double bend
+    cdef bint grazed
+    cdef double graze_gap
+    cdef double graze_travel
+    cdef Py_ssize_t graze_first
+    cdef Py_ssize_t graze_second
 
     @cython.locals(state=cython.int)
     cpdef int run(

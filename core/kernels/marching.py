@@ -3,6 +3,8 @@
 import cython
 from cython.cimports.libc.math import fabs
 
+from core.kernels.results import Dip
+
 if not cython.compiled:  # the .pxd imports the same names for the compiler
     from core.kernels.chain import extend
     from core.kernels.clearance import bottom_between, contact_between, gap_at, row_clearance, row_gap
@@ -21,7 +23,7 @@ if not cython.compiled:  # the .pxd imports the same names for the compiler
 # State. `travel`; the interval with the chains at travel and at travel + h, up to the last handle that matters there;
 # h, the step to try; `aims`, whether this step stops short of a contact, and `target`, the travel of that contact;
 # `opening`, the chain at the start.
-# Output. One of five ends, and the results in Found and March.
+# Output. One of five ends, and the record Marched.
 #
 # Invariant, whenever the loop begins: no two benches that share no handle come within the margin in [start, travel].
 # 1. A step is taken only if interval_least() proves more than the margin, after rounding, for every pair led by the
@@ -86,9 +88,8 @@ class March(Found):
     """A march of a scene's head, by proven steps, until a pair comes within the margin: see the top of this file.
 
     interval: the chains of a step; probe: an interval to look at one pair; opening: rows for the chain at the start
-    bend: the largest K that proved a step [1/m]
-    grazed: whether the clearance had a local minimum on the way; graze_gap: the least of these [m]; graze_travel,
-        graze_first, graze_second: its travel [m] and its pair
+    bend: the largest K that proved a step [1/m]; grazed: whether the clearance had a local minimum on the way;
+        graze_...: the least of these
     """
 
     def __init__(self, interval, probe, opening):
@@ -140,6 +141,13 @@ class March(Found):
                     return state
             self.proven = stop
             return REACHED
+
+    def result(self):
+        """What the march has found so far, see Marched in results.py."""
+        graze = None
+        if self.grazed:
+            graze = Dip(float(self.graze_gap), float(self.graze_travel), (self.graze_first, self.graze_second))
+        return Found.result(self)._replace(bend=float(self.bend), graze=graze)
 
     def repeats_ahead(self, scene):
         """Whether the head is still before rings.end_place, beyond which nothing touches (rings.py)."""

@@ -43,12 +43,12 @@ cdef class Interval:
     cpdef bint lay_out(self, double place, double h, Py_ssize_t last) noexcept nogil
 
 cdef class Found:
-    cdef readonly double proven
-    cdef readonly bint meets
-    cdef readonly double touching
-    cdef readonly Py_ssize_t first
-    cdef readonly Py_ssize_t second
-    cdef readonly Py_ssize_t steps
+    cdef double proven
+    cdef bint meets
+    cdef double touching
+    cdef Py_ssize_t first
+    cdef Py_ssize_t second
+    cdef Py_ssize_t steps
     cdef readonly double work
 
     cdef void begin(self, double start) noexcept nogil

@@ -2,6 +2,8 @@
 
 import cython
 
+from core.kernels.results import Marched
+
 if not cython.compiled:  # the .pxd imports the same names for the compiler
     from core.kernels.bounds import motion_bounds, route_bounds
     from core.kernels.chain import chain_rounding, place_chain
@@ -102,12 +104,10 @@ class Interval:
 
 
 class Found:
-    """Results of proven steps.
+    """Progress of proven steps.
 
-    proven: nothing touches up to here [m], a travel of the head in a march, a radius of the head in a strip
-    meets: whether a pair of benches comes within the margin; touching: travel or radius where it does [m]; first,
-        second: that pair
-    steps, work: number of steps, and the work spent
+    meets: whether a pair of benches comes within the margin; first, second: that pair; work: spent so far
+    proven, touching, steps: see Marched in results.py
     """
 
     def __init__(self):
@@ -126,6 +126,11 @@ class Found:
         """Record that the pair `first`, `second` is within the margin here [m]."""
         self.meets = True
         self.touching = touching
+
+    def result(self):
+        """What the steps have found so far, see Marched in results.py."""
+        touching = float(self.touching) if self.meets else None
+        return Marched(float(self.proven), touching, (self.first, self.second), self.steps)
 
 
 class Band:

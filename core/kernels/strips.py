@@ -157,7 +157,7 @@ def shift_bounds(low, high, benches, sizes, inner, outer, shifts):
 #         benches that lead pairs (leaders).
 # State.  `radius` and `place` of the head at the lowest growth; h, the travel to try there; `placed`, the last handle
 #         that the chains at the beginning have; `bounded`, whether bounds were known in the last step.
-# Output. How it ended, and the results in Found.
+# Output. How it ended, and the record Marched.
 
 
 class Strip(Found):

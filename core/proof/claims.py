@@ -19,7 +19,7 @@ from core.proof.chain import Chain, delta_guess
 from core.proof.fold import check_fold
 from core.proof.pairs import Unproven, above, below
 from core.proof.sweeps import AnyChain, Overlap, Progress, found, swept
-from core.proof.words import apart_words, contact_words, dragon_words, near_words
+from core.proof.words import apart_words, contact_words, danced_words, dragon_words, near_words, spiral_words
 from core.sampling import bisected
 from core.values import SIZE_MIN, checked_number, checked_size
 
@@ -32,21 +32,31 @@ FOLD_WITHIN = (1e-9, 1e-11)
 
 
 @dataclass(frozen=True)
-class CollisionTimeClaim:
-    """Nothing touches in [0, time - 1e-10], and one pair strictly overlaps at time + 1e-10 [s].
+class SpiralClaim:
+    """A claim about a dragon on a spiral.
 
-    margin: [m]; if positive, nothing comes within it, and one pair is strictly nearer
     way: (highest, lowest) theta of the head between which nothing may touch [rad]
     find_overlap(): the record of an overlap that check_overlap() verifies, returning the whole claim in words
-    search_share: fraction of a proof's work in find_overlap(); follows: see swept()
+    kind: name of the claim in certificates; search_share: fraction of a proof's work in find_overlap(); follows: see
+        swept()
     """
 
-    kind: ClassVar[str] = "collision-time"
+    kind: ClassVar[str]
     search_share: ClassVar[float] = 0.0
     follows: ClassVar[bool] = False
     dragon: Dragon
     pitch: float
     start_turns: float
+
+
+@dataclass(frozen=True)
+class CollisionTimeClaim(SpiralClaim):
+    """Nothing touches in [0, time - 1e-10], and one pair strictly overlaps at time + 1e-10 [s].
+
+    margin: [m]; if positive, nothing comes within it, and one pair is strictly nearer
+    """
+
+    kind: ClassVar[str] = "collision-time"
     head_speed: float
     time: float
     margin: float = 0.0
@@ -78,26 +88,20 @@ class CollisionTimeClaim:
         check_near(self.chain, self._after, a, b, f"at {said(self.time)} + {TIME_BRACKET} s")
         clear = bool(self.time - arb(TIME_BRACKET) > 0)
         words = contact_words([a, b], self.margin, 0.0, self.time, TIME_BRACKET, clear=clear)
-        return (
-            f"{dragon_words(self.dragon)}, its head at {said(self.head_speed)} m/s on the spiral of pitch "
-            f"{said(self.pitch)} m inwards from {said(self.start_turns)} turns: {words}"
-        )
+        return f"{danced_words(self.dragon, self.head_speed, spiral_words(self.pitch, self.start_turns))}: {words}"
 
 
 @dataclass(frozen=True)
-class MinimumPitchClaim:
+class MinimumPitchClaim(SpiralClaim):
     """Every bench follows and nothing touches on the head's way from the start to the circle; with 1e-6 m less one pair
     overlaps on it, or one bench folds.
 
-    margin, way, find_overlap(), check_overlap(), search_share, follows: as of CollisionTimeClaim
+    margin: as of CollisionTimeClaim
     """
 
     kind: ClassVar[str] = "minimum-pitch"
     search_share: ClassVar[float] = 0.5
     follows: ClassVar[bool] = True
-    dragon: Dragon
-    pitch: float
-    start_turns: float
     turning_radius: float
     margin: float = 0.0
 
@@ -233,7 +237,7 @@ def checked_pair(chain: AnyChain, a: int, b: int) -> tuple[int, int]:
     raises: Unproven
     """
     if not 0 <= a < b - 1 < chain.count - 1:
-        raise Unproven(f"benches {a} and {b} are not a pair that shares no handle")
+        raise Unproven(f"benches {a} and {b} are not two benches of this dragon, in order, that share no handle")
     return a, b
 
 

@@ -18,7 +18,7 @@ from core.proof.pairs import Unproven, above, below
 from core.proof.paths import chain_on, core_path, described
 from core.proof.route import RouteChain
 from core.proof.sweeps import AnyChain, Progress
-from core.proof.words import apart_words, contact_words, dragon_words
+from core.proof.words import apart_words, contact_words, danced_words
 
 # Time after the stop of a claim by which the run is certainly over, if the claim includes the end: exact decimal [s].
 END_BRACKET = "1e-9"
@@ -26,21 +26,30 @@ ENDINGS = ("stop", "fold", "centre", "end")
 
 
 @dataclass(frozen=True)
-class Clear:
-    """Nothing touches in [start, stop] [s], or comes within the margin [m].
+class DanceClaim:
+    """A claim about a dance on any path, from `start` on [s].
 
-    path: as paths.py writes it; until: "stop", or the end that the run has reached END_BRACKET later: a fold, the
-    centre of the spiral, the end of the route
-    way, find_overlap(), check_overlap(), search_share, follows: as of CollisionTimeClaim
+    path: as paths.py writes it; the other members: as of SpiralClaim
     """
 
-    kind: ClassVar[str] = "clear"
+    kind: ClassVar[str]
     search_share: ClassVar[float] = 0.0
     follows: ClassVar[bool] = False
     dragon: Dragon
     path: Mapping[str, Any]
     head_speed: float
     start: float
+
+
+@dataclass(frozen=True)
+class Clear(DanceClaim):
+    """Nothing touches in [start, stop] [s], or comes within the margin [m].
+
+    until: "stop", or the end that the run has reached END_BRACKET later: a fold, the centre of the spiral, the end of
+    the route
+    """
+
+    kind: ClassVar[str] = "clear"
     stop: float
     until: str = "stop"
     margin: float = 0.0
@@ -65,7 +74,7 @@ class Clear:
 
     def check_overlap(self, overlap: dict[str, Any]) -> str:
         span = f"from {said(self.start)} s to {said(self.stop)} s{self._ending()}"
-        return f"{_dance_words(self)}: {apart_words(self.margin)} {span}."
+        return f"{danced_words(self.dragon, self.head_speed, described(self.path))}: {apart_words(self.margin)} {span}."
 
     def _ending(self) -> str:
         if self.until == "stop":
@@ -86,20 +95,14 @@ class Clear:
 
 
 @dataclass(frozen=True)
-class Contact:
+class Contact(DanceClaim):
     """Nothing touches in [start, time - 1e-10], and one pair strictly overlaps at time + 1e-10 [s].
 
-    path: as paths.py writes it; margin, way, find_overlap(), check_overlap(), search_share, follows: as of
-    CollisionTimeClaim
+    margin: as of CollisionTimeClaim
     """
 
     kind: ClassVar[str] = "contact"
     search_share: ClassVar[float] = 0.1
-    follows: ClassVar[bool] = False
-    dragon: Dragon
-    path: Mapping[str, Any]
-    head_speed: float
-    start: float
     time: float
     margin: float = 0.0
 
@@ -127,7 +130,7 @@ class Contact:
         check_near(self.chain, self._after, a, b, f"at {said(self.time)} + {TIME_BRACKET} s")
         clear = bool(self.time - arb(TIME_BRACKET) > self.start)
         words = contact_words([a, b], self.margin, self.start, self.time, TIME_BRACKET, clear=clear)
-        return f"{_dance_words(self)}: {words}"
+        return f"{danced_words(self.dragon, self.head_speed, described(self.path))}: {words}"
 
 
 def last_stop(dragon: Dragon, path: Mapping[str, Any], head_speed: float) -> tuple[float, str]:
@@ -146,7 +149,3 @@ def _settle_span(claim: Clear | Contact, last: float) -> None:
 
 def _way(chain: AnyChain, first: arb, last: arb) -> tuple[float, float]:
     return above(chain.place_after(first)), below(chain.place_after(last))
-
-
-def _dance_words(claim: Clear | Contact) -> str:
-    return f"{dragon_words(claim.dragon)}, its head at {said(claim.head_speed)} m/s on {described(claim.path)}"

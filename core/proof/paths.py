@@ -21,6 +21,7 @@ from core.paths.spiral import Spiral
 from core.paths.turn import Turn
 from core.proof.chain import Chain
 from core.proof.route import Coil, Path, Piece, RouteChain
+from core.proof.words import spiral_words
 
 AnyPath = Spiral | Route
 Record = Mapping[str, Any]
@@ -104,7 +105,7 @@ def _turn(record: Record) -> Turn:
 def described(record: Record) -> str:
     """The path in words, with all its numbers except those of pieces."""
     if record["kind"] == "spiral":
-        return f"the spiral of pitch {said(record['pitch'])} m inwards from {said(record['start_turns'])} turns"
+        return spiral_words(record["pitch"], record["start_turns"])
     if record["kind"] == "turn":
         return (
             f"the turn of ratio {said(record['ratio'])}, which it enters {said(record['entry_radius'])} m from the "

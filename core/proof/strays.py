@@ -10,14 +10,13 @@ import numpy as np
 from flint import acb, arb
 
 from core.dance import Dance
-from core.dragon import Dragon
 from core.errors import InvalidValue, said
 from core.paths.spiral import Spiral
 from core.proof.chain import Chain
-from core.proof.claims import checked_pair, settle
+from core.proof.claims import SpiralClaim, checked_pair, settle
 from core.proof.pairs import Benches, Unproven, above, below
 from core.proof.sweeps import Progress
-from core.proof.words import apart_words, dragon_words
+from core.proof.words import apart_words, danced_words, spiral_words
 from core.tolerance.exhibit import Exhibit
 from core.tolerance.stray import checked_stray
 
@@ -26,20 +25,14 @@ SHOWN_ROUNDING = 1e-9
 
 
 @dataclass(frozen=True)
-class ToleranceClaim:
+class ToleranceClaim(SpiralClaim):
     """While every hole is within the stray of its place and every chord keeps its length, nothing touches in
     [start, stop] [s]; in a pose that the certificate shows, with strays below `shown`, one pair strictly overlaps.
 
     stray, shown: [m]; shown is None if no pose is part of the claim
-    way, find_overlap(), check_overlap(), search_share, follows: as of CollisionTimeClaim
     """
 
     kind: ClassVar[str] = "tolerance"
-    search_share: ClassVar[float] = 0.0
-    follows: ClassVar[bool] = False
-    dragon: Dragon
-    pitch: float
-    start_turns: float
     head_speed: float
     start: float
     stop: float
@@ -72,11 +65,9 @@ class ToleranceClaim:
 
     def check_overlap(self, overlap: dict[str, Any]) -> str:
         span = f"from {said(self.start)} s to {said(self.stop)} s"
-        words = (
-            f"{dragon_words(self.dragon)}, its head at {said(self.head_speed)} m/s on the spiral of pitch "
-            f"{said(self.pitch)} m inwards from {said(self.start_turns)} turns: while every hole is within "
-            f"{said(self.stray)} m of its place and every chord keeps its length, {apart_words(0.0)} {span}"
-        )
+        kept = f"while every hole is within {said(self.stray)} m of its place and every chord keeps its length"
+        dance = danced_words(self.dragon, self.head_speed, spiral_words(self.pitch, self.start_turns))
+        words = f"{dance}: {kept}, {apart_words(0.0)} {span}"
         if self.shown is None:
             return f"{words}."
         a, b = self._check_pose(overlap, self.shown)

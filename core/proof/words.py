@@ -28,6 +28,16 @@ def dragon_words(dragon: Dragon) -> str:
     return f"A dragon of {dragon.benches} bench{'es' if dragon.benches > 1 else ''} ({sizes})"
 
 
+def danced_words(dragon: Dragon, head_speed: float, path: str) -> str:
+    """A dragon in words, with the speed of its head on a path that is given in words."""
+    return f"{dragon_words(dragon)}, its head at {said(head_speed)} m/s on {path}"
+
+
+def spiral_words(pitch: float, start_turns: float) -> str:
+    """A spiral in words."""
+    return f"the spiral of pitch {said(pitch)} m inwards from {said(start_turns)} turns"
+
+
 def apart_words(margin: float) -> str:
     """The words for benches that stay apart."""
     touch = f"come nearer to one another than {said(margin)} m" if margin else "touch"

@@ -76,7 +76,7 @@ def test_no_bench_shifts_faster_with_the_growth_than_its_bounds(seed: int) -> No
     search.use(Spiral(2 * math.pi * low, bands.start_turns), -1e3)  # no pair is within such a margin
     band = bands.band_to(high)
     assert kernels.MARCH_STATES[band.run(outer, inner, leaders, 0.0, 0.0, 9)] == "reached"
-    assert band.steps == 1  # whose bounds are there still
+    assert band.result().steps == 1  # whose bounds are there still
     moved = int(np.count_nonzero(bands.shifts[:, SHIFT_CENTRE]))
     assert moved > 2
     for growth in rng.uniform(low, high, 8):

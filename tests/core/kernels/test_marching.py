@@ -25,8 +25,7 @@ def test_a_way_that_is_proven_is_clear_at_every_sample() -> None:
     search = Search(DRAGON, SPIRAL, 0.05)
     march = march_of(search)
     assert ended(march, 300.0, 380.0) == "reached"
-    assert march.proven == 380.0
-    assert not march.meets
+    assert march.result()[:2] == (380.0, None)
     assert all(search.clearance(travel)[0] > 0.05 for travel in np.linspace(300.0, 380.0, 500))
 
 
@@ -34,28 +33,32 @@ def test_a_contact_is_bracketed_by_a_clear_and_a_touching_instant() -> None:
     search = Search(DRAGON, SPIRAL, 0.0)
     march = march_of(search)
     assert ended(march, 380.0, 420.0) == "touched"
-    assert march.proven <= CONTACT <= march.touching <= march.proven + 3.0 * TOLERANCE
-    assert (march.first, march.second) == (0, 8)
-    place = search.place - march.proven + 1e-6
+    found = march.result()
+    assert found.touching is not None
+    assert found.proven <= CONTACT <= found.touching <= found.proven + 3.0 * TOLERANCE
+    assert found.benches == (0, 8)
+    place = search.place - found.proven + 1e-6
     assert kernels.gap_at(search.scene, place, 0, 8, search.rows[2]) > 0.0
-    assert kernels.gap_at(search.scene, search.place - march.touching, 0, 8, search.rows[2]) <= 0.0
+    assert kernels.gap_at(search.scene, search.place - found.touching, 0, 8, search.rows[2]) <= 0.0
     # the dip before it, seen on the way
-    assert 0.0 < march.graze_gap < 0.001
-    assert (march.graze_first, march.graze_second) == (0, 11)
+    assert found.graze is not None
+    assert 0.0 < found.graze.gap < 0.001
+    assert found.graze.benches == (0, 11)
 
 
 def test_a_march_from_within_a_contact_ends_where_it_starts() -> None:
     march = march_of(Search(DRAGON, SPIRAL, 0.0))
     assert ended(march, 413.0, 420.0) == "touched_at_start"
-    assert march.proven == march.touching == 413.0
-    assert march.steps == 0
+    found = march.result()
+    assert found.proven == found.touching == 413.0
+    assert found.steps == 0
 
 
 def test_without_work_a_march_is_stuck_and_keeps_what_it_has_proven() -> None:
     march = march_of(Search(DRAGON, SPIRAL, 0.0))
     assert ended(march, 380.0, 420.0, budget=200.0) == "stuck"
-    assert 380.0 < march.proven < CONTACT
-    assert not march.meets
+    assert 380.0 < march.result().proven < CONTACT
+    assert march.result().touching is None
 
 
 def test_a_dragon_with_too_few_rows_ends_at_capacity() -> None:
@@ -69,5 +72,7 @@ def test_a_pair_that_is_left_out_is_not_found() -> None:
     search.scene.left_out, search.scene.left_out_too = 0, 8
     march = march_of(search)
     assert ended(march, 380.0, 420.0) == "touched"
-    assert (march.first, march.second) != (0, 8)
-    assert march.touching > CONTACT
+    found = march.result()
+    assert found.benches != (0, 8)
+    assert found.touching is not None
+    assert found.touching > CONTACT

@@ -21,7 +21,7 @@ def strip_of(pitch: float, benches: int = 60) -> tuple[Search, kernels.Strip]:
 def test_a_strip_that_reaches_the_circle_is_clear_at_samples() -> None:
     search, strip = strip_of(LOW)
     assert kernels.MARCH_STATES[strip.run(6.0, CIRCLE, 2, 1e-12, 1e-9, WORK)] == "reached"
-    assert strip.proven == CIRCLE
+    assert strip.result()[:2] == (CIRCLE, None)
     for pitch in np.linspace(LOW, HIGH, 5):
         search.use(Spiral(pitch), 0.0)
         for radius in np.linspace(CIRCLE, 6.0, 40):
@@ -31,12 +31,14 @@ def test_a_strip_that_reaches_the_circle_is_clear_at_samples() -> None:
 def test_a_strip_too_narrow_for_its_benches_touches() -> None:
     search, strip = strip_of(0.42)
     assert kernels.MARCH_STATES[strip.run(6.0, CIRCLE, 2, 1e-12, 1e-9, WORK)] == "touched"
-    travel = search.travel_at(strip.touching / search.growth)
-    assert kernels.gap_at(search.scene, search.place - travel, strip.first, strip.second, search.rows[0]) <= 0.0
+    found = strip.result()
+    assert found.touching is not None
+    travel = search.travel_at(found.touching / search.growth)
+    assert kernels.gap_at(search.scene, search.place - travel, *found.benches, search.rows[0]) <= 0.0
 
 
 def test_without_work_a_strip_is_stuck_and_more_leaders_than_rows_do_not_fit() -> None:
     _, strip = strip_of(LOW)
     assert kernels.MARCH_STATES[strip.run(6.0, CIRCLE, 2, 1e-12, 1e-9, 0.0)] == "stuck"
-    assert strip.proven == 6.0
+    assert strip.result().proven == 6.0
     assert kernels.MARCH_STATES[strip.run(6.0, CIRCLE, 61, 1e-12, 1e-9, WORK)] == "capacity"

@@ -330,7 +330,7 @@ ROUTE_FORGERIES: dict[str, Forgery] = {
     "a later time": (lambda c: c["claim"].__setitem__("time", c["claim"]["time"] + 1e-9), "short of"),
     "an earlier time": (lambda c: c["claim"].__setitem__("time", c["claim"]["time"] - 1e-9), "not shown to overlap"),
     "another pair": (at("overlap", "benches", put=[0, 15]), "not shown to overlap"),
-    "neighbours as the pair": (at("overlap", "benches", put=[0, 1]), "no pair"),
+    "neighbours as the pair": (at("overlap", "benches", put=[0, 1]), "share no handle"),
     "a margin": (at("claim", "margin", put=0.05), "not apart by face"),
     "a faster head": (at("claim", "head_speed", put=1.0001), "short of|not shown"),
     "a clear run": (lambda c: c["claim"].__setitem__("kind", "clear"), "overlap is no member of it"),

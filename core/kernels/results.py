@@ -1,0 +1,40 @@
+"""Results of a march, as values."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+
+class Dip(NamedTuple):
+    """A local minimum of the clearance [m], at a travel of the head [m], of a pair."""
+
+    gap: float
+    travel: float
+    benches: tuple[int, int]
+
+
+class Marched(NamedTuple):
+    """Result of a march.
+
+    proven: nothing comes within the margin up to here [m], a travel of the head in a march, a radius of it in a strip
+    touching: travel or radius at which benches are within the margin [m], None if nothing was found; benches: that pair
+    steps: number taken; bend: the largest bound on the second derivative of a gap that proved one of them [1/m]
+    graze: the least local minimum of the clearance seen on the way
+    """
+
+    proven: float
+    touching: float | None = None
+    benches: tuple[int, int] = (0, 0)
+    steps: int = 0
+    bend: float = 0.0
+    graze: Dip | None = None
+
+    def followed_by(self, further: Marched) -> Marched:
+        """The result of this march and of one that went on from where it was proven."""
+        grazes = [march.graze for march in (self, further) if march.graze is not None]
+        return further._replace(
+            proven=max(self.proven, further.proven),
+            steps=self.steps + further.steps,
+            bend=max(self.bend, further.bend),
+            graze=min(grazes, default=None),
+        )
