@@ -15,7 +15,7 @@ from .dance import Dance, EndReason, RunEnd
 from .design.minimum_pitch import LimitedBy, MinimumPitch, minimum_pitch
 from .design.pitch_scan import PitchScan, pitch_scan
 from .design.shortest_turn import ShortestTurn, TurnLimit, shortest_turn
-from .dragon import Dragon
+from .dragon import Dragon, Stray
 from .errors import BenchDragonError, InvalidValue, OutsideRun, ProofRefused, TooLarge, TooMuchWork
 from .failures import Failure, FailureKind
 from .ground.envelope import Envelope, SweepProof, envelope
@@ -41,7 +41,6 @@ from .shapes.rectangles import Separation, separation
 from .tolerance.chance import ContactProbability, contact_probability
 from .tolerance.curve import ToleranceCurve, tolerance_curve
 from .tolerance.exhibit import Exhibit
-from .tolerance.stray import Stray
 from .tolerance.tolerance import Limit, StrayProof, Tolerance, tolerance
 from .tolerance.uncertain import uncertain_tolerance
 from .tolerance.wobble import Wobble

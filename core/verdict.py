@@ -11,6 +11,7 @@ from core.contact.clearance import LeastClearance, least_clearance
 from core.contact.first_contact import FirstContact, first_contact
 from core.contact.walls import VenueClearance, is_clear_beyond, venue_clearance, venue_end
 from core.dance import Dance, EndReason
+from core.dragon import Stray, checked_stray
 from core.failures import (
     Failure,
     FailureKind,
@@ -29,7 +30,6 @@ from core.motion.speed import (
     highest_speed,
 )
 from core.shown import Shown, worded
-from core.tolerance.stray import Stray, checked_stray
 from core.values import asked_of, checked_number, checked_type
 from core.venue import Venue
 

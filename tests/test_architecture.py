@@ -32,6 +32,7 @@ ORDER = (
     "core.kernels.stretches",
     "core.kernels.bounds",
     "core.kernels.rings",
+    "core.kernels.results",
     "core.kernels.scene",
     "core.kernels.clearance",
     "core.kernels.wobble",
@@ -79,7 +80,6 @@ ORDER = (
     "core.shapes.angle_sum",
     "core.shapes.engines",
     "core.shapes.overlaps",
-    "core.tolerance.stray",
     "core.tolerance.reach",
     "core.contact.coils",
     "core.contact.march",
@@ -374,8 +374,8 @@ def test_public_names_are_sorted_and_exist() -> None:
 
 
 def test_a_question_named_like_its_room_stays_a_question() -> None:
-    # Importing core.tolerance.stray would put the room in place of the function; lazy-loader before 0.6 let it.
-    code = "import core, core.course, core.tolerance.stray; print(callable(core.course), callable(core.tolerance))"
+    # Importing core.tolerance.reach would put the room in place of the function; lazy-loader before 0.6 let it.
+    code = "import core, core.course, core.tolerance.reach; print(callable(core.course), callable(core.tolerance))"
     assert subprocess.check_output([sys.executable, "-c", code], cwd=ROOT, text=True).split() == ["True", "True"]
 
 

@@ -18,6 +18,7 @@ TESTED_WITH = {
     "kernels/bends.py": "kernels/test_pairs.py",
     "kernels/stretches.py": "kernels/test_bounds.py",
     "kernels/faces.py": "kernels/test_hulls.py",
+    "kernels/results.py": "kernels/test_marching.py",
     "tolerance/exhibit.py": "tolerance/test_tolerance.py",
     "tolerance/safe.py": "tolerance/test_tolerance.py",
 }

@@ -17,12 +17,12 @@ from core.contact.fold import last_travel, least_to_fold
 from core.contact.march import TOUCHES, Ended
 from core.contact.search import NEAR_WORK_BUDGET, Search
 from core.dance import Dance, RunEnd
+from core.dragon import Stray, checked_stray
 from core.errors import InvalidValue
 from core.motion.trajectory import instants
 from core.sampling import dips
 from core.shown import Shown, counted, worded
 from core.tables import data_frame, data_set
-from core.tolerance.stray import Stray, checked_stray
 from core.values import Floats, asked_of
 
 if TYPE_CHECKING:

@@ -16,7 +16,7 @@ from core.contact.first_contact import FirstContact, Outcome
 from core.contact.search import MARGIN_MAX
 from core.dance import Dance
 from core.design.minimum_pitch import LimitedBy, MinimumPitch
-from core.dragon import Dragon
+from core.dragon import Dragon, Stray, checked_stray
 from core.motion.trajectory import bench_poses, trajectory
 from core.paths.spiral import Spiral
 from core.shapes.broad_phase import Pairs, meeting_pairs
@@ -25,7 +25,6 @@ from core.shapes.overlaps import Verdict
 from core.shapes.rectangles import corners, frames, frames_separation
 from core.shown import Shown, worded
 from core.tolerance.reach import SHORT, Reach, reach
-from core.tolerance.stray import Stray, checked_stray
 from core.values import Floats, asked_of, checked_number, checked_type
 
 Pair = tuple[int, int]

@@ -26,6 +26,7 @@ from core.contact.march import BRACKETS_GRAZING, Ended
 from core.contact.near_graze import narrowed
 from core.contact.search import MARGIN_MAX, Search
 from core.dance import Dance, EndReason, RunEnd
+from core.dragon import Stray, checked_stray
 from core.errors import InvalidValue, said
 from core.kernels.constants import FRONT, MX, UY
 from core.kernels.results import Marched
@@ -33,7 +34,6 @@ from core.motion.trajectory import bench_outlines, trajectory
 from core.paths.path import HeadState
 from core.paths.spiral import Spiral
 from core.shown import Shown, worded
-from core.tolerance.stray import Stray, checked_stray
 from core.values import asked_of, checked_number
 
 if TYPE_CHECKING:

@@ -13,7 +13,7 @@ import numpy as np
 
 from core import kernels
 from core.contact.march import TOUCHES, TRAVEL_ROUNDING, Ended
-from core.contact.search import Search
+from core.contact.search import Search, joined
 from core.dance import RunEnd
 from core.kernels.constants import CHORD, ERROR, FREE, HALF_LENGTH, HALF_WIDTH, NO_ROOT, THETA
 from core.kernels.results import Marched
@@ -62,14 +62,14 @@ def approach_fold(
         early = min(last, search.travel_at(end.theta) - way)
         if start < early - way:
             state, found, tolerance = search.approach(start, early, head_speed, opening=opening)
-            found = passed.followed_by(found)
+            found = joined(passed, found)
             if state in TOUCHES or (state is Ended.REACHED and _leaves(search, early, last, found, end.theta)):
                 return state, found, tolerance
             if state is not Ended.REACHED or not rings_reach:
                 break
             start, opening, passed = early - way, False, found
     state, found, tolerance = search.approach(start, last, head_speed, opening=opening)
-    found = passed.followed_by(found)
+    found = joined(passed, found)
     if state is Ended.REACHED or (state is Ended.STUCK and found.touching is None):
         state = Ended.REACHED if clear_to_fold(search, min(found.proven, last), end) else Ended.STUCK
     return state, found, tolerance

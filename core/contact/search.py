@@ -283,7 +283,7 @@ class Search:
                 tolerance = wider
                 if self.kinds.some:  # one step of hulls costs more than laying out all benches anew
                     state, further = self.march(until, tolerance, start=found.proven)
-                    found = found.followed_by(further)
+                    found = joined(found, further)
                 else:
                     proven = found.proven
                     state, found = self.march(until, tolerance, start=begin, opening=opening)
@@ -338,3 +338,13 @@ class Search:
         travel = float(kernels.bottom_between(self.scene, low, high, *pair, width, self.rows[1]))
         self.budget.look()
         return travel
+
+
+def joined(passed: Marched, further: Marched) -> Marched:
+    """The result of a march and of one that went on from where it was proven."""
+    return further._replace(
+        proven=max(passed.proven, further.proven),
+        steps=passed.steps + further.steps,
+        bend=max(passed.bend, further.bend),
+        graze=min((dip for dip in (passed.graze, further.graze) if dip is not None), default=None),
+    )

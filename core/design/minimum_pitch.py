@@ -15,12 +15,11 @@ from core.dance import end_theta
 from core.design.pitch_bands import BORDER_WIDTH
 from core.design.straight import Straight, too_near
 from core.design.ways import CONTACT_WIDTH, Ways
-from core.dragon import Dragon
+from core.dragon import Dragon, Stray, checked_stray
 from core.errors import InvalidValue, said
 from core.paths.spiral import START_TURNS_MAX, Spiral
 from core.sampling import bisected
 from core.shown import Shown, worded
-from core.tolerance.stray import Stray, checked_stray
 from core.values import SIZE_MAX, asked_of, checked_number, checked_size
 
 # An infeasible pitch is sought this far below the proven bands, so the answer may be off by as much [m of pitch].

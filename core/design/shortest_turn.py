@@ -25,14 +25,13 @@ from core.contact.coils import STRETCH, TwoCoils, beyond, way_out
 from core.contact.first_contact import FirstContact, Outcome, contact_within
 from core.contact.search import MARGIN_MAX
 from core.dance import Dance, follows
-from core.dragon import Dragon
+from core.dragon import Dragon, Stray, checked_stray
 from core.errors import InvalidValue, TooMuchWork, said
 from core.paths.spiral import Spiral
 from core.paths.turn import Turn
 from core.sampling import bisected
 from core.shown import Shown, worded
 from core.tolerance.reach import reach
-from core.tolerance.stray import Stray, checked_stray
 from core.values import asked_of, checked_number, checked_size
 
 # Entry radii are tried in steps of this part of the turning radius [1], down to one step from the centre,

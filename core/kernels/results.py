@@ -28,13 +28,3 @@ class Marched(NamedTuple):
     steps: int = 0
     bend: float = 0.0
     graze: Dip | None = None
-
-    def followed_by(self, further: Marched) -> Marched:
-        """The result of this march and of one that went on from where it was proven."""
-        grazes = [march.graze for march in (self, further) if march.graze is not None]
-        return further._replace(
-            proven=max(self.proven, further.proven),
-            steps=self.steps + further.steps,
-            bend=max(self.bend, further.bend),
-            graze=min(grazes, default=None),
-        )

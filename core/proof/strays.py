@@ -10,6 +10,7 @@ import numpy as np
 from flint import acb, arb
 
 from core.dance import Dance
+from core.dragon import checked_stray
 from core.errors import InvalidValue, said
 from core.paths.spiral import Spiral
 from core.proof.chain import Chain
@@ -18,7 +19,6 @@ from core.proof.pairs import Benches, Unproven, above, below
 from core.proof.sweeps import Progress
 from core.proof.words import apart_words, danced_words, spiral_words
 from core.tolerance.exhibit import Exhibit
-from core.tolerance.stray import checked_stray
 
 # Added to the strays of a pose in doubles, to be shown in balls: above the rounding of places up to 1e4 m [m].
 SHOWN_ROUNDING = 1e-9

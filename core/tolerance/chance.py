@@ -26,6 +26,7 @@ from core.motion.trajectory import trajectory
 from core.paths.spiral import Spiral
 from core.shown import Shown, counted, worded
 from core.tolerance.reach import gains
+from core.tolerance.safe import safe_words
 from core.tolerance.tolerance import tolerance
 from core.tolerance.union_bound import union_bound
 from core.tolerance.wobble import INSTANTS_PER_TIME, Wobble, check_sizes
@@ -101,8 +102,8 @@ class ContactProbability(Shown):
         if self.tolerance is None:
             return told
         return (
-            f"{told} While no hole is further than {said(self.tolerance)} m from its place, nothing touches at any "
-            f"time, which is proven; in {self.samples - (self.strayed or 0)} samples none is at these instants."
+            f"{told} While no hole is further than {safe_words(self.tolerance)} m from its place, nothing touches at "
+            f"any time, which is proven; in {self.samples - (self.strayed or 0)} samples none is at these instants."
         )
 
     def _line(self) -> str:

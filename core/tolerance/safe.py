@@ -1,13 +1,15 @@
 """The largest stray that is safe among the benches, or between them and the edges of one area.
 
-The least stray at which two benches can meet, over the dance, is found as the least clearance is
-(core/contact/clearance.py): an upper bound first, from samples; then a march of the ground that benches may cover
-(core/tolerance/reach.py) with a stray a little smaller. It either reaches the end, which proves that no dance within
-that stray touches; or two grounds meet. Then the stray at which these two just graze is found, and the march goes on
-from there with it: what it has passed is clear with the larger stray, and so with the smaller one.
+The least stray at which two benches can meet during the dance is found in the same way as the least clearance
+(core/contact/clearance.py). Samples give an upper bound; then the ground that benches may cover
+(core/tolerance/reach.py) marches with a slightly smaller stray. If the march reaches the end, no dance within that
+stray touches, which is proven.
+If two grounds meet, the stray at which these two just graze is found, and the march continues from there with it: the
+way already passed is clear with the larger stray, and so with the smaller one.
 
-All of that takes benches to stray independently. Where two with one bench between them limit the stray so, that bench
-may be shown to hold all such pairs apart with more (core/tolerance/between.py): then the others are asked once more.
+All of that takes benches to stray independently. If two benches with one between them limit the stray, it may be proven
+that the bench between holds all such pairs apart with a larger one (core/tolerance/between.py); then only the other
+pairs are asked about again.
 """
 
 from __future__ import annotations
@@ -32,29 +34,30 @@ from core.contact.march import TOUCHES, Ended
 from core.contact.search import Search
 from core.dance import Dance, RunEnd
 from core.dragon import Dragon
+from core.errors import said, said_bound
 from core.tolerance.between import held_apart
 from core.tolerance.reach import Reach, gains, reach, simple_reach
 from core.values import Floats
 
-# How far below the least stray at which benches can meet the proof is tried [1 of that stray]; the second one where the
-# first takes too many steps.
+# Part by which the stray of the proof is below the least stray at which benches can meet [1]; the second value is for
+# dances where the first one takes too many steps.
 BELOW = (2e-4, 2e-3)
 # Largest number of times that a march may find a smaller stray.
 ROUNDS = 100
-# The stray at which two benches graze is found to this part of it [1], in at most so many steps.
+# Relative width to which the stray is found at which two benches graze [1], and the largest number of steps for it.
 GRAZE_WITHIN, GRAZE_STEPS = 2e-5, 20
-# No ground reaches further than the gain of its bench times the stray, its hulls no further than so much more [1].
+# Reach of the hulls of a ground relative to its bench's gain times the stray, at most [1]; the ground itself reaches 1.
 SAMPLED_BEYOND = 1.01
-# Strays below this are taken for none [m]: rounding hides what they do.
+# Strays below this count as none [m]: rounding hides their effect.
 STRAY_MIN = 1e-9
 
 
 @dataclass(frozen=True)
 class Field:
-    """What may be met: the dance's other benches, or the edges of one area.
+    """Obstacles of one kind: the other benches of the dance, or the edges of one area.
 
     dance: on the path as it is searched; work: of all its searches together; span: of head travel [m]
-    between: pairs of benches with fewer between them are not asked for [1]
+    between: least number of benches between the two of a pair that counts [1]
     """
 
     dance: Dance
@@ -67,7 +70,7 @@ class Field:
     between: int = 1
 
     def search(self, stray: float, covered: Callable[[Dragon, float], Reach] = reach) -> Search:
-        """The ground that benches may cover."""
+        """A search for contacts of the ground that benches may cover."""
         where = (self.dance.dragon, self.dance.path, 0.0, self.edges)
         found = Search(*where, work=self.work, budget=self.budget, stray=stray, covered=covered)
         found.between = found.scene.between = self.between
@@ -75,16 +78,16 @@ class Field:
 
     @cached_property
     def gain(self) -> float:
-        """With so much of the stray between them no two grounds meet [1]."""
+        """Gap, relative to the stray, from which on no two grounds meet [1]."""
         return (1 if self.edges is not None else 2) * float(gains(self.dance.dragon).max())
 
     @cached_property
     def in_place(self) -> Samples:
-        """Clearances of the benches in their places."""
+        """Clearances of the benches in their nominal places."""
         return samples_between(self.search(0.0), *self.span)
 
     def sampled(self, stray: float, covered: Callable[[Dragon, float], Reach] = reach) -> Dip:
-        """The least clearance that samples show; only those count where some ground can reach another."""
+        """The least clearance of the samples at which some ground can reach another."""
         search = self.search(stray, covered)
         return sampled_least(search, samples_where(search, self.in_place, SAMPLED_BEYOND * self.gain * stray))
 
@@ -93,7 +96,7 @@ class Field:
 class Found:
     """A stray that is safe in one field, and the dip that limits it.
 
-    touches: is there a contact without any stray? independent, simple: see Tolerance
+    touches: whether there is a contact without any stray; independent, simple: see Tolerance
     """
 
     stray: float
@@ -105,7 +108,7 @@ class Found:
 
 
 def held_stray(field: Field, most: float) -> Found:
-    """_safe_stray(), or more where the bench between two others is known to hold them apart with more."""
+    """_safe_stray(), or a larger stray if the bench between two others is known to hold them apart with it."""
     safe = _safe_stray(field, most)
     simple, independent = _simple(field, safe), safe.stray
     found = replace(safe, independent=independent, simple=simple)
@@ -137,14 +140,14 @@ def _simple(field: Field, safe: Found) -> float:
 
 
 def _safe_stray(field: Field, most: float) -> Found:
-    """The largest stray up to `most` that is safe in a field, a little less than what its samples and marches show."""
+    """The largest stray up to `most` that is safe in a field, slightly less than its samples and marches show."""
     begin, until = field.span
     nominal = field.sampled(0.0)
     if nominal[0] <= 0.0:
         state, touch, _ = field.search(0.0).approach(begin, until, field.dance.clock.slowest)
         at_first = (0.0, touch.touching, touch.benches) if touch.touching is not None and state in TOUCHES else nominal
         return Found(0.0, at_first, touch.steps, touches=True)
-    # Two benches that approach each other by the stray each, in parallel, meet where it is half their clearance.
+    # Two parallel benches that both stray towards each other meet if the stray is half their clearance.
     first = min(most, nominal[0] * (1.0 if field.edges is not None else 0.5))
     dip = field.sampled(first)
     stray, limiting = (first, None) if dip[0] > 0.0 else _grazing(field, first, dip)
@@ -171,7 +174,7 @@ def _safe_stray(field: Field, most: float) -> Found:
             around = (max(begin, met.touching - step), met.touching, min(until, met.touching + step))
             found, limiting = _grazing(field, tried, refined_dip(search, *around))
             stray = min(found, tried)
-    return Found(0.0, limiting or nominal, steps)  # nothing was proven of any stray
+    return Found(0.0, limiting or nominal, steps)  # no stray was proven to be safe
 
 
 def _grazing(
@@ -179,8 +182,8 @@ def _grazing(
 ) -> tuple[float, Dip]:
     """The stray near this one at which the grounds that meet in a dip only graze, to GRAZE_WITHIN of it [m]; that dip.
 
-    Where the stray is larger by x, the ground of each bench reaches at least x further in every direction: so the gap
-    falls at least by that much for each bench, and as evenly as the slope of the last two strays says.
+    If the stray is larger by x, the ground of each bench reaches at least x further in every direction. So the gap
+    falls by at least x for each bench, with the slope of the last two strays.
     """
     slope = 1.0 if field.edges is not None else 2.0
     for _ in range(GRAZE_STEPS):
@@ -193,3 +196,12 @@ def _grazing(
         if stray != last[0]:
             slope = max(slope, (dip[0] - last[1]) / (last[0] - stray))
     return stray, dip
+
+
+def safe_words(stray: float) -> str:
+    """A stray that is proven safe [m], as sentences print it: rounded down to 1e-12 m, so that it stays proven.
+
+    >>> safe_words(0.8250000000000001), safe_words(0.02)
+    ('0.825', '0.02')
+    """
+    return said(float(said_bound(stray, 12, -1)))

@@ -1,8 +1,8 @@
-"""How far may people stray: the largest stray that no motion within it can break, proven, and one little larger that
-is shown to break it.
+"""Tolerance: the largest stray that no motion within it can break, proven, and a slightly larger one shown to break it.
 
-What is safe among the benches, and between them and the edges of a venue, is found in core/tolerance/safe.py. Here the
-least of that is taken, and a pose is shown in which those that limit it overlap.
+core/tolerance/safe.py finds the stray that is safe among the benches, and the one between them and each area of a
+venue. The tolerance is the least of these, and a pose shows that the two that limit it overlap with a slightly larger
+stray.
 """
 
 from __future__ import annotations
@@ -25,14 +25,14 @@ from core.paths.frame import Frame
 from core.shapes.rectangles import frames, frames_separation
 from core.shown import Shown, worded
 from core.tolerance.exhibit import Body, Exhibit, exhibit
-from core.tolerance.safe import Field, Found, held_stray
+from core.tolerance.safe import Field, Found, held_stray, safe_words
 from core.values import asked_of, checked_type
 from core.venue import Venue
 
 
 class Limit(StrEnum):
-    """What a larger stray would break: two benches meet, a bench and the venue; or nothing does, up to half the
-    shortest chord, beyond which no stray is asked about."""
+    """Contact that a larger stray would allow: two benches, or a bench and the venue; or none up to half the shortest
+    chord, the largest stray that is tried."""
 
     BENCHES = "benches"
     VENUE = "venue"
@@ -41,7 +41,7 @@ class Limit(StrEnum):
 
 @dataclass(frozen=True, slots=True, repr=False)
 class StrayProof(Shown):
-    """How the proven end is known: the claim in sentences, and the steps that the march took."""
+    """Evidence of the safe stray: the claim in sentences, and the number of steps that the march took."""
 
     method: str
     steps: int
@@ -51,17 +51,17 @@ class StrayProof(Shown):
 class Tolerance(Shown):
     """How far people may stray.
 
-    stray: [m], proven safe: while no hole is further from its place at any instant, nothing touches; 0: none is known
-        to be safe, as where benches touch without any stray
-    independent: what is proven without counting on the benches between others [m]; equal to stray unless such a bench
-        is known to hold its neighbours apart
-    simple: what the simple bound knows, that no point moves further than its bench's gain times the stray [m]; from
-        samples, and safe because it is not above the stray
-    stray_bracket: (proven safe, shown to touch) [m]; the second None where nothing was shown
-    limited_by: see Limit; time: when those that limit it are nearest to meeting [s]; benches: they, the second None for
-        the venue; area: its name. All None where nothing limits it
-    exhibit: a pose of the whole dragon in which they overlap, with strays up to the second end
-    start, stop: of the stretch asked about [s]
+    stray: [m], proven safe: while no hole is further from its place at any instant, nothing touches; 0: no stray is
+        known to be safe, for instance because benches touch without any
+    independent: stray proven safe without the help of benches that hold their neighbours apart [m]; equal to stray
+        unless such a bench helps
+    simple: stray that is safe by the simple bound, by which no point moves further than its bench's gain times the
+        stray [m]; from samples, and safe because it is not above the stray
+    stray_bracket: (proven safe, shown to touch) [m]; the second one None if no contact was shown
+    limited_by: see Limit; time: at which the two that limit it are nearest to meeting [s]; benches: these two, the
+        second one None for the venue; area: its name. All None if nothing limits it
+    exhibit: a pose of the whole dragon in which the two overlap, with strays up to the second end of the bracket
+    start, stop: of the time asked about [s]
     """
 
     stray: float
@@ -98,14 +98,14 @@ def tolerance(
     stop: float | None = None,
     budget: Budget | None = None,
 ) -> Tolerance:
-    """The largest stray of all holes that no motion within it can break, and one that is shown to.
+    """The largest stray of all holes that no motion within it can break, and one that is shown to break it.
 
-    A stray is the distance of a hole from its place at the same instant, by people and by the play of its pin. Any way
-    to move is allowed that keeps every chord; speeds do not matter. Neighbours, which share a hole, are never a pair.
-    venue: its edges count too; start, stop: [s], by default from 0 (on a route: from when the whole dragon is on it) to
-        the end of the run
-    returns: see Tolerance. Where benches touch, or are in the venue's edges, as it is, the stray is 0; so it is,
-        without a second end, where the search gave up before it proved any
+    A stray is the distance of a hole from its place at the same instant, by people and by the play of its pin. Every
+    motion that keeps every chord is allowed; speeds do not matter. Neighbours, which share a hole, are never a pair.
+    venue: its edges count too; start, stop: [s]; by default from 0 (on a route: from the time when the whole dragon is
+        on it) to the end of the run
+    returns: see Tolerance. The stray is 0 if benches touch, or are in the venue's edges, without any stray; it is also
+        0, without a second end, if the search gave up before it proved a stray
     raises: InvalidValue; OutsideRun; TooMuchWork
 
     >>> from core import Dragon, Spiral
@@ -154,7 +154,7 @@ def _fields(dance: Dance, venue: Venue | None, span: tuple[float, float], budget
 
 
 def _exhibit(field: Field, found: Found, time: float, frame: Frame) -> Exhibit | None:
-    """A pose of the whole dragon in which the pair of a dip overlaps. frame: of the search"""
+    """A pose of the whole dragon in which the pair of a dip overlaps; None if not found. frame: of the search"""
     assert found.dip is not None
     dragon, (a, b) = field.dance.dragon, found.dip[2]
     at = field.dance.clock.steady(np.array(time))
@@ -190,8 +190,8 @@ def _method(dance: Dance, found: Found, independent: float, span: tuple[float, f
             "stray independently, so the stray is lower than it could be."
         )
     return (
-        f"{what}, while every hole is within {said(found.stray)} m of its place and every chord keeps its length, no "
-        f"bench touches another that it shares no handle with{square}. Proven in steps for the hulls of all places "
-        "that benches can have then, as first contacts are for benches; computed in doubles, with allowances for their "
-        f"rounding.{between}"
+        f"{what}, while every hole is within {safe_words(found.stray)} m of its place and every chord keeps its "
+        f"length, no bench touches another that it shares no handle with{square}. Proven in steps for the hulls of all "
+        "places that benches can have then, as first contacts are for benches; computed in doubles, with allowances "
+        f"for their rounding.{between}"
     )

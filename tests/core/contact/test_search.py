@@ -8,7 +8,8 @@ import pytest
 from core import Dragon, Spiral, Turn
 from core.contact.march import Ended
 from core.contact.near_graze import others_clear
-from core.contact.search import Search
+from core.contact.search import Search, joined
+from core.kernels.results import Dip, Marched
 from tests.core.slow_search import SlowDance, arc_length
 
 DRAGON, SPIRAL = Dragon(30), Spiral()
@@ -67,3 +68,18 @@ def test_a_search_whose_work_is_done_gives_up() -> None:
     state, found, _ = search.approach(-50.0, 100.0, 1.0)
     assert state == "stuck"
     assert -50.0 < found.proven < 100.0
+
+
+EARLIER = Marched(3.0, None, (0, 0), 5, 0.25, Dip(0.02, 2.0, (0, 9)))
+
+
+def test_a_march_that_goes_on_adds_its_steps_and_keeps_the_larger_bound_and_the_lower_graze() -> None:
+    later = Marched(2.5, 4.0, (0, 8), 2, 0.125, Dip(0.03, 3.5, (1, 9)))
+    assert joined(EARLIER, later) == Marched(3.0, 4.0, (0, 8), 7, 0.25, Dip(0.02, 2.0, (0, 9)))
+    assert joined(EARLIER, later._replace(bend=0.5)).bend == 0.5
+
+
+def test_a_march_without_a_graze_leaves_that_of_the_other() -> None:
+    assert joined(EARLIER, Marched(6.0)).graze == EARLIER.graze
+    assert joined(Marched(1.0), EARLIER).graze == EARLIER.graze
+    assert joined(Marched(1.0), Marched(2.0)) == Marched(2.0)
