@@ -120,7 +120,7 @@ OWN: dict[str, tuple[Callable[[dict[str, Any]], Any], str]] = {
     "a pose before the start": (at("overlap", "time", put=-1.0), "not one of this dragon in this time"),
     "a pose of another dragon": (lambda c: c["overlap"]["headings"].pop(), "not one of this dragon"),
     "another pair": (at("overlap", "benches", put=[1, 3]), "not shown to overlap in the pose"),
-    "neighbours as the pair": (at("overlap", "benches", put=[0, 1]), "no pair"),
+    "neighbours as the pair": (at("overlap", "benches", put=[0, 1]), "share no handle"),
     "no pose": (lambda c: c.pop("overlap"), "overlap is missing"),
     "a pose that is not claimed": (lambda c: c["claim"].pop("shown"), "overlap is no member"),
     "a margin": (at("claim", "margin", put=0.01), "claim.margin is no member"),
