@@ -158,7 +158,7 @@ def exhibit(
     """A pose of the whole dragon in which a pair overlaps, with strays little above the safe ones; None if not found.
 
     handles: (n + 1, 2) nominal places [m]; edge: in place of a second bench; bearing: of the normal [rad]
-    With one bench between the pair, the pose may be one of other three consecutive benches, if that takes smaller strays.
+    With one bench between the pair, the pose may show three other consecutive benches, if that takes smaller strays.
     """
     first, second = pair
     a = body(dragon, handles, first)
