@@ -432,8 +432,7 @@ def all_apart(chain, high, low, sweeps, repeats_from):
 def overlapping(chain, head, a, b):
     """6., when the head is there."""
     if not 0 <= a < b - 1 < len(chain.benches) - 1:
-        rule = "two benches of this dragon, in order, that share no handle"
-        raise Refused(f"not proven: benches {a} and {b} are not {rule}")
+        raise Refused(f"not proven: benches {a} and {b} are not two benches that share no handle")
     for bench in chain.benches[:a]:
         head = head + bend(head, bench)
     row = Row(chain, a, head)
