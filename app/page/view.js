@@ -5,6 +5,8 @@ const PAN_STEP = 60;
 const CLICK_TRAVEL = 5;
 const [SCALE_MIN, SCALE_MAX] = [0.05, 20_000];
 const PADDING = 24;
+/** Width of the column of buttons on the left, of which a picture narrower than this keeps clear [px]. */
+const [BUTTONS, NARROW] = [44, 500];
 
 const within = (scale) => Math.min(Math.max(scale, SCALE_MIN), SCALE_MAX);
 
@@ -39,8 +41,10 @@ export class View {
 
   /** Show these bounds [x min, y min, x max, y max] whole. */
   fit([left, bottom, right, top]) {
-    const [wide, high] = [this.width - 2 * PADDING, this.height - 2 * PADDING];
-    this.set((left + right) / 2, (bottom + top) / 2, Math.min(wide / (right - left), high / (top - bottom)), true);
+    const side = this.width < NARROW ? BUTTONS : 0;
+    const [wide, high] = [this.width - 2 * PADDING - side, this.height - 2 * PADDING];
+    const scale = within(Math.min(wide / (right - left), high / (top - bottom)));
+    this.set((left + right) / 2 - side / 2 / scale, (bottom + top) / 2, scale, true);
   }
 
   set(x, y, scale = this.scale, fitted = false) {

@@ -141,6 +141,31 @@ def test_every_refusal_is_a_sentence_in_both_languages(open_page: Any, server: s
     assert [words for words in english if INSIDE.search(words) or not words.endswith(".")] == []
 
 
+def test_every_proof_is_told_in_chinese(open_page: Any, server: str) -> None:
+    paths = [{"kind": "waypoints", "points": PLAIN, "start": 20}, {"kind": "turn", "pitch": 1.7}, {"kind": "spiral"}]
+    few = [{"speed": 0.5, "until_s": 5}, {"speed": 0, "until_time": 60}, {"speed": 2, "until_time": 61}]
+    many = [{"speed": 1, "until_time": 1 + 0.1 * k} for k in range(30)]
+    tree = feature("tree", "Point", [0, 5], radius=2)
+    venue = {"type": "FeatureCollection", "features": [feature("square", "Polygon", [SQUARE]), tree]}
+    mores: tuple[dict[str, Any], ...] = ({}, {"passages": few}, {"passages": many}, {"stray": 0.02}, {"margin": 0.05})
+    with httpx.Client(base_url=server, timeout=60.0) as client:
+        methods = []
+        for path in paths:
+            body = {"dragon": {"benches": 9}, "path": path}
+            body |= {"start": -20, "stop": 40} if path["kind"] == "turn" else {}
+            for more in mores:
+                answer = client.post("/check", json=body | more).raise_for_status().json()["first_contact"]
+                methods.append(answer["certificate"]["method"])
+            end = {"turning_diameter": 9} if path["kind"] == "spiral" else {}
+            for place in ({}, {"venue": venue}) if path is paths[0] else ({},):
+                answer = client.post("/tolerance", json=body | end | place).raise_for_status().json()
+                methods.append(answer["certificate"]["method"])
+    page = open_page("?benches=9")
+    chinese = page.evaluate("m => import('/page/proofs.js').then((one) => m.map(one.proofInChinese))", methods)
+    assert len(set(chinese)) > 15
+    assert [words for words in chinese if ENGLISH.search(words)] == []
+
+
 def test_what_is_asked_in_centimetres_is_refused_in_centimetres(open_page: Any) -> None:
     page = open_page("?benches=9", failing=True)
     stray = page.locator("#stray")

@@ -58,6 +58,10 @@ def test_on_a_phone_a_finger_hits_every_control(open_page: Any, query: str, loca
         page.locator("#paper table").wait_for()
     assert page.evaluate(NARROW, FINGER) == []
     assert page.evaluate("document.documentElement.scrollWidth") <= 390
+    # No point lies under the buttons of the picture.
+    views = page.locator("#views").bounding_box()
+    knots = [knot.bounding_box() for knot in page.locator(".knot").all()]
+    assert [knot for knot in knots if knot["x"] < views["x"] + views["width"]] == []
     header = page.locator("header").bounding_box()
     assert header["height"] < 2.5 * FINGER
 
