@@ -35,7 +35,8 @@ class Settings(BaseModel):
         """raises: InvalidValue naming the variable"""
         # pydantic-settings does the same and takes a fifth of a cold command to import (measured 2026-11-22).
         variables = {name: f"BENCH_DRAGON_{name.upper()}" for name in type(self).model_fields}
-        told = {name: os.environ[key] for name, key in variables.items() if key in os.environ}
+        # An empty variable is none: compose.yaml and the like pass an unset one on as an empty one.
+        told = {name: os.environ[key] for name, key in variables.items() if os.environ.get(key)}
         try:
             super().__init__(**told | given)
         except ValidationError as error:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import difflib
 import logging
+import re
 import sqlite3
 from collections.abc import AsyncIterator
 from hmac import compare_digest
@@ -13,7 +14,7 @@ from typing import Annotated, Any
 
 import orjson
 from fastapi import APIRouter, Body, Depends, Header, Path, Request, Response
-from fastapi.responses import FileResponse, StreamingResponse
+from fastapi.responses import FileResponse, JSONResponse, StreamingResponse
 from pydantic import BaseModel, ValidationError
 from starlette.concurrency import run_in_threadpool
 from starlette.types import Receive, Scope, Send
@@ -51,6 +52,8 @@ logger = logging.getLogger("uvicorn.error")
 LOOK_SECONDS, BEAT_SECONDS = 0.25, 15.0
 # When to come again after a refusal for want of room [s].
 COME_AGAIN = {"Retry-After": "60"}
+# Number of an event, as a client states it; a longer one is no number of ours, and SQLite does not take it.
+EVENT_ID = re.compile(r"[0-9]{1,18}")
 NOT_KEPT = {"Cache-Control": "no-store"}
 PROBLEM_REF = {PROBLEM_TYPE: {"schema": {"$ref": "#/components/schemas/Problem"}}}
 PROBLEMS = {
@@ -140,7 +143,7 @@ def told(name: str, *statuses: int, model: type[BaseModel] | None = None, conten
     security: list[dict[str, list[str]]] = [{}, {"token": []}] if 401 in statuses else []
     return {
         "operation_id": name,
-        "response_class": Response,
+        "response_class": Response if model is None else JSONResponse,  # Of a plain Response FastAPI tells no schema.
         "response_model": model,
         "responses": {**answer, **problems},
         "openapi_extra": {"security": security},
@@ -286,7 +289,7 @@ async def events(
     last_event_id: Annotated[str, Header(description="Number of the last event that the client has")] = "0",
 ) -> Response:
     """The status of a job at every change, as server-sent events, until it is finished."""
-    after = int(last_event_id) if last_event_id.isascii() and last_event_id.isdigit() else 0
+    after = int(last_event_id) if EVENT_ID.fullmatch(last_event_id) else 0
     if found.is_finished and not await run_in_threadpool(keeper.store.events, found.id, after):
         return Response(status_code=204)  # The word for a browser not to come again.
     if not keeper.free.acquire(blocking=False):

@@ -32,6 +32,7 @@ from app.files.lock import FolderLock
 from app.jobs.job import SWEEP
 from app.jobs.keeper import start
 from app.jobs.store import Store
+from app.logs import log_to_stderr
 from app.settings import Settings
 from app.wire.problem import problem_of
 
@@ -105,12 +106,14 @@ class Runner:
     def run(self) -> None:
         """Run jobs until none has waited for a while."""
         self.store.begin()
-        idle_since = time.monotonic()
+        idle_since, said = time.monotonic(), ""
         while self.works or time.monotonic() - idle_since < IDLE_SECONDS:
             try:
                 self.step()
-            except (OSError, sqlite3.Error):
-                logger.exception("The store of the jobs failed; it is tried again")
+            except (OSError, sqlite3.Error) as error:
+                if str(error) != said:  # Once: a disk may be full for hours.
+                    said = str(error)
+                    logger.error("The store of the jobs failed, and is tried again each second: %s", said)
                 time.sleep(RETRY_SECONDS)
             if self.works:
                 idle_since = time.monotonic()
@@ -222,13 +225,14 @@ def follow_input() -> None:
 
 
 def main() -> None:
-    logging.basicConfig(format="%(levelname)s:     %(message)s", level=logging.INFO)
+    settings = Settings()
+    log_to_stderr(settings.log_json)
     folder = Path(sys.argv[1])
     follow_input()
     lock = FolderLock(folder, "runner")
     if not lock.take(LOCK_SECONDS):
         raise SystemExit(f"Another runner does not let go of {folder}")
-    Runner(Store(folder), Settings()).run()
+    Runner(Store(folder), settings).run()
 
 
 if __name__ == "__main__":

@@ -23,6 +23,7 @@ from app.jobs.mouth import Mouth
 from app.jobs.runner import follow_input
 from app.jobs.store import Store
 from app.jobs.task import Task
+from app.logs import log_to_stderr
 from app.settings import Settings
 from app.wire.problem import Problem, problem_of
 
@@ -97,6 +98,7 @@ def main() -> None:
     if hasattr(os, "nice"):
         os.nice(NICENESS)
     settings = Settings()
+    log_to_stderr(settings.log_json)
     limit_memory(settings.job_memory_max)
     mouth = Mouth()
     # Byte by byte, so that nothing behind the line is taken from who follows the input.

@@ -12,7 +12,7 @@ from starlette.datastructures import Headers
 from starlette.requests import Request
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
-from app.service.logs import request_id
+from app.logs import request_id
 from app.service.problems import Refused, http_problem, server_problem
 from app.settings import Settings
 from app.wire.problem import ErrorItem
@@ -90,7 +90,7 @@ class RequestId:
 
 
 class HeadAsGet:
-    """Answers HEAD like GET without the body, so that the headers are the same."""
+    """Answers HEAD like GET without the body, with the same headers; it makes no job, as HEAD changes nothing."""
 
     def __init__(self, app: ASGIApp) -> None:
         self.app = app
@@ -104,7 +104,8 @@ class HeadAsGet:
                 message = {**message, "body": b""}
             await send(message)
 
-        return await self.app({**scope, "method": "GET"}, receive, without_body)
+        headers = [(name, value) for name, value in scope["headers"] if name != b"prefer"]
+        return await self.app({**scope, "method": "GET", "headers": headers}, receive, without_body)
 
 
 class SafetyHeaders:

@@ -63,7 +63,9 @@ async def validation_problem(request: Request, error: RequestValidationError) ->
     found = error.errors()
     if found[0]["type"] == "json_invalid":
         position, why = found[0]["loc"][-1], found[0]["ctx"]["error"]
-        detail = f"The body is not JSON: {why} at character {position}. Send an object such as {{}}."
+        detail = (
+            f"The body is not JSON: {why.removesuffix(' at')} at character {position}. Send an object such as {{}}."
+        )
         return problem(400, "broken-json", detail, [ErrorItem(pointer="", detail=detail)])
     if found[0]["loc"][0] == "path":
         return await http_problem(request, HTTPException(404))

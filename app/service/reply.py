@@ -83,14 +83,14 @@ class Reply:
         raises: Refused (503, 429) when the lane of the computation is full, or the client's part of it
         """
         offers = [one.media_type for one in form] or call.question.forms
-        media_type = form_of(self.request.headers.get("accept"), offers, {"name": "Accept"})
+        media_type = form_of(self._listed("accept"), offers, {"name": "Accept"})
         tag = self._tag(asked, media_type)
         headers = {
             "ETag": f'"{tag}"',
             "Cache-Control": f"public, max-age={self.settings.cache_seconds}",
             "Vary": "Accept, Accept-Encoding",
         }
-        known = tags_in(self.request.headers.get("if-none-match", ""))
+        known = tags_in(self._listed("if-none-match") or "")
         for one in (headers["ETag"], f'"{tag}{GZIPPED}"'):
             if one in known:
                 return Response(status_code=304, headers={**headers, "ETag": one})
@@ -134,11 +134,15 @@ class Reply:
         except BenchDragonError as error:
             raise reworded(error, asked) from error
 
+    def _listed(self, name: str) -> str | None:
+        """A header that may stand on several lines, as one list (RFC 9110, section 5.3); None if it is missing."""
+        return ",".join(self.request.headers.getlist(name)) or None
+
     def _zips(self, data: bytes | Iterator[bytes]) -> bool:
         """Whether the answer is worth compressing, and the client accepts gzip."""
         least = self.settings.compressed_bytes_min
         large = least > 0 and (not isinstance(data, bytes) or len(data) >= least)
-        coding = accepted(self.request.headers.get("accept-encoding", "identity"), ["identity", "gzip"])
+        coding = accepted(self._listed("accept-encoding") or "identity", ["identity", "gzip"])
         return large and coding == "gzip"
 
     def _tag(self, asked: Wire, media_type: str) -> str:

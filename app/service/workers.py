@@ -28,7 +28,7 @@ from prometheus_client.multiprocess import mark_process_dead
 from uvicorn.supervisors import Multiprocess
 
 from app.jobs.keeper import scratch
-from app.service.logs import log_config
+from app.logs import log_config
 from app.service.protocol import Protocol
 from app.settings import DATA, SHARED_COUNTS, WORKERS_MAX, Settings, usable_cores
 from core import InvalidValue

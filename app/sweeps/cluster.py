@@ -43,7 +43,7 @@ def _local(workers: int | None) -> LocalCluster:
 
 async def _greet(address: str) -> None:
     """Connect once: a Client waits for ever for who never answers. raises: OSError, TimeoutError"""
-    if address.startswith("tcp://"):
+    if address.startswith("tcp://") or "://" not in address:
         async with asyncio.timeout(CONNECT):
             await (await connect(address, timeout=CONNECT)).close()
 

@@ -12,10 +12,12 @@ from pathlib import Path
 from typing import Annotated, Any, Literal, Self
 
 import orjson
-from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
+from pydantic import BaseModel, ConfigDict, Discriminator, Field, Tag, ValidationError, model_validator
+from pydantic_core import PydanticCustomError
 
 import core
 from app.sweeps.questions import Question, question_of
+from app.wire.dances import AXIS
 from app.wire.messages import checked
 from app.wire.models import measure
 from core import InvalidValue, TooLarge
@@ -51,7 +53,7 @@ class Range(_Told):
     @model_validator(mode="after")
     def _has_logarithms(self) -> Self:
         if self.scale == "log" and not (self.start > 0.0 and self.stop > 0.0):
-            raise ValueError("start and stop must be positive on a log scale")
+            raise PydanticCustomError("log_scale", "start and stop must be positive on a log scale")
         return self
 
     def at(self, share: float) -> float:
@@ -78,7 +80,14 @@ class Samples(_Told):
     seed: int = Field(0, ge=0, lt=2**63, description="Of philox")
 
 
-Axis = Range | Annotated[list[Any], Field(min_length=1, max_length=VALUES_MAX)]
+def _shape_of_axis(value: Any) -> str:
+    return "list" if isinstance(value, list) else AXIS
+
+
+Axis = Annotated[
+    Annotated[Range, Tag(AXIS)] | Annotated[list[Any], Field(min_length=1, max_length=VALUES_MAX), Tag("list")],
+    Discriminator(_shape_of_axis),
+]
 
 
 class Spec(_Told):
@@ -180,7 +189,9 @@ class Spec(_Told):
             raise TooLarge("over", f"over must make at most {DESIGNS_MAX} designs, got {self.designs}")
         if self.shards > SHARDS_MAX:
             least = -(-self.designs // SHARDS_MAX)
-            raise TooLarge("shard_size", f"shard_size must be at least {least} for so many designs")
+            raise TooLarge(
+                "shard_size", f"shard_size must be at least {least} for {self.designs} designs, got {self.shard_size}"
+            )
         for name in self.over:
             if name in OWN_COLUMNS:
                 raise InvalidValue(f"over.{name}", f"over.{name} is no parameter of {self.question}")

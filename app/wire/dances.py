@@ -188,8 +188,10 @@ def _shape_of_times(value: Any) -> str:
     return "list" if isinstance(value, list) else "range"
 
 
+# Shape of the values over which a sweep varies a parameter; they have the unit of that parameter.
+AXIS = "axis"
 # Names of shapes, which pydantic puts into the place of an error although no body contains them.
-SHAPES = frozenset({"uniform", "bench_by_bench", "bench_csv", "range", "list"}) | KINDS
+SHAPES = frozenset({"uniform", "bench_by_bench", "bench_csv", "range", "list", AXIS}) | KINDS
 
 # The type with required fields comes first: generated clients take the first that fits.
 AnyDragon = Annotated[

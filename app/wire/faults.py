@@ -59,6 +59,6 @@ def pointer(place: Sequence[Any], body: Any) -> str:
         if len(str(step)) > PLACE_MAX:
             break
         steps.append(str(step).replace("~", "~0").replace("/", "~1"))
-        inside = isinstance(body, list) or (isinstance(body, dict) and step in body)
+        inside = isinstance(step, int) if isinstance(body, list) else isinstance(body, dict) and step in body
         body = body[step] if inside else None
     return plain("".join(f"/{step}" for step in steps), ERRORS_MAX * PLACE_MAX)

@@ -13,7 +13,7 @@ from typing import Annotated, Any, TypeVar, get_args, get_origin
 
 from pydantic import BaseModel, Tag, ValidationError
 
-from app.wire.dances import SHAPES
+from app.wire.dances import AXIS, SHAPES
 from app.wire.models import Wire, unit_of
 from app.wire.paths import KINDS
 from core import InvalidValue
@@ -40,7 +40,7 @@ def checked(model: type[Model], values: object, thing: str = OBJECT) -> Model:
     except ValidationError as error:
         first = error.errors()[0]
         field = ".".join(str(part) for part in first["loc"] if part not in SHAPES)
-        words = message({**first, "loc": ("", *first["loc"])}, model, thing)
+        words = message({**first, "loc": ("request", *first["loc"])}, model, thing)
         # Words such as `times[1] must be ...` name the place in a list already.
         outer = field.rstrip("0123456789").rstrip(".") if "[" in words.partition(" ")[0] else field
         if "." in outer:
@@ -67,10 +67,10 @@ def message(error: Mapping[str, Any], asked: Any, thing: str = OBJECT) -> str:
     """
     units = known_units()
     names = [part for part in error["loc"][1:] if isinstance(part, str)]
-    name = next((part for part in reversed(names) if part in units), names[-1] if names else f"the {error['loc'][0]}")
+    name = _name(names, units, error["loc"], asked)
     kind, value, limits = error["type"], error["input"], error.get("ctx", {})
     told_apart = next((part for part in reversed(names) if part in KINDS), "")
-    unit = units.get(f"{told_apart}.{name}", units.get(name, ""))
+    unit = "" if AXIS in names else units.get(f"{told_apart}.{name}", units.get(name, ""))
     name += "".join(f"[{part}]" for part in _last_indices(error["loc"]))
     number = _number(value, text=error["loc"][0] == "query")
     words = str(value) if isinstance(value, str) and number is not None else shown(value)
@@ -99,7 +99,9 @@ def message(error: Mapping[str, Any], asked: Any, thing: str = OBJECT) -> str:
             near = difflib.get_close_matches(names[-1], names_at(asked, error["loc"][1:-1]), n=1, cutoff=alike)
             return f"{shown(names[-1])} is unknown here: " + (f"did you mean {near[0]}?" if near else "leave it out")
         case "model_type" | "model_attributes_type" | "dict_type":
-            other = ", or a list of instants [s]" if name == "times" else ""
+            other = (
+                ", or a list of instants [s]" if name == "times" else " or a list of values" if AXIS in names else ""
+            )
             return f"{name} must be {thing}{other}, {got}"
         case "list_type":
             return f"{name} must be a list{f' of numbers [{unit}]' if unit else ''}, got {words}"
@@ -121,6 +123,16 @@ def message(error: Mapping[str, Any], asked: Any, thing: str = OBJECT) -> str:
         case "too_many_names":
             return f"{name} must have at most {limits['most']} names, got {limits['given']}: see /docs for all names"
     return f"{name}: {error['msg'][:1].lower()}{error['msg'][1:]}, {got}"
+
+
+def _name(names: Sequence[str], units: Mapping[str, str], place: Sequence[Any], asked: Any) -> str:
+    """Name of the wrong field. names: the words in its place; units: of the known fields"""
+    if not names:
+        return f"the {place[0]}"
+    if names[-1] in names_at(asked, place[1:-1]):
+        return names[-1]
+    told = [part for part in names if part not in SHAPES]
+    return next((part for part in reversed(names) if part in units), (told or names)[-1])
 
 
 @cache
@@ -149,7 +161,7 @@ def names_at(kind: Any, place: Sequence[Any]) -> list[str]:
             return names_at(inner, place)
         return names_at(inner, place[1:]) if place and Tag(place[0]) in tags else []
     if not isinstance(kind, type) or get_origin(kind):
-        further = place[1:] if get_origin(kind) is list else place
+        further = place[1:] if get_origin(kind) in (list, dict) else place
         return [name for inner in get_args(kind) for name in names_at(inner, further)]
     if not issubclass(kind, BaseModel):
         return []

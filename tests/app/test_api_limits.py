@@ -16,6 +16,7 @@ import httpx
 import pytest
 
 from app.files.tables import XLSX_TYPE
+from app.settings import Settings
 from tests.conftest import ROOT, wait_until_live
 
 BODY_BYTES_MAX = 1000
@@ -122,3 +123,9 @@ def test_one_computation_too_many_is_asked_to_come_again(small: httpx.Client) ->
     assert cheap.status_code == 200
     assert alive.status_code == 200
     assert small.post("/trajectory", json={"times": [0]}).status_code == 200
+
+
+def test_an_empty_variable_is_none(monkeypatch: pytest.MonkeyPatch) -> None:
+    for name in ("BENCH_DRAGON_DATA", "BENCH_DRAGON_JOBS_MAX"):
+        monkeypatch.setenv(name, "")
+    assert (Settings().data, Settings().jobs_max) == (None, 1000)

@@ -121,3 +121,10 @@ def test_a_file_is_graded(own: Any) -> None:
 def test_the_service_is_alive_and_ready(own: Any) -> None:
     assert call("service", "healthz").sync(client=own).status == "ok"
     assert call("service", "readyz").sync(client=own).status == "ready"
+
+
+def test_a_job_comes_back_as_its_status(own: Any) -> None:
+    later = call("jobs", "ask_later")
+    job = later.sync(client=own, body=body_of(later, {"question": "collision_time", "request": {"pitch": 0.5}}))
+    again = call("jobs", "job_status").sync(job.to_dict()["jobID"], client=own)
+    assert (type(again).__name__, again.to_dict()["processID"]) == ("JobStatus", "collision_time")

@@ -205,6 +205,17 @@ def test_any_tag_at_all_is_unchanged_and_what_is_refused_is_not(held: Service) -
     assert httpx.get(f"{held.url}/turn?pitch=99", headers=star).status_code == 422
 
 
+def test_a_broken_body_is_told_by_its_place(held: Service) -> None:
+    answer = httpx.post(f"{held.url}/turn", content='{"pitch', headers={"Content-Type": "application/json"})
+    assert answer.json()["detail"].startswith("The body is not JSON: Unterminated string starting at character 1.")
+
+
+def test_tags_on_several_lines_are_one_list(held: Service) -> None:
+    tag = httpx.get(f"{held.url}/turn").headers["etag"]
+    lines = [("If-None-Match", '"another"'), ("If-None-Match", tag)]
+    assert httpx.get(f"{held.url}/turn", headers=lines).status_code == 304
+
+
 def test_a_request_keeps_its_name_and_the_log_has_it(held: Service) -> None:
     answers = [httpx.get(f"{held.url}/turn", headers={"X-Request-ID": name}) for name in ("dance-7", "no name!")]
     assert answers[0].headers["x-request-id"] == "dance-7"

@@ -75,6 +75,10 @@ def test_what_is_no_question_is_answered_at_once(service: Service, path: str) ->
     assert service.client.get(path, headers={"Prefer": "respond-async"}).status_code == 200
 
 
+def test_head_makes_no_job(service: Service) -> None:
+    assert service.client.head("/collision-time", headers={"Prefer": "respond-async"}).status_code == 200
+
+
 def test_what_the_client_has_already_needs_no_job(service: Service) -> None:
     tag = service.client.get("/collision-time").headers["etag"]
     headers = {"Prefer": "respond-async", "If-None-Match": tag}
@@ -128,6 +132,15 @@ def test_events_tell_every_change_and_go_on_after_the_last_one_seen(service: Ser
     # The word for a browser not to come again.
     after = service.client.get(f"{address}/events", headers={"Last-Event-ID": str(numbers[-1])})
     assert (after.status_code, after.content) == (204, b"")
+
+
+@pytest.mark.parametrize(
+    "last", ["9" * 18, "9" * 30, "9" * 5000, "-1", "a"], ids=lambda last: last[:2] + str(len(last))
+)
+def test_a_number_of_no_event_is_no_mistake_of_the_service(service: Service, last: str) -> None:
+    address = service.post(SHORT)
+    service.finished(address)
+    assert service.client.get(f"{address}/events", headers={"Last-Event-ID": last}).status_code in (200, 204)
 
 
 def test_a_stream_that_breaks_is_taken_up_where_it_broke(service: Service) -> None:

@@ -2,12 +2,21 @@
 
 from __future__ import annotations
 
+import json
+import os
+import sqlite3
+import subprocess
+import sys
 from collections.abc import Iterator
+from contextlib import closing
 from pathlib import Path
 from typing import Any
 
 import pytest
 
+from app.jobs import runner
+from app.jobs.store import Store
+from app.settings import Settings
 from tests.app.jobs.kills import survive
 from tests.app.jobs.service import ENDLESS, LINGER, SCAN, SHORT, Service, direct, wait_for
 
@@ -87,3 +96,34 @@ def test_two_services_with_one_folder_have_one_runner(tmp_path: Path) -> None:
         one.process.wait()
         assert two.finished(two.post(SHORT))["status"] == "successful"
         assert len(two.of("runner")) == 1
+
+
+@pytest.mark.parametrize("module", ["runner", "work"])
+def test_the_processes_of_jobs_log_in_the_form_of_the_service(module: str, tmp_path: Path) -> None:
+    code = f"""
+import logging, sys
+from app.jobs import runner, work
+runner.follow_input = work.follow_input = lambda: None
+runner.Runner.run = work.do = lambda *given: logging.getLogger("app.jobs").error("said")
+sys.argv = ["", {str(tmp_path)!r}]
+{module}.main()
+"""
+    environment = os.environ | {"BENCH_DRAGON_LOG_JSON": "true"}
+    command = [sys.executable, "-c", code]
+    done = subprocess.run(command, input="job\n", env=environment, capture_output=True, text=True, timeout=LINGER * 3)
+    assert [json.loads(line)["message"] for line in done.stderr.splitlines()] == ["said"]
+
+
+def test_a_disk_that_stays_full_is_told_once(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
+) -> None:
+    def step(self: runner.Runner) -> None:
+        raise sqlite3.OperationalError("database or disk is full")
+
+    monkeypatch.setattr(runner.Runner, "step", step)
+    monkeypatch.setattr(runner, "IDLE_SECONDS", 0.1)
+    monkeypatch.setattr(runner, "RETRY_SECONDS", 0.01)
+    with closing(Store(tmp_path)) as store:
+        runner.Runner(store, Settings()).run()
+    assert len(caplog.records) == 1
+    assert caplog.messages[0].endswith("database or disk is full")

@@ -66,6 +66,12 @@ def test_an_address_where_nobody_answers_is_named(monkeypatch: pytest.MonkeyPatc
         Cluster(address)
 
 
+def test_an_address_without_a_scheme_is_tried_before_a_client_waits_for_it(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("app.sweeps.cluster.Client", None)
+    with pytest.raises(NoScheduler, match="no Dask scheduler answers at nonsense"):
+        Cluster("nonsense")
+
+
 def test_a_port_that_takes_connections_and_never_answers_is_no_scheduler(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("app.sweeps.cluster.CONNECT", 1.0)
     with socket.create_server(("127.0.0.1", 0)) as silent:

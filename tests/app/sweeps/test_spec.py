@@ -87,10 +87,27 @@ def test_cross_checks_are_left_out_unless_they_are_asked_for() -> None:
             {"over": {"pitch": {"start": 0.4, "stop": 0.6, "count": DESIGNS_MAX}, "benches": [1, 2]}},
             "at most 100000000",
         ),
-        ({"over": {"pitch": {"start": 0.4, "stop": 0.6, "count": 10**7}}, "shard_size": 1}, "at least 10"),
+        (
+            {"over": {"pitch": {"start": 0.4, "stop": 0.6, "count": 10**7}}, "shard_size": 1},
+            "at least 10 for 10000000 designs, got 1",
+        ),
         ({"over": {}}, "over"),
-        ({"over": {"pitch": []}}, "pitch"),
-        ({"over": {"pitch": {"start": -1, "stop": 2, "count": 3, "scale": "log"}}}, "positive on a log scale"),
+        ({"over": {"pitch": []}}, "over.pitch must have at least 1 entry, got none"),
+        ({"over": {"path.pitch": []}}, "path.pitch must have at least 1 entry, got none"),
+        ({"over": {"pitch": 0.5}}, "over.pitch must be a JSON object or a list of values, got 0.5"),
+        ({"over": {"pitch": {"stop": 1, "count": 3}}}, "over.pitch.start is missing"),
+        ({"over": {"pitch": {"start": "a", "stop": 1, "count": 3}}}, 'over.pitch.start must be a number, got "a"'),
+        ({"over": {"pitch": {"start": 0, "stop": 1, "count": 1}}}, "over.pitch.count must be at least 2, got 1"),
+        (
+            {"over": {"pitch": {"start": 1, "stop": 2, "scale": "cubic"}}},
+            "over.pitch.scale must be 'linear' or 'log', got \"cubic\"",
+        ),
+        ({"over": {"pitch": {"start": 0, "stop": 1, "step": 1}}}, "over.pitch.step is unknown here: leave it out"),
+        ({"samples": {"count": 0}}, "samples.count must be at least 1, got 0"),
+        (
+            {"over": {"pitch": {"start": -1, "stop": 2, "count": 3, "scale": "log"}}},
+            "over.pitch: start and stop must be positive",
+        ),
     ],
 )
 def test_a_wrong_spec_is_refused_in_words(changes: dict[str, Any], message: str) -> None:

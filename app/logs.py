@@ -1,4 +1,4 @@
-"""The log of the service: one line for each event, with the name of its request, as text or JSON."""
+"""The log of the service and its jobs: one line for each event, with the name of its request, as text or JSON."""
 
 from __future__ import annotations
 
@@ -7,8 +7,6 @@ import logging
 from contextvars import ContextVar
 from copy import deepcopy
 from typing import Any
-
-from uvicorn.config import LOGGING_CONFIG
 
 # Name of the request that is being answered; empty between requests.
 request_id: ContextVar[str] = ContextVar("request_id", default="")
@@ -41,6 +39,8 @@ class JsonLines(logging.Formatter):
 
 def log_config(in_json: bool) -> dict[str, Any]:
     """uvicorn's own configuration of logging, with the names of requests."""
+    from uvicorn.config import LOGGING_CONFIG  # The processes of jobs log without uvicorn.
+
     config = deepcopy(LOGGING_CONFIG)
     config["filters"] = {"named": {"()": Named}}
     for handler in config["handlers"].values():
@@ -51,3 +51,10 @@ def log_config(in_json: bool) -> dict[str, Any]:
         config["loggers"]["py.warnings"] = {"handlers": ["default"], "level": "WARNING"}
         config["formatters"] = {name: {"()": JsonLines} for name in config["formatters"]}
     return config
+
+
+def log_to_stderr(in_json: bool) -> None:
+    """Logs of a process that is no server, in the form of the service's own."""
+    handler = logging.StreamHandler()
+    handler.setFormatter(JsonLines() if in_json else logging.Formatter("%(levelname)s:     %(message)s"))
+    logging.basicConfig(handlers=[handler], level=logging.INFO)
