@@ -21,7 +21,8 @@ from app.grade.report import FileAnswer, graded
 from app.grade.workbook import ELEMENTS_MAX, UNPACKED_MAX
 from core import Budget, TooMuchWork
 from tests.app.grade.libreoffice import FEW, SMALL
-from tests.app.grade.students import ALL_CELLS, Sheets, by_xlsxwriter, few, three
+from tests.app.grade.students import ALL_CELLS, TURN_TIMES, Sheets, by_xlsxwriter, few, rows_of, three, turn
+from tests.depth import some
 
 ROOT = Path(__file__).parents[3]
 SHEETS = ("xl/worksheets/sheet1.xml", "xl/worksheets/sheet2.xml")
@@ -51,13 +52,27 @@ def by_pandas(sheets: Sheets) -> bytes:
     return sink.getvalue()
 
 
-@pytest.mark.parametrize("writer", [by_xlsxwriter, by_openpyxl, by_pandas])
+@pytest.mark.parametrize("writer", some([by_xlsxwriter, by_openpyxl, by_pandas], 1))
 def test_workbooks_of_other_tools_are_right_in_all_cells(writer: Callable[[Sheets], bytes]) -> None:
     found = [grade(writer(sheets), "upload") for sheets in three()]
     assert [file.workbook for file in found] == ["result1", "result2", "result4"]
     sheets = [sheet for file in found for sheet in file.sheets]
     assert {sheet.verdict for sheet in sheets} == {"right"}
     assert sum(sheet.right for sheet in sheets) == sum(sheet.cells for sheet in sheets) == ALL_CELLS
+
+
+@pytest.mark.parametrize("writer", [by_openpyxl, by_pandas])
+def test_a_few_instants_of_other_tools_are_right(writer: Callable[[Sheets], bytes]) -> None:
+    """By `make deep` all."""
+    contact, turned = three()[1], rows_of(turn(TURN_TIMES[:FEW]), TURN_TIMES[:FEW])
+    found = [grade(writer(sheets), "upload") for sheets in (few(), contact, turned)]
+    assert [file.workbook for file in found] == ["result1", "result2", "result4"]
+    assert [[sheet.right for sheet in file.sheets] for file in found] == [
+        [4 * 448, 4 * 224],
+        [3 * 224],
+        [448 * FEW, 224 * FEW],
+    ]
+    assert all(sheet.right + sheet.missing == sheet.cells for file in found for sheet in file.sheets)
 
 
 @pytest.mark.parametrize("name", ["result1", "result2", "result4"])
