@@ -21,6 +21,7 @@ import pytest
 
 from app.files.tables import CSV_TYPE
 from tests.app.serving import Service, serving
+from tests.depth import some
 
 HEAD_SECONDS, GRACE_SECONDS = 0.5, 1
 # Longest wait for what should come within the times above on a busy machine [s].
@@ -242,8 +243,17 @@ def children(pid: int) -> list[int]:
     return found + [inner for one in found for inner in children(one)]
 
 
-@pytest.mark.parametrize("workers", [1, 2])
-@pytest.mark.parametrize("stop", [signal.SIGTERM, signal.SIGINT, signal.SIGKILL])
+STOPS = [
+    (1, signal.SIGTERM),
+    (1, signal.SIGINT),
+    (2, signal.SIGKILL),
+    (2, signal.SIGTERM),
+    (2, signal.SIGINT),
+    (1, signal.SIGKILL),
+]
+
+
+@pytest.mark.parametrize(("workers", "stop"), some(STOPS, 3))
 def test_the_service_leaves_with_heavy_work_running(tmp_path: Path, workers: int, stop: signal.Signals) -> None:
     with serving(tmp_path / "log", workers=workers, grace_seconds=GRACE_SECONDS) as service, socket.socket() as peer:
         peer.connect(service.address)

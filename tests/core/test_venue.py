@@ -31,6 +31,7 @@ from core import (
 from core.contact.first_contact import Search
 from core.shapes.rectangles import corners
 from core.venue import EDGES_MAX, Ring
+from tests.depth import examples
 
 SAME_DISTANCE = 1e-11  # [m]: ours and shapely's, at coordinates to 30 m
 PROVEN = 1.1e-5  # [m]: a distance is proven to this
@@ -187,7 +188,7 @@ def test_the_least_distance_is_the_least_of_dense_samples(k: int) -> None:
     assert boundary.distance(shapely.Point(nearest.wall)) < SAME_DISTANCE
 
 
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=examples(10, 25), deadline=None)
 @given(
     st.floats(-6.0, 18.0),
     st.floats(-4.0, 14.0),
