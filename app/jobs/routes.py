@@ -100,13 +100,13 @@ def take(request: Request, task: Task) -> Response:
         room = Room(limits.jobs_max, limits.jobs_client_max, limits.jobs_bytes_max)
         job = keeper.store.create(task.call, task.to_bytes(), client_of(request), room)
     except FullForClient as error:
-        detail = f"{limits.jobs_client_max} of your jobs are not finished, as many as may: wait for one or dismiss one."
+        detail = f"{limits.jobs_client_max} of your jobs are not finished, the limit: wait for one or dismiss one."
         raise Refused(429, detail, headers=COME_AGAIN) from error
     except FullOfBytes as error:
         detail = "The jobs that are kept take all the room that they may: remove those that you do not need."
         raise Refused(507, detail) from error
     except Full as error:
-        detail = f"{limits.jobs_max} jobs are kept, as many as may: remove those that you do not need, or come later."
+        detail = f"{limits.jobs_max} jobs are kept, the limit: remove those that you do not need, or come later."
         raise Refused(503, detail, headers=COME_AGAIN) from error
     keeper.hurry()
     root = request.scope.get("root_path", "")
@@ -157,7 +157,7 @@ def found(request: Request, job_id: JobId) -> Job:
     """raises: Refused (404) for a job that is not there"""
     job = keeper_of(request).store.get(job_id)
     if job is None:
-        detail = f"There is no job {shown(job_id)}: it was removed, or it is too old, or its name is another."
+        detail = f"There is no job {shown(job_id)}: it was removed, it has expired, or its ID is wrong."
         raise Refused(404, detail)
     return job
 
@@ -293,9 +293,7 @@ async def events(
     if found.is_finished and not await run_in_threadpool(keeper.store.events, found.id, after):
         return Response(status_code=204)  # The word for a browser not to come again.
     if not keeper.free.acquire(blocking=False):
-        detail = (
-            f"{keeper.settings.jobs_listeners_max} clients follow jobs, as many as may: ask for the status instead."
-        )
+        detail = f"{keeper.settings.jobs_listeners_max} clients follow jobs, the limit: ask for the status instead."
         raise Refused(503, detail, headers=COME_AGAIN)
     return News(keeper, found.id, after)
 

@@ -61,10 +61,10 @@ class Lane:
         with self._lock:
             own = [one for one in self._begun.values() if one[2] == client]
             if len(self._begun) >= self.most:
-                words = f"{self.most} {self.name} computations are running, as many as may"
+                words = f"{self.most} {self.name} computations are running, the limit"
                 raise self._full(503, words, self._begun.values())
             if client and len(own) >= self.of_client:
-                words = f"{self.of_client} of your {self.name} computations are running, as many as one client may have"
+                words = f"{self.of_client} of your {self.name} computations are running, the limit for one client"
                 raise self._full(429, words, own)
             self._begun[key] = (time.monotonic(), cost, client)
         self._running.inc()

@@ -138,7 +138,9 @@ def begin(folder: Path, spec: Spec) -> None:
     kept = folder / SPEC_FILE
     if not kept.exists():
         if any(not file.name.startswith(shards.TEMPORARY) for file in folder.iterdir()):
-            raise InvalidValue("output", f"{folder} has files already and is no sweep: name an empty or a new folder")
+            raise InvalidValue(
+                "output", f"{folder} has files already and is not a sweep: name an empty or a new folder"
+            )
         shards.write_durably(kept, spec.canonical())
     elif kept.read_bytes() != spec.canonical():
         raise InvalidValue(

@@ -186,7 +186,7 @@ def checked_part(folder: Path, spec: Spec, shard: int) -> pq.ParquetFile:
     try:
         opened = pq.ParquetFile(file)
     except (pa.ArrowInvalid, OSError) as error:
-        raise InvalidValue("folder", f"{file} is no part of a sweep: remove it and run the sweep again") from error
+        raise InvalidValue("folder", f"{file} is not part of a sweep: remove it and run the sweep again") from error
     if (opened.schema_arrow.metadata or {}).get(b"bench-dragon sweep") != spec.name.encode():
         opened.close()
         raise InvalidValue("folder", f"{file} is of another sweep: remove it and run the sweep again")

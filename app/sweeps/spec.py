@@ -194,7 +194,7 @@ class Spec(_Told):
             )
         for name in self.over:
             if name in OWN_COLUMNS:
-                raise InvalidValue(f"over.{name}", f"over.{name} is no parameter of {self.question}")
+                raise InvalidValue(f"over.{name}", f"over.{name} is not a parameter of {self.question}")
         self._check_names(question)
 
     def _check_names(self, question: Question) -> None:

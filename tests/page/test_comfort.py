@@ -38,7 +38,7 @@ REFUSALS = [
     "benches must be at least 3 for two to share no handle, got 2",
     "instants x handles must be at most 1000000 here, got 1505301: take a larger step or fewer benches",
     "stop must be at most 61.706468681 s, when the path ends, got 100 s",
-    "8 heavy computations are running, as many as may: try again in 3 s.",
+    "8 heavy computations are running, the limit: try again in 3 s.",
     "The service failed on this request; its log has the reason.",
 ]
 

@@ -192,7 +192,7 @@ def test_parts_of_another_sweep_and_broken_files_are_refused(tmp_path: Path) -> 
     with pytest.raises(InvalidValue, match="is of another sweep"):
         checked_part(tmp_path, spec, 0)
     (tmp_path / part_name(0)).write_bytes(b"PAR1 no more")
-    with pytest.raises(InvalidValue, match="is no part of a sweep"):
+    with pytest.raises(InvalidValue, match="is not part of a sweep"):
         checked_part(tmp_path, spec, 0)
 
 
