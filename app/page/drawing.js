@@ -53,6 +53,12 @@ export function venueOf({ things, origin }) {
   return { type: "FeatureCollection", ...(origin && { origin }), features };
 }
 
+/** Where a path is danced and how fast: the fields of /check that are not null. */
+export function placeOf(drawing) {
+  const [venue, limit] = [venueOf(drawing), drawing.limit];
+  return { ...(venue && { venue }), ...(limit && { speed_limit: limit }) };
+}
+
 /** A name that no other thing has. */
 export function freeName(things, name, own = null) {
   const taken = new Set(things.filter((thing) => thing !== own).map((thing) => thing.name));

@@ -7,9 +7,14 @@ import { CONTACT, strayOf } from "./state.js";
 import { benchName, refusalWords, say, sayOf } from "./text.js";
 
 const PITCH_DECIMALS = 4;
+/** Charts that take the service seconds. */
+const SLOW = ["curve", "scan"];
+/** How far from the view these are asked for: on wide screens they begin soon below it, so farther only once somebody scrolls. */
+const [IN_VIEW, A_SCREEN] = ["0px", "100%"];
 
 export class Graphs {
   #charts;
+  #watch = null;
 
   /** seek(time): shows the dance at this time [s] */
   constructor(state, questions, seek) {
@@ -20,6 +25,18 @@ export class Graphs {
       curve: new Chart($("#curve .plot"), curvePlan, choosePitch),
       scan: new Chart($("#scan .plot"), scanPlan, choosePitch),
     };
+    this.#watchFrom(IN_VIEW);
+    addEventListener("scroll", () => this.#watchFrom(A_SCREEN), { once: true });
+    // Paper does not wait: charts that are not there yet are left out, and are there when it is printed once more.
+    addEventListener("beforeprint", () => SLOW.forEach((kind) => questions.near(kind)));
+  }
+
+  /** Ask for slow charts from when they are this near to the view. margin: as CSS writes it */
+  #watchFrom(margin) {
+    this.#watch?.disconnect();
+    const tell = (seen) => seen.filter((one) => one.isIntersecting).forEach(({ target }) => this.questions.near(target.parentElement.id));
+    this.#watch = new IntersectionObserver(tell, { rootMargin: margin });
+    for (const kind of SLOW) this.#watch.observe(this.#charts[kind].box);
   }
 
   restyle() {

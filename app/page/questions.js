@@ -1,7 +1,7 @@
 /** The page's questions to the service: first contact, pose and minimum pitch at once, the others when input pauses. */
 
 import { Problem, Superseded } from "./api.js";
-import { pathOf, venueOf } from "./drawing.js";
+import { pathOf, placeOf, venueOf } from "./drawing.js";
 import { timeAfter } from "./pace.js";
 import { CONTACT, DRAGON, FIELDS, SAID, TURN, numbersOf } from "./state.js";
 import { Track } from "./track.js";
@@ -48,12 +48,6 @@ function lastInstant({ time, time_bracket, end }) {
 /** Is a dance told by its numbers alone? Then a query can ask about it on a spiral. */
 export const isPlain = ({ said: { csv, passages } }) => !csv && !passages.length;
 
-/** Where a path is danced and how fast: the fields of /check that are not null. */
-function placeOf(drawing) {
-  const [venue, limit] = [venueOf(drawing), drawing.limit];
-  return { ...(venue && { venue }), ...(limit && { speed_limit: limit }) };
-}
-
 export class Questions {
   /** {kind, query, numbers, said, answer, begin, end, report: of /check if it answered, track; drawn: drawing, failures, verdict} */
   dance = null;
@@ -65,6 +59,10 @@ export class Questions {
   refusals = new Map();
   #rest = 0;
   #asked = new Map();
+  /** Charts that somebody came near: the questions of the others, which take long, are not asked. */
+  #near = new Set();
+  /** The slow questions that are being asked. */
+  #turn = null;
   /** Whether the engines judge the whole dragon at the minimum pitch: at first, and when input pauses. */
   #whole = true;
 
@@ -229,14 +227,20 @@ export class Questions {
     }
     const staircase = [...CIRCLE, "margin"];
     const look = this.#over(staircase, LOOK);
-    if (this.#isNew("look", look)) this.#keep("look", "pitch-scan", look);
+    if (this.#near.has("scan") && this.#isNew("look", look)) this.#keep("look", "pitch-scan", look);
     const slow = [["tolerance", "tolerance", this.toleranceOf()]];
     if (this.state.get("path") === "turn") {
       slow.push(["head", "maximum-head-speed", this.#fastestHead()]);
       slow.push(["shortest", "shortest-turn", this.#over([...CIRCLE, ...CONTACT, "pitch", "ratio"])]);
     }
-    slow.push(["scan", "pitch-scan", this.#over(staircase)], ["curve", "tolerance-curve", this.#over(CIRCLE, CURVE)]);
-    this.#askInTurn(slow);
+    const charts = [["scan", "pitch-scan", this.#over(staircase)], ["curve", "tolerance-curve", this.#over(CIRCLE, CURVE)]];
+    this.#askInTurn([...slow, ...charts.filter(([kind]) => this.#near.has(kind))]);
+  }
+
+  /** Ask from now on for this chart too: scan or curve. */
+  near(kind) {
+    this.#near.add(kind);
+    if (!this.#rest) this.#atRest();
   }
 
   /** The request for how far people may stray on the way to the circle, or on the part of a turn that is danced. */
@@ -269,9 +273,15 @@ export class Questions {
   }
 
   /** Ask slow questions one after another, because the service takes few at once. slow: [kind, path, question] of each */
-  async #askInTurn(slow) {
+  #askInTurn(slow) {
     const changed = slow.filter(([kind, , question]) => this.#isNew(kind, question));
     for (const [kind] of changed) this.service.tell.busy(kind, true);
+    this.#turn = this.#askEach(changed, this.#turn);
+  }
+
+  async #askEach(changed, before) {
+    // A chart that comes near waits for what is being asked; new numbers do not.
+    if (changed.every(([kind]) => this.#near.has(kind))) await before;
     for (const ask of changed) if (!this.#isNew(ask[0], ask[2], false)) await this.#keep(...ask);
   }
 

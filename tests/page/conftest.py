@@ -6,6 +6,7 @@ import base64
 import io
 import json
 from collections.abc import Callable, Iterator
+from dataclasses import dataclass
 from typing import Any
 from urllib.parse import urlsplit
 
@@ -26,10 +27,24 @@ ARGUMENTS = [
     "--disable-sync",
 ]
 WIDE = {"width": 1440, "height": 900}
+HOME = "?time=end"
 TIMEOUT = 30_000  # [ms]; no test waits this long for what is coming
 
 # Chromium smooths the same edge now this way, now that: so many pixels of two equal pictures may differ [1].
 PIXELS_UNLIKE = 1e-3
+
+# From one address of the page to another as by the browser's back button, then until input counts as paused.
+GO = """(query) => {
+  for (const one of document.querySelectorAll("details[open]")) one.open = false;
+  document.activeElement.blur();
+  scrollTo(0, 0);
+  return new Promise((resolve) => {
+    addEventListener("popstate", () => setTimeout(resolve, 300), { once: true });
+    // The second entry takes what the page still has to write about the address before.
+    for (let k = 0; k < 2; k++) history.pushState(null, "", query);
+    history.back();
+  });
+}"""
 
 # What Chromium itself writes when a request fails; only tests that make one fail may see it.
 FAILED_REQUEST = "Failed to load resource"
@@ -45,55 +60,134 @@ def browser() -> Iterator[Browser]:
         browser.close()
 
 
+@dataclass
+class Watched:
+    """A page, and what it complained of and asked for since the last look."""
+
+    page: Page
+    base: str
+    told: list[str]
+    asked: list[str]
+
+    def check(self, failing: bool) -> None:
+        told, asked = list(self.told), list(self.asked)
+        self.told.clear()
+        self.asked.clear()
+        assert [line for line in told if not (failing and line.startswith(FAILED_REQUEST))] == []
+        strangers = [
+            url for url in asked if urlsplit(url)[:2] != urlsplit(self.base)[:2] and not url.startswith("blob:")
+        ]
+        assert strangers == []
+
+
 @pytest.fixture(scope="session")
-def contexts() -> dict[str, BrowserContext]:
-    """One browser's memory for each way of opening pages, so that its cache serves all tests."""
-    return {}
+def watched(browser: Browser) -> Callable[..., Watched]:
+    """watched(address, base, without, **options of the context): an open page; each way of opening has one cache."""
+    contexts: dict[str, BrowserContext] = {}
 
-
-@pytest.fixture
-def open_page(browser: Browser, contexts: dict[str, BrowserContext], server: str) -> Iterator[Callable[..., Page]]:
-    """open_page(query, failing=False, base=server, **options of the context): a page, watched until the test ends.
-
-    query: by default that of the dance at its end, at rest; a bare address opens in motion
-    failing: requests of this page are meant to fail, of which the browser itself writes a line
-    """
-    watched: list[tuple[Page, str, bool, list[str], list[str]]] = []
-
-    def opened(query: str = "?time=end", *, failing: bool = False, base: str = server, **options: Any) -> Page:
+    def opened(address: str, base: str, without: str, **options: Any) -> Watched:
         options = {"viewport": WIDE, "locale": "en-GB", **options}
         key = json.dumps(options, sort_keys=True)
         if key not in contexts:
             contexts[key] = browser.new_context(**options)
             contexts[key].set_default_timeout(TIMEOUT)
         page = contexts[key].new_page()
-        told: list[str] = []
-        asked: list[str] = []
-        page.on("console", lambda message: told.append(message.text) if message.type in ("error", "warning") else None)
-        page.on("pageerror", lambda error: told.append(str(error)))
-        page.on("request", lambda request: asked.append(request.url))
-        watched.append((page, base, failing, told, asked))
-        page.goto(f"{base}/{query}")
-        return page
+        one = Watched(page, base, [], [])
+        page.on("console", lambda said: one.told.append(said.text) if said.type in ("error", "warning") else None)
+        page.on("pageerror", lambda error: one.told.append(str(error)))
+        page.on("request", lambda request: one.asked.append(request.url))
+        if without:
+            page.route(without, lambda route: None)
+        page.goto(f"{base}/{address}")
+        return one
 
-    yield opened
-    for page, base, failing, told, asked in watched:
-        page.close()
-        assert [line for line in told if not (failing and line.startswith(FAILED_REQUEST))] == []
-        strangers = [url for url in asked if urlsplit(url)[:2] != urlsplit(base)[:2] and not url.startswith("blob:")]
-        assert strangers == []
+    return opened
 
 
 @pytest.fixture
+def open_page(watched: Callable[..., Watched], server: str) -> Iterator[Callable[..., Page]]:
+    """open_page(query, failing=False, base=server, without="", **options of the context): a page of this test alone.
+
+    query: by default that of the dance at its end, at rest; a bare address opens in motion
+    failing: requests of this page are meant to fail, of which the browser itself writes a line
+    without: pattern of the requests that get no answer
+    """
+    pages: list[tuple[Watched, bool]] = []
+
+    def opened(
+        query: str = HOME, *, failing: bool = False, base: str = server, without: str = "", **options: Any
+    ) -> Page:
+        one = watched(query, base, without, **options)
+        pages.append((one, failing))
+        return one.page
+
+    yield opened
+    for one, failing in pages:
+        one.page.close()
+        one.check(failing)
+
+
+@pytest.fixture(scope="session")
+def kept() -> dict[str, Watched]:
+    """The pages of `visit`, each by its options."""
+    return {}
+
+
+@pytest.fixture
+def visit(
+    watched: Callable[..., Watched], kept: dict[str, Watched], settled: Callable[[Page], None], server: str
+) -> Iterator[Callable[..., Page]]:
+    """visit(query, failing=False, **options of the context): the page at this address, at rest.
+
+    Tests share it: it is loaded once, and goes from address to address as by the browser's buttons. A page whose slow
+    charts were looked at asks for them at every address: another one takes its place.
+    """
+    pages: dict[str, bool] = {}
+
+    def visited(query: str = HOME, *, failing: bool = False, **options: Any) -> Page:
+        key = json.dumps(options, sort_keys=True)
+        if key not in kept:
+            kept[key] = watched(HOME, server, "", **options)
+            settled(kept[key].page)
+        page = kept[key].page
+        pages[key] = failing or pages.get(key, False)
+        page.unroute_all()
+        page.evaluate(GO, query)
+        settled(page)
+        return page
+
+    yield visited
+    for key, failing in pages.items():
+        if any("/pitch-scan" in url for url in kept[key].asked):
+            kept[key].page.close()
+            kept.pop(key).check(failing)
+        else:
+            kept[key].check(failing)
+
+
+@pytest.fixture(scope="session")
 def settled() -> Callable[[Page], None]:
     """settled(page) returns when nothing is being computed for the page any more."""
 
     def until_settled(page: Page) -> None:
-        page.locator("#scan .uplot").wait_for()
+        page.locator("#clearance .uplot").wait_for()
         expect(page.locator("[aria-busy=true]")).to_have_count(0)
         page.evaluate("new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve)))")
 
     return until_settled
+
+
+@pytest.fixture
+def look_at(settled: Callable[[Page], None]) -> Callable[..., None]:
+    """look_at(page, *kinds): scrolls to these slow charts, curve or scan, until they are drawn to the end."""
+
+    def drawn(page: Page, *kinds: str) -> None:
+        for kind in kinds:
+            page.locator(f"#{kind} .plot").scroll_into_view_if_needed()
+            page.locator(f"#{kind}:not(.coarse) .uplot").wait_for()
+        settled(page)
+
+    return drawn
 
 
 @pytest.fixture

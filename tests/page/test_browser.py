@@ -15,7 +15,7 @@ ROOT = Path(__file__).parents[2]
 # As on a machine where nothing that draws a page is installed.
 WITHOUT = "from tests.page import browser; browser.PLACES = ()"
 LEFT_OUT = "tests are left out: no Chrome or Chromium starts here"
-COLLECT = f"{WITHOUT}; import sys, pytest; sys.exit(pytest.main(['tests/page', '-q', '--collect-only']))"
+COLLECT = f"{WITHOUT}; import sys, pytest; sys.exit(pytest.main([sys.argv[1], '-q', '--collect-only']))"
 
 pytestmark = pytest.mark.uncompiled
 
@@ -69,13 +69,14 @@ def test_what_is_missing_or_cannot_run_is_no_browser(tmp_path: Path) -> None:
     assert not starts(str(tmp_path))
 
 
-def collected(environment: dict[str, str]) -> subprocess.CompletedProcess[str]:
-    """The tests of the page as pytest finds them on a machine without a browser."""
-    return subprocess.run([sys.executable, "-c", COLLECT], cwd=ROOT, env=environment, capture_output=True, text=True)
+def collected(environment: dict[str, str], place: str) -> subprocess.CompletedProcess[str]:
+    """The tests of this place as pytest finds them on a machine without a browser."""
+    command = [sys.executable, "-c", COLLECT, place]
+    return subprocess.run(command, cwd=ROOT, env=environment, capture_output=True, text=True)
 
 
 def test_a_run_without_a_browser_says_once_what_it_leaves_out(tmp_path: Path) -> None:
-    done = collected(bare(tmp_path))
+    done = collected(bare(tmp_path), "tests/page")
     told = [line for line in done.stdout.splitlines() if LEFT_OUT in line]
     assert len(told) == 1
     count = told[0].split()[0]
@@ -85,7 +86,7 @@ def test_a_run_without_a_browser_says_once_what_it_leaves_out(tmp_path: Path) ->
 
 
 def test_continuous_integration_refuses_to_leave_anything_out(tmp_path: Path) -> None:
-    done = collected(bare(tmp_path) | {"CI": "true"})
+    done = collected(bare(tmp_path) | {"CI": "true"}, "tests/page/test_everyone.py")
     assert done.returncode == pytest.ExitCode.USAGE_ERROR
     assert LEFT_OUT in done.stderr
 

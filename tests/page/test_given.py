@@ -8,13 +8,12 @@ from typing import Any
 
 import httpx
 import pytest
-from axe_playwright_python.sync_playwright import Axe
 from playwright.sync_api import expect
 
 from app.wire.benches import bench_table
+from tests.page.axe import serious
 
 PHONE = {"width": 390, "height": 844}
-SERIOUS = {"serious", "critical"}
 S_CURVE = "?path=route&route=*-80,-16_0,-16_16,-8_0,0_-16,8_*0,16_80,16&benches=8"
 TABLE = (
     "name,length,width,overhang\nZhou,3.41,0.3,0.275\nLi,2.2,0.3,0.275\nWu,1.8,0.7,0.2\nSun,2.2,0.3,0.275\nHe,2,0.3,0.2"
@@ -80,9 +79,8 @@ def test_benches_one_by_one_are_danced_drawn_named_shared_and_refused_by_line(
     ],
     ids=["commas", "tabs", "semicolons", "spaces"],
 )
-def test_the_page_reads_the_sizes_of_a_table_as_the_service_does(open_page: Any, table: str) -> None:
-    page = open_page("?path=route")
-    read = page.evaluate("table => import('/page/benches.js').then(({ benchesOf }) => benchesOf(table))", table)
+def test_the_page_reads_the_sizes_of_a_table_as_the_service_does(visit: Any, table: str) -> None:
+    read = visit().evaluate("table => import('/page/benches.js').then(({ benchesOf }) => benchesOf(table))", table)
     found = bench_table(table)._asdict()
     del found["lines"]
     assert read == found
@@ -143,8 +141,7 @@ def test_a_route_without_a_drawing_invites_to_draw_and_waits_for_nothing(open_pa
     page.wait_for_timeout(1000 * IN_MOTION)
     expect(page.locator("[aria-busy=true]:visible")).to_have_count(0)
     expect(page.locator("#old")).to_be_hidden()
-    found = Axe().run(page).response["violations"]
-    assert [(one["id"], one["nodes"][0]["html"]) for one in found if one["impact"] in SERIOUS] == []
+    assert serious(page) == []
     page.locator("#one-by-one summary").tap()
     page.locator("#passages summary").tap()
     page.locator("#passage-add").tap()

@@ -2,21 +2,21 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
-from axe_playwright_python.sync_playwright import Axe
 from playwright.sync_api import expect
 
 from core import Dragon
 from tests.app.grade.students import CONTACT, SPIRAL_TIMES, contact_workbook, spiral, workbook
+from tests.page.axe import serious
 
 # Instants of a workbook that is soon read.
 FEW = SPIRAL_TIMES[:21]
 PHONE = {"width": 390, "height": 844}
-SERIOUS = {"serious", "critical"}
 
 
 @pytest.fixture(scope="module")
@@ -31,9 +31,15 @@ def files(tmp_path_factory: pytest.TempPathFactory) -> list[str]:
     return [str(folder / name) for name in ("result1.xlsx", "result2.xlsx", "result4.xlsx")]
 
 
-def test_chosen_files_are_graded_each_for_itself(open_page: Any, settled: Any, files: list[str]) -> None:
-    page = open_page()
-    settled(page)
+@pytest.fixture
+def page(visit: Any) -> Iterator[Any]:
+    """The page, where nothing is graded yet."""
+    page = visit()
+    yield page
+    page.evaluate("document.querySelector('#grade-clear').click()")
+
+
+def test_chosen_files_are_graded_each_for_itself_and_accessibly(page: Any, files: list[str]) -> None:
     page.locator("#files").set_input_files(files)
     boxes = page.locator("#grades .answer")
     expect(boxes).to_have_count(3)
@@ -46,11 +52,10 @@ def test_chosen_files_are_graded_each_for_itself(open_page: Any, settled: Any, f
     expect(page.locator("#grades [role=status]")).to_have_count(0)
     expect(second.locator(".value")).to_have_text("✓right")
     expect(third.locator(".value")).to_have_text("✕unreadable")
+    assert serious(page, "#grade") == []
 
 
-def test_a_dropped_file_is_graded(open_page: Any, settled: Any, files: list[str]) -> None:
-    page = open_page()
-    settled(page)
+def test_a_dropped_file_is_graded(page: Any, files: list[str]) -> None:
     data = list(Path(files[1]).read_bytes())
     drop = """data => {
         const files = new DataTransfer();
@@ -63,8 +68,7 @@ def test_a_dropped_file_is_graded(open_page: Any, settled: Any, files: list[str]
     expect(page.locator("#grades .value")).to_have_text("✓right")
 
 
-def test_typed_answers_are_graded_and_cleared(open_page: Any) -> None:
-    page = open_page()
+def test_typed_answers_are_graded_and_cleared(page: Any) -> None:
     page.locator("#typed-pitch").fill("0.4202")
     page.locator("#typed-speed").fill("1.246266")
     page.keyboard.press("Enter")
@@ -77,8 +81,8 @@ def test_typed_answers_are_graded_and_cleared(open_page: Any) -> None:
     expect(boxes).to_have_count(0)
 
 
-def test_a_number_that_is_none_is_refused_in_words(open_page: Any) -> None:
-    page = open_page(failing=True)
+def test_a_number_that_is_none_is_refused_in_words(page: Any, visit: Any) -> None:
+    visit(failing=True)
     page.locator("#typed-pitch").fill("0.45x")
     page.locator("#typed-speed").fill("1.246266")
     page.keyboard.press("Enter")
@@ -87,29 +91,20 @@ def test_a_number_that_is_none_is_refused_in_words(open_page: Any) -> None:
     expect(page.locator("#grades .value")).to_have_text("✓right")
 
 
-def test_the_page_shows_that_it_grades(open_page: Any, settled: Any, files: list[str]) -> None:
+def test_the_page_shows_that_it_grades(open_page: Any, files: list[str]) -> None:
     page = open_page()
-    settled(page)
     page.route("**/grade?*", lambda route: None)  # no answer comes
     page.locator("#files").set_input_files(files[:2])
     expect(page.locator("#grades [role=status]")).to_have_text("Grading result1.xlsx (1 of 2) …")
 
 
-def test_the_language_of_the_verdicts_follows_that_of_the_page(open_page: Any, settled: Any, files: list[str]) -> None:
-    page = open_page(viewport=PHONE)
-    settled(page)
+def test_the_language_of_the_verdicts_follows_that_of_the_page(page: Any, files: list[str]) -> None:
     page.locator("#files").set_input_files(files[:2])
     expect(page.locator("#grades .answer")).to_have_count(2)
     page.get_by_role("button", name="中文").click()
     expect(page.locator("#grades .finding")).to_contain_text("把板长当作把手间距")
     expect(page.locator("#grades .answer").nth(1).locator(".value")).to_have_text("✓正确")
+    size = page.viewport_size
+    page.set_viewport_size(PHONE)
     assert page.evaluate("document.documentElement.scrollWidth <= innerWidth")
-
-
-def test_the_verdicts_are_accessible(open_page: Any, settled: Any, files: list[str]) -> None:
-    page = open_page()
-    settled(page)
-    page.locator("#files").set_input_files(files)
-    expect(page.locator("#grades .answer")).to_have_count(3)
-    found = Axe().run(page, context="#grade").response["violations"]
-    assert [one for one in found if one["impact"] in SERIOUS] == []
+    page.set_viewport_size(size)

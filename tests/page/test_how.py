@@ -6,11 +6,11 @@ from typing import Any
 
 import httpx
 import pytest
-from axe_playwright_python.sync_playwright import Axe
 from playwright.sync_api import expect
 
+from tests.page.axe import serious
+
 PHONE = {"viewport": {"width": 390, "height": 844}, "has_touch": True, "is_mobile": True}
-SERIOUS = {"serious", "critical"}
 SECTIONS = ("chord", "staircase", "step", "graze", "stray")
 # So many pixels move a number by a quarter of its range.
 QUARTER = 70
@@ -109,16 +109,11 @@ def test_a_phone_in_chinese_and_a_dark_screen_are_served_too(opened: Any) -> Non
     page.locator("#staircase .try").last.tap()
     expect(page.locator("#staircase .lead")).to_contain_text("第16节龙身")
     assert "undefined" not in page.locator("body").inner_text()
-    assert violations(page) == []
+    assert serious(page) == []
     page.locator("[data-lang=en]").tap()
     expect(page.locator("#staircase .lead")).to_contain_text("At a pitch of 0.4504 m the head stops 4.40")
     page.wait_for_url("**lang=en")
-    assert violations(page) == []
-
-
-def violations(page: Any) -> list[tuple[str, str]]:
-    found = Axe().run(page).response["violations"]
-    return [(one["id"], one["nodes"][0]["html"]) for one in found if one["impact"] in SERIOUS]
+    assert serious(page) == []
 
 
 def test_a_lost_service_is_said_in_the_figure_that_waits_for_it(opened: Any) -> None:
@@ -133,10 +128,8 @@ def test_a_lost_service_is_said_in_the_figure_that_waits_for_it(opened: Any) -> 
     expect(page.locator("#lost")).to_be_hidden()
 
 
-def test_every_answer_of_the_dance_leads_to_the_idea_behind_it(open_page: Any, server: str) -> None:
-    page = open_page("how")
-    page.route("**/pitch-scan*", lambda route: None)  # it takes seconds, and no answer waits for it
-    page.goto(f"{server}/?lang=zh&benches=12&time=end")
+def test_every_answer_of_the_dance_leads_to_the_idea_behind_it(open_page: Any) -> None:
+    page = open_page("?lang=zh&benches=12&time=end")
     expect(page.locator("nav a[href='how?lang=zh']")).to_have_text("原理")
     for box in ("first-contact", "minimum-pitch", "tolerance", "run-end"):
         expect(page.locator(f"#{box} details a")).to_be_attached()

@@ -9,12 +9,12 @@ from typing import Any
 
 import httpx
 import pytest
-from axe_playwright_python.sync_playwright import Axe
 from playwright.sync_api import expect
+
+from tests.page.axe import serious
 
 ROOT = Path(__file__).parents[2]
 PHONE = {"width": 390, "height": 844}
-SERIOUS = {"serious", "critical"}
 S_CURVE = "?path=route&route=*-80,-16_0,-16_16,-8_0,0_-16,8_*0,16_80,16"
 VILLAGE = (
     "?path=route&route=*-67,-8_-12,-8_-3,-9_6,-8_10.5,-3_7,2.5_0,3.5_-4.5,7_-1,10.5_6,10.5_*12,15_12,62&begin=45&limit=1.1"
@@ -272,6 +272,5 @@ def test_a_finger_drags_points_on_a_phone_and_nothing_is_cut_off(open_page: Any)
     page.locator("#verdict", has_text="可以表演").wait_for()
     assert after[:2] + after[3:] == before[:2] + before[3:]
     expect(page.locator("[aria-busy=true]")).to_have_count(0)
-    found = Axe().run(page).response["violations"]
-    assert [(one["id"], one["nodes"][0]["html"]) for one in found if one["impact"] in SERIOUS] == []
+    assert serious(page) == []
     assert "undefined" not in page.locator("body").inner_text()

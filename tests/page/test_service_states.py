@@ -17,7 +17,7 @@ ROOT = Path(__file__).parents[2]
 OWN_MAX, ALL_MAX = 150_000, 1_600_000  # [bytes] over the wire
 FIRST_MAX = 2_000  # [ms] from the request for the page to first contact shown
 IN_CM = ("stray", "hole", "pin")  # shown to people in centimetres; the service takes metres
-LOADS = 3  # the quickest counts: others share the machine
+LOADS = 3  # one that is quick enough counts: others share the machine
 
 
 @pytest.fixture
@@ -64,23 +64,15 @@ def test_a_lost_service_is_said_and_the_page_stays_and_recovers_by_itself(
         page.locator("#lost").wait_for(state="hidden")
         wanted = httpx.get(f"http://127.0.0.1:{port}/collision-time?pitch=0.5").json()["time"]
         page.locator("#first-contact .value", has_text=f"{wanted:.6f}").wait_for()
-    finally:
-        stopped(process)
-
-
-def test_an_idle_page_notices_a_lost_service(open_page: Any, settled: Any, port: int) -> None:
-    process = started(port)
-    try:
-        page = open_page(base=f"http://127.0.0.1:{port}", failing=True)
         settled(page)
     finally:
         stopped(process)
+    # An idle page notices it too.
     page.locator("#lost", has_text="does not answer").wait_for()
 
 
-def test_a_wrong_value_is_told_once_in_a_sentence_beside_its_control(open_page: Any, settled: Any) -> None:
-    page = open_page(failing=True)
-    settled(page)
+def test_a_wrong_value_is_told_once_in_a_sentence_beside_its_control(visit: Any) -> None:
+    page = visit(failing=True)
     bench = "where the head of this dragon folds; it is 0.5 turns."
     for name, text, words in (
         ("pitch", "55", "“Pitch” must be at most 10 m; it is 55 m. Lengths are in metres, and 55 cm is 0.55 m."),
@@ -100,13 +92,12 @@ def test_a_wrong_value_is_told_once_in_a_sentence_beside_its_control(open_page: 
     page.locator("#first-contact .value", has_text="412.473838").wait_for()
 
 
-def test_a_refusal_names_the_controls_in_the_language_of_the_page(open_page: Any) -> None:
-    page = open_page("?lang=zh&overhang=3", failing=True)
+def test_a_refusal_names_the_controls_in_the_language_of_the_page(visit: Any) -> None:
+    page = visit("?lang=zh&overhang=3&benches=20", failing=True)
     words = "“孔心距板头”应小于“龙头板长”的一半（3.41 m / 2 = 1.705 m），现为 3 m。"
     page.locator("#overhang-error:lang(zh)", has_text=words).wait_for()
     page.locator("#first-contact p", has_text="改正“孔心距板头”后即有结果。").wait_for()
     for name, text, words in (
-        ("overhang", "0.275", ""),
         ("pitch", "55", "“螺距”最多为 10 m，现为 55 m（长度以米为单位，55 cm 即 0.55 m）。"),
         ("start_turns", "0.2", "“起始圈数”应大于 2.34509 圈（龙头在该处折叠），现为 0.2 圈。"),
         (
@@ -119,9 +110,10 @@ def test_a_refusal_names_the_controls_in_the_language_of_the_page(open_page: Any
         ("margin", "x", "“安全间距”应为数字（单位 m），例如 0.55，现为“x”。"),
         ("benches", "2.5", "“板凳节数”应为整数，现为 2.5。"),
     ):
-        page.get_by_role("button", name="全部重置").click()
+        page.locator(".field:has([aria-invalid=true]) .reset").click()
+        page.locator("#controls .error:not([hidden])").wait_for(state="hidden")
         page.locator(f"#{name}").fill(text)
-        page.locator(f"#{name}-error", has_text=words).wait_for(state="visible" if words else "hidden")
+        page.locator(f"#{name}-error", has_text=words).wait_for()
     page.get_by_role("button", name="全部重置").click()
     page.get_by_role("button", name="调头", exact=True).click()
     page.locator("#turning_diameter").fill("4")
@@ -132,8 +124,8 @@ def test_a_refusal_names_the_controls_in_the_language_of_the_page(open_page: Any
     page.locator("#turning_diameter-error:lang(en)", has_text=words).wait_for()
 
 
-def test_limits_and_units_are_the_services_own(open_page: Any, server: str) -> None:
-    page = open_page()
+def test_limits_and_units_are_the_services_own(visit: Any, server: str) -> None:
+    page = visit()
     parameters = httpx.get(f"{server}/openapi.json").json()["paths"]["/collision-time"]["get"]["parameters"]
     words = [one["name"] for one in parameters if "enum" in one["schema"]]
     assert words == ["cross_check"]
@@ -145,24 +137,28 @@ def test_limits_and_units_are_the_services_own(open_page: Any, server: str) -> N
         assert page.locator(f".field:has(#{one['name']}) .unit").text_content() == unit
 
 
-def test_superseded_questions_are_aborted_and_the_slider_does_not_wait(
-    open_page: Any, settled: Any, server: str
-) -> None:
-    page = open_page()
-    settled(page)
-    slow = """const ask = window.fetch;
-      window.fetch = async (url, options) => {
-        if (!String(url).startsWith("collision-time")) return ask(url, options);
-        await new Promise((resolve, reject) => {
-          setTimeout(resolve, 1000);
-          options.signal.addEventListener("abort", () => {
-            window.aborted = (window.aborted ?? 0) + 1;
-            reject(options.signal.reason);
-          });
-        });
-        return ask(url, options);
-      };"""
-    page.evaluate(f"() => {{ {slow} }}")
+# Answers about first contact take this long [ms], and aborted questions are counted.
+SLOW = """(milliseconds) => {
+  window.quick = window.fetch;
+  window.aborted = 0;
+  window.fetch = async (url, options) => {
+    if (!String(url).startsWith("collision-time")) return quick(url, options);
+    await new Promise((resolve, reject) => {
+      setTimeout(resolve, milliseconds);
+      options.signal.addEventListener("abort", () => {
+        window.aborted++;
+        reject(options.signal.reason);
+      });
+    });
+    return quick(url, options);
+  };
+}"""
+QUICK = "() => void (window.fetch = quick)"
+
+
+def test_superseded_questions_are_aborted_and_the_slider_does_not_wait(visit: Any, server: str) -> None:
+    page = visit()
+    page.evaluate(SLOW, 1000)
     slider = page.locator("#controls input[type=range]").first
     for _ in range(20):
         slider.press("ArrowLeft")
@@ -170,23 +166,13 @@ def test_superseded_questions_are_aborted_and_the_slider_does_not_wait(
     wanted = httpx.get(f"{server}/collision-time?pitch=0.53").json()["time"]
     page.locator("#first-contact .value", has_text=f"{wanted:.6f}").wait_for()
     assert page.evaluate("window.aborted") >= 1
+    page.evaluate(QUICK)
 
 
-def test_a_dragged_slider_sees_answers_of_a_service_that_takes_longer_than_the_grace(
-    open_page: Any, settled: Any
-) -> None:
-    page = open_page()
-    settled(page)
+def test_a_dragged_slider_sees_answers_of_a_service_that_takes_longer_than_the_grace(visit: Any) -> None:
+    page = visit()
+    page.evaluate(SLOW, 400)
     shown = page.evaluate("""async () => {
-      const ask = window.fetch;
-      window.fetch = async (url, options) => {
-        if (!String(url).startsWith("collision-time")) return ask(url, options);
-        await new Promise((resolve, reject) => {
-          setTimeout(resolve, 400);
-          options.signal.addEventListener("abort", () => reject(options.signal.reason));
-        });
-        return ask(url, options);
-      };
       let shown = 0;
       const answers = document.querySelector("#first-contact");
       new MutationObserver(() => shown++).observe(answers, { childList: true });
@@ -198,12 +184,12 @@ def test_a_dragged_slider_sees_answers_of_a_service_that_takes_longer_than_the_g
       }
       return shown;
     }""")
+    page.evaluate(QUICK)
     assert shown >= 2
 
 
-def test_a_wait_of_more_than_half_a_second_shows_its_progress(open_page: Any, settled: Any) -> None:
-    page = open_page()
-    settled(page)
+def test_a_wait_of_more_than_half_a_second_shows_its_progress(visit: Any) -> None:
+    page = visit()
     page.route("**/minimum-pitch*", lambda route: None)
     page.locator("#width").fill("0.28")
     box = page.locator("#minimum-pitch[aria-busy=true]")
@@ -220,9 +206,8 @@ def opacity(page: Any, place: str) -> float:
 OLD = ("#first-contact .value", "#run-end .value", "#canvas", "#clearance .plot", "#rows")
 
 
-def test_old_answers_turn_pale_while_new_ones_are_computed(open_page: Any, settled: Any, server: str) -> None:
-    page = open_page()
-    settled(page)
+def test_old_answers_turn_pale_while_new_ones_are_computed(visit: Any, settled: Any, server: str) -> None:
+    page = visit()
     assert {place: opacity(page, place) for place in OLD} == dict.fromkeys(OLD, 1.0)
     page.route("**/collision-time*", lambda route: None)
     page.locator("#pitch").fill("0.5")
@@ -238,9 +223,8 @@ def test_old_answers_turn_pale_while_new_ones_are_computed(open_page: Any, settl
     assert {place: opacity(page, place) for place in OLD} == dict.fromkeys(OLD, 1.0)
 
 
-def test_a_service_that_fails_is_told_in_its_own_words(open_page: Any, settled: Any) -> None:
-    page = open_page("?pitch=0.5", failing=True)
-    settled(page)
+def test_a_service_that_fails_is_told_in_its_own_words(visit: Any) -> None:
+    page = visit("?pitch=0.5", failing=True)
     problem = '{"title": "Internal Server Error", "status": 500, "detail": "The service failed here.", "errors": []}'
     page.route("**/collision-time*", lambda route: route.fulfill(status=500, body=problem))
     page.locator("#pitch").fill("0.51")
@@ -250,9 +234,8 @@ def test_a_service_that_fails_is_told_in_its_own_words(open_page: Any, settled: 
     page.locator("#first-contact[data-outcome=contact]").wait_for()
 
 
-def test_a_busy_service_is_asked_again(open_page: Any, settled: Any) -> None:
-    page = open_page("?pitch=0.5", failing=True)
-    settled(page)
+def test_a_busy_service_is_asked_again(visit: Any) -> None:
+    page = visit("?pitch=0.5", failing=True)
     refused = []
 
     def once(route: Any) -> None:
@@ -265,11 +248,10 @@ def test_a_busy_service_is_asked_again(open_page: Any, settled: Any) -> None:
     assert len(refused) == 2
 
 
-def test_the_policy_lets_the_page_load_from_its_service_alone(open_page: Any, settled: Any, server: str) -> None:
+def test_the_policy_lets_the_page_load_from_its_service_alone(visit: Any, server: str) -> None:
     policy = httpx.get(server).headers["content-security-policy"]
     assert policy == "default-src 'self'; frame-ancestors 'none'"
-    page = open_page()
-    settled(page)
+    page = visit()
     assert page.evaluate("document.querySelectorAll('script:not([src]), style, [style*=url], [onclick]').length") == 0
 
 
@@ -292,12 +274,12 @@ def loaded(browser: Any, settled: Any, server: str) -> tuple[dict[str, int], flo
 
 
 def test_the_page_is_light_and_quick(browser: Any, settled: Any, server: str) -> None:
-    times = []
     for _ in range(LOADS):
         weights, shown = loaded(browser, settled, server)
         files = [one for one in weights if ("/page/" in one and "uplot" not in one) or "?time=end" in one]
         assert len(files) > 1
         assert sum(weights[one] for one in files) < OWN_MAX
         assert sum(weights.values()) < ALL_MAX
-        times.append(shown)
-    assert min(times) < FIRST_MAX
+        if shown < FIRST_MAX:
+            break
+    assert shown < FIRST_MAX

@@ -35,10 +35,8 @@ def shows(page: Any, selector: str, *words: str) -> None:
         expect(page.locator(selector).first).to_contain_text(one)
 
 
-def test_with_a_stray_the_answers_say_what_may_happen_in_both_languages(open_page: Any, server: str) -> None:
-    page = open_page("?benches=9")
-    page.route("**/pitch-scan*", lambda route: None)  # it takes seconds, and knows no stray
-    page.goto(f"{server}/?benches=40&stray=0.02")
+def test_with_a_stray_the_answers_say_what_may_happen_in_both_languages(visit: Any, server: str) -> None:
+    page = visit("?benches=40&stray=0.02")
     contact = asked(server, "collision-time", benches=40, stray=0.02)
     least = asked(server, "minimum-pitch", benches=40, stray=0.02)
     free = asked(server, "tolerance", benches=40)
@@ -69,10 +67,8 @@ def test_with_a_stray_the_answers_say_what_may_happen_in_both_languages(open_pag
     assert httpx.get(get[1]).json() == contact
 
 
-def test_a_margin_and_a_stray_are_said_together_and_play_counts(open_page: Any, server: str) -> None:
-    page = open_page("?benches=9")
-    page.route("**/pitch-scan*", lambda route: None)  # it takes seconds, and knows no stray
-    page.goto(f"{server}/?benches=12&margin=0.03&stray=0.02&hole=0.055&pin=0.045")
+def test_a_margin_and_a_stray_are_said_together_and_play_counts(visit: Any, server: str) -> None:
+    page = visit("?benches=12&margin=0.03&stray=0.02&hole=0.055&pin=0.045")
     query = {"benches": 12, "margin": 0.03, "stray": 0.025}
     time = f"{asked(server, 'collision-time', **query)['time']:.6f} s"
     title = "First time nearer than 0.03 m, every hole within 2.5 cm of its place"
@@ -83,9 +79,8 @@ def test_a_margin_and_a_stray_are_said_together_and_play_counts(open_page: Any, 
 
 
 def test_a_turn_stays_clear_and_has_its_own_tolerance(open_page: Any, server: str) -> None:
-    page = open_page("?benches=9")
-    page.route("**/shortest-turn*", lambda route: None)  # it takes seconds; what follows it is not asked
-    page.goto(f"{server}/?path=turn&benches=20&stray=0.03")
+    # The shortest turn takes seconds, and what follows it is not asked.
+    page = open_page("?path=turn&benches=20&stray=0.03", without="**/shortest-turn*")
     shows(page, "#first-contact[data-outcome=clear]", "Stays clear: nothing can touch", "Not one pair of benches can")
     body = {"dragon": {"benches": 20}, "path": {"kind": "turn", "pitch": 1.7}, "start": -100, "stop": 100}
     free = httpx.post(f"{server}/tolerance", json=body).raise_for_status().json()["stray"]
@@ -96,10 +91,10 @@ def test_a_turn_stays_clear_and_has_its_own_tolerance(open_page: Any, server: st
 
 
 def test_the_curve_shows_the_tolerance_of_the_dance_and_a_click_sets_its_pitch(
-    open_page: Any, settled: Any, server: str
+    open_page: Any, look_at: Any, server: str
 ) -> None:
     page = open_page("?benches=20&stray=0.02")
-    settled(page)
+    look_at(page, "curve")
     plot = page.locator("#curve .u-over")
     before = page.locator("#curve .now").bounding_box()["x"]
     plot.click(position={"x": 0.9 * plot.bounding_box()["width"], "y": 20})
@@ -111,10 +106,9 @@ def test_the_curve_shows_the_tolerance_of_the_dance_and_a_click_sets_its_pitch(
 
 
 def test_the_ground_of_the_benches_is_drawn_only_with_a_stray(
-    open_page: Any, settled: Any, picture: Any, alike: Any
+    visit: Any, settled: Any, picture: Any, alike: Any
 ) -> None:
-    page = open_page("?benches=20&time=0&view=8,0,200")
-    settled(page)
+    page = visit("?benches=20&time=0&view=8,0,200")
     expect(page.locator("#halo")).to_be_hidden()
     before = picture(page)
     page.locator("#stray").fill("5")
@@ -140,11 +134,11 @@ def strayed_points(stray: float) -> np.ndarray:
     return np.concatenate([front + at * along + side * left for at, side in places])
 
 
-def test_the_drawn_ground_is_what_strayed_benches_cover_and_little_more(open_page: Any) -> None:
+def test_the_drawn_ground_is_what_strayed_benches_cover_and_little_more(visit: Any) -> None:
     def on_ground(points: Any) -> list[bool]:
         return list(page.evaluate(ON_GROUND, [STRAY, CHORD, OVERHANG, WIDTH, np.asarray(points).tolist()]))
 
-    page = open_page("?benches=9")
+    page = visit()
     covered = strayed_points(STRAY)
     assert len(covered) == 3_600
     assert all(on_ground(covered * (1 - 1e-6)))

@@ -9,6 +9,8 @@ import pytest
 from playwright.sync_api import expect
 
 MARKS = {"clear": "✓", "folds": "!", "contact": "✕", "contact_at_start": "✕"}
+WIDE = {"width": 1440, "height": 900}
+PHONE = {"width": 390, "height": 844}
 TOUCHING = re.compile(r"touch|meet|contact|overlap|碰|重叠", re.IGNORECASE)
 
 
@@ -46,8 +48,8 @@ def verdict(page: Any) -> tuple[str, str, str]:
     ],
     ids=["fold", "fold with a margin", "centre", "centre with a margin", "contact", "margin", "margin at the start"],
 )
-def test_a_dance_passes_in_green_alone(open_page: Any, query: str, outcome: str, colour: str, words: str) -> None:
-    page = open_page(query)
+def test_a_dance_passes_in_green_alone(visit: Any, query: str, outcome: str, colour: str, words: str) -> None:
+    page = visit(query)
     page.locator(f"#first-contact[data-outcome={outcome}]").wait_for()
     assert verdict(page)[:2] == (outcome, MARKS[outcome])
     assert verdict(page)[2].startswith(words)
@@ -55,8 +57,8 @@ def test_a_dance_passes_in_green_alone(open_page: Any, query: str, outcome: str,
     expect(page.locator("#first-contact .value")).to_have_css("color", tone(page, colour))
 
 
-def test_a_fold_says_in_both_languages_that_the_dance_fails_and_who_folds(open_page: Any) -> None:
-    page = open_page("?benches=40&pitch=1.2&start_turns=8")
+def test_a_fold_says_in_both_languages_that_the_dance_fails_and_who_folds(visit: Any) -> None:
+    page = visit("?benches=40&pitch=1.2&start_turns=8")
     page.locator("#run-end .value").wait_for()
     said = page.locator("#first-contact").inner_text()
     assert "The dance fails there, where the head can no longer follow the spiral." in said
@@ -66,18 +68,13 @@ def test_a_fold_says_in_both_languages_that_the_dance_fails_and_who_folds(open_p
     assert "舞龙在此失败" in page.locator("#first-contact").inner_text()
 
 
-@pytest.mark.parametrize(
-    "viewport", [{"width": 1440, "height": 900}, {"width": 390, "height": 844}], ids=["wide", "phone"]
-)
-def test_one_event_has_one_time_and_speeds_before_a_fold_are_marked(
-    open_page: Any, server: str, viewport: dict[str, int]
-) -> None:
-    page = open_page("?benches=9", viewport=viewport)
-    page.route("**/pitch-scan*", lambda route: None)  # it takes seconds, and says nothing of one dance
-    page.goto(f"{server}/?benches=40&pitch=1.2&start_turns=8")
+def test_one_event_has_one_time_and_speeds_before_a_fold_are_marked(visit: Any) -> None:
+    page = visit("?benches=40&pitch=1.2&start_turns=8")
     page.locator("#run-end .value").wait_for()
     page.locator("#table-fold").wait_for()
-    assert times_of_the_fold(page) == {"238.214985"}
+    for size in (PHONE, WIDE):
+        page.set_viewport_size(size)
+        assert times_of_the_fold(page) == {"238.214985"}
     note = "Just before the fold at 238.214985 s: towards it the speeds grow without bound."
     assert page.locator("#table-fold").inner_text() == note
     assert "1e-6 s before the fold at 238.214985 s" in page.locator("#table-time").inner_text()
@@ -85,16 +82,14 @@ def test_one_event_has_one_time_and_speeds_before_a_fold_are_marked(
     page.get_by_role("button", name="中文").click()
     page.locator("#table-fold", has_text="即将在 238.214985 s 折叠").wait_for()
     assert times_of_the_fold(page) == {"238.214985"}
-    page.goto(f"{server}/?benches=40&pitch=1.2&start_turns=8&time=100")
+    page = visit("?benches=40&pitch=1.2&start_turns=8&time=100")
     page.locator("#table-time", has_text="100.000000").wait_for()
     assert page.locator("#table-fold").is_hidden()
     assert "∞" in page.locator("#legend").inner_text()  # the colours are those of the whole dance
 
 
-def test_benches_that_are_too_near_at_the_start_are_not_said_to_be_clear_before(open_page: Any, server: str) -> None:
-    page = open_page("?benches=9")
-    page.route("**/pitch-scan*", lambda route: None)  # with a margin a scan takes many seconds, and adds no words
-    page.goto(f"{server}/?benches=60&margin=0.2")
+def test_benches_that_are_too_near_at_the_start_are_not_said_to_be_clear_before(visit: Any) -> None:
+    page = visit("?benches=60&margin=0.2")
     page.locator("#first-contact[data-outcome=contact_at_start]").wait_for()
     page.locator("#first-contact summary").click()
     said = page.locator("#first-contact").inner_text()
@@ -107,10 +102,8 @@ def test_benches_that_are_too_near_at_the_start_are_not_said_to_be_clear_before(
 @pytest.mark.parametrize(
     "query", ["?benches=12&margin=0.05", "?benches=12&margin=0.2", "?path=turn&benches=20&margin=0.35"]
 )
-def test_with_a_margin_no_answer_speaks_of_a_touch(open_page: Any, server: str, query: str) -> None:
-    page = open_page("?benches=9", failing=True)  # with such a margin no turn can begin on the circle, as it then says
-    page.route("**/pitch-scan*", lambda route: None)  # with a margin a scan takes many seconds, and adds no words
-    page.goto(f"{server}/{query}")
+def test_with_a_margin_no_answer_speaks_of_a_touch(visit: Any, query: str) -> None:
+    page = visit(query, failing=True)  # with such a margin no turn can begin on the circle, as it then says
     margin = query.rpartition("=")[2]
     page.locator("#inset figcaption", has_text="mm").wait_for()
     page.locator("#minimum-pitch .value").wait_for()

@@ -1,0 +1,22 @@
+"""What axe, which checks pages for accessibility, finds on a page."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from axe_playwright_python.sync_playwright import Axe
+
+SERIOUS = {"serious", "critical"}
+# Rules whose findings depend on colours, and so on the colour scheme.
+IN_COLOURS = ["color-contrast", "link-in-text-block"]
+
+
+def serious(page: Any, place: str | None = None, *, in_colours: bool = False) -> list[tuple[str, str]]:
+    """What axe finds serious: rule, and first element that breaks it.
+
+    in_colours: only by rules that depend on colours
+    """
+    # The page's own policy forbids inline scripts; the script of axe comes over the debugging protocol.
+    options = {"resultTypes": ["violations"], **({"runOnly": IN_COLOURS} if in_colours else {})}
+    found = Axe().run(page, place, options).response["violations"]
+    return [(one["id"], one["nodes"][0]["html"]) for one in found if one["impact"] in SERIOUS]
