@@ -204,15 +204,6 @@ def test_the_report_ties_everything_together(kit: tuple[str, Path]) -> None:
     assert ("板凳" in page) is (language == "zh")
 
 
-def test_other_numbers_give_other_answers(tmp_path: Path) -> None:
-    done = run(
-        "contest", str(tmp_path), "--no-films", "--language", "en", "--benches", "40", "--stop", "60", "--span", "20"
-    )
-    assert done.returncode == 0, done.stderr
-    assert sheets(tmp_path, "result1")[0].dimensions == "A1:BJ83"
-    assert "40 benches" in (tmp_path / "report.md").read_text(encoding="utf-8")
-
-
 def test_a_second_run_leaves_nothing_of_the_first_and_keeps_what_is_not_ours(tmp_path: Path) -> None:
     ours = ("dance.gif", "turn.mp4", "figures/geometry.png", ".unfinished/result1.xlsx")
     mine = ("notes.txt", "figures/mine.png")
@@ -272,11 +263,12 @@ def test_a_time_after_the_fold_is_refused_in_one_line(tmp_path: Path) -> None:
     assert done.stderr.count("\n") == 1
 
 
-def test_without_a_chinese_font_all_but_pictures_is_written(tmp_path: Path) -> None:
-    done = without_fonts(tmp_path, "zh", "--benches", "30")
+def test_other_numbers_give_other_answers_and_without_a_chinese_font_all_but_pictures(tmp_path: Path) -> None:
+    done = without_fonts(tmp_path, "zh", "--benches", "40", "--stop", "60", "--span", "20")
     assert done.returncode == 1, done.stderr
     assert all((tmp_path / f"{name}.xlsx").is_file() for name in WORKBOOKS)
-    assert (tmp_path / "report.md").is_file()
+    assert sheets(tmp_path, "result1")[0].dimensions == "A1:BJ83"
+    assert "共 40 节板凳" in (tmp_path / "report.md").read_text(encoding="utf-8")
     assert "fonts-wqy-microhei" in done.stderr
     assert not (tmp_path / "figures").exists()
 
