@@ -168,8 +168,9 @@ def _sheet(sheet: SheetAnswer, language: Language) -> Iterator[show.Part]:
     for name, cell in (("worst", sheet.worst), ("first", sheet.first)):
         if cell and sheet.verdict in ("wrong", "rounded"):
             values = {"found": f"{cell.found:.6f}", "expected": f"{cell.expected:.6f}", "time": f"{cell.time:.9g}"}
+            quantity = say("quantity_speed", language) if cell.quantity == "speed" else cell.quantity
             yield "    " + say(
-                f"{name}_cell", language, cell=cell.cell, handle=cell.handle, quantity=cell.quantity, **values
+                f"{name}_cell", language, cell=cell.cell, handle=cell.handle, quantity=quantity, **values
             )
     if sheet.verdict in ("wrong", "incomplete"):
         yield from (f"    {line}" for line in sheet.picture)

@@ -48,7 +48,7 @@ ERRORS = {
     ),
     "error_other_instant": ("The dragon stands where it is at {time} s.", "队伍处于 {time} s 时的位置。"),
     "error_ratio_inverted": (
-        "The ratio of the two arcs is inverted: the first has the larger radius.",
+        "The ratio of the two arcs is inverted: the first one's radius should be twice the second one's.",
         "两段圆弧的半径比颠倒：前一段半径应为后一段的 2 倍。",
     ),
     "error_equal_arcs_of_turn": ("Both arcs of the turn have one radius.", "两段圆弧半径相等。"),

@@ -10,6 +10,7 @@ import cmath
 import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
+from functools import partial
 
 import numpy as np
 
@@ -55,7 +56,7 @@ def geometries(dance: Dance, times: Floats, head: Floats | None) -> Iterator[Mod
     yield Model("equal_arcs", equal_arcs(dance))
     yield from _other_dragons(dance)
     if isinstance(dance.path, Spiral):
-        yield from _other_angles(dance, dance.path)
+        yield from _other_angles(dance, dance.path, times.size > 1)
         yield from _rounded_spirals(dance, dance.path)
     elif isinstance(dance.path, Turn):
         yield from _other_turns(dance, dance.path)
@@ -82,8 +83,11 @@ def _other_dragons(dance: Dance) -> Iterator[Model]:
             yield Model(error, on_bent(dragon, Bent(dance.path, tuple(arcs_of(dance.path)))))
 
 
-def _other_angles(dance: Dance, path: Spiral) -> Iterator[Model]:
-    """The head at an angle that follows from a wrong arc length, at the time when the right head is there."""
+def _other_angles(dance: Dance, path: Spiral, many: bool) -> Iterator[Model]:
+    """The head at an angle that follows from a wrong arc length, at the time when the right head is there.
+
+    many: with several times, rounded angles too; a single one has a rounded angle at every other instant as well
+    """
     b, start = path.growth, path.start_theta
 
     def head_at(theta: Floats) -> Floats:
@@ -118,6 +122,14 @@ def _other_angles(dance: Dance, path: Spiral) -> Iterator[Model]:
     yield Model("arc_without_logarithm", led_by(no_logarithm))
     yield Model("steady_angle", led_by(steady))
     yield Model("euler_steps", led_by(explicit))
+    for decimals in ANGLE_DECIMALS if many else ():
+        rounded = led_by(partial(_rounded_head, dance, path, decimals))
+        yield Model("rounded_early", rounded, {"what": f"theta of the head, {decimals} decimals"})
+
+
+def _rounded_head(dance: Dance, path: Spiral, decimals: int, times: Floats) -> Floats:
+    """The head's polar angle, rounded to some decimals."""
+    return np.round(path.theta(times * dance.head_speed), decimals)
 
 
 def _rounded_spirals(dance: Dance, path: Spiral) -> Iterator[Model]:

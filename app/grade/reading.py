@@ -44,6 +44,7 @@ def _of_csv(data: bytes, budget: Budget) -> Grid:
     text = _decoded(data)
     first = text.partition("\n")[0]
     separator = max(",;\t", key=first.count)
+    decimal = "." if separator == "," else ","
     rows: list[list[Cell]] = []
     cells = 0
     try:
@@ -52,7 +53,7 @@ def _of_csv(data: bytes, budget: Budget) -> Grid:
             cells += len(line)
             if len(rows) >= LINES_MAX or cells > CELLS_MAX:
                 raise Unreadable(note("too_many_cells", most=CELLS_MAX))
-            rows.append([_number(word) for word in line])
+            rows.append([_number(word, decimal) for word in line])
     except csv.Error as error:
         raise Unreadable(note("no_csv")) from error
     return Grid("", rows)
@@ -73,7 +74,8 @@ def _decoded(data: bytes) -> str:
     raise Unreadable(note("no_csv"))
 
 
-def _number(word: str) -> Cell:
-    """A number, a text, or None for a blank."""
+def _number(word: str, decimal: str) -> Cell:
+    """A number, a text, or None for a blank. decimal: "," where a comma may stand for the decimal point"""
     said = word.strip()
-    return float(said) if NUMBER.fullmatch(said) else word if said else None
+    pointed = said.replace(decimal, ".")
+    return float(pointed) if NUMBER.fullmatch(pointed) else word if said else None

@@ -181,12 +181,13 @@ WORDS = ERRORS | {
     ),
     "worst_cell": (
         "worst: {cell}, {handle}, {quantity} at {time} s: {found}, right is {expected}",
-        "误差最大：{cell}，{handle}，{time} s 时的 {quantity}：{found}，正确为 {expected}",
+        "误差最大：{cell}，{handle}，{time} s 时，{quantity}：{found}，正确为 {expected}",
     ),
     "first_cell": (
         "first: {cell}, {handle}, {quantity} at {time} s: {found}, right is {expected}",
-        "首个错误：{cell}，{handle}，{time} s 时的 {quantity}：{found}，正确为 {expected}",
+        "首个错误：{cell}，{handle}，{time} s 时，{quantity}：{found}，正确为 {expected}",
     ),
+    "quantity_speed": ("speed", "速度"),
     "nothing_fits": ("No known error gives these numbers.", "没有已知错误能得出这些数值。"),
     "is_right": ("{right} {unit} is right.", "正确值为 {right} {unit}。"),
     "collision_time": ("time of first contact", "首次碰撞时刻"),

@@ -144,7 +144,8 @@ function sheetParts(sheet) {
   if (["wrong", "rounded"].includes(sheet.verdict))
     for (const [key, cell] of Object.entries({ worstCell: worst, firstCell: first })) {
       const { found, expected, time } = cell;
-      const values = { ...cell, found: found.toFixed(6), expected: expected.toFixed(6), time: Number(time.toFixed(6)) };
+      const quantity = cell.quantity === "speed" ? say("quantity_speed") : cell.quantity;
+      const values = { ...cell, quantity, found: found.toFixed(6), expected: expected.toFixed(6), time: Number(time.toFixed(6)) };
       parts.push(paragraph(say(key, values)));
     }
   if (picture.some((line) => /[^.]/.test(line))) parts.push(drawn(picture), legend(picture.join("")));

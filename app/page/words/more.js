@@ -84,8 +84,9 @@ export const MORE = {
   holds_position: ["positions", "位置"],
   holds_speed: ["speeds", "速度"],
   holds_contact: ["first contact", "首次碰撞"],
-  worstCell: ["Worst: {cell}, {handle}, {quantity} at {time} s is {found}; {expected} is right.", "误差最大：{cell}，{handle}，{time} s 时的 {quantity} 为 {found}，正确为 {expected}。"],
-  firstCell: ["First: {cell}, {handle}, {quantity} at {time} s is {found}; {expected} is right.", "首个错误：{cell}，{handle}，{time} s 时的 {quantity} 为 {found}，正确为 {expected}。"],
+  worstCell: ["Worst: {cell}, {handle}, {quantity} at {time} s is {found}; {expected} is right.", "误差最大：{cell}，{handle}，{time} s 时，{quantity}：{found}，正确为 {expected}。"],
+  firstCell: ["First: {cell}, {handle}, {quantity} at {time} s is {found}; {expected} is right.", "首个错误：{cell}，{handle}，{time} s 时，{quantity}：{found}，正确为 {expected}。"],
+  quantity_speed: ["speed", "速度"],
   marks: ["Where the wrong cells are: handles from the top, instants from the left", "错误单元格的位置：自上而下为把手，自左而右为时刻"],
   saved: ["Saved {name}", "已保存 {name}"],
 

@@ -55,6 +55,11 @@ def circle_angle() -> Results:
     return head_at(lambda t: math.sqrt(START**2 - 2.0 * t / B))
 
 
+def rounded_head() -> Results:
+    angles = Spiral().theta(SPIRAL_TIMES).round(3)
+    return head_at(lambda t: float(angles[int(t)]))
+
+
 def steady_angle() -> Results:
     return head_at(lambda t: START - t / 8.8)
 

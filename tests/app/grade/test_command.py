@@ -54,6 +54,14 @@ def test_the_words_are_in_the_language_chosen(class_of_three: Path) -> None:
     assert "以 0.01 / 0.02 / 0.04 / 0.08 s 为步长搜索" in done.stdout
 
 
+def test_a_wrong_speed_is_called_so_in_chinese(tmp_path: Path) -> None:
+    position, speed = spiral(np.array([CONTACT]))
+    speed[0, 5] += 1.0
+    (tmp_path / "result2.xlsx").write_bytes(contact_workbook((position, speed)))
+    done = run("grade", str(tmp_path / "result2.xlsx"), "--language", "zh")
+    assert "误差最大：D7，第5节龙身，412.473838 s 时，速度：" in done.stdout
+
+
 def test_a_file_that_is_missing_is_told_and_the_others_are_graded(class_of_three: Path) -> None:
     given = ["missing.xlsx", str(class_of_three / "wang" / "result2.xlsx")]
     done = run("grade", *given, "--json")

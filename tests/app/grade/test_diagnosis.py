@@ -114,6 +114,17 @@ def test_the_step_of_a_difference_quotient_is_told() -> None:
     assert one.words == "The speeds are forward difference quotients with a step of 0.1 s."
 
 
+def test_an_inverted_ratio_is_told_with_the_right_one() -> None:
+    assert (
+        known("ratio_inverted").diagnosis[0].words.endswith("the first one's radius should be twice the second one's.")
+    )
+
+
+def test_the_angle_that_was_rounded_is_told() -> None:
+    [one] = grade(first(students.rounded_head())).diagnosis
+    assert one.words == "A number was rounded before it was used: theta of the head, 3 decimals."
+
+
 def test_a_handle_on_the_wrong_coil_of_the_turn_is_told() -> None:
     found = grade(fourth(students.wrong_coil(7)))
     [one] = found.diagnosis

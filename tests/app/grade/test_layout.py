@@ -135,6 +135,13 @@ def test_csv_of_a_sheet_is_graded(coding: str) -> None:
     assert (sheet.verdict, sheet.right) == ("right", 301 * 448)
 
 
+@pytest.mark.parametrize("separator", [";", "\t"])
+def test_csv_with_decimal_commas_is_graded(separator: str) -> None:
+    data = wide_csv().replace(",", separator).replace(".", ",").encode()
+    [sheet] = grade(data, "result1.csv").sheets
+    assert (sheet.verdict, sheet.right) == ("right", 301 * 448)
+
+
 def test_csv_with_a_line_for_each_handle_and_instant_is_graded() -> None:
     position, speed = spiral(SPIRAL_TIMES[:3])
     lines = ["time,handle,x,y,speed"]
