@@ -36,8 +36,8 @@ BEARING_RANGE = 0.7
 NARROWER, ROUNDS = 0.35, 16
 # Error of restored chords [m], and the largest number of steps to restore them [1].
 CHORD_WITHIN, CHORD_STEPS = 1e-13, 40
-# Largest stray that is tried, relative to the one at which two benches alone would overlap, and the step to it [1].
-TRIED_TO, TRIED_STEP = 1.5, 0.01
+# Largest stray that is tried, and the smallest and the largest step to it, relative to the safe one [1].
+TRIED_TO, TRIED_STEPS = 1.5, (0.001, 0.01)
 
 
 # Three benches in a row of different sizes that are tried beside the pair asked about, 0.1 s each [1].
@@ -170,7 +170,9 @@ def exhibit(
         return min(folds, key=lambda found: found.stray, default=None)
     high = min(TRIED_TO * safe + 2.0 * DEPTH, 0.5 * float(dragon.chords.min()))
     # A stray larger by x lets the middle of each bench go x further in any direction, so the gap closes by as much.
-    stray = safe + max(0.0, nearest_turns(a, other, bearing, safe)[0] + DEPTH) / (1 if second is None else 2)
+    moving = 1 if second is None else 2
+    stray = safe + max(0.0, nearest_turns(a, other, bearing, safe)[0] + DEPTH) / moving
+    least, most = (step * safe + DEPTH for step in TRIED_STEPS)
     while stray <= high:
         _, turn_a, turn_b, way = nearest_turns(a, other, bearing, stray)
         wanted = {first: a.strays(way, turn_a, stray)}
@@ -178,9 +180,9 @@ def exhibit(
             wanted[second] = other.strays(way + math.pi, turn_b, stray)
         moved = extended(dragon.chords, handles, wanted)
         shown = None if moved is None else _shown(dragon, handles, moved, (*pair, edge), time)
-        if shown is not None:
+        if shown is not None and shown.depth > 0.0:
             return shown
-        stray += TRIED_STEP * safe + DEPTH
+        stray += most if shown is None else min(max(least, -shown.depth / moving), most)
     return None
 
 
@@ -193,16 +195,16 @@ def _folded(dragon: Dragon, handles: Floats, first: int, time: float) -> Exhibit
         return None
     strays = pose - handles[first : first + 4]
     moved = extended(dragon.chords, handles, {first: strays[:2], first + 2: strays[2:]})
-    return None if moved is None else _shown(dragon, handles, moved, (first, first + 2, None), time)
+    shown = None if moved is None else _shown(dragon, handles, moved, (first, first + 2, None), time)
+    return shown if shown is not None and shown.depth > 0.0 else None
 
 
 def _shown(
     dragon: Dragon, handles: Floats, moved: Floats, met: tuple[int, int | None, Body | None], time: float
-) -> Exhibit | None:
-    """The pose, if it shows a contact. met: the pair, and the edge in place of a second bench"""
-    gap = _overlap(dragon, moved, met[:2], met[2])
-    furthest = float(np.hypot(*(moved - handles).T).max())
-    return Exhibit(time, moved, met[:2], -gap, furthest) if gap < 0.0 else None
+) -> Exhibit:
+    """The pose; it shows no contact if its depth is negative. met: the pair, and the edge in place of a second bench"""
+    depth = -_overlap(dragon, moved, met[:2], met[2])
+    return Exhibit(time, moved, met[:2], depth, float(np.hypot(*(moved - handles).T).max()))
 
 
 def _overlap(dragon: Dragon, handles: Floats, pair: tuple[int, int | None], edge: Body | None) -> float:
