@@ -9,12 +9,11 @@ from pydantic import Field
 
 import core
 from app.questions.question import Question, Terms
-from app.questions.tolerance import CircleQuery
+from app.questions.tolerance import CircleQuery, SpanOrCircle, span_asked
 from app.wire.answers import Pair
-from app.wire.dances import DanceFields, SpanFields
+from app.wire.dances import DanceFields
 from app.wire.models import Answer, Wire, check_limit, measure
 from core.tolerance.chance import CONFIDENCE, SEED_MAX
-from core.tolerance.curve import time_on_circle
 
 # Quantiles of the times of first contact in the answer [1].
 QUANTILES = (0.05, 0.5, 0.95)
@@ -57,7 +56,7 @@ class ContactProbabilityQuery(Wobbling, CircleQuery):
     """How likely is it that benches touch on the way to a turning circle?"""
 
 
-class ContactProbabilityRequest(Wobbling, SpanFields, DanceFields, strict=True):
+class ContactProbabilityRequest(Wobbling, SpanOrCircle, DanceFields, strict=True):
     """How likely is it that benches touch when people wobble in any dance?"""
 
 
@@ -106,10 +105,7 @@ def contact_probability(asked: ContactProbabilityQuery | ContactProbabilityReque
     settings = terms.settings
     check_limit("samples", "samples", asked.samples, settings.samples_max, "fewer samples already tell a probability")
     dance, model = asked.to_dance(settings.checked_benches_max), asked.to_model()
-    if isinstance(asked, ContactProbabilityRequest):
-        start, stop = asked.start, asked.stop
-    else:
-        start, stop = None, time_on_circle(dance, asked.turning_diameter / 2)
+    start, stop = span_asked(asked, dance)
     found = core.contact_probability(
         dance, model, asked.samples, asked.seed, start=start, stop=stop, budget=terms.budget, progress=terms.progress
     )

@@ -34,12 +34,16 @@ class ToleranceQuery(SizeErrors, CircleQuery):
     """How far may people stray on the way to a turning circle?"""
 
 
-class ToleranceRequest(SizeErrors, SpanFields, PlacedDance, strict=True):
-    """How far may people stray in any dance, between each other and to a venue?"""
+class SpanOrCircle(SpanFields):
+    """A stretch of a dance, or of a dance on a spiral the way to a turning circle."""
 
     turning_diameter: TurningDiameter | None = measure(
         "m", "Diameter of the circle at which the head stops, on a spiral, in place of an end time", None
     )
+
+
+class ToleranceRequest(SizeErrors, SpanOrCircle, PlacedDance, strict=True):
+    """How far may people stray in any dance, between each other and to a venue?"""
 
 
 class Shown(Answer):
@@ -100,15 +104,25 @@ class Tolerance(Answer):
 def tolerance(asked: ToleranceQuery | ToleranceRequest, terms: Terms) -> Tolerance:
     """How far people may stray at any time before benches touch, and a pose that shows where they do."""
     dance, budget = asked.to_dance(terms.settings.checked_benches_max), terms.budget
-    venue, start, stop = None, None, None
-    if isinstance(asked, ToleranceRequest):
-        venue, start, stop = asked.to_place(dance.dragon).venue, asked.start, asked.stop
-    if asked.turning_diameter is not None:
-        if not isinstance(dance.path, core.Spiral) or stop is not None:
-            raise InvalidValue("turning_diameter", "turning_diameter ends a dance on a spiral that has no stop")
-        stop = time_on_circle(dance, asked.turning_diameter / 2)
+    venue = asked.to_place(dance.dragon).venue if isinstance(asked, ToleranceRequest) else None
+    start, stop = span_asked(asked, dance)
     with_errors = _with_errors(asked, dance, placed=venue is not None)
     return Tolerance.of(core.tolerance(dance, venue, start=start, stop=stop, budget=budget), with_errors)
+
+
+def span_asked(asked: CircleQuery | SpanOrCircle, dance: core.Dance) -> tuple[float | None, float | None]:
+    """Start and stop of the time asked about [s]; None as for core. raises: InvalidValue"""
+    start, stop = (asked.start, asked.stop) if isinstance(asked, SpanOrCircle) else (None, None)
+    if asked.turning_diameter is None:
+        return start, stop
+    if not isinstance(dance.path, core.Spiral) or stop is not None:
+        rule = "must be null except for a dance on a spiral without stop"
+        raise InvalidValue.of("turning_diameter", rule, asked.turning_diameter, "m")
+    circle = time_on_circle(dance, asked.turning_diameter / 2)
+    if start is not None and start >= circle:
+        rule = f"must be before the head is on the turning circle, at {circle:.6f} s"
+        raise InvalidValue.of("start", rule, start, "s")
+    return start, circle
 
 
 def _with_errors(asked: ToleranceQuery | ToleranceRequest, dance: core.Dance, *, placed: bool) -> float | None:

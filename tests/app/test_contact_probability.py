@@ -62,6 +62,8 @@ def test_the_command_asks_for_the_way_to_the_circle(client: httpx.Client) -> Non
     same = {"dragon": {"benches": 12}, "path": {"kind": "spiral", "pitch": 0.5, "start_turns": 7}, "lateral": 0.03}
     body = same | {"samples": 20, "stop": got["stop"]}
     assert client.post("/contact-probability", json=body).raise_for_status().json() == got
+    body = same | {"samples": 20, "turning_diameter": 6}
+    assert client.post("/contact-probability", json=body).raise_for_status().json() == got
     assert got["union_bound"] == 1.0
 
 

@@ -100,10 +100,30 @@ def test_a_body_may_end_on_a_circle_as_the_query_does_and_only_on_a_spiral(clien
     assert (
         client.post("/tolerance", json=asked).json() == client.get("/tolerance", params=query).raise_for_status().json()
     )
-    for more in ({"path": {"kind": "turn"}}, {"stop": 10}):
-        refused = client.post("/tolerance", json=asked | more)
-        assert refused.status_code == 422
-        assert refused.json()["errors"][0]["pointer"] == "/turning_diameter"
+
+
+@pytest.mark.parametrize("call", ["/tolerance", "/contact-probability"])
+@pytest.mark.parametrize(
+    ("more", "pointer", "words"),
+    [
+        (
+            {"path": {"kind": "turn"}},
+            "/turning_diameter",
+            "must be null except for a dance on a spiral without stop, got 12 m",
+        ),
+        ({"stop": 10}, "/turning_diameter", "must be null except for a dance on a spiral without stop, got 12 m"),
+        ({"start": 300}, "/start", "must be before the head is on the turning circle, at 236.721489 s, got 300 s"),
+        ({"turning_diameter": 40}, "/turning_diameter", "must be smaller, got 40 m"),
+    ],
+    ids=["turn", "stop", "start", "too large"],
+)
+def test_a_circle_that_cannot_end_a_dance_is_refused(
+    client: httpx.Client, call: str, more: dict[str, Any], pointer: str, words: str
+) -> None:
+    refused = client.post(call, json={"dragon": {"benches": 40}, "turning_diameter": 12} | more)
+    assert refused.status_code == 422
+    assert refused.json()["errors"][0]["pointer"] == pointer
+    assert words in refused.json()["detail"]
 
 
 def test_a_curve_can_be_asked_where_a_dance_at_the_minimum_pitch_begins_on_the_circle(client: httpx.Client) -> None:
