@@ -11,8 +11,9 @@ itself.
 
 The rest of the chain can always follow. In front of the pair and behind it each handle takes the place on its circle
 that is nearest to its nominal one: the nominal place, moved along with the handle before it, is on this circle, so the
-handle strays no further than that one. Between the two benches both ends are given; there Newton steps of least length
-restore the chords with the smallest strays. The result reports the largest stray, measured in the pose.
+handle strays no further than that one. Between the two benches both ends are given: from each end to the middle the
+handles take their nearest places too, and Newton steps of least length then restore the chord left over in the middle.
+The result reports the largest stray, measured in the pose.
 """
 
 from __future__ import annotations
@@ -233,6 +234,11 @@ def extended(chords: Floats, handles: Floats, wanted: dict[int, Floats]) -> Floa
         moved[k : k + 2] = handles[k : k + 2] + strays
     first, last = min(wanted), max(wanted)
     between = slice(first + 2, last) if last > first + 2 else slice(first, last + 2)
+    middle = (first + last + 3) // 2
+    for k in range(first + 2, middle):
+        moved[k] = _nearest(handles[k], moved[k - 1], float(chords[k - 1]))
+    for k in range(last - 1, middle - 1, -1):
+        moved[k] = _nearest(handles[k], moved[k + 1], float(chords[k]))
     if last > first and not _restored(chords[first : last + 1], moved[first : last + 2], between, first):
         return None
     for k in range(first - 1, -1, -1):

@@ -31,6 +31,7 @@ from tests.core.tolerance.adversaries import CIRCLE, seek, to_circle
 # Largest width of a bracket, as a part of its proven end [1].
 BRACKET = 2e-3
 WIDE_SPIRAL = 6e-3  # the same of 40 benches with strays of 38 cm [1]
+FAR = 0.6  # strays at which a chain bends visibly [m]
 CHORD_ERROR = 1e-12  # [m]
 # pitch [m], a bound by hand and a contact found by hand [m], both sampled in time and rounded to 1e-5.
 KNOWN = [(0.5, 0.02321, 0.02325), (0.55, 0.04654, 0.04668), (0.7, 0.11662, 0.11749), (1.0, 0.24298, 0.26305)]
@@ -64,6 +65,14 @@ def test_the_pose_that_is_shown_overlaps_little_also_where_the_first_one_tried_d
     shown = found.stray_bracket[1]
     assert shown is not None
     assert shown < found.stray * (1.0 + WIDE_SPIRAL)
+
+
+def test_the_benches_between_two_that_stray_far_stray_no_further() -> None:
+    found = tolerance(Dance(Dragon(36, 3.6, 1.95, 0.2, 0.06), Spiral(1.08, start_turns=10)), stop=22.0)
+    shown = found.stray_bracket[1]
+    assert shown is not None
+    assert found.stray > FAR
+    assert shown < found.stray * (1.0 + BRACKET)
 
 
 def test_the_shown_contact_is_one(default: Tolerance) -> None:
