@@ -57,7 +57,7 @@ class ContactProbability(Shown):
         (contacts, 2) the pair
     strays: (samples,) largest distance of any hole from its place up to that contact, or to the end [m]
     tolerance: stray within which nothing touches at any time, proven (core.tolerance) [m]: a sample with smaller strays
-        has no contact. None with a pitch error, which moves the places themselves
+        has no contact. 0: no stray is known to be safe. None with a pitch error, which moves the places themselves
     union_bound: upper bound of the probability of the model, whatever the samples say (core/tolerance/union_bound.py);
         None with play or a pitch error
     step: between two instants [s]; instants: their number, from start to stop [s]; seed: as given
@@ -99,7 +99,7 @@ class ContactProbability(Shown):
                 "samples say: a union bound over all pairs and instants, in first order with bounds of the rest, "
                 "computed in doubles."
             )
-        if self.tolerance is None:
+        if not self.tolerance:
             return told
         return (
             f"{told} While no hole is further than {safe_words(self.tolerance)} m from its place, nothing touches at "

@@ -281,3 +281,9 @@ def test_the_answer_in_one_line() -> None:
     found = contact_probability(SPIRAL, MODEL, 10, 7, **LATE)
     assert repr(found).startswith(f"<ContactProbability: {found.probability:g}, between ")
     assert every_digit(found)["seed"] == 7
+
+
+def test_of_benches_that_touch_as_they_are_nothing_is_called_proven() -> None:
+    found = contact_probability(Dance(Dragon(20), Spiral()), Wobble(), 2, 1, start=411.0, stop=414.0)
+    assert found.tolerance == 0.0
+    assert "proven" not in found.method
