@@ -74,8 +74,8 @@ class ContactProbability(Answer):
     benches: Pair | None = Field(description="The pair that is most often the first to touch; null without a contact")
     tolerance: float | None = measure(
         "m",
-        "Proven: while no hole is further from its place, nothing touches at any time; 0: no stray is known to be safe; "
-        "null with a pitch error",
+        "Proven: while no hole is further from its place, nothing touches at any time; 0: none is known to be "
+        "safe; null with a pitch error",
     )
     strayed: int | None = Field(
         description="Number of samples in which a hole is further from its place than that before anything touches, or "
