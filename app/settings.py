@@ -95,7 +95,7 @@ class Settings(BaseModel):
         None, description="Folder of the jobs; none: a temporary folder, removed when the service ends"
     )
     token: str = Field(
-        "", description="Token that requests for jobs must carry (Authorization: Bearer); empty: none needed"
+        "", description="Token that jobs and uploads must carry (Authorization: Bearer); empty: none needed"
     )
     jobs_max: int = Field(1_000, ge=1, description="Largest number of jobs kept; more get 503")
     jobs_client_max: int = Field(20, ge=1, description="Unfinished jobs of one client; further requests get 429")

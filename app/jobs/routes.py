@@ -87,7 +87,7 @@ def guard(request: Request) -> None:
     token = request.app.state.settings.token
     kind, _, given = request.headers.get("authorization", "").partition(" ")
     if token and not (kind.lower() == "bearer" and compare_digest(given.strip().encode(), token.encode())):
-        detail = "Jobs need the token of this service: send the header Authorization: Bearer TOKEN."
+        detail = "Jobs and uploads need the token of this service: send the header Authorization: Bearer TOKEN."
         challenge = {"WWW-Authenticate": 'Bearer realm="bench-dragon"'}
         raise Refused(401, detail, [ErrorItem(name="Authorization", detail=detail)], challenge)
 
@@ -133,6 +133,8 @@ async def store_problem(request: Request, error: Exception) -> Response:
 router = APIRouter(prefix="/jobs", tags=["Jobs"])
 # The calls that make jobs: their bodies may be large.
 asking = APIRouter(tags=["Jobs"], route_class=BodyRoute)
+# What a call that may need the token says in the description of the service.
+GUARDED: list[dict[str, list[str]]] = [{}, {"token": []}]
 TOKEN_SCHEME = {"token": {"type": "http", "scheme": "bearer", "description": "The token of a service that has one"}}
 
 
@@ -140,13 +142,12 @@ def told(name: str, *statuses: int, model: type[BaseModel] | None = None, conten
     """OpenAPI description of a call: operation id, problems, and the media type if it is not JSON."""
     problems = {number: {"description": PROBLEMS[number], "content": PROBLEM_REF} for number in statuses}
     answer = {200: {"description": "The answer", "content": content}} if content else {}
-    security: list[dict[str, list[str]]] = [{}, {"token": []}] if 401 in statuses else []
     return {
         "operation_id": name,
         "response_class": Response if model is None else JSONResponse,  # Of a plain Response FastAPI tells no schema.
         "response_model": model,
         "responses": {**answer, **problems},
-        "openapi_extra": {"security": security},
+        "openapi_extra": {"security": GUARDED if 401 in statuses else []},
     }
 
 

@@ -4,6 +4,7 @@ import { Problem, Superseded } from "./api.js";
 import { tableOf } from "./benches.js";
 import { drawingOf } from "./drawing.js";
 import { $, make } from "./elements.js";
+import { bearer } from "./jobs.js";
 import { passagesText } from "./pace.js";
 import { refusalWords, say } from "./text.js";
 
@@ -63,7 +64,7 @@ export class Files {
   }
 
   async #places(file) {
-    const { dance, notes = [], ...found } = await this.service.ask("places", "places", { query: { language: document.documentElement.lang.slice(0, 2) }, file });
+    const { dance, notes = [], ...found } = await this.service.ask("places", "places", { query: { language: document.documentElement.lang.slice(0, 2) }, file, headers: bearer() });
     return { ...dance, ...found, notes };
   }
 

@@ -2,6 +2,7 @@
 
 import { Problem, Superseded } from "./api.js";
 import { $, make, onClick } from "./elements.js";
+import { bearer } from "./jobs.js";
 import { refusalWords, say } from "./text.js";
 
 const ANSWERS = ["collision_time", "pitch", "turn_length", "speed"];
@@ -77,7 +78,7 @@ export class Grader {
       this.#working = say("grading", { name: file?.name ?? say("typed"), k: k + 1, count: asked.length });
       this.show();
       try {
-        found.push({ answer: await this.service.ask("grade", "grade", { query, file: file ?? new Blob() }) });
+        found.push({ answer: await this.service.ask("grade", "grade", { query, file: file ?? new Blob(), headers: bearer() }) });
       } catch (error) {
         if (error instanceof Superseded) return;
         if (!(error instanceof Problem)) throw error;

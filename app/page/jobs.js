@@ -24,6 +24,12 @@ function remembered() {
   }
 }
 
+/** The token that was given here, for calls that may need it. */
+export function bearer() {
+  const token = $("#token").value.trim();
+  return token ? { Authorization: `Bearer ${token}` } : {};
+}
+
 export class Jobs {
   /** id -> {spec if this browser asked, status} */
   #jobs = new Map();
@@ -37,14 +43,9 @@ export class Jobs {
     this.#look();
   }
 
-  get headers() {
-    const token = $("#token").value.trim();
-    return token ? { Authorization: `Bearer ${token}` } : {};
-  }
-
   /** Start a sweep. throws: Problem */
   async start(spec) {
-    this.add(await this.service.ask("sweep", "sweeps", { body: spec, headers: this.headers }), spec);
+    this.add(await this.service.ask("sweep", "sweeps", { body: spec, headers: bearer() }), spec);
   }
 
   /** Follow a job that has begun. spec: {question, over} */
@@ -67,7 +68,7 @@ export class Jobs {
   async #listAll() {
     if (!$("#token").value.trim()) return;
     try {
-      const { jobs } = await this.service.ask("jobs", "jobs", { headers: this.headers });
+      const { jobs } = await this.service.ask("jobs", "jobs", { headers: bearer() });
       for (const status of jobs) this.#jobs.set(status.jobID, { ...this.#jobs.get(status.jobID), status });
       this.render();
       this.#look();

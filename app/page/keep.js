@@ -2,6 +2,7 @@
 
 import { Problem, Superseded } from "./api.js";
 import { $, make, onClick } from "./elements.js";
+import { bearer } from "./jobs.js";
 import { isPlain } from "./questions.js";
 import { CONTACT, DRAGON, TURN, strayOf } from "./state.js";
 import { refusalWords, say } from "./text.js";
@@ -148,7 +149,7 @@ export class Keep {
   /** Begin a job, whose result stands among the jobs. */
   async #begin({ ask }, form) {
     const { path, body } = this[ask](form);
-    const headers = { Prefer: "respond-async", ...this.jobs.headers };
+    const headers = { Prefer: "respond-async", ...bearer() };
     this.jobs.add(await this.service.ask(`keep ${form}`, path, { body, headers, accept: `${TYPES[form]}, application/json;q=0.1` }), { question: path, over: {} });
   }
 

@@ -15,6 +15,7 @@ from pydantic import Field
 from app.files.tables import CSV_TYPE, XLSX_TYPE, Language
 from app.grade.report import FileAnswer, GradeAnswer, graded, too_long, typed
 from app.grade.shortcuts import UNITS
+from app.jobs.routes import GUARDED, guard
 from app.service.graders import Graders
 from app.service.load import Lanes, WatchedRoute
 from app.service.problems import Refused
@@ -30,7 +31,7 @@ FILE_TYPE = "application/octet-stream"
 TYPES = (FILE_TYPE, XLSX_TYPE, CSV_TYPE)
 # Estimated time of a file, for the Retry-After of a full lane [s].
 COST = 1.0
-STATUSES = (413, 414, 415, 422, 429, 500, 503)
+STATUSES = (401, 413, 414, 415, 422, 429, 500, 503)
 # A number as it was typed, because its digits show its rounding.
 TYPED = r"^[0-9]{1,6}(\.[0-9]{1,15})?$"
 
@@ -59,10 +60,12 @@ router = APIRouter(tags=["Grading"], route_class=UploadRoute)
 
 
 def file_body(types: tuple[str, ...]) -> Callable[[Request], Coroutine[Any, Any, bytes]]:
-    """A function that returns the body of a request; it raises Refused (415) for a body of another type."""
+    """A function that returns the body of a request. It raises Refused: 401 without the token, 415 for another type."""
 
     async def uploaded(request: Request) -> bytes:
         data = await request.body()
+        if data:
+            guard(request)
         kind = request.headers.get("content-type", "").partition(";")[0].strip().lower()
         if data and kind not in types:
             known = " or ".join(types)
@@ -82,7 +85,7 @@ def file_body(types: tuple[str, ...]) -> Callable[[Request], Coroutine[Any, Any,
         200: {"description": "The answer", "model": GradeAnswer, "content": {JSON: {}}},
         **{status: {"description": PROBLEMS[status], "content": PROBLEM} for status in STATUSES},
     },
-    openapi_extra={"security": [], "requestBody": {"required": False, "content": {FILE_TYPE: FILE}}},
+    openapi_extra={"security": GUARDED, "requestBody": {"required": False, "content": {FILE_TYPE: FILE}}},
 )
 def grade(
     request: Request, data: Annotated[bytes, Depends(file_body(TYPES))], wanted: Annotated[GradeQuery, Query()]

@@ -8,6 +8,7 @@ from fastapi import APIRouter, Depends, Query, Request, Response
 from pydantic import Field
 
 from app.files.tables import Language
+from app.jobs.routes import GUARDED
 from app.maps.places import Places, read_places
 from app.questions.maps import MapFormat
 from app.service.graders import Graders
@@ -63,7 +64,7 @@ router = APIRouter(tags=["Maps"], route_class=MapRoute)
         200: {"description": "The answer", "model": Places, "content": {JSON: {}}},
         **{status: {"description": PROBLEMS[status], "content": PROBLEM} for status in STATUSES},
     },
-    openapi_extra={"security": [], "requestBody": {"required": True, "content": {FILE_TYPE: FILE}}},
+    openapi_extra={"security": GUARDED, "requestBody": {"required": True, "content": {FILE_TYPE: FILE}}},
 )
 def places(
     request: Request, data: Annotated[bytes, Depends(file_body(TYPES))], wanted: Annotated[PlacesQuery, Query()]

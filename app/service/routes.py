@@ -27,6 +27,7 @@ FILE = {"schema": {"type": "string", "format": "binary"}}
 SCHEMAS = {CSV_TYPE: {"schema": {"type": "string"}}, GEOJSON_TYPE: {"schema": {"type": "object"}}}
 PROBLEMS = {
     400: "The body is not JSON",
+    401: "The token of this service is missing",
     404: "There is no such format",
     406: "Accept asks for a media type that this call does not offer",
     413: "The body is too long",

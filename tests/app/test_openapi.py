@@ -134,8 +134,8 @@ def test_calls_are_named_as_their_questions_and_lock_nothing(document: Any) -> N
     both = {f"{name}_of" for name, question in QUESTIONS.items() if question.flat and question.body}
     jobs = {"ask_later", "list_jobs", "job_status", "dismiss_job", "job_result", "job_events", "sweep"}
     assert calls.keys() == QUESTIONS.keys() | both | jobs | {"grade", "places", "healthz", "readyz"}
-    # A service may have a token for who makes and lists jobs.
-    guarded = {"ask_later", "list_jobs", "sweep"}
+    # A service may have a token for who makes and lists jobs, and who sends files.
+    guarded = {"ask_later", "list_jobs", "sweep", "grade", "places"}
     assert all(calls[name]["security"] == [{}, {"token": []}] for name in guarded)
     assert all(calls[name]["security"] == [] for name in calls.keys() - guarded)
     assert {tag for call in calls.values() for tag in call["tags"]} == {tag["name"] for tag in document["tags"]}

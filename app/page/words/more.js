@@ -135,7 +135,7 @@ export const MORE = {
   jobCancel: ["Cancel", "取消"],
   jobRemove: ["Remove", "删除"],
   tokenTitle: ["This service asks for a token?", "服务要求令牌？"],
-  token: ["Token: it starts jobs and lists all of them", "令牌：用于启动任务并列出全部任务"],
+  token: ["Token: it starts jobs, lists all of them and sends files", "令牌：用于启动任务、列出全部任务并上传文件"],
   mapValue: ["Value", "数值"],
   mapHelp: ["Map of the value. Arrow keys choose a design, Enter opens its dance.", "数值分布图。方向键选择方案，回车打开该舞龙。"],
   mapHint: ["Lines: equal values. Blank: no such value. Click a design to open its dance.", "线：等值线。空白：没有该数值。点击可打开该方案的舞龙。"],

@@ -78,4 +78,4 @@ def test_what_is_wrong_is_one_line(arguments: list[str], words: str) -> None:
 def test_a_service_says_what_it_refuses(service: Service) -> None:
     done = run("list", "--url", f"http://127.0.0.1:{service.port}")
     assert done.returncode == 2
-    assert "Jobs need the token" in done.stderr
+    assert "Jobs and uploads need the token" in done.stderr

@@ -45,12 +45,22 @@ def test_without_the_token_no_job_is_made_and_none_is_listed(strict: Service, he
         strict.client.post("/jobs", json=SHORT, headers=given),
         strict.client.get("/jobs", headers=given),
         strict.client.get("/collision-time", headers={**given, "Prefer": "respond-async"}),
+        strict.client.post("/grade?name=result1.csv", content=b"1,2", headers={**given, "Content-Type": "text/csv"}),
+        strict.client.post("/places", content=b"{}", headers={**given, "Content-Type": "application/octet-stream"}),
     ]
     for answer in answers:
         assert answer.status_code == 401
         assert answer.headers["www-authenticate"].startswith("Bearer")
         assert answer.headers["content-type"] == "application/problem+json"
+    # Questions, and answers that are typed and no file, need none.
     assert strict.client.get("/collision-time", headers=given).status_code == 200
+    assert strict.client.post("/grade?pitch=0.45", headers=given).status_code == 200
+
+
+@pytest.mark.parametrize("call", ["/grade?name=result1.csv", "/places"])
+def test_who_has_the_token_may_send_a_file(strict: Service, call: str) -> None:
+    headers = {**BEARER, "Content-Type": "application/octet-stream"}
+    assert strict.client.post(call, content=b"1,2", headers=headers).status_code in {200, 422}
 
 
 def test_who_has_the_token_sees_all_jobs_and_who_has_an_address_sees_that_job(strict: Service) -> None:
