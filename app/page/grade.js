@@ -64,7 +64,7 @@ export class Grader {
   }
 
   async #grade() {
-    const given = ANSWERS.map((name) => [name, $(`#typed-${name}`).value.trim()]).filter(([, text]) => text);
+    const given = ANSWERS.map((name) => [name, $(`#typed-${name}`).value.trim().replace(",", ".")]).filter(([, text]) => text);
     const numbers = given.filter(([, text]) => NUMBER.test(text));
     const asked = this.#files.map((file) => [{ name: file.name.slice(-200), language: this.#language }, file]);
     if (numbers.length) asked.unshift([{ language: this.#language, ...Object.fromEntries(numbers) }, undefined]);

@@ -90,6 +90,8 @@ def message(error: Mapping[str, Any], asked: Any, thing: str = OBJECT) -> str:
             return f"{name} must be a number{of_unit}, {got}{_centimetres(value) if unit == 'm' else ''}"
         case "int_type" | "int_parsing" | "int_from_float" | "int_parsing_size":
             return f"{name} must be a whole number, {got}"
+        case "string_pattern_mismatch" if unit:
+            return f"{name} must be a number{of_unit} in digits, such as 0.4503, {got}"
         case "missing":
             return f"{names[-1] if names else name} is missing"
         case "extra_forbidden":

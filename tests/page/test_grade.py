@@ -69,7 +69,7 @@ def test_a_dropped_file_is_graded(page: Any, files: list[str]) -> None:
 
 
 def test_typed_answers_are_graded_and_cleared(page: Any) -> None:
-    page.locator("#typed-pitch").fill("0.4202")
+    page.locator("#typed-pitch").fill("0,4202")
     page.locator("#typed-speed").fill("1.246266")
     page.keyboard.press("Enter")
     boxes = page.locator("#grades .answer")

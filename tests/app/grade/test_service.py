@@ -57,6 +57,12 @@ def test_a_file_longer_than_other_bodies_is_taken(client: httpx.Client) -> None:
     assert file["verdict"] == "unreadable"
 
 
+def test_a_typed_answer_that_is_no_number_is_refused_in_words(client: httpx.Client) -> None:
+    answer = client.post("/grade?pitch=abc")
+    assert answer.status_code == 422
+    assert answer.json()["detail"] == 'pitch must be a number [m] in digits, such as 0.4503, got "abc"'
+
+
 @pytest.fixture(scope="module")
 def strict(tmp_path_factory: pytest.TempPathFactory, first: bytes) -> Iterator[Service]:
     """A service that takes files of one length at most, and grades for a moment only."""
