@@ -89,10 +89,14 @@ def _over_time(solved: Solved, dance: Dance, times: Floats, about: tuple[str, st
     places = found.position[:, solved.handles].transpose(1, 2, 0).reshape(len(axes), times.size)
     speeds = [f"{handle} (m/s)" for handle in handles]
     positions, rates = say("positions", "位置"), say("speeds", "速度")
-    corner, colon = say("handle", "把手"), say(": ", "：")
+    corner, colon, late = say("handle", "把手"), say(": ", "："), ""
+    touch = solved.contact.time
+    if dance is solved.spiral and touch is not None and touch < times[-1]:
+        late = say(f" (benches have touched at {touch:.6f} s)", f"（板凳已于 {touch:.6f} s 相碰）")
+    positions, rates = f"{question}{colon}{positions}{late}", f"{question}{colon}{rates}{late}"
     return [
-        Table(f"{name}positions", f"{question}{colon}{positions}", corner, columns, axes, places),
-        Table(f"{name}speeds", f"{question}{colon}{rates}", corner, columns, speeds, found.speed[:, solved.handles].T),
+        Table(f"{name}positions", positions, corner, columns, axes, places),
+        Table(f"{name}speeds", rates, corner, columns, speeds, found.speed[:, solved.handles].T),
     ]
 
 

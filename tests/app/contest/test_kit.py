@@ -20,6 +20,7 @@ from app.contest.answers import answers
 from app.contest.kit import UNFINISHED
 from app.contest.sensitivity import panels
 from app.contest.solved import ContestRequest, solve
+from app.contest.tables import paper_tables
 from app.files.tables import Language
 from app.files.words import Say
 from app.questions.question import Terms
@@ -254,6 +255,15 @@ def test_a_run_without_contact_says_why_it_ends() -> None:
     given = answers(solve(asked, Terms(), lambda share: None), Say(Language.ENGLISH))
     [one] = [one for one in given if one.question == 2]
     assert re.fullmatch(r"the run ends there: bench \d+ folds, it cannot follow any further", one.how)
+
+
+def test_a_table_of_instants_after_the_contact_says_so() -> None:
+    asked = ContestRequest(benches=40, pitch=0.45, stop=300.0, span=10.0)
+    solved = solve(asked, Terms(), lambda share: None)
+    captions = [table.caption for table in paper_tables(solved, Say(Language.ENGLISH))]
+    said = f" (benches have touched at {solved.contact.time:.6f} s)"
+    assert captions[:2] == [f"Question 1: positions{said}", f"Question 1: speeds{said}"]
+    assert not any(said in caption for caption in captions[2:])
 
 
 def test_a_time_after_the_fold_is_refused_in_one_line(tmp_path: Path) -> None:
