@@ -12,6 +12,7 @@ import pytest
 from playwright.sync_api import expect
 
 from tests.app.jobs.service import wait_for
+from tests.page import polite
 
 PHONE = {"width": 390, "height": 844}
 TOUCH = {"viewport": PHONE, "has_touch": True, "is_mobile": True}
@@ -154,10 +155,10 @@ def test_all_numbers_are_in_view_explained_and_their_sliders_reach_as_far_as_wan
     query = {"benches": 20, "ratio": 1.5, "speed_limit": 1.8}
     page.locator("#ratio").fill("1.5")
     page.locator("#speed_limit").fill("1.8")
-    fastest = httpx.get(f"{server}/maximum-head-speed", params=query).raise_for_status().json()
+    fastest = polite.get(f"{server}/maximum-head-speed", params=query).raise_for_status().json()
     shows(page, "#head-speed .value", f"{fastest['head_speed']:.9f} m/s")
     asked = {"benches": 20, "ratio": 1.5, "pitch": 1.7}
-    shortest = httpx.get(f"{server}/shortest-turn", params=asked).raise_for_status().json()
+    shortest = polite.get(f"{server}/shortest-turn", params=asked).raise_for_status().json()
     shows(page, "#shortest-turn .value", f"{shortest['entry_radius']:.6f} m")
     page.get_by_role("button", name="Begin the turn there").click()
     assert float(page.locator("#entry_radius").input_value()) == shortest["entry_bracket"][1]
@@ -166,7 +167,7 @@ def test_all_numbers_are_in_view_explained_and_their_sliders_reach_as_far_as_wan
     shows(page, "#first-contact .value", "Nothing touches")
     page.get_by_role("button", name="Dance the spiral of this pitch").click()
     page.locator("[data-path=spiral][aria-pressed=true]").wait_for()
-    least = httpx.get(f"{server}/minimum-pitch", params={"benches": 20}).json()
+    least = polite.get(f"{server}/minimum-pitch", params={"benches": 20}).json()
     assert float(page.locator("#pitch").input_value()) == least["pitch_bracket"][1]
     assert page.locator("#entry_radius").is_hidden()
 
@@ -207,7 +208,7 @@ def test_in_chinese_proofs_and_refusals_are_chinese(visit: Any, server: str) -> 
         for query in ({}, {"pitch": 0.3}, {"pitch": 2, "start_turns": 8, "benches": 9}, {"benches": 2})
     ]
     turn = {"path": {"kind": "turn", "pitch": 1.7}, "start": -10, "stop": 10, "dragon": {"benches": 5}}
-    methods.append(httpx.post(f"{server}/check", json=turn).json()["first_contact"]["certificate"]["method"])
+    methods.append(polite.post(f"{server}/check", json=turn).json()["first_contact"]["certificate"]["method"])
     proofs = page.evaluate("m => import('/page/proofs.js').then((one) => m.map(one.proofInChinese))", methods)
     assert [proof for proof in proofs if ENGLISH.search(proof)] == []
     wanted = """async (details) => {

@@ -12,6 +12,8 @@ from typing import Any
 import httpx
 import pytest
 
+from tests.page import polite
+
 PNG_SIGNATURE = b"\x89PNG\r\n\x1a\n"
 # Between two samples the picture may be off by this much [m]; a bench is 0.3 m wide.
 SMOOTH_TOLERANCE = 1e-3
@@ -82,7 +84,7 @@ def test_the_picture_is_drawn_in_the_colours_of_its_speeds(visit: Any) -> None:
 
 def test_every_answer_stands_with_how_it_is_known(visit: Any, server: str) -> None:
     page = visit()
-    least = httpx.get(f"{server}/minimum-pitch").json()
+    least = polite.get(f"{server}/minimum-pitch").json()
     text_of(page, "#minimum-pitch .value", f"{least['pitch']:.9f} m")
     page.locator("#minimum-pitch summary").click()
     assert (
@@ -100,7 +102,7 @@ def test_every_answer_stands_with_how_it_is_known(visit: Any, server: str) -> No
 def test_the_highest_speed_on_a_spiral_is_the_proven_one(visit: Any, server: str) -> None:
     page = visit("?pitch=0.5&benches=4")
     dance = {"dragon": {"benches": 4}, "path": {"kind": "spiral", "pitch": 0.5}}
-    fastest = httpx.post(f"{server}/check", json=dance).raise_for_status().json()["highest_speed"]
+    fastest = polite.post(f"{server}/check", json=dance).raise_for_status().json()["highest_speed"]
     assert fastest["speed"] > 1
     text_of(page, "#highest-speed .value", f"{fastest['speed']:.6f} m/s")
     page.locator("#highest-speed summary").click()
@@ -330,10 +332,10 @@ def test_the_turn_shows_the_verdict_of_the_service(open_page: Any, settled: Any,
     text_of(page, "#first-contact .value", "Nothing touches")
     times = {"start": -100 / 1.5, "stop": 100 / 1.5}
     body = {"dragon": {"benches": 40}, "path": {"kind": "turn", "pitch": 1.7}, "head_speed": 1.5, **times}
-    report = httpx.post(f"{server}/check", json=body).raise_for_status().json()
+    report = polite.post(f"{server}/check", json=body).raise_for_status().json()
     text_of(page, "#highest-speed .value", f"{report['highest_speed']['speed']:.6f} m/s")
     text_of(page, "#clock", f"{report['stop']:.6f} s")
-    shortest = httpx.get(f"{server}/shortest-turn", params={"pitch": 1.7, "benches": 40}).raise_for_status().json()
+    shortest = polite.get(f"{server}/shortest-turn", params={"pitch": 1.7, "benches": 40}).raise_for_status().json()
     text_of(page, "#shortest-turn .value", f"{shortest['entry_radius']:.6f} m")
     with page.expect_download() as download:
         page.get_by_role("button", name="Figure of the first contact, SVG").click()

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import Any
 
-import httpx
 import pytest
 from playwright.sync_api import expect
 
+from tests.page import polite
 from tests.page.axe import serious
 
 PHONE = {"viewport": {"width": 390, "height": 844}, "has_touch": True, "is_mobile": True}
@@ -17,7 +17,7 @@ QUARTER = 70
 
 
 def said(server: str, call: str, **asked: Any) -> Any:
-    return httpx.post(f"{server}/{call}", json=asked).raise_for_status().json()
+    return polite.post(f"{server}/{call}", json=asked).raise_for_status().json()
 
 
 def dial(page: Any, section: str, name: str) -> Any:
@@ -88,7 +88,7 @@ def test_keys_move_the_numbers_and_a_refusal_is_said_in_the_figure(opened: Any, 
     expect(page.locator("#graze .lead")).to_contain_text("Each one finds all benches apart")
     page.locator("#graze .try").first.click()
     expect(page.locator("#graze .lead")).to_contain_text("In 1 of them benches overlap")
-    free = httpx.get(f"{server}/tolerance", params={"pitch": 0.55}).json()
+    free = polite.get(f"{server}/tolerance", params={"pitch": 0.55}).json()
     expect(page.locator("#stray .more")).to_contain_text(f"may stray by {int(1e4 * free['stray']) / 100} cm")
     expect(page.locator("#stray .exhibit")).to_have_count(0)
     for _ in range(2):

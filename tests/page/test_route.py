@@ -7,10 +7,10 @@ import re
 from pathlib import Path
 from typing import Any
 
-import httpx
 import pytest
 from playwright.sync_api import expect
 
+from tests.page import polite
 from tests.page.axe import serious
 
 ROOT = Path(__file__).parents[2]
@@ -115,7 +115,7 @@ def test_each_failure_stands_in_order_of_time_and_is_shown_on_the_picture(
     verdict(page, "Cannot be danced")
     page.locator("#run-end[aria-busy=false]").wait_for()
     body = saved(page)
-    told = httpx.post(f"{server}/check", json=body).raise_for_status().json()["failures"]
+    told = polite.post(f"{server}/check", json=body).raise_for_status().json()["failures"]
     assert [one["kind"] for one in told] == ["venue", "speed"]
     rows = page.locator(".failures li")
     assert rows.locator("button").all_inner_texts() == [f"{one['time']:.6f} s" for one in told]

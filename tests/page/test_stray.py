@@ -10,6 +10,8 @@ import httpx
 import numpy as np
 from playwright.sync_api import expect
 
+from tests.page import polite
+
 SURE = ("Contact at", "Nothing touches", "touch at", "meet at", "时碰撞", "无碰撞")
 CHORD, OVERHANG, WIDTH, STRAY = 1.65, 0.275, 0.3, 0.05
 # The ground of a bench that lies anywhere on the canvas: is each of these points, in the frame of the bench, on it?
@@ -26,7 +28,7 @@ ON_GROUND = """async ([stray, chord, overhang, width, points]) => {
 
 
 def asked(server: str, call: str, **query: Any) -> Any:
-    return httpx.get(f"{server}/{call}", params=query).raise_for_status().json()
+    return polite.get(f"{server}/{call}", params=query).raise_for_status().json()
 
 
 def shows(page: Any, selector: str, *words: str) -> None:
@@ -83,7 +85,7 @@ def test_a_turn_stays_clear_and_has_its_own_tolerance(open_page: Any, server: st
     page = open_page("?path=turn&benches=20&stray=0.03", without="**/shortest-turn*")
     shows(page, "#first-contact[data-outcome=clear]", "Stays clear: nothing can touch", "Not one pair of benches can")
     body = {"dragon": {"benches": 20}, "path": {"kind": "turn", "pitch": 1.7}, "start": -100, "stop": 100}
-    free = httpx.post(f"{server}/tolerance", json=body).raise_for_status().json()["stray"]
+    free = polite.post(f"{server}/tolerance", json=body).raise_for_status().json()["stray"]
     shows(page, "#tolerance", f"{int(10_000 * free) / 100:.2f} cm", "On the stretch that is danced, everybody may be")
     with page.expect_download() as download:
         page.get_by_role("button", name="Figure of the first contact, SVG").click()

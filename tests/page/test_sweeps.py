@@ -10,6 +10,7 @@ import pytest
 from playwright.sync_api import expect
 
 from tests.app.jobs.service import SHORT, Service, wait_for
+from tests.page import polite
 from tests.page.axe import serious
 
 PHONE = {"width": 390, "height": 844}
@@ -90,7 +91,7 @@ def test_the_map_of_one_parameter_is_read_by_keyboard_in_chinese_and_its_minimum
     for key in ("ArrowRight", "ArrowRight", "ArrowRight"):
         page.keyboard.press(key)
     query = {"turning_diameter": 10, "benches": 30, "cross_check": "none"}
-    pitch = httpx.get(f"{base(service)}/minimum-pitch", params=query).json()["pitch"]
+    pitch = polite.get(f"{base(service)}/minimum-pitch", params=query).json()["pitch"]
     expect(page.locator("#map .reading")).to_have_text(f"调头空间直径 [m] 10：最小螺距 [m] {pitch:.6g}")
     page.keyboard.press("Enter")
     expect(page.locator("#pitch")).to_have_value(str(pitch))

@@ -1,0 +1,29 @@
+"""A client beside the page: where the service is busy with what the page asked, it comes again when it is told to."""
+
+from __future__ import annotations
+
+import time
+from typing import Any
+
+import httpx
+
+BUSY = 503
+# Longest that the service may be busy [s].
+PATIENCE = 30.0
+
+
+def get(url: str, **how: Any) -> httpx.Response:
+    return _asked("GET", url, **how)
+
+
+def post(url: str, **how: Any) -> httpx.Response:
+    return _asked("POST", url, **how)
+
+
+def _asked(method: str, url: str, **how: Any) -> httpx.Response:
+    end = time.monotonic() + PATIENCE
+    while True:
+        answer = httpx.request(method, url, timeout=PATIENCE, **how)
+        if answer.status_code != BUSY or time.monotonic() > end:
+            return answer
+        time.sleep(float(answer.headers["Retry-After"]))
