@@ -17,6 +17,9 @@ from app.files.workbooks import rounded_away
 from core import Dance
 from core.values import Floats
 
+# A table of more columns than these is set smaller in LaTeX, so that it fits the page of an article.
+WIDE, NARROW = 4, "\\footnotesize\\setlength{\\tabcolsep}{3pt}"
+
 
 @dataclass(frozen=True)
 class Table:
@@ -56,7 +59,7 @@ class Table:
         )
         body = "".join(f"    {line} \\\\\n" for line in lines)
         return (
-            "\\begin{table}[htbp]\n  \\centering\n"
+            f"\\begin{{table}}[htbp]\n  \\centering{NARROW if len(self.columns) > WIDE else ''}\n"
             f"  \\caption{{{self.caption}}}\n  \\label{{tab:{self.name}}}\n"
             f"  \\begin{{tabular}}{{l{'r' * len(self.columns)}}}\n    \\toprule\n"
             f"    {head} \\\\\n    \\midrule\n{body}"

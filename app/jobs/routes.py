@@ -8,7 +8,7 @@ import logging
 import re
 import sqlite3
 from collections.abc import AsyncIterator
-from hmac import compare_digest
+from contextlib import suppress
 from time import monotonic
 from typing import Annotated, Any
 
@@ -37,7 +37,7 @@ from app.questions.question import FileFormat
 from app.questions.registry import CALLS
 from app.service.bodies import BodyRoute
 from app.service.problems import Refused, answer_of, problem
-from app.service.reply import RESPOND_ASYNC, client_of, form_of, refuse_query, reply_body
+from app.service.reply import GUARDED, RESPOND_ASYNC, client_of, form_of, guard, refuse_query, reply_body
 from app.settings import Settings
 from app.sweeps.spec import Spec
 from app.wire.faults import in_body, unfit
@@ -55,6 +55,8 @@ COME_AGAIN = {"Retry-After": "60"}
 # Number of an event, as a client states it; a longer one is no number of ours, and SQLite does not take it.
 EVENT_ID = re.compile(r"[0-9]{1,18}")
 NOT_KEPT = {"Cache-Control": "no-store"}
+# A result up to this size is read before the answer begins, so that one that expires breaks no answer off [bytes].
+READ_AT_ONCE = 1_000_000
 PROBLEM_REF = {PROBLEM_TYPE: {"schema": {"$ref": "#/components/schemas/Problem"}}}
 PROBLEMS = {
     400: "The body is not JSON",
@@ -80,16 +82,6 @@ def keeper_of(request: Request) -> Keeper:
     if isinstance(keeper, str):
         raise Refused(503, f"This service takes no jobs: {keeper}.", headers=COME_AGAIN)
     return keeper
-
-
-def guard(request: Request) -> None:
-    """raises: Refused (401) without the token of this service, if it has one"""
-    token = request.app.state.settings.token
-    kind, _, given = request.headers.get("authorization", "").partition(" ")
-    if token and not (kind.lower() == "bearer" and compare_digest(given.strip().encode(), token.encode())):
-        detail = "Jobs and uploads need the token of this service: send the header Authorization: Bearer TOKEN."
-        challenge = {"WWW-Authenticate": 'Bearer realm="bench-dragon"'}
-        raise Refused(401, detail, [ErrorItem(name="Authorization", detail=detail)], challenge)
 
 
 def take(request: Request, task: Task) -> Response:
@@ -133,8 +125,6 @@ async def store_problem(request: Request, error: Exception) -> Response:
 router = APIRouter(prefix="/jobs", tags=["Jobs"])
 # The calls that make jobs: their bodies may be large.
 asking = APIRouter(tags=["Jobs"], route_class=BodyRoute)
-# What a call that may need the token says in the description of the service.
-GUARDED: list[dict[str, list[str]]] = [{}, {"token": []}]
 TOKEN_SCHEME = {"token": {"type": "http", "scheme": "bearer", "description": "The token of a service that has one"}}
 
 
@@ -273,10 +263,13 @@ def result(keeper: KeptKeeper, found: Found) -> Response:
         known = orjson.loads(found.problem)
         return Response(found.problem, known["status"], NOT_KEPT, PROBLEM_TYPE)
     file = keeper.store.result(found.id)
-    if found.state is JobState.DISMISSED or found.expired or not file.is_file():
-        why = "The job was dismissed" if found.state is JobState.DISMISSED else "The result has expired"
-        raise Refused(410, f"{why}: there is no result, ask the question again.")
-    return FileResponse(file, headers=NOT_KEPT, media_type=found.media_type)
+    if found.state is not JobState.DISMISSED and not found.expired:
+        with suppress(FileNotFoundError):  # It may go at any time.
+            if file.stat().st_size > READ_AT_ONCE:
+                return FileResponse(file, headers=NOT_KEPT, media_type=found.media_type)
+            return Response(file.read_bytes(), headers=NOT_KEPT, media_type=found.media_type)
+    why = "The job was dismissed" if found.state is JobState.DISMISSED else "The result has expired"
+    raise Refused(410, f"{why}: there is no result, ask the question again.")
 
 
 @router.get(

@@ -15,11 +15,10 @@ from pydantic import Field
 from app.files.tables import CSV_TYPE, XLSX_TYPE, Language
 from app.grade.report import FileAnswer, GradeAnswer, graded, too_long, typed
 from app.grade.shortcuts import UNITS
-from app.jobs.routes import GUARDED, guard
 from app.service.graders import Graders
 from app.service.load import Lanes, WatchedRoute
 from app.service.problems import Refused
-from app.service.reply import client_of
+from app.service.reply import GUARDED, client_of, guard
 from app.service.routes import FILE, PROBLEM, PROBLEMS
 from app.settings import Settings
 from app.wire.models import JSON, Wire, measure

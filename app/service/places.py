@@ -8,14 +8,13 @@ from fastapi import APIRouter, Depends, Query, Request, Response
 from pydantic import Field
 
 from app.files.tables import Language
-from app.jobs.routes import GUARDED
 from app.maps.places import Places, read_places
 from app.questions.maps import MapFormat
 from app.service.graders import Graders
 from app.service.grading import COST, FILE_TYPE, STATUSES, UploadRoute, file_body
 from app.service.load import Lanes
 from app.service.problems import Refused
-from app.service.reply import client_of
+from app.service.reply import GUARDED, client_of
 from app.service.routes import FILE, PROBLEM, PROBLEMS
 from app.settings import Settings
 from app.wire.models import JSON, Coordinates, Wire

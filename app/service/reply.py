@@ -8,6 +8,7 @@ from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from functools import cache
+from hmac import compare_digest
 from importlib.metadata import version
 from pathlib import Path
 from typing import Annotated
@@ -211,6 +212,20 @@ class QueryRoute(APIRoute):
 def client_of(request: Request) -> str:
     """Address of the client; a proxy on this machine gives it in X-Forwarded-For."""
     return request.client.host if request.client else ""
+
+
+# What a call that may need the token says in the description of the service.
+GUARDED: list[dict[str, list[str]]] = [{}, {"token": []}]
+
+
+def guard(request: Request) -> None:
+    """raises: Refused (401) without the token of this service, if it has one"""
+    token = request.app.state.settings.token
+    kind, _, given = request.headers.get("authorization", "").partition(" ")
+    if token and not (kind.lower() == "bearer" and compare_digest(given.strip().encode(), token.encode())):
+        detail = "Jobs and uploads need the token of this service: send the header Authorization: Bearer TOKEN."
+        challenge = {"WWW-Authenticate": 'Bearer realm="bench-dragon"'}
+        raise Refused(401, detail, [ErrorItem(name="Authorization", detail=detail)], challenge)
 
 
 def _gzipped(blocks: Iterable[bytes]) -> Iterator[bytes]:
