@@ -11,6 +11,7 @@ from typing import Any
 
 import httpx
 import pytest
+from playwright.sync_api import expect
 
 from tests.page import polite
 
@@ -266,7 +267,9 @@ def test_two_benches_cannot_touch_and_the_chart_says_so_in_the_services_words(op
 def test_a_handle_chosen_in_the_picture_is_chosen_in_the_table_and_back(open_page: Any, settled: Any) -> None:
     page = open_page("?time=0&view=8.8,0,40")
     text_of(page, "#table-time", "0.000000")
-    settled(page)  # Rows that are drawn anew under the mouse take no click.
+    # Rows that move or are drawn anew under the mouse take no click: the charts above them are drawn first.
+    page.locator("#handles").scroll_into_view_if_needed()
+    settled(page)
     box = page.locator("#canvas").bounding_box()
     page.locator("#canvas").click(position={"x": box["width"] / 2, "y": box["height"] / 2})
     text_of(page, "#rows tr.chosen", "0 · head")
@@ -338,8 +341,11 @@ def test_the_turn_shows_the_verdict_of_the_service(open_page: Any, settled: Any,
     text_of(page, "#clock", f"{report['stop']:.6f} s")
     shortest = polite.get(f"{server}/shortest-turn", params={"pitch": 1.7, "benches": 40}).raise_for_status().json()
     text_of(page, "#shortest-turn .value", f"{shortest['entry_radius']:.6f} m")
+    page.locator("#keep").scroll_into_view_if_needed()
+    settled(page)
     with page.expect_download() as download:
         page.get_by_role("button", name="Figure of the first contact, SVG").click()
+        expect(page.locator("#status")).to_contain_text("first-contact.svg")
     assert b"<svg" in Path(download.value.path()).read_bytes()
     page.locator("#time").press("Home")
     text_of(page, "#clock", f"{report['start']:.6f} s")
