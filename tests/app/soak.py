@@ -19,6 +19,8 @@ from pathlib import Path
 from tests.app.attacks import ATTACKS, ask, memory, watching
 from tests.app.serving import serving
 
+# Every process of the service has loaded all it needs by then [s].
+START_SECONDS = 5.0
 # Ordinary clients at once, the length of one attack, and how often the curve has a point [s].
 CONNECTIONS, ATTACK_SECONDS = 64, 10.0
 POINTS = 180
@@ -130,6 +132,7 @@ def draw(rows: list[tuple[float, ...]], picture: Path) -> None:
 def soak(seconds: float, folder: Path) -> None:
     folder.mkdir(exist_ok=True)
     with tempfile.TemporaryDirectory() as scratch, serving(Path(scratch) / "log", workers=2) as service:
+        time.sleep(START_SECONDS)
         one_by_one(service.url)
         print(*COLUMNS)
         rows = all_at_once(service.url, service.process.pid, seconds)
