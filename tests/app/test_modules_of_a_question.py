@@ -9,17 +9,17 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).parent.parent.parent
-# Asks the service in this process, every call of a function of ours counted in every thread.
-COUNTED = """
-import asyncio, sys, threading, httpx
+# Asks the service in this process, and gives every call and return of a function to note(), in every thread.
+ASKED = """
+import asyncio, sys, threading, types, httpx
 from app.service.main import create_app
 
-seen = set()
+seen = {{}}
 
-def note(frame, event, argument):
-    module = frame.f_globals.get("__name__", "")
-    if event == "call" and module.partition(".")[0] in ("app", "core") and frame.f_code.co_filename[0] != "<":
-        seen.add(module)
+def ours(name):
+    return name.partition(".")[0] in ("app", "core")
+
+{noted}
 
 async def ask():
     transport = httpx.ASGITransport(create_app())
@@ -27,24 +27,24 @@ async def ask():
         (await client.get(sys.argv[1] + "0.551")).raise_for_status()
         seen.clear()
         sys.setprofile(note)
-        (await client.get(sys.argv[1] + "0.552")).raise_for_status()
+        answer = await client.get(sys.argv[1] + "0.552")
         sys.setprofile(None)
+    return answer.raise_for_status().json()
 
 threading.setprofile(note)
-asyncio.run(ask())
-print(*sorted(seen))
+answer = asyncio.run(ask())
+print(*sorted({told}))
 """
-# Asks it again, and notes every class of ours whose objects hold the pair in contact, among all that functions return,
-# that methods belong to, and that these hold in turn.
+# Every module of ours.
+COUNTED = """
+def note(frame, event, argument):
+    module = frame.f_globals.get("__name__", "")
+    if event == "call" and ours(module) and frame.f_code.co_filename[0] != "<":
+        seen[module] = True
+"""
+# Every class of ours whose objects hold a pair, among all that functions return, that methods belong to, and that these
+# hold in turn.
 REPRESENTED = """
-import asyncio, sys, threading, types, httpx
-from app.service.main import create_app
-
-seen = {}
-
-def ours(name):
-    return name.partition(".")[0] in ("app", "core")
-
 def held(value):
     kind = type(value)
     found = dict(getattr(value, "__dict__", {}))
@@ -70,21 +70,9 @@ def note(frame, event, argument):
             if ours(type(value).__module__):
                 name = f"{type(value).__module__}.{type(value).__qualname__}"
                 seen.setdefault(name, set()).update(pairs(value))
-
-async def ask():
-    transport = httpx.ASGITransport(create_app())
-    async with httpx.AsyncClient(transport=transport, base_url="http://service") as client:
-        (await client.get(sys.argv[1] + "0.551")).raise_for_status()
-        seen.clear()
-        sys.setprofile(note)
-        answer = await client.get(sys.argv[1] + "0.552")
-        sys.setprofile(None)
-    pair = tuple(answer.json()["benches"])
-    print(*sorted(name for name, known in seen.items() if pair in known))
-
-threading.setprofile(note)
-asyncio.run(ask())
 """
+# The classes that hold the pair in contact.
+HOLDING = "name for name, known in seen.items() if tuple(answer['benches']) in known"
 # What every request passes; the question's own file; the fields of its dance; and how it is told, under any load.
 EDGE = {
     "app.questions.collision_time",
@@ -123,17 +111,18 @@ CROSS_CHECK = {
 }
 
 
+def seen_while_asking(noted: str, told: str, query: str) -> set[str]:
+    source = ASKED.format(noted=noted, told=told)
+    return set(subprocess.check_output([sys.executable, "-c", source, query], cwd=ROOT, text=True).split())
+
+
 @pytest.mark.parametrize(("asked", "passed"), [("none", EDGE | SEARCH), ("dragon", EDGE | SEARCH | CROSS_CHECK)])
 def test_a_collision_time_goes_through_no_other_modules(asked: str, passed: set[str]) -> None:
-    query = f"/collision-time?cross_check={asked}&pitch="
-    modules = subprocess.check_output([sys.executable, "-c", COUNTED, query], cwd=ROOT, text=True).split()
-    assert set(modules) == passed
+    assert seen_while_asking(COUNTED, "seen", f"/collision-time?cross_check={asked}&pitch=") == passed
 
 
 def test_a_contact_has_three_representations_of_a_march_of_core_and_of_the_answer() -> None:
-    query = "/collision-time?cross_check=dragon&pitch="
-    classes = subprocess.check_output([sys.executable, "-c", REPRESENTED, query], cwd=ROOT, text=True).split()
-    assert set(classes) == {
+    assert seen_while_asking(REPRESENTED, HOLDING, "/collision-time?cross_check=dragon&pitch=") == {
         "core.kernels.results.Marched",
         "core.contact.first_contact.FirstContact",
         "app.questions.collision_time.CollisionTime",
