@@ -11,6 +11,9 @@ const KEYS = { ArrowDown: 1, ArrowUp: -1, PageDown: 10, PageUp: -10 };
 export class Table {
   #pose = null;
   #handle = null;
+  #first = 0;
+  #rows = [];
+  #count = 0;
   #queued = false;
 
   /** choose(step): called to move the choice by some rows; chosen(handle): called to choose a row */
@@ -61,16 +64,26 @@ export class Table {
     const { x, y, speed } = this.#pose;
     const first = Math.max(0, Math.floor(this.box.scrollTop / ROW) - SPARE);
     const last = Math.min(x.length, first + Math.ceil(this.box.clientHeight / ROW) + 2 * SPARE);
-    const rows = [];
-    for (let k = first; k < last; k++) {
-      const cells = [x[k], y[k], speed[k]].map((one) => make("td", { textContent: one.toFixed(DECIMALS).replace(/^-(0\.0+)$/, "$1") }));
-      const name = make("th", { scope: "row", textContent: `${k} · ${handleName(k, x.length - 1)}` });
-      const className = k === this.#handle ? "chosen" : "";
-      rows.push(make("tr", { "data-handle": k, "aria-rowindex": k + 2, className }, name, ...cells));
+    // Rows stay while the same handles are in sight: one that is replaced under the mouse, as in motion, takes no click.
+    if (first !== this.#first || last - first !== this.#rows.length || x.length !== this.#count) {
+      [this.#first, this.#count] = [first, x.length];
+      this.#rows = Array.from({ length: last - first }, (_, row) => rowOf(first + row));
+      this.body.replaceChildren(spacer(first), ...this.#rows, spacer(x.length - last));
+      this.table.setAttribute("aria-rowcount", x.length + 1);
     }
-    this.table.setAttribute("aria-rowcount", x.length + 1);
-    this.body.replaceChildren(spacer(first), ...rows, spacer(x.length - last));
+    for (const [row, shown] of this.#rows.entries()) {
+      const k = first + row;
+      const numbers = [x[k], y[k], speed[k]].map((one) => one.toFixed(DECIMALS).replace(/^-(0\.0+)$/, "$1"));
+      const texts = [`${k} · ${handleName(k, x.length - 1)}`, ...numbers];
+      texts.forEach((text, cell) => (shown.cells[cell].textContent = text));
+      shown.className = k === this.#handle ? "chosen" : "";
+    }
   }
+}
+
+function rowOf(k) {
+  const cells = Array.from({ length: 3 }, () => make("td"));
+  return make("tr", { "data-handle": k, "aria-rowindex": k + 2 }, make("th", { scope: "row" }), ...cells);
 }
 
 function spacer(rows) {

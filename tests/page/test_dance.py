@@ -278,6 +278,18 @@ def test_a_handle_chosen_in_the_picture_is_chosen_in_the_table_and_back(open_pag
     page.wait_for_url(re.compile("handle=5"))
 
 
+def test_rows_stay_in_motion_so_that_none_is_replaced_under_the_mouse(open_page: Any) -> None:
+    page = open_page("?time=0&benches=40&rate=1")
+    text_of(page, "#table-time", "0.000000")
+    row = page.locator("#rows tr[data-handle='5']").element_handle()
+    shown = row.inner_text()
+    page.locator("#play").click()
+    expect(page.locator("#rows tr[data-handle='5']")).not_to_have_text(shown, use_inner_text=True)
+    assert row.evaluate("row => row.isConnected")
+    row.evaluate("row => row.cells[1].click()")
+    text_of(page, "#rows tr.chosen", "5 · body 5")
+
+
 def test_two_thousand_benches_are_drawn_and_listed(open_page: Any, server: str) -> None:
     page = open_page("?benches=2000&time=0")
     text_of(page, "#table-time", "0.000000")
