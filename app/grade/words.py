@@ -1,4 +1,4 @@
-"""What the grader says, in English and in Chinese, with the terms of the contest."""
+"""What the grader and the comparison with the paper say, in English and in Chinese, with the terms of the contest."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 
 from app.files.tables import Language
 from app.grade.errors import ERRORS
+from app.grade.paper import PAPER
 
 
 @dataclass(frozen=True)
@@ -30,176 +31,183 @@ def say(code: str, language: Language, **values: object) -> str:
     return (chinese if language is Language.CHINESE else english).format(**told)
 
 
-WORDS = ERRORS | {
-    # -- files that cannot be graded --
-    "too_long": (
-        "The file has more than {most} MB, so it was not read: a workbook of the contest has 2 MB.",
-        "文件超过 {most} MB，未读取：竞赛工作簿约 2 MB。",
-    ),
-    "empty": ("The file is empty.", "文件为空。"),
-    "encrypted": ("The workbook is encrypted: save it without a password.", "工作簿已加密：请取消密码后另存。"),
-    "old_format": ("The workbook has the old format .xls: save it as .xlsx.", "工作簿为旧格式 .xls：请另存为 .xlsx。"),
-    "truncated": (
-        "The workbook is damaged: its archive ends early or does not unpack. Save or upload it again.",
-        "工作簿已损坏：压缩包不完整或无法解压。请重新保存或上传。",
-    ),
-    "broken": ("The workbook is damaged and cannot be opened ({why}).", "工作簿已损坏，无法打开（{why}）。"),
-    "bomb": (
-        "The archive would unpack to {size} MB in {parts} parts, and at most {most} MB in 500 parts are read.",
-        "压缩包解压后为 {size} MB、{parts} 个部分，最多读取 {most} MB、500 个部分。",
-    ),
-    "other_archive": (
-        "The file is an archive but no .xlsx workbook, as a .docx is: save the sheets as .xlsx or .csv.",
-        "文件是压缩包，但不是 .xlsx 工作簿（例如 .docx）：请另存为 .xlsx 或 .csv。",
-    ),
-    "declared": (
-        "The workbook declares a document type in {part}, which no spreadsheet program writes: it was not read.",
-        "工作簿的 {part} 含有文档类型声明，电子表格软件不会写入：未读取。",
-    ),
-    "strict": (
-        "The workbook has the format Strict Open XML: save it as an ordinary .xlsx.",
-        "工作簿为“Strict Open XML”格式：请另存为普通 .xlsx。",
-    ),
-    "too_many_elements": (
-        "The workbook has more than {most} elements of XML, such as cells and values: delete what nobody asked for.",
-        "工作簿的 XML 元素（单元格、数值等）超过 {most} 个：请删除多余内容。",
-    ),
-    "too_many_cells": ("The table has more than {most} cells.", "表格超过 {most} 个单元格。"),
-    "no_csv": (
-        "The file is neither a workbook nor a table of text (CSV).",
-        "文件既不是工作簿，也不是文本表格（CSV）。",
-    ),
-    "no_workbook": (
-        "The file is named as a workbook but is none: its content is text. Save the sheets as .xlsx.",
-        "文件名是工作簿，内容却是文本，不是工作簿：请把工作表另存为 .xlsx。",
-    ),
-    "failed": (
-        "The grader failed on this file ({why}), which is a fault of the grader: please report it.",
-        "评阅程序处理此文件时出错（{why}），这是程序的缺陷：请反馈。",
-    ),
-    "not_opened": ("The file cannot be opened: {why}.", "无法打开文件：{why}。"),
-    "no_table": (
-        "No sheet has labels such as 龙头x (m) and times such as 0 s, or numbers for 224 handles.",
-        "没有任何工作表含有“龙头x (m)”之类的标签和“0 s”之类的时间，或 224 个把手的数据。",
-    ),
-    "no_numbers": ("The sheet has no numbers where they belong.", "工作表中应有数据处没有数值。"),
-    # -- notes --
-    "macros": ("The workbook holds macros: they were not run.", "工作簿含有宏：未运行。"),
-    "formulas": (
-        "{count} cells hold formulas, the first is {cell}: the values stored with them were read.",
-        "{count} 个单元格含有公式，第一个是 {cell}：读取的是随公式保存的数值。",
-    ),
-    "unstored": (
-        "{count} cells hold formulas without a stored value, the first is {cell}: open and save the workbook in a spreadsheet.",
-        "{count} 个单元格的公式没有保存结果，第一个是 {cell}：请用电子表格软件打开并保存，使结果随公式保存。",
-    ),
-    "merged": (
-        "{count} ranges of cells are merged, the first is {cell}: only its first cell has a value.",
-        "{count} 处合并单元格，第一处是 {cell}：只有首个单元格有值。",
-    ),
-    "text_number": ("The number in {cell} is stored as text.", "{cell} 中的数值以文本形式保存。"),
-    "text": ("{cell} should hold a number and holds the text “{text}”.", "{cell} 应为数值，却是文本“{text}”。"),
-    "more_text": ("{count} further cells hold text.", "另有 {count} 个单元格为文本。"),
-    "unit": ("The numbers are in {unit}: they were read as such.", "数值单位为 {unit}：已按此读取。"),
-    "by_order": (
-        "The labels of the handles are out of step: the handles were taken in the order in which they stand.",
-        "把手标签有错位：已按排列顺序对应把手。",
-    ),
-    "extra_handles": (
-        "{count} handle too many: the dragon has 224, from the head to the rear of the tail.",
-        "多出 {count} 个把手：从龙头到龙尾（后）共 224 个。",
-    ),
-    "extra_times": (
-        "{count} columns are for times that the contest does not ask for: they were not graded.",
-        "{count} 列的时刻不在赛题要求之内：未评分。",
-    ),
-    "missing": (
-        "{count} cells are missing ({handles} handles and {times} instants without any).",
-        "缺少 {count} 个单元格（{handles} 个把手、{times} 个时刻完全没有数据）。",
-    ),
-    "no_sheet": ("The sheet of the {kind} is missing.", "缺少{kind}工作表。"),
-    "position": ("positions", "位置"),
-    "speeds": ("speeds", "速度"),
-    "speed": ("maximum speed of the head", "龙头最大速度"),
-    "contact": ("positions and speeds at first contact", "首次碰撞时的位置与速度"),
-    # -- the rubric --
-    "rubric_branch_yes": (
-        "Every handle follows the one before on the right branch.",
-        "每个把手都取了正确的分支（紧随前一把手）。",
-    ),
-    "rubric_branch_no": (
-        "A handle is on the wrong branch: it must be the first root behind the one before.",
-        "有把手取错分支：应为前一把手之后的第一个根。",
-    ),
-    "rubric_branch_unknown": ("The branch of the next handle: not shown.", "下一把手的分支：未能判断。"),
-    "rubric_speeds_yes": ("The speeds belong to the positions.", "速度与位置相符。"),
-    "rubric_speeds_no": ("The speeds do not belong to the positions.", "速度与位置不符。"),
-    "rubric_speeds_unknown": (
-        "Speeds consistent with the positions: not shown, that takes both sheets.",
-        "速度与位置是否相符：需要两张工作表。",
-    ),
-    "rubric_overhang_yes": ("Benches are rectangles with their overhang.", "板凳按含伸出部分的矩形处理。"),
-    "rubric_overhang_no": ("Benches lack their overhang.", "板凳缺少伸出部分。"),
-    "rubric_overhang_unknown": (
-        "Rectangles with overhang: not shown here.",
-        "是否按含伸出部分的矩形处理：此处未体现。",
-    ),
-    "rubric_refined_yes": ("First contact was refined.", "首次碰撞时刻经过细化求解。"),
-    "rubric_refined_no": (
-        "First contact was only stepped over: refine it, by bisection for example.",
-        "首次碰撞只按固定步长搜索：应细化，例如用二分法。",
-    ),
-    "rubric_refined_unknown": (
-        "First contact refined instead of stepped: not shown here.",
-        "首次碰撞是否细化：此处未体现。",
-    ),
-    "rubric_tangents_yes": ("The path is smooth where the arcs begin and end.", "圆弧与螺线相切，路径光滑。"),
-    "rubric_tangents_no": (
-        "The path has kinks where the arcs begin or end: the arcs must be tangent to the spirals and to each other.",
-        "路径在圆弧端点处有折角：圆弧应与螺线相切，且两弧相切。",
-    ),
-    "rubric_tangents_unknown": ("Continuity at the tangents: not shown here.", "切点处的连续性：此处未体现。"),
-    "rubric_speeds_share": (
-        "{share} % of the speeds agree with the way from one instant to the next.",
-        "{share} % 的速度与相邻时刻的位移相符。",
-    ),
-    # -- verdicts and lines of the command --
-    "right": ("right", "正确"),
-    "rounded": ("rounded", "已舍入"),
-    "incomplete": ("incomplete", "不完整"),
-    "wrong": ("wrong", "错误"),
-    "unreadable": ("unreadable", "无法读取"),
-    "not_rounded": (
-        "All numbers are right to {decimals} decimals, but were not rounded to so many: they have {written}.",
-        "数值准确到 {decimals} 位小数，但并非舍入到该位数：数值有 {written} 位小数。",
-    ),
-    "to_digits": (", as far as its digits go ({digits})", "（{digits} 位有效数字）"),
-    "to_decimals": (" to {decimals} decimals", "到 {decimals} 位小数"),
-    "sheet_line": (
-        "{title}: {verdict}, {right} of {cells} cells right",
-        "{title}：{verdict}，{cells} 个单元格中 {right} 个正确",
-    ),
-    "worst_cell": (
-        "worst: {cell}, {handle}, {quantity} at {time} s: {found}, right is {expected}",
-        "误差最大：{cell}，{handle}，{time} s 时，{quantity}：{found}，正确为 {expected}",
-    ),
-    "first_cell": (
-        "first: {cell}, {handle}, {quantity} at {time} s: {found}, right is {expected}",
-        "首个错误：{cell}，{handle}，{time} s 时，{quantity}：{found}，正确为 {expected}",
-    ),
-    "quantity_speed": ("speed", "速度"),
-    "nothing_fits": ("No known error gives these numbers.", "没有已知错误能得出这些数值。"),
-    "is_right": ("{right} {unit} is right.", "正确值为 {right} {unit}。"),
-    "collision_time": ("time of first contact", "首次碰撞时刻"),
-    "pitch": ("minimum pitch", "最小螺距"),
-    "turn_length": ("length of the turn", "调头曲线长度"),
-    "summary": ("All files", "全部文件"),
-    "column_file": ("file", "文件"),
-    "column_workbook": ("workbook", "工作簿"),
-    "column_verdict": ("verdict", "判定"),
-    "column_cells": ("cells", "单元格"),
-    "column_right": ("right", "正确"),
-    "column_missing": ("missing", "缺少"),
-    "column_decimals": ("decimals", "小数位"),
-    "column_diagnosis": ("diagnosis", "诊断"),
-}
+WORDS = (
+    ERRORS
+    | PAPER
+    | {
+        # -- files that cannot be graded --
+        "too_long": (
+            "The file has more than {most} MB, so it was not read: a workbook of the contest has 2 MB.",
+            "文件超过 {most} MB，未读取：竞赛工作簿约 2 MB。",
+        ),
+        "empty": ("The file is empty.", "文件为空。"),
+        "encrypted": ("The workbook is encrypted: save it without a password.", "工作簿已加密：请取消密码后另存。"),
+        "old_format": (
+            "The workbook has the old format .xls: save it as .xlsx.",
+            "工作簿为旧格式 .xls：请另存为 .xlsx。",
+        ),
+        "truncated": (
+            "The workbook is damaged: its archive ends early or does not unpack. Save or upload it again.",
+            "工作簿已损坏：压缩包不完整或无法解压。请重新保存或上传。",
+        ),
+        "broken": ("The workbook is damaged and cannot be opened ({why}).", "工作簿已损坏，无法打开（{why}）。"),
+        "bomb": (
+            "The archive would unpack to {size} MB in {parts} parts, and at most {most} MB in 500 parts are read.",
+            "压缩包解压后为 {size} MB、{parts} 个部分，最多读取 {most} MB、500 个部分。",
+        ),
+        "other_archive": (
+            "The file is an archive but no .xlsx workbook, as a .docx is: save the sheets as .xlsx or .csv.",
+            "文件是压缩包，但不是 .xlsx 工作簿（例如 .docx）：请另存为 .xlsx 或 .csv。",
+        ),
+        "declared": (
+            "The workbook declares a document type in {part}, which no spreadsheet program writes: it was not read.",
+            "工作簿的 {part} 含有文档类型声明，电子表格软件不会写入：未读取。",
+        ),
+        "strict": (
+            "The workbook has the format Strict Open XML: save it as an ordinary .xlsx.",
+            "工作簿为“Strict Open XML”格式：请另存为普通 .xlsx。",
+        ),
+        "too_many_elements": (
+            "The workbook has more than {most} elements of XML, such as cells and values: delete what nobody asked for.",
+            "工作簿的 XML 元素（单元格、数值等）超过 {most} 个：请删除多余内容。",
+        ),
+        "too_many_cells": ("The table has more than {most} cells.", "表格超过 {most} 个单元格。"),
+        "no_csv": (
+            "The file is neither a workbook nor a table of text (CSV).",
+            "文件既不是工作簿，也不是文本表格（CSV）。",
+        ),
+        "no_workbook": (
+            "The file is named as a workbook but is none: its content is text. Save the sheets as .xlsx.",
+            "文件名是工作簿，内容却是文本，不是工作簿：请把工作表另存为 .xlsx。",
+        ),
+        "failed": (
+            "The grader failed on this file ({why}), which is a fault of the grader: please report it.",
+            "评阅程序处理此文件时出错（{why}），这是程序的缺陷：请反馈。",
+        ),
+        "not_opened": ("The file cannot be opened: {why}.", "无法打开文件：{why}。"),
+        "no_table": (
+            "No sheet has labels such as 龙头x (m) and times such as 0 s, or numbers for 224 handles.",
+            "没有任何工作表含有“龙头x (m)”之类的标签和“0 s”之类的时间，或 224 个把手的数据。",
+        ),
+        "no_numbers": ("The sheet has no numbers where they belong.", "工作表中应有数据处没有数值。"),
+        # -- notes --
+        "macros": ("The workbook holds macros: they were not run.", "工作簿含有宏：未运行。"),
+        "formulas": (
+            "{count} cells hold formulas, the first is {cell}: the values stored with them were read.",
+            "{count} 个单元格含有公式，第一个是 {cell}：读取的是随公式保存的数值。",
+        ),
+        "unstored": (
+            "{count} cells hold formulas without a stored value, the first is {cell}: open and save the workbook in a spreadsheet.",
+            "{count} 个单元格的公式没有保存结果，第一个是 {cell}：请用电子表格软件打开并保存，使结果随公式保存。",
+        ),
+        "merged": (
+            "{count} ranges of cells are merged, the first is {cell}: only its first cell has a value.",
+            "{count} 处合并单元格，第一处是 {cell}：只有首个单元格有值。",
+        ),
+        "text_number": ("The number in {cell} is stored as text.", "{cell} 中的数值以文本形式保存。"),
+        "text": ("{cell} should hold a number and holds the text “{text}”.", "{cell} 应为数值，却是文本“{text}”。"),
+        "more_text": ("{count} further cells hold text.", "另有 {count} 个单元格为文本。"),
+        "unit": ("The numbers are in {unit}: they were read as such.", "数值单位为 {unit}：已按此读取。"),
+        "by_order": (
+            "The labels of the handles are out of step: the handles were taken in the order in which they stand.",
+            "把手标签有错位：已按排列顺序对应把手。",
+        ),
+        "extra_handles": (
+            "{count} handle too many: the dragon has 224, from the head to the rear of the tail.",
+            "多出 {count} 个把手：从龙头到龙尾（后）共 224 个。",
+        ),
+        "extra_times": (
+            "{count} columns are for times that the contest does not ask for: they were not graded.",
+            "{count} 列的时刻不在赛题要求之内：未评分。",
+        ),
+        "missing": (
+            "{count} cells are missing ({handles} handles and {times} instants without any).",
+            "缺少 {count} 个单元格（{handles} 个把手、{times} 个时刻完全没有数据）。",
+        ),
+        "no_sheet": ("The sheet of the {kind} is missing.", "缺少{kind}工作表。"),
+        "position": ("positions", "位置"),
+        "speeds": ("speeds", "速度"),
+        "speed": ("maximum speed of the head", "龙头最大速度"),
+        "contact": ("positions and speeds at first contact", "首次碰撞时的位置与速度"),
+        # -- the rubric --
+        "rubric_branch_yes": (
+            "Every handle follows the one before on the right branch.",
+            "每个把手都取了正确的分支（紧随前一把手）。",
+        ),
+        "rubric_branch_no": (
+            "A handle is on the wrong branch: it must be the first root behind the one before.",
+            "有把手取错分支：应为前一把手之后的第一个根。",
+        ),
+        "rubric_branch_unknown": ("The branch of the next handle: not shown.", "下一把手的分支：未能判断。"),
+        "rubric_speeds_yes": ("The speeds belong to the positions.", "速度与位置相符。"),
+        "rubric_speeds_no": ("The speeds do not belong to the positions.", "速度与位置不符。"),
+        "rubric_speeds_unknown": (
+            "Speeds consistent with the positions: not shown, that takes both sheets.",
+            "速度与位置是否相符：需要两张工作表。",
+        ),
+        "rubric_overhang_yes": ("Benches are rectangles with their overhang.", "板凳按含伸出部分的矩形处理。"),
+        "rubric_overhang_no": ("Benches lack their overhang.", "板凳缺少伸出部分。"),
+        "rubric_overhang_unknown": (
+            "Rectangles with overhang: not shown here.",
+            "是否按含伸出部分的矩形处理：此处未体现。",
+        ),
+        "rubric_refined_yes": ("First contact was refined.", "首次碰撞时刻经过细化求解。"),
+        "rubric_refined_no": (
+            "First contact was only stepped over: refine it, by bisection for example.",
+            "首次碰撞只按固定步长搜索：应细化，例如用二分法。",
+        ),
+        "rubric_refined_unknown": (
+            "First contact refined instead of stepped: not shown here.",
+            "首次碰撞是否细化：此处未体现。",
+        ),
+        "rubric_tangents_yes": ("The path is smooth where the arcs begin and end.", "圆弧与螺线相切，路径光滑。"),
+        "rubric_tangents_no": (
+            "The path has kinks where the arcs begin or end: the arcs must be tangent to the spirals and to each other.",
+            "路径在圆弧端点处有折角：圆弧应与螺线相切，且两弧相切。",
+        ),
+        "rubric_tangents_unknown": ("Continuity at the tangents: not shown here.", "切点处的连续性：此处未体现。"),
+        "rubric_speeds_share": (
+            "{share} % of the speeds agree with the way from one instant to the next.",
+            "{share} % 的速度与相邻时刻的位移相符。",
+        ),
+        # -- verdicts and lines of the command --
+        "right": ("right", "正确"),
+        "rounded": ("rounded", "已舍入"),
+        "incomplete": ("incomplete", "不完整"),
+        "wrong": ("wrong", "错误"),
+        "unreadable": ("unreadable", "无法读取"),
+        "not_rounded": (
+            "All numbers are right to {decimals} decimals, but were not rounded to so many: they have {written}.",
+            "数值准确到 {decimals} 位小数，但并非舍入到该位数：数值有 {written} 位小数。",
+        ),
+        "to_digits": (", as far as its digits go ({digits})", "（{digits} 位有效数字）"),
+        "to_decimals": (" to {decimals} decimals", "到 {decimals} 位小数"),
+        "sheet_line": (
+            "{title}: {verdict}, {right} of {cells} cells right",
+            "{title}：{verdict}，{cells} 个单元格中 {right} 个正确",
+        ),
+        "worst_cell": (
+            "worst: {cell}, {handle}, {quantity} at {time} s: {found}, right is {expected}",
+            "误差最大：{cell}，{handle}，{time} s 时，{quantity}：{found}，正确为 {expected}",
+        ),
+        "first_cell": (
+            "first: {cell}, {handle}, {quantity} at {time} s: {found}, right is {expected}",
+            "首个错误：{cell}，{handle}，{time} s 时，{quantity}：{found}，正确为 {expected}",
+        ),
+        "quantity_speed": ("speed", "速度"),
+        "nothing_fits": ("No known error gives these numbers.", "没有已知错误能得出这些数值。"),
+        "is_right": ("{right} {unit} is right.", "正确值为 {right} {unit}。"),
+        "collision_time": ("time of first contact", "首次碰撞时刻"),
+        "pitch": ("minimum pitch", "最小螺距"),
+        "turn_length": ("length of the turn", "调头曲线长度"),
+        "summary": ("All files", "全部文件"),
+        "column_file": ("file", "文件"),
+        "column_workbook": ("workbook", "工作簿"),
+        "column_verdict": ("verdict", "判定"),
+        "column_cells": ("cells", "单元格"),
+        "column_right": ("right", "正确"),
+        "column_missing": ("missing", "缺少"),
+        "column_decimals": ("decimals", "小数位"),
+        "column_diagnosis": ("diagnosis", "诊断"),
+    }
+)

@@ -6,7 +6,7 @@ import { drawingOf } from "./drawing.js";
 import { $, make } from "./elements.js";
 import { bearer } from "./jobs.js";
 import { passagesText } from "./pace.js";
-import { refusalWords, say } from "./text.js";
+import { language, refusalWords, say } from "./text.js";
 
 const ACCEPT = ".json,.geojson,.toml,.kml,.kmz,.dxf,.csv";
 /** Fields of a dance's file that are numbers of the page too. */
@@ -64,7 +64,7 @@ export class Files {
   }
 
   async #places(file) {
-    const { dance, notes = [], ...found } = await this.service.ask("places", "places", { query: { language: document.documentElement.lang.slice(0, 2) }, file, headers: bearer() });
+    const { dance, notes = [], ...found } = await this.service.ask("places", "places", { query: { language: language() }, file, headers: bearer() });
     return { ...dance, ...found, notes };
   }
 

@@ -5,7 +5,7 @@ import { $, make, onClick } from "./elements.js";
 import { bearer } from "./jobs.js";
 import { isPlain } from "./questions.js";
 import { CONTACT, DRAGON, TURN, strayOf } from "./state.js";
-import { refusalWords, say } from "./text.js";
+import { language, refusalWords, say } from "./text.js";
 
 const CSV_STEP = 1;
 const TYPES = {
@@ -76,6 +76,7 @@ export class Keep {
   translate() {
     for (const button of $("#kept").querySelectorAll("button")) button.setAttribute("aria-label", `${say(button.dataset.keep)}, ${button.dataset.form}`);
     if (this.questions.dance) this.show();
+    if ($("#paper").open) this.paper();
   }
 
   /** Offer only what this service can write. paths: of its OpenAPI document */
@@ -136,9 +137,13 @@ export class Keep {
       setTimeout(() => URL.revokeObjectURL(link.href), 10_000);
       this.announce(say("saved", { name: link.download }));
     } catch (error) {
-      if (error instanceof Problem) this.announce(refusalWords(error.message).textContent);
-      else if (!(error instanceof Superseded)) throw error;
+      this.#told(error);
     }
+  }
+
+  #told(error) {
+    if (error instanceof Problem) this.announce(refusalWords(error.message).textContent);
+    else if (!(error instanceof Superseded)) throw error;
   }
 
   async #asked({ path, asked, ...question }, form) {
@@ -192,7 +197,7 @@ export class Keep {
 
   film() {
     const { begin, end } = this.questions.dance;
-    return { path: "films", body: this.questions.body({ start: begin, stop: end, language: document.documentElement.lang.slice(0, 2) }) };
+    return { path: "films", body: this.questions.body({ start: begin, stop: end, language: language() }) };
   }
 
   ground() {
@@ -201,7 +206,7 @@ export class Keep {
   }
 
   plan(paper) {
-    return { path: "plan", body: { ...this.questions.checkBody(this.questions.dance), paper, language: document.documentElement.lang.slice(0, 2) } };
+    return { path: "plan", body: { ...this.questions.checkBody(this.questions.dance), paper, language: language() } };
   }
 
   map(form) {
@@ -233,18 +238,20 @@ export class Keep {
   }
 
   paperAsked() {
-    return { path: "paper" };
+    return { path: "paper", query: { language: language() } };
   }
 
   /** The paper's numbers beside ours, asked for when somebody looks. */
   async paper() {
-    const { rows, literature } = await this.service.ask("paper", "paper");
+    const answer = await this.service.ask("paper", "paper", this.paperAsked()).catch((error) => this.#told(error));
+    if (!answer) return;
+    const { rows, literature } = answer;
     const head = ["paperWhat", "paperSource", "paperTheirs", "paperOurs"].map((key) => make("th", { scope: "col", "data-text": key, textContent: say(key) }));
     const line = ({ quantity, unit, source, paper, published, ours, reason, diagnosis }) => {
       const cells = [source, `${paper ?? published} ${unit}`, `${ours.toFixed(9)} ${unit}`].map((textContent) => make("td", { textContent }));
       const why = reason ?? diagnosis.map(({ words }) => words).join(" ");
       const row = make("tr", {}, make("th", { scope: "row", textContent: quantity }), ...cells);
-      return why ? [row, make("tr", {}, make("td", { colSpan: 4, className: "hint", lang: "en", textContent: why }))] : [row];
+      return why ? [row, make("tr", {}, make("td", { colSpan: 4, className: "hint", textContent: why }))] : [row];
     };
     const table = make("table", {}, make("thead", {}, make("tr", {}, ...head)), make("tbody", {}, ...[...rows, ...literature].flatMap(line)));
     $("#paper div").replaceChildren(table);

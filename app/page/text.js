@@ -23,6 +23,9 @@ export function setLanguage(choice) {
   return language;
 }
 
+/** The language of the page as the service takes it: en or zh. */
+export const language = () => document.documentElement.lang.slice(0, 2);
+
 /** The text of this key, with {names} replaced. */
 export function say(key, values = {}) {
   return WORDS[key][column].replace(/\{(\w+)\}/g, (_, name) => values[name]);

@@ -6,6 +6,7 @@ Its four numbers and its search range are constants here; every other number is 
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from functools import cache
 
 import numpy as np
@@ -49,8 +50,10 @@ PUBLISHED = (
 )
 
 
-class Nothing(Wire):
-    """A request without parameters."""
+class PaperQuery(Wire):
+    """The language of the words."""
+
+    language: Language = Field(Language.ENGLISH, description="Language of the words")
 
 
 class Evidence(Answer, frozen=True):
@@ -93,22 +96,55 @@ class PaperTable(Answer):
     literature: list[PublishedNumber] = Field(description="One row for each number published elsewhere")
 
 
+@dataclass(frozen=True)
+class _Number:
+    """A number of the paper beside ours, without words: name is that of its words, evidence of those of its facts."""
+
+    name: str
+    unit: str
+    paper: float
+    ours: float
+    values: dict[str, float]
+    evidence: dict[str, tuple[float, str]]
+
+    def said(self, language: Language) -> PaperNumber:
+        def words(code: str) -> str:
+            return say(f"paper_{self.name}{code}", language, **self.values)
+
+        return PaperNumber(
+            quantity=words(""),
+            unit=self.unit,
+            source=words("_at"),
+            paper=self.paper,
+            ours=self.ours,
+            difference=self.ours - self.paper,
+            reason=words("_why"),
+            evidence=[Evidence(what=words(f"_{fact}"), value=v, unit=u) for fact, (v, u) in self.evidence.items()],
+        )
+
+
 @cache
-def comparison() -> tuple[PaperNumber, ...]:
+def comparison(language: Language = Language.ENGLISH) -> tuple[PaperNumber, ...]:
     """The four numbers that the paper reports, for its own dragon and spiral."""
-    found = first_contact(Dance(Dragon(), Spiral()))
-    return (_arc_length(), _collision_time(found), _collision_radius(found), _minimum_pitch())
+    return tuple(number.said(language) for number in _numbers())
 
 
 @cache
-def literature() -> tuple[PublishedNumber, ...]:
+def _numbers() -> tuple[_Number, ...]:
+    found = first_contact(Dance(Dragon(), Spiral()))
+    length = _Number("length", "m", PAPER_LENGTH, Spiral().length, {}, {})
+    return (length, _collision_time(found), _collision_radius(found), _minimum_pitch())
+
+
+@cache
+def literature(language: Language = Language.ENGLISH) -> tuple[PublishedNumber, ...]:
     """The numbers of other publications, each with the shortcut that gives it where one is known."""
     found = []
     for source, name, text in PUBLISHED:
-        one = typed(name, text, Language.ENGLISH)
+        one = typed(name, text, language)
         found.append(
             PublishedNumber(
-                quantity=say(name, Language.ENGLISH),
+                quantity=say(name, language),
                 unit=one.unit,
                 source=source,
                 published=one.found,
@@ -120,87 +156,50 @@ def literature() -> tuple[PublishedNumber, ...]:
     return tuple(found)
 
 
-def _compared(
-    quantity: str, unit: str, source: str, paper: float, ours: float, reason: str, evidence: list[Evidence]
-) -> PaperNumber:
-    difference = ours - paper
-    return PaperNumber(
-        quantity=quantity, unit=unit, source=source, paper=paper, ours=ours, difference=difference, reason=reason,
-        evidence=evidence,
-    )  # fmt: skip
-
-
-def _fact(what: str, value: float, unit: str) -> Evidence:
-    return Evidence(what=what, value=value, unit=unit)
-
-
-def _arc_length() -> PaperNumber:
-    length = Spiral().length
-    return _compared(
-        "arc length of the spiral", "m", "eq. 2", PAPER_LENGTH, length, "The same, to the paper's six decimals.", []
-    )
-
-
-def _collision_time(found: FirstContact) -> PaperNumber:
+def _collision_time(found: FirstContact) -> _Number:
     assert found.time is not None
     loose = angle_sum_time(corners, LOOSE_ANGLE)
-    literal = angle_sum_time(literal_corners, EXACT_ANGLE)
     there = clearance_profile(Dance(Dragon(), Spiral()), np.array([PAPER_TIME]))
     a, b = (int(bench) for bench in there.benches[0])
     gap = float(there.clearance[0])
-    return _compared(
-        "time of first contact", "s", "figure 7", PAPER_TIME, found.time,
-        f"The paper's rule adds angles and calls 360 degrees a collision. Near an edge the sum nears 360 degrees "
-        f"without a contact: it passes {LOOSE_ANGLE:g} degrees at {loose:.2f} s, where benches {a} and {b} are "
-        f"{1000 * gap:.1f} mm apart. Rounding such a sum up to 360 gives the paper's time.",
-        [
-            _fact("largest angle sum at the paper's time", largest_sum(corners, PAPER_TIME), "deg"),
-            _fact(f"first time of an angle sum of {LOOSE_ANGLE:g} degrees", loose, "s"),
-            _fact(f"clearance at the paper's time, benches {a} and {b}", gap, "m"),
-            _fact("first time of an angle sum of 360 degrees", angle_sum_time(corners, EXACT_ANGLE), "s"),
-            _fact("the same with eq. 12 as printed: w/2 cos theta of the wrong sign in all four y", literal, "s"),
-        ],
-    )  # fmt: skip
+    evidence = {
+        "largest": (largest_sum(corners, PAPER_TIME), "deg"),
+        "loose": (loose, "s"),
+        "gap": (gap, "m"),
+        "exact": (angle_sum_time(corners, EXACT_ANGLE), "s"),
+        "literal": (angle_sum_time(literal_corners, EXACT_ANGLE), "s"),
+    }
+    values = {"angle": LOOSE_ANGLE, "loose": loose, "a": a, "b": b, "gap": 1000 * gap}
+    return _Number("time", "s", PAPER_TIME, found.time, values, evidence)
 
 
-def _collision_radius(found: FirstContact) -> PaperNumber:
+def _collision_radius(found: FirstContact) -> _Number:
     assert found.head is not None
     head = trajectory_of(Dance(Dragon(benches=1), Spiral()), [PAPER_TIME]).position[0, 0]
     radius = float(np.hypot(*head))
     # The length of a spiral that starts at that radius equals the remaining way.
     passed = Spiral().length - Spiral(start_turns=PAPER_RADIUS / Spiral().pitch).length
-    return _compared(
-        "radius of the head at first contact", "m", "section 3.3", PAPER_RADIUS, found.head.radius,
-        f"The paper's own numbers exclude each other: at its {PAPER_TIME:g} s the head is at {radius:.3f} m, and "
-        f"it passes {PAPER_RADIUS:g} m at {passed:.2f} s. No reading was found that gives the paper's number.",
-        [
-            _fact("radius of the head at the paper's time", radius, "m"),
-            _fact("time at which the head passes the paper's radius", passed, "s"),
-        ],
-    )  # fmt: skip
+    evidence = {"there": (radius, "m"), "passed": (passed, "s")}
+    values = {"time": PAPER_TIME, "radius": radius, "paper": PAPER_RADIUS, "passed": passed}
+    return _Number("radius", "m", PAPER_RADIUS, found.head.radius, values, evidence)
 
 
-def _minimum_pitch() -> PaperNumber:
+def _minimum_pitch() -> _Number:
     found = minimum_pitch(Dragon(), turning_radius=TURNING_RADIUS)
-    below, above = _bisected_radius()
+    just_below, jump = _bisected_radius()
+    below, above = _contact_radius(just_below), _contact_radius(jump)
     head = first_contact(Dance(Dragon(), Spiral(PAPER_PITCH))).head
-    at_paper = head.radius if head else 0.0
-    alone, head_alone = circle_pitch(any_touch_at_start), circle_pitch(head_touches_at_start)
-    return _compared(
-        "minimum pitch", "m", "section 3.3", PAPER_PITCH, found.pitch,
-        f"The paper bisects the radius of first contact towards {TURNING_RADIUS:g} m, but that radius jumps from "
-        f"{_contact_radius(below):.3f} to {_contact_radius(above):.3f} m at a pitch of {above:.7f} m: none gives "
-        f"{TURNING_RADIUS:g} m, so the error that it drives to 1e-10 cannot vanish. At the paper's pitch the head "
-        f"gets to {at_paper:.3f} m, well inside the circle. No reading was found that gives the paper's number.",
-        [
-            _fact("pitch at which a bisection of the radius ends", above, "m"),
-            _fact("radius of first contact just below it", _contact_radius(below), "m"),
-            _fact("radius of first contact just above it", _contact_radius(above), "m"),
-            _fact("radius of first contact at the paper's pitch", at_paper, "m"),
-            _fact("largest pitch at which the pose on the circle alone touches", alone, "m"),
-            _fact("the same with the pairs of the head only, as in eqs. 14-17", head_alone, "m"),
-        ],
-    )  # fmt: skip
+    reached = head.radius if head else 0.0
+    evidence = {
+        "jump": (jump, "m"),
+        "below": (below, "m"),
+        "above": (above, "m"),
+        "reached": (reached, "m"),
+        "alone": (circle_pitch(any_touch_at_start), "m"),
+        "head": (circle_pitch(head_touches_at_start), "m"),
+    }
+    values = {"circle": TURNING_RADIUS, "below": below, "above": above, "jump": jump, "reached": reached}
+    return _Number("pitch", "m", PAPER_PITCH, found.pitch, values, evidence)
 
 
 def _contact_radius(pitch: float) -> float:
@@ -213,9 +212,9 @@ def _bisected_radius() -> tuple[float, float]:
     return bisected(lambda pitch: _contact_radius(pitch) <= TURNING_RADIUS, *PITCH_RANGE, width=RESOLUTION)
 
 
-def paper(asked: Nothing, terms: Terms) -> PaperTable:
+def paper(asked: PaperQuery, terms: Terms) -> PaperTable:
     """The paper's reported numbers beside ours, with the reason for each difference."""
-    return PaperTable(rows=list(comparison()), literature=list(literature()))
+    return PaperTable(rows=list(comparison(asked.language)), literature=list(literature(asked.language)))
 
 
-QUESTION = Question(paper, PaperTable, flat=Nothing)
+QUESTION = Question(paper, PaperTable, flat=PaperQuery)

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import re
+
 import numpy as np
 import pytest
 from pydantic import ValidationError
 
-from app.questions.paper import PaperNumber, comparison
+from app.files.tables import Language
+from app.questions.paper import PaperNumber, comparison, literature
 from core import Dance, Dragon, Outcome, Spiral, first_contact, minimum_pitch, separation, trajectory
 from core.motion.trajectory import bench_poses
 
@@ -118,6 +121,19 @@ def test_the_pose_on_the_circle_alone_gives_smaller_pitches(rows: dict[str, Pape
     [alone] = evidence(row, "largest pitch at which the pose on the circle alone touches")
     [head] = evidence(row, "the same with the pairs of the head only")
     assert (round(alone, 4), round(head, 4)) == (0.4202, 0.4171)
+
+
+def test_in_chinese_the_numbers_are_the_same_and_no_english_word_is_left(rows: dict[str, PaperNumber]) -> None:
+    for english, chinese in zip(comparison(), comparison(Language.CHINESE), strict=True):
+        assert (chinese.paper, chinese.ours, chinese.unit) == (english.paper, english.ours, english.unit)
+        assert [fact.value for fact in chinese.evidence] == [fact.value for fact in english.evidence]
+        words = [chinese.quantity, chinese.source, chinese.reason, *(fact.what for fact in chinese.evidence)]
+        assert [word for word in words if re.search("[a-zA-Z]{3}", word.replace("cos", ""))] == []
+        # A reason tells the same numbers in both languages.
+        numbers = [set(re.findall(r"\d[\d.]*\d|\d", one.reason)) for one in (english, chinese)]
+        assert numbers[0] == numbers[1]
+    assert [one.source for one in literature(Language.CHINESE)] == [one.source for one in literature()]
+    assert all(re.match("首次碰撞时刻|最小螺距", one.quantity) for one in literature(Language.CHINESE))
 
 
 def test_the_table_is_computed_once() -> None:

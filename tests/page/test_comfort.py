@@ -255,7 +255,10 @@ def test_everything_can_be_kept_from_the_page(open_page: Any, settled: Any, serv
     assert kept["trajectory.xlsx"].startswith(b"PK")
     assert kept["instant.png"].startswith(b"\x89PNG")
     page.locator("#paper summary").click()
-    shows(page, "#paper table", "406.43 s", "412.473837682 s")
+    shows(page, "#paper table", "406.43 s", "412.473837682 s", "The paper's rule adds angles")
+    page.locator("[data-lang=zh]").click()
+    shows(page, "#paper table", "412.473837682 s", "首次碰撞时刻", "论文的判据把夹角相加")
+    page.locator("[data-lang=en]").click()
     choice = page.locator("#curl-of")
     commands = []
     for option in choice.locator("option").all():
