@@ -178,6 +178,7 @@ ORDER = (
     "app.files.lock",
     "app.grade",
     "app.grade.errors",
+    "app.grade.paper",
     "app.grade.words",
     "app.grade.grid",
     "app.grade.workbook",
