@@ -7,7 +7,7 @@ from importlib.util import find_spec
 from core import BenchDragonError
 
 _DXF, _FIGURES, _SWEEP, _XLSX = ("ezdxf",), ("matplotlib",), ("pyarrow",), ("xlsxwriter", "openpyxl")
-# Modules that each extra of pyproject.toml installs and that its use needs.
+# Modules that each extra of pyproject.toml installs, as far as this program imports them.
 MODULES = {
     "arrow": ("pyarrow",),
     "ccd": ("Box2D", "ipctk", "flint", *_FIGURES),

@@ -1,4 +1,4 @@
-"""The log of the service and its jobs: one line for each event, with the name of its request, as text or JSON."""
+"""The log of the service and its jobs: one line for each event, with the request's name, as text or JSON."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from contextvars import ContextVar
 from copy import deepcopy
 from typing import Any
 
-# Name of the request that is being answered; empty between requests.
+# Name of the current request; empty between requests.
 request_id: ContextVar[str] = ContextVar("request_id", default="")
 
 
@@ -54,7 +54,7 @@ def log_config(in_json: bool) -> dict[str, Any]:
 
 
 def log_to_stderr(in_json: bool) -> None:
-    """Logs of a process that is no server, in the form of the service's own."""
+    """Log a process without a server to standard error, in the form of the service's log."""
     handler = logging.StreamHandler()
     handler.setFormatter(JsonLines() if in_json else logging.Formatter("%(levelname)s:     %(message)s"))
     logging.basicConfig(handlers=[handler], level=logging.INFO)

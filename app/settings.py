@@ -10,7 +10,7 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from core.errors import InvalidValue
 
-# Folder in which prometheus_client adds up the counts of several processes; app/service/workers.py sets it for them.
+# Variable with the folder where prometheus_client adds up the counts of all processes; app/service/workers.py sets it.
 SHARED_COUNTS = "PROMETHEUS_MULTIPROC_DIR"
 # Environment variable of Settings.data, the folder of jobs, which all processes of a service share.
 DATA = "BENCH_DRAGON_DATA"
@@ -26,16 +26,16 @@ def usable_cores() -> int:
 class Settings(BaseModel):
     """Limits of one process for a single request and for requests at the same time.
 
-    Each field is set by BENCH_DRAGON_ followed by its name in capitals, such as BENCH_DRAGON_BENCHES_MAX.
+    Each field is read from a variable: BENCH_DRAGON_ and its name in capitals, such as BENCH_DRAGON_BENCHES_MAX.
     """
 
     model_config = ConfigDict(frozen=True, defer_build=True)
 
     def __init__(self, **given: Any) -> None:
         """raises: InvalidValue naming the variable"""
-        # pydantic-settings does the same and takes a fifth of a cold command to import (measured 2026-11-22).
+        # pydantic-settings does the same, but its import takes a fifth of a cold command (measured 2026-11-22).
         variables = {name: f"BENCH_DRAGON_{name.upper()}" for name in type(self).model_fields}
-        # An empty variable is none: compose.yaml and the like pass an unset one on as an empty one.
+        # An empty variable counts as unset, because compose.yaml passes an unset variable on as an empty one.
         told = {name: os.environ[key] for name, key in variables.items() if os.environ.get(key)}
         try:
             super().__init__(**told | given)
@@ -83,16 +83,16 @@ class Settings(BaseModel):
     grace_seconds: int = Field(10, ge=0, description="Longest wait for running computations after SIGTERM [s]")
     log_json: bool = Field(False, description="Log one JSON object a line")
     compressed_bytes_min: int = Field(
-        1_000_000, ge=0, description="Shortest answer that is sent as gzip to who takes it [bytes]; 0: none is"
+        1_000_000, ge=0, description="Shortest answer sent as gzip to clients that accept it [bytes]; 0: never gzip"
     )
     kept_bytes_max: int = Field(
         32_000_000,
         ge=0,
-        description="Room for the latest answers in memory of one process [bytes]; 0: none is kept",
+        description="Memory for the latest answers in one process [bytes]; 0: none",
     )
     cache_seconds: int = Field(86_400, ge=0, description="Cache-Control max-age of an answer [s]")
     data: Path | None = Field(
-        None, description="Folder of the jobs; none: a temporary folder, removed when the service ends"
+        None, description="Folder of the jobs; default: a temporary folder, removed when the service ends"
     )
     token: str = Field(
         "", description="Token that jobs and uploads must carry (Authorization: Bearer); empty: none needed"
@@ -115,7 +115,9 @@ class Settings(BaseModel):
     sweep_seconds_max: float = Field(86_400.0, gt=0, description="Longest run of a sweep [s]")
     sweeps_running_max: int = Field(1, ge=1, description="Sweeps among the jobs that run at once; the others wait")
     sweep_processes: int | None = Field(
-        None, ge=1, le=WORKERS_MAX, description="Processes that answer a sweep; none: one for each core"
+        None, ge=1, le=WORKERS_MAX, description="Processes that answer a sweep; default: one for each core"
     )
-    dask: str = Field("", description="Scheduler of a Dask cluster that answers sweeps; empty: processes here do")
+    dask: str = Field(
+        "", description="Scheduler of a Dask cluster that answers sweeps; empty: processes of this machine"
+    )
     job_days_max: float = Field(7.0, gt=0, description="Time for which a finished job is kept [days]")

@@ -1,4 +1,4 @@
-"""The command check: can the dragon dance this path here?"""
+"""The command check: a verdict on one dance in its venue."""
 
 from __future__ import annotations
 
@@ -44,14 +44,15 @@ def check(
     cross_check: Annotated[
         str | None,
         typer.Option(
-            metavar="dragon|pair|none", help="Benches that independent engines check; default: as in the file."
+            metavar="dragon|pair|none",
+            help="Benches that independent engines check a second time; default: as in the file.",
         ),
     ] = None,
     json: Json = False,
 ) -> None:
-    """Can the dragon dance this path here? A failure is an answer too: the exit code is 0."""
+    """Verdict on a dance: contacts, limits and venue. The exit code is 0, also for a dance that fails."""
     if time is not None and figure is None:
-        raise InvalidValue("time", "--time is the time that --figure draws: give --figure too, or leave --time out")
+        raise InvalidValue("time", "--time is the instant that --figure draws: give --figure too, or leave --time out")
     if figure:
         require("figures", "figure", "--figure")
     ending = checked_output("figure", figure, (".svg", ".png")) if figure else ""
@@ -78,7 +79,7 @@ def check(
 
 
 def _danced(asked: CheckRequest, answer: Report) -> core.Trajectory:
-    """Positions and speeds at every second of the stretch that was judged, within the run."""
+    """Positions and speeds at every second of the judged interval, within the run."""
     settings = Settings()
     dance = asked.to_dance(settings.checked_benches_max)
     stop = dance.end.time if asked.stop is None else min(asked.stop, dance.end.time)
@@ -91,7 +92,7 @@ def _drawn_check(asked: CheckRequest, answer: Report, format: Format, time: floa
         closest = answer.least_clearance.time if answer.least_clearance else answer.start
         time = answer.failures[0].time if answer.failures else closest
     shown = {name: getattr(asked, name) for name in TrajectoryFigureRequest.model_fields if name != "time"}
-    # The time does not come from the file, so a refusal of it must name the option.
+    # The time comes from an option, not from the file, so a refusal of it must name the option.
     picture = TrajectoryFigureRequest.model_construct(**shown, time=time)
     with refusing(picture):
         return figures.trajectory_figure(picture, Terms(), format.media_type)
@@ -99,8 +100,8 @@ def _drawn_check(asked: CheckRequest, answer: Report, format: Format, time: floa
 
 VERDICTS = {
     Judgement.PASSES: "Passes. Nothing fails.",
-    Judgement.FAILS: "Fails. What fails, in order of time:",
-    Judgement.UNDECIDED: "Undecided. Nothing is known to fail, but this is not decided:",
+    Judgement.FAILS: "Fails. Failures in order of time:",
+    Judgement.UNDECIDED: "Undecided. No failure is known, but these questions are open:",
 }
 
 

@@ -16,7 +16,7 @@ from core.errors import said
 
 @asks(CollisionQuery, CollisionRequest)
 def collision_time(asked: CollisionQuery | CollisionRequest, json: Json = False) -> None:
-    """When two benches first touch, or come nearer than a margin, and how this is known."""
+    """Time of first contact: when two benches first touch, or come nearer than a margin."""
     with show.waiting("first contact"):
         answer = collisions.collision_time(asked, Terms())
     title = f"First time that two benches are nearer than {said(asked.margin)} m" if asked.margin else "First contact"

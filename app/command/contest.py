@@ -28,7 +28,7 @@ def contest(
     films: Annotated[bool, typer.Option(help="Write dance.mp4 and turn.mp4 (without the extra film: .gif).")] = True,
     gif: Annotated[bool, typer.Option(help="Write the films as .gif too.")] = False,
 ) -> None:
-    """The contest kit (CUMCM 2024 A): workbooks, answers, tables, figures, films and a report, into a folder."""
+    """The contest kit (CUMCM 2024 A) in a folder: workbooks, answers, tables, figures, films and a report."""
     require("xlsx", "folder", "contest")
     if folder.exists() and not folder.is_dir():
         raise InvalidValue("folder", f"FOLDER must be a folder, got the file {folder}")

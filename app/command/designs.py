@@ -34,7 +34,7 @@ def turn(asked: TurnQuery, json: Json = False) -> None:
 
 @asks(ShortestTurnQuery)
 def shortest_turn(asked: ShortestTurnQuery, json: Json = False) -> None:
-    """The turn with the deepest entry inside its circle that the dragon can dance, and what limits it."""
+    """The shortest turn inside its circle that the dragon can dance, and what limits it."""
     with show.waiting("shortest turn"):
         answer = shortest.shortest_turn(asked, Terms())
     gap = f" with no bench nearer than {said(asked.margin)} m to another" if asked.margin else ""

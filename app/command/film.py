@@ -31,7 +31,7 @@ def film(
 ) -> None:
     """A film of the dance; with a FILE, of any dragon on any path and in any venue."""
     gif = checked_output("output", output, (".mp4", ".gif")) == ENDINGS[GIF_TYPE]
-    require("figures" if gif else "film", "output", "A .gif" if gif else "A .mp4 (a .gif needs less)")
+    require("figures" if gif else "film", "output", "A .gif" if gif else "A .mp4 (a .gif does not need it)")
     form = GIF_TYPE if gif else films.FORM
     with show.waiting(f"film {output}") as progress:
         terms = Terms(progress=progress)

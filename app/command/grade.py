@@ -1,4 +1,4 @@
-"""The command bench-dragon grade: what is right in workbooks of the contest, and which error made the rest wrong."""
+"""The command bench-dragon grade: right and wrong parts of contest workbooks, and the error behind each wrong one."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ from app.grade.report import (
 from app.grade.words import note, say
 from core import Budget, InvalidValue
 
-# Files of a folder that are graded.
+# Endings of the files that are graded in a folder.
 ENDINGS = (".xlsx", ".xlsm", ".xls", ".csv")
 SUMMARY = ("file", "workbook", "verdict", "cells", "right", "missing", "diagnosis", "decimals")
 
@@ -49,7 +49,7 @@ def grade(
     summary: Annotated[Path | None, typer.Option(help="Write a .csv file with one line for each file.")] = None,
     json: Json = False,
 ) -> None:
-    """What is right in a student's results, and which known error made the rest wrong. The exit code is always 0."""
+    """Right and wrong parts of a student's results, and the known error that explains each wrong one. Exit code: 0."""
     if summary:
         checked_output("summary", summary, (".csv",))
     numbers = {"collision_time": collision_time, "pitch": pitch, "turn_length": turn_length, "speed": speed}
@@ -62,7 +62,7 @@ def grade(
     with show.steps() if len(named) > 1 else nullcontext(lambda what, share: None) as progress:
         for k, file in enumerate(named):
             try:
-                # One byte more than may be read shows that the file is too long.
+                # One byte beyond the limit shows that the file is too long.
                 with file.open("rb") as source:
                     data = source.read(FILE_MAX + 1)
             except OSError as error:
@@ -83,13 +83,15 @@ def grade(
 
 
 def _named(files: list[Path]) -> Iterator[Path]:
-    """Every file that is to be graded: those of a folder by path. raises: InvalidValue for a folder without any"""
+    """Files to grade; those of a folder sorted by path. raises: InvalidValue for a folder without any"""
     for file in files:
         if file.is_dir():
             inside = sorted(path for path in file.rglob("*") if path.suffix.lower() in ENDINGS and path.is_file())
             shown = [path for path in inside if not path.name.startswith(("~$", "."))]
             if not shown:
-                raise InvalidValue("files", f"{file} must hold a file that ends in {', '.join(ENDINGS)}: it holds none")
+                raise InvalidValue(
+                    "files", f"{file} must hold a file that ends in {', '.join(ENDINGS)}, got a folder without any"
+                )
             yield from shown
         else:
             yield file
@@ -112,7 +114,7 @@ def _counts(file: FileAnswer) -> tuple[int, int, int]:
 
 
 def _decimals(file: FileAnswer) -> str:
-    """To how many decimals a rounded file is right."""
+    """Number of decimals to which a rounded file is right."""
     return str(min((one.decimals for one in file.sheets if one.decimals), default=""))
 
 

@@ -1,4 +1,4 @@
-"""bench-dragon jobs: the jobs of a data folder, or of a service at an address."""
+"""The command bench-dragon jobs: the jobs in a data folder, or those of a service at an address."""
 
 from __future__ import annotations
 
@@ -20,14 +20,14 @@ if TYPE_CHECKING:
 jobs = typer.Typer(help="The jobs of a data folder, or of a service.", no_args_is_help=True)
 
 Name = Annotated[str, typer.Argument(metavar="JOB", help="The job's name, the last part of its address.")]
-Data = Annotated[Path | None, typer.Option(help="Data folder of the service; else BENCH_DRAGON_DATA.")]
+Data = Annotated[Path | None, typer.Option(help="Data folder of the service; default: BENCH_DRAGON_DATA.")]
 Url = Annotated[str, typer.Option(help="Address of a service, such as http://127.0.0.1:8000, in place of a folder.")]
 Token = Annotated[str, typer.Option(help="Token of that service.", envvar="BENCH_DRAGON_TOKEN")]
 Json = Annotated[bool, typer.Option("--json", help="The service's JSON instead of a table.")]
 
 
 def _at(data: Path | None, url: str, token: str) -> Jobs:
-    from app.jobs.places import place  # What it needs takes 60 ms to load, and no other command needs it.
+    from app.jobs.places import place  # The import takes 60 ms, and no other command needs it.
 
     return place(data, url, token)
 
@@ -50,7 +50,7 @@ def list_jobs(data: Data = None, url: Url = "", token: Token = "", json: Json = 
 
 @jobs.command("show")
 def show_job(job: Name, data: Data = None, url: Url = "", token: Token = "", json: Json = False) -> None:
-    """How far one job is."""
+    """Status and progress of one job."""
     found = _at(data, url, token).show(job)
     if json:
         show.print_json(orjson.dumps(found))
@@ -64,19 +64,19 @@ def show_job(job: Name, data: Data = None, url: Url = "", token: Token = "", jso
 
 @jobs.command()
 def cancel(job: Name, data: Data = None, url: Url = "", token: Token = "") -> None:
-    """Dismiss an unfinished job; remove a finished one with its result."""
+    """Cancel an unfinished job, or remove a finished one with its result."""
     print(f"{job}: {_at(data, url, token).cancel(job)}")
 
 
 @jobs.command()
 def result(
     job: Name,
-    output: Annotated[Path | None, typer.Option(help="File for the result; else it goes to standard output.")] = None,
+    output: Annotated[Path | None, typer.Option(help="File for the result; default: standard output.")] = None,
     data: Data = None,
     url: Url = "",
     token: Token = "",
 ) -> None:
-    """The answer of a finished job, as the service would have given it."""
+    """Result of a finished job: the same bytes as the service's direct answer."""
     if output is not None:
         checked_output("output", output)
     found = _at(data, url, token).result(job)

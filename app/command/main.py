@@ -21,7 +21,7 @@ import core
 from app.command.usage import Misuse, told
 from core.errors import BenchDragonError
 
-# The commands in the order of the help, with their rooms. A room is imported when its command is asked for.
+# The commands in the order of the help, each with its module. A module is imported when its command is called.
 ROOMS = {
     "trajectory": "trajectory",
     "figures": "figures",
@@ -76,7 +76,7 @@ class _Commands(TyperGroup):
     """The commands; every mistake in their use is one line."""
 
     def make_context(self, info_name: Any, args: list[str], *further: Any, **extra: Any) -> Any:
-        # Without any argument the parser prints the help, which it treats as a mistake too.
+        # Without any argument the parser prints the help and raises an error, which is no mistake of the user.
         with _one_line() if args else nullcontext():
             return super().make_context(info_name, args, *further, **extra)
 
@@ -105,7 +105,7 @@ class _Commands(TyperGroup):
 app = typer.Typer(
     name="bench-dragon",
     cls=_Commands,
-    help="Where every bench of a dancing dragon is, when two benches first touch, and how tight the spiral may be.",
+    help="Positions of every bench of a dancing dragon, the first contact of two benches, and the smallest pitch.",
     no_args_is_help=True,
     pretty_exceptions_enable=False,
     context_settings=HELP,

@@ -35,13 +35,13 @@ CONTEXT = inspect.Parameter("context", inspect.Parameter.KEYWORD_ONLY, annotatio
 
 
 def given(context: typer.Context, *names: str) -> list[str]:
-    """Those of the options that were given on the command line."""
+    """The named options that were given on the command line."""
     sources = {name: context.get_parameter_source(name) for name in names}
     return [name for name, source in sources.items() if source is not None and source.name == "COMMANDLINE"]
 
 
 def unused(context: typer.Context, names: Iterable[str], why: str) -> None:
-    """Refuse the options that were given but are not used. why: the rest of the message, and what to change"""
+    """Refuse named options that were given but have no use here. why: the rest of the message, with what to change"""
     for name in given(context, *names):
         raise InvalidValue(name, f"--{name.replace('_', '-')} {why}")
 
@@ -83,7 +83,7 @@ def _steps(body: type[BaseModel], context: typer.Context) -> list[str]:
 
 @contextmanager
 def _in_options(body: type[BaseModel] | None, context: typer.Context) -> Iterator[None]:
-    """Context in which refusals of instants name --start, --stop and --step without times., if they were given."""
+    """Context that removes "times." from refusals of --start, --stop and --step, if those options were given."""
     try:
         yield
     except BenchDragonError as error:
@@ -93,7 +93,7 @@ def _in_options(body: type[BaseModel] | None, context: typer.Context) -> Iterato
 
 
 def _asked_of_a_dance() -> set[str]:
-    from app.questions.registry import QUESTIONS  # All questions: 0.2 s, which only a FILE needs.
+    from app.questions.registry import QUESTIONS  # It imports all questions in 0.2 s, and only a FILE needs it.
 
     bodies = [question.body for question in QUESTIONS.values() if question.body]
     return {name for body in bodies if "dragon" in body.model_fields for name in body.model_fields}

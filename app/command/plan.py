@@ -1,4 +1,4 @@
-"""The command bench-dragon plan: a dance on paper."""
+"""The command bench-dragon plan: a dance as a PDF to print."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def plan(
     ] = None,
     language: Annotated[Language | None, typer.Option(help="Language of the words; default: en.")] = None,
 ) -> None:
-    """The dance on paper, true to scale: map, who stands where, points to paint, times (extra figures)."""
+    """A PDF to print, true to scale: map, place of each person, points to paint, times (extra figures)."""
     checked_output("output", output, (".pdf",))
     require("figures", "output", "A plan")
     given = {"paper": paper, "title": title, "spacing": spacing, "clear": clear, "language": language}

@@ -1,4 +1,4 @@
-"""The command bench-dragon prove: makes a certificate for a claim, or checks one.
+"""The command bench-dragon prove: make a certificate for a claim, or check one.
 
 The exit code is 0 for a proof, 1 when a claim or a certificate is refused, 2 for wrong usage, and 130 when
 interrupted. A certificate is checked before it is written, and its file is written completely or not at all.
@@ -81,7 +81,7 @@ class TurnClaim(_Thorough, HeadSpeed, TurnFields, UniformDragon):
 
 
 class StrayClaim(_Thorough, CircleQuery):
-    """How far people may stray until the head is on the circle."""
+    """Largest stray with which nothing touches until the head is on the circle."""
 
     stray: float | None = measure(
         "m",
@@ -184,7 +184,7 @@ def minimum_pitch(
                 dragon, turning_radius=radius, start_turns=asked.start_turns, margin=asked.margin
             )
             pitch = found.pitch_bracket[1]
-            if Fraction(pitch) * Fraction(asked.start_turns) < Fraction(radius):  # rounded down: within the circle
+            if Fraction(pitch) * Fraction(asked.start_turns) < Fraction(radius):  # start within the circle
                 pitch = math.nextafter(pitch, math.inf)
         certificate = prove_minimum_pitch(
             dragon, pitch, turning_radius=radius, start_turns=asked.start_turns, **_terms(asked, progress)
@@ -216,11 +216,11 @@ def tolerance(
     asked: StrayClaim,
     output: Annotated[Path, typer.Option(help="File for the certificate.")] = Path("tolerance.proof.json"),
 ) -> None:
-    """Prove how far people may stray: within that distance nothing touches until the head is on the circle.
+    """Prove a tolerance: with strays up to it nothing touches until the head is on the circle.
 
-    Without --stray also a pose of the whole dragon is proven in which two benches overlap with strays a little larger.
-    Benches next but one to each other are taken to stray independently: on straight paths and wide spirals less is
-    proven than the command tolerance answers, which knows that the bench between holds them apart.
+    Without --stray a second proof is added: a pose of the whole dragon in which two benches overlap, with strays that
+    are a little larger. The proof lets benches next but one to each other stray independently. The command tolerance
+    also uses that the bench between holds them apart, so its answer is larger on straight paths and wide spirals.
     """
     checked_output("output", output, (".json",))
     dance = asked.to_dance(Settings().benches_max)
@@ -231,7 +231,7 @@ def tolerance(
         stray, shown = asked.stray, None
         if stray is None:
             found = core.tolerance(dance, stop=stop)
-            stray, shown = found.independent, found.exhibit  # balls know nothing of the bench between
+            stray, shown = found.independent, found.exhibit  # the proof does not use the bench between
             if stray == 0.0:
                 raise ProofRefused("stray", "no stray is known to be safe until the head is on the circle")
         certificate = prove_tolerance(
@@ -269,8 +269,8 @@ def dance(
         if getattr(asked, name) is not None:
             print(f"The {name.replace('_', ' ')} is not part of the proof.", file=sys.stderr)
     if told.passages:
-        speed = f"a head that always goes at {said(told.head_speed)} m/s"
-        print(f"Passages are not part of the proof, which is about places: its times are of {speed}.", file=sys.stderr)
+        speed = f"a head at a constant {said(told.head_speed)} m/s"
+        print(f"Passages are not part of the proof, which is about places: its times are for {speed}.", file=sys.stderr)
     begin, until = told.span(told.begin if asked.start is None else asked.start, asked.stop)
     dance, clock = told.steady, told.clock
     start, stop = clock.steady(np.array([begin, until])).tolist()

@@ -22,16 +22,16 @@ from core.shown import counted
 
 # Decimals of lengths and speeds on a terminal.
 SHOWN_DECIMALS = 6
-# Width of a table besides its entries: for each column, and at its sides [characters].
+# Width that a table takes beside its entries: for each column, and at both sides together [characters].
 COLUMN_SPACE, TABLE_SPACE = 3, 1
 # Width of a table where standard output is no terminal [characters].
 PIPE_WIDTH = 120
-# Fields that are proven, shown with all digits; and the words for a null that is an answer.
+# Proven fields, which are shown with all digits; and the words for a null that is an answer.
 PROVEN = frozenset({"clear_until", "proven_from", "proven_up_to"})
 SAID_BY_NULL = {"proven_up_to": "every larger pitch", "scan_step": "no scan"}
-# Entries of a list in a table; a longer one is only counted.
+# Most entries of a list in a table; of a longer list only their number is shown.
 LISTED_MOST = 50
-# Separations of two benches: below zero they overlap.
+# Fields that are separations of two benches: below zero the benches overlap.
 SEPARATIONS = frozenset({"gap", "clearance"})
 # A progress bar appears after this wait [s].
 SHOWN_WAIT = 1.0
@@ -41,7 +41,7 @@ Part = Table | Text | str
 
 @contextmanager
 def waiting(what: str) -> Iterator[Callable[[float], None]]:
-    """A progress bar on standard error after SHOWN_WAIT; yields a function of the share done."""
+    """A progress bar on standard error after SHOWN_WAIT; yields a function that takes the share done."""
     if not sys.stderr.isatty():
         yield lambda share: None
         return
@@ -60,7 +60,7 @@ def waiting(what: str) -> Iterator[Callable[[float], None]]:
 
 @contextmanager
 def steps() -> Iterator[Callable[[str, float], None]]:
-    """Progress over several things on standard error, a line for each quarter where that is no terminal."""
+    """Progress over several steps on standard error; without a terminal a line for each quarter of a step."""
     if sys.stderr.isatty():
         with Progress(console=Console(stderr=True), transient=True) as bar:
             tasks: dict[str, Any] = {}
@@ -121,7 +121,7 @@ def _polygon_words(value: answers.Polygon | answers.MultiPolygon) -> str:
 
 
 def near(word: str, margin: float) -> str:
-    """The words for an outcome, because with a margin a contact need not be a touch."""
+    """An outcome in words: with a margin a contact is not always a touch."""
     near = f"nearer than {said(margin)} m"
     words = {"contact": near, "contact_at_start": f"{near} from the start on", "clear": f"never {near}"}
     return words.get(word, word) if margin else word
@@ -153,13 +153,13 @@ def _flat(answer: BaseModel, prefix: str = "", *, benches: int) -> Iterator[tupl
 
 
 def _digits(value: float | tuple[float | None, ...]) -> str:
-    """A proven value with all its digits, because a rounded one could claim more than is proven."""
+    """A proven value with all its digits, because a rounded value could claim more than the proof."""
     ends = value if isinstance(value, tuple) else (value,)
     return ", ".join("unknown" if end is None else said(end) for end in ends)
 
 
 def separation(metres: float, unit: str = "", decimals: int = 9) -> str:
-    """A separation of two benches [m]; below zero by how much they overlap."""
+    """A separation of two benches [m] in words; a negative one as the depth of the overlap."""
     words = shown(float(metres), decimals)
     return (f"overlap by {words[1:]}" if words.startswith("-") else words) + unit
 
@@ -182,7 +182,7 @@ def judged_words(judged: Sequence[int], benches: int) -> str:
         return f"all {benches} benches"
     if len(judged) == len(("a", "b")):
         return f"only benches {shown(judged)}"
-    return f"{len(judged)} benches from {judged[0]} to {judged[-1]}, of {benches:,}: those near the pair"
+    return f"{len(judged)} of {benches:,} benches, from {judged[0]} to {judged[-1]}: those near the pair"
 
 
 def shown(value: Any, decimals: int = 9) -> str:

@@ -1,4 +1,4 @@
-"""The commands that ask how far people may stray: tolerance, its curve over the pitch, and chance."""
+"""The commands on strays: tolerance, its curve over the pitch, and the probability of a contact."""
 
 from __future__ import annotations
 
@@ -18,18 +18,18 @@ from core.errors import said
 
 @asks(ToleranceQuery, ToleranceRequest)
 def tolerance(asked: ToleranceQuery | ToleranceRequest, json: Json = False) -> None:
-    """How far people may stray before benches touch, proven, and a pose that shows where they do.
+    """Largest proven stray without contact, and a pose that touches with a slightly larger one.
 
-    On the way to the turning circle; with a FILE in the whole dance.
+    Without a FILE: on the way to the turning circle. With a FILE: in the whole dance.
     """
     with show.waiting("tolerance"):
         answer = tolerances.tolerance(asked, Terms())
-    show.print_answer("How far people may stray", answer, json)
+    show.print_answer("Tolerance to strays", answer, json)
 
 
 @asks(ToleranceCurveQuery)
 def tolerance_curve(asked: ToleranceCurveQuery, json: Json = False) -> None:
-    """How far people may stray against the pitch: proven safe, and shown to touch."""
+    """Tolerance against the pitch: largest proven stray, and stray that is shown to touch."""
     with show.waiting("tolerance curve") as progress:
         answer = curves.tolerance_curve(asked, Terms(progress=progress))
     if json:
@@ -40,18 +40,18 @@ def tolerance_curve(asked: ToleranceCurveQuery, json: Json = False) -> None:
 
 @asks(ContactProbabilityQuery, ContactProbabilityRequest)
 def contact_probability(asked: ContactProbabilityQuery | ContactProbabilityRequest, json: Json = False) -> None:
-    """How likely it is that benches touch when people wobble, from dances drawn at random.
+    """Probability of a contact when people wobble, from dances drawn at random.
 
-    On the way to the turning circle; with a FILE in the whole dance.
+    Without a FILE: on the way to the turning circle. With a FILE: in the whole dance.
     """
-    with show.waiting("dances drawn at random") as progress:
+    with show.waiting("drawing dances at random") as progress:
         answer = chances.contact_probability(asked, Terms(progress=progress))
-    show.print_answer("How likely a contact is when people wobble", answer, json)
+    show.print_answer("Probability of a contact when people wobble", answer, json)
 
 
 def curve_table(columns: dict[str, Any]) -> show.Part:
-    """How far people may stray at each pitch."""
-    table = show.new_table("How far people may stray", "pitch [m]", "stray [m]", "shown to touch [m]", "limited by")
+    """The tolerance at each pitch as a table."""
+    table = show.new_table("Tolerance to strays", "pitch [m]", "stray [m]", "shown to touch [m]", "limited by")
     for pitch, stray, touching, limit in zip(*columns.values(), strict=True):
         table.add_row(said(pitch), said(stray), "unknown" if touching is None else said(touching), limit.value)
     return table

@@ -20,13 +20,13 @@ from app.settings import WORKERS_MAX
 if TYPE_CHECKING:
     from app.sweeps.run import Progress
 
-# What a shell says of a command that Ctrl-C stopped.
+# Exit code that shells use for a command stopped by Ctrl-C.
 INTERRUPTED = 130
 
 Folder = Annotated[Path, typer.Argument(help="Folder of the sweep.")]
 
 sweep = typer.Typer(
-    help="A question over some of its parameters: up to 10^8 designs in a folder, which a later run continues."
+    help="One question for many values of its parameters: up to 10^8 designs in a folder, which a later run continues."
 )
 
 
@@ -45,15 +45,16 @@ def _bar(what: str, total: int) -> Iterator[Callable[[Progress], None]]:
 @sweep.command()
 def run(
     spec: Annotated[Path, typer.Argument(help="Question, parameters and their values, .toml or .json.")],
-    output: Annotated[Path, typer.Option(help="Folder of the answers; made if missing, gone on with if it is there.")],
+    output: Annotated[Path, typer.Option(help="Folder for the answers: created if missing, continued if it exists.")],
     dask: Annotated[
-        str | None, typer.Option(help="Scheduler of a Dask cluster (tcp://...), or local for one here; else processes.")
+        str | None,
+        typer.Option(help="Dask scheduler (tcp://...), or local for a cluster here; default: processes here."),
     ] = None,
     workers: Annotated[
-        int | None, typer.Option(min=1, max=WORKERS_MAX, help="Processes of this machine; else one for each core.")
+        int | None, typer.Option(min=1, max=WORKERS_MAX, help="Processes of this machine; default: one for each core.")
     ] = None,
 ) -> None:
-    """Answer every design that has no answer yet. After Ctrl-C or a kill the next run continues."""
+    """Answer every design that has no answer yet. After Ctrl-C or a crash the same command continues."""
     require("sweep", "sweep", "sweep")
     from app.sweeps.call import engine_of
     from app.sweeps.run import run as run_sweep
@@ -65,7 +66,7 @@ def run(
         try:
             run_sweep(asked, output, question=asked.asks, engine=engine, progress=progress)
         except KeyboardInterrupt:
-            print(f"Stopped: the same command goes on with {output}", file=sys.stderr)
+            print(f"Stopped: the same command continues {output}", file=sys.stderr)
             raise typer.Exit(INTERRUPTED) from None
     print(f"{output}: {asked.designs} designs in {asked.shards} shards", file=sys.stderr)
 
@@ -73,10 +74,10 @@ def run(
 @sweep.command()
 def show(
     folder: Folder,
-    output: Annotated[Path | None, typer.Option(help="Draw a map, in a .svg or .png file.")] = None,
-    value: Annotated[str | None, typer.Option(help="Column to look at; else the question's own.")] = None,
+    output: Annotated[Path | None, typer.Option(help="Draw a map into a .svg or .png file.")] = None,
+    value: Annotated[str | None, typer.Option(help="Column to show; default: the main value of the question.")] = None,
 ) -> None:
-    """A sweep in a few lines, or a map of a value over one or two parameters."""
+    """Summary of a sweep, or a map of one value over one or two parameters."""
     require("sweep", "sweep", "sweep")
     ending = checked_output("output", output, (".svg", ".png")) if output else ""
     if output:
@@ -103,7 +104,7 @@ def compact(
     folder: Folder,
     csv: Annotated[Path | None, typer.Option(help="Write the table as CSV too.")] = None,
 ) -> None:
-    """Make one Parquet file of all parts of a complete sweep."""
+    """Join the parts of a complete sweep into one Parquet file."""
     require("sweep", "sweep", "sweep")
     if csv:
         checked_output("csv", csv, (".csv",))

@@ -27,14 +27,14 @@ from core import Dance, Dragon, InvalidValue, RunEnd, Spiral, Trajectory
 from core.shown import counted
 from core.values import Floats
 
-# Handles of a trajectory on a terminal, as the contest asks, and the number of instants if that many fit.
+# Handles that a terminal shows, as the contest asks; and the largest number of instants, if that many fit.
 SHOWN_HANDLES = (0, 1, 51, 101, 151, 201)
 SHOWN_INSTANTS = 7
-# On a run that ends in a fold, a handle this many times faster than the head shows that the fold is near [1]; the mark
-# of such an instant.
+# In a run that ends in a fold: a handle this many times faster than the head shows that the fold is near [1]; and the
+# mark of such an instant.
 FAST = 2.0
 NEAR_FOLD = " *"
-# From this number on, evenly spaced instants are preferred to one or two more.
+# With at least this many instants, even spacing is preferred to one or two instants more.
 EVEN_INSTANTS = 5
 
 
@@ -97,14 +97,14 @@ def trajectory(
 
 
 def _warn_before_start(dance: Dance, instants: Floats) -> None:
-    """Tell who asks for a negative time on a spiral that the dance only begins at 0."""
+    """Warn of negative times on a spiral, where the dance begins at 0."""
     if isinstance(dance.path, Spiral) and instants.size and instants.min() < 0.0:
         words = "the dance begins at 0 s, and before it the head is on the outward extension of the same spiral"
         print(f"Warning: {words}; for the contest's turn give --path turn", file=sys.stderr)
 
 
 def _handles(text: str | None, dragon: Dragon) -> list[int] | None:
-    """The handles asked for; None if none are given. raises: InvalidValue"""
+    """The handles in an option; None without the option. raises: InvalidValue"""
     if text is None:
         return None
     found = numbers("handles", text, int)
@@ -125,10 +125,10 @@ def trajectory_tables(
 ) -> list[show.Part]:
     """Tables of some handles at some instants.
 
-    handles: to show; None: those of the contest and the last
+    handles: those to show; None: those of the contest and the last
     decimals: of every number; None: show.SHOWN_DECIMALS
-    fold: of the run, if it ends in one; instants just before it are marked, as speeds grow without bound there
-    all_instants: show all in as many tables as needed; else up to SHOWN_INSTANTS, evenly spaced, in one table
+    fold: end of the run, if it is a fold; instants just before it are marked, as speeds grow without bound there
+    all_instants: all instants, in as many tables as needed; else up to SHOWN_INSTANTS, evenly spaced, in one table
     """
     instants, number = result.speed.shape
     rows = list(handles) if handles else sorted({k for k in SHOWN_HANDLES if k < number} | {number - 1})

@@ -1,4 +1,4 @@
-"""Mistakes that the parser of options finds, told on one line in the service's words."""
+"""One line in the service's words for each mistake that the parser of options finds."""
 
 from __future__ import annotations
 
@@ -11,17 +11,14 @@ import typer
 
 from app.wire.messages import ALIKE_SLIP, message
 
-# Every mistake of the parser; typer has the class under no public name of its own.
+# Class of every mistake that the parser reports; typer gives it no public name.
 Misuse: Any = typer.BadParameter.__base__
-# The value that the parser quotes at the beginning of its words.
+# The value that stands in quotes at the beginning of the parser's message.
 QUOTED = re.compile(r"""('.*'|".*"|\S+) is not """, re.DOTALL)
 
 
 def told(error: Any) -> str:
-    """One line for a Misuse: what is wrong, where, and what to change.
-
-    A mistake without words of its own here keeps those of the parser.
-    """
+    """One line for a Misuse: what is wrong, where, and what to change; else the parser's own message."""
     parameter, said = getattr(error, "param", None), QUOTED.match(error.message or "")
     if hasattr(error, "possibilities"):
         return unknown(error.option_name, [option for one in error.ctx.command.params for option in one.opts])
@@ -41,7 +38,7 @@ def unknown(word: str, known: list[str]) -> str:
 
 
 def _unfit(parameter: Any, quoted: str) -> str:
-    """A value that an option cannot take. quoted: the value as the parser quotes it"""
+    """Message for a value that an option cannot take. quoted: the value as the parser quotes it"""
     value = ast.literal_eval(quoted) if quoted[0] in "'\"" else quoted
     option, kind = parameter.opts[0], parameter.type
     if getattr(kind, "choices", None):

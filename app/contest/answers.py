@@ -1,4 +1,4 @@
-"""The five answers in numbers, each with its bracket and with how it is known."""
+"""The five answers in numbers, each with its bracket and its evidence."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from core import EndReason, MinimumPitch, Outcome, ShortestTurn
 class Given:
     """One number of an answer.
 
-    question: 1 to 5; bracket: the interval in which the exact value is proven to lie, if there is one; how: known
+    question: 1 to 5; bracket: interval that is proven to hold the exact value, if there is one; how: the evidence
     """
 
     question: int
@@ -82,7 +82,7 @@ def _why_ended(solved: Solved, say: Say) -> str:
         return say("the search ended there", "搜索到此为止")
     if end.reason is EndReason.FOLD:
         return say(
-            f"the run ends there: bench {end.bench} folds, it cannot follow any further",
+            f"the run ends there: bench {end.bench} folds and cannot follow any further",
             f"盘入到此结束：第 {end.bench} 节板凳折转，无法继续跟随",
         )
     return say("the head is at the centre", "龙头已到中心")
@@ -112,8 +112,8 @@ def _why_pitch(found: MinimumPitch, say: Say) -> str:
 def _turn(turned: Turned, say: Say) -> list[Given]:
     shortest, even, length = turned.shortest, turned.even, turned.path.length
     why = say(
-        "closed form. The radii add up to S = sqrt(R^2 + (p / 2 pi)^2), without the ratio, and both arcs turn by "
-        "the same angle a: the length S a does not depend on the ratio",
+        "closed form. The sum of the radii is S = sqrt(R^2 + (p / 2 pi)^2) at every ratio, and both arcs have the "
+        "same angle a, so the length S a does not depend on the ratio",
         "闭式解：两段圆弧半径之和 S = sqrt(R^2 + (p / 2π)^2) 与比例无关，且两段圆弧转过同一角 a，"
         "因此长度 S a 与半径之比无关",
     )

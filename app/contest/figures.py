@@ -1,4 +1,4 @@
-"""The figures of the paper: each is drawn once and written as PDF, SVG and PNG."""
+"""The figures of a student's paper: each is drawn once and written as PDF, SVG and PNG."""
 
 from __future__ import annotations
 
@@ -27,15 +27,15 @@ from core.plots import BLUE, GREY, PALE, VERMILION, draw_dance
 
 FORMATS = ("pdf", "svg", "png")
 PNG_DPI = 160
-# Colour-blind safe and different in brightness (Okabe and Ito), one for each handle shown.
+# Colours of the handles shown: safe for colour-blind readers and different in brightness (Okabe and Ito).
 COLOURS = ("#D55E00", "#0072B2", "#009E73", "#CC79A7", "#56B4E9", "#E69F00", "#000000")
-# Instants of a curve over time.
+# Number of instants of a curve over time.
 CURVE = 400
-# The clearance is drawn over this part of the way to first contact, up to it.
+# The clearance is drawn over this last part of the way to first contact [1].
 CLEARANCE_FROM = 0.72
-# A white edge keeps words readable on a line.
+# A white edge keeps text readable on a line.
 OUTLINED = [withStroke(linewidth=3.0, foreground="white")]
-# Pitches of the staircase.
+# Number of pitches of the staircase.
 STAIRS = 60
 
 
@@ -49,14 +49,14 @@ class Drawn:
 
 
 def figures(solved: Solved, say: Say, progress: Callable[[float], None]) -> Iterator[Drawn]:
-    """Every figure in turn. raises: MissingPackage without a font for the language"""
+    """Every figure, one after another. raises: MissingPackage without a font for the language"""
     family = families(say.language)
     of_turn = (geometry, amplification) if solved.turned else ()
     kinds = (positions, snapshots, clearance, staircase, *of_turn, sensitivity)
     for k, draw in enumerate(kinds):
         with matplotlib.rc_context({"font.family": family, "svg.hashsalt": "bench-dragon"}):
             figure, caption = draw(solved, say)
-            # The layout takes as long as a file, and is the same for all three.
+            # The layout is the same for all three files, and takes as long as writing one.
             figure.draw_without_rendering()
             figure.set_layout_engine("none")
             files = {kind: _bytes(figure, kind) for kind in FORMATS}
@@ -73,7 +73,7 @@ def _bytes(figure: Figure, format: str) -> bytes:
 
 
 def positions(solved: Solved, say: Say) -> tuple[Figure, str]:
-    """Question 1: where every handle is at the last second, and the speeds of some over time."""
+    """Question 1: place of every handle at the last second, and the speeds of some handles over time."""
     figure, stop = canvas(11.5, 4.8), float(solved.inwards.time[-1])
     places, rates = figure.subplots(1, 2, width_ratios=(1.15, 1.0))
     figure.set_layout_engine("constrained", wspace=0.06)
@@ -160,13 +160,13 @@ def clearance(solved: Solved, say: Say) -> tuple[Figure, str]:
         else ""
     )
     return figure, say(
-        f"Clearance over time up to {until[0]}, with its grazes, some only fractions of a millimetre deep.",
+        f"Clearance over time up to {until[0]}, with its grazes; some are only fractions of a millimetre deep.",
         f"{until[1]}之前的最小间距及其擦碰：有的极小值只低零点几毫米。",
     ) + least
 
 
 def staircase(solved: Solved, say: Say) -> tuple[Figure, str]:
-    """Question 3: where the head stands at first contact, against the pitch."""
+    """Question 3: radius of the head at first contact, against the pitch."""
     figure, radius, least = canvas(8.0, 4.8), solved.asked.turning_diameter / 2, solved.pitch.pitch
     scan, _ = scan_near_minimum(
         solved.dragon, samples=STAIRS, turning_radius=radius, start_turns=solved.asked.start_turns, margin=0.0
@@ -247,7 +247,7 @@ def geometry(solved: Solved, say: Say) -> tuple[Figure, str]:
 
 
 def _stretches(turn: core.Turn, reach: float, say: Say) -> list[tuple[tuple[float, float], str, str]]:
-    """Beginning and end [m] of the pieces that are drawn, with colour and name."""
+    """Beginning and end [m], colour and name of each drawn piece."""
     middle = turn.radii[0] * turn.angles[0]
     low, high = max(turn.begin, -8.0 * reach), min(turn.end, turn.length + 8.0 * reach)
     return [
@@ -259,7 +259,7 @@ def _stretches(turn: core.Turn, reach: float, say: Say) -> list[tuple[tuple[floa
 
 
 def amplification(solved: Solved, say: Say) -> tuple[Figure, str]:
-    """Question 5: the speeds of handles on the way through the turn, over that of the head."""
+    """Question 5: speeds of handles on the way through the turn, divided by that of the head."""
     assert solved.turned
     figure, turn, fastest = canvas(8.0, 4.6), solved.turned.path, solved.turned.fastest
     axes = figure.subplots()
@@ -270,7 +270,7 @@ def amplification(solved: Solved, say: Say) -> tuple[Figure, str]:
     names = handle_names(solved.dragon.benches, say.language)
     for k, colour in zip((1, 2, 3, 8, 20), COLOURS[1:], strict=False):
         if k <= solved.dragon.benches:
-            # The nearer to the head, the further in front: handles behind move as that one did, only later.
+            # Handles near the head are drawn on top: the handles behind repeat their motion later.
             axes.plot(travel, rates[:, k], color=colour, linewidth=1.0, label=names[k], zorder=2.0 + 1.0 / k)
     axes.plot(
         travel,
@@ -282,12 +282,12 @@ def amplification(solved: Solved, say: Say) -> tuple[Figure, str]:
     )
     axes.plot(peak, fastest.speed_ratio, "o", color=VERMILION, markersize=7, label=f"{fastest.speed_ratio:.6f}")
     axes.axvspan(0.0, turn.length, color=PALE, alpha=0.5, label=say("head on the arcs", "龙头在圆弧上"))
-    axes.set(xlabel=say("way of the head from the entry [m]", "龙头自入点起的路程 [m]"))
-    axes.set(ylabel=say("speed over the head's speed", "速度与龙头速度之比"))
+    axes.set(xlabel=say("place of the head after the entry [m]", "龙头自入点起的路程 [m]"))
+    axes.set(ylabel=say("speed divided by the head's speed", "速度与龙头速度之比"))
     axes.legend(fontsize=8, loc="upper right")
     caption = say(
-        f"Speed amplification in the turn: at most {fastest.speed_ratio:.6f}, so {solved.asked.speed_limit:g} m/s "
-        f"allow a head speed of {fastest.head_speed:.6f} m/s.",
+        f"Speed amplification in the turn: at most {fastest.speed_ratio:.6f}, so a limit of "
+        f"{solved.asked.speed_limit:g} m/s allows a head speed of {fastest.head_speed:.6f} m/s.",
         f"调头过程中的速度放大：最大 {fastest.speed_ratio:.6f} 倍，因此限速 {solved.asked.speed_limit:g} m/s 时"
         f"龙头速度最大为 {fastest.head_speed:.6f} m/s。",
     )
@@ -295,7 +295,7 @@ def amplification(solved: Solved, say: Say) -> tuple[Figure, str]:
 
 
 def sensitivity(solved: Solved, say: Say) -> tuple[Figure, str]:
-    """How the answers change with the numbers of the problem."""
+    """Change of the answers with the numbers of the problem."""
     shown = panels(solved, say)
     columns = (len(shown) + 1) // 2
     figure = canvas(4.5 * columns, 7.0)
@@ -306,8 +306,8 @@ def sensitivity(solved: Solved, say: Say) -> tuple[Figure, str]:
             axes.set_axis_off()
     caption = say(
         "Sensitivity: minimum pitch against width, turning diameter and length of the bodies; first contact against "
-        "width and length; maximum head speed against the ratio of the arcs. Small dots are samples, joined only where "
-        "the answer has no jumps; the large dots are the values of the problem.",
+        "width and length; maximum head speed against the ratio of the arcs. Small dots are samples, joined only if "
+        "the answer has no jumps; large dots are the values of the problem.",
         "灵敏度：最小螺距随板宽、调头圆直径和龙身板长的变化；首次碰撞时刻随板宽和龙身板长的变化；"
         "龙头最大速度随圆弧半径之比的变化。小点为采样值，仅在结果不跳跃处连线；大圆点为题目给定值。",
     )

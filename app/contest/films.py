@@ -16,7 +16,7 @@ FILMS = ("dance", "turn")
 
 @dataclass(frozen=True)
 class Wanted:
-    """films: any at all; gif: each as a GIF too; seconds: each plays [s]"""
+    """films: False for no films; gif: each also as a GIF; seconds: length of each [s]"""
 
     films: bool = True
     gif: bool = False
@@ -26,7 +26,7 @@ class Wanted:
 def films(
     solved: Solved, say: Say, wanted: Wanted, progress: Callable[[str, float], None]
 ) -> Iterator[tuple[str, bytes]]:
-    """Name and bytes of every film that is wanted; without PyAV each is a GIF.
+    """Name and bytes of every wanted film; without PyAV each is a GIF.
 
     raises: MissingPackage without matplotlib, or without a font for the language
     """

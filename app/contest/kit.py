@@ -1,8 +1,8 @@
 """The kit: all files of a folder, which changes only when all are ready.
 
-One run writes at a time. Files are written into a folder of their own inside it. Then the earlier kit's report goes
-first, the new files take their places, what the earlier kit has and this one has not is removed, and the new report
-comes last: where there is a report, all files are of its run.
+One run writes at a time, first into a new folder inside the given one. When all files are ready, the report of an
+earlier kit is removed, the new files take their places, other files of the earlier kit are removed, and the new report
+comes last. So a folder with a report holds only files of the report's run.
 """
 
 from __future__ import annotations
@@ -30,9 +30,9 @@ from app.questions.question import Terms
 from core import InvalidValue
 
 FIGURES, TABLES = "figures", "tables"
-# Where files are until all are ready, the file that comes last, and the name of the lock.
+# Folder for files until all are ready, the file that comes last, and the name of the lock.
 UNFINISHED, REPORT, ROLE = ".unfinished", "report.md", ".contest"
-# What a kit may hold and need not.
+# Files that a kit may hold or lack.
 OPTIONAL = (
     "result4.xlsx",
     *(f"{name}{ending}" for name in films.FILMS for ending in (".mp4", ".gif")),
@@ -47,9 +47,9 @@ OPTIONAL = (
 
 @dataclass
 class Kit:
-    """What was written: names of files in this order; given: the answers
+    """The written kit: names of files in order of writing; given: the answers
 
-    missing: why there are no pictures; no_turn: why questions 4 and 5 have no answer
+    missing: reason why there are no pictures; no_turn: reason why questions 4 and 5 have no answer
     """
 
     files: list[str] = field(default_factory=list)
@@ -65,9 +65,9 @@ def write_kit(
     shot: films.Wanted,
     progress: Callable[[str, float], None],
 ) -> Kit:
-    """Write everything. Without a font for the language, or without matplotlib, all but figures and films.
+    """Write the kit; without matplotlib, or without a font for the language, it lacks figures and films.
 
-    progress: called with what is being done, and the share of it that is done
+    progress: called with the name of the current step, and its finished share
     raises: InvalidValue, also while another run writes into the folder; OutsideRun, TooMuchWork, OSError
     """
     lock = FolderLock(folder, ROLE)
@@ -82,7 +82,7 @@ def write_kit(
 def _written(
     folder: Path, asked: ContestRequest, say: Say, shot: films.Wanted, progress: Callable[[str, float], None]
 ) -> Kit:
-    """What write_kit() does under its lock."""
+    """The part of write_kit() that needs the lock."""
     kit = Kit()
     solved = solve(asked, Terms(), lambda share: progress(say("answers", "求解"), share))
     kit.given, kit.no_turn = answers(solved, say), solved.why_no_turn
@@ -97,7 +97,7 @@ def _written(
 
 
 def _take_over(folder: Path, names: list[str]) -> None:
-    """Put finished files into their places, and remove those that an earlier kit left. names: the report is the last"""
+    """Put finished files into their places, and remove those of an earlier kit. names: the report is last"""
     (folder / REPORT).unlink(missing_ok=True)
     for name in OPTIONAL:
         if name not in names:

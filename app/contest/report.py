@@ -1,4 +1,4 @@
-"""report.md: one page that ties the files of the kit together, every number from this run."""
+"""report.md: one page that presents the files of the kit, with all numbers from the same run."""
 
 from __future__ import annotations
 
@@ -104,7 +104,7 @@ def _ratio(solved: Solved, say: Say) -> str:
 
 def _even(turn: Turn, say: Say) -> str:
     return say(
-        f" Both together make it shorter still: with equal arcs (ratio 1) the entry can be as deep as "
+        f" Both changes together make it even shorter: with equal arcs (ratio 1) the entry can be as deep as "
         f"{turn.entry_radius:.6f} m, and the turn is {turn.length:.7f} m long.",
         f"两者一起改变还能更短：两段圆弧半径相等（比例 1）时，可在半径 {turn.entry_radius:.6f} m 处进入，"
         f"长度为 {turn.length:.7f} m。",
@@ -113,8 +113,8 @@ def _even(turn: Turn, say: Say) -> str:
 
 def _shorter(turn: Turn, shortest: Turn, say: Say) -> str:
     return say(
-        f"Question 4 asks for a shorter turn. Another ratio alone gives none: the length is {turn.length:.7f} m at "
-        f"every ratio. An entry deeper inside the circle does: at a radius of {shortest.entry_radius:.6f} m the turn "
+        f"Question 4 asks for a shorter turn. Another ratio alone does not help: the length is {turn.length:.7f} m at "
+        f"every ratio. A deeper entry inside the circle does: at a radius of {shortest.entry_radius:.6f} m the turn "
         f"is {shortest.length:.7f} m long, {turn.length - shortest.length:.7f} m shorter.",
         f"问题 4 问调头曲线能否变短。只改变半径之比不能：对任何比例长度都是 {turn.length:.7f} m。"
         f"在圆内更深处进入则可以：在半径 {shortest.entry_radius:.6f} m 处进入时长度为 {shortest.length:.7f} m，"

@@ -1,4 +1,4 @@
-"""How the answers change when one number of the problem does."""
+"""Change of the answers with one number of the problem."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from app.contest.solved import ContestRequest, Solved
 from app.files.words import Say
 from core import BenchDragonError, Dance, Turn
 
-# Values on each curve.
+# Number of values on each curve.
 VALUES = 25
 # Ranges of the width [m], of the turning diameter [m], of the length of a body [m] and of the ratio of the arcs [1].
 WIDTHS, DIAMETERS, LENGTHS, RATIOS = (0.26, 0.38), (7.0, 11.0), (1.8, 2.6), (0.5, 2.1)
@@ -23,10 +23,10 @@ Answer = Callable[[ContestRequest], float | None]
 
 @dataclass(frozen=True)
 class Panel:
-    """varied, answer: what the two axes show, with units; points: the curve; own: the value of this problem
-    smooth: the answer has no jumps, so that samples may be joined
+    """varied, answer: labels of the two axes, with units; points: the curve; own: the value of this problem
+    smooth: True if the answer has no jumps, so that samples may be joined
 
-    A value at which the question has no answer has no point.
+    There is no point where the question has no answer.
     """
 
     varied: str
@@ -37,7 +37,7 @@ class Panel:
 
 
 def panels(solved: Solved, say: Say) -> list[Panel]:
-    """How the answers to questions 2, 3 and 5 change.
+    """Change of the answers to questions 2, 3 and 5.
 
     Minimum pitch against width, turning diameter and length of a body; first contact, if there is any, against width
     and length; head speed, if there is a turn, against the ratio of the arcs.
@@ -70,7 +70,7 @@ def _curve(asked: ContestRequest, name: str, limits: tuple[float, float], answer
         try:
             given = answer(asked.model_copy(update=other))
         except BenchDragonError:
-            continue  # these benches fit on no such spiral or turn
+            continue  # no answer: these benches do not fit on this spiral or turn
         if given is not None:
             found.append((value, given))
     return found

@@ -1,4 +1,4 @@
-"""The five questions of the contest, solved: what every file of the kit is made from."""
+"""Solutions of the contest's five questions: the source of every file of the kit."""
 
 from __future__ import annotations
 
@@ -15,11 +15,11 @@ from app.wire.models import Instant, SpeedLimit, TurningDiameter, measure
 from core import Dance, Dragon, InvalidValue, Outcome, Trajectory, Turn
 from core.values import Floats
 
-# Handles of the tables in the paper, as the contest asks: the head, those of six bodies, and the rear of the tail.
+# Handles in the tables that the contest requires: the head, those of six bodies, and the rear of the tail.
 SHOWN_HANDLES = (0, 1, 51, 101, 151, 201)
-# Number of steps between the instants of those tables; of the turn, between -span and span.
+# Number of intervals between the instants of those tables; for the turn, between -span and span.
 SHOWN_STEPS, TURN_STEPS = 5, 4
-# Ratio of equal arcs, with which the entry can be deepest [1]: both arcs are as tight as the benches allow.
+# Ratio of equal arcs [1], which allows the deepest entry: both arcs are as tight as the benches allow.
 EVEN = 1.0
 
 
@@ -30,7 +30,7 @@ class ContestRequest(DanceQuery):
     turning_diameter: TurningDiameter = measure("m", "Diameter of the turning circle of questions 3 and 4", 9.0)
     turn_pitch: float = measure("m", "Pitch of the coils of question 4", 1.7, ge=1e-3, le=10)
     ratio: float = measure("1", "Radius of the first arc divided by that of the second", 2.0, ge=0.01, le=100)
-    span: Instant = measure("s", "Question 4 is shown from this long before the turn to this long after", 100.0, gt=0)
+    span: Instant = measure("s", "Time before and after the turn that question 4 shows", 100.0, gt=0)
     speed_limit: SpeedLimit = measure("m/s", "Highest speed of any handle in question 5", 2.0)
 
 
@@ -55,7 +55,7 @@ class Solved:
     """Inputs and answers of the five questions, in metres and seconds.
 
     spiral: the dance of questions 1 to 3
-    inwards: every second of question 1; meeting: the instant of first contact (`met_at`), of which `contact` tells
+    inwards: every second of question 1; meeting: the instant `met_at` of first contact; contact: the search's answer
     turned: None where no turn can be danced, with the reason why_no_turn
     """
 
@@ -75,17 +75,17 @@ class Solved:
 
     @property
     def handles(self) -> list[int]:
-        """The handles that the paper shows; of a short dragon those that it has."""
+        """The handles in the tables; for a short dragon those that it has."""
         return sorted({k for k in (*SHOWN_HANDLES, self.dragon.benches) if k <= self.dragon.benches})
 
     @property
     def shown_times(self) -> Floats:
-        """Instants of question 1 that the paper shows [s]."""
+        """Instants of question 1 in the tables [s]."""
         return np.linspace(0.0, self.asked.stop, SHOWN_STEPS + 1)
 
     @property
     def turn_times(self) -> Floats:
-        """Instants of question 4 that the paper shows [s]."""
+        """Instants of question 4 in the tables [s]."""
         return np.linspace(-self.asked.span, self.asked.span, TURN_STEPS + 1)
 
 
@@ -122,13 +122,13 @@ def solve(asked: ContestRequest, terms: Terms, progress: Callable[[float], None]
 
 
 def _turned(asked: ContestRequest, dragon: Dragon, terms: Terms) -> Turned:
-    """raises: InvalidValue where the turn cannot be danced"""
+    """Questions 4 and 5. raises: InvalidValue if the turn cannot be danced"""
     radius, about = asked.turning_diameter / 2, {"start_turns": asked.start_turns}
     path = Turn(asked.turn_pitch, radius, asked.ratio, **about)
     dance = Dance(dragon, path, asked.head_speed)
     shortest = core.shortest_turn(dragon, asked.turn_pitch, radius, asked.ratio, **about, budget=terms.budget)
     even = None
-    with suppress(InvalidValue):  # These arcs may be too tight at the circle itself.
+    with suppress(InvalidValue):  # Equal arcs may be too tight even with the entry on the circle.
         even = core.shortest_turn(dragon, asked.turn_pitch, radius, EVEN, **about, budget=terms.budget)
     return Turned(
         path=path,
@@ -146,7 +146,7 @@ def seconds(start: float, stop: float) -> Floats:
 
 
 def instant_of(contact: core.FirstContact) -> float:
-    """When benches first touch; else the last instant that is proven clear, or the end of the run less a moment [s]."""
+    """Time of first contact; else the last instant proven clear, or an instant just before the end of the run [s]."""
     if contact.time is not None:
         return contact.time
     if contact.outcome is Outcome.UNDECIDED and contact.time_bracket:

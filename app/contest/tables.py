@@ -1,4 +1,4 @@
-"""The tables that the paper must show, as CSV, Markdown and LaTeX."""
+"""The tables that the contest requires in a paper, as CSV, Markdown and LaTeX."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from app.files.workbooks import rounded_away
 from core import Dance
 from core.values import Floats
 
-# A table of more columns than these is set smaller in LaTeX, so that it fits the page of an article.
+# A table with more columns is set smaller in LaTeX, so that it fits on a page.
 WIDE, NARROW = 4, "\\footnotesize\\setlength{\\tabcolsep}{3pt}"
 
 
@@ -33,7 +33,7 @@ class Table:
     numbers: Floats
 
     def entries(self) -> list[list[str]]:
-        """Every number as the contest writes it."""
+        """Every number in the contest's format."""
         whole = rounded_away(self.numbers, XLSX_DECIMALS)
         return [[f"{value:.{XLSX_DECIMALS}f}" for value in row] for row in whole.tolist()]
 
@@ -52,7 +52,7 @@ class Table:
         return "".join(f"| {' | '.join(line)} |\n" for line in lines)
 
     def to_latex(self) -> str:
-        """A table for the packages booktabs and, in Chinese, ctex. A minus is a minus, not a hyphen."""
+        """A table for the packages booktabs and, in Chinese, ctex. Negative numbers have a minus sign, not a hyphen."""
         head, *lines = (
             " & ".join(f"$-${cell[1:]}" if cell.startswith("-") else cell for cell in line)
             for line in [[self.corner, *self.columns], *self.lines()]
@@ -68,7 +68,7 @@ class Table:
 
 
 def paper_tables(solved: Solved, say: Say) -> list[Table]:
-    """Positions and speeds of questions 1 and 4 at the instants that the contest asks for, and those of question 2."""
+    """Positions and speeds of questions 1 and 4 at the instants that the contest requires, and those of question 2."""
     first, turning = say("Question 1", "问题 1"), say("Question 4", "问题 4")
     return [
         *_over_time(solved, solved.spiral, solved.shown_times, ("", first), say),
@@ -83,7 +83,7 @@ def _names(solved: Solved, say: Say) -> list[str]:
 
 
 def _over_time(solved: Solved, dance: Dance, times: Floats, about: tuple[str, str], say: Say) -> list[Table]:
-    """about: beginning of the names, and of the captions"""
+    """Tables of positions and of speeds. about: beginning of their names, and of their captions"""
     name, question = about
     found = core.trajectory(dance, times)
     handles, gap = _names(solved, say), say(" ", "")

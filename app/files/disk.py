@@ -27,7 +27,7 @@ DANCE_ENDINGS = (".toml", ".json")
 def checked_output(option: str, file: Path, endings: Sequence[str] = ()) -> str:
     """The ending of the file named by an option, checked before any work is done.
 
-    option: its name; endings: the allowed ones in lower case; if there are none, any ending is allowed
+    option: its name; endings: the allowed ones in lower case; none: any ending is allowed
     raises: InvalidValue for another ending; OSError if the file cannot be written
     """
     ending = file.suffix.lower()
@@ -40,7 +40,7 @@ def checked_output(option: str, file: Path, endings: Sequence[str] = ()) -> str:
     target = file.resolve()
     if not target.parent.is_dir():
         raise InvalidValue(option, f"--{option} must be in a folder that exists, got {file}")
-    # An existing file is written or replaced only if the user may do both.
+    # An existing file may be replaced only by a user who may write both it and its folder.
     touched = [target] if target.exists() else []
     if not touched or target.is_file():
         touched.append(target.parent)
@@ -102,7 +102,7 @@ def read_json(file: Path) -> dict[str, Any]:
 def read_dance(file: Path) -> dict[str, Any]:
     """Content of a file that describes a dance.
 
-    A venue or a path given as text is the name of a map beside it, and a dragon given as text that of a CSV file.
+    A venue or a path given as text names a map beside the file, and a dragon given as text names a CSV file.
 
     raises: InvalidValue, OSError
     """
@@ -117,7 +117,7 @@ def read_dance(file: Path) -> dict[str, Any]:
         except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
             raise InvalidValue("file", f"{file} is not TOML: {error}") from error
     if not asked:
-        print(f"{file} gives nothing: this is about the contest's dance.", file=sys.stderr)
+        print(f"{file} is empty: the answer is for the contest's dance.", file=sys.stderr)
     seen: dict[Path, Any] = {}
     for name in ("venue", "path"):
         if isinstance(asked.get(name), str):
@@ -139,12 +139,12 @@ def read_dance(file: Path) -> dict[str, Any]:
 def _drawn(file: Path, name: str, drawing: Path, seen: dict[Path, Any]) -> Any:
     """The venue or the path in a map, which may have been seen before. raises: InvalidValue"""
     from app.maps.geojson import is_of_polygons
-    from app.maps.places import read_map  # Most dances name no map, and maps take 0.1 s to import.
+    from app.maps.places import read_map  # The import takes 0.1 s, and most dances name no map.
 
     try:
         if name == "venue" and drawing.suffix.lower() in (".json", ".geojson"):
             told = read_json(drawing)
-            if is_of_polygons(told):  # As it stands: its unit may stand beside it.
+            if is_of_polygons(told):  # Unchanged, because its unit may stand beside it.
                 return told
         found = seen[drawing] = seen.get(drawing) or read_map(drawing)
     except OSError as error:
@@ -153,7 +153,7 @@ def _drawn(file: Path, name: str, drawing: Path, seen: dict[Path, Any]) -> Any:
         raise error if error.field != "file" else InvalidValue(name, f"{name} of {file}: {error.message}") from error
     part = found.geometry if name == "venue" else found.path
     if part is None:
-        raise InvalidValue(name, f"{name} of {file}: {drawing} draws none")
+        raise InvalidValue(name, f"{name} of {file}: {drawing} holds no {name}")
     return part
 
 
@@ -166,5 +166,5 @@ def _read_benches(file: Path) -> dict[str, Any]:
 
 
 def object_words(file: Path) -> str:
-    """What the format of a file calls an object."""
+    """Word for an object in the format of a file."""
     return "a table" if file.suffix.lower() == ".toml" else OBJECT

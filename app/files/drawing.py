@@ -1,6 +1,6 @@
-"""Parts of a figure besides those of core/plots.py: canvas, venue, and the bytes of its file.
+"""Parts of a figure beyond those of core/plots.py: canvas, venue, and the bytes of its file.
 
-It uses matplotlib's objects and not pyplot: nothing is global except the constant set below, so threads may draw.
+They use matplotlib's objects, not pyplot: the only global state is the setting below, so threads may draw.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ def canvas(width: float, height: float) -> Figure:
 
 
 def file_bytes(figure: Figure, format: str) -> bytes:
-    """The bytes of the figure's file, always the same for the same figure: no date, no version, no random names."""
+    """Bytes of the figure's file: equal for equal figures, as they hold no date, no version and no random names."""
     sink = io.BytesIO()
     metadata = {"Date": None} if format == "svg" else {"Software": None}
     figure.savefig(sink, format=format, dpi=PNG_DPI, metadata=metadata)
@@ -63,7 +63,7 @@ def draw_venue(axes: Axes, venue: Venue | None) -> None:
 
 
 def look_around(figure: Figure, axes: Axes, handles: Floats) -> None:
-    """Limit the view to the dragon and its surroundings in a venue, and shape the figure to match."""
+    """Limit the view to the dragon and its surroundings in a venue, and give the figure the same proportions."""
     low_corner, high_corner = handles.min(axis=0), handles.max(axis=0)
     around = AROUND * float((high_corner - low_corner).max())
     (left, low), (right, high) = (low_corner - around).tolist(), (high_corner + around).tolist()

@@ -54,7 +54,7 @@ def contact_figure(
 ) -> bytes:
     """Figure 7: the dance at first contact with the two benches marked, and corner, edge and point enlarged.
 
-    Without a contact it shows the dance just before the run ends, and its title states this.
+    Without a contact it shows the dance just before the run ends, and the title says so.
     """
     found = first_contact(dance, margin=margin, start=start, stop=stop, budget=budget)
     with DRAWING:
@@ -78,7 +78,7 @@ def pitch_scan_figure(
 ) -> bytes:
     """Figure 8: radius of the head at first contact against the pitch, with jumps as gaps and the minimum pitch marked.
 
-    scan, least: as scan_near_minimum() gives them; the rest as it was given
+    scan, least: the result of scan_near_minimum(); the rest: its arguments
     """
     pitches = np.array([SCAN_FROM, SCAN_TO]) * least.pitch
     with DRAWING:
@@ -92,7 +92,7 @@ def pitch_scan_figure(
         axes.set_ylim(0.0, 1.2 * scan.radius.max(initial=turning_radius))
         axes.legend(loc="lower left", fontsize=9)
         none = f"Never nearer than {said(margin)} m at any" if margin else "No contact at any"
-        title = f"Where the head stands {when}, against the pitch" if scan.pitch.size else f"{none} of these pitches"
+        title = f"Radius of the head {when}, against the pitch" if scan.pitch.size else f"{none} of these pitches"
         axes.set_title(title, fontsize=11)
         near = axes.inset_axes((0.56, 0.64, 0.41, 0.33))
         _draw_scan(near, scan, least, turning_radius, near_words)

@@ -1,8 +1,8 @@
-"""Films of a dance: every bench at every instant from our own poses, as MP4 (H.264, through PyAV) or as GIF (Pillow).
+"""Films of a dance, as MP4 (H.264, through PyAV) or as GIF (Pillow).
 
-matplotlib draws what stands still once. For each frame the picture is copied back, and Agg fills two paths: the body,
-all benches in one, and the head. Meanwhile a second thread encodes the frames before. The same film gives the same
-bytes on the same versions of these libraries.
+matplotlib draws the background once. For each frame that picture is copied back, and Agg fills two paths: one of the
+head, one of all other benches. Meanwhile a second thread encodes the frames before. The same film gives the same bytes
+on the same versions of these libraries.
 """
 
 from __future__ import annotations
@@ -38,23 +38,23 @@ from core.plots import BLUE, PALE, VERMILION, draw_dance
 from core.values import Floats
 
 DPI = 100
-# Type of the words, as a share of the height of the picture.
+# Size of the type, as a share of the height of the picture.
 TYPE_SHARE = 0.026
-# Empty space around the dragon, as a share of its extent; instants at which that extent is taken.
+# Empty space around the dragon, as a share of its extent; number of instants from which the extent is taken.
 AROUND, EXTENT_INSTANTS = 0.04, 60
 # Instants whose handles are computed at once.
 BATCH = 60
-# Frames that wait for the encoder.
+# Most frames that wait for the encoder.
 WAITING = 4
-# H.264: quality (crf, smaller is better), effort and threads, whose number changes the bytes. Slower presets halve the
-# file and take twice the time (measured 2026-11-22).
+# H.264: quality (crf, smaller is better), effort, and number of threads, which changes the bytes. Slower presets halve
+# the file and take twice the time (measured 2026-11-22).
 OPTIONS, THREADS = {"crf": "24", "preset": "superfast", "x264-params": "bframes=0:subme=0"}, 2
 FAST_START = {"movflags": "faststart"}
 BODY_EDGE = "#003A5D"
 # A GIF shows every frame for whole hundredths of a second.
 GIF_TICK = 100
-# Colours of a GIF: steps from one colour to another, for edges are smooth. A palette of the most frequent colours would
-# lack the head's, as one bench of hundreds.
+# Colours of a GIF: steps from one colour to another, because edges are smooth. A palette of the most frequent colours
+# would lack the head's colour, which only one bench of hundreds has.
 GIF_STEPS = 9
 GIF_BLENDS = (
     ("white", "black"), ("white", BLUE), ("white", BODY_EDGE), ("white", VERMILION), (BLUE, BODY_EDGE),
@@ -79,7 +79,7 @@ def film(
 ) -> bytes:
     """The bytes of a film in one of FORMS.
 
-    progress: called with the share of the frames that is done
+    progress: called with the share of finished frames
     raises: OutsideRun; TooMuchWork where the budget is stopped; MissingPackage without a font for the language
     """
     budget = budget or Budget()
@@ -107,7 +107,7 @@ def frames(
 
 
 class Stage:
-    """A picture that is drawn again and again: what stands still, then the benches and the time."""
+    """A picture that is drawn again for each frame: the stored background, then the benches and the time."""
 
     def __init__(self, dance: Dance, shooting: Shooting, venue: Venue | None, title: str) -> None:
         size = (shooting.width / DPI, shooting.height / DPI)
@@ -176,7 +176,7 @@ class Stage:
 
 
 def scale_bar(axes: Axes, corner: Floats, half: float) -> None:
-    """Draw a bar of a round length at the lower left. corner: lower left of the view [m]; half: of its height [m]"""
+    """Draw a scale bar at the lower left. corner: lower left of the view [m]; half: half of the view's height [m]"""
     length = 10.0 ** np.floor(np.log10(half / 2.0))
     x, y = corner + 0.07 * half
     axes.plot([x, x + length], [y, y], color="black", linewidth=2.0, solid_capstyle="butt", zorder=9)
@@ -190,13 +190,14 @@ Take = Callable[[NDArray[np.uint8]], None]
 def encoded_mp4(sink: io.BytesIO, shooting: Shooting) -> Iterator[Take]:
     """Context that writes frames as H.264 in a second thread; yields the function that takes one.
 
-    A player can begin before it has the whole film: its table (moov) stands first. libav puts it there in a file only.
+    The table of the film (moov) stands first, so a player can begin before it has the whole film. libav can put it
+    there only in a file.
     """
     import av
     from av.video.reformatter import ColorRange, Colorspace
 
     waiting: deque[Future[None]] = deque()
-    # The encoder is left first: a file that closes while a frame is written to it would end the process.
+    # The encoder's context is left first: closing the file while a frame is written would end the process.
     with (
         TemporaryDirectory() as folder,
         av.open(path := f"{folder}/film.mp4", "w", options=FAST_START) as file,

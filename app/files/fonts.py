@@ -1,4 +1,4 @@
-"""The font of a picture: one that has every character of its words, so that none becomes an empty box."""
+"""The font of a picture, which has every character of its words, so that no character becomes an empty box."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from functools import cache
 from app.extras import MissingPackage
 from app.files.tables import Language
 
-# Families with the characters of simplified Chinese, the ones made for it first.
+# Font families with the characters of simplified Chinese; those made for it come first.
 CHINESE = (
     "Noto Sans CJK SC",
     "Source Han Sans SC",
@@ -22,7 +22,7 @@ CHINESE = (
     "Droid Sans Fallback",
     "Noto Sans CJK JP",
 )
-# The font that matplotlib brings with it: Latin letters, digits and mathematical signs.
+# The font that comes with matplotlib: Latin letters, digits and mathematical signs.
 LATIN = "DejaVu Sans"
 # Characters that a Chinese font must have: some of those that our pictures use.
 TRIED = "板凳龙螺距速度首次碰撞调头把手"
@@ -30,7 +30,7 @@ TRIED = "板凳龙螺距速度首次碰撞调头把手"
 
 @cache
 def families(language: Language) -> tuple[str, ...]:
-    """Families of fonts, the first of which that has a character draws it.
+    """Font families in order: a character is drawn in the first one that has it.
 
     raises: MissingPackage for Chinese where no font on this machine has its characters
     """
@@ -40,7 +40,7 @@ def families(language: Language) -> tuple[str, ...]:
 
     manager = font_manager.fontManager
     known = {font.fname for font in manager.ttflist}
-    for file in font_manager.findSystemFonts():  # matplotlib remembers fonts from before this one was installed
+    for file in font_manager.findSystemFonts():  # matplotlib's own list may be older than this font
         if file not in known:
             manager.addfont(file)
     installed = {font.name: font for font in reversed(manager.ttflist)}

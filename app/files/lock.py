@@ -1,4 +1,4 @@
-"""One holder of a role in a folder at a time, by a lock that the system takes back when its holder dies."""
+"""A lock that gives a role in a folder to one process at a time; the system frees it when that process dies."""
 
 from __future__ import annotations
 
@@ -8,10 +8,10 @@ from pathlib import Path
 
 
 class FolderLock:
-    """The right to a role in a folder, among all processes.
+    """A role in a folder, which one of all processes can hold.
 
-    It is the exclusive lock of an empty SQLite database: SQLite knows how to lock a file on every system, and no
-    process that the holder starts inherits it.
+    It is the exclusive lock of an empty SQLite database: SQLite can lock a file on every system, and no process that
+    the holder starts inherits the lock.
     """
 
     def __init__(self, folder: Path, role: str) -> None:
@@ -19,7 +19,7 @@ class FolderLock:
         self._held: sqlite3.Connection | None = None
 
     def take(self, patience: float = 0.0) -> bool:
-        """Is the lock ours now, or was it before? patience: how long to wait for it [s]; raises: OSError"""
+        """True if this object holds the lock now. patience: longest wait [s]; raises: OSError"""
         if self._held is not None:
             return True
         connection = None

@@ -1,4 +1,4 @@
-"""The envelope of a dance as a file: GeoJSON, and DXF for drawing programs, both in metres.
+"""The envelope of a dance as a file: GeoJSON, or DXF for drawing programs, both in metres.
 
 The same envelope gives the same bytes, so an answer may carry a strong ETag.
 """
@@ -23,14 +23,14 @@ METRES, VERSION = 6, "R2000"
 
 
 def envelope_geojson(found: Envelope) -> bytes:
-    """A GeoJSON feature: the polygons, what is known of them as its properties."""
+    """A GeoJSON feature: the polygons, with their proven bounds as properties."""
     known = {"name": "envelope", "excess": found.excess, "area": found.area, "start": found.start, "stop": found.stop}
     properties = known | {"certificate": found.certificate.method}
     return orjson.dumps({"type": "Feature", "properties": properties, "geometry": geometry_of(found)})
 
 
 def envelope_dxf(found: Envelope) -> bytes:
-    """A DXF drawing: each ring a closed polyline, holes on a layer of their own. raises: MissingPackage"""
+    """A DXF drawing: each ring is a closed polyline, holes on a separate layer. raises: MissingPackage"""
     require("dxf", "output", "DXF")
     ezdxf = import_module("ezdxf")
     ezdxf.options.write_fixed_meta_data_for_testing = True  # no date and no random names

@@ -1,4 +1,4 @@
-"""What a film shows and how it looks, known before anything is drawn."""
+"""Interval, length, size and form of a film, checked before anything is drawn."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ LOOKS = {MP4_TYPE: (30, 1080), GIF_TYPE: (12, 360)}
 
 @dataclass(frozen=True)
 class Shooting:
-    """start, stop: of the dance [s]; seconds: the film plays [s]; rate: [frames/s]; height: [pixels], width 16 : 9
+    """start, stop: times in the dance [s]; seconds: length of the film [s]; rate: [frames/s]; height: [pixels]
     start_clock: time of day at time 0, see time_of_day(); touching: benches that touch at the last instant"""
 
     start: float
@@ -33,7 +33,7 @@ class Shooting:
 
     @property
     def width(self) -> int:
-        """[pixels], even, as H.264 wants it"""
+        """Width for 16 : 9 [pixels]; even, as H.264 requires."""
         return 2 * round(self.height * 8 / 9)
 
     @property

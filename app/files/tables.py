@@ -22,16 +22,16 @@ from core.values import Floats
 # Endings that trajectory_writer() supports.
 TABLE_ENDINGS = (".csv", ".xlsx", ".arrow", ".json")
 COLUMNS = ("time", "handle", "x", "y", "speed")
-# Further columns, where benches have names and the time of day at time 0 is given.
+# Further columns, if benches have names or if the time of day at time 0 is given.
 NAME, CLOCK = "name", "clock"
 CSV_TYPE = "text/csv"
-# Cells that are turned into lines of CSV at once: 2 MB of text, and 10 MB while it is made.
+# Cells that become lines of CSV in one block: 2 MB of text, and 10 MB of memory in between.
 CSV_BLOCK = 20_000
 XLSX_TYPE = "application/vnd.openxmlformats-officedocument.spreadsheetml.sheet"
 ARROW_TYPE = "application/vnd.apache.arrow.file"
 PARQUET_TYPE = "application/vnd.apache.parquet"
 
-# Decimals that the contest asks for.
+# Decimals that the contest requires.
 XLSX_DECIMALS = 6
 # Limits of the format; the first row and column hold names.
 XLSX_ROWS_MAX = 1_048_576
@@ -46,7 +46,7 @@ class Language(StrEnum):
 
 
 def handle_names(benches: int, language: Language = Language.ENGLISH) -> list[str]:
-    """Name of every handle after the bench that it leads; the last one is at the rear of the tail.
+    """Name of every handle: that of the bench behind it; the last handle is at the rear of the tail.
 
     returns: benches + 1 names; a single bench is the head
 
@@ -60,7 +60,7 @@ def handle_names(benches: int, language: Language = Language.ENGLISH) -> list[st
 
 
 def own_names(result: Trajectory, language: Language = Language.ENGLISH) -> list[str]:
-    """handle_names(), but the name of the bench where it has one."""
+    """handle_names(), but a bench with a name of its own gives that one."""
     names = handle_names(result.speed.shape[-1] - 1, language)
     own = result.dance.dragon.names if result.dance else ()
     rear = "（后）" if language is Language.CHINESE else " (rear)"
@@ -94,7 +94,7 @@ def trajectory_json(result: Trajectory, decimals: int | None = None) -> bytes:
 
 
 def trajectory_csv(result: Trajectory, decimals: int | None = None, start_clock: str | None = None) -> bytes:
-    """CSV with the columns time [s], handle, x [m], y [m], speed [m/s]; name and clock where they are known.
+    """CSV with the columns time [s], handle, x [m], y [m], speed [m/s], and name and clock if they are known.
 
     decimals: of x, y and speed; None writes the shortest text that reads back as the same double
     start_clock: time of day at time 0, see time_of_day()
@@ -103,7 +103,7 @@ def trajectory_csv(result: Trajectory, decimals: int | None = None, start_clock:
 
 
 def csv_blocks(result: Trajectory, decimals: int | None = None, start_clock: str | None = None) -> Iterator[bytes]:
-    """The same CSV in blocks of lines, each made when it is asked for."""
+    """The same CSV in blocks of lines, each made on demand."""
     instants, handles = result.speed.shape
     named = bool(result.dance and result.dance.dragon.names)
     names = [_quoted(name) for name in own_names(result)] if named else []

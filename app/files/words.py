@@ -1,4 +1,4 @@
-"""Words in the language asked for: each place gives both, and Say chooses."""
+"""Texts in two languages: each caller gives both, and Say chooses one."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from app.files.tables import Language
 
 @dataclass(frozen=True)
 class Say:
-    """The first or the second of two phrases, as the language is.
+    """The English or the Chinese one of two phrases.
 
     >>> Say(Language.ENGLISH)("head", "龙头")
     'head'

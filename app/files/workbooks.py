@@ -1,7 +1,7 @@
 """Workbooks: sheets of numbers, with a name for every row and every column.
 
-XlsxWriter writes everything but the numbers: the parts of the file, the number format, widths and frozen panes. The
-numbers are most of the work, and here they become XML row by row instead of cell by cell (benchmarks/workbooks.py).
+XlsxWriter writes everything except the numbers: the parts of the file, the number format, widths and frozen panes. The
+numbers are most of the work: this module writes their XML row by row instead of cell by cell (benchmarks/workbooks.py).
 """
 
 from __future__ import annotations
@@ -22,18 +22,18 @@ import orjson
 from app.extras import require
 from core.values import Floats
 
-# Date written into every workbook instead of the present, so that equal tables have equal bytes.
+# Fixed date in every workbook, so that equal tables have equal bytes.
 CREATED = datetime(2024, 9, 5)
 # Widths of the columns [characters].
 LABEL_WIDTH, NUMBER_WIDTH = 20, 12
-# zlib's quickest level: 1.6 MB in place of 1.4 MB for a fifth of the time (measured 2026-11-22).
+# zlib's fastest level: a fifth of the time for 1.6 MB instead of 1.4 MB (measured 2026-11-22).
 QUICKEST = 1
-# A scaled number whose fraction is this near to one half is rounded in decimal arithmetic: the product that scales it
-# may have been rounded to or from the half. A product below 1e11 is off by less than 1e-5.
+# A scaled number with a fraction this near to one half is rounded in decimal arithmetic, because the scaling may have
+# rounded it across the half. A product below 1e11 is off by less than 1e-5.
 NEAR_HALF = 1e-4
 # Number of the format in the style sheet that XlsxWriter writes for the only format of a workbook.
 STYLE = 1
-# The place of the rows in a sheet that has none, and its range, as XlsxWriter writes them.
+# Empty rows and the range of an empty sheet, as XlsxWriter writes them; they are replaced.
 NO_ROWS, RANGE = b"<sheetData/>", re.compile(rb'<dimension ref="[^"]*"/>')
 
 
@@ -48,9 +48,9 @@ class Sheet:
 
 
 def rounded_away(values: Floats, decimals: int) -> Floats:
-    """The values rounded to so many decimals, halves away from zero as the contest and every spreadsheet do.
+    """The values rounded to this number of decimals, halves away from zero as in the contest and in spreadsheets.
 
-    Never -0.0. NumPy rounds halves to even, and sees a half where only its product with 10^decimals is one.
+    Never -0.0. NumPy rounds halves to even, and takes a value for a half if only its product with 10^decimals is one.
 
     >>> rounded_away(np.array([0.0078125, -0.0078125, -1e-9]), 6)
     array([ 0.007813, -0.007813,  0.      ])
@@ -117,12 +117,12 @@ def _filled(page: bytes, sheet: Sheet, decimals: int) -> bytes:
 
 
 def _text(words: str) -> bytes:
-    """A cell of text from after its place on."""
+    """XML of a text cell after its address."""
     return f' t="inlineStr"><is><t xml:space="preserve">{escape(words)}</t></is></c>'.encode()
 
 
 def _row(number: int, letters: Sequence[bytes], cells: Sequence[bytes]) -> bytes:
-    """One row; an empty cell is left out."""
+    """XML of one row; empty cells are left out."""
     place = b"%d" % number
     found = [b'<c r="%b%b"%b' % (letter, place, cell) for letter, cell in zip(letters, cells, strict=True) if cell]
     return b'<row r="%b">%b</row>' % (place, b"".join(found))

@@ -1,1 +1,1 @@
-"""Maps: files of a square and a path, read and written as GeoJSON, KML and DXF."""
+"""Maps: files with a square and a path, read and written as GeoJSON, KML and DXF."""

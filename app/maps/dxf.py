@@ -1,4 +1,4 @@
-"""Maps as DXF, which drawing programs read and write, in metres or in the unit that the drawing tells."""
+"""Maps as DXF, the format of drawing programs, in metres or in the unit that the drawing states."""
 
 from __future__ import annotations
 
@@ -21,20 +21,21 @@ from core.venue import Ring
 METRES, VERSION = 6, "R2000"
 # Metres in the units of $INSUNITS: inch, foot, mile, millimetre, centimetre, metre, kilometre, yard, decimetre.
 UNITS = {1: 0.0254, 2: 0.3048, 3: 1609.344, 4: 0.001, 5: 0.01, 6: 1.0, 7: 1000.0, 10: 0.9144, 14: 0.1}
-# A drawing without a unit is in metres, if it is no wider: 2 km, or 2 m in millimetres, which is no square either [1].
+# Largest width of a drawing without a unit, which is taken as metres: 2 km. The same number in millimetres would be a
+# square of 2 m, too small for a dance [1].
 ACROSS_MAX = 2_000.0
-# How far a curve may be from the straight lines drawn for it [m].
+# Largest distance of a curve from the straight lines that replace it [m].
 FLATTENED = 0.005
-# Deepest nesting of blocks, and most entities of a drawing, those of its blocks counted each time.
+# Deepest nesting of blocks, and most entities of a drawing; those of a block count each time it is used.
 DEPTH_MAX, ENTITIES_MAX = 4, 20_000
 CURVES = ("LINE", "LWPOLYLINE", "POLYLINE", "ARC", "CIRCLE", "ELLIPSE", "SPLINE")
 TEXTS = ("TEXT", "MTEXT")
 # Layer of each role, with its number in the colour index of AutoCAD: white or black, grey, blue, red.
 LAYERS = {"square": ("SQUARE", 7), "obstacle": ("OBSTACLES", 8), "path": ("PATH", 5), "mark": ("MARKS", 1)}
-# Record with what no entity can hold: the path as a request describes it, the origin, and names by handle. A string of
-# a record has at most 2,049 characters.
+# Record for values that no entity can hold: the path as a request describes it, the origin, and names by handle. A
+# string of a record has at most 2,049 characters.
 RECORD, CHUNK = "BENCH_DRAGON", 2_000
-# Height of the words on a drawing, and side of the crosses at marks [m].
+# Height of the text in a drawing, and side of the crosses at marks [m].
 WORDS, CROSS = 0.3, 0.2
 
 
@@ -50,7 +51,7 @@ def read(data: bytes) -> Drawing:
         return _drawing(import_module("ezdxf.recover").read(io.BytesIO(data))[0])
     except InvalidValue:
         raise
-    # What else ezdxf raises for a drawing with a fault.
+    # Other errors that ezdxf raises for a faulty drawing.
     except (errors.DXFError, OSError, ValueError, ArithmeticError, LookupError, AttributeError, TypeError) as error:
         raise InvalidValue("file", f"file must be DXF, got one that cannot be read: {error}"[:300]) from error
 
@@ -75,7 +76,7 @@ def _drawing(document: Any) -> Drawing:
 
 
 def _refuse_wide(features: list[Feature]) -> None:
-    """Refuse a drawing that tells no unit and can be in metres no longer."""
+    """Refuse a drawing without a unit that is too wide for metres."""
     points = [point for one in features for ring in one.rings for point in ring]
     across = max((max(column) - min(column) for column in zip(*points, strict=True)), default=0.0)
     if across > ACROSS_MAX:
@@ -84,7 +85,7 @@ def _refuse_wide(features: list[Feature]) -> None:
 
 
 def _told(document: Any) -> Mapping[str, Any]:
-    """What the record of this program says in a drawing; nothing where there is none."""
+    """Content of this program's record in a drawing; empty without one."""
     try:
         record = document.rootdict.get(RECORD)
         told = orjson.loads("".join(tag.value for tag in record.tags if tag.code == 1))
@@ -103,11 +104,11 @@ class _Reader:
         self.seen = 0
 
     def entities(self, some: Any, depth: int = 0) -> Iterator[Any]:
-        """Every entity, those of blocks in their places."""
+        """Every entity; those of a block where the block is inserted."""
         for entity in some:
             self.seen += 1
             if self.seen > ENTITIES_MAX:
-                words = f"file must draw at most {ENTITIES_MAX} entities, those of blocks counted each time, got more"
+                words = f"file must draw at most {ENTITIES_MAX} entities, counting a block at each use, got more"
                 raise InvalidValue("file", f"{words}: leave out everything that does not belong to the square")
             if entity.dxftype() == "INSERT" and depth < DEPTH_MAX:
                 yield from self.entities(entity.virtual_entities(), depth + 1)
@@ -139,7 +140,7 @@ class _Reader:
             return
         if getattr(entity, "is_closed", False) and points[0] != points[-1]:
             points = (*points, points[0])
-        # What a program closes by a last point need not meet the first one to the last digit.
+        # A closing point that a program adds may differ from the first one in the last digits.
         if len(points) > 3 and dist(points[0], points[-1]) < FLATTENED:
             points = (*points[:-1], points[0])
         shape: tuple[Shape, tuple[Ring, ...]] = ("line", (points,)) if feature.role == "path" else shaped(points)
@@ -149,12 +150,12 @@ class _Reader:
         return float(point[0]) * self.factor, float(point[1]) * self.factor
 
     def named(self) -> Iterator[Feature]:
-        """The features: holes in their polygons, each thing named by the words that stand in it."""
+        """The features, with holes in their polygons; each thing is named by the text inside it."""
         features = list(_with_holes(self.counted.features))
         words: dict[int, str] = {}
         for text, place in self.texts:
             around = [k for k, one in enumerate(features) if _is_in(one, place)]
-            if text and around:  # Words in a well are in its court too.
+            if text and around:  # Text inside a well is inside the court around it too.
                 words.setdefault(min(around, key=lambda k: area_of(features[k])), text)
         for k, feature in enumerate(features):
             name, layer = feature.name or words.get(k), str(feature.properties.get("layer", ""))
@@ -169,7 +170,7 @@ def _is_in(feature: Feature, place: tuple[float, float]) -> bool:
 
 
 def _with_holes(features: list[Feature]) -> Iterator[Feature]:
-    """The features, rings on layers of holes joined to the polygon around them."""
+    """The features; a ring on a layer of holes becomes a hole of the polygon around it."""
     holes = [one for one in features if str(one.properties.get("layer", "")).endswith("_HOLES")]
     for feature in features:
         if feature in holes:
@@ -184,7 +185,7 @@ def _is_of(hole: Feature, layer: str) -> bool:
 
 
 def written(drawing: Drawing) -> bytes:
-    """A drawing in metres: closed polylines, the path a polyline, marks as circles, each with its words beside it.
+    """A drawing in metres: areas as closed polylines, the path as a polyline, marks as circles, each with its text.
 
     raises: MissingPackage
     """
@@ -213,7 +214,7 @@ def written(drawing: Drawing) -> bytes:
     if drawing.origin is not None:
         told["origin"] = {"longitude": drawing.origin.longitude, "latitude": drawing.origin.latitude}
     text = orjson.dumps(told | {"names": names}).decode()
-    # The format is text in lines, of which a name that is no ASCII takes more than it has characters.
+    # The format is text in lines of limited length, and a character outside ASCII takes several places.
     text = text.encode("ascii", "backslashreplace").decode().replace("\\x", "\\u00")
     record = document.rootdict.add_xrecord(RECORD)
     record.reset([(1, text[k : k + CHUNK]) for k in range(0, len(text), CHUNK)])

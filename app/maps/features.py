@@ -1,4 +1,4 @@
-"""What a map holds, whatever the form of its file: points, lines and polygons with a name, a role and a radius."""
+"""The content of a map in any format: points, lines and polygons with a name, a role and a radius."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ from core import InvalidValue
 from core.venue import Ring
 
 Shape = Literal["point", "line", "polygon"]
-# What a feature is in a dance; other roles are taken as none.
+# Roles of features in a dance; any other role counts as none.
 SQUARE, OBSTACLE, PATH, MARK = "square", "obstacle", "path", "mark"
-# Words that tell a role: as the property or the folder of a feature, as the name of its layer or its own.
+# Words that give a feature its role: as its property, its folder, its layer or its name.
 WORDS = {
     SQUARE: ("square", "area", "venue", "ground", "广场", "场地"),
     OBSTACLE: ("obstacle", "obstacles", "tree", "trees", "wall", "walls", "building", "buildings", "障碍", "障碍物"),
@@ -23,12 +23,12 @@ WORDS = {
     MARK: ("mark", "marks", "chalk", "粉笔标记"),
 }
 ROLES = {word: role for role, words in WORDS.items() for word in words}
-# Most points and most features of one map: more of them are no plan of a square.
+# Most points and most features of one map; a plan of a square has fewer.
 POINTS_MAX, FEATURES_MAX = 100_000, 10_000
 
 
 def role_of(*words: object) -> str | None:
-    """The role that the first of these words tells; None if none of them tells one.
+    """Role given by the first of these words that gives one; None without one.
 
     >>> role_of(None, "Trees"), role_of("my house")
     ('obstacle', None)
@@ -59,12 +59,12 @@ class Feature:
 
 @dataclass(frozen=True, slots=True)
 class Drawing:
-    """A map as its file tells it.
+    """A map as it stands in its file.
 
-    degrees: is it in longitude and latitude? None: its file does not say; then points are as they stand there
-    origin: place of x = y = 0, where the file tells it
-    path: the path as a request describes it, where this program wrote the file
-    left_out: kinds of things that were not read, with how many
+    degrees: True for longitude and latitude; None: the file does not say, and points are unchanged
+    origin: place of x = y = 0, if the file gives it
+    path: the path as a request describes it, if this program wrote the file
+    left_out: kinds of things that were not read, and their numbers
     """
 
     features: tuple[Feature, ...]
@@ -76,7 +76,7 @@ class Drawing:
 
 
 class Counted:
-    """Features that are collected, and no more of them than a map may have."""
+    """Collector of features, with the limits of a map."""
 
     def __init__(self) -> None:
         self.features: list[Feature] = []
@@ -96,14 +96,14 @@ class Counted:
 
 
 def shaped(points: Ring) -> tuple[Shape, tuple[Ring, ...]]:
-    """A line, or the polygon that it encloses where it ends at its beginning."""
+    """A line; if it ends at its beginning, the polygon inside it."""
     return ("polygon", (points,)) if len(points) > 3 and points[0] == points[-1] else ("line", (points,))
 
 
 def inner_point(rings: tuple[Ring, ...]) -> tuple[float, float]:
-    """A point inside a polygon: the middle of its widest stretch at half of its height, for words and names."""
+    """A point inside a polygon for its name: the middle of its widest part at half of its height."""
     heights = [y for _, y in rings[0]]
-    # Off the middle, so that a side along it does no harm.
+    # Slightly beside the middle, because a side may lie exactly on it.
     level = min(heights) + 0.5001 * (max(heights) - min(heights))
     crossings = sorted(
         a[0] + (level - a[1]) / (b[1] - a[1]) * (b[0] - a[0])
@@ -117,7 +117,7 @@ def inner_point(rings: tuple[Ring, ...]) -> tuple[float, float]:
 
 
 def holds(rings: tuple[Ring, ...], point: tuple[float, float]) -> bool:
-    """Does a polygon hold a point, its holes not counted?
+    """True if a point is inside a polygon and outside its holes.
 
     >>> holds((((0, 0), (4, 0), (4, 4), (0, 0)),), (3, 1))
     True
@@ -133,7 +133,7 @@ def holds(rings: tuple[Ring, ...], point: tuple[float, float]) -> bool:
 
 
 def area_of(feature: Feature) -> float:
-    """Area of a polygon, its holes not counted, or of a round thing."""
+    """Area of a polygon without its holes, or of a round thing."""
     if feature.shape == "point":
         return math.pi * (feature.radius or 0.0) ** 2
     return 0.5 * abs(sum(a[0] * b[1] - b[0] * a[1] for a, b in pairwise(feature.rings[0])))

@@ -1,4 +1,4 @@
-"""Maps as GeoJSON, in degrees as RFC 7946 has it, or in metres."""
+"""Maps as GeoJSON, in degrees as in RFC 7946, or in metres."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from core import InvalidValue
 from core.errors import spoken
 from core.venue import Ring
 
-# Of each geometry: the shape of its parts, and how deep lists of points stand in its coordinates.
+# For each geometry: the shape of its parts, and the depth of its lists of points in its coordinates.
 GEOMETRIES: dict[str, tuple[Shape, int]] = {
     "Point": ("point", 0),
     "MultiPoint": ("point", 1),
@@ -37,7 +37,7 @@ def read(told: Mapping[str, Any]) -> Drawing:
     path = next((one.properties["path"] for one in counted.features if "path" in one.properties), None)
     return Drawing(
         tuple(counted.features),
-        # Metres have an origin only if this program wrote them, and then they say so.
+        # A map in metres has an origin only if this program wrote it.
         None if system is None else GEOGRAPHIC.search(system) is not None,
         _origin(origin),
         path if isinstance(path, Mapping) else None,
@@ -46,7 +46,7 @@ def read(told: Mapping[str, Any]) -> Drawing:
 
 
 def is_of_polygons(told: object) -> bool:
-    """Does a GeoJSON object hold no points and no lines?"""
+    """True if a GeoJSON object holds no points and no lines."""
     if isinstance(told, Mapping):
         inside = (told.get(name) for name in ("geometry", "features", "geometries"))
         lone = ("Point", "MultiPoint", "LineString", "MultiLineString", "MultiPolygon")
@@ -66,7 +66,7 @@ def _features(field: str, told: object, like: Feature, depth: int = 0) -> Iterat
     if depth > DEPTH_MAX:
         raise InvalidValue(field, f"{spoken(field)} must not nest objects deeper than {DEPTH_MAX}")
     if told is None and depth:
-        return  # A feature may have no place.
+        return  # A feature may have no geometry.
     kind = told.get("type") if isinstance(told, Mapping) else None
     if not isinstance(told, Mapping) or not isinstance(kind, str):
         raise InvalidValue(field, f"{spoken(field)} must be a GeoJSON object with a type, got {told!r:.60}")
@@ -94,7 +94,7 @@ def _features(field: str, told: object, like: Feature, depth: int = 0) -> Iterat
     elif kind in GEOMETRIES:
         shape, deep = GEOMETRIES[kind]
         for rings in _parts(f"{field}.coordinates", told.get("coordinates"), shape, deep):
-            # A polygon may be drawn as a line that comes back to its beginning.
+            # A polygon may be drawn as a line that ends at its beginning.
             drawn = shaped(rings[0]) if shape == "line" and like.role != "path" else (shape, rings)
             yield replace(like, shape=drawn[0], rings=drawn[1])
     else:
@@ -134,7 +134,7 @@ def _listed(field: str, value: object) -> list[Any]:
 
 
 def written(drawing: Drawing) -> bytes:
-    """A feature collection; the path as a request describes it stands in the properties of its line."""
+    """A feature collection; the properties of the path's line hold the path as a request describes it."""
     features = [
         {"type": "Feature", "properties": _properties(one), "geometry": geometry_of(one)} for one in drawing.features
     ]
@@ -149,7 +149,7 @@ def _properties(feature: Feature) -> dict[str, object]:
 
 
 def geometry_of(feature: Feature) -> dict[str, object]:
-    """Its geometry, in the unit of its points."""
+    """Geometry of a feature, in the unit of its points."""
     rings = [[list(point) for point in ring] for ring in feature.rings]
     if feature.shape == "point":
         return {"type": "Point", "coordinates": rings[0][0]}

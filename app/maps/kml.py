@@ -1,7 +1,7 @@
-"""Maps as KML, which map programs on phones read and write, and as KMZ, its packed form.
+"""Maps as KML, the format of map programs on phones, and as KMZ, its packed form.
 
-The parser is expat by itself: it refuses a document type, so no entity can be defined and none can swell, and it
-builds no tree.
+The parser is plain expat, which builds no tree. A document type is refused, so a file can define no entities and
+cannot grow in memory by them.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from core.venue import Ring
 # Deepest nesting of elements, and the largest document in a KMZ file [bytes].
 DEPTH_MAX, UNPACKED_MAX = 60, 20_000_000
 SHAPES: dict[str, Shape] = {"Point": "point", "LineString": "line", "Polygon": "polygon", "LinearRing": "line"}
-# Elements that draw something this program has no use for.
+# Elements with geometry that this program does not use.
 OTHERS = ("GroundOverlay", "PhotoOverlay", "ScreenOverlay", "NetworkLink", "Model", "Track", "MultiTrack")
 # Colours of the lines, aabbggrr, by role.
 COLOURS = {"square": "ff000000", "obstacle": "ff7f7f7f", "path": "ffb27200", "mark": "ff005ed5"}
@@ -39,7 +39,7 @@ def unpacked(data: bytes) -> bytes:
         with zipfile.ZipFile(io.BytesIO(data)) as archive:
             name = next((one for one in archive.namelist() if one.lower().endswith(".kml")), None)
             if name is None:
-                raise InvalidValue("file", "file must hold a .kml document, as a KMZ file does, got an archive without")
+                raise InvalidValue("file", "file must be a KMZ file with a .kml document, got an archive without one")
             with archive.open(name) as source:
                 document = source.read(UNPACKED_MAX + 1)
     except (zipfile.BadZipFile, zlib.error, EOFError, NotImplementedError, RuntimeError) as error:
@@ -188,7 +188,7 @@ def _origin(told: Mapping[str, object]) -> Origin | None:
 
 
 def written(drawing: Drawing) -> bytes:
-    """A document with a placemark for each feature; path and origin stand in the data of the path's."""
+    """A document with a placemark for each feature; the path's placemark holds the path and the origin as data."""
     parts = ['<?xml version="1.0" encoding="UTF-8"?>\n<kml xmlns="http://www.opengis.net/kml/2.2"><Document>\n']
     for role, colour in COLOURS.items():
         parts.append(
@@ -211,7 +211,7 @@ def written(drawing: Drawing) -> bytes:
 
 
 def _words(text: str) -> str:
-    """A text as XML, without the two characters that are none."""
+    """A text as XML, without the two characters that XML forbids."""
     return escape(re.sub("[\ufffe\uffff]", "", text), quote=False)
 
 

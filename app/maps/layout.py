@@ -1,4 +1,4 @@
-"""The venue and the path that a map draws, in metres, and what had to be assumed."""
+"""The venue and the path in a map, in metres, with the assumptions made."""
 
 from __future__ import annotations
 
@@ -26,26 +26,27 @@ from core.shapes.engines import thickened
 from core.values import NAME_MAX, NOT_PLAIN, Floats
 from core.venue import Ring
 
-# Radius of a point, and half of the width of a line, that tells none [m].
+# Radius of a point, and half of the width of a line, without a radius [m].
 POINT_RADIUS, LINE_RADIUS = 0.5, 0.1
-# Sides of the polygon around a circle, which exceeds its radius by less than a hundredth.
+# Sides of the polygon around a circle: its corners exceed the radius by less than a hundredth.
 SIDES = 24
-# Ground around everything drawn where no polygon is the square [m].
+# Free ground around everything drawn, if no polygon is the square [m].
 AROUND = 20.0
-# A map narrower than this is in degrees if it can be: 22 km; in metres it would be 0.2 m [degrees].
+# A map narrower than this is in degrees, if its numbers allow it: 22 km in degrees, only 0.2 m in metres [degrees].
 DEGREES_ACROSS = 0.2
-# Least distance of two points of a path [m], and how far a line may have been moved and still be the path told with it.
+# Least distance of two points of a path [m]; and largest distance of a line from its stored path, beyond which somebody
+# has moved the line [m].
 POINTS_APART, MOVED = 0.05, 0.01
-# Points of that line that are tried, about [1].
+# Approximate number of points of that line to compare [1].
 TRIED = 200
 
 
 @dataclass(frozen=True)
 class Found:
-    """What a file holds for a dance.
+    """The parts of a dance in a file.
 
-    path: as a request takes it; venue: in metres, the square first; origin: place of x = y = 0
-    dance: the other fields of a file that describes a dance; notes: what was assumed, and what was left out
+    path: in the form of a request; venue: in metres, the square first; origin: place of x = y = 0
+    dance: the other fields of a file that describes a dance; notes: assumptions, and things left out
     """
 
     path: Mapping[str, Any] | None = None
@@ -56,7 +57,7 @@ class Found:
 
     @property
     def geometry(self) -> dict[str, Any] | None:
-        """The venue as GeoJSON in metres, as a request takes it."""
+        """The venue as GeoJSON in metres, in the form of a request."""
         if self.venue is None:
             return None
         told: dict[str, Any] = {"type": "FeatureCollection"}
@@ -81,15 +82,15 @@ def checked_path(path: object) -> Spiral | Route:
     return found
 
 
-# State:  `drawing`, in degrees or metres; then `features`, in metres without marks, and `origin`.
+# State:  `drawing`, in degrees or metres; from it `features`, in metres and without marks, and `origin`.
 class Reading:
-    """Makes a venue and a path of a map, and notes what it assumed."""
+    """Reads a venue and a path from a map, and notes its assumptions."""
 
     def __init__(self, drawing: Drawing, units: Coordinates | None, say: Say) -> None:
         self.drawing, self.say, self.notes = drawing, say, list[str]()
         self.features = [_closed(one) for one in drawing.features if one.role != MARK]
         if not self.features:
-            raise InvalidValue("file", "file must draw something: a polygon, a line or a point; got nothing of these")
+            raise InvalidValue("file", "file must hold a polygon, a line or a point, got none of these")
         self.origin = drawing.origin
         self._lay_out(units)
         for kind, count in drawing.left_out.items():
@@ -99,7 +100,7 @@ class Reading:
         lines = [one for one in self.features if one.shape == "line"]
         square = self._square()
         told = [one for one in lines if one.role == PATH]
-        # Without a name for it, the longest line that has no width is the path.
+        # If no line has the role of the path, it is the longest line without a width.
         free = [one for one in lines if one.role is None and one.radius is None]
         danced = told[:1] or ([max(free, key=_length)] if free and not self._walls(free) else [])
         path = self._path(danced[0]) if danced else None
@@ -108,11 +109,11 @@ class Reading:
         return Found(path, venue, self.origin, None, self.notes)
 
     def _walls(self, free: list[Feature]) -> bool:
-        """Are lines without a name more likely walls than a path? Where there are several, nobody knows."""
+        """True if lines without a role are walls: there are several, so none of them is clearly the path."""
         if len(free) > 1:
             self.notes.append(
                 self.say(
-                    f"{len(free)} lines have no role, so they are walls: name the one to dance along `path`.",
+                    f"{len(free)} lines have no role, so they are walls. Give the line of the dance the name `path`.",
                     f"有 {len(free)} 条线没有说明用途，均作为墙：请将要走的那条命名为 path。",
                 )
             )
@@ -152,7 +153,7 @@ class Reading:
         )
 
     def _square(self) -> Feature | None:
-        """The polygon that is the square: by its role, else the one that holds something of everything else."""
+        """The square: the polygon with that role, else the one that holds a part of everything else."""
         polygons = [one for one in self.features if one.shape == "polygon"]
         told = [one for one in polygons if one.role == SQUARE]
         if told:
@@ -175,7 +176,7 @@ class Reading:
             square = Feature("polygon", (outline,), "square")
             self.notes.append(
                 self.say(
-                    f"No polygon is the square: it ends {AROUND:g} m beyond everything drawn. Name one `square`.",
+                    f"No polygon is the square, so it ends {AROUND:g} m beyond everything. Name one `square`.",
                     f"没有多边形是广场：取所有图形外 {AROUND:g} m 为界。请将其中一个命名为 square。",
                 )
             )
@@ -183,11 +184,11 @@ class Reading:
         polygons: list[Polygon] = [(names.new(square.name or "square"), square.rings)]
         polygons += [(names.new(name or f"obstacle {k}"), rings) for k, (name, rings) in enumerate(obstacles, start=1)]
         collection = {"type": "FeatureCollection", "features": [_told(*polygon) for polygon in polygons]}
-        try:  # As a request is read, so that what comes out can be asked.
+        try:  # Checked like a request, so that a request can use the result.
             venue = venue_of(polygons)
             read_polygons(collection)
         except InvalidValue as error:
-            raise InvalidValue("file", f"file must draw a square that can be danced in: {error.message}") from error
+            raise InvalidValue("file", f"file must hold a valid square: {error.message}") from error
         return venue
 
     def _obstacle(self, one: Feature) -> Iterable[tuple[Ring, ...]]:
@@ -219,13 +220,13 @@ class Reading:
                 return told
             self.notes.append(
                 self.say(
-                    "The line of the path was moved, so the path goes through its points.",
+                    "The line of the path was edited, so the new path goes through the points of the line.",
                     "路径的线已被移动，因此路径改为通过其各点。",
                 )
             )
         kept, name = _thinned(points), line.name or self.say("a line without a name", "未命名的线")
         if len(kept) < 2:
-            raise InvalidValue("file", f"file must draw a path of at least two points {said(POINTS_APART)} m apart")
+            raise InvalidValue("file", f"file must hold a path with at least two points {said(POINTS_APART)} m apart")
         self.notes.append(
             self.say(
                 f"The path is a smooth curve through {len(kept)} points: {name}.",
@@ -238,7 +239,7 @@ class Reading:
 
 
 class _Names:
-    """Names of areas, each once and as a venue takes them."""
+    """Names of areas, each unique and valid in a venue."""
 
     def __init__(self) -> None:
         self.given: set[str] = set()
@@ -253,7 +254,7 @@ class _Names:
 
 
 def _closed(feature: Feature) -> Feature:
-    """The same with the rings of a polygon closed, as some programs leave out the last point."""
+    """The same feature with closed rings, because some programs leave out the last point of a polygon."""
     if feature.shape != "polygon":
         return feature
     return feature.placed(tuple(ring if ring[0] == ring[-1] else (*ring, ring[0]) for ring in feature.rings if ring))
@@ -264,7 +265,7 @@ def _length(line: Feature) -> float:
 
 
 def _circle(centre: tuple[float, float], radius: float) -> Ring:
-    """A polygon around a circle: no point of the circle is outside."""
+    """A polygon that holds the whole circle."""
     turn = 2.0 * math.pi / SIDES
     reach = radius / math.cos(0.5 * turn)
     x, y = centre
@@ -273,7 +274,7 @@ def _circle(centre: tuple[float, float], radius: float) -> Ring:
 
 
 def _thinned(points: Floats) -> Floats:
-    """The points that are apart, and no more of them than a path takes: evenly along the line."""
+    """Points that are far enough apart, evenly along the line, and at most as many as a path may have."""
     kept = [points[0]]
     for point in points[1:]:
         if np.hypot(*(point - kept[-1])) >= POINTS_APART:
@@ -285,7 +286,7 @@ def _thinned(points: Floats) -> Floats:
 
 
 def _is_along(told: Mapping[str, Any], points: Floats) -> bool:
-    """Is the line still the one that was drawn for a path?"""
+    """True if the line still follows the path that is stored with it."""
     try:
         path = checked_path(told)
     except InvalidValue:

@@ -18,7 +18,7 @@ from core.values import Floats
 
 # Most marks of one path.
 MARKS_MAX = 2_000
-# Distance of points of a line that is drawn for a path, and how far its curves may be from it [m].
+# For the line that shows a path: largest distance of its points, and largest distance of the line from the path [m].
 DRAWN_STEP, DRAWN_SAG = 0.5, 0.002
 # Most points of a line.
 POINTS_MAX = 20_000
@@ -28,7 +28,7 @@ POINTS_MAX = 20_000
 class Marks:
     """Marks along a path, one every `spacing`.
 
-    first: s of the first mark, from which lengths along the path are counted [m]; s: of each (M,) [m]; points: (M, 2)
+    first: s of mark 0, where lengths on the ground begin [m]; s: of each mark (M,) [m]; points: (M, 2) [m]
     """
 
     spacing: float
@@ -38,18 +38,18 @@ class Marks:
 
     @property
     def names(self) -> list[str]:
-        """How far each is along the path from the first, in metres: what stands beside it on the ground."""
+        """Length along the path from the first mark to each one [m], to write beside the mark on the ground."""
         return [f"{round(one, 3):g}" for one in (self.s - self.first).tolist()]
 
 
 def marks_of(dance: Dance, start: float, stop: float, spacing: float) -> Marks:
-    """Marks from where the tail is at `start` [s] to where the head is at `stop` [s].
+    """Marks from the place of the tail at `start` [s] to that of the head at `stop` [s].
 
-    On a path with a beginning they are counted from there. raises: TooLarge
+    On a path with a beginning mark 0 is there. raises: TooLarge
     """
     tail, head = float(handle_places(dance, [start])[0, -1]), float(handle_places(dance, [stop])[0, 0])
     begin = dance.path.tail_begin
-    # On a spiral, whose tail stands anywhere, a mark is where the head stands at time 0.
+    # On a spiral the tail may stand anywhere, so one mark is put where the head stands at time 0.
     first = spacing * np.floor(tail / spacing) if begin is None else begin
     low = first + spacing * np.floor((tail - first) / spacing)
     count = int((head - low) / spacing + 1e-9) + 1
@@ -59,10 +59,10 @@ def marks_of(dance: Dance, start: float, stop: float, spacing: float) -> Marks:
 
 
 def line_of(path: Path, low: float, high: float) -> Floats:
-    """Points (N, 2) of a line along a path from s = low to s = high [m], nearer together where it bends."""
+    """Points (N, 2) [m] of a line along a path from s = low to s = high [m], denser where the path curves."""
     s = np.linspace(low, high, min(POINTS_MAX, max(2, int((high - low) / 0.05) + 2)))
     bend = np.abs(path.curvature(s))
-    # A chord of length h is h^2 curvature / 8 from its arc.
+    # The middle of a chord of length h is h^2 curvature / 8 from its arc.
     steps = np.minimum(DRAWN_STEP, np.sqrt(8.0 * DRAWN_SAG / np.maximum(bend, 1e-9)))
     along = np.concatenate([[0.0], np.cumsum(np.diff(s) / (0.5 * (steps[1:] + steps[:-1])))])
     count = min(POINTS_MAX, int(along[-1]) + 2)
@@ -89,7 +89,7 @@ def drawing_of(
 
 
 def in_degrees(drawing: Drawing) -> Drawing:
-    """A map in metres, in longitude and latitude. It must have an origin."""
+    """The map in longitude and latitude. It must be in metres and have an origin."""
     assert drawing.origin is not None
     plane = Plane(drawing.origin)
     features = tuple(

@@ -1,4 +1,4 @@
-"""The square, its obstacles and the path in a file of any form, as a request takes them."""
+"""The square, its obstacles and the path from a file of any format, in the form of a request."""
 
 from __future__ import annotations
 
@@ -20,22 +20,22 @@ from core import BenchDragonError, Budget, Dragon, InvalidValue
 
 # Longest file [bytes].
 FILE_MAX = 20_000_000
-# Type of an error, its field, its message.
+# Class, field and message of an error.
 Refusal = tuple[type[BenchDragonError], str, str]
 
 
 class Places(Answer):
-    """What a map holds for a dance."""
+    """The parts of a dance in a map."""
 
-    path: dict[str, Any] | None = Field(description="The path as a request takes it; null: the file draws none")
+    path: dict[str, Any] | None = Field(description="Path in the form of a request; null: the file has none")
     venue: dict[str, Any] | None = Field(
-        description="The square and its obstacles as a request takes them: GeoJSON in metres, the square first, and in "
-        "its member origin the place of x = y = 0 where it is known; null: the file draws none"
+        description="Square and obstacles in the form of a request: GeoJSON in metres, the square first; its member "
+        "`origin` is the place of x = y = 0, if it is known; null: the file has none"
     )
     dance: dict[str, Any] | None = Field(
-        description="The other fields of a file that describes a dance, as they stand there; null: a map"
+        description="Other fields of a file that describes a dance, unchanged; null: the file is a map"
     )
-    notes: list[str] = Field(description="What was assumed, and what was left out, in sentences")
+    notes: list[str] = Field(description="Assumptions, and things left out, in sentences")
 
     @classmethod
     def of(cls, found: Found) -> Self:
@@ -43,8 +43,7 @@ class Places(Answer):
 
 
 def read_places(data: bytes, units: Coordinates | None, language: Language, budget: Budget) -> Places | Refusal:
-    """What a map holds, or why it was refused, for a process that reads it for another: an error would not get there
-    whole."""
+    """Content of a map, or a refusal as plain values: an exception would not pass whole between processes."""
     try:
         return Places.of(places_of(data, units, Say(language)))
     except BenchDragonError as error:
@@ -52,9 +51,9 @@ def read_places(data: bytes, units: Coordinates | None, language: Language, budg
 
 
 def places_of(data: bytes, units: Coordinates | None, say: Say) -> Found:
-    """The square and the path in a file: GeoJSON, KML, KMZ, DXF, or a dance as TOML or JSON, told by its first bytes.
+    """Square and path in a file: GeoJSON, KML, KMZ, DXF, or a dance as TOML or JSON, recognised by its first bytes.
 
-    units: of its coordinates; None: as the file says, otherwise degrees if they can be
+    units: of its coordinates; None: as the file says, else degrees if the numbers allow it
     raises: InvalidValue at the field `file`; MissingPackage
     """
     if not data.strip():

@@ -1,1 +1,1 @@
-"""The plan on paper: a dance true to scale, the points to paint, and who is where when."""
+"""The printed plan: a dance true to scale, the points to paint, and the places of people over time."""

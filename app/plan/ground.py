@@ -22,23 +22,23 @@ from core.values import Floats
 SWEPT, CLEAR, EDGE, STONE, BENCH = "#FFE3B3", "#FFF6E5", "#B8860B", "#D9D9D9", "#9CC7E5"
 # Distance of two points of an outline [mm].
 SEEN = 0.12
-# Half the length of a mark, distance of its number from the path, and of two arrows along the path [mm].
+# Half the length of a mark, distance of its number from the path, and spacing of the arrows along the path [mm].
 TICK, BESIDE, ARROWS = 1.1, 2.6, 45.0
-# Smallest type that can be read on a bench [pt].
+# Smallest readable type on a bench [pt].
 SMALLEST = 3.4
 # Type of numbers at marks, of names, of benches, and of coordinates along the frame [pt].
 MARK_TYPE, NAME_TYPE, BENCH_TYPE, COORDINATE_TYPE = 5.5, 7.0, 5.0, 5.0
-# The square is drawn whole if this many times the dance holds it; else as much of it as is around the dance.
+# The whole square is drawn if it is at most this many times as large as the dance; else only the part around the dance.
 SQUARE_MOST = 2.0
-# Every such mark has its number first where not all of them have room.
+# Numbers that are multiples of this are placed first, because not all of them may have room.
 ROUND = 4
 
 
 @dataclass(frozen=True, slots=True)
 class Ground:
-    """What a map shows.
+    """The content of a map.
 
-    swept: the ground that benches sweep; clear: the zone around it to keep clear, of so much width [m]
+    swept: the ground that benches sweep; clear: the zone to keep clear around it; width: of that zone [m]
     """
 
     dance: Dance
@@ -63,7 +63,7 @@ def ground_of(
 
 
 def scale_for(ground: Ground, name: PaperName) -> Scale:
-    """The scale at which all of it fits on the paper. raises: InvalidValue"""
+    """The scale at which the whole ground fits on the paper. raises: InvalidValue"""
     rings = np.concatenate([rings[0] for rings in ground.clear])
     low, high = rings.min(axis=0), rings.max(axis=0)
     if ground.venue is not None:
@@ -96,14 +96,14 @@ def draw_ground(sheet: Sheet, ground: Ground, scale: Scale, *, numbers: bool) ->
 
 
 def _drawn(ring: Floats) -> Floats:
-    """A closed ring with as many of its points as can be seen on paper."""
+    """A closed ring, without points that are too close together to be seen on paper."""
     along = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(ring, axis=0).T))])
     _, kept = np.unique((along / SEEN).astype(int), return_index=True)
     return np.concatenate([ring[kept], ring[:1]]) if kept.size > ROUND else ring
 
 
 def _draw_coordinates(sheet: Sheet, scale: Scale, room: Box) -> None:
-    """Short lines with their x or y [m] along the frame, as far apart as the scale bar is long."""
+    """Draw short lines with their x or y [m] along the frame, one for each length of the scale bar."""
     step, unit = scale.bar, 1000.0 / scale.ratio
     for axis, (near, far) in enumerate(((room[0], room[2]), (room[1], room[3]))):
         low, high = (scale.middle[axis] + (end - 0.5 * (near + far)) / unit for end in (near, far))
@@ -140,7 +140,7 @@ def _draw_venue(sheet: Sheet, ground: Ground, scale: Scale, frame: Rectangle) ->
 
 
 def _draw_arrows(sheet: Sheet, line: Floats) -> None:
-    """Arrows along the path, in the direction of the dance."""
+    """Draw arrows along the path, in the direction of the dance."""
     steps = np.hypot(*np.diff(line, axis=0).T)
     along = np.concatenate([[0.0], np.cumsum(steps)])
     for place in np.arange(0.5 * ARROWS, along[-1], ARROWS):
@@ -155,7 +155,7 @@ def _draw_arrows(sheet: Sheet, line: Floats) -> None:
 
 
 def _draw_marks(sheet: Sheet, ground: Ground, scale: Scale, line: Floats) -> None:
-    """Marks with their numbers: beside the path, or on it where other parts of the path are beside it."""
+    """Draw marks with their numbers beside the path, or on it where another part of the path is beside it."""
     room = scale.paper.room
     marks, path = ground.timing.marks, ground.dance.path
     points, tangents = scale.on_paper(marks.points), path.tangent(marks.s)
@@ -195,11 +195,11 @@ def draw_benches(
     across = corners[:, 0] - corners[:, 1]
     wide = np.hypot(*across.T)
     normals = across / wide[:, None]
-    # Words keep off the benches: off eight boxes along each.
+    # Text must not cover a bench, which is taken as eight boxes along its length.
     shares = ((np.arange(8) + 0.5) / 8.0)[None, :, None]
     spots = (shares * corners[:, 0:1] + (1.0 - shares) * corners[:, 3:4] - 0.5 * across[:, None]).reshape(-1, 2)
     sheet.take(np.concatenate([spots - 0.4, spots + 0.4], axis=1))
-    # Head, tail and every tenth bench first, where not all have room.
+    # Where not every name has room, head, tail and every tenth bench come first.
     last = len(names) - 1
     for k in sorted(range(len(names)), key=lambda k: (k not in (0, last), k % 10 != 0, k % 5 != 0, k)):
         size = min(NAME_TYPE, 0.8 * wide[k] / POINT)
@@ -211,7 +211,7 @@ def draw_benches(
             sheet.words(x, y, names[k], size, rotation=turned, **centred)
             continue
         size = NAME_TYPE if k == 0 else BENCH_TYPE
-        # Words reach further to the side than up.
+        # Text is wider than it is high.
         reach = 0.5 * wide[k] + 1.5 + 0.5 * abs(normals[k, 0]) * sheet.width(names[k], size)
         places = [middles[k] + side * reach * normals[k] for side in (1.0, -1.0)]
         if not sheet.label(names[k], size, places, room):
@@ -219,14 +219,14 @@ def draw_benches(
 
 
 def draw_legend(sheet: Sheet, ground: Ground, left: float, right: float, bottom: float, *, benches: bool) -> None:
-    """What the colours and lines of a map mean, in a cell of the title block."""
+    """Draw the meaning of colours and lines, in a cell of the title block."""
     say, wide = sheet.say, right - left - 14.0
     spacing = ground.timing.marks.spacing
     rows: list[tuple[str, dict[str, Any], str]] = [
         (
             "area",
             {"facecolor": SWEPT, "edgecolor": EDGE, "linewidth": 0.3},
-            say("benches sweep this", "板凳扫过之地"),
+            say("ground swept by benches", "板凳扫过之地"),
         ),
         (
             "area",

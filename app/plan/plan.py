@@ -1,6 +1,6 @@
 """The plan of a dance as PDF: the map true to scale, the benches at three moments, the points to paint, the times.
 
-The same dance gives the same bytes on the same versions of the libraries: no date stands in the file.
+The same dance gives the same bytes on the same versions of the libraries, because the file holds no date.
 """
 
 from __future__ import annotations
@@ -22,15 +22,15 @@ from app.plan.tables import Table, draw_tables
 from app.plan.timing import Clock, points_of
 from core import Spiral
 
-# Fonts as outlines: every machine draws them alike, and their characters are told beside them, so words can be found.
+# Fonts as outlines with a table of their characters: every machine draws them alike, and the text can be searched.
 FONTS: dict[Any, Any] = {"pdf.fonttype": 3, "hatch.linewidth": 0.4}
 
 
 @dataclass(frozen=True, slots=True)
 class Plan:
-    """What a plan says.
+    """The content of a plan.
 
-    family: of fonts; names: of the benches; clock: how times are said; title: of the block on every sheet
+    family: fonts; names: of the benches; clock: format of times; title: of the block on every sheet
     """
 
     ground: Ground
@@ -52,7 +52,7 @@ class _Page:
 
 
 def plan_pdf(plan: Plan, say: Say, progress: Callable[[float], None] = lambda share: None) -> bytes:
-    """The bytes of the plan. raises: InvalidValue where it fits on no sheet"""
+    """The bytes of the plan. raises: InvalidValue if it is too large for the paper at every scale"""
     scale = scale_for(plan.ground, plan.paper)
     sink = io.BytesIO()
     with DRAWING, matplotlib.rc_context({"font.family": plan.family, **FONTS}):
@@ -82,7 +82,7 @@ def _maps(plan: Plan, scale: Scale, say: Say) -> Iterator[_Page]:
         frame = draw_ground(sheet, ground, scale, numbers=False)
         draw_benches(sheet, ground, scale, core.bench_outlines(dance.dragon, handles), plan.names, frame)
         when = plan.clock.words(time)
-        yield _Page(sheet, say(f"Who stands where at {when}", f"{when} 时各节板凳的位置"), scale, True)
+        yield _Page(sheet, say(f"Place of each bench at {when}", f"{when} 时各节板凳的位置"), scale, True)
 
 
 def _tables(plan: Plan, paper: Paper, say: Say) -> Iterator[_Page]:
@@ -93,18 +93,18 @@ def _tables(plan: Plan, paper: Paper, say: Say) -> Iterator[_Page]:
 
 
 def _notes(sheet: Sheet, plan: Plan, left: float, right: float) -> None:
-    """What the words in the tables mean."""
+    """Write the meaning of the words in the tables."""
     say, place = sheet.say, f"{plan.ground.timing.start_place:.1f}"
     lines = [
-        say("mark: how far it is along the path from mark 0 [m]", "标记：沿路线距标记 0 的长度 [m]"),
+        say("mark: length along the path from mark 0 [m]", "标记：沿路线距标记 0 的长度 [m]"),
         say("times: of the day", "时间：当日时刻")
         if plan.clock.start_clock
         else say("times: minutes:seconds, from time 0 of the dance", "时间：自时刻 0 起的 分:秒"),
         say(
-            f"enters: the front handle passes {place} m, where the head stands at the start",
+            f"enters: the front handle passes {place} m, the place of the head at the start",
             f"进入：前把手经过 {place} m，即龙头的起始位置",
         ),
-        say("bench columns: where the front handle is along the path", "各时刻：前把手沿路线的位置"),
+        say("bench columns: place of the front handle along the path", "各时刻：前把手沿路线的位置"),
         say("–: not during the dance", "–：舞龙期间不发生"),
     ]
     for k, line in enumerate(lines):
@@ -150,7 +150,7 @@ def _benches(plan: Plan, say: Say) -> Table:
 
 
 def _events(plan: Plan, say: Say) -> Table:
-    """What happens when, in a few lines."""
+    """A few events of the dance with their times."""
     timing, words = plan.ground.timing, plan.clock.words
     last = timing.handles[-1]
     rows = [
@@ -169,7 +169,7 @@ def _events(plan: Plan, say: Say) -> Table:
 
 
 def _speeds(plan: Plan, say: Say) -> Iterator[list[str]]:
-    """When the head takes another speed, in a dance with passages."""
+    """Times at which the head changes its speed, in a dance with passages."""
     dance, timing = plan.ground.dance, plan.ground.timing
     if not dance.passages:
         return

@@ -1,4 +1,4 @@
-"""A sheet of paper: its frame and title block, words that do not lie on one another, and the scale. All in mm."""
+"""A sheet of paper: its frame and title block, text without overlaps, and the scale. All lengths in mm."""
 
 from __future__ import annotations
 
@@ -22,9 +22,9 @@ from core.values import Floats
 PaperName = Literal["A4", "A3"]
 # Shorter and longer side [mm].
 PAPERS: dict[PaperName, tuple[float, float]] = {"A4": (210.0, 297.0), "A3": (297.0, 420.0)}
-# Empty edge of the paper, height of the title block, and space inside a frame [mm].
+# Margin of the paper, height of the title block, and space inside a frame [mm].
 MARGIN, BLOCK, PAD = 10.0, 30.0, 3.0
-# Scales that a ruler has, 1 to each of these.
+# Scales found on rulers, 1 to each of these.
 RATIOS = (10, 20, 25, 50, 100, 200, 250, 500, 1000, 2000, 2500, 5000, 10_000, 20_000, 25_000, 50_000)
 # Lengths of a scale bar [m], and the longest on paper [mm].
 BARS = (0.5, 1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000)
@@ -43,7 +43,7 @@ class Paper:
 
     @property
     def room(self) -> tuple[float, float, float, float]:
-        """Left, bottom, right and top of what is above the title block [mm]."""
+        """Left, bottom, right and top of the area above the title block [mm]."""
         return MARGIN, MARGIN + BLOCK, self.width - MARGIN, self.height - MARGIN
 
 
@@ -69,9 +69,10 @@ class Scale:
 
 
 def scale_of(name: PaperName, low: Floats, high: Floats) -> Scale:
-    """The largest scale at which a box (2,), (2,) [m] fits on the paper, and the paper turned as it fits.
+    """The largest scale at which a box fits on the paper, with the paper upright or across.
 
-    raises: InvalidValue where it fits at none
+    low, high: corners of the box, (2,) [m]
+    raises: InvalidValue if it fits at no scale
     """
     short, long = PAPERS[name]
     size, middle = (high - low) * 1000.0, (0.5 * (low + high)).tolist()
@@ -89,7 +90,7 @@ Box = tuple[float, float, float, float]
 
 
 class Entries(Artist):
-    """Words that are drawn as they stand, without matplotlib's layout: half of the time of a table was spent on it."""
+    """Text drawn directly, without matplotlib's layout, which took half of the time of a table."""
 
     def __init__(self, family: tuple[str, ...]) -> None:
         super().__init__()
@@ -109,7 +110,7 @@ class Entries(Artist):
 
 @dataclass
 class Sheet:
-    """A page that is drawn on in mm, x to the right and y up. State: boxes that words take already."""
+    """A page with coordinates in mm, x to the right and y up. State: boxes that are taken, where no text may go."""
 
     paper: Paper
     say: Say
@@ -126,7 +127,7 @@ class Sheet:
         self.axes.add_artist(self.entries)
 
     def frame(self, box: Box) -> Rectangle:
-        """Draw a rectangle, and return it for what must not leave it."""
+        """Draw a rectangle, and return it as the limit for other drawings."""
         left, bottom, right, top = box
         drawn = Rectangle((left, bottom), right - left, top - bottom, fill=False, linewidth=0.6, zorder=8)
         self.axes.add_patch(drawn)
@@ -153,11 +154,11 @@ class Sheet:
             patch.set_clip_path(clip)
 
     def width(self, words: str, size: float, bold: bool = False) -> float:
-        """Width of words [mm]. size: of their type [pt]"""
+        """Width of a text [mm]. size: of its type [pt]"""
         return size * sum(_width(character, bold, self.family) for character in words)
 
     def words(self, x: float, y: float, words: str, size: float = 7.0, *, within: float = 0.0, **look: Any) -> None:
-        """Write words from a point on; `within`: the width that they must keep, in smaller type if need be [mm]."""
+        """Write text from a point on; `within`: its largest width, kept by smaller type if necessary [mm]."""
         bold = look.get("fontweight") == "bold"
         if within and (wide := self.width(words, size, bold)) > within:
             size *= within / wide
@@ -165,22 +166,22 @@ class Sheet:
         self.axes.text(x, y, words, fontsize=size, **place)
 
     def take(self, boxes: Floats) -> None:
-        """Keep words out of boxes (N, 4) [mm]."""
+        """Keep text out of boxes (N, 4) [mm]."""
         self.taken = np.concatenate([self.taken, boxes.reshape(-1, 4)])
 
     def entry(self, x: float, y: float, words: str, size: float, *, bold: bool = False) -> None:
-        """Write words from a point on, plainly: a table has thousands."""
+        """Write text from a point on, without layout, because a table has thousands of entries."""
         self.entries.words.append((x, y, words, size, bold))
 
     def label(self, words: str, size: float, places: Iterable[Sequence[float]], room: Box, **look: Any) -> bool:
-        """Write words about the first of the places where they lie on nothing that is taken and inside the room."""
+        """Write text at the first of the places where it is inside the room and overlaps nothing; False: none."""
         wide, high = 0.5 * self.width(words, size) + 0.3, 0.5 * size * POINT + 0.2
         for x, y in places:
             box = np.array([x - wide, y - high, x + wide, y + high])
             inside = bool((box[:2] > room[:2]).all() and (box[2:] < room[2:]).all())
             if inside and not ((self.taken[:, :2] < box[2:]) & (self.taken[:, 2:] > box[:2])).all(axis=1).any():
                 self.take(box)
-                # A line of type stands on its baseline, a third of its height below its middle.
+                # The baseline of a line of type is a third of its height below its middle.
                 self.words(x, y - 0.36 * size * POINT, words, size, ha="center", **look)
                 return True
         return False
@@ -191,7 +192,7 @@ def _width(character: str, bold: bool, family: tuple[str, ...]) -> float:
     """Width of a character in type of 1 pt [mm]."""
     canvas = FigureCanvasAgg(Figure(figsize=(0.1, 0.1), dpi=72))
     font = FontProperties(family=list(family), size=100, weight="bold" if bold else "normal")
-    # Between two others, so that a space has its width.
+    # Measured between two other characters, because a space alone has no width.
     wide, bare = (
         canvas.get_renderer().get_text_width_height_descent(text, font, ismath=False)[0]
         for text in (f"|{character}|", "||")
@@ -201,9 +202,9 @@ def _width(character: str, bold: bool, family: tuple[str, ...]) -> float:
 
 @dataclass(frozen=True, slots=True)
 class Title:
-    """What stands in the title block of every sheet.
+    """The content of the title block of every sheet.
 
-    title: of the plan; facts: of the dance, in lines; verdict: of the check; geographic: does y point north?
+    title: of the plan; facts: of the dance, in lines; verdict: of the check; geographic: True if y points north
     """
 
     title: str
@@ -214,9 +215,9 @@ class Title:
 
 
 def title_block(sheet: Sheet, title: Title, subtitle: str, number: str, scale: Scale | None) -> tuple[float, float]:
-    """Draw the title block; returns the left and the right end of the cell that is left for a legend [mm].
+    """Draw the title block; returns the left and the right end of the free cell for a legend [mm].
 
-    scale: of the map on the sheet; None: a sheet of tables, where the notes have the room of the scale bar too
+    scale: of the map on the sheet; None: a sheet of tables, whose notes also take the place of the scale bar
     """
     say, paper = sheet.say, sheet.paper
     left, bottom, right, top = MARGIN, MARGIN, paper.width - MARGIN, MARGIN + BLOCK
@@ -256,7 +257,7 @@ def _scale_bar(sheet: Sheet, scale: Scale, x: float, bottom: float, top: float) 
 
 
 def north_arrow(sheet: Sheet, x: float, y: float, geographic: bool) -> None:
-    """An arrow up: to the north where that is known, else along the y axis."""
+    """Draw an arrow up: north if that is known, else the y axis."""
     sheet.shape(np.array([(x, y + 9.0), (x - 2.0, y), (x, y + 2.0)]), facecolor="black", linewidth=0.0, zorder=9)
     sheet.shape(
         np.array([(x, y + 9.0), (x + 2.0, y), (x, y + 2.0)]),

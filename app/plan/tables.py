@@ -13,7 +13,7 @@ from app.plan.sheet import Box, Sheet
 ROW, HEADING = 4.0, 7.0
 TYPE, HEADING_TYPE = 7.0, 9.0
 COLUMN_SPACE, BLOCK_SPACE = 3.0, 7.0
-# Rows that a table must have room for where it begins.
+# Least number of rows that must fit where a table begins.
 ROWS_LEAST = 4
 # Longest entry [mm]; a longer one is set smaller.
 WIDEST = 45.0
@@ -21,7 +21,7 @@ WIDEST = 45.0
 
 @dataclass(frozen=True, slots=True)
 class Table:
-    """A table: its heading, the names of its columns, rows of words; a column of words stands left, others right."""
+    """A table: heading, names of the columns, rows of text. A column of words is aligned left, one of numbers right."""
 
     heading: str
     columns: Sequence[str]
@@ -35,13 +35,13 @@ def widths_of(sheet: Sheet, table: Table) -> list[float]:
     widest = [max(sheet.width(word, TYPE) for word in column) for column in zip(*table.rows, strict=True)]
     widths = [min(WIDEST, max(pair)) for pair in zip(heads, widest, strict=True)]
     wide = sum(widths) + COLUMN_SPACE * (len(widths) - 1)
-    # A heading wider than its columns spreads them.
+    # A heading that is wider than all columns together makes them wider.
     more = max(0.0, sheet.width(table.heading, HEADING_TYPE, bold=True) - wide)
     return [width + more / len(widths) for width in widths]
 
 
 def draw_tables(tables: Sequence[Table], new_sheet: Callable[[], Sheet]) -> list[Sheet]:
-    """Draw tables one after another, in blocks beside one another, on as many sheets as they need."""
+    """Draw tables in order, in blocks side by side, on as many sheets as they need."""
     sheets: list[Sheet] = []
     room: Box = (0.0, 0.0, 0.0, 0.0)
     x = y = right = 0.0
@@ -58,7 +58,7 @@ def draw_tables(tables: Sequence[Table], new_sheet: Callable[[], Sheet]) -> list
             fits = int((y - room[1] - HEADING - ROW) / ROW)
             if fits < min(ROWS_LEAST, len(table.rows) - done) or x + wide > room[2] + 0.01:
                 if y == room[3] and x == room[0]:
-                    fits = max(1, fits)  # Wider than a sheet: nothing would help.
+                    fits = max(1, fits)  # A table wider than a sheet fits on no new sheet either.
                 else:
                     x, y = right + BLOCK_SPACE, room[3]
                     if x + wide > room[2]:
@@ -66,7 +66,7 @@ def draw_tables(tables: Sequence[Table], new_sheet: Callable[[], Sheet]) -> list
                         x, y, right = room[0], room[3], room[0]
                     continue
             left_over = len(table.rows) - done - fits
-            if 0 < left_over < ROWS_LEAST < fits:  # No block of a row or two.
+            if 0 < left_over < ROWS_LEAST < fits:  # Avoid a block of only a row or two.
                 fits -= ROWS_LEAST
             some = table.rows[done : done + fits]
             y = _draw_block(sheets[-1], table, some, widths, (x, y))
@@ -77,7 +77,7 @@ def draw_tables(tables: Sequence[Table], new_sheet: Callable[[], Sheet]) -> list
 def _draw_block(
     sheet: Sheet, table: Table, rows: Sequence[Sequence[str]], widths: Sequence[float], at: tuple[float, float]
 ) -> float:
-    """Draw some rows of a table from its upper left corner on; returns where the next may begin."""
+    """Draw some rows of a table below and right of a corner; returns where the next block may begin."""
     x, y = at
     wide = sum(widths) + COLUMN_SPACE * (len(widths) - 1)
     sheet.words(x, y - 4.5, table.heading, HEADING_TYPE, within=wide, fontweight="bold")

@@ -1,4 +1,4 @@
-"""What happens when: when head and tail pass each mark, and where each bench stands."""
+"""Times of a plan: when head and tail pass each mark, and the place of each bench at three moments."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from core.values import Floats
 
 @dataclass(frozen=True, slots=True)
 class Clock:
-    """Times as people read them: minutes and seconds of the dance, or the time of day if that of time 0 is given."""
+    """Format of times: minutes and seconds of the dance, or the time of day if it is known at time 0."""
 
     start_clock: str | None = None
 
@@ -37,11 +37,11 @@ class Clock:
 
 @dataclass(frozen=True, slots=True)
 class Timing:
-    """marks: along the path; head, tail: when handle 0 and the last one pass each of them [s], None: they do not
+    """marks: along the path; head, tail: times at which handle 0 and the last one pass each mark [s], None: never
 
     moments: three instants (3,) [s]; handles: places of all handles then (3, n + 1), from the first mark [m]
-    passes: when the front handle of each bench passes where the head stood at the start [s]
-    tail_leaves: when the tail does [s], None: not before the end
+    passes: times at which the front handle of each bench passes the place of the head at the start [s]
+    tail_leaves: time at which the tail passes that place [s], None: not before the end
     """
 
     marks: Marks
@@ -54,7 +54,7 @@ class Timing:
 
     @property
     def start_place(self) -> float:
-        """Where the head stands at the start, from the first mark [m]."""
+        """Place of the head at the start, along the path from the first mark [m]."""
         return float(self.handles[0, 0])
 
 
@@ -71,7 +71,7 @@ def timing_of(dance: Dance, marks: Marks, start: float, stop: float, budget: Bud
 
 
 def points_of(dance: Dance, marks: Marks) -> list[tuple[float, ...]]:
-    """Of each mark its coordinates x, y [m], and on a spiral its distance from the centre [m] and its angle, from 0 to
+    """Coordinates x, y of each mark [m], and on a spiral also its distance from the centre [m] and its angle from 0 to
     360 [degrees], counter-clockwise from the x axis."""
     if not isinstance(dance.path, Spiral):
         return [(x, y) for x, y in marks.points.tolist()]

@@ -110,7 +110,7 @@ def test_overlaps_of_the_dance_before_and_after_first_contact() -> None:
         (["collision-time"], ["judged", "all 223 benches", "before no, after yes"]),
         (["collision-time", "--cross-check", "pair"], ["only benches 0, 8"]),
         (["collision-time", "--margin", "0.05"], ["left out", "angle_sum"]),
-        (["collision-time", "--benches", "3000"], ["benches from 0 to 287, of 3,000: those near the pair"]),
+        (["collision-time", "--benches", "3000"], ["119 of 3,000 benches, from 0 to 287: those near the pair"]),
         (["collision-time", "--pitch", "0.25", "--start-turns", "8"], ["contact_at_start", "   after yes"]),
         (["collision-time", "--pitch", "0.3"], ["overlap by 0.114626613 m"]),
         (["clearance", "--pitch", "0.3", "--stop", "1"], ["[m]", "overlap by 0.114626613"]),
@@ -537,7 +537,7 @@ def test_completion_is_offered_once_and_not_by_each_command() -> None:
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
-        (["check", "dance.json", "--time", "3"], "--time is the time that --figure draws: give --figure"),
+        (["check", "dance.json", "--time", "3"], "--time is the instant that --figure draws: give --figure"),
         (["check", "dance.json", "--cross-check", ""], "cross_check must be 'dragon', 'pair' or 'none', got \"\""),
         (["overlaps", "--pitch", "1", "benches.json"], "--pitch describes a dance, and FILE gives the benches"),
         (["overlaps", "--margin=0", "benches.json"], "--margin describes a dance, and FILE gives the benches"),

@@ -103,7 +103,14 @@ def test_check_has_the_engines_judge_whom_the_option_says_or_else_the_file(
 
 def test_a_failed_check_is_an_answer_that_says_what_fails(dance: Path) -> None:
     said = answer_of("check", str(dance))
-    for word in ("What fails", "'square'", "exceeds 0.5 m/s", "nearest to square", "proven: at least", "highest speed"):
+    for word in (
+        "Failures in order",
+        "'square'",
+        "exceeds 0.5 m/s",
+        "nearest to square",
+        "proven: at least",
+        "highest speed",
+    ):
         assert word in said
 
 
@@ -126,7 +133,7 @@ def test_a_dance_that_folds_is_no_dance_of_which_nothing_fails(client: httpx.Cli
     file = tmp_path / "dance.json"
     file.write_text(json.dumps(body))
     said = answer_of("check", str(file))
-    assert said.startswith("Fails. What fails, in order of time:\n  Bench 0 folds at 238.214985 s, the head at (1.0120")
+    assert said.startswith("Fails. Failures in order of time:\n  Bench 0 folds at 238.214985 s, the head at (1.0120")
     assert "Nothing fails" not in said
     file.write_text(json.dumps(body | {"stop": 238.0}))
     assert answer_of("check", str(file)).startswith("Passes. Nothing fails.")
@@ -142,7 +149,7 @@ def test_what_is_not_decided_is_no_failure(tmp_path: Path) -> None:
     told = json.loads(answer_of("check", str(file), "--json"))
     assert (told["verdict"], told["passed"]) == ("undecided", False)
     said = answer_of("check", str(file))
-    assert said.startswith("Undecided. Nothing is known to fail, but this is not decided:\n")
+    assert said.startswith("Undecided. No failure is known, but these questions are open:\n")
     assert "fails" not in said
 
 

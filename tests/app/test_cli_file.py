@@ -149,7 +149,7 @@ def test_an_empty_file_is_the_contests_dance_and_says_so(tmp_path: Path, client:
     file = tmp_path / "empty.toml"
     file.write_text("")
     done = run("collision-time", str(file), "--json")
-    assert (done.returncode, done.stderr) == (0, f"{file} gives nothing: this is about the contest's dance.\n")
+    assert (done.returncode, done.stderr) == (0, f"{file} is empty: the answer is for the contest's dance.\n")
     assert json.loads(done.stdout) == client.post("/collision-time", json={}).raise_for_status().json()
 
 

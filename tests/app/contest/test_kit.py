@@ -254,7 +254,7 @@ def test_a_run_without_contact_says_why_it_ends() -> None:
     asked = ContestRequest(benches=40, pitch=0.8, stop=10.0, span=10.0)
     given = answers(solve(asked, Terms(), lambda share: None), Say(Language.ENGLISH))
     [one] = [one for one in given if one.question == 2]
-    assert re.fullmatch(r"the run ends there: bench \d+ folds, it cannot follow any further", one.how)
+    assert re.fullmatch(r"the run ends there: bench \d+ folds and cannot follow any further", one.how)
 
 
 def test_a_table_of_instants_after_the_contact_says_so() -> None:

@@ -89,7 +89,7 @@ def test_a_path_whose_line_was_moved_goes_through_the_line() -> None:
                "geometry": {"type": "LineString", "coordinates": line}}  # fmt: skip
     found = read(json.dumps(feature).encode())
     assert found.path == {"kind": "waypoints", "points": line}
-    assert "moved" in found.notes[1]
+    assert "edited" in found.notes[1]
 
 
 KML = """<kml xmlns="http://www.opengis.net/kml/2.2"><Document><name>Temple</name>

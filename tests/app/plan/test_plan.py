@@ -87,7 +87,7 @@ def test_all_that_is_promised_can_be_found_as_words(pages: Any) -> None:
     for word in ("Lantern night", "kiosk", "N", "keep clear, 0.3 m", "chalk mark every 5 m", "Checked: passes", "1/5"):
         assert word in told[0]
     for k, time in enumerate(("0:11.1", "0:25.6", "0:40.0")):
-        assert f"Who stands where at {time}" in told[1 + k]
+        assert f"Place of each bench at {time}" in told[1 + k]
     tables = " ".join(told[4].split())
     # The dragon is 2.86 + 5 x 1.65 = 11.11 m long, and goes the 28.89 m to the end at 1 m/s.
     assert "the dance begins, head at 11.1 m 0:11.1" in tables

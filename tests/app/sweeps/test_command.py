@@ -91,7 +91,7 @@ def test_ctrl_c_leaves_a_folder_that_goes_on_to_the_same_bytes(spec: Path, tmp_p
         children.extend(process.children())
         process.send_signal(signal.SIGINT)
 
-    said = f"Stopped: the same command goes on with {tmp_path / 'a'}\n"
+    said = f"Stopped: the same command continues {tmp_path / 'a'}\n"
     assert stopped(spec, tmp_path / "a", interrupt) == (130, said)
     assert len(children) == 2
     assert not psutil.wait_procs(children, 5.0)[1]
