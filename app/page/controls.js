@@ -119,7 +119,7 @@ export class Controls {
       row.ends.forEach((field, k) => field.setAttribute("aria-label", say(ENDS[k] === "min" ? "sliderFrom" : "sliderTo", named)));
       const [low, high, unit = ""] = limits[name] ?? [];
       row.unit.textContent = unit === "turns" ? say(unit) : SHOWN[name] > 1 ? "cm" : unit;
-      row.limits.textContent = low === undefined ? "" : say("limits", { low: low * SHOWN[name], high: high * SHOWN[name] });
+      row.limits.textContent = low === undefined ? "" : say(name === "stray" ? "limits_stray" : "limits", { low: low * SHOWN[name], high: high * SHOWN[name] });
       if (this.state.initial(name) === "") row.text.placeholder = say(`${name}_none`);
     }
   }

@@ -210,7 +210,8 @@ export class Keep {
   }
 
   map(form) {
-    return { path: `maps.${form.toLowerCase()}`, body: this.questions.checkBody(this.questions.dance) };
+    const { origin } = this.questions.dance.kind === "route" ? this.state.get("drawing") : {};
+    return { path: `maps.${form.toLowerCase()}`, body: { ...this.questions.checkBody(this.questions.dance), ...(origin && { origin }) } };
   }
 
   /** The answer that the command gives; in the one shown, the engines may have judged only the pair. */

@@ -95,5 +95,5 @@ export function refusalIn(detail, chinese, say) {
   const known = told(RULES, rule, 1, say);
   if (!known) return unknown;
   const because = why ? `（${told(REASONS, why, 1, say) ?? why}）` : "";
-  return { textContent: `${name}${known}${got ? `，${given(got, rule, true)}` : ""}`.replace(/ turns\b/g, " 圈") + `${because}。`, lang };
+  return { textContent: `${name}${known}${got ? `，${given(got, rule, true)}` : ""}`.replace(/ turns\b/g, " 圈").replace(/ degrees\b/g, "°") + `${because}。`, lang };
 }

@@ -33,6 +33,7 @@ export class RouteForm {
     this.corner = number("cornerRadius", (radius) => radius > 0 && this.#take({ radius }));
     this.limit = number("speedLimit", (limit) => this.#take({ limit: limit > 0 ? limit : null }));
     this.begin = number("pathBegin", (begin) => begin !== null && this.#take({ begin }));
+    this.origin = ["latitude", "longitude"].map((key) => number(key, () => this.#placed()));
     this.rows = make("tbody");
     this.list = make("ul");
     this.pointsTitle = make("summary");
@@ -47,6 +48,7 @@ export class RouteForm {
       field("speedLimit", this.limit, "m/s"),
       (this.cornerLine = field("cornerRadius", this.corner, "m")),
       field("pathBegin", this.begin, "m"),
+      make("p", { className: "line" }, said("span", "origin"), ...this.origin, make("span", { className: "unit", textContent: "°" })),
       make("details", { id: "points" }, this.pointsTitle, table),
       make("details", { id: "things", open: true }, this.thingsTitle, this.list, said("p", "thingsHelp", { className: "hint" })),
     );
@@ -60,6 +62,13 @@ export class RouteForm {
     this.steps.take({ ...this.#drawing, ...changes }, kind);
   }
 
+  /** Take the place of x = y = 0 on earth once both of its numbers are there, or neither is. */
+  #placed() {
+    const [latitude, longitude] = this.origin.map(read);
+    if (latitude !== null && longitude !== null) this.#take({ origin: { longitude, latitude } });
+    else if (this.origin.every(({ value }) => !value.trim())) this.#take({ origin: null });
+  }
+
   /** Begin with a preset. */
   beginWith(name) {
     this.preset.value = "";
@@ -70,10 +79,11 @@ export class RouteForm {
 
   /** Show the drawing; rows are made anew only where there are more or fewer of them. */
   show() {
-    const { points, straight, radius, limit, begin, things, path } = this.#drawing;
+    const { points, straight, radius, limit, begin, things, path, origin } = this.#drawing;
     put(this.corner, radius);
     put(this.limit, limit ?? "");
     put(this.begin, begin);
+    if (origin || !this.box.contains(document.activeElement)) this.origin.forEach((one) => put(one, origin?.[one.dataset.label] ?? ""));
     if (this.limit.placeholder !== say("none")) this.limit.placeholder = say("none");
     hide(this.cornerLine, !straight.some((leg) => straight.includes(leg + 1)));
     this.pointsTitle.textContent = path ? say("pathFile") : say("pointsTitle", { count: points.length });

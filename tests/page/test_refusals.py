@@ -116,6 +116,9 @@ def refusals(server: str) -> list[str]:
         bodies: list[dict[str, Any]] = [few | {"path": {"kind": "waypoints", **one}} for one in PATHS]
         bodies += [few | {"path": path, "passages": one} for one in PASSAGES]
         bodies += [few | {"path": path, "venue": {"type": "FeatureCollection", "features": one}} for one in SQUARES]
+        square = {"type": "FeatureCollection", "features": [feature("square", "Polygon", [SQUARE])]}
+        origins = [{"latitude": 95, "longitude": 0}, {"latitude": 0, "longitude": -200}]
+        bodies += [few | {"path": path, "venue": square | {"origin": one}} for one in origins]
         bodies += [{"dragon": {"csv": one}} for one in TABLES]
         bodies += [few | {"path": path, "start_clock": "7pm"}, {"dragon": {"benches": 400}, "path": path}]
         answers += [client.post("/check", json=body) for body in bodies]
@@ -171,9 +174,9 @@ def test_what_is_asked_in_centimetres_is_refused_in_centimetres(open_page: Any) 
     stray = page.locator("#stray")
     error = page.locator("#stray-error")
     for text, words in (
-        ("900", "“Each may stray by” must be at most half the chord of body 1 (82.5 cm); it is 900 cm."),
-        ("x", "“Each may stray by” must be a number of centimetres, such as 2; you typed “x”."),
-        ("9000", "“Each may stray by” must be at most 2500 cm; it is 9000 cm."),
+        ("900", "“Stray” must be at most half the chord of body 1 (82.5 cm); it is 900 cm."),
+        ("x", "“Stray” must be a number of centimetres, such as 2; you typed “x”."),
+        ("9000", "“Stray” must be at most 2500 cm; it is 9000 cm."),
     ):
         stray.fill(text)
         page.locator("#stray-error", has_text=words).wait_for()

@@ -238,6 +238,15 @@ def test_files_dropped_on_the_picture_are_opened_and_maps_are_kept(open_page: An
         page.locator("[data-keep=keepMap][data-form=GeoJSON]").click()
     drawn = json.loads(Path(download.value.path()).read_text())
     assert {"square", "well", "stage"} <= {one["properties"].get("name") for one in drawn["features"]}
+    # KML needs the place on earth, which the form takes; it is in the address.
+    latitude, longitude = (page.locator(f"#route [data-label={name}]") for name in ("latitude", "longitude"))
+    latitude.fill("29,11")
+    longitude.fill("119.64")
+    longitude.blur()
+    page.wait_for_url("**origin=119.64,29.11*")
+    with page.expect_download() as download:
+        page.locator("[data-keep=keepMap][data-form=KML]").click()
+    assert ">119.64" in Path(download.value.path()).read_text()
 
 
 def test_a_drawn_dance_is_played_listed_and_kept_as_a_spiral_is(open_page: Any, server: str) -> None:
