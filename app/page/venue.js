@@ -34,22 +34,27 @@ function drawThing(pen, colours, thing) {
   pen.stroke(path, colours.circle, kind === "area" ? 2 : 1);
 }
 
-/** A name beside its place, where the picture has room for it. taken: boxes of the names so far, which it keeps off */
-function label(pen, view, text, [x, y], colour, halo, taken, away = 8) {
+/**
+ * A name beside its place. It keeps off the names so far, whose boxes are taken: without room it waits until the picture
+ * is enlarged, unless its colour marks it.
+ */
+function label(pen, view, text, [x, y], colour, colours, taken, away = 8) {
   const { context } = pen;
   const [atX, atY] = view.toScreen(x, y);
   context.save();
   context.translate(x, y);
   context.scale(1 / pen.scale, -1 / pen.scale);
-  Object.assign(context, { font: FONT, lineWidth: 4, lineJoin: "round", strokeStyle: halo, fillStyle: colour, textAlign: "left" });
+  Object.assign(context, { font: FONT, lineWidth: 4, lineJoin: "round", strokeStyle: colours.card, fillStyle: colour, textAlign: "left" });
   const { width } = context.measureText(text);
-  const places = [away, -away - width].flatMap((dx) => [-away, away + NAME_HEIGHT, -away - NAME_HEIGHT].map((dy) => [dx, dy]));
+  const places = [away, -away - width].flatMap((dx) => [-away, away + NAME_HEIGHT].map((dy) => [dx, dy]));
   const isInside = ([dx]) => atX + dx >= 0 && atX + dx + width <= view.width;
   const isFree = ([dx, dy]) => taken.every(([left, bottom, wide]) => Math.abs(atY + dy - bottom) >= NAME_HEIGHT || atX + dx > left + wide || left > atX + dx + width);
-  const [dx, dy] = places.find((place) => isInside(place) && isFree(place)) ?? places.find(isInside) ?? places[0];
-  taken.push([atX + dx, atY + dy, width]);
-  context.strokeText(text, dx, dy);
-  context.fillText(text, dx, dy);
+  const place = places.find((one) => isInside(one) && isFree(one)) ?? (colour === colours.text ? null : places[0]);
+  if (place) {
+    taken.push([atX + place[0], atY + place[1], width]);
+    context.strokeText(text, ...place);
+    context.fillText(text, ...place);
+  }
   context.restore();
 }
 
@@ -78,14 +83,14 @@ export function layers(dance, get) {
     for (const [k, thing] of drawing.things.entries()) {
       if (!thing.points.length) continue;
       const colour = selected === k || failure?.area === thing.name ? colours.pick : colours.text;
-      label(pen, dance.view, thing.name, labelled(thing), colour, colours.card, names);
+      label(pen, dance.view, thing.name, labelled(thing), colour, colours, names);
       if (failure?.area === thing.name && isWhole(thing)) pen.stroke(outline(thing.points, new Path2D(), thing.kind !== "wall"), colours.pick, FAULT_WIDTH);
     }
     for (const { points, radius, least_radius: least, bench } of shown.course?.bends ?? []) {
       const middle = points[Math.floor(points.length / 2)];
       pen.stroke(pen.circle(...middle, RING), colours.head, 3);
       const words = { radius: radius.toFixed(2), least: least.toFixed(2), bench: benchName(bench, shown.benches) };
-      label(pen, dance.view, say("tightHere", words), middle, colours.head, colours.card, names, RING + 6);
+      label(pen, dance.view, say("tightHere", words), middle, colours.head, colours, names, RING + 6);
     }
     const { pose } = dance.scene;
     if (!failure || !pose || Math.abs(pose.time - failure.time) > SAME_TIME) return;
