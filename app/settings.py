@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from difflib import get_close_matches
 from pathlib import Path
 from typing import Any
 
@@ -12,8 +13,9 @@ from core.errors import InvalidValue
 
 # Variable with the folder where prometheus_client adds up the counts of all processes; app/service/workers.py sets it.
 SHARED_COUNTS = "PROMETHEUS_MULTIPROC_DIR"
+PREFIX = "BENCH_DRAGON_"
 # Environment variable of Settings.data, the folder of jobs, which all processes of a service share.
-DATA = "BENCH_DRAGON_DATA"
+DATA = f"{PREFIX}DATA"
 # Largest number of processes of one service; each takes about 100 MB.
 WORKERS_MAX = 64
 
@@ -21,6 +23,24 @@ WORKERS_MAX = 64
 def usable_cores() -> int:
     """Number of cores that this process may use; all cores of the machine if the system has no such limit."""
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+
+
+def _variable(name: str) -> str:
+    return PREFIX + name.upper()
+
+
+def unknown_variables() -> list[str]:
+    """What to say of each BENCH_DRAGON_* environment variable that is no setting, such as a misspelt one.
+
+    They are no errors: Kubernetes gives a program variables that begin with the name of its service.
+    """
+    known = [_variable(name) for name in Settings.model_fields]
+    said = []
+    for name in sorted(set(os.environ) - set(known)):
+        if name.startswith(PREFIX):
+            meant = "".join(f"; did you mean {one}?" for one in get_close_matches(name, known, 1, 0.8))
+            said.append(f"The environment variable {name} is no setting and has no effect{meant}")
+    return said
 
 
 class Settings(BaseModel):
@@ -34,7 +54,7 @@ class Settings(BaseModel):
     def __init__(self, **given: Any) -> None:
         """raises: InvalidValue naming the variable"""
         # pydantic-settings does the same, but its import takes a fifth of a cold command (measured 2026-11-22).
-        variables = {name: f"BENCH_DRAGON_{name.upper()}" for name in type(self).model_fields}
+        variables = {name: _variable(name) for name in type(self).model_fields}
         # An empty variable counts as unset, because compose.yaml passes an unset variable on as an empty one.
         told = {name: os.environ[key] for name, key in variables.items() if os.environ.get(key)}
         try:

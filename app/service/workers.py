@@ -10,7 +10,7 @@ improvement). `make bench` measures it again.
 from __future__ import annotations
 
 import errno
-import logging
+import logging.config
 import multiprocessing
 import os
 import signal
@@ -30,7 +30,7 @@ from uvicorn.supervisors import Multiprocess
 from app.jobs.keeper import scratch
 from app.logs import log_config
 from app.service.protocol import Protocol
-from app.settings import DATA, SHARED_COUNTS, WORKERS_MAX, Settings, usable_cores
+from app.settings import DATA, SHARED_COUNTS, WORKERS_MAX, Settings, unknown_variables, usable_cores
 from core import InvalidValue
 
 logger = logging.getLogger("uvicorn.error")
@@ -170,6 +170,9 @@ def serve(host: str, port: int, workers: int) -> None:
         "timeout_graceful_shutdown": settings.grace_seconds,
         "timeout_worker_healthcheck": SILENT_SECONDS,
     }
+    logging.config.dictConfig(given["log_config"])
+    for line in unknown_variables():
+        logger.warning(line)
     if workers == 1:
         uvicorn.run("app.service.main:create_app", **given)
         return

@@ -16,7 +16,7 @@ import httpx
 import pytest
 
 from app.files.tables import XLSX_TYPE
-from app.settings import Settings
+from app.settings import Settings, unknown_variables
 from tests.conftest import ROOT, wait_until_live
 
 BODY_BYTES_MAX = 1000
@@ -129,3 +129,11 @@ def test_an_empty_variable_is_none(monkeypatch: pytest.MonkeyPatch) -> None:
     for name in ("BENCH_DRAGON_DATA", "BENCH_DRAGON_JOBS_MAX"):
         monkeypatch.setenv(name, "")
     assert (Settings().data, Settings().jobs_max) == (None, 1000)
+
+
+def test_a_misspelt_variable_is_named_with_what_was_meant(monkeypatch: pytest.MonkeyPatch) -> None:
+    for name in ("BENCH_DRAGON_JOB_MAX", "BENCH_DRAGON_SERVICE_HOST", "BENCH_DRAGON_TOKEN"):
+        monkeypatch.setenv(name, "1")
+    said = "The environment variable {} is no setting and has no effect"
+    meant = said.format("BENCH_DRAGON_JOB_MAX") + "; did you mean BENCH_DRAGON_JOBS_MAX?"
+    assert unknown_variables() == [meant, said.format("BENCH_DRAGON_SERVICE_HOST")]

@@ -269,9 +269,10 @@ def test_a_full_disk_leaves_metrics_of_one_process_and_a_word(tmp_path: Path) ->
     def little_room() -> None:
         resource.setrlimit(resource.RLIMIT_FSIZE, (100_000, 100_000))
 
-    with serving(tmp_path / "log", workers=2, limit=little_room) as service:
+    with serving(tmp_path / "log", workers=2, limit=little_room, job_max=1) as service:
         for _ in range(10):
             assert httpx.get(f"{service.url}/collision-time").status_code == 200
         assert "bench_dragon_requests" in httpx.get(f"{service.url}/metrics").text
         assert "/metrics shows one process alone" in service.log.read_text()
         assert "died" not in service.log.read_text()
+        assert "BENCH_DRAGON_JOB_MAX is no setting and has no effect; did you mean" in service.log.read_text()
