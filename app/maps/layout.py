@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import Any
 from unicodedata import category
@@ -17,19 +17,15 @@ from app.maps import geojson
 from app.maps.features import MARK, PATH, SQUARE, Drawing, Feature, area_of, holds
 from app.maps.marks import line_of
 from app.wire.degrees import Origin, Plane, middle_of, refuse_wide, unwrapped
-from app.wire.geojson import Polygon, read_polygons, venue_of
+from app.wire.geojson import read_polygons, venue_of
 from app.wire.models import Coordinates
 from app.wire.paths import POINTS_MAX, AnyPath
 from core import InvalidValue, Route, Spiral, Venue
 from core.errors import said
-from core.shapes.engines import thickened
 from core.values import NAME_MAX, NOT_PLAIN, Floats
-from core.venue import Ring
 
 # Radius of a point, and half of the width of a line, without a radius [m].
 POINT_RADIUS, LINE_RADIUS = 0.5, 0.1
-# Sides of the polygon around a circle: its corners exceed the radius by less than a hundredth.
-SIDES = 24
 # Free ground around everything drawn, if no polygon is the square [m].
 AROUND = 20.0
 # A map narrower than this is in degrees, if its numbers allow it: 22 km in degrees, only 0.2 m in metres [degrees].
@@ -46,6 +42,7 @@ class Found:
     """The parts of a dance in a file.
 
     path: in the form of a request; venue: in metres, the square first; origin: place of x = y = 0
+    things: GeoJSON features of the venue, where trees and walls have a radius; None: polygons alone
     dance: the other fields of a file that describes a dance; notes: assumptions, and things left out
     """
 
@@ -54,6 +51,7 @@ class Found:
     origin: Origin | None = None
     dance: Mapping[str, Any] | None = None
     notes: Sequence[str] = ()
+    things: Sequence[Mapping[str, Any]] | None = None
 
     @property
     def geometry(self) -> dict[str, Any] | None:
@@ -63,12 +61,21 @@ class Found:
         told: dict[str, Any] = {"type": "FeatureCollection"}
         if self.origin is not None:
             told["origin"] = {"longitude": self.origin.longitude, "latitude": self.origin.latitude}
-        return told | {"features": [_told(area.name, area.rings) for area in self.venue.areas]}
+        areas = (Feature("polygon", area.rings, area.name) for area in self.venue.areas)
+        return told | {"features": [_told(area) for area in areas] if self.things is None else self.things}
 
 
-def _told(name: str, rings: tuple[Ring, ...]) -> dict[str, Any]:
-    geometry = geojson.geometry_of(Feature("polygon", rings))
-    return {"type": "Feature", "properties": {"name": name}, "geometry": geometry}
+def _told(one: Feature) -> dict[str, Any]:
+    properties = {"name": one.name} | ({} if one.radius is None else {"radius": one.radius})
+    return {"type": "Feature", "properties": properties, "geometry": geojson.geometry_of(one)}
+
+
+def _checked(things: list[dict[str, Any]]) -> Venue:
+    """The venue of features, checked like a request, so that a request can use them."""
+    try:
+        return venue_of(read_polygons({"type": "FeatureCollection", "features": things}))
+    except InvalidValue as error:
+        raise InvalidValue("file", f"file must hold a valid square: {error.message}") from error
 
 
 def checked_path(path: object) -> Spiral | Route:
@@ -105,8 +112,8 @@ class Reading:
         danced = told[:1] or ([max(free, key=_length)] if free and not self._walls(free) else [])
         path = self._path(danced[0]) if danced else None
         others = [one for one in self.features if one is not square and one not in danced]
-        venue = self._venue(square, others)
-        return Found(path, venue, self.origin, None, self.notes)
+        things = self._things(square, others)
+        return Found(path, _checked(things) if things else None, self.origin, None, self.notes, things)
 
     def _walls(self, free: list[Feature]) -> bool:
         """True if lines without a role are walls: there are several, so none of them is clearly the path."""
@@ -165,10 +172,11 @@ class Reading:
         others = (one for one in self.features if one is not largest)
         return largest if all(any(holds(largest.rings, point) for point in one.rings[0]) for one in others) else None
 
-    def _venue(self, square: Feature | None, others: list[Feature]) -> Venue | None:
-        obstacles = [(one.name, rings) for one in others for rings in self._obstacle(one)]
+    def _things(self, square: Feature | None, others: list[Feature]) -> list[dict[str, Any]]:
+        """The square and the obstacles as GeoJSON features."""
+        obstacles = [self._obstacle(one) for one in others]
         if square is None and not obstacles:
-            return None
+            return []
         if square is None:
             points = np.array([point for one in self.features for ring in one.rings for point in ring])
             (left, low), (right, high) = (points.min(axis=0) - AROUND).tolist(), (points.max(axis=0) + AROUND).tolist()
@@ -181,21 +189,16 @@ class Reading:
                 )
             )
         names = _Names()
-        polygons: list[Polygon] = [(names.new(square.name or "square"), square.rings)]
-        polygons += [(names.new(name or f"obstacle {k}"), rings) for k, (name, rings) in enumerate(obstacles, start=1)]
-        collection = {"type": "FeatureCollection", "features": [_told(*polygon) for polygon in polygons]}
-        try:  # Checked like a request, so that a request can use the result.
-            venue = venue_of(polygons)
-            read_polygons(collection)
-        except InvalidValue as error:
-            raise InvalidValue("file", f"file must hold a valid square: {error.message}") from error
-        return venue
+        things = [replace(square, name=names.new(square.name or "square"), radius=None)]
+        for k, one in enumerate(obstacles, start=1):
+            things.append(replace(one, name=names.new(one.name or f"obstacle {k}")))
+        return [_told(one) for one in things]
 
-    def _obstacle(self, one: Feature) -> Iterable[tuple[Ring, ...]]:
-        """The polygons of an obstacle."""
+    def _obstacle(self, one: Feature) -> Feature:
+        """An obstacle, with a radius if it is a point or a line."""
         name = one.name or one.role or one.shape
         if one.shape == "polygon":
-            return [one.rings]
+            return replace(one, radius=None)
         radius = one.radius
         if radius is None or not 0.0 < radius < math.inf:
             radius = POINT_RADIUS if one.shape == "point" else LINE_RADIUS
@@ -205,12 +208,7 @@ class Reading:
                     f"{name}：没有给出半径，取 {radius:g} m。",
                 )
             )
-        if one.shape == "point":
-            return [(_circle(one.rings[0][0], radius),)]
-        return [
-            tuple(tuple(map(tuple, ring.tolist())) for ring in rings)
-            for rings in thickened(np.array(one.rings[0]), radius)
-        ]
+        return replace(one, radius=radius)
 
     def _path(self, line: Feature) -> Mapping[str, Any]:
         points = np.array(line.rings[0])
@@ -262,15 +260,6 @@ def _closed(feature: Feature) -> Feature:
 
 def _length(line: Feature) -> float:
     return sum(math.dist(a, b) for a, b in pairwise(line.rings[0]))
-
-
-def _circle(centre: tuple[float, float], radius: float) -> Ring:
-    """A polygon that holds the whole circle."""
-    turn = 2.0 * math.pi / SIDES
-    reach = radius / math.cos(0.5 * turn)
-    x, y = centre
-    ring = [(x + reach * math.cos(k * turn), y + reach * math.sin(k * turn)) for k in range(SIDES)]
-    return (*ring, ring[0])
 
 
 def _thinned(points: Floats) -> Floats:

@@ -82,8 +82,8 @@ export const verdictWords = (answer, asked) => `${MARKS[stateOf(answer)]} ${outc
 /** Time of the fold [s] if a dance ends in one; else null. */
 export const foldOf = ({ outcome, end }) => (outcome === "clear" && end?.reason === "fold" ? end.time : null);
 
-/** An instant of a dance with the digits that it has everywhere: the last one before a fold is that of the fold. */
-export const instantWords = (time, { answer, end }) => (time === end ? (foldOf(answer) ?? time) : time).toFixed(6);
+/** An instant of a dance with the digits that it has everywhere: the last one shown before the end is that of the end. */
+export const instantWords = (time, { answer, end }) => (time === end && answer.time === null ? (answer.end?.time ?? time) : time).toFixed(6);
 
 function contactLine(answer, asked) {
   const { benches } = asked;

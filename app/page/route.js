@@ -28,7 +28,7 @@ export class RouteForm {
   constructor(box, state, steps, editor, files) {
     Object.assign(this, { box, state, steps, editor });
     this.preset = labelled("select", "preset", { id: "preset" });
-    this.preset.append(said("option", "presetChoose", { value: "" }), ...Object.keys(PRESETS).map((name) => said("option", `preset_${name}`, { value: name })));
+    this.preset.append(said("option", "presetChoose", { value: "" }), said("option", "preset_empty", { value: "empty" }), ...Object.keys(PRESETS).map((name) => said("option", `preset_${name}`, { value: name })));
     this.preset.addEventListener("change", () => this.beginWith(this.preset.value));
     this.corner = number("cornerRadius", (radius) => radius > 0 && this.#take({ radius }));
     this.limit = number("speedLimit", (limit) => this.#take({ limit: limit > 0 ? limit : null }));
@@ -69,12 +69,15 @@ export class RouteForm {
     else if (this.origin.every(({ value }) => !value.trim())) this.#take({ origin: null });
   }
 
-  /** Begin with a preset. */
+  /** Begin with a preset; a square that is no preset's stays, unless this one has its own. */
   beginWith(name) {
+    const { things, origin, limit } = this.#drawing;
+    const isOwn = Object.values(PRESETS).every((one) => JSON.stringify(one.things) !== JSON.stringify(things));
     this.preset.value = "";
     this.editor.edit(null);
     this.state.set({ view: null, time: null });
-    this.steps.take(PRESETS[name] ?? EMPTY);
+    const preset = PRESETS[name] ?? EMPTY;
+    this.steps.take(isOwn && !preset.things.length ? { ...preset, things, origin, limit } : preset);
   }
 
   /** Show the drawing; rows are made anew only where there are more or fewer of them. */

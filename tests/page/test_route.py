@@ -134,6 +134,25 @@ def test_each_failure_stands_in_order_of_time_and_is_shown_on_the_picture(
     page.locator(".failures li", has_text="touches well").wait_for(state="detached")
 
 
+def test_every_preset_can_be_danced_and_leaves_a_square_of_ones_own(open_page: Any) -> None:
+    page = open_page("?path=route&benches=24&route=0,0_90,0")
+    verdict(page, "Can be danced")
+    for name in ("inout", "eight", "street", "village", "s"):
+        with page.expect_response("**/check") as response:
+            page.locator("#preset").select_option(name)
+        assert response.value.json()["verdict"] == "passes"
+    assert page.locator("#things li").count() == 0
+    verdict(page, "Can be danced")
+    # The run ends at one time, wherever it is told.
+    shown, end = (page.locator(place).inner_text() for place in ("#clock", "#run-end .value"))
+    assert shown == end
+    page = open_page("?path=route&route=0,0_30,0_60,9&things=a.court..-99,-99_99,-99_99,99_-99,99~c.elm.1.40,40")
+    for name, count in (("street", 2), ("empty", 0)):
+        page.locator("#preset").select_option(name)
+        page.locator("#points summary", has_text=f": {count}").wait_for()
+        assert page.locator("#things li").count() == 2
+
+
 def saved(page: Any) -> Any:
     with page.expect_download() as download:
         page.locator("#save").click()

@@ -142,6 +142,7 @@ export const DANCE = {
   remove: ["Remove", "删除"],
   preset: ["Begin with", "预设"],
   presetChoose: ["Begin with …", "从预设开始……"],
+  preset_empty: ["Nothing", "空白"],
   preset_street: ["Straight street", "直街"],
   preset_s: ["S", "S 形"],
   preset_eight: ["Figure eight", "8 字形"],

@@ -154,7 +154,7 @@ def test_a_foreign_drawing_is_understood() -> None:
     # A bulge of 0.2 on a side of 30 m reaches 0.2 x 15 m beyond it.
     assert square[:, 0].max() == pytest.approx(43.0, abs=0.01)
     assert tree.mean(axis=0) == pytest.approx([10.0, 10.0], abs=0.1)
-    assert np.ptp(well[:, 0]) == pytest.approx(3.0, rel=0.01)
+    assert np.ptp(well[:, 0]) == pytest.approx(3.0, rel=0.02)  # as far as the polygon of a circle may exceed it
     assert np.ptp(wall, axis=0) == pytest.approx([4.2, 0.2], rel=GROWTH_MOST - 1.0)
     assert found.path == {"kind": "waypoints", "points": [[5.0, 5.0], [30.0, 5.0]]}
     assert "Left out: 3DFACE, 1 times." in found.notes
